@@ -1,0 +1,35 @@
+# Every target of the project is made by one of these functions, so that the language rules stand in one place.
+
+add_library(aspic_rules INTERFACE)
+target_include_directories(aspic_rules INTERFACE "${PROJECT_SOURCE_DIR}/src")
+# Contraction to fused multiply-add would change bits: see docs/determinism.md.
+target_compile_options(aspic_rules INTERFACE -ffp-contract=off)
+target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor>)
+if(ASPIC_WARNINGS_AS_ERRORS)
+  target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
+endif()
+if(ASPIC_SANITIZE)
+  target_compile_options(aspic_rules INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(aspic_rules INTERFACE -fsanitize=address,undefined)
+endif()
+
+# aspic_library(NAME SOURCES a.cpp … DEPENDS target …): one room of the house.
+function(aspic_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  if(arg_SOURCES)
+    add_library(${name} STATIC ${arg_SOURCES})
+    target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE aspic_rules ${arg_DEPENDS})
+  endif()
+endfunction()
+
+# aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each of its tests known to ctest.
+function(aspic_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE aspic_rules ${arg_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 ${ASPIC_TEST_PROPERTIES})
+endfunction()

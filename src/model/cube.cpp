@@ -1,0 +1,180 @@
+#include "model/cube.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aspic {
+namespace {
+
+/// A spring's direction on the lattice, seen from its lower particle, and the class it belongs to.
+struct Offset {
+  int di, dj, dk;
+  std::uint32_t spring_class;  // relative to the cube's first class
+};
+
+enum ClassOfCube : std::uint32_t { structural_class, face_diagonal_class, body_diagonal_class, bending_class, class_count };
+
+/// All spring directions that lead to a higher index, in lexicographic order: this is also ascending index order, so
+/// springs come out sorted by (a, b).
+std::vector<Offset> upward_offsets() {
+  std::vector<Offset> offsets;
+  for (int di = 0; di <= 2; ++di) {
+    for (int dj = -2; dj <= 2; ++dj) {
+      for (int dk = -2; dk <= 2; ++dk) {
+        const std::array<int, 3> d = {di, dj, dk};
+        if (!(std::array{0, 0, 0} < d)) continue;
+        const int largest = std::max({std::abs(di), std::abs(dj), std::abs(dk)});
+        const auto nonzero = static_cast<int>(std::count_if(d.begin(), d.end(), [](int c) { return c != 0; }));
+        if (largest == 2 && nonzero == 1) {
+          offsets.push_back({di, dj, dk, bending_class});
+        } else if (largest == 1) {
+          offsets.push_back({di, dj, dk, static_cast<std::uint32_t>(nonzero - 1)});
+        }
+      }
+    }
+  }
+  return offsets;
+}
+
+/// Whether lattice point p (each 0…n−1) lies on every face a name speaks of; nothing for a name that is unknown.
+std::optional<bool> lies_on(const std::string& name, const std::array<int, 3>& p, int n) {
+  struct Face {
+    const char* name;
+    int axis;
+    bool high;
+  };
+  static constexpr std::array<Face, 6> faces = {
+      {{"left", 0, false}, {"right", 0, true}, {"bottom", 1, false}, {"top", 1, true}, {"back", 2, false}, {"front", 2, true}}};
+  std::array<bool, 3> axis_named = {false, false, false};
+  int parts = 0;
+  bool inside = true;
+  for (std::size_t start = 0; start <= name.size();) {
+    const std::size_t end = std::min(name.find('-', start), name.size());
+    const std::string part = name.substr(start, end - start);
+    const auto face = std::find_if(faces.begin(), faces.end(), [&](const Face& f) { return part == f.name; });
+    if (face == faces.end()) return std::nullopt;
+    auto& named = axis_named[static_cast<std::size_t>(face->axis)];
+    if (named) return std::nullopt;
+    named = true;
+    ++parts;
+    inside = inside && p[static_cast<std::size_t>(face->axis)] == (face->high ? n - 1 : 0);
+    start = end + 1;
+  }
+  if (parts != 1 && parts != 3) return std::nullopt;  // a face or a corner
+  return inside;
+}
+
+Result<std::vector<bool>> pinned_particles(const CubeSettings& cube) {
+  const int n = cube.particles_per_edge;
+  std::vector<bool> pinned(static_cast<std::size_t>(n) * n * n, false);
+  for (const std::string& name : cube.pinned.names) {
+    std::size_t local = 0;
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        for (int k = 0; k < n; ++k, ++local) {
+          const auto inside = lies_on(name, {i, j, k}, n);
+          if (!inside) {
+            return Error{ErrorCode::scene_rejected,
+                         fmt::format("pinned: \"{}\" is neither a face (top, bottom, left, right, front, back) nor a corner "
+                                     "(three faces joined by hyphens, such as left-top-front)",
+                                     name)};
+          }
+          if (*inside) pinned[local] = true;
+        }
+      }
+    }
+  }
+  for (const std::uint32_t index : cube.pinned.indices) {
+    if (index >= pinned.size()) {
+      return Error{ErrorCode::scene_rejected, fmt::format("pinned: index {} is past the cube's last particle {}", index,
+                                                          pinned.size() - 1)};
+    }
+    pinned[index] = true;
+  }
+  return pinned;
+}
+
+}  // namespace
+
+ModelCounts cube_counts(int particles_per_edge) {
+  const auto n = static_cast<std::uint64_t>(particles_per_edge);
+  ModelCounts counts;
+  counts.particles = n * n * n;
+  counts.structural = 3 * n * n * (n - 1);
+  counts.shear = 6 * n * (n - 1) * (n - 1) + 4 * (n - 1) * (n - 1) * (n - 1);
+  counts.bending = 3 * n * n * (n - 2);
+  return counts;
+}
+
+double material_particle_mass(const MaterialSettings& material, int particles_per_edge, double edge_length) {
+  const double n = particles_per_edge;
+  return material.density * edge_length * edge_length * edge_length / (n * n * n);
+}
+
+SpringSettings material_springs(const MaterialSettings& material, int particles_per_edge, double edge_length) {
+  const double spacing = edge_length / (particles_per_edge - 1);
+  const double mass = material_particle_mass(material, particles_per_edge, edge_length);
+  SpringSettings springs;
+  springs.stiffness = material.youngs_modulus * spacing / 7.3125;
+  springs.damping = 2.0 * material.damping_ratio * std::sqrt(springs.stiffness * mass / 2.0);
+  return springs;
+}
+
+Status add_cube(Model& model, const CubeSettings& cube) {
+  const int n = cube.particles_per_edge;
+  const double s = cube.edge_length / (n - 1);
+  const auto pinned = pinned_particles(cube);
+  if (!pinned) return pinned.error();
+
+  SpringSettings structural = cube.structural, shear = cube.shear, bending = cube.bending;
+  double mass = cube.particle_mass;
+  if (cube.material) {
+    structural = shear = bending = material_springs(*cube.material, n, cube.edge_length);
+    mass = material_particle_mass(*cube.material, n, cube.edge_length);
+  }
+
+  Body body;
+  body.kind = BodyKind::cube;
+  body.first_particle = model.particle_count();
+  body.particle_count = static_cast<std::uint32_t>(pinned->size());
+  body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());
+  body.class_count = class_count;
+  body.lattice = {n, n, n};
+  body.spacing = s;
+  model.bodies.push_back(body);
+
+  model.spring_classes.push_back({SpringType::structural, structural.stiffness, structural.damping, s, false});
+  model.spring_classes.push_back({SpringType::shear, shear.stiffness, shear.damping, s * std::sqrt(2.0), false});
+  model.spring_classes.push_back({SpringType::shear, shear.stiffness, shear.damping, s * std::sqrt(3.0), false});
+  model.spring_classes.push_back({SpringType::bending, bending.stiffness, bending.damping, 2.0 * s, false});
+
+  const std::vector<Offset> offsets = upward_offsets();
+  const double half = cube.edge_length / 2.0;
+  std::size_t local = 0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      for (int k = 0; k < n; ++k, ++local) {
+        const Vec3 from_centre = {i * s - half, j * s - half, k * s - half};
+        model.initial_position.push_back(cube.position + rotated(from_centre, cube.rotation.axis, cube.rotation.angle));
+        model.initial_velocity.push_back((*pinned)[local] ? Vec3{} : cube.velocity);
+        model.mass.push_back(mass);
+        model.inverse_mass.push_back((*pinned)[local] ? 0.0 : 1.0 / mass);
+        const auto a = static_cast<std::uint32_t>(body.first_particle + local);
+        for (const Offset& o : offsets) {
+          if (i + o.di >= n || j + o.dj < 0 || j + o.dj >= n || k + o.dk < 0 || k + o.dk >= n) continue;
+          const int step = (o.di * n + o.dj) * n + o.dk;
+          model.springs.push_back({a, a + static_cast<std::uint32_t>(step), body.first_class + o.spring_class});
+        }
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace aspic

@@ -1,0 +1,48 @@
+#pragma once
+// What every backend can do: advance a State of a Model by steps.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+#include "model/model.h"
+#include "model/state.h"
+
+namespace aspic {
+
+/// A step whose result was not a finite number or was faster than 1,000 m/s (spec §2.8).
+struct Divergence {
+  std::uint64_t step = 0;      ///< the step that failed: it would have been this step's end
+  std::uint32_t particle = 0;  ///< lowest index of those that failed
+  bool finite = true;          ///< false: NaN or infinity; true: too fast
+};
+
+/// Speed above which a step counts as diverged [m/s].
+inline constexpr double divergence_speed = 1000.0;
+
+/// A backend with a model loaded. After a divergence the state stays the last good one, and further advances do
+/// nothing but report the same divergence again until load().
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  /// "reference", "gpu", …
+  virtual std::string_view backend() const = 0;
+  /// Device, force path, precision: one line for summaries.
+  virtual std::string description() const = 0;
+  virtual Precision precision() const = 0;
+  virtual const Model& model() const = 0;
+  /// Bytes the solver holds for this model.
+  virtual std::uint64_t bytes() const = 0;
+
+  /// Takes over a state: rounds it to the solver's own precision, keeps its step number, forgets any divergence.
+  /// Error (usage): the state has another number of particles.
+  virtual Status load(const State& state) = 0;
+  /// Advances by `steps`, fewer only after a divergence, which is returned. Error: the device was lost.
+  virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;
+  /// A copy of the current state.
+  virtual Result<State> state() = 0;
+};
+
+}  // namespace aspic
