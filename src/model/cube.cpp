@@ -1,10 +1,10 @@
 #include "model/cube.h"
 
-#include <cmath>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,10 +18,16 @@ struct Offset {
   std::uint32_t spring_class;  // relative to the cube's first class
 };
 
-enum ClassOfCube : std::uint32_t { structural_class, face_diagonal_class, body_diagonal_class, bending_class, class_count };
+enum ClassOfCube : std::uint32_t {
+  structural_class,
+  face_diagonal_class,
+  body_diagonal_class,
+  bending_class,
+  class_count
+};
 
-/// All spring directions that lead to a higher index, in lexicographic order: this is also ascending index order, so
-/// springs come out sorted by (a, b).
+/// All spring directions that lead to a higher index, in lexicographic order: this is also ascending index
+/// order, so springs come out sorted by (a, b).
 std::vector<Offset> upward_offsets() {
   std::vector<Offset> offsets;
   for (int di = 0; di <= 2; ++di) {
@@ -30,7 +36,8 @@ std::vector<Offset> upward_offsets() {
         const std::array<int, 3> d = {di, dj, dk};
         if (!(std::array{0, 0, 0} < d)) continue;
         const int largest = std::max({std::abs(di), std::abs(dj), std::abs(dk)});
-        const auto nonzero = static_cast<int>(std::count_if(d.begin(), d.end(), [](int c) { return c != 0; }));
+        const auto nonzero =
+            static_cast<int>(std::count_if(d.begin(), d.end(), [](int c) { return c != 0; }));
         if (largest == 2 && nonzero == 1) {
           offsets.push_back({di, dj, dk, bending_class});
         } else if (largest == 1) {
@@ -42,15 +49,20 @@ std::vector<Offset> upward_offsets() {
   return offsets;
 }
 
-/// Whether lattice point p (each 0…n−1) lies on every face a name speaks of; nothing for a name that is unknown.
+/// Whether lattice point p (each 0…n−1) lies on every face a name speaks of; nothing for a name that is
+/// unknown.
 std::optional<bool> lies_on(const std::string& name, const std::array<int, 3>& p, int n) {
   struct Face {
     const char* name;
     int axis;
     bool high;
   };
-  static constexpr std::array<Face, 6> faces = {
-      {{"left", 0, false}, {"right", 0, true}, {"bottom", 1, false}, {"top", 1, true}, {"back", 2, false}, {"front", 2, true}}};
+  static constexpr std::array<Face, 6> faces = {{{"left", 0, false},
+                                                 {"right", 0, true},
+                                                 {"bottom", 1, false},
+                                                 {"top", 1, true},
+                                                 {"back", 2, false},
+                                                 {"front", 2, true}}};
   std::array<bool, 3> axis_named = {false, false, false};
   int parts = 0;
   bool inside = true;
@@ -80,10 +92,12 @@ Result<std::vector<bool>> pinned_particles(const CubeSettings& cube) {
         for (int k = 0; k < n; ++k, ++local) {
           const auto inside = lies_on(name, {i, j, k}, n);
           if (!inside) {
-            return Error{ErrorCode::scene_rejected,
-                         fmt::format("pinned: \"{}\" is neither a face (top, bottom, left, right, front, back) nor a corner "
-                                     "(three faces joined by hyphens, such as left-top-front)",
-                                     name)};
+            return Error{
+                ErrorCode::scene_rejected,
+                fmt::format(
+                    "pinned: \"{}\" is neither a face (top, bottom, left, right, front, back) nor a corner "
+                    "(three faces joined by hyphens, such as left-top-front)",
+                    name)};
           }
           if (*inside) pinned[local] = true;
         }
@@ -92,8 +106,9 @@ Result<std::vector<bool>> pinned_particles(const CubeSettings& cube) {
   }
   for (const std::uint32_t index : cube.pinned.indices) {
     if (index >= pinned.size()) {
-      return Error{ErrorCode::scene_rejected, fmt::format("pinned: index {} is past the cube's last particle {}", index,
-                                                          pinned.size() - 1)};
+      return Error{
+          ErrorCode::scene_rejected,
+          fmt::format("pinned: index {} is past the cube's last particle {}", index, pinned.size() - 1)};
     }
     pinned[index] = true;
   }
@@ -117,7 +132,8 @@ double material_particle_mass(const MaterialSettings& material, int particles_pe
   return material.density * edge_length * edge_length * edge_length / (n * n * n);
 }
 
-SpringSettings material_springs(const MaterialSettings& material, int particles_per_edge, double edge_length) {
+SpringSettings material_springs(const MaterialSettings& material, int particles_per_edge,
+                                double edge_length) {
   const double spacing = edge_length / (particles_per_edge - 1);
   const double mass = material_particle_mass(material, particles_per_edge, edge_length);
   SpringSettings springs;
@@ -149,9 +165,12 @@ Status add_cube(Model& model, const CubeSettings& cube) {
   body.spacing = s;
   model.bodies.push_back(body);
 
-  model.spring_classes.push_back({SpringType::structural, structural.stiffness, structural.damping, s, false});
-  model.spring_classes.push_back({SpringType::shear, shear.stiffness, shear.damping, s * std::sqrt(2.0), false});
-  model.spring_classes.push_back({SpringType::shear, shear.stiffness, shear.damping, s * std::sqrt(3.0), false});
+  model.spring_classes.push_back(
+      {SpringType::structural, structural.stiffness, structural.damping, s, false});
+  model.spring_classes.push_back(
+      {SpringType::shear, shear.stiffness, shear.damping, s * std::sqrt(2.0), false});
+  model.spring_classes.push_back(
+      {SpringType::shear, shear.stiffness, shear.damping, s * std::sqrt(3.0), false});
   model.spring_classes.push_back({SpringType::bending, bending.stiffness, bending.damping, 2.0 * s, false});
 
   const std::vector<Offset> offsets = upward_offsets();
@@ -161,7 +180,8 @@ Status add_cube(Model& model, const CubeSettings& cube) {
     for (int j = 0; j < n; ++j) {
       for (int k = 0; k < n; ++k, ++local) {
         const Vec3 from_centre = {i * s - half, j * s - half, k * s - half};
-        model.initial_position.push_back(cube.position + rotated(from_centre, cube.rotation.axis, cube.rotation.angle));
+        model.initial_position.push_back(cube.position +
+                                         rotated(from_centre, cube.rotation.axis, cube.rotation.angle));
         model.initial_velocity.push_back((*pinned)[local] ? Vec3{} : cube.velocity);
         model.mass.push_back(mass);
         model.inverse_mass.push_back((*pinned)[local] ? 0.0 : 1.0 / mass);
@@ -169,7 +189,8 @@ Status add_cube(Model& model, const CubeSettings& cube) {
         for (const Offset& o : offsets) {
           if (i + o.di >= n || j + o.dj < 0 || j + o.dj >= n || k + o.dk < 0 || k + o.dk >= n) continue;
           const int step = (o.di * n + o.dj) * n + o.dk;
-          model.springs.push_back({a, a + static_cast<std::uint32_t>(step), body.first_class + o.spring_class});
+          model.springs.push_back(
+              {a, a + static_cast<std::uint32_t>(step), body.first_class + o.spring_class});
         }
       }
     }

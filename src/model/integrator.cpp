@@ -20,12 +20,18 @@ constexpr StagedMethod runge_kutta_4 = {runge_kutta_4_stages, 6.0, false};
 
 const StagedMethod* staged_method(Integrator integrator) {
   switch (integrator) {
-    case Integrator::explicit_euler: return &explicit_euler;
-    case Integrator::symplectic_euler: return &symplectic_euler;
-    case Integrator::midpoint: return &midpoint;
-    case Integrator::runge_kutta_4: return &runge_kutta_4;
-    case Integrator::implicit_euler_one_pass: return &one_pass;
-    case Integrator::implicit_euler: break;
+    case Integrator::explicit_euler:
+      return &explicit_euler;
+    case Integrator::symplectic_euler:
+      return &symplectic_euler;
+    case Integrator::midpoint:
+      return &midpoint;
+    case Integrator::runge_kutta_4:
+      return &runge_kutta_4;
+    case Integrator::implicit_euler_one_pass:
+      return &one_pass;
+    case Integrator::implicit_euler:
+      break;
   }
   return nullptr;
 }

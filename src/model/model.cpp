@@ -11,7 +11,9 @@ namespace aspic {
 namespace {
 
 /// x + 0 turns −0 into +0 and leaves every other number alone (spec §2.9).
-double without_negative_zero(double x) { return x + 0.0; }
+double without_negative_zero(double x) {
+  return x + 0.0;
+}
 Vec3 without_negative_zero(const Vec3& v) {
   return {without_negative_zero(v.x), without_negative_zero(v.y), without_negative_zero(v.z)};
 }
@@ -19,7 +21,8 @@ Vec3 without_negative_zero(const Vec3& v) {
 Vec3 rounded_to(const Vec3& v, Precision precision) {
   if (precision == Precision::double_) return without_negative_zero(v);
   // A tiny negative double may round to −0 as a float: the sign is taken off after rounding.
-  return without_negative_zero(Vec3{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
+  return without_negative_zero(
+      Vec3{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
 }
 
 }  // namespace
@@ -73,12 +76,19 @@ double resting_speed(const Model& model) {
 ModelCounts count(const Model& model) {
   ModelCounts counts;
   counts.particles = model.particle_count();
-  counts.pinned = static_cast<std::uint64_t>(std::count(model.inverse_mass.begin(), model.inverse_mass.end(), 0.0));
+  counts.pinned =
+      static_cast<std::uint64_t>(std::count(model.inverse_mass.begin(), model.inverse_mass.end(), 0.0));
   for (const Spring& spring : model.springs) {
     switch (model.spring_classes[spring.spring_class].type) {
-      case SpringType::structural: ++counts.structural; break;
-      case SpringType::shear: ++counts.shear; break;
-      case SpringType::bending: ++counts.bending; break;
+      case SpringType::structural:
+        ++counts.structural;
+        break;
+      case SpringType::shear:
+        ++counts.shear;
+        break;
+      case SpringType::bending:
+        ++counts.bending;
+        break;
     }
   }
   return counts;
@@ -102,33 +112,48 @@ std::uint64_t model_bytes(const ModelCounts& counts) {
 
 std::string_view name_of(Integrator integrator) {
   switch (integrator) {
-    case Integrator::explicit_euler: return "explicit-euler";
-    case Integrator::symplectic_euler: return "symplectic-euler";
-    case Integrator::midpoint: return "midpoint";
-    case Integrator::runge_kutta_4: return "runge-kutta-4";
-    case Integrator::implicit_euler: return "implicit-euler";
-    case Integrator::implicit_euler_one_pass: return "implicit-euler-one-pass";
+    case Integrator::explicit_euler:
+      return "explicit-euler";
+    case Integrator::symplectic_euler:
+      return "symplectic-euler";
+    case Integrator::midpoint:
+      return "midpoint";
+    case Integrator::runge_kutta_4:
+      return "runge-kutta-4";
+    case Integrator::implicit_euler:
+      return "implicit-euler";
+    case Integrator::implicit_euler_one_pass:
+      return "implicit-euler-one-pass";
   }
   return "";
 }
 
-std::string_view name_of(ContactModel model) { return model == ContactModel::coulomb ? "coulomb" : "course"; }
+std::string_view name_of(ContactModel model) {
+  return model == ContactModel::coulomb ? "coulomb" : "course";
+}
 
 std::string_view name_of(SpringType type) {
   switch (type) {
-    case SpringType::structural: return "structural";
-    case SpringType::shear: return "shear";
-    case SpringType::bending: return "bending";
+    case SpringType::structural:
+      return "structural";
+    case SpringType::shear:
+      return "shear";
+    case SpringType::bending:
+      return "bending";
   }
   return "";
 }
 
 std::string_view name_of(TerrainShape shape) {
   switch (shape) {
-    case TerrainShape::plane: return "plane";
-    case TerrainShape::tilted_plane: return "tilted-plane";
-    case TerrainShape::sphere: return "sphere";
-    case TerrainShape::bowl: return "bowl";
+    case TerrainShape::plane:
+      return "plane";
+    case TerrainShape::tilted_plane:
+      return "tilted-plane";
+    case TerrainShape::sphere:
+      return "sphere";
+    case TerrainShape::bowl:
+      return "bowl";
   }
   return "";
 }

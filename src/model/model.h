@@ -1,5 +1,6 @@
 #pragma once
-// The immutable Model: topology, masses, springs, terrain. Solvers advance a State of it; nothing ever changes it.
+// The immutable Model: topology, masses, springs, terrain. Solvers advance a State of it; nothing ever
+// changes it.
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -28,15 +29,16 @@ struct Spring {
   std::uint32_t spring_class = 0;  ///< index into Model::spring_classes
 };
 
-/// A resting surface, spec §2.4. Planes use point and normal, spheres and bowls use point (the centre) and radius.
+/// A resting surface, spec §2.4. Planes use point and normal, spheres and bowls use point (the centre) and
+/// radius.
 struct Terrain {
   TerrainShape shape = TerrainShape::plane;
-  Vec3 point;                     ///< a point of the plane, or the centre [m]
-  Vec3 normal = {0.0, 1.0, 0.0};  ///< unit, towards the free side (planes only)
-  double radius = 0.0;            ///< R [m] (sphere and bowl only)
+  Vec3 point;                                             ///< a point of the plane, or the centre [m]
+  Vec3 normal = {0.0, 1.0, 0.0};                          ///< unit, towards the free side (planes only)
+  double radius = 0.0;                                    ///< R [m] (sphere and bowl only)
   double mass = std::numeric_limits<double>::infinity();  ///< M [kg]
-  double restitution = 0.8;       ///< e
-  double friction = 0.3;          ///< μ
+  double restitution = 0.8;                               ///< e
+  double friction = 0.3;                                  ///< μ
 };
 
 enum class BodyKind { cube };
@@ -55,9 +57,9 @@ struct Body {
 struct Model {
   SimulationSettings simulation;
   ContactSettings contact;
-  std::vector<Terrain> terrain;          ///< in file order: each acts on what the one before left
-  std::vector<double> mass;              ///< m [kg] of each particle, > 0, finite for pinned particles too
-  std::vector<double> inverse_mass;      ///< w [1/kg], 0 = pinned
+  std::vector<Terrain> terrain;      ///< in file order: each acts on what the one before left
+  std::vector<double> mass;          ///< m [kg] of each particle, > 0, finite for pinned particles too
+  std::vector<double> inverse_mass;  ///< w [1/kg], 0 = pinned
   std::vector<SpringClass> spring_classes;
   std::vector<Spring> springs;
   std::vector<Body> bodies;
@@ -66,8 +68,9 @@ struct Model {
   std::uint32_t particle_count() const { return static_cast<std::uint32_t>(mass.size()); }
 };
 
-/// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more particles
-/// than 32-bit indices or free memory hold. The settings' ranges are the caller's business (scene/validate).
+/// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
+/// particles than 32-bit indices or free memory hold. The settings' ranges are the caller's business
+/// (scene/validate).
 Result<Model> build_model(const ModelSettings& settings);
 
 /// The state a run starts from, rounded to `precision`; −0 becomes +0.

@@ -37,10 +37,10 @@ struct ImplicitSettings {
 
 struct SimulationSettings {
   Integrator integrator = Integrator::explicit_euler;
-  double timestep = 0.001;           ///< h [s], > 0
-  double duration = 4.0;             ///< [s], ≥ 0
-  Vec3 gravity = {0.0, -9.8, 0.0};   ///< g [m/s²]
-  int steps_per_frame = 8;           ///< in the window, ≥ 1
+  double timestep = 0.001;          ///< h [s], > 0
+  double duration = 4.0;            ///< [s], ≥ 0
+  Vec3 gravity = {0.0, -9.8, 0.0};  ///< g [m/s²]
+  int steps_per_frame = 8;          ///< in the window, ≥ 1
   ImplicitSettings implicit;
 };
 
@@ -54,14 +54,15 @@ struct ContactSettings {
   bool spin = true;
 };
 
-/// One terrain of the scene. Absent values take the shape's defaults (terrain_defaults) or the scene's contact values.
+/// One terrain of the scene. Absent values take the shape's defaults (terrain_defaults) or the scene's
+/// contact values.
 struct TerrainSettings {
   TerrainShape shape = TerrainShape::plane;
-  std::optional<Vec3> point;        ///< [m], plane and tilted plane
-  std::optional<Vec3> normal;       ///< any length but zero, plane and tilted plane
-  std::optional<Vec3> centre;       ///< [m], sphere and bowl
-  std::optional<double> radius;     ///< [m], > 0, sphere and bowl
-  std::optional<double> mass;       ///< M [kg], > 0; absent: infinite
+  std::optional<Vec3> point;     ///< [m], plane and tilted plane
+  std::optional<Vec3> normal;    ///< any length but zero, plane and tilted plane
+  std::optional<Vec3> centre;    ///< [m], sphere and bowl
+  std::optional<double> radius;  ///< [m], > 0, sphere and bowl
+  std::optional<double> mass;    ///< M [kg], > 0; absent: infinite
   std::optional<double> restitution;
   std::optional<double> friction;
 };
@@ -86,17 +87,17 @@ struct RotationSettings {
 
 /// Which particles of a cube are pinned: face and corner names, and local indices.
 struct PinnedSettings {
-  std::vector<std::string> names;       ///< "top", "left", … or corners such as "left-bottom-front"
-  std::vector<std::uint32_t> indices;   ///< local indices i*n*n + j*n + k
+  std::vector<std::string> names;      ///< "top", "left", … or corners such as "left-bottom-front"
+  std::vector<std::uint32_t> indices;  ///< local indices i*n*n + j*n + k
 };
 
 struct CubeSettings {
-  int particles_per_edge = 10;         ///< n, ≥ 2
-  double edge_length = 4.0;            ///< [m], > 0
-  Vec3 position = {0.0, 9.0, 0.0};     ///< of the centre [m]
+  int particles_per_edge = 10;      ///< n, ≥ 2
+  double edge_length = 4.0;         ///< [m], > 0
+  Vec3 position = {0.0, 9.0, 0.0};  ///< of the centre [m]
   RotationSettings rotation;
-  Vec3 velocity = {0.0, 0.0, 0.0};     ///< [m/s]
-  double particle_mass = 1.0;          ///< m [kg], > 0
+  Vec3 velocity = {0.0, 0.0, 0.0};  ///< [m/s]
+  double particle_mass = 1.0;       ///< m [kg], > 0
   SpringSettings structural, shear, bending;
   std::optional<MaterialSettings> material;  ///< instead of particle_mass and the three spring settings
   PinnedSettings pinned;

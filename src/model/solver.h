@@ -21,8 +21,8 @@ struct Divergence {
 /// Speed above which a step counts as diverged [m/s].
 inline constexpr double divergence_speed = 1000.0;
 
-/// A backend with a model loaded. After a divergence the state stays the last good one, and further advances do
-/// nothing but report the same divergence again until load().
+/// A backend with a model loaded. After a divergence the state stays the last good one, and further advances
+/// do nothing but report the same divergence again until load().
 class Solver {
  public:
   virtual ~Solver() = default;
@@ -36,8 +36,8 @@ class Solver {
   /// Bytes the solver holds for this model.
   virtual std::uint64_t bytes() const = 0;
 
-  /// Takes over a state: rounds it to the solver's own precision, keeps its step number, forgets any divergence.
-  /// Error (usage): the state has another number of particles.
+  /// Takes over a state: rounds it to the solver's own precision, keeps its step number, forgets any
+  /// divergence. Error (usage): the state has another number of particles.
   virtual Status load(const State& state) = 0;
   /// Advances by `steps`, fewer only after a divergence, which is returned. Error: the device was lost.
   virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;

@@ -6,7 +6,9 @@
 
 namespace aspic {
 
-std::string_view name_of(Precision precision) { return precision == Precision::single ? "single" : "double"; }
+std::string_view name_of(Precision precision) {
+  return precision == Precision::single ? "single" : "double";
+}
 
 std::uint64_t state_hash(const State& state) {
   Fnv1a hash;
@@ -26,6 +28,8 @@ std::uint64_t state_hash(const State& state) {
   return hash.value();
 }
 
-std::string state_hash_text(const State& state) { return fmt::format("{:016x}", state_hash(state)); }
+std::string state_hash_text(const State& state) {
+  return fmt::format("{:016x}", state_hash(state));
+}
 
 }  // namespace aspic

@@ -47,9 +47,12 @@ Terrain make_terrain(const TerrainSettings& settings, const ContactSettings& con
 double signed_distance(const Terrain& terrain, const Vec3& x) {
   switch (terrain.shape) {
     case TerrainShape::plane:
-    case TerrainShape::tilted_plane: return dot(terrain.normal, x - terrain.point);
-    case TerrainShape::sphere: return length(x - terrain.point) - terrain.radius;
-    case TerrainShape::bowl: return terrain.radius - length(x - terrain.point);
+    case TerrainShape::tilted_plane:
+      return dot(terrain.normal, x - terrain.point);
+    case TerrainShape::sphere:
+      return length(x - terrain.point) - terrain.radius;
+    case TerrainShape::bowl:
+      return terrain.radius - length(x - terrain.point);
   }
   return 0.0;
 }

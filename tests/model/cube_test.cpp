@@ -32,8 +32,8 @@ TEST(Cube, TenPerEdgeHasThePublishedCounts) {
 
 class CubeLattice : public testing::TestWithParam<int> {};
 
-// The set of springs is derived here from distances alone, by comparing all pairs of particles: an independent
-// statement of "axis neighbours, face and body diagonals, two steps along an axis".
+// The set of springs is derived here from distances alone, by comparing all pairs of particles: an
+// independent statement of "axis neighbours, face and body diagonals, two steps along an axis".
 TEST_P(CubeLattice, SpringsAreThosePairsAtTheirDistances) {
   const int n = GetParam();
   const double edge = 3.0, s = edge / (n - 1);

@@ -1,0 +1,62 @@
+// What follows the springs, the same for every force path: contact force, acceleration, the stage of the explicit
+// method (src/model/integrator.h has the formulas), and after the last stage the terrain's response and the watch for
+// divergence. Expects the state blocks below to be bound.
+#include "compute/terrain.glsl"
+
+layout(std430, binding = BINDING_START_STATE) restrict readonly buffer StartState { Particle start_state[]; };
+layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer StageState { Particle stage_state[]; };
+layout(std430, binding = BINDING_OUT_STATE) restrict writeonly buffer OutState { Particle out_state[]; };
+layout(std430, binding = BINDING_STAGE_SUMS) restrict buffer StageSums { Particle stage_sums[]; };
+
+bool finite(vec3 a) {
+  uvec3 exponent = floatBitsToUint(a) & 0x7f800000u;
+  return all(notEqual(exponent, uvec3(0x7f800000u)));
+}
+
+void watch_divergence(uint i, vec3 x, vec3 v) {
+  bool all_finite = finite(x) && finite(v);
+  if (!all_finite || dot3(v, v) > divergence_speed_squared) {
+    atomicMin(control.bad_step, step_index);
+    atomicMin(control.bad_particle, 2u * i + (all_finite ? 1u : 0u));
+  }
+}
+
+void end_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
+  precise vec3 v = start.velocity.xyz + step_scale * slope_v;
+  precise vec3 x = start.position.xyz + step_scale * (position_from_new_velocity != 0u ? v : slope_x);
+  if (start.position.w != 0.0) {
+    for (uint t = 0u; t < terrain_count; ++t) {
+      if (contact_model == CONTACT_COULOMB) {
+        respond_coulomb(t, start.velocity.w, start.position.xyz, start.velocity.xyz, x, v);
+      } else {
+        respond_course(t, start.velocity.w, x, v);
+      }
+    }
+  }
+  watch_divergence(i, x, v);
+  out_state[i] = Particle(vec4(x, start.position.w), vec4(v, start.velocity.w));
+}
+
+// p: the particle in this stage; f_springs: gravity and springs [N].
+void finish_stage(uint i, Particle p, vec3 f_springs) {
+  precise vec3 f = f_springs;
+  if (contact_model == CONTACT_COURSE && p.position.w != 0.0) f = with_contact_force(p.position.xyz, p.velocity.xyz, f);
+  precise vec3 a = p.position.w * f;
+
+  Particle start = start_state[i];
+  Stage stage = stages[stage_index];
+  precise vec3 slope_x = stage.weight * p.velocity.xyz;
+  precise vec3 slope_v = stage.weight * a;
+  if (stage.accumulate != 0u) {
+    slope_x = stage_sums[i].position.xyz + slope_x;
+    slope_v = stage_sums[i].velocity.xyz + slope_v;
+  }
+  if (stage.last != 0u) {
+    end_step(i, start, slope_x, slope_v);
+    return;
+  }
+  if (stage.weight != 0.0) stage_sums[i] = Particle(vec4(slope_x, 0.0), vec4(slope_v, 0.0));
+  precise vec3 next_x = start.position.xyz + stage.advance * p.velocity.xyz;
+  precise vec3 next_v = start.velocity.xyz + stage.advance * a;
+  out_state[i] = Particle(vec4(next_x, start.position.w), vec4(next_v, start.velocity.w));
+}

@@ -1,0 +1,23 @@
+// Force path `per-spring`, second pass: one invocation per particle sums the forces of its springs in ascending
+// neighbour index, then goes on to the stage of the integrator and the terrain.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/stage.glsl"
+
+layout(std430, binding = BINDING_INCIDENT_START) restrict readonly buffer IncidentStart { uint incident_start[]; };
+layout(std430, binding = BINDING_INCIDENT) restrict readonly buffer Incident { uint incident[]; };
+layout(std430, binding = BINDING_SPRING_FORCES) restrict readonly buffer SpringForces { vec4 spring_forces[]; };
+
+void main() {
+  uint i = item_index();
+  if (i >= particle_count || halted()) return;
+  Particle p = stage_state[i];
+  precise vec3 f = p.velocity.w * gravity.xyz;
+  uint end = incident_start[i + 1u];
+  for (uint n = incident_start[i]; n < end; ++n) {
+    uint word = incident[n];
+    precise vec3 on_a = spring_forces[word >> 1u].xyz;
+    f += (word & 1u) == 0u ? on_a : -on_a;
+  }
+  finish_stage(i, p, f);
+}

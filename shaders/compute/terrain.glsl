@@ -1,0 +1,74 @@
+// Terrain and contact of spec §2.4 and §2.5.
+
+// xyz: unit normal towards the free side; w: signed distance [m], positive on the free side.
+precise vec4 gap(uint t, vec3 x) {
+  precise vec3 e = x - terrains[t].point.xyz;
+  if (terrains[t].shape == SHAPE_PLANE) return vec4(terrains[t].normal.xyz, dot3(terrains[t].normal.xyz, e));
+  precise float L = norm3(e);
+  bool bowl = terrains[t].shape == SHAPE_BOWL;
+  precise float d = bowl ? terrains[t].point.w - L : L - terrains[t].point.w;
+  if (L == 0.0) return vec4(0.0, 1.0, 0.0, d);
+  precise float q = exact_div(1.0, L);
+  precise vec3 outward = q * e;
+  return vec4(bowl ? -outward : outward, d);
+}
+
+// B(u) = max(0, (m − e·M)/(m + M)·u), −e·u for M = ∞
+precise float bounce_speed(uint t, float m, float u) {
+  precise float factor = -terrains[t].restitution;
+  if (terrains[t].movable != 0u) {
+    precise float M = terrains[t].mass;
+    factor = exact_div(m - terrains[t].restitution * M, m + M);
+  }
+  precise float bounced = factor * u;
+  return bounced > 0.0 ? bounced : 0.0;
+}
+
+// The course model's contact force: f [N] after gravity and springs, resisted and rubbed by every terrain.
+precise vec3 with_contact_force(vec3 x, vec3 v, vec3 f_in) {
+  precise vec3 f = f_in;
+  for (uint t = 0u; t < terrain_count; ++t) {
+    precise vec4 g = gap(t, x);
+    precise float u = dot3(v, g.xyz);
+    precise float f_n = dot3(f, g.xyz);
+    if (g.w < epsilon && abs(u) < epsilon && f_n < 0.0) {
+      precise float N = -f_n;
+      precise vec3 v_t = v - u * g.xyz;
+      f = (f + N * g.xyz) - (terrains[t].friction * N) * v_t;
+    }
+  }
+  return f;
+}
+
+void respond_course(uint t, float m, vec3 x, inout precise vec3 v) {
+  precise vec4 g = gap(t, x);
+  precise float u = dot3(v, g.xyz);
+  if (g.w < epsilon && u < 0.0) {
+    precise vec3 v_t = v - u * g.xyz;
+    v = v_t + bounce_speed(t, m, u) * g.xyz;
+  }
+}
+
+// Impact with restitution, friction bounded by the normal impulse, no particle left below the surface; a particle
+// stopped by it stays where the step began (x_0, v_0 are the state there).
+void respond_coulomb(uint t, float m, vec3 x_0, vec3 v_0, inout precise vec3 x, inout precise vec3 v) {
+  precise vec4 g = gap(t, x);
+  precise float u = dot3(v, g.xyz);
+  if (g.w < epsilon && u < 0.0) {
+    precise float approach = -dot3(v_0, g.xyz);
+    precise float u_after = approach > resting_speed ? bounce_speed(t, m, u) : 0.0;
+    precise float du = u_after - u;
+    precise vec3 v_t = v - u * g.xyz;
+    precise float slip = norm3(v_t);
+    if (slip > 0.0) {
+      precise float kept = 1.0 - exact_div(terrains[t].friction * du, slip);
+      v_t = kept > 0.0 ? kept * v_t : vec3(0.0);
+    }
+    v = v_t + u_after * g.xyz;
+    if (u_after == 0.0 && v_t.x == 0.0 && v_t.y == 0.0 && v_t.z == 0.0) {
+      x = x_0;
+      g = gap(t, x);
+    }
+  }
+  if (g.w < 0.0) x = x - g.w * g.xyz;
+}

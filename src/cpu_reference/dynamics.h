@@ -1,0 +1,81 @@
+#pragma once
+// Force and acceleration of all particles: a(x, v) = w·f(x, v) with f = m·g + springs + contact force.
+#include <vector>
+
+#include "cpu_reference/contact.h"
+#include "cpu_reference/spring.h"
+#include "model/model.h"
+
+namespace aspic::reference {
+
+template <class T>
+class Dynamics {
+ public:
+  explicit Dynamics(const Model& model)
+      : model_(model),
+        gravity_(rounded<T>(model.simulation.gravity)),
+        contact_{static_cast<T>(model.contact.epsilon), static_cast<T>(resting_speed(model))},
+        mass_(model.particle_count()),
+        inverse_mass_(model.particle_count()) {
+    for (const SpringClass& spring : model.spring_classes) classes_.emplace_back(spring);
+    for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
+    for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
+      mass_[i] = static_cast<T>(model.mass[i]);
+      inverse_mass_[i] = static_cast<T>(model.inverse_mass[i]);
+    }
+  }
+
+  /// f(x, v) [N], one column per particle. Springs are sorted by (a, b), so each particle's sum runs over its
+  /// springs in ascending neighbour index.
+  Field<T> force(const Field<T>& x, const Field<T>& v) const {
+    Field<T> f(3, x.cols());
+    for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass_[i] * gravity_;
+    for (const Spring& spring : model_.springs) {
+      const Vector<T> on_a = spring_force<T>(classes_[spring.spring_class], x.col(spring.a), v.col(spring.a),
+                                             x.col(spring.b), v.col(spring.b));
+      f.col(spring.a) += on_a;
+      f.col(spring.b) -= on_a;
+    }
+    if (model_.contact.model == ContactModel::course) {
+      for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        if (inverse_mass_[i] == T(0)) continue;
+        for (const Ground<T>& ground : grounds_) {
+          f.col(i) = with_contact_force<T>(ground, contact_.epsilon, x.col(i), v.col(i), f.col(i));
+        }
+      }
+    }
+    return f;
+  }
+
+  /// a(x, v) = w·f(x, v) [m/s²]
+  Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
+    return force(x, v) * inverse_mass_.matrix().asDiagonal();
+  }
+
+  /// Terrain response at the end of a step from (x0, v0) to (x, v); terrains act in file order.
+  void respond(const Field<T>& x0, const Field<T>& v0, Field<T>& x, Field<T>& v) const {
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+      if (inverse_mass_[i] == T(0)) continue;
+      Vector<T> xi = x.col(i), vi = v.col(i);
+      for (const Ground<T>& ground : grounds_) {
+        if (model_.contact.model == ContactModel::coulomb) {
+          respond_coulomb<T>(ground, contact_, mass_[i], x0.col(i), v0.col(i), xi, vi);
+        } else {
+          respond_course<T>(ground, contact_.epsilon, mass_[i], xi, vi);
+        }
+      }
+      x.col(i) = xi;
+      v.col(i) = vi;
+    }
+  }
+
+ private:
+  const Model& model_;
+  Vector<T> gravity_;
+  ContactConstants<T> contact_;
+  std::vector<SpringConstants<T>> classes_;
+  std::vector<Ground<T>> grounds_;
+  Eigen::Array<T, Eigen::Dynamic, 1> mass_, inverse_mass_;
+};
+
+}  // namespace aspic::reference

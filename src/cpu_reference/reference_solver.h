@@ -1,0 +1,16 @@
+#pragma once
+// The readable solver: one thread, Eigen, written to be read beside spec §2. It proves the others right.
+#include <memory>
+
+#include "model/solver.h"
+
+namespace aspic {
+
+/// A reference solver at the model's initial state, in single or double precision.
+/// The model must outlive it. Error (scene_rejected): an integrator that is not built yet.
+Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precision precision);
+
+/// Bytes a reference solver would hold for a model of these counts.
+std::uint64_t reference_bytes(const ModelCounts& counts, Precision precision);
+
+}  // namespace aspic

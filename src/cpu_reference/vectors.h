@@ -1,0 +1,39 @@
+#pragma once
+// The reference's vector types, and the two reductions whose order of operations spec §2.9 fixes.
+#include <Eigen/Core>
+#include <cmath>
+
+#include "model/vec3.h"
+
+#ifdef __FMA__
+#error \
+    "The reference must be compiled without FMA instructions: Eigen's packet operations would use them and change bits."
+#endif
+
+namespace aspic::reference {
+
+template <class T>
+using Vector = Eigen::Matrix<T, 3, 1>;
+
+/// One column per particle.
+template <class T>
+using Field = Eigen::Matrix<T, 3, Eigen::Dynamic>;
+
+/// (aₓbₓ + a_y b_y) + a_z b_z. Eigen's own dot product adds in another order.
+template <class T>
+T dot3(const Vector<T>& a, const Vector<T>& b) {
+  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
+
+/// √((aₓ² + a_y²) + a_z²)
+template <class T>
+T norm3(const Vector<T>& a) {
+  return std::sqrt(dot3<T>(a, a));
+}
+
+template <class T>
+Vector<T> rounded(const Vec3& v) {
+  return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
+}
+
+}  // namespace aspic::reference

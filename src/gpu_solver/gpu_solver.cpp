@@ -1,0 +1,294 @@
+#include "gpu_solver/gpu_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "gpu/pass.h"
+#include "gpu/program.h"
+#include "gpu_solver/layout.h"
+#include "gpu_solver/simulation_block.h"
+#include "gpu_solver/topology.h"
+#include "model/integrator.h"
+
+namespace aspic {
+namespace {
+
+using gl::Binding;
+using gl::Buffer;
+using gl::Reader;
+
+/// Steps queued between two looks at the control words: enough to hide the wait, few enough to answer Ctrl-C.
+constexpr std::uint64_t steps_per_look = 256;
+/// Readers of a state that is about to leave the solver.
+constexpr Reader anyone = Reader::compute_pass | Reader::vertex_draw | Reader::read_back | Reader::copy;
+
+/// Whether the method's sums outlive a stage, so that memory must hold them.
+bool keeps_sums(const StagedMethod& method) {
+  return std::any_of(method.stages.begin(), method.stages.end() - 1,
+                     [](const Stage& s) { return s.weight != 0.0; });
+}
+
+class ComputeSolver final : public GpuSolver {
+ public:
+  ComputeSolver(std::shared_ptr<gl::Context> context, const Model& model, ForcePath path)
+      : context_(std::move(context)), model_(model), path_(path) {}
+
+  Status build(const GpuOptions& options);
+
+  std::string_view backend() const override { return "gpu"; }
+  std::string description() const override {
+    return fmt::format("gpu, {}, force path {}, single precision", context_->info().renderer, name_of(path_));
+  }
+  Precision precision() const override { return Precision::single; }
+  const Model& model() const override { return model_; }
+  std::uint64_t bytes() const override { return bytes_; }
+  const Buffer& particles() const override { return states_[current_]; }
+  ForcePath force_path() const override { return path_; }
+
+  Status load(const State& state) override;
+  Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
+  Result<State> state() override;
+
+ private:
+  Status build_buffers();
+  Status build_passes(const GpuOptions& options);
+  void queue_step(std::uint32_t step_index, bool last_of_queue);
+  Result<layout::Control> read_control();
+  Status check_device();
+
+  std::shared_ptr<gl::Context> context_;
+  const Model& model_;
+  const ForcePath path_;
+  std::uint32_t stages_ = 0;
+  std::uint64_t bytes_ = 0;
+
+  // The step's start, its end, and a place for stages in between; the roles rotate with every step.
+  std::array<Buffer, 3> states_;
+  std::size_t current_ = 0;
+  Buffer sums_, simulation_, incident_start_, incident_, control_, springs_, forces_;
+  gl::Program force_program_, particle_program_;
+  std::vector<gl::Pass> passes_;  // one per stage: particles, preceded on the per-spring path by springs
+
+  std::uint64_t base_step_ = 0;    // step number of the loaded state
+  std::uint32_t steps_since_ = 0;  // steps since: what the kernels count in
+  std::optional<Divergence> divergence_;
+};
+
+Status ComputeSolver::build(const GpuOptions& options) {
+  const std::uint64_t held_before = context_->bytes_held();
+  if (const Status made = build_buffers(); !made) return made;
+  if (const Status made = build_passes(options); !made) return made;
+  bytes_ = context_->bytes_held() - held_before;
+  return load(initial_state(model_, Precision::single));
+}
+
+/// Makes a buffer or returns the error from the enclosing function.
+#define ASPIC_ASSIGN_OR_RETURN(target, expression) \
+  do {                                             \
+    auto made_ = (expression);                     \
+    if (!made_) return made_.error();              \
+    target = std::move(made_).value();             \
+  } while (false)
+
+Status ComputeSolver::build_buffers() {
+  const StagedMethod* method = staged_method(model_.simulation.integrator);
+  auto block = simulation_block(model_);
+  if (!block) return block.error();
+  stages_ = static_cast<std::uint32_t>(method->stages.size());
+
+  gl::Context& context = *context_;
+  const std::uint64_t state_bytes = std::uint64_t{model_.particle_count()} * sizeof(layout::Particle);
+  for (Buffer& state : states_)
+    ASPIC_ASSIGN_OR_RETURN(state, Buffer::create(context, "particle state", state_bytes));
+  ASPIC_ASSIGN_OR_RETURN(sums_, Buffer::create(context, "stage sums", keeps_sums(*method) ? state_bytes : 0));
+  ASPIC_ASSIGN_OR_RETURN(
+      simulation_, Buffer::of(context, "simulation constants",
+                              std::span<const layout::Simulation>(&*block, 1), gl::BufferKind::uniform));
+  ASPIC_ASSIGN_OR_RETURN(control_, Buffer::create(context, "control words", sizeof(layout::Control)));
+
+  IncidentSprings rows;
+  if (path_ == ForcePath::gather) {
+    ASPIC_ASSIGN_OR_RETURN(rows, neighbours_of(model_));
+  } else {
+    rows = springs_of(model_);
+    std::vector<layout::uvec2> springs;
+    ASPIC_ASSIGN_OR_RETURN(springs, packed_springs(model_));
+    ASPIC_ASSIGN_OR_RETURN(springs_, Buffer::of(context, "springs", std::span<const layout::uvec2>(springs)));
+    ASPIC_ASSIGN_OR_RETURN(forces_,
+                           Buffer::create(context, "spring forces", springs.size() * sizeof(layout::vec4)));
+  }
+  ASPIC_ASSIGN_OR_RETURN(incident_start_, Buffer::of(context, "incident spring rows",
+                                                     std::span<const std::uint32_t>(rows.start)));
+  ASPIC_ASSIGN_OR_RETURN(incident_,
+                         Buffer::of(context, "incident springs", std::span<const std::uint32_t>(rows.words)));
+  return {};
+}
+
+Status ComputeSolver::build_passes(const GpuOptions& options) {
+  const gl::ShaderLibrary library(options.shader_directory);
+  const std::vector<gl::Define> defines = {{"ASPIC_GROUP_SIZE", std::to_string(options.group_size)}};
+  const Binding constants = {BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform};
+  const Binding control = {BINDING_CONTROL, &control_};
+  if (path_ == ForcePath::per_spring) {
+    ASPIC_ASSIGN_OR_RETURN(force_program_,
+                           gl::Program::compute(*context_, library, "compute/spring_forces.comp", defines));
+    passes_.emplace_back(
+        force_program_,
+        std::vector<Binding>{
+            constants, control, {BINDING_SPRINGS, &springs_}, {BINDING_SPRING_FORCES, &forces_}},
+        Reader::compute_pass);
+  }
+  const char* kernel = path_ == ForcePath::gather ? "compute/gather.comp" : "compute/sum_springs.comp";
+  ASPIC_ASSIGN_OR_RETURN(particle_program_, gl::Program::compute(*context_, library, kernel, defines));
+  std::vector<Binding> bindings = {constants,
+                                   control,
+                                   {BINDING_STAGE_SUMS, &sums_},
+                                   {BINDING_INCIDENT_START, &incident_start_},
+                                   {BINDING_INCIDENT, &incident_}};
+  if (path_ == ForcePath::per_spring) bindings.push_back({BINDING_SPRING_FORCES, &forces_});
+  passes_.emplace_back(particle_program_, std::move(bindings), Reader::compute_pass);
+  return {};
+}
+
+Status ComputeSolver::load(const State& state) {
+  if (state.position.size() != model_.particle_count() || state.velocity.size() != model_.particle_count()) {
+    return Error{ErrorCode::usage, fmt::format("the state has {} particles, the scene has {}",
+                                               state.position.size(), model_.particle_count())};
+  }
+  std::vector<layout::Particle> particles(state.position.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec3 &x = state.position[i], &v = state.velocity[i];
+    particles[i].position = {static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z),
+                             static_cast<float>(model_.inverse_mass[i])};
+    particles[i].velocity = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
+                             static_cast<float>(model_.mass[i])};
+  }
+  current_ = 0;
+  states_[0].upload_items(std::span<const layout::Particle>(particles));
+  const layout::Control control = {NO_STEP, NO_STEP, 0, 0};
+  control_.upload_items(std::span<const layout::Control>(&control, 1));
+  base_step_ = state.step;
+  steps_since_ = 0;
+  divergence_.reset();
+  return check_device();
+}
+
+void ComputeSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
+  const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
+  if (path_ == ForcePath::per_spring) force_program_.set(LOCATION_STEP, step_index);
+  particle_program_.set(LOCATION_STEP, step_index);
+  std::size_t stage_state = current_;
+  for (std::uint32_t s = 0; s < stages_; ++s) {
+    // Stages alternate between the two free buffers so that the last one lands in `end`.
+    const std::size_t out = (stages_ - 1 - s) % 2 == 0 ? end : between;
+    particle_program_.set(LOCATION_STAGE, s);
+    const std::array<Binding, 3> states = {{{BINDING_STAGE_STATE, &states_[stage_state]},
+                                            {BINDING_START_STATE, &states_[current_]},
+                                            {BINDING_OUT_STATE, &states_[out]}}};
+    if (path_ == ForcePath::per_spring) {
+      passes_.front().dispatch_for(static_cast<std::uint32_t>(model_.springs.size()),
+                                   std::span(states).first(1));
+    }
+    const bool leaves = last_of_queue && s + 1 == stages_;
+    passes_.back().dispatch_for(model_.particle_count(), states, leaves ? anyone : Reader::compute_pass);
+    stage_state = out;
+  }
+  current_ = end;
+}
+
+Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
+  while (steps > 0 && !divergence_) {
+    if (steps_since_ >
+        0x7fffffffu) {  // the kernels count steps in 32 bits: begin anew, no step is under way here
+      base_step_ += steps_since_;
+      steps_since_ = 0;
+    }
+    const auto queue = static_cast<std::uint32_t>(std::min(steps, steps_per_look));
+    const std::size_t first_state = current_;
+    for (std::uint32_t n = 0; n < queue; ++n) queue_step(steps_since_ + n, n + 1 == queue);
+    const auto control = read_control();
+    if (!control) return control.error();
+    std::uint32_t good = queue;
+    if (control->bad_step != NO_STEP) {
+      good = control->bad_step - steps_since_;
+      divergence_ = Divergence{base_step_ + control->bad_step + 1, control->bad_particle >> 1,
+                               (control->bad_particle & 1u) != 0};
+    }
+    current_ = (first_state + good) % 3;
+    steps_since_ += good;
+    steps -= good;
+  }
+  return divergence_;
+}
+
+Result<layout::Control> ComputeSolver::read_control() {
+  const layout::Control control = control_.download_items<layout::Control>(1).front();
+  if (const Status ok = check_device(); !ok) return ok.error();
+  return control;
+}
+
+Result<State> ComputeSolver::state() {
+  const auto particles = states_[current_].download_items<layout::Particle>(model_.particle_count());
+  if (const Status ok = check_device(); !ok) return ok.error();
+  State state;
+  state.precision = Precision::single;
+  state.step = base_step_ + steps_since_;
+  state.position.reserve(particles.size());
+  state.velocity.reserve(particles.size());
+  for (const layout::Particle& p : particles) {
+    state.position.push_back({p.position.x, p.position.y, p.position.z});
+    state.velocity.push_back({p.velocity.x, p.velocity.y, p.velocity.z});
+  }
+  return state;
+}
+
+Status ComputeSolver::check_device() {
+  if (!context_->lost()) return {};
+  return Error{ErrorCode::no_device,
+               fmt::format("{} was reset or lost; the run ends at its last checkpoint. Run again, or "
+                           "choose --backend reference",
+                           context_->info().renderer)};
+}
+
+}  // namespace
+
+std::string_view name_of(ForcePath path) {
+  switch (path) {
+    case ForcePath::automatic:
+      return "auto";
+    case ForcePath::per_spring:
+      return "per-spring";
+    case ForcePath::gather:
+      return "gather";
+    case ForcePath::lattice:
+      return "lattice";
+  }
+  return "";
+}
+
+Result<std::unique_ptr<GpuSolver>> make_gpu_solver(std::shared_ptr<gl::Context> context, const Model& model,
+                                                   const GpuOptions& options) {
+  if (options.force_path == ForcePath::lattice) {
+    return Error{ErrorCode::scene_rejected,
+                 "the force path lattice is not built yet in this version: use gather or per-spring"};
+  }
+  const ForcePath path = options.force_path == ForcePath::automatic ? ForcePath::gather : options.force_path;
+  auto solver = std::make_unique<ComputeSolver>(std::move(context), model, path);
+  if (const Status built = solver->build(options); !built) return built.error();
+  return std::unique_ptr<GpuSolver>(std::move(solver));
+}
+
+std::uint64_t gpu_bytes(const ModelCounts& counts, Integrator integrator, ForcePath path) {
+  const StagedMethod* method = staged_method(integrator);
+  const std::uint64_t states = method && keeps_sums(*method) ? 4 : 3;
+  std::uint64_t bytes = states * counts.particles * sizeof(layout::Particle) + sizeof(layout::Simulation) +
+                        sizeof(layout::Control) + 4 * (counts.particles + 1) + 8 * counts.springs();
+  if (path == ForcePath::per_spring)
+    bytes += counts.springs() * (sizeof(layout::uvec2) + sizeof(layout::vec4));
+  return bytes;
+}
+
+}  // namespace aspic

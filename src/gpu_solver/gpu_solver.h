@@ -1,0 +1,49 @@
+#pragma once
+// The compute solver: passes over shader storage buffers, the same bits as the reference in single precision.
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "gpu/buffer.h"
+#include "gpu/context.h"
+#include "model/solver.h"
+
+namespace aspic {
+
+/// How spring forces reach particles; every path gives the same bits (docs/architecture.md).
+enum class ForcePath {
+  automatic,   ///< the fastest that is built: gather
+  per_spring,  ///< one invocation per spring writes its force, a second pass sums
+  gather,      ///< one invocation per particle evaluates its springs, everything fused
+  lattice      ///< gather on a cube without connectivity in memory; not built yet
+};
+
+std::string_view name_of(ForcePath path);
+
+struct GpuOptions {
+  ForcePath force_path = ForcePath::automatic;
+  std::uint32_t group_size = 64;  ///< invocations per work group, 1…1024; never affects the bits
+  std::filesystem::path
+      shader_directory;  ///< files here go before the embedded shaders; empty: embedded alone
+};
+
+/// A gpu solver with a look at its buffers, for drawing without a copy.
+class GpuSolver : public Solver {
+ public:
+  /// The current state: layout::Particle per particle (stride 32 bytes, x at 0, v at 16).
+  virtual const gl::Buffer& particles() const = 0;
+  /// The path in use, never automatic.
+  virtual ForcePath force_path() const = 0;
+};
+
+/// A gpu solver at the model's initial state. Model and context must outlive it; the context must be current
+/// here and in every call. Errors: scene_rejected (not built yet, or larger than the device's buffers or
+/// index words), no_device (the driver refuses a kernel), io (a shader file cannot be read).
+Result<std::unique_ptr<GpuSolver>> make_gpu_solver(std::shared_ptr<gl::Context> context, const Model& model,
+                                                   const GpuOptions& options = {});
+
+/// Bytes of device memory a solver would hold for a model of these counts.
+std::uint64_t gpu_bytes(const ModelCounts& counts, Integrator integrator, ForcePath path);
+
+}  // namespace aspic

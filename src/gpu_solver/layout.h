@@ -1,0 +1,31 @@
+#pragma once
+// shaders/compute/layout.glsl as C++: the structs the kernels read, with their sizes and offsets held by the
+// compiler. tests/gpu_solver/layout_gl_test.cpp compares them with what the driver says.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace aspic::layout {
+
+using uint = std::uint32_t;
+struct vec4 {
+  float x = 0, y = 0, z = 0, w = 0;
+};
+struct uvec2 {
+  uint x = 0, y = 0;
+};
+
+#include "compute/layout.glsl"
+
+static_assert(sizeof(Particle) == 32 && offsetof(Particle, velocity) == 16);
+static_assert(sizeof(Stage) == 16 && sizeof(SpringClass) == 16 && sizeof(Control) == 16);
+static_assert(sizeof(Terrain) == 64 && offsetof(Terrain, mass) == 32 && offsetof(Terrain, shape) == 48);
+static_assert(offsetof(Simulation, epsilon) == 16 && offsetof(Simulation, particle_count) == 32);
+static_assert(offsetof(Simulation, class_bits) == 48 && offsetof(Simulation, stages) == 64);
+static_assert(offsetof(Simulation, spring_classes) == 128);
+static_assert(offsetof(Simulation, terrains) == 128 + 16 * MAX_SPRING_CLASSES);
+// OpenGL 4.3 guarantees uniform blocks of 16 KiB.
+static_assert(sizeof(Simulation) == 128 + 16 * MAX_SPRING_CLASSES + 64 * MAX_TERRAINS &&
+              sizeof(Simulation) <= 16384);
+
+}  // namespace aspic::layout

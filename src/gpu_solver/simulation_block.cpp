@@ -1,0 +1,96 @@
+#include "gpu_solver/simulation_block.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+
+#include "model/integrator.h"
+#include "model/solver.h"
+
+namespace aspic {
+namespace {
+
+layout::vec4 rounded(const Vec3& v, double w) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+layout::Terrain block_of(const Terrain& t) {
+  layout::Terrain block{};
+  block.point = rounded(t.point, t.radius);
+  block.normal = rounded(t.normal, 0.0);
+  block.movable = std::isfinite(t.mass) ? 1u : 0u;
+  block.mass = block.movable ? static_cast<float>(t.mass) : 0.0f;
+  block.restitution = static_cast<float>(t.restitution);
+  block.friction = static_cast<float>(t.friction);
+  switch (t.shape) {
+    case TerrainShape::plane:
+    case TerrainShape::tilted_plane:
+      block.shape = SHAPE_PLANE;
+      break;
+    case TerrainShape::sphere:
+      block.shape = SHAPE_SPHERE;
+      break;
+    case TerrainShape::bowl:
+      block.shape = SHAPE_BOWL;
+      break;
+  }
+  return block;
+}
+
+void fill_stages(layout::Simulation& block, const StagedMethod& method, double h) {
+  bool accumulate = false;
+  for (std::size_t s = 0; s < method.stages.size(); ++s) {
+    const Stage& stage = method.stages[s];
+    layout::Stage& row = block.stages[s];
+    row.advance = static_cast<float>(h * stage.advance);
+    row.weight = static_cast<float>(stage.weight);
+    row.accumulate = accumulate ? 1u : 0u;
+    row.last = s + 1 == method.stages.size() ? 1u : 0u;
+    accumulate = accumulate || stage.weight != 0.0;
+  }
+  block.step_scale = static_cast<float>(h / method.divisor);
+  block.position_from_new_velocity = method.position_from_new_velocity ? 1u : 0u;
+}
+
+}  // namespace
+
+std::uint32_t class_bits(const Model& model) {
+  const auto classes = static_cast<std::uint32_t>(model.spring_classes.size());
+  return classes < 2 ? 0u : static_cast<std::uint32_t>(std::bit_width(classes - 1));
+}
+
+Result<layout::Simulation> simulation_block(const Model& model) {
+  const StagedMethod* method = staged_method(model.simulation.integrator);
+  if (!method) {
+    return Error{ErrorCode::scene_rejected, fmt::format("the gpu backend does not have the integrator {} yet",
+                                                        name_of(model.simulation.integrator))};
+  }
+  if (model.spring_classes.size() > MAX_SPRING_CLASSES || model.terrain.size() > MAX_TERRAINS) {
+    return Error{
+        ErrorCode::scene_rejected,
+        fmt::format("the scene has {} kinds of springs and {} terrains; the gpu backend holds {} and {}: "
+                    "use --backend reference, or fewer bodies and terrains",
+                    model.spring_classes.size(), model.terrain.size(), MAX_SPRING_CLASSES, MAX_TERRAINS)};
+  }
+  layout::Simulation block{};
+  block.gravity = rounded(model.simulation.gravity, 0.0);
+  block.epsilon = static_cast<float>(model.contact.epsilon);
+  block.resting_speed = static_cast<float>(resting_speed(model));
+  block.divergence_speed_squared = static_cast<float>(divergence_speed * divergence_speed);
+  block.particle_count = model.particle_count();
+  block.spring_count = static_cast<std::uint32_t>(model.springs.size());
+  block.terrain_count = static_cast<std::uint32_t>(model.terrain.size());
+  block.contact_model = model.contact.model == ContactModel::coulomb ? CONTACT_COULOMB : CONTACT_COURSE;
+  block.class_bits = class_bits(model);
+  fill_stages(block, *method, model.simulation.timestep);
+  for (std::size_t c = 0; c < model.spring_classes.size(); ++c) {
+    const SpringClass& s = model.spring_classes[c];
+    block.spring_classes[c] = {static_cast<float>(s.stiffness), static_cast<float>(s.damping),
+                               static_cast<float>(s.rest_length), s.cord ? 1u : 0u};
+  }
+  for (std::size_t t = 0; t < model.terrain.size(); ++t) block.terrains[t] = block_of(model.terrain[t]);
+  return block;
+}
+
+}  // namespace aspic

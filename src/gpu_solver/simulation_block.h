@@ -1,0 +1,16 @@
+#pragma once
+// The uniform block every kernel reads: a Model's constants rounded to single precision.
+#include "base/result.h"
+#include "gpu_solver/layout.h"
+#include "model/model.h"
+
+namespace aspic {
+
+/// Fills the block. Errors (scene_rejected): an integrator that is not staged, more spring classes or
+/// terrains than the block holds.
+Result<layout::Simulation> simulation_block(const Model& model);
+
+/// Low bits of a gather word that hold the spring class: enough for all classes of the model.
+std::uint32_t class_bits(const Model& model);
+
+}  // namespace aspic
