@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds Release and runs aspic with the arguments given here. Without arguments: the window,
+# where there is a display and a window to open, else cube-plane simulated headless into out/.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+caller=$PWD
+aspic_install run
+aspic_build aspic
+aspic=$aspic_build_dir/src/aspic
+cd "$caller"
+
+if [ $# -gt 0 ]; then
+  exec "$aspic" "$@"
+fi
+out=$aspic_root/out
+mkdir -p "$out"
+exec "$aspic" run cube-plane --state "$out/cube-plane-state.csv" --series "$out/cube-plane.csv" --every 10 --force

@@ -1,0 +1,46 @@
+# Sourced by run.sh and test.sh: installs what is missing and builds Release. Everything it says goes to stderr.
+# Usage: source scripts/setup.sh; aspic_install run|all; aspic_build [ninja target …]
+
+aspic_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+aspic_build_dir=$aspic_root/build/release
+
+# aspic_packages run|all: names from packages.txt.
+aspic_packages() {
+  awk -v who="$1" '!/^#/ && NF >= 2 && ($2 == "run" || who == "all") { print $1 }' "$aspic_root/scripts/packages.txt"
+}
+
+aspic_install() {
+  local wanted missing package
+  mapfile -t wanted < <(aspic_packages "$1")
+  # dpkg-query prints nothing for a package it has never heard of: what is not listed as installed is missing.
+  missing=$(comm -23 <(printf '%s\n' "${wanted[@]}" | sort -u) \
+    <(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' "${wanted[@]}" 2>/dev/null | awk '$1 == "ii" { print $2 }' | sort -u))
+  [ -z "$missing" ] && return 0
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      printf 'Missing Debian packages, and neither root nor sudo to install them. As root, run:\n  apt-get install %s\n' \
+        "$(tr '\n' ' ' <<<"$missing")" >&2
+      return 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "Installing Debian packages: $(tr '\n' ' ' <<<"$missing")" >&2
+  mapfile -t package <<<"$missing"
+  {
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q &&
+      "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${package[@]}"
+  } >&2
+}
+
+# Ninja configures again by itself when a CMake file changed.
+aspic_build() {
+  cd "$aspic_root" || return 1
+  if [ ! -f "$aspic_build_dir/build.ninja" ]; then
+    cmake --preset release >&2 || return 1
+  fi
+  if ! ninja -C "$aspic_build_dir" --quiet "$@" >&2; then
+    echo "The build failed; the compiler's messages stand above." >&2
+    return 1
+  fi
+}

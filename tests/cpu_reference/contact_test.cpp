@@ -1,0 +1,119 @@
+#include "cpu_reference/contact.h"
+
+#include <gtest/gtest.h>
+
+#include "model/terrain.h"
+
+namespace aspic::reference {
+namespace {
+
+using V = Vector<double>;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+Ground<double> plane(double e = 0.5, double mu = 0.25, double mass = infinite) {
+  Terrain t;
+  t.restitution = e;
+  t.friction = mu;
+  t.mass = mass;
+  return Ground<double>(t);
+}
+
+Ground<double> round(TerrainShape shape) {
+  TerrainSettings settings;
+  settings.shape = shape;
+  settings.centre = Vec3{1.0, 2.0, 3.0};
+  settings.radius = 2.0;
+  return Ground<double>(make_terrain(settings, ContactSettings{}));
+}
+
+TEST(Gap, PlaneSphereAndBowl) {
+  const auto flat = gap<double>(plane(), {5, -0.25, 7});
+  EXPECT_EQ(flat.d, -0.25);
+  EXPECT_EQ(flat.n, V(0, 1, 0));
+  const auto ball = gap<double>(round(TerrainShape::sphere), {1, 2, 6});
+  EXPECT_EQ(ball.d, 1.0);
+  EXPECT_EQ(ball.n, V(0, 0, 1));
+  const auto bowl = gap<double>(round(TerrainShape::bowl), {1, 0.5, 3});
+  EXPECT_EQ(bowl.d, 0.5);
+  EXPECT_EQ(bowl.n, V(0, 1, 0));
+}
+
+TEST(Gap, AtACentreTheNormalPointsUp) {
+  for (const TerrainShape shape : {TerrainShape::sphere, TerrainShape::bowl}) {
+    const auto centre = gap<double>(round(shape), {1, 2, 3});
+    EXPECT_EQ(centre.n, V(0, 1, 0));
+    EXPECT_EQ(centre.d, shape == TerrainShape::bowl ? 2.0 : -2.0);
+  }
+}
+
+TEST(BounceSpeed, FixedAndMovableTerrain) {
+  EXPECT_EQ(bounce_speed<double>(plane(0.5), 1.0, -4.0), 2.0);
+  // The slide's sphere: e = 1, M = 10, m = 1 gives −9/11·u.
+  EXPECT_DOUBLE_EQ(bounce_speed<double>(plane(1.0, 0.0, 10.0), 1.0, -11.0), 9.0);
+  // A heavy particle on a light terrain would go on downwards: B is never negative.
+  EXPECT_EQ(bounce_speed<double>(plane(0.1, 0.0, 1.0), 5.0, -3.0), 0.0);
+}
+
+struct Particle {
+  V x, v;
+};
+Particle coulomb(const Ground<double>& ground, const V& x0, const V& v0, V x, V v) {
+  respond_coulomb<double>(ground, {0.01, 0.02}, 1.0, x0, v0, x, v);
+  return {x, v};
+}
+
+TEST(Coulomb, ImpactBouncesAndRubs) {
+  const auto [x, v] = coulomb(plane(), {0, 0.1, 0}, {3, -4, 0}, {0, -0.05, 0}, {3, -4, 0});
+  EXPECT_EQ(x, V(0, 0, 0));                   // projected
+  EXPECT_EQ(v, V(3 - 0.25 * (2 + 4), 2, 0));  // Δu = 6, friction takes μΔu off the tangential speed
+}
+
+TEST(Coulomb, FrictionNeverTurnsTheSlipAround) {
+  const auto [x, v] = coulomb(plane(), {0, 0.1, 0}, {1, -4, 0}, {0, 0, 0}, {1, -4, 0});
+  EXPECT_EQ(v, V(0, 2, 0));
+}
+
+TEST(Coulomb, SlowApproachComesToRestWhereItWas) {
+  const V start(0.5, 0.001, 0);
+  const auto [x, v] = coulomb(plane(), start, {0, -0.015, 0}, {0.5, -0.002, 0}, {1e-4, -0.03, 0});
+  EXPECT_EQ(x, start);
+  EXPECT_EQ(v, V(0, 0, 0));
+}
+
+TEST(Coulomb, OneHeldBelowTheSurfaceIsLifted) {
+  const auto [x, v] = coulomb(plane(), {0, -0.5, 0}, {0, 0, 0}, {0, -0.6, 0}, {0, -0.01, 0});
+  EXPECT_EQ(x, V(0, 0, 0));
+}
+
+TEST(Coulomb, LeavingParticleIsOnlyProjected) {
+  const auto [x, v] = coulomb(plane(), {0, -1, 0}, {2, 5, 0}, {0, -0.5, 0}, {2, 5, 0});
+  EXPECT_EQ(x, V(0, 0, 0));
+  EXPECT_EQ(v, V(2, 5, 0));
+}
+
+TEST(Coulomb, NothingTunnels) {
+  const auto [x, v] = coulomb(plane(), {0, 10, 0}, {0, -900, 0}, {0, -50, 0}, {0, -900, 0});
+  EXPECT_EQ(x, V(0, 0, 0));
+  EXPECT_EQ(v, V(0, 450, 0));
+}
+
+TEST(Course, ResponseIsTheAssignmentsFormula) {
+  V v(3, -4, 1);
+  respond_course<double>(plane(), 0.01, 1.0, {0, 0.005, 0}, v);
+  EXPECT_EQ(v, V(3, 2, 1));
+  V far(3, -4, 1);
+  respond_course<double>(plane(), 0.01, 1.0, {0, 0.011, 0}, far);
+  EXPECT_EQ(far, V(3, -4, 1));
+}
+
+TEST(Course, ContactForceResistsAndRubs) {
+  const V f = with_contact_force<double>(plane(), 0.01, {0, 0, 0}, {2, 0.005, 0}, {1, -8, 0});
+  EXPECT_EQ(f, V(1 - 0.25 * 8 * 2, 0, 0));
+  const V pulled = with_contact_force<double>(plane(), 0.01, {0, 0, 0}, {2, 0, 0}, {1, 8, 0});
+  EXPECT_EQ(pulled, V(1, 8, 0));
+  const V fast = with_contact_force<double>(plane(), 0.01, {0, 0, 0}, {2, -0.02, 0}, {1, -8, 0});
+  EXPECT_EQ(fast, V(1, -8, 0));
+}
+
+}  // namespace
+}  // namespace aspic::reference

@@ -1,0 +1,99 @@
+#include "cpu_reference/reference_solver.h"
+
+#include <gtest/gtest.h>
+
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+std::unique_ptr<Solver> solver_for(const Model& model, Precision precision = Precision::single) {
+  auto solver = make_reference_solver(model, precision);
+  EXPECT_TRUE(solver.ok());
+  return std::move(solver).value();
+}
+
+TEST(ReferenceSolver, StartsAtTheModelsState) {
+  const Model model = test::build(test::cube_on_plane(4));
+  for (const Precision precision : {Precision::single, Precision::double_}) {
+    auto solver = solver_for(model, precision);
+    EXPECT_EQ(*solver->state(), initial_state(model, precision));
+  }
+}
+
+TEST(ReferenceSolver, SplittingARunChangesNoBit) {
+  ModelSettings settings = test::cube_on_plane(4, 1.5);
+  settings.cubes[0].rotation = {{1, 2, 3}, 20};
+  const Model model = test::build(settings);
+  auto whole = solver_for(model), split = solver_for(model);
+  ASSERT_FALSE((*whole->advance(700)).has_value());
+  ASSERT_FALSE((*split->advance(123)).has_value());
+  const State middle = *split->state();
+  auto resumed = solver_for(model);
+  ASSERT_TRUE(resumed->load(middle).ok());
+  ASSERT_FALSE((*resumed->advance(577)).has_value());
+  EXPECT_EQ(state_hash(*resumed->state()), state_hash(*whole->state()));
+  EXPECT_EQ(resumed->state()->step, 700u);
+}
+
+TEST(ReferenceSolver, DivergenceKeepsTheLastGoodState) {
+  ModelSettings settings = test::cube_on_plane(4);
+  settings.cubes[0].velocity = {0.1, 0, 0};
+  settings.cubes[0].rotation = {{1, 2, 3}, 20};
+  settings.simulation.timestep = 0.05;
+  const Model model = test::build(settings);
+  auto solver = solver_for(model);
+  const auto divergence = *solver->advance(100000);
+  ASSERT_TRUE(divergence.has_value());
+  const State last = *solver->state();
+  EXPECT_EQ(last.step + 1, divergence->step);
+  for (const Vec3& v : last.velocity) EXPECT_LE(length(v), divergence_speed * (1 + 1e-6));
+  // It stays there, and says the same again.
+  EXPECT_EQ((*solver->advance(10))->step, divergence->step);
+  EXPECT_EQ(*solver->state(), last);
+  // Loading a state clears it.
+  ASSERT_TRUE(solver->load(initial_state(model, Precision::single)).ok());
+  EXPECT_FALSE((*solver->advance(1)).has_value());
+}
+
+TEST(ReferenceSolver, TooFastIsDivergenceAndNamesTheLowestParticle) {
+  const Model model =
+      test::particles({{0, 0, 0}, {5, 0, 0}, {9, 0, 0}}, {{0, 0, 0}, {1001, 0, 0}, {2000, 0, 0}});
+  const auto divergence = *solver_for(model)->advance(1);
+  ASSERT_TRUE(divergence.has_value());
+  EXPECT_EQ(divergence->particle, 1u);
+  EXPECT_EQ(divergence->step, 1u);
+  EXPECT_TRUE(divergence->finite);
+}
+
+TEST(ReferenceSolver, PinnedParticlesStay) {
+  ModelSettings settings = test::cube_on_plane(4, 3.0);
+  settings.cubes[0].pinned.names = {"top"};
+  const Model model = test::build(settings);
+  for (const Integrator integrator : {Integrator::explicit_euler, Integrator::runge_kutta_4}) {
+    Model copy = model;
+    copy.simulation.integrator = integrator;
+    auto solver = solver_for(copy);
+    ASSERT_FALSE((*solver->advance(500)).has_value());
+    const State start = initial_state(copy, Precision::single), end = *solver->state();
+    for (std::uint32_t i = 0; i < copy.particle_count(); ++i) {
+      if (copy.inverse_mass[i] == 0.0) {
+        EXPECT_EQ(end.position[i], start.position[i]);
+        EXPECT_EQ(end.velocity[i], Vec3{});
+      } else {
+        EXPECT_NE(end.position[i], start.position[i]);
+      }
+    }
+  }
+}
+
+TEST(ReferenceSolver, RefusesAnotherScenesStateAndUnbuiltIntegrators) {
+  Model model = test::build(test::cube_on_plane(4));
+  auto solver = solver_for(model);
+  EXPECT_EQ(solver->load(State{}).error().code, ErrorCode::usage);
+  model.simulation.integrator = Integrator::implicit_euler;
+  EXPECT_EQ(make_reference_solver(model, Precision::single).error().code, ErrorCode::scene_rejected);
+}
+
+}  // namespace
+}  // namespace aspic

@@ -1,0 +1,38 @@
+#pragma once
+// Models for tests, in one line each.
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "model/model.h"
+
+namespace aspic::test {
+
+/// The settings of a cube on the default plane: n per edge, edge 4 m, the spec's springs, centre at `height`.
+inline ModelSettings cube_on_plane(int particles_per_edge, double height = 9.0) {
+  ModelSettings settings;
+  CubeSettings cube;
+  cube.particles_per_edge = particles_per_edge;
+  cube.position = {0.0, height, 0.0};
+  settings.cubes.push_back(cube);
+  settings.terrain.push_back(TerrainSettings{});
+  return settings;
+}
+
+inline Model build(const ModelSettings& settings) {
+  auto model = build_model(settings);
+  EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().message);
+  return std::move(model).value();
+}
+
+/// A model of loose particles without springs or terrain, for hand-made cases.
+inline Model particles(std::vector<Vec3> positions, std::vector<Vec3> velocities, double mass = 1.0) {
+  Model model;
+  model.initial_position = std::move(positions);
+  model.initial_velocity = std::move(velocities);
+  model.mass.assign(model.initial_position.size(), mass);
+  model.inverse_mass.assign(model.initial_position.size(), 1.0 / mass);
+  return model;
+}
+
+}  // namespace aspic::test
