@@ -1,0 +1,116 @@
+#include "gpu/buffer.h"
+
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+namespace aspic::gl {
+namespace {
+
+// The copy targets belong to no indexed binding point, so that working on a buffer disturbs no pass.
+constexpr GLenum target = GL_COPY_WRITE_BUFFER;
+constexpr GLenum source_target = GL_COPY_READ_BUFFER;
+constexpr std::uint64_t token_bytes = 16;
+
+}  // namespace
+
+Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t bytes, BufferKind kind) {
+  const DeviceLimits& limits = context.info().limits;
+  const bool storage = kind == BufferKind::storage;
+  const std::uint64_t limit =
+      std::min<std::uint64_t>(storage ? limits.storage_block_bytes : limits.uniform_block_bytes,
+                              std::numeric_limits<GLsizeiptr>::max());
+  if (bytes > limit)
+    return Error{
+        ErrorCode::scene_rejected,
+        fmt::format("The {} buffer \"{}\" needs {} ({} bytes), but {} takes blocks of {} ({} bytes) at most. "
+                    "Make the scene smaller, or choose another device or backend.",
+                    storage ? "storage" : "uniform", name, human_bytes(bytes), bytes, context.info().renderer,
+                    human_bytes(limit), limit)};
+
+  // An error from before would be taken for this allocation's; on debug contexts the message was kept.
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  Buffer buffer;
+  buffer.context_ = &context;
+  glGenBuffers(1, &buffer.id_);
+  glBindBuffer(target, buffer.id_);
+  glBufferData(target, static_cast<GLsizeiptr>(std::max(bytes, token_bytes)), nullptr,
+               storage ? GL_DYNAMIC_COPY : GL_DYNAMIC_DRAW);
+  const GLenum error = glGetError();
+  if (error != GL_NO_ERROR)
+    return Error{
+        ErrorCode::scene_rejected,
+        fmt::format("{} has no memory for the {} buffer \"{}\" of {} ({} bytes), with {} held already (GL "
+                    "error 0x{:04x}). Make the scene smaller, or close other programs that use the device.",
+                    context.info().renderer, storage ? "storage" : "uniform", name, human_bytes(bytes), bytes,
+                    human_bytes(context.bytes_held()), error)};
+  if (context.info().debug && !name.empty())
+    glObjectLabel(GL_BUFFER, buffer.id_, static_cast<GLsizei>(name.size()), name.data());
+  buffer.bytes_ = bytes;
+  context.bytes_held_ += bytes;
+  return buffer;
+}
+
+Buffer::~Buffer() {
+  release();
+}
+
+Buffer::Buffer(Buffer&& other) noexcept
+    : context_(std::exchange(other.context_, nullptr)),
+      id_(std::exchange(other.id_, 0)),
+      bytes_(std::exchange(other.bytes_, 0)) {}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  if (this == &other) return *this;
+  release();
+  context_ = std::exchange(other.context_, nullptr);
+  id_ = std::exchange(other.id_, 0);
+  bytes_ = std::exchange(other.bytes_, 0);
+  return *this;
+}
+
+void Buffer::release() {
+  if (!id_) return;
+  glDeleteBuffers(1, &id_);
+  context_->bytes_held_ -= bytes_;
+  id_ = 0;
+}
+
+void Buffer::upload(std::span<const std::byte> data, std::uint64_t offset) {
+  assert(offset <= bytes_ && data.size() <= bytes_ - offset);
+  if (data.empty()) return;
+  glBindBuffer(target, id_);
+  glBufferSubData(target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
+}
+
+void Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
+  assert(offset <= bytes_ && data.size() <= bytes_ - offset);
+  if (data.empty()) return;
+  glBindBuffer(source_target, id_);
+  glGetBufferSubData(source_target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()),
+                     data.data());
+}
+
+void Buffer::clear() {
+  if (bytes_ == 0) return;
+  glBindBuffer(target, id_);
+  glClearBufferData(target, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
+}
+
+void Buffer::copy_from(const Buffer& source, std::uint64_t bytes, std::uint64_t source_offset,
+                       std::uint64_t offset) {
+  assert(source_offset <= source.bytes_ && bytes <= source.bytes_ - source_offset);
+  assert(offset <= bytes_ && bytes <= bytes_ - offset);
+  if (bytes == 0) return;
+  glBindBuffer(source_target, source.id_);
+  glBindBuffer(target, id_);
+  glCopyBufferSubData(source_target, target, static_cast<GLintptr>(source_offset),
+                      static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+}
+
+}  // namespace aspic::gl

@@ -1,0 +1,89 @@
+#pragma once
+// A block of device memory for shader storage or uniform blocks.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/result.h"
+#include "gpu/context.h"
+
+namespace aspic::gl {
+
+/// What a buffer is bound as, which decides the limit on its size.
+enum class BufferKind {
+  storage,  ///< shader storage block; also vertices, indirect arguments, copies
+  uniform   ///< uniform block
+};
+
+/// Owns one GL buffer object. Movable, not copyable; its context must outlive it and be current in every
+/// call.
+class Buffer {
+ public:
+  /// An empty handle: id 0, no bytes.
+  Buffer() = default;
+
+  /// Allocates `bytes` of undefined content; 0 is legal (a token allocation is made, so that it can be
+  /// bound). `name` appears in errors and, on debug contexts, in the driver's messages. Error
+  /// (scene_rejected): more than the device's block size, or the device has no memory left; the sentence
+  /// gives the figures. No GL error is left behind.
+  static Result<Buffer> create(Context& context, std::string name, std::uint64_t bytes,
+                               BufferKind kind = BufferKind::storage);
+
+  /// Allocates and fills: the bytes of `items`.
+  template <class T>
+  static Result<Buffer> of(Context& context, std::string name, std::span<const T> items,
+                           BufferKind kind = BufferKind::storage) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    Result<Buffer> made = create(context, std::move(name), items.size_bytes(), kind);
+    if (made) made->upload(std::as_bytes(items));
+    return made;
+  }
+
+  ~Buffer();
+  Buffer(Buffer&& other) noexcept;
+  Buffer& operator=(Buffer&& other) noexcept;
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+
+  /// Writes `data` from byte `offset` on; must lie within bytes().
+  void upload(std::span<const std::byte> data, std::uint64_t offset = 0);
+  /// Reads from byte `offset` on, waiting for the device. What a pass wrote is seen only if that pass, or one
+  /// after it, named Reader::read_back.
+  void download(std::span<std::byte> data, std::uint64_t offset = 0) const;
+  /// Sets every byte to zero, on the device.
+  void clear();
+  /// Copies `bytes` from another buffer, on the device. Passes that wrote `source` need Reader::copy.
+  void copy_from(const Buffer& source, std::uint64_t bytes, std::uint64_t source_offset = 0,
+                 std::uint64_t offset = 0);
+
+  /// upload() of items, from item `first` on.
+  template <class T>
+  void upload_items(std::span<const T> items, std::uint64_t first = 0) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    upload(std::as_bytes(items), first * sizeof(T));
+  }
+  /// download() of `count` items, from item `first` on.
+  template <class T>
+  std::vector<T> download_items(std::uint64_t count, std::uint64_t first = 0) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<T> items(count);
+    download(std::as_writable_bytes(std::span(items)), first * sizeof(T));
+    return items;
+  }
+
+  /// The size asked for [bytes].
+  std::uint64_t bytes() const { return bytes_; }
+  /// The GL name; 0 for an empty handle.
+  std::uint32_t id() const { return id_; }
+
+ private:
+  void release();
+  Context* context_ = nullptr;
+  std::uint32_t id_ = 0;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace aspic::gl

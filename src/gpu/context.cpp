@@ -1,0 +1,95 @@
+#include "gpu/context.h"
+
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include <algorithm>
+
+namespace aspic::gl {
+namespace {
+
+constexpr std::size_t max_messages = 256;
+
+Severity severity_of(GLenum severity) {
+  switch (severity) {
+    case GL_DEBUG_SEVERITY_HIGH:
+      return Severity::high;
+    case GL_DEBUG_SEVERITY_MEDIUM:
+      return Severity::medium;
+    case GL_DEBUG_SEVERITY_LOW:
+      return Severity::low;
+    default:
+      return Severity::notification;
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Context>> Context::adopt_current(Loader loader) {
+  const int version = gladLoadGL(loader);
+  if (version == 0)
+    return Error{
+        ErrorCode::no_device,
+        "No OpenGL context is current on this thread, so there is none to use. Make the window's context "
+        "current first."};
+  if (version < GLAD_MAKE_VERSION(4, 3))
+    return Error{
+        ErrorCode::no_device,
+        fmt::format("The window's context is OpenGL {}.{} ({}), but 4.3 core is needed for compute shaders. "
+                    "Install a newer driver, or use --backend cpu.",
+                    GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version),
+                    reinterpret_cast<const char*>(glGetString(GL_RENDERER)))};
+  std::unique_ptr<Context> context(new Context);
+  context->start("window");
+  return context;
+}
+
+void Context::start(std::string platform) {
+  info_ = query_device_info();
+  info_.platform = std::move(platform);
+
+  GLint flags = 0;
+  glGetIntegerv(GL_CONTEXT_FLAGS, &flags);
+  info_.debug = (flags & GL_CONTEXT_FLAG_DEBUG_BIT) != 0;
+  if (GLAD_GL_KHR_robustness && glGetGraphicsResetStatus) {
+    GLint strategy = GL_NO_RESET_NOTIFICATION;
+    glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+    info_.robust = strategy == GL_LOSE_CONTEXT_ON_RESET;
+  }
+  if (!info_.debug) return;
+
+  // Synchronous, so that a message arrives within the call that caused it and on its thread.
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  const GLDEBUGPROC forward = [](GLenum, GLenum, GLuint id, GLenum severity, GLsizei length,
+                                 const GLchar* text, const void* user) {
+    const std::size_t size =
+        length >= 0 ? static_cast<std::size_t>(length) : std::char_traits<char>::length(text);
+    static_cast<Context*>(const_cast<void*>(user))
+        ->receive({severity_of(severity), id, std::string(text, size)});
+  };
+  glDebugMessageCallback(forward, this);
+}
+
+void Context::receive(DebugMessage message) {
+  if (message.severity == Severity::high) ++high_severity_count_;
+  if (sink_) sink_(message);
+  if (messages_.size() == max_messages) {
+    const auto lesser =
+        std::ranges::find_if(messages_, [](const auto& m) { return m.severity != Severity::high; });
+    messages_.erase(lesser != messages_.end() ? lesser : messages_.begin());
+  }
+  messages_.push_back(std::move(message));
+}
+
+void Context::clear_messages() {
+  messages_.clear();
+  high_severity_count_ = 0;
+}
+
+bool Context::lost() {
+  if (!lost_ && info_.robust) lost_ = glGetGraphicsResetStatus() != GL_NO_ERROR;
+  return lost_;
+}
+
+}  // namespace aspic::gl

@@ -1,0 +1,117 @@
+#pragma once
+// An OpenGL 4.3 core context: its own through EGL, without a display, or a window's.
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "gpu/device_info.h"
+
+namespace aspic::gl {
+
+/// Which device a headless context takes.
+enum class DeviceChoice {
+  automatic,  ///< hardware before software, then whatever EGL offers
+  hardware,   ///< never a software rasteriser
+  software,   ///< a software rasteriser alone
+  index       ///< ContextOptions::device_index of list_devices()
+};
+
+/// Debug builds ask for debug contexts.
+#ifdef NDEBUG
+inline constexpr bool debug_by_default = false;
+#else
+inline constexpr bool debug_by_default = true;
+#endif
+
+/// How a context is made. The environment variable ASPIC_EGL_DEVICE (automatic, hardware, software,
+/// surfaceless, default, or an index) goes before `device`.
+struct ContextOptions {
+  bool debug = debug_by_default;  ///< collect KHR_debug messages, synchronously
+  bool robust = true;             ///< ask for notice of a lost device; done without where refused
+  DeviceChoice device = DeviceChoice::automatic;  ///< which device
+  int device_index = 0;                           ///< ≥ 0; read only with DeviceChoice::index
+};
+
+/// A device that EGL lists, before any context exists on it.
+struct EglDevice {
+  int index = 0;          ///< its place in EGL's list: what DeviceChoice::index and ASPIC_EGL_DEVICE take
+  std::string name;       ///< renderer, DRM node or vendor, whatever the driver tells
+  bool software = false;  ///< EGL_MESA_device_software
+};
+
+/// Every device of EGL_EXT_device_enumeration, in EGL's order; empty where EGL does not enumerate.
+std::vector<EglDevice> list_devices();
+
+enum class Severity { notification, low, medium, high };
+
+/// One KHR_debug message.
+struct DebugMessage {
+  Severity severity = Severity::notification;
+  std::uint32_t id = 0;
+  std::string text;
+};
+
+/// The address of a GL function, or null: eglGetProcAddress, glfwGetProcAddress.
+using Loader = void (*(*)(const char* name))();
+
+/// A context and what was found out about its device. Buffers, programs and timers made with it must go
+/// before it. One thread at a time; GL calls of the project go to the context that is current. Not movable:
+/// the driver keeps its address for messages.
+class Context {
+ public:
+  /// A context of its own, without a window, current on return.
+  /// Error (no_device): says what was tried, what each attempt answered, and what to install.
+  static Result<std::unique_ptr<Context>> create_headless(const ContextOptions& options = {});
+
+  /// Takes on the context that is current on this thread, a window's say, without owning it. Debug and
+  /// robustness follow from how it was made. Error (no_device): none is current, or it is older than
+  /// OpenGL 4.3.
+  static Result<std::unique_ptr<Context>> adopt_current(Loader loader);
+
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  /// Makes a headless context current on this thread; for an adopted one the window does that, and this is a
+  /// no-op.
+  Status make_current();
+
+  const DeviceInfo& info() const { return info_; }
+
+  /// Polls glGetGraphicsResetStatus; once true it stays true. Always false where the context is not robust.
+  bool lost();
+
+  /// The last KHR_debug messages, oldest first: at most 256, high severity kept in preference. Empty without
+  /// debug.
+  const std::vector<DebugMessage>& messages() const { return messages_; }
+  /// Messages of high severity since the context was made, kept or not.
+  std::uint64_t high_severity_count() const { return high_severity_count_; }
+  void clear_messages();
+  /// Called with every message as it comes; an empty function ends that.
+  void set_message_sink(std::function<void(const DebugMessage&)> sink) { sink_ = std::move(sink); }
+
+  /// Bytes that this context's buffers hold at present.
+  std::uint64_t bytes_held() const { return bytes_held_; }
+
+ private:
+  friend class Buffer;
+  friend class EglContextMaker;
+  Context() = default;
+  void start(std::string platform);
+  void receive(DebugMessage message);
+
+  void* display_ = nullptr;  // EGLDisplay and EGLContext; null for an adopted context
+  void* context_ = nullptr;
+  DeviceInfo info_;
+  bool lost_ = false;
+  std::uint64_t bytes_held_ = 0;
+  std::uint64_t high_severity_count_ = 0;
+  std::vector<DebugMessage> messages_;
+  std::function<void(const DebugMessage&)> sink_;
+};
+
+}  // namespace aspic::gl

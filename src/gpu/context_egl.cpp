@@ -1,0 +1,290 @@
+// Contexts without a display, through EGL.
+#define EGL_NO_X11
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <optional>
+
+#include "gpu/context.h"
+
+namespace aspic::gl {
+namespace {
+
+bool has_extension(const char* list, std::string_view name) {
+  if (!list) return false;
+  const std::string padded = fmt::format(" {} ", list);
+  return padded.find(fmt::format(" {} ", name)) != std::string::npos;
+}
+
+bool client_has(std::string_view name) {
+  return has_extension(eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), name);
+}
+
+template <class F>
+F function(const char* name) {
+  return reinterpret_cast<F>(eglGetProcAddress(name));
+}
+
+std::string egl_error() {
+  const EGLint code = eglGetError();
+  switch (code) {
+    case EGL_SUCCESS:
+      return "no EGL error";
+    case EGL_NOT_INITIALIZED:
+      return "EGL_NOT_INITIALIZED";
+    case EGL_BAD_ACCESS:
+      return "EGL_BAD_ACCESS";
+    case EGL_BAD_ALLOC:
+      return "EGL_BAD_ALLOC";
+    case EGL_BAD_ATTRIBUTE:
+      return "EGL_BAD_ATTRIBUTE";
+    case EGL_BAD_MATCH:
+      return "EGL_BAD_MATCH";
+    case EGL_BAD_CONFIG:
+      return "EGL_BAD_CONFIG";
+    case EGL_BAD_PARAMETER:
+      return "EGL_BAD_PARAMETER";
+    default:
+      return fmt::format("EGL error 0x{:04x}", code);
+  }
+}
+
+std::vector<EGLDeviceEXT> egl_devices() {
+  if (!client_has("EGL_EXT_device_enumeration") && !client_has("EGL_EXT_device_base")) return {};
+  const auto query = function<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+  EGLint count = 0;
+  if (!query || !query(0, nullptr, &count) || count <= 0) return {};
+  std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
+  if (!query(count, devices.data(), &count)) return {};
+  devices.resize(static_cast<std::size_t>(count));
+  return devices;
+}
+
+EglDevice describe_device(int index, EGLDeviceEXT device) {
+  EglDevice result;
+  result.index = index;
+  const auto query = function<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+  const char* extensions = query ? query(device, EGL_EXTENSIONS) : nullptr;
+  result.software = has_extension(extensions, "EGL_MESA_device_software");
+  const auto append = [&](const char* extension, EGLint what) {
+    const char* text = has_extension(extensions, extension) ? query(device, what) : nullptr;
+    if (text) result.name += fmt::format("{}{}", result.name.empty() ? "" : ", ", text);
+  };
+  append("EGL_EXT_device_query_name", EGL_VENDOR);
+  append("EGL_EXT_device_query_name", EGL_RENDERER_EXT);
+  append("EGL_EXT_device_drm", EGL_DRM_DEVICE_FILE_EXT);
+  append("EGL_EXT_device_drm_render_node", EGL_DRM_RENDER_NODE_FILE_EXT);
+  if (result.name.empty()) result.name = result.software ? "software rasteriser" : "unnamed";
+  return result;
+}
+
+enum class Demand { anything, hardware, software };
+
+/// One way to a display.
+struct Candidate {
+  std::string name;
+  EGLenum platform = 0;  // 0: eglGetDisplay
+  void* native = nullptr;
+  Demand demand = Demand::anything;
+};
+
+/// The choice after the environment had its say.
+struct Choice {
+  DeviceChoice device = DeviceChoice::automatic;
+  int index = 0;
+  std::string_view platform;  // "surfaceless" or "default": that alone
+};
+
+Result<Choice> choose(const ContextOptions& options) {
+  Choice choice{options.device, options.device_index, {}};
+  const char* variable = std::getenv("ASPIC_EGL_DEVICE");
+  const std::string_view wish = variable ? variable : "";
+  if (wish.empty()) return choice;
+  const auto index = std::from_chars(wish.data(), wish.data() + wish.size(), choice.index);
+  if (index.ec == std::errc() && index.ptr == wish.data() + wish.size() && choice.index >= 0)
+    choice.device = DeviceChoice::index;
+  else if (wish == "automatic")
+    choice.device = DeviceChoice::automatic;
+  else if (wish == "hardware")
+    choice.device = DeviceChoice::hardware;
+  else if (wish == "software")
+    choice.device = DeviceChoice::software;
+  else if (wish == "surfaceless" || wish == "default")
+    choice.platform = wish;
+  else
+    return Error{
+        ErrorCode::no_device,
+        fmt::format("The environment variable ASPIC_EGL_DEVICE is \"{}\", which names no device. Allowed are "
+                    "automatic, hardware, software, surfaceless, default, or an index of the list that "
+                    "aspic info prints.",
+                    wish)};
+  return choice;
+}
+
+Result<std::vector<Candidate>> candidates(const Choice& choice) {
+  const std::vector<EGLDeviceEXT> devices = egl_devices();
+  std::vector<Candidate> result;
+  const auto add_device = [&](std::size_t i, Demand demand) {
+    result.push_back({fmt::format("EGL device {}", i), EGL_PLATFORM_DEVICE_EXT, devices[i], demand});
+  };
+  if (choice.device == DeviceChoice::index && choice.platform.empty()) {
+    const auto i = static_cast<std::size_t>(choice.index);
+    if (choice.index < 0 || i >= devices.size())
+      return Error{
+          ErrorCode::no_device,
+          fmt::format("EGL device {} was asked for, but EGL lists {} device{}. Choose an index of the list "
+                      "that aspic info prints.",
+                      choice.index, devices.size(), devices.size() == 1 ? "" : "s")};
+    add_device(i, Demand::anything);
+    return result;
+  }
+  Demand general = Demand::anything;
+  if (choice.device == DeviceChoice::hardware) general = Demand::hardware;
+  if (choice.device == DeviceChoice::software) general = Demand::software;
+  if (choice.platform.empty() && client_has("EGL_EXT_platform_device")) {
+    // A hardware node that may not be opened can quietly become a rasteriser: then a later device may still
+    // be real.
+    for (std::size_t i = 0; i < devices.size() && general != Demand::software; ++i)
+      if (!describe_device(static_cast<int>(i), devices[i]).software) add_device(i, Demand::hardware);
+    for (std::size_t i = 0; i < devices.size() && general != Demand::hardware; ++i)
+      if (describe_device(static_cast<int>(i), devices[i]).software) add_device(i, general);
+  }
+  if (choice.platform != "default" && client_has("EGL_MESA_platform_surfaceless"))
+    result.push_back({"EGL surfaceless platform", EGL_PLATFORM_SURFACELESS_MESA, nullptr, general});
+  if (choice.platform != "surfaceless") result.push_back({"EGL default display", 0, nullptr, general});
+  return result;
+}
+
+EGLContext create_context(EGLDisplay display, const ContextOptions& options) {
+  EGLConfig config = EGL_NO_CONFIG_KHR;
+  if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context")) {
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    EGLint count = 0;
+    if (!eglChooseConfig(display, wanted, &config, 1, &count) || count == 0) return EGL_NO_CONTEXT;
+  }
+  // Robustness is a wish: drivers that know nothing of it refuse the attribute.
+  for (const bool robust : {true, false}) {
+    if (robust && !options.robust) continue;
+    std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION,       4,
+                                      EGL_CONTEXT_MINOR_VERSION,       3,
+                                      EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+    if (options.debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+    if (robust)
+      attributes.insert(attributes.end(),
+                        {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
+                         EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+    attributes.push_back(EGL_NONE);
+    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+    if (context != EGL_NO_CONTEXT) return context;
+  }
+  return EGL_NO_CONTEXT;
+}
+
+}  // namespace
+
+std::vector<EglDevice> list_devices() {
+  std::vector<EglDevice> result;
+  for (const EGLDeviceEXT device : egl_devices())
+    result.push_back(describe_device(static_cast<int>(result.size()), device));
+  return result;
+}
+
+/// Walks the candidates and builds the first context that will do.
+class EglContextMaker {
+ public:
+  explicit EglContextMaker(const ContextOptions& options) : options_(options) {}
+
+  /// The context on this candidate; null with the reason in `why`.
+  std::unique_ptr<Context> attempt(const Candidate& candidate, std::string& why) const {
+    const EGLDisplay display = candidate.platform
+                                   ? eglGetPlatformDisplay(candidate.platform, candidate.native, nullptr)
+                                   : eglGetDisplay(EGL_DEFAULT_DISPLAY);
+    // A display is never terminated: EGL hands out the same one to every asker in the process.
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
+      why = fmt::format("cannot be opened ({})", egl_error());
+      return nullptr;
+    }
+    if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
+      why = "cannot work without a window surface";
+      return nullptr;
+    }
+    if (!eglBindAPI(EGL_OPENGL_API)) {
+      why = fmt::format("knows no desktop OpenGL ({})", egl_error());
+      return nullptr;
+    }
+    const EGLContext egl_context = create_context(display, options_);
+    if (egl_context == EGL_NO_CONTEXT) {
+      why = fmt::format("gives no OpenGL 4.3 core context ({})", egl_error());
+      return nullptr;
+    }
+    std::unique_ptr<Context> context(new Context);
+    context->display_ = display;
+    context->context_ = egl_context;
+    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context)) {
+      why = fmt::format("cannot make its context current ({})", egl_error());
+      return nullptr;
+    }
+    if (gladLoadGL(eglGetProcAddress) < GLAD_MAKE_VERSION(4, 3)) {
+      why = "lacks functions of OpenGL 4.3";
+      return nullptr;
+    }
+    const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const bool software = is_software_renderer(renderer);
+    if ((candidate.demand == Demand::hardware && software) ||
+        (candidate.demand == Demand::software && !software)) {
+      why = fmt::format("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
+      return nullptr;
+    }
+    context->start(candidate.name);
+    return context;
+  }
+
+ private:
+  ContextOptions options_;
+};
+
+Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& options) {
+  const Result<Choice> choice = choose(options);
+  if (!choice) return choice.error();
+  const Result<std::vector<Candidate>> ways = candidates(*choice);
+  if (!ways) return ways.error();
+  const EglContextMaker maker(options);
+  std::string tried;
+  for (const Candidate& candidate : *ways) {
+    std::string why;
+    if (auto context = maker.attempt(candidate, why)) return context;
+    tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, why);
+  }
+  return Error{
+      ErrorCode::no_device,
+      fmt::format("No usable OpenGL 4.3 core device was found without a display. Tried: {}. Install the "
+                  "graphics card's OpenGL driver with its EGL part, or Mesa's software rasteriser "
+                  "(apt install libegl1 libegl-mesa0 libgl1-mesa-dri), or use --backend cpu.",
+                  tried.empty() ? "nothing, EGL offers no platform" : tried)};
+}
+
+Status Context::make_current() {
+  if (!context_) return {};
+  if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return {};
+  return Error{
+      ErrorCode::no_device,
+      fmt::format(
+          "The OpenGL context on {} cannot be made current ({}). It may be current on another thread.",
+          info_.platform, egl_error())};
+}
+
+Context::~Context() {
+  if (!context_) {
+    if (info_.debug) glDebugMessageCallback(nullptr, nullptr);
+    return;
+  }
+  if (eglGetCurrentContext() == context_)
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  eglDestroyContext(display_, context_);
+}
+
+}  // namespace aspic::gl

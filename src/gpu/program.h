@@ -1,0 +1,80 @@
+#pragma once
+// A compute program: compiled, linked, checked and asked about its blocks.
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+#include "gpu/context.h"
+#include "gpu/shader_source.h"
+
+namespace aspic::gl {
+
+/// What OpenGL 4.3 guarantees to a compute shader; no kernel of the project uses more.
+inline constexpr int max_storage_blocks = 8;
+
+/// Owns one linked compute program. Movable; its context must outlive it and be current.
+class Program {
+ public:
+  /// An empty handle: id 0.
+  Program() = default;
+
+  /// Compiles and links the compute shader `path` of the library.
+  /// Errors: io (file or include missing), no_device (the driver refuses it: the log in our files and lines;
+  /// or it has more than max_storage_blocks active storage blocks, named).
+  static Result<Program> compute(Context& context, const ShaderLibrary& library, std::string_view path,
+                                 std::span<const Define> defines = {});
+
+  ~Program();
+  Program(Program&& other) noexcept;
+  Program& operator=(Program&& other) noexcept;
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  /// Set the uniform at an explicit `layout(location = …)`; no need for the program to be in use.
+  void set(int location, std::uint32_t value) const;
+  void set(int location, std::int32_t value) const;
+  void set(int location, float value) const;
+  void set(int location, const std::array<float, 3>& value) const;
+
+  std::uint32_t id() const { return id_; }
+  /// The path it was compiled from.
+  const std::string& path() const { return path_; }
+  /// Invocations per group along x, y, z, as its layout says.
+  const std::array<std::uint32_t, 3>& group_size() const { return group_size_; }
+  /// Active storage blocks.
+  int storage_block_count() const { return storage_blocks_; }
+
+  // Reflection, for the layout tests. Names as glGetProgramResourceIndex has them; nothing for an inactive
+  // name.
+
+  std::optional<int> storage_block_binding(std::string_view block) const;
+  std::optional<int> uniform_block_binding(std::string_view block) const;
+  /// Least bytes a buffer bound to the block must have; an unsized array counts one element.
+  std::optional<int> storage_block_data_size(std::string_view block) const;
+  std::optional<int> uniform_block_data_size(std::string_view block) const;
+  /// Offset of a member of a storage block, e.g. "Block.items[0].velocity" [bytes].
+  std::optional<int> buffer_variable_offset(std::string_view name) const;
+  /// Stride of an array of basic type, e.g. "Block.values[0]"; 0 for what is no array [bytes].
+  std::optional<int> buffer_variable_array_stride(std::string_view name) const;
+  /// Stride of the outermost array that the member lies in, e.g. of structs [bytes].
+  std::optional<int> buffer_variable_top_level_stride(std::string_view name) const;
+  /// Offset of a member of a uniform block, e.g. "Block.classes[0].stiffness" [bytes].
+  std::optional<int> uniform_offset(std::string_view name) const;
+  std::optional<int> uniform_array_stride(std::string_view name) const;
+  /// Location of a uniform outside blocks.
+  std::optional<int> uniform_location(std::string_view name) const;
+
+ private:
+  std::optional<int> property(std::uint32_t interface, std::string_view name, std::uint32_t property) const;
+  void release();
+  std::uint32_t id_ = 0;
+  std::string path_;
+  std::array<std::uint32_t, 3> group_size_ = {};
+  int storage_blocks_ = 0;
+};
+
+}  // namespace aspic::gl

@@ -1,0 +1,111 @@
+// Compile logs, brought back to our files and lines.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "gpu/shader_source.h"
+
+namespace aspic::gl {
+namespace {
+
+/// One message of a driver's log.
+struct Message {
+  int line = 0;
+  int column = 0;  // 0: unknown
+  std::string text;
+};
+
+/// Eats a run of digits.
+std::optional<int> number(std::string_view& text) {
+  int value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc() || value < 0) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(result.ptr - text.data()));
+  return value;
+}
+
+bool eat(std::string_view& text, std::string_view token) {
+  if (!text.starts_with(token)) return false;
+  text.remove_prefix(token.size());
+  return true;
+}
+
+void eat_blanks(std::string_view& text) {
+  while (eat(text, " ") || eat(text, "\t")) {
+  }
+}
+
+/// Mesa "0:12(5): error: …", NVIDIA "0(12) : error C1008: …", AMD and Intel "ERROR: 0:12: …".
+std::optional<Message> parse(std::string_view line) {
+  Message message;
+  std::string_view prefix;
+  for (const std::string_view word : {"ERROR: ", "WARNING: "})
+    if (eat(line, word)) prefix = word == "ERROR: " ? "error: " : "warning: ";
+  if (!number(line)) return std::nullopt;
+  if (eat(line, ":")) {
+    const auto row = number(line);
+    if (!row) return std::nullopt;
+    message.line = *row;
+    if (eat(line, "(")) {
+      const auto column = number(line);
+      if (!column || !eat(line, ")")) return std::nullopt;
+      message.column = *column;
+    }
+  } else if (eat(line, "(")) {
+    const auto row = number(line);
+    if (!row || !eat(line, ")")) return std::nullopt;
+    message.line = *row;
+  } else {
+    return std::nullopt;
+  }
+  eat_blanks(line);
+  if (!eat(line, ":")) return std::nullopt;
+  eat_blanks(line);
+  message.text = fmt::format("{}{}", prefix, line);
+  return message;
+}
+
+}  // namespace
+
+FlatShader::Origin FlatShader::origin(int line) const {
+  if (line < 1 || static_cast<std::size_t>(line) > lines_.size()) return {"defines", 0};
+  const Mapped& mapped = lines_[static_cast<std::size_t>(line) - 1];
+  if (mapped.file < 0) return {"defines", mapped.line};
+  return {files_[static_cast<std::size_t>(mapped.file)], mapped.line};
+}
+
+std::string_view FlatShader::line_text(int line) const {
+  std::string_view rest = text_;
+  for (int i = 1; i < line && !rest.empty(); ++i)
+    rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
+  return rest.substr(0, rest.find('\n'));
+}
+
+std::string FlatShader::rewrite_log(std::string_view log) const {
+  std::string result;
+  while (!log.empty()) {
+    const auto end = std::min(log.find('\n'), log.size());
+    std::string_view line = log.substr(0, end);
+    log.remove_prefix(std::min(end + 1, log.size()));
+    if (line.ends_with('\r') || line.ends_with('\0')) line.remove_suffix(1);
+    if (line.empty()) continue;
+    const auto message = parse(line);
+    const Origin from = message ? origin(message->line) : Origin{};
+    if (!message || from.line == 0) {
+      result += fmt::format("{}\n", line);
+      continue;
+    }
+    const std::string_view source = line_text(message->line);
+    result += fmt::format("{}:{}: {}\n  {}\n", from.file, from.line, message->text, source);
+    if (message->column < 1 || static_cast<std::size_t>(message->column) > source.size() + 1) continue;
+    std::string indent(source.substr(0, static_cast<std::size_t>(message->column) - 1));
+    std::ranges::replace_if(
+        indent, [](char c) { return c != '\t'; }, ' ');
+    result += fmt::format("  {}^\n", indent);
+  }
+  return result;
+}
+
+}  // namespace aspic::gl

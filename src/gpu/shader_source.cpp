@@ -1,0 +1,146 @@
+#include "gpu/shader_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+namespace aspic::gl {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// What follows `# word` on a line that starts with that directive.
+std::optional<std::string_view> directive(std::string_view line, std::string_view word) {
+  line = trimmed(line);
+  if (!line.starts_with('#')) return std::nullopt;
+  line = trimmed(line.substr(1));
+  if (!line.starts_with(word)) return std::nullopt;
+  const std::string_view rest = line.substr(word.size());
+  if (!rest.empty() && (std::isalnum(static_cast<unsigned char>(rest.front())) || rest.front() == '_'))
+    return std::nullopt;
+  return trimmed(rest);
+}
+
+/// The path of an include line, or nothing where it is not one path in double quotes.
+std::optional<std::string> quoted(std::string_view text) {
+  if (!text.starts_with('"')) return std::nullopt;
+  const auto close = text.find('"', 1);
+  if (close == std::string_view::npos || close == 1) return std::nullopt;
+  const std::string_view rest = trimmed(text.substr(close + 1));
+  if (!rest.empty() && !rest.starts_with("//")) return std::nullopt;
+  return std::string(text.substr(1, close - 1));
+}
+
+}  // namespace
+
+/// A flattening under way: the shader so far, and the files that lead to the present one.
+struct ShaderLibrary::Flattening {
+  struct Open {
+    int file;
+    int line;
+  };
+  FlatShader shader;
+  std::vector<Open> open;
+
+  std::string chain() const {
+    std::string text;
+    for (const Open& o : open)
+      text += fmt::format("{}{}:{}", text.empty() ? "" : " → ",
+                          shader.files_[static_cast<std::size_t>(o.file)], o.line);
+    return text;
+  }
+  void put(int file, int line, std::string_view text) {
+    shader.text_ += text;
+    shader.text_ += '\n';
+    shader.lines_.push_back({file, line});
+  }
+};
+
+Result<std::string> ShaderLibrary::read(std::string_view path) const {
+  if (!directory_.empty()) {
+    const std::filesystem::path file = directory_ / std::filesystem::path(path);
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored)) {
+      std::ifstream stream(file, std::ios::binary);
+      std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+      if (!stream.is_open() || stream.bad())
+        return Error{ErrorCode::io, fmt::format("The shader file {} cannot be read.", file.string())};
+      return text;
+    }
+  }
+  const auto files = embedded_shaders();
+  const auto found = std::ranges::find(files, path, &EmbeddedShader::path);
+  if (found != files.end()) return std::string(found->text);
+  return Error{
+      ErrorCode::io,
+      fmt::format("There is no shader file \"{}\"{}. Paths are relative to shaders/.", path,
+                  directory_.empty() ? " in the program"
+                                     : fmt::format(" in {} or in the program", directory_.string()))};
+}
+
+Result<FlatShader> ShaderLibrary::flatten(std::string_view path, std::span<const Define> defines) const {
+  Flattening work;
+  work.put(-1, 1, "#version 430 core");
+  int line = 2;
+  for (const Define& d : defines) work.put(-1, line++, fmt::format("#define {} {}", d.name, d.value));
+  const Status status = append(work, std::string(path));
+  if (!status) return status.error();
+  return std::move(work.shader);
+}
+
+Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
+  const auto where = [&] { return work.open.empty() ? std::string() : work.chain() + ": "; };
+  auto& files = work.shader.files_;
+  const auto seen = std::ranges::find(files, path);
+  if (seen != files.end()) {
+    const int file = static_cast<int>(seen - files.begin());
+    if (std::ranges::any_of(work.open, [&](const auto& o) { return o.file == file; }))
+      return Error{ErrorCode::io,
+                   fmt::format("{}the include of \"{}\" closes a cycle. Remove one of these includes.",
+                               where(), path)};
+    return {};
+  }
+  const Result<std::string> text = read(path);
+  if (!text) return Error{text.error().code, where() + text.error().message};
+
+  const int file = static_cast<int>(files.size());
+  files.push_back(path);
+  work.open.push_back({file, 0});
+  std::string_view rest = *text;
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find('\n'), rest.size());
+    std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const int number = ++work.open.back().line;
+    if (directive(line, "version"))
+      return Error{
+          ErrorCode::io,
+          fmt::format("{}: #version is put in front of every shader by the program. Remove the line.",
+                      work.chain())};
+    const auto include = directive(line, "include");
+    if (!include) {
+      work.put(file, number, line);
+      continue;
+    }
+    const auto target = quoted(*include);
+    if (!target)
+      return Error{ErrorCode::io,
+                   fmt::format("{}: an include is written #include \"folder/file.glsl\", with a path "
+                               "relative to shaders/.",
+                               work.chain())};
+    const Status status = append(work, *target);
+    if (!status) return status;
+  }
+  work.open.pop_back();
+  return {};
+}
+
+}  // namespace aspic::gl
