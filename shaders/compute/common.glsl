@@ -9,13 +9,13 @@ layout(location = LOCATION_STAGE) uniform uint stage_index;
 layout(std430, binding = BINDING_CONTROL) restrict buffer ControlBlock { Control control; };
 
 // (aₓbₓ + a_y b_y) + a_z b_z
-precise float dot3(vec3 a, vec3 b) {
+float dot3(vec3 a, vec3 b) {
   precise float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
   return sum;
 }
 
 // √((aₓ² + a_y²) + a_z²)
-precise float norm3(vec3 a) {
+float norm3(vec3 a) {
   precise float root = exact_sqrt(dot3(a, a));
   return root;
 }

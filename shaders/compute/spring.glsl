@@ -2,7 +2,7 @@
 //   e = x_a − x_b,  L = |e|,  q = 1/L,  s = k(L − r) + c(((v_a − v_b)·e)·q),  f = −((s·q)·e)
 // xyz: force [N], w: s [N]. A spring of no length and a cord that hangs slack pull nowhere. Exchanging the ends
 // negates e and v_a − v_b exactly, so the force is exactly opposite and either end may evaluate it.
-precise vec4 spring_force(SpringClass spring, vec3 x_a, vec3 v_a, vec3 x_b, vec3 v_b) {
+vec4 spring_force(SpringClass spring, vec3 x_a, vec3 v_a, vec3 x_b, vec3 v_b) {
   precise vec3 e = x_a - x_b;
   precise vec3 v = v_a - v_b;
   precise float L = norm3(e);

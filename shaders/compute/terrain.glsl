@@ -1,9 +1,12 @@
 // Terrain and contact of spec §2.4 and §2.5.
 
 // xyz: unit normal towards the free side; w: signed distance [m], positive on the free side.
-precise vec4 gap(uint t, vec3 x) {
+vec4 gap(uint t, vec3 x) {
   precise vec3 e = x - terrains[t].point.xyz;
-  if (terrains[t].shape == SHAPE_PLANE) return vec4(terrains[t].normal.xyz, dot3(terrains[t].normal.xyz, e));
+  if (terrains[t].shape == SHAPE_PLANE) {
+    precise float height = dot3(terrains[t].normal.xyz, e);
+    return vec4(terrains[t].normal.xyz, height);
+  }
   precise float L = norm3(e);
   bool bowl = terrains[t].shape == SHAPE_BOWL;
   precise float d = bowl ? terrains[t].point.w - L : L - terrains[t].point.w;
@@ -14,7 +17,7 @@ precise vec4 gap(uint t, vec3 x) {
 }
 
 // B(u) = max(0, (m − e·M)/(m + M)·u), −e·u for M = ∞
-precise float bounce_speed(uint t, float m, float u) {
+float bounce_speed(uint t, float m, float u) {
   precise float factor = -terrains[t].restitution;
   if (terrains[t].movable != 0u) {
     precise float M = terrains[t].mass;
@@ -25,7 +28,7 @@ precise float bounce_speed(uint t, float m, float u) {
 }
 
 // The course model's contact force: f [N] after gravity and springs, resisted and rubbed by every terrain.
-precise vec3 with_contact_force(vec3 x, vec3 v, vec3 f_in) {
+vec3 with_contact_force(vec3 x, vec3 v, vec3 f_in) {
   precise vec3 f = f_in;
   for (uint t = 0u; t < terrain_count; ++t) {
     precise vec4 g = gap(t, x);
