@@ -33,14 +33,14 @@ bool keeps_sums(const StagedMethod& method) {
 
 class ComputeSolver final : public GpuSolver {
  public:
-  ComputeSolver(std::shared_ptr<gl::Context> context, const Model& model, ForcePath path)
-      : context_(std::move(context)), model_(model), path_(path) {}
+  ComputeSolver(gl::Context& context, const Model& model, ForcePath path)
+      : context_(context), model_(model), path_(path) {}
 
   Status build(const GpuOptions& options);
 
   std::string_view backend() const override { return "gpu"; }
   std::string description() const override {
-    return fmt::format("gpu, {}, force path {}, single precision", context_->info().renderer, name_of(path_));
+    return fmt::format("gpu, {}, force path {}, single precision", context_.info().renderer, name_of(path_));
   }
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return model_; }
@@ -59,7 +59,7 @@ class ComputeSolver final : public GpuSolver {
   Result<layout::Control> read_control();
   Status check_device();
 
-  std::shared_ptr<gl::Context> context_;
+  gl::Context& context_;
   const Model& model_;
   const ForcePath path_;
   std::uint32_t stages_ = 0;
@@ -78,10 +78,10 @@ class ComputeSolver final : public GpuSolver {
 };
 
 Status ComputeSolver::build(const GpuOptions& options) {
-  const std::uint64_t held_before = context_->bytes_held();
+  const std::uint64_t held_before = context_.bytes_held();
   if (const Status made = build_buffers(); !made) return made;
   if (const Status made = build_passes(options); !made) return made;
-  bytes_ = context_->bytes_held() - held_before;
+  bytes_ = context_.bytes_held() - held_before;
   return load(initial_state(model_, Precision::single));
 }
 
@@ -99,15 +99,15 @@ Status ComputeSolver::build_buffers() {
   if (!block) return block.error();
   stages_ = static_cast<std::uint32_t>(method->stages.size());
 
-  gl::Context& context = *context_;
   const std::uint64_t state_bytes = std::uint64_t{model_.particle_count()} * sizeof(layout::Particle);
   for (Buffer& state : states_)
-    ASPIC_ASSIGN_OR_RETURN(state, Buffer::create(context, "particle state", state_bytes));
-  ASPIC_ASSIGN_OR_RETURN(sums_, Buffer::create(context, "stage sums", keeps_sums(*method) ? state_bytes : 0));
+    ASPIC_ASSIGN_OR_RETURN(state, Buffer::create(context_, "particle state", state_bytes));
+  ASPIC_ASSIGN_OR_RETURN(sums_,
+                         Buffer::create(context_, "stage sums", keeps_sums(*method) ? state_bytes : 0));
   ASPIC_ASSIGN_OR_RETURN(
-      simulation_, Buffer::of(context, "simulation constants",
+      simulation_, Buffer::of(context_, "simulation constants",
                               std::span<const layout::Simulation>(&*block, 1), gl::BufferKind::uniform));
-  ASPIC_ASSIGN_OR_RETURN(control_, Buffer::create(context, "control words", sizeof(layout::Control)));
+  ASPIC_ASSIGN_OR_RETURN(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
 
   IncidentSprings rows;
   if (path_ == ForcePath::gather) {
@@ -116,14 +116,15 @@ Status ComputeSolver::build_buffers() {
     rows = springs_of(model_);
     std::vector<layout::uvec2> springs;
     ASPIC_ASSIGN_OR_RETURN(springs, packed_springs(model_));
-    ASPIC_ASSIGN_OR_RETURN(springs_, Buffer::of(context, "springs", std::span<const layout::uvec2>(springs)));
+    ASPIC_ASSIGN_OR_RETURN(springs_,
+                           Buffer::of(context_, "springs", std::span<const layout::uvec2>(springs)));
     ASPIC_ASSIGN_OR_RETURN(forces_,
-                           Buffer::create(context, "spring forces", springs.size() * sizeof(layout::vec4)));
+                           Buffer::create(context_, "spring forces", springs.size() * sizeof(layout::vec4)));
   }
-  ASPIC_ASSIGN_OR_RETURN(incident_start_, Buffer::of(context, "incident spring rows",
+  ASPIC_ASSIGN_OR_RETURN(incident_start_, Buffer::of(context_, "incident spring rows",
                                                      std::span<const std::uint32_t>(rows.start)));
-  ASPIC_ASSIGN_OR_RETURN(incident_,
-                         Buffer::of(context, "incident springs", std::span<const std::uint32_t>(rows.words)));
+  ASPIC_ASSIGN_OR_RETURN(
+      incident_, Buffer::of(context_, "incident springs", std::span<const std::uint32_t>(rows.words)));
   return {};
 }
 
@@ -134,7 +135,7 @@ Status ComputeSolver::build_passes(const GpuOptions& options) {
   const Binding control = {BINDING_CONTROL, &control_};
   if (path_ == ForcePath::per_spring) {
     ASPIC_ASSIGN_OR_RETURN(force_program_,
-                           gl::Program::compute(*context_, library, "compute/spring_forces.comp", defines));
+                           gl::Program::compute(context_, library, "compute/spring_forces.comp", defines));
     passes_.emplace_back(
         force_program_,
         std::vector<Binding>{
@@ -142,7 +143,7 @@ Status ComputeSolver::build_passes(const GpuOptions& options) {
         Reader::compute_pass);
   }
   const char* kernel = path_ == ForcePath::gather ? "compute/gather.comp" : "compute/sum_springs.comp";
-  ASPIC_ASSIGN_OR_RETURN(particle_program_, gl::Program::compute(*context_, library, kernel, defines));
+  ASPIC_ASSIGN_OR_RETURN(particle_program_, gl::Program::compute(context_, library, kernel, defines));
   std::vector<Binding> bindings = {constants,
                                    control,
                                    {BINDING_STAGE_SUMS, &sums_},
@@ -246,11 +247,11 @@ Result<State> ComputeSolver::state() {
 }
 
 Status ComputeSolver::check_device() {
-  if (!context_->lost()) return {};
+  if (!context_.lost()) return {};
   return Error{ErrorCode::no_device,
                fmt::format("{} was reset or lost; the run ends at its last checkpoint. Run again, or "
                            "choose --backend reference",
-                           context_->info().renderer)};
+                           context_.info().renderer)};
 }
 
 }  // namespace
@@ -269,14 +270,14 @@ std::string_view name_of(ForcePath path) {
   return "";
 }
 
-Result<std::unique_ptr<GpuSolver>> make_gpu_solver(std::shared_ptr<gl::Context> context, const Model& model,
+Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
                                                    const GpuOptions& options) {
   if (options.force_path == ForcePath::lattice) {
     return Error{ErrorCode::scene_rejected,
                  "the force path lattice is not built yet in this version: use gather or per-spring"};
   }
   const ForcePath path = options.force_path == ForcePath::automatic ? ForcePath::gather : options.force_path;
-  auto solver = std::make_unique<ComputeSolver>(std::move(context), model, path);
+  auto solver = std::make_unique<ComputeSolver>(context, model, path);
   if (const Status built = solver->build(options); !built) return built.error();
   return std::unique_ptr<GpuSolver>(std::move(solver));
 }

@@ -40,7 +40,7 @@ class GpuSolver : public Solver {
 /// A gpu solver at the model's initial state. Model and context must outlive it; the context must be current
 /// here and in every call. Errors: scene_rejected (not built yet, or larger than the device's buffers or
 /// index words), no_device (the driver refuses a kernel), io (a shader file cannot be read).
-Result<std::unique_ptr<GpuSolver>> make_gpu_solver(std::shared_ptr<gl::Context> context, const Model& model,
+Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
                                                    const GpuOptions& options = {});
 
 /// Bytes of device memory a solver would hold for a model of these counts.

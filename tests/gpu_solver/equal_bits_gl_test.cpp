@@ -1,0 +1,113 @@
+// The product's first claim: the gpu backend ends with the same bits as the reference in single precision.
+// CMakeLists.txt runs the cells named Five under several thread counts of the driver.
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "cpu_reference/reference_solver.h"
+#include "gpu_solver/gpu_solver.h"
+#include "support/gl_fixture.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+class EqualBits : public aspic::testing::GlTest {
+ protected:
+  static void expect_equal(const ModelSettings& settings, std::uint64_t steps,
+                           std::initializer_list<std::uint32_t> group_sizes) {
+    const Model model = test::build(settings);
+    auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+    ASSERT_FALSE((*reference->advance(steps)).has_value());
+    const State expected = *reference->state();
+    // The run means nothing unless it went through contact: a free fall is known in closed form.
+    double lowest = 1e30;
+    for (const Vec3& v : expected.velocity) lowest = std::min(lowest, v.y);
+    ASSERT_GT(
+        lowest,
+        static_cast<double>(steps) * settings.simulation.timestep * settings.simulation.gravity.y + 1.0);
+    for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+      for (const std::uint32_t group_size : group_sizes) {
+        GpuOptions options;
+        options.force_path = path;
+        options.group_size = group_size;
+        auto solver = make_gpu_solver(context(), model, options);
+        ASSERT_TRUE(solver.ok()) << solver.error().message;
+        ASSERT_FALSE((*(*solver)->advance(steps)).has_value());
+        const State state = *(*solver)->state();
+        EXPECT_EQ(state_hash_text(state), state_hash_text(expected))
+            << name_of(settings.simulation.integrator) << ", " << name_of(settings.contact.model) << ", path "
+            << name_of(path) << ", work group " << group_size;
+        EXPECT_EQ(state, expected);
+      }
+    }
+  }
+
+  /// A tilted cube that touches the plane within the first tenth of the run.
+  static ModelSettings low_cube(int n, Integrator integrator, ContactModel contact) {
+    ModelSettings settings = test::cube_on_plane(n, 1.9);
+    settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
+    settings.cubes[0].velocity = {1.0, -1.0, 0.5};
+    settings.simulation.integrator = integrator;
+    settings.contact.model = contact;
+    return settings;
+  }
+};
+
+constexpr Integrator both_integrators[] = {Integrator::explicit_euler, Integrator::runge_kutta_4};
+constexpr ContactModel both_models[] = {ContactModel::coulomb, ContactModel::course};
+
+TEST_F(EqualBits, Five) {
+  for (const Integrator integrator : both_integrators) {
+    for (const ContactModel contact : both_models)
+      expect_equal(low_cube(5, integrator, contact), 2000, {32, 128});
+  }
+}
+
+TEST_F(EqualBits, FiveOverEveryIntegratorAndTerrain) {
+  for (const Integrator integrator :
+       {Integrator::explicit_euler, Integrator::symplectic_euler, Integrator::midpoint,
+        Integrator::runge_kutta_4, Integrator::implicit_euler_one_pass}) {
+    for (const TerrainShape shape : {TerrainShape::tilted_plane, TerrainShape::sphere, TerrainShape::bowl}) {
+      for (const ContactModel contact : both_models) {
+        ModelSettings settings = low_cube(5, integrator, contact);
+        settings.terrain[0].shape = shape;
+        settings.cubes[0].position = shape == TerrainShape::bowl     ? Vec3{2.3, 5.5, 1.2}
+                                     : shape == TerrainShape::sphere ? Vec3{0.4, 4.9, 0.2}
+                                                                     : Vec3{1.0, 3.2, 0.0};
+        expect_equal(settings, 1000, {64});
+      }
+    }
+  }
+}
+
+TEST_F(EqualBits, FiveWithSeveralTerrainsMaterialAndPinnedCorner) {
+  for (const ContactModel contact : both_models) {
+    ModelSettings settings = low_cube(5, Integrator::symplectic_euler, contact);
+    settings.cubes.push_back(settings.cubes[0]);
+    settings.cubes[1].position = {9.0, 2.0, 0.0};
+    settings.cubes[1].material = MaterialSettings{};
+    settings.cubes[1].pinned.names = {"left-top-front"};
+    TerrainSettings sphere;
+    sphere.shape = TerrainShape::sphere;
+    sphere.mass = 10.0;
+    sphere.restitution = 1.0;
+    settings.terrain.push_back(sphere);
+    settings.terrain.push_back(TerrainSettings{});
+    settings.terrain[2].point = Vec3{-1.0, -1.0, 0.0};
+    settings.terrain[2].normal = Vec3{1.0, 0.2, 0.0};
+    settings.terrain[2].friction = 0.9;
+    expect_equal(settings, 2000, {64});
+  }
+}
+
+TEST_F(EqualBits, TenPerEdge) {
+  expect_equal(low_cube(10, Integrator::runge_kutta_4, ContactModel::coulomb), 2000, {64});
+}
+
+TEST_F(EqualBits, TwentyPerEdge) {
+  expect_equal(low_cube(20, Integrator::explicit_euler, ContactModel::course), 2000, {64});
+}
+
+}  // namespace
+}  // namespace aspic

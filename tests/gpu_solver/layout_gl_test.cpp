@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include "gpu/program.h"
+#include "gpu/shader_source.h"
+#include "gpu_solver/layout.h"
+#include "support/gl_fixture.h"
+
+namespace aspic {
+namespace {
+
+class Layout : public aspic::testing::GlTest {
+ protected:
+  static gl::Program program(const char* path) {
+    auto made = gl::Program::compute(context(), gl::ShaderLibrary(), path);
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
+    return std::move(made).value();
+  }
+};
+
+#define EXPECT_UNIFORM_AT(member) \
+  EXPECT_EQ(p.uniform_offset(#member), static_cast<int>(offsetof(layout::Simulation, member)))
+
+// Members a kernel does not use may be inactive; sum_springs uses all but the spring classes, gather has
+// those.
+TEST_F(Layout, UniformBlockMatchesTheDriver) {
+  const gl::Program p = program("compute/gather.comp");
+  EXPECT_EQ(p.uniform_block_binding("Simulation"), BINDING_SIMULATION);
+  EXPECT_EQ(p.uniform_block_data_size("Simulation"), static_cast<int>(sizeof(layout::Simulation)));
+  EXPECT_UNIFORM_AT(gravity);
+  EXPECT_UNIFORM_AT(epsilon);
+  EXPECT_UNIFORM_AT(resting_speed);
+  EXPECT_UNIFORM_AT(step_scale);
+  EXPECT_UNIFORM_AT(divergence_speed_squared);
+  EXPECT_UNIFORM_AT(particle_count);
+  EXPECT_UNIFORM_AT(terrain_count);
+  EXPECT_UNIFORM_AT(contact_model);
+  EXPECT_UNIFORM_AT(class_bits);
+  EXPECT_UNIFORM_AT(position_from_new_velocity);
+  EXPECT_UNIFORM_AT(stages[0].advance);
+  EXPECT_UNIFORM_AT(stages[0].weight);
+  EXPECT_UNIFORM_AT(stages[0].accumulate);
+  EXPECT_UNIFORM_AT(stages[0].last);
+  EXPECT_UNIFORM_AT(stages[3].last);
+  EXPECT_UNIFORM_AT(spring_classes[0].stiffness);
+  EXPECT_UNIFORM_AT(spring_classes[0].damping);
+  EXPECT_UNIFORM_AT(spring_classes[0].rest_length);
+  EXPECT_UNIFORM_AT(spring_classes[255].cord);
+  EXPECT_UNIFORM_AT(terrains[0].point);
+  EXPECT_UNIFORM_AT(terrains[0].normal);
+  EXPECT_UNIFORM_AT(terrains[0].mass);
+  EXPECT_UNIFORM_AT(terrains[0].restitution);
+  EXPECT_UNIFORM_AT(terrains[0].friction);
+  EXPECT_UNIFORM_AT(terrains[0].movable);
+  EXPECT_UNIFORM_AT(terrains[63].shape);
+}
+
+TEST_F(Layout, StorageBlocksMatchTheDriver) {
+  const gl::Program gather = program("compute/gather.comp");
+  EXPECT_EQ(gather.storage_block_binding("StartState"), BINDING_START_STATE);
+  EXPECT_EQ(gather.storage_block_binding("StageState"), BINDING_STAGE_STATE);
+  EXPECT_EQ(gather.storage_block_binding("OutState"), BINDING_OUT_STATE);
+  EXPECT_EQ(gather.storage_block_binding("StageSums"), BINDING_STAGE_SUMS);
+  EXPECT_EQ(gather.storage_block_binding("IncidentStart"), BINDING_INCIDENT_START);
+  EXPECT_EQ(gather.storage_block_binding("Incident"), BINDING_INCIDENT);
+  EXPECT_EQ(gather.storage_block_binding("ControlBlock"), BINDING_CONTROL);
+  EXPECT_EQ(gather.storage_block_data_size("ControlBlock"), static_cast<int>(sizeof(layout::Control)));
+  EXPECT_EQ(gather.buffer_variable_offset("control.bad_step"),
+            static_cast<int>(offsetof(layout::Control, bad_step)));
+  EXPECT_EQ(gather.buffer_variable_offset("control.bad_particle"),
+            static_cast<int>(offsetof(layout::Control, bad_particle)));
+  for (const char* block : {"start_state", "stage_state", "out_state", "stage_sums"}) {
+    const std::string name(block);
+    EXPECT_EQ(gather.buffer_variable_offset(name + "[0].position"), 0) << name;
+    EXPECT_EQ(gather.buffer_variable_offset(name + "[0].velocity"),
+              static_cast<int>(offsetof(layout::Particle, velocity)))
+        << name;
+    EXPECT_EQ(gather.buffer_variable_top_level_stride(name + "[0].velocity"),
+              static_cast<int>(sizeof(layout::Particle)))
+        << name;
+  }
+  const gl::Program forces = program("compute/spring_forces.comp");
+  EXPECT_EQ(forces.storage_block_binding("Springs"), BINDING_SPRINGS);
+  EXPECT_EQ(forces.buffer_variable_array_stride("springs[0]"), static_cast<int>(sizeof(layout::uvec2)));
+  EXPECT_EQ(forces.storage_block_binding("SpringForces"), BINDING_SPRING_FORCES);
+  EXPECT_EQ(forces.buffer_variable_array_stride("spring_forces[0]"), static_cast<int>(sizeof(layout::vec4)));
+}
+
+TEST_F(Layout, UniformLocationsAndBlockCounts) {
+  for (const char* path : {"compute/gather.comp", "compute/sum_springs.comp"}) {
+    const gl::Program p = program(path);
+    EXPECT_EQ(p.uniform_location("step_index"), LOCATION_STEP);
+    EXPECT_EQ(p.uniform_location("stage_index"), LOCATION_STAGE);
+    EXPECT_LE(p.storage_block_count(), gl::max_storage_blocks);
+  }
+}
+
+}  // namespace
+}  // namespace aspic
