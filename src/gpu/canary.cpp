@@ -1,0 +1,151 @@
+#include "gpu/canary.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+
+#include "gpu/canary_operands.h"
+#include "gpu/pass.h"
+
+namespace aspic::gl {
+namespace {
+
+/// As in shaders/compute/canary.comp.
+struct Outcome {
+  std::uint32_t quotient, reciprocal, root, product, sum, product_sum, fused, unused;
+};
+static_assert(sizeof(Outcome) == 32);
+
+bool denormal(float x) {
+  return std::fpclassify(x) == FP_SUBNORMAL;
+}
+
+/// A float's place on the number line, so that differences count units in the last place.
+std::int64_t place(std::uint32_t bits) {
+  const auto size = static_cast<std::int64_t>(bits & 0x7fffffffu);
+  return (bits >> 31) != 0 ? -size : size;
+}
+
+void judge(OperationCheck& check, const CanaryOperands& o, std::uint32_t got, float expected) {
+  ++check.checked;
+  const auto want = std::bit_cast<std::uint32_t>(expected);
+  if (got == want) return;
+  ++check.wrong;
+  const auto ulps = static_cast<std::uint32_t>(std::abs(place(got) - place(want)));
+  if (check.wrong > 1 && ulps <= check.ulps) return;
+  check.ulps = ulps;
+  check.operands = {o.a, o.b, o.c};
+  check.got = std::bit_cast<float>(got);
+  check.expected = expected;
+}
+
+ArithmeticReport compare(std::span<const CanaryOperands> operands, std::span<const Outcome> outcomes) {
+  ArithmeticReport report;
+  report.quotient.name = "quotients a / b";
+  report.reciprocal.name = "reciprocals 1 / b";
+  report.root.name = "square roots of |a|";
+  report.product.name = "products a b";
+  report.sum.name = "sums a + c";
+  report.product_sum.name = "products with sums a b + c";
+  report.denormals.name = "operations with denormal numbers";
+  report.fma_fused = true;
+  for (std::size_t i = 0; i < operands.size(); ++i) {
+    const CanaryOperands& o = operands[i];
+    const auto file = [&](OperationCheck& check, std::uint32_t got, float expected, bool small) {
+      judge(small || denormal(expected) ? report.denormals : check, o, got, expected);
+    };
+    const bool small_a = denormal(o.a);
+    const bool small_b = denormal(o.b);
+    const bool small_c = denormal(o.c);
+    // A flushing device may lose a product that rounding alone would lift to the least normal number.
+    const float product = o.a * o.b;
+    const bool small_product = small_a || small_b || std::abs(product) <= std::numeric_limits<float>::min();
+    file(report.quotient, outcomes[i].quotient, o.a / o.b, small_a || small_b);
+    file(report.reciprocal, outcomes[i].reciprocal, 1.0f / o.b, small_b);
+    file(report.root, outcomes[i].root, std::sqrt(std::abs(o.a)), small_a);
+    file(report.product, outcomes[i].product, product, small_product);
+    file(report.sum, outcomes[i].sum, o.a + o.c, small_a || small_c);
+    file(report.product_sum, outcomes[i].product_sum, product + o.c, small_product || small_c);
+    const float fused = std::fma(o.a, o.b, o.c);
+    if (!small_product && !small_c && !denormal(fused) &&
+        outcomes[i].fused != std::bit_cast<std::uint32_t>(fused))
+      report.fma_fused = false;
+  }
+  return report;
+}
+
+std::string sentence(const OperationCheck& check, std::string_view remedy) {
+  if (check.exact())
+    return fmt::format("The device's {} are exact: {} of {}.", check.name, check.checked, check.checked);
+  return fmt::format(
+      "The device's {} differ from IEEE 754 in {} of {} cases, at worst by {} units in the last place (a = "
+      "{:.9g}, "
+      "b = {:.9g}, c = {:.9g}: got {:.9g}, expected {:.9g}).{}",
+      check.name, check.wrong, check.checked, check.ulps, check.operands[0], check.operands[1],
+      check.operands[2], check.got, check.expected, remedy);
+}
+
+}  // namespace
+
+Result<ArithmeticReport> measure_arithmetic(Context& context, const ShaderLibrary& library,
+                                            std::span<const Define> defines) {
+  const std::vector<CanaryOperands> operands = canary_operands();
+  std::vector<std::array<std::uint32_t, 4>> words;
+  words.reserve(operands.size());
+  for (const CanaryOperands& o : operands)
+    words.push_back({std::bit_cast<std::uint32_t>(o.a), std::bit_cast<std::uint32_t>(o.b),
+                     std::bit_cast<std::uint32_t>(o.c), 0});
+  const auto program = Program::compute(context, library, "compute/canary.comp", defines);
+  if (!program) return program.error();
+  const auto input =
+      Buffer::of(context, "canary operands", std::span<const std::array<std::uint32_t, 4>>(words));
+  if (!input) return input.error();
+  const auto output = Buffer::create(context, "canary outcomes", operands.size() * sizeof(Outcome));
+  if (!output) return output.error();
+  const auto count = static_cast<std::uint32_t>(operands.size());
+  program->set(0, count);
+  Pass(*program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &*output}}, Reader::read_back)
+      .dispatch_for(count);
+  return compare(operands, output->download_items<Outcome>(count));
+}
+
+Result<Arithmetic> choose_arithmetic(Context& context, const ShaderLibrary& library,
+                                     std::span<const Define> extra) {
+  auto device = measure_arithmetic(context, library, extra);
+  if (!device) return device.error();
+  Arithmetic choice{*device, std::nullopt, {}};
+  if (!device->division_exact()) choice.defines.push_back({"ASPIC_CORRECT_DIV", "1"});
+  if (!device->sqrt_exact()) choice.defines.push_back({"ASPIC_CORRECT_SQRT", "1"});
+  if (choice.defines.empty()) return choice;
+  if (device->fma_fused) choice.defines.push_back({"ASPIC_FUSED_FMA", "1"});
+  std::vector<Define> both(choice.defines);
+  both.insert(both.end(), extra.begin(), extra.end());
+  auto corrected = measure_arithmetic(context, library, both);
+  if (!corrected) return corrected.error();
+  choice.corrected = *corrected;
+  return choice;
+}
+
+std::vector<std::string> Arithmetic::sentences() const {
+  const auto remedy = [&](bool mended) {
+    return mended ? " Kernels use the corrected form, which is exact."
+                  : " The corrected form is not exact either: results will differ from the reference.";
+  };
+  const std::string_view division = remedy(corrected && corrected->division_exact());
+  const std::string_view differs = " Nothing can be done about that: results will differ from the reference.";
+  return {
+      sentence(device.quotient, division),
+      sentence(device.reciprocal, division),
+      sentence(device.root, remedy(corrected && corrected->sqrt_exact())),
+      sentence(device.product, differs),
+      sentence(device.sum, differs),
+      sentence(device.product_sum,
+               " The compiler contracts them despite `precise`: results will differ from the "
+               "reference."),
+      sentence(device.denormals, " Results can differ from the reference where such numbers occur."),
+      fmt::format("The device's fma rounds {}.", device.fma_fused ? "once" : "twice"),
+  };
+}
+
+}  // namespace aspic::gl

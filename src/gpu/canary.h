@@ -1,0 +1,77 @@
+#pragma once
+// Whether a device computes as IEEE 754 says (spec §2.9), found out by asking it.
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "gpu/context.h"
+#include "gpu/shader_source.h"
+
+namespace aspic::gl {
+
+/// What one operation gave against IEEE single precision, round to nearest even.
+struct OperationCheck {
+  std::string_view name;      ///< "quotients a / b"
+  std::uint32_t checked = 0;  ///< cases compared
+  std::uint32_t wrong = 0;    ///< cases with other bits
+  /// The worst case (largest distance in units in the last place); legal to read if wrong > 0.
+  std::array<float, 3> operands = {};
+  float got = 0;
+  float expected = 0;
+  std::uint32_t ulps = 0;
+
+  bool exact() const { return wrong == 0; }
+};
+
+/// What the canary found. Cases with a denormal operand, intermediate or result count under `denormals`
+/// alone: a device that flushes them may still be exact everywhere else.
+struct ArithmeticReport {
+  OperationCheck quotient;
+  OperationCheck reciprocal;
+  OperationCheck root;
+  OperationCheck product;
+  OperationCheck sum;
+  OperationCheck product_sum;  ///< a·b + c in two roundings
+  OperationCheck denormals;    ///< any of the above
+  bool fma_fused = false;      ///< fma() rounds once
+
+  bool division_exact() const { return quotient.exact() && reciprocal.exact(); }
+  bool sqrt_exact() const { return root.exact(); }
+  bool products_uncontracted() const { return product_sum.exact(); }
+  bool basics_exact() const { return product.exact() && sum.exact(); }
+  bool denormals_kept() const { return denormals.exact(); }
+  /// Same bits as the reference wherever no denormal occurs.
+  bool all_exact() const {
+    return division_exact() && sqrt_exact() && products_uncontracted() && basics_exact();
+  }
+};
+
+/// Runs shaders/compute/canary.comp on a fixed set of some 20,000 operand triples (hard cases next to
+/// rounding boundaries, denormals, huge values) with the given defines. Errors: those of Program::compute and
+/// Buffer::create.
+Result<ArithmeticReport> measure_arithmetic(Context& context, const ShaderLibrary& library,
+                                            std::span<const Define> defines = {});
+
+/// How kernels have to be compiled on a device, and what to say about it.
+struct Arithmetic {
+  ArithmeticReport device;                    ///< the device's own operations
+  std::optional<ArithmeticReport> corrected;  ///< measured again with `defines`, where they are needed
+  std::vector<Define> defines;  ///< ASPIC_CORRECT_DIV, ASPIC_CORRECT_SQRT, ASPIC_FUSED_FMA, as needed
+  /// Kernels compiled with `defines` give the reference's bits wherever no denormal occurs.
+  bool exact() const { return corrected ? corrected->all_exact() : device.all_exact(); }
+  /// Whole sentences for `aspic info`: what is exact, what differs and with which operands, and what is done
+  /// about it.
+  std::vector<std::string> sentences() const;
+};
+
+/// Measures the device, and where quotients or roots are not exact, measures the corrected forms too. `extra`
+/// goes to both measurements. Errors: as measure_arithmetic.
+Result<Arithmetic> choose_arithmetic(Context& context, const ShaderLibrary& library,
+                                     std::span<const Define> extra = {});
+
+}  // namespace aspic::gl

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gpu/canary.h"
+#include "gpu/canary_operands.h"
+#include "support/gl_fixture.h"
+
+namespace aspic::gl {
+namespace {
+
+class CanaryGl : public testing::GlTest {
+ protected:
+  /// The canary on a device with these faults.
+  ArithmeticReport measure(std::vector<Define> faults) {
+    auto report = measure_arithmetic(context(), ShaderLibrary(ASPIC_TEST_SHADERS), faults);
+    EXPECT_TRUE(report.ok()) << report.error().message;
+    return report ? *report : ArithmeticReport{};
+  }
+  Arithmetic choose(std::vector<Define> faults) {
+    auto choice = choose_arithmetic(context(), ShaderLibrary(ASPIC_TEST_SHADERS), faults);
+    EXPECT_TRUE(choice.ok()) << choice.error().message;
+    return choice ? *choice : Arithmetic{};
+  }
+  static bool defines(const Arithmetic& a, const char* name) {
+    return std::ranges::find(a.defines, name, &Define::name) != a.defines.end();
+  }
+};
+
+TEST(CanaryOperands, AreManyFiniteAndTheSameEachTime) {
+  const auto cases = canary_operands();
+  EXPECT_GE(cases.size(), 10000u);
+  const auto again = canary_operands();
+  ASSERT_EQ(again.size(), cases.size());
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    ASSERT_TRUE(std::isfinite(cases[i].a) && std::isfinite(cases[i].b) && std::isfinite(cases[i].c)) << i;
+    ASSERT_NE(cases[i].b, 0.0f) << i;
+    ASSERT_TRUE(cases[i].a == again[i].a && cases[i].b == again[i].b && cases[i].c == again[i].c) << i;
+  }
+}
+
+TEST_F(CanaryGl, FindsTheSoftwareDeviceExact) {
+  auto choice = choose_arithmetic(context(), ShaderLibrary());
+  ASSERT_TRUE(choice.ok()) << choice.error().message;
+  EXPECT_TRUE(choice->exact());
+  EXPECT_TRUE(choice->device.denormals_kept());
+  EXPECT_TRUE(choice->defines.empty());
+  EXPECT_FALSE(choice->corrected.has_value());
+  for (const OperationCheck* check :
+       {&choice->device.quotient, &choice->device.reciprocal, &choice->device.root, &choice->device.product,
+        &choice->device.sum, &choice->device.product_sum})
+    EXPECT_GE(check->checked, 10000u) << check->name;
+  EXPECT_GE(choice->device.denormals.checked, 1000u);
+  for (const std::string& sentence : choice->sentences()) EXPECT_TRUE(sentence.ends_with('.')) << sentence;
+}
+
+TEST_F(CanaryGl, FindsQuotientsThatAreOneUnitOff) {
+  const ArithmeticReport report = measure({{"FAULT_DIV", "1"}});
+  EXPECT_FALSE(report.division_exact());
+  EXPECT_TRUE(report.sqrt_exact());
+  EXPECT_TRUE(report.products_uncontracted());
+  EXPECT_EQ(report.quotient.ulps, 1u);
+  EXPECT_EQ(report.quotient.expected, report.quotient.operands[0] / report.quotient.operands[1]);
+  EXPECT_EQ(std::abs(report.quotient.got), std::nextafter(std::abs(report.quotient.expected), INFINITY));
+}
+
+TEST_F(CanaryGl, FindsRootsThatAreOneUnitOff) {
+  const ArithmeticReport report = measure({{"FAULT_SQRT", "-1"}});
+  EXPECT_FALSE(report.sqrt_exact());
+  EXPECT_TRUE(report.division_exact());
+  EXPECT_EQ(report.root.ulps, 1u);
+}
+
+TEST_F(CanaryGl, FindsContractionFlushingAndWrongSums) {
+  const ArithmeticReport contracted = measure({{"FAULT_CONTRACTION", "1"}});
+  EXPECT_FALSE(contracted.products_uncontracted());
+  EXPECT_TRUE(contracted.division_exact() && contracted.sqrt_exact() && contracted.basics_exact());
+  const ArithmeticReport flushed = measure({{"FAULT_FLUSH", "1"}});
+  EXPECT_FALSE(flushed.denormals_kept());
+  EXPECT_TRUE(flushed.all_exact());
+  const ArithmeticReport sums = measure({{"FAULT_SUM", "1"}});
+  EXPECT_FALSE(sums.basics_exact());
+}
+
+TEST_F(CanaryGl, CorrectedFormsAreExactFromWrongStarts) {
+  // OpenGL drivers are allowed 2.5 units for a / b and more for roots (GLSL 4.30 §4.7.1): start further off
+  // than that.
+  for (const char* ulps : {"-4", "-1", "1", "2", "5"}) {
+    SCOPED_TRACE(ulps);
+    const Arithmetic choice = choose({{"FAULT_DIV", ulps}, {"FAULT_SQRT", ulps}});
+    EXPECT_FALSE(choice.device.division_exact());
+    EXPECT_FALSE(choice.device.sqrt_exact());
+    EXPECT_TRUE(defines(choice, "ASPIC_CORRECT_DIV"));
+    EXPECT_TRUE(defines(choice, "ASPIC_CORRECT_SQRT"));
+    ASSERT_TRUE(choice.corrected.has_value());
+    EXPECT_TRUE(choice.exact());
+    // The corrected forms keep denormal operands and results, rounded once.
+    EXPECT_TRUE(choice.corrected->denormals_kept()) << choice.corrected->denormals.operands[0];
+    for (const OperationCheck* check :
+         {&choice.corrected->quotient, &choice.corrected->reciprocal, &choice.corrected->root})
+      EXPECT_EQ(check->wrong, 0u) << check->name << " of " << check->operands[0] << ", " << check->operands[1]
+                                  << ": got " << check->got << ", expected " << check->expected;
+  }
+}
+
+TEST_F(CanaryGl, OnlyWhatIsWrongIsCorrected) {
+  const Arithmetic choice = choose({{"FAULT_SQRT", "1"}});
+  EXPECT_FALSE(defines(choice, "ASPIC_CORRECT_DIV"));
+  EXPECT_TRUE(defines(choice, "ASPIC_CORRECT_SQRT"));
+  EXPECT_TRUE(choice.exact());
+  EXPECT_FALSE(choice.device.all_exact());
+}
+
+TEST_F(CanaryGl, SaysWhenNothingHelps) {
+  const Arithmetic choice = choose({{"FAULT_CONTRACTION", "1"}});
+  EXPECT_FALSE(choice.exact());
+  const auto sentences = choice.sentences();
+  EXPECT_TRUE(std::ranges::any_of(sentences, [](const auto& s) { return s.find("contracts") != s.npos; }));
+}
+
+}  // namespace
+}  // namespace aspic::gl

@@ -1,0 +1,70 @@
+// A device with faults, chosen by defines; without any it is the real one.
+//   FAULT_DIV, FAULT_SQRT   units in the last place that are added to every quotient, every root
+//   FAULT_CONTRACTION       a·b + c is rounded once
+//   FAULT_FLUSH             denormal products become zero
+//   FAULT_SUM               units in the last place that are added to every sum
+float nudged(float x, int ulps) {
+  uint bits = floatBitsToUint(x);
+  uint size = bits & 0x7fffffffu;
+  if (size < 16u || size >= 0x7f7ffff0u) return x;
+  return uintBitsToFloat(uint(int(bits) + ulps));
+}
+
+float device_div(float a, float b) {
+#ifdef FAULT_DIV
+  precise float wanted = a / b;
+  return nudged(wanted, FAULT_DIV);
+#else
+  precise float quotient = a / b;
+  return quotient;
+#endif
+}
+
+float device_sqrt(float x) {
+#ifdef FAULT_SQRT
+  precise float wanted = sqrt(x);
+  return nudged(wanted, FAULT_SQRT);
+#else
+  precise float root = sqrt(x);
+  return root;
+#endif
+}
+
+float device_mul(float a, float b) {
+  precise float product = a * b;
+#ifdef FAULT_FLUSH
+  if ((floatBitsToUint(product) & 0x7f800000u) == 0u) return uintBitsToFloat(floatBitsToUint(product) & 0x80000000u);
+#endif
+  return product;
+}
+
+float device_add(float a, float b) {
+#ifdef FAULT_SUM
+  precise float wanted = a + b;
+  return nudged(wanted, FAULT_SUM);
+#else
+  precise float total = a + b;
+  return total;
+#endif
+}
+
+// Double holds the product exactly; its sum is rounded once more, which is near enough to a fused unit to be noticed.
+float device_fma(float a, float b, float c) {
+#ifdef FAULT_CONTRACTION
+  precise float total = float(double(a) * double(b) + double(c));
+  return total;
+#else
+  precise float total = fma(a, b, c);
+  return total;
+#endif
+}
+
+float device_mul_add(float a, float b, float c) {
+#ifdef FAULT_CONTRACTION
+  return device_fma(a, b, c);
+#else
+  precise float product = a * b;
+  precise float total = product + c;
+  return total;
+#endif
+}
