@@ -47,6 +47,7 @@ class ComputeSolver final : public GpuSolver {
   std::uint64_t bytes() const override { return bytes_; }
   const Buffer& particles() const override { return states_[current_]; }
   ForcePath force_path() const override { return path_; }
+  const gl::Arithmetic& arithmetic() const override { return arithmetic_; }
 
   Status load(const State& state) override;
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
@@ -69,6 +70,7 @@ class ComputeSolver final : public GpuSolver {
   std::array<Buffer, 3> states_;
   std::size_t current_ = 0;
   Buffer sums_, simulation_, incident_start_, incident_, control_, springs_, forces_;
+  gl::Arithmetic arithmetic_;
   gl::Program force_program_, particle_program_;
   std::vector<gl::Pass> passes_;  // one per stage: particles, preceded on the per-spring path by springs
 
@@ -130,7 +132,13 @@ Status ComputeSolver::build_buffers() {
 
 Status ComputeSolver::build_passes(const GpuOptions& options) {
   const gl::ShaderLibrary library(options.shader_directory);
-  const std::vector<gl::Define> defines = {{"ASPIC_GROUP_SIZE", std::to_string(options.group_size)}};
+  if (options.arithmetic) {
+    arithmetic_ = *options.arithmetic;
+  } else {
+    ASPIC_ASSIGN_OR_RETURN(arithmetic_, gl::choose_arithmetic(context_, library));
+  }
+  std::vector<gl::Define> defines = arithmetic_.defines;
+  defines.push_back({"ASPIC_GROUP_SIZE", std::to_string(options.group_size)});
   const Binding constants = {BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform};
   const Binding control = {BINDING_CONTROL, &control_};
   if (path_ == ForcePath::per_spring) {

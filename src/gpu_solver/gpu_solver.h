@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "gpu/buffer.h"
+#include "gpu/canary.h"
 #include "gpu/context.h"
 #include "model/solver.h"
 
@@ -24,8 +26,10 @@ std::string_view name_of(ForcePath path);
 struct GpuOptions {
   ForcePath force_path = ForcePath::automatic;
   std::uint32_t group_size = 64;  ///< invocations per work group, 1…1024; never affects the bits
-  std::filesystem::path
-      shader_directory;  ///< files here go before the embedded shaders; empty: embedded alone
+  /// Files here go before the embedded shaders; empty: embedded alone.
+  std::filesystem::path shader_directory;
+  /// How to compile for this device's arithmetic; absent: the canary is asked first.
+  std::optional<gl::Arithmetic> arithmetic;
 };
 
 /// A gpu solver with a look at its buffers, for drawing without a copy.
@@ -35,6 +39,8 @@ class GpuSolver : public Solver {
   virtual const gl::Buffer& particles() const = 0;
   /// The path in use, never automatic.
   virtual ForcePath force_path() const = 0;
+  /// What the canary found on this device, and how the kernels were compiled for it.
+  virtual const gl::Arithmetic& arithmetic() const = 0;
 };
 
 /// A gpu solver at the model's initial state. Model and context must outlive it; the context must be current
