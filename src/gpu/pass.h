@@ -45,8 +45,8 @@ struct GroupCount {
 /// Most groups along x that every OpenGL 4.3 device takes.
 inline constexpr std::uint32_t max_groups_x = 65535;
 
-/// The least near-square-free split: y = 1 up to max_groups_x, else x·y ≥ groups with fewer than y groups to
-/// spare. (0, 0) for no items. `group_size` ≥ 1, `count` at most 65,535² groups.
+/// One row up to max_groups_x groups; else the fewest rows that do, all of one length, with fewer than `y`
+/// groups beyond those needed. (0, 0) for no items. `group_size` ≥ 1, `count` at most 65,535² groups.
 GroupCount groups_for(std::uint32_t count, std::uint32_t group_size);
 
 /// A program with its bindings. Kernels have one invocation per item along a one-dimensional local size,

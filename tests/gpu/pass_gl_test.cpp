@@ -46,5 +46,49 @@ TEST_F(PassGl, DoesNothingForNoItems) {
   EXPECT_EQ(visits.download_items<std::uint32_t>(1).front(), 0u);
 }
 
+TEST_F(PassGl, NextPassAndIndirectDispatchSeeWhatWasWritten) {
+  constexpr std::uint32_t count = 1000;
+  std::vector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 1u);
+  Buffer a = buffer(count * 4);
+  Buffer b = buffer(count * 4);
+  a.upload_items<std::uint32_t>(numbers);
+  const Program twice = compile("double_items.comp", {{"ASPIC_GROUP_SIZE", "64"}});
+  twice.set(0, count);
+  // The two buffers take turns: bindings come with each dispatch.
+  const Pass pass(twice, {}, Reader::compute_pass | Reader::read_back);
+  const Binding forth[] = {{.binding = 0, .buffer = &a}, {.binding = 1, .buffer = &b}};
+  const Binding back[] = {{.binding = 0, .buffer = &b}, {.binding = 1, .buffer = &a}};
+  for (int i = 0; i < 5; ++i) {
+    pass.dispatch_for(count, forth);
+    pass.dispatch_for(count, back);
+  }
+  for (std::uint32_t& n : numbers) n *= 1024;
+  EXPECT_EQ(a.download_items<std::uint32_t>(count), numbers);
+
+  // Three groups of 64 reach 192 items, with the arguments written on the device.
+  Buffer arguments = buffer(16);
+  const Program writer = compile("arguments.comp");
+  writer.set(0, 3u);
+  Pass(writer, {{.binding = 0, .buffer = &arguments}}, Reader::indirect).dispatch_for(1);
+  b.clear();
+  pass.dispatch_indirect(arguments, 4, forth);
+  const auto got = b.download_items<std::uint32_t>(count);
+  for (std::uint32_t i = 0; i < count; ++i) ASSERT_EQ(got[i], i < 192 ? 2 * numbers[i] : 0u) << i;
+}
+
+TEST_F(PassGl, BindsARangeOfABuffer) {
+  const std::uint64_t step = std::max(256u, context().info().limits.storage_offset_alignment);
+  Buffer visits = buffer(3 * step);
+  visits.clear();
+  const Program program = compile("count.comp");
+  program.set(0, 4u);
+  Pass(program, {{.binding = 2, .buffer = &visits, .offset = step, .bytes = step}}, Reader::read_back)
+      .dispatch_for(4);
+  const auto got = visits.download_items<std::uint32_t>(3 * step / 4);
+  for (std::size_t i = 0; i < got.size(); ++i)
+    ASSERT_EQ(got[i], i >= step / 4 && i < step / 4 + 4 ? 1u : 0u) << i;
+}
+
 }  // namespace
 }  // namespace aspic::gl

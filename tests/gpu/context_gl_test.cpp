@@ -1,0 +1,199 @@
+#include <EGL/egl.h>
+#include <glad/gl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest-spi.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "gpu/buffer.h"
+#include "gpu/context.h"
+#include "support/gl_fixture.h"
+
+namespace aspic::gl {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Sets ASPIC_EGL_DEVICE for a scope.
+class DeviceVariable {
+ public:
+  explicit DeviceVariable(const char* value) {
+    if (const char* before = std::getenv(name)) before_ = before, had_ = true;
+    setenv(name, value, 1);
+  }
+  ~DeviceVariable() { had_ ? setenv(name, before_.c_str(), 1) : unsetenv(name); }
+  DeviceVariable(const DeviceVariable&) = delete;
+  DeviceVariable& operator=(const DeviceVariable&) = delete;
+
+ private:
+  static constexpr const char* name = "ASPIC_EGL_DEVICE";
+  std::string before_;
+  bool had_ = false;
+};
+
+class ContextGl : public testing::GlTest {
+ protected:
+  void TearDown() override {
+    // Tests here make others current.
+    ASSERT_TRUE(context().make_current().ok());
+    GlTest::TearDown();
+  }
+};
+
+TEST(SoftwareRenderer, IsKnownByItsName) {
+  for (const char* name :
+       {"llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe", "Software Rasterizer", "Mesa swrast",
+        "Google SwiftShader", "ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (LLVM 10.0.0)))",
+        "zink (lavapipe)", "SWR (LLVM 9)", "Microsoft Basic Render Driver", "GDI Generic"})
+    EXPECT_TRUE(is_software_renderer(name)) << name;
+  for (const char* name : {"NVIDIA H200/PCIe/SSE2", "Mesa Intel(R) UHD Graphics 620 (KBL GT2)",
+                           "AMD Radeon RX 6800 (radeonsi, navi21, LLVM 15.0.6, DRM 3.49)", "V3D 4.2"})
+    EXPECT_FALSE(is_software_renderer(name)) << name;
+}
+
+TEST(HumanBytes, KeepsFourFigures) {
+  EXPECT_EQ(human_bytes(0), "0 bytes");
+  EXPECT_EQ(human_bytes(1023), "1023 bytes");
+  EXPECT_EQ(human_bytes(1536), "1.5 KiB");
+  EXPECT_EQ(human_bytes(128ull << 20), "128 MiB");
+  EXPECT_EQ(human_bytes(2ull << 30), "2 GiB");
+}
+
+TEST_F(ContextGl, DescribesTheDevice) {
+  const DeviceInfo& info = context().info();
+  EXPECT_TRUE(info.debug);
+  EXPECT_FALSE(info.renderer.empty());
+  EXPECT_EQ(info.is_software, is_software_renderer(info.renderer));
+  // What OpenGL 4.3 guarantees (core profile specification, tables 23.60 to 23.64).
+  EXPECT_GE(info.limits.storage_block_bytes, 1u << 24);
+  EXPECT_GE(info.limits.uniform_block_bytes, 16384u);
+  EXPECT_GE(info.limits.compute_storage_blocks, 8u);
+  EXPECT_GE(info.limits.group_invocations, 1024u);
+  for (const std::uint32_t count : info.limits.group_count) EXPECT_GE(count, 65535u);
+  EXPECT_GE(info.limits.shared_bytes, 32768u);
+  const auto lines = describe(info);
+  EXPECT_TRUE(std::ranges::any_of(lines, [&](const auto& l) { return l.find(info.renderer) != l.npos; }));
+  EXPECT_TRUE(std::ranges::none_of(lines, [](const auto& l) { return l.find('\n') != l.npos; }));
+  EXPECT_FALSE(context().lost());
+}
+
+TEST_F(ContextGl, OffersTheSoftwareDeviceByChoiceAndByVariable) {
+  const DeviceVariable variable("software");
+  const auto made = Context::create_headless({.debug = false, .device = DeviceChoice::automatic});
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  EXPECT_TRUE((*made)->info().is_software);
+  EXPECT_FALSE((*made)->info().debug);
+}
+
+TEST_F(ContextGl, GivesHardwareOrSaysWhatWasTried) {
+  const DeviceVariable variable("hardware");
+  const auto made = Context::create_headless({});
+  if (made.ok()) {
+    EXPECT_FALSE((*made)->info().is_software);
+  } else {
+    EXPECT_EQ(made.error().code, ErrorCode::no_device);
+    EXPECT_THAT(made.error().message, HasSubstr("Tried: "));
+    EXPECT_THAT(made.error().message, HasSubstr("Install"));
+  }
+}
+
+TEST_F(ContextGl, ListsDevicesThatAnIndexChooses) {
+  const auto devices = list_devices();
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    EXPECT_EQ(devices[i].index, static_cast<int>(i));
+    EXPECT_FALSE(devices[i].name.empty());
+    if (!devices[i].software) continue;
+    const DeviceVariable variable(std::to_string(i).c_str());
+    const auto made = Context::create_headless({});
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    EXPECT_EQ((*made)->info().platform, "EGL device " + std::to_string(i));
+  }
+}
+
+TEST_F(ContextGl, RefusesADeviceThatIsNotThere) {
+  {
+    const DeviceVariable variable("9999");
+    const auto beyond = Context::create_headless({});
+    ASSERT_FALSE(beyond.ok());
+    EXPECT_EQ(beyond.error().code, ErrorCode::no_device);
+    EXPECT_THAT(beyond.error().message, HasSubstr("9999"));
+  }
+  const DeviceVariable variable("toaster");
+  const auto unknown = Context::create_headless({});
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_THAT(unknown.error().message, HasSubstr("\"toaster\""));
+  EXPECT_THAT(unknown.error().message, HasSubstr("surfaceless"));
+}
+
+TEST_F(ContextGl, TwoContextsLiveSideBySide) {
+  auto buffer = Buffer::create(context(), "kept", 4);
+  ASSERT_TRUE(buffer.ok());
+  buffer->clear();
+  {
+    const auto second = Context::create_headless({.debug = true, .device = DeviceChoice::software});
+    ASSERT_TRUE(second.ok()) << second.error().message;
+    EXPECT_EQ((*second)->bytes_held(), 0u);
+  }
+  ASSERT_TRUE(context().make_current().ok());
+  EXPECT_EQ(buffer->download_items<std::uint32_t>(1).front(), 0u);
+}
+
+TEST_F(ContextGl, AdoptsTheCurrentContext) {
+  auto owner = Context::create_headless({.debug = true, .device = DeviceChoice::software});
+  ASSERT_TRUE(owner.ok()) << owner.error().message;
+  {
+    auto adopted = Context::adopt_current(eglGetProcAddress);
+    ASSERT_TRUE(adopted.ok()) << adopted.error().message;
+    EXPECT_EQ((*adopted)->info().renderer, (*owner)->info().renderer);
+    EXPECT_EQ((*adopted)->info().platform, "window");
+    EXPECT_TRUE((*adopted)->info().debug);
+    EXPECT_EQ((*adopted)->info().robust, (*owner)->info().robust);
+    EXPECT_TRUE((*adopted)->make_current().ok());
+  }
+  // It was not the adopter's to destroy.
+  EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
+  EXPECT_NE(eglGetCurrentContext(), EGL_NO_CONTEXT);
+  owner->reset();
+  const auto none = Context::adopt_current(eglGetProcAddress);
+  ASSERT_FALSE(none.ok());
+  EXPECT_EQ(none.error().code, ErrorCode::no_device);
+}
+
+TEST_F(ContextGl, CollectsMessagesAndPassesThemOn) {
+  std::vector<Severity> seen;
+  context().set_message_sink([&](const DebugMessage& m) { seen.push_back(m.severity); });
+  for (int i = 0; i < 300; ++i)
+    glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, GL_DEBUG_TYPE_OTHER, 7,
+                         i == 5 ? GL_DEBUG_SEVERITY_HIGH : GL_DEBUG_SEVERITY_MEDIUM, -1,
+                         i == 5 ? "grave" : "slight");
+  context().set_message_sink({});
+  EXPECT_EQ(seen.size(), 300u);
+  EXPECT_EQ(context().high_severity_count(), 1u);
+  EXPECT_EQ(context().messages().size(), 256u);
+  EXPECT_TRUE(std::ranges::any_of(context().messages(),
+                                  [](const auto& m) { return m.text == "grave" && m.id == 7; }));
+  EXPECT_EQ(forgive_errors(), 1);
+  EXPECT_TRUE(context().messages().empty());
+}
+
+TEST_F(ContextGl, TheFixtureFailsOnGlErrorsAndOnValuesThatAreNotFinite) {
+  ::testing::TestPartResultArray failures;
+  {
+    const ::testing::ScopedFakeTestPartResultReporter reporter(
+        ::testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &failures);
+    glEnable(GL_FRAMEBUFFER);
+    GlTest::TearDown();
+    const float values[] = {1.0f, std::numeric_limits<float>::quiet_NaN()};
+    testing::expect_finite(values);
+  }
+  std::string text;
+  for (int i = 0; i < failures.size(); ++i) text += failures.GetTestPartResult(i).message();
+  EXPECT_THAT(text, HasSubstr("GL error 0x500"));
+  EXPECT_THAT(text, HasSubstr("The driver reported"));
+  EXPECT_THAT(text, HasSubstr("value 1 of 2 is nan"));
+  forgive_errors();
+}
+
+}  // namespace
+}  // namespace aspic::gl

@@ -1,0 +1,262 @@
+#include "gpu/precise_lint.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <set>
+
+namespace aspic::testing {
+namespace {
+
+struct Token {
+  std::string text;
+  int line = 0;
+};
+
+bool is_name(std::string_view t) {
+  return !t.empty() && (std::isalpha(static_cast<unsigned char>(t.front())) || t.front() == '_');
+}
+
+bool is_float_type(const std::string& t) {
+  static const std::set<std::string> types = {"float", "vec2", "vec3", "vec4", "double", "dvec2", "dvec3",
+                                              "dvec4", "mat2", "mat3", "mat4", "dmat2",  "dmat3", "dmat4"};
+  return types.contains(t);
+}
+
+bool is_other_type(const std::string& t) {
+  static const std::set<std::string> types = {"int",   "uint",  "bool",  "ivec2", "ivec3", "ivec4",
+                                              "uvec2", "uvec3", "uvec4", "bvec2", "bvec3", "bvec4"};
+  return types.contains(t);
+}
+
+bool is_forbidden(const std::string& t) {
+  static const std::set<std::string> names = {
+      "inversesqrt", "normalize", "length",      "dot",          "cross",
+      "mix",         "distance",  "reflect",     "refract",      "faceforward",
+      "smoothstep",  "pow",       "exp",         "exp2",         "log",
+      "log2",        "sin",       "cos",         "tan",          "asin",
+      "acos",        "atan",      "sinh",        "cosh",         "tanh",
+      "asinh",       "acosh",     "atanh",       "mod",          "modf",
+      "radians",     "degrees",   "determinant", "outerProduct", "matrixCompMult",
+      "inverse"};
+  return names.contains(t);
+}
+
+bool is_zero(const std::string& t) {
+  if (t.empty() || !(std::isdigit(static_cast<unsigned char>(t.front())) || t.front() == '.')) return false;
+  if (t.find_first_of(".eEf") == std::string::npos || t.starts_with("0x")) return false;
+  return std::ranges::none_of(t.substr(0, t.find_first_of("eE")),
+                              [](char c) { return c >= '1' && c <= '9'; });
+}
+
+/// Names, numbers and operators; comments gone, and of preprocessor lines only what a #define puts in place.
+std::vector<Token> tokens_of(std::string_view text) {
+  std::vector<Token> tokens;
+  int line = 1;
+  bool fresh_line = true;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '\n') {
+      ++line, ++i, fresh_line = true;
+    } else if (std::isspace(static_cast<unsigned char>(c))) {
+      ++i;
+    } else if (text.substr(i, 2) == "//") {
+      i = std::min(text.find('\n', i), text.size());
+    } else if (text.substr(i, 2) == "/*") {
+      const std::size_t end = std::min(text.find("*/", i + 2), text.size() - 2) + 2;
+      line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                          text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+      i = end;
+    } else if (c == '#' && fresh_line) {
+      const std::size_t end = std::min(text.find('\n', i), text.size());
+      const std::size_t define = text.substr(i, end - i).find("define ");
+      i = define == std::string_view::npos ? end : i + define + 7;
+    } else {
+      fresh_line = false;
+      std::size_t end = i + 1;
+      const auto word = [](char x) { return std::isalnum(static_cast<unsigned char>(x)) || x == '_'; };
+      if (word(c) || (c == '.' && end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])))) {
+        const bool number = !is_name(text.substr(i, 1));
+        while (end < text.size() && (word(text[end]) || (number && text[end] == '.') ||
+                                     (number && (text[end] == '+' || text[end] == '-') &&
+                                      (text[end - 1] == 'e' || text[end - 1] == 'E'))))
+          ++end;
+      } else if (end < text.size() && std::string_view("=+-<>&|").find(text[end]) != std::string_view::npos &&
+                 (text[end] == '=' || text[end] == c)) {
+        ++end;
+      }
+      tokens.push_back({std::string(text.substr(i, end - i)), line});
+      i = end;
+    }
+  }
+  return tokens;
+}
+
+class Linter {
+ public:
+  Linter(std::string_view path, std::string_view text) : path_(path), tokens_(tokens_of(text)) {}
+
+  std::vector<Offence> run() {
+    for (at_ = 0; at_ < tokens_.size(); ++at_) {
+      check_scope();
+      check_declaration();
+      check_call();
+      check_zero();
+      if (in_code()) {
+        check_store();
+        if (text() == "return" && returns_float_) check_expression("inexact-return", at_ + 1);
+      }
+    }
+    std::ranges::stable_sort(offences_, {}, &Offence::line);
+    return std::move(offences_);
+  }
+
+ private:
+  enum class Scope { data, code };
+  struct Variable {
+    bool is_float;
+    bool precise;
+  };
+
+  const std::string& text(std::ptrdiff_t offset = 0) const {
+    static const std::string none;
+    const auto i = static_cast<std::ptrdiff_t>(at_) + offset;
+    return i >= 0 && i < static_cast<std::ptrdiff_t>(tokens_.size())
+               ? tokens_[static_cast<std::size_t>(i)].text
+               : none;
+  }
+  bool in_code() const { return !scopes_.empty() && scopes_.back() == Scope::code; }
+  void offend(const char* rule, std::size_t i) {
+    offences_.push_back({tokens_[i].line, rule, tokens_[i].text});
+  }
+
+  void check_scope() {
+    if (text() == "{") {
+      const bool function = scopes_.empty() && text(-1) == ")";
+      scopes_.push_back(function || in_code() ? Scope::code : Scope::data);
+    } else if (text() == "}" && !scopes_.empty()) {
+      scopes_.pop_back();
+    }
+  }
+
+  void check_declaration() {
+    const bool is_float = is_float_type(text());
+    if ((!is_float && !is_other_type(text())) || !is_name(text(1))) return;
+    if (text(2) == "(" && scopes_.empty()) {
+      returns_float_ = is_float;
+      return;
+    }
+    const bool precise = text(-1) == "precise" || (text(-1) == "const" && text(-2) == "precise");
+    // All names of `float a = …, b;`: a comma outside brackets starts the next; a parameter list ends at its
+    // comma.
+    int depth = 0;
+    declare(at_ + 1, is_float, precise);
+    for (std::size_t i = at_ + 2; i < tokens_.size() && scopes_.size() > 0; ++i) {
+      const std::string& t = tokens_[i].text;
+      if (t == "(" || t == "[" || t == "{") ++depth;
+      if ((t == ")" || t == "]" || t == "}") && --depth < 0) break;
+      if (t == ";") break;
+      if (t == "," && depth == 0) declare(i + 1, is_float, precise);
+    }
+  }
+
+  void declare(std::size_t i, bool is_float, bool precise) {
+    if (i >= tokens_.size()) return;
+    variables_[tokens_[i].text] = {is_float, precise};
+    if (in_code() && is_float && !precise) offend("missing-precise", i);
+  }
+
+  void check_call() {
+    if (text(1) != "(" || text(-1) == ".") return;
+    if (is_forbidden(text())) offend("forbidden", at_);
+    if (text() == "fma" && path_ != "compute/device_arithmetic.glsl") offend("fma", at_);
+  }
+
+  void check_zero() {
+    if (!is_zero(text())) return;
+    std::ptrdiff_t before = -1;
+    std::ptrdiff_t after = 1;
+    if (text(-1) == "(" && text(1) == ")" && is_float_type(text(-2))) before = -3, after = 2;
+    const auto sum = [](const std::string& t) { return t == "+" || t == "-"; };
+    const std::string& left = text(before - 1);
+    const bool binary =
+        is_name(left) ? left != "return" : left == ")" || left == "]" || std::isdigit(first(left));
+    if (sum(text(after)) || text(before) == "+=" || text(before) == "-=" || (sum(text(before)) && binary))
+      offend("adds-zero", at_);
+  }
+
+  static unsigned char first(const std::string& t) {
+    return t.empty() ? static_cast<unsigned char>(0) : static_cast<unsigned char>(t.front());
+  }
+
+  /// An assignment whose target is a float that nobody declared precise.
+  void check_store() {
+    const bool compound = text() == "+=" || text() == "-=" || text() == "*=" || text() == "/=";
+    if (text() != "=" && !compound) return;
+    const Variable* target = nullptr;
+    std::ptrdiff_t i = -1;
+    for (int depth = 0; target == nullptr; --i) {
+      const std::string& t = text(i);
+      if (t.empty() || (depth == 0 && (t == ";" || t == "{" || t == "}" || t == "("))) return;
+      if (t == "]") ++depth;
+      if (t == "[") --depth;
+      const auto found = variables_.find(t);
+      // Swizzles and members of unknown structs are passed over, up to a name whose type is known.
+      if (depth == 0 && found != variables_.end()) target = &found->second;
+    }
+    if (!target->is_float || target->precise) return;
+    if (compound)
+      offend("inexact-store", at_);
+    else
+      check_expression("inexact-store", at_ + 1);
+  }
+
+  /// Arithmetic from token i to the end of the statement, but for indices and the arguments of bit casts.
+  void check_expression(const char* rule, std::size_t i) {
+    const auto skip = [&](const char* open, const char* close) {
+      for (int depth = 0; i < tokens_.size(); ++i) {
+        if (tokens_[i].text == open) ++depth;
+        if (tokens_[i].text == close && --depth == 0) return;
+      }
+    };
+    for (; i < tokens_.size() && tokens_[i].text != ";"; ++i) {
+      const std::string& t = tokens_[i].text;
+      if (t == "[") {
+        skip("[", "]");
+      } else if ((t == "uintBitsToFloat" || t == "intBitsToFloat") && i + 1 < tokens_.size()) {
+        skip("(", ")");
+      } else if (t == "*" || t == "/" || t == "sqrt" ||
+                 ((t == "+" || t == "-") && is_operand(tokens_[i - 1].text))) {
+        offend(rule, i);
+        return;
+      }
+    }
+  }
+
+  static bool is_operand(const std::string& t) {
+    return t == ")" || t == "]" || std::isdigit(first(t)) || first(t) == '.' || (is_name(t) && t != "return");
+  }
+
+  std::string path_;
+  std::vector<Token> tokens_;
+  std::size_t at_ = 0;
+  std::vector<Scope> scopes_;
+  std::map<std::string, Variable> variables_;
+  bool returns_float_ = false;
+  std::vector<Offence> offences_;
+};
+
+}  // namespace
+
+bool opted_out(std::string_view text) {
+  constexpr std::string_view mark = "// not-exact:";
+  const std::string_view line = text.substr(0, text.find('\n'));
+  return line.starts_with(mark) && line.find_first_not_of(" \t\r", mark.size()) != std::string_view::npos;
+}
+
+std::vector<Offence> lint(std::string_view path, std::string_view text) {
+  return Linter(path, text).run();
+}
+
+}  // namespace aspic::testing

@@ -1,0 +1,31 @@
+#pragma once
+// Reads GLSL for what would change bits between devices. Equality on a software rasteriser proves nothing
+// about `precise`, so the text itself is checked (docs: architecture, rule 4).
+#include <compare>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace aspic::testing {
+
+/// One offence. Rules:
+///   missing-precise   a float local that is not `precise`
+///   inexact-store     arithmetic assigned to a float that is not `precise` (a buffer, shared memory, a
+///   parameter) inexact-return    arithmetic in the return of a float function: Mesa takes no `precise` on
+///   function types forbidden         a built-in function whose rounding differs between devices fma fma()
+///   outside compute/device_arithmetic.glsl adds-zero         a literal zero added or subtracted: compilers
+///   fold it, although −0 + 0 is +0
+struct Offence {
+  int line = 0;  ///< from 1
+  std::string rule;
+  std::string text;  ///< the name or token in question
+  auto operator<=>(const Offence&) const = default;
+};
+
+/// Whether the first line opts out: `// not-exact: reason`, with a reason.
+bool opted_out(std::string_view text);
+
+/// The offences of one shader file, in the order of the lines. `path` is relative to shaders/.
+std::vector<Offence> lint(std::string_view path, std::string_view text);
+
+}  // namespace aspic::testing

@@ -1,0 +1,6 @@
+#include "compute/dispatch.glsl"
+#include "broken/part.glsl"
+
+void main() {
+  part();
+}

@@ -1,0 +1,2 @@
+// b
+#include "include/cycle_a.glsl"

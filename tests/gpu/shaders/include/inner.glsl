@@ -1,0 +1,2 @@
+// line 1 of inner
+// line 2 of inner

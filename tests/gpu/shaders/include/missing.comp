@@ -1,0 +1,2 @@
+// one
+#include "include/nowhere.glsl"
