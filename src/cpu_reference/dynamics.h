@@ -25,27 +25,28 @@ class Dynamics {
     }
   }
 
-  /// f(x, v) [N], one column per particle. Springs are sorted by (a, b), so each particle's sum runs over its
-  /// springs in ascending neighbour index.
+  /// f(x, v) [N], one column per particle.
   Field<T> force(const Field<T>& x, const Field<T>& v) const {
-    Field<T> f(3, x.cols());
-    for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass_[i] * gravity_;
-    for (const Spring& spring : model_.springs) {
-      const Vector<T> on_a = spring_force<T>(classes_[spring.spring_class], x.col(spring.a), v.col(spring.a),
-                                             x.col(spring.b), v.col(spring.b));
-      f.col(spring.a) += on_a;
-      f.col(spring.b) -= on_a;
-    }
-    if (model_.contact.model == ContactModel::course) {
-      for (Eigen::Index i = 0; i < x.cols(); ++i) {
-        if (inverse_mass_[i] == T(0)) continue;
-        for (const Ground<T>& ground : grounds_) {
-          f.col(i) = with_contact_force<T>(ground, contact_.epsilon, x.col(i), v.col(i), f.col(i));
-        }
-      }
-    }
+    Field<T> f = spring_and_gravity_force(x, v);
+    if (model_.contact.model == ContactModel::course) add_contact_force(x, v, f);
     return f;
   }
+
+  /// The course model's contact force alone, at (x, v) [N]; zero in the Coulomb model. Implicit Euler holds
+  /// it.
+  Field<T> held_contact_force(const Field<T>& x, const Field<T>& v) const {
+    Field<T> held = Field<T>::Zero(3, x.cols());
+    if (model_.contact.model == ContactModel::coulomb) return held;
+    Field<T> f = spring_and_gravity_force(x, v);
+    const Field<T> before = f;
+    add_contact_force(x, v, f);
+    return f - before;
+  }
+
+  Vector<T> gravity() const { return gravity_; }
+  T mass(Eigen::Index i) const { return mass_[i]; }
+  T inverse_mass(Eigen::Index i) const { return inverse_mass_[i]; }
+  const SpringConstants<T>& spring_class(const Spring& spring) const { return classes_[spring.spring_class]; }
 
   /// a(x, v) = w·f(x, v) [m/s²]
   Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
@@ -70,6 +71,29 @@ class Dynamics {
   }
 
  private:
+  /// m·g, then the springs. They are sorted by (a, b), so each particle's sum runs over its springs in
+  /// ascending neighbour index.
+  Field<T> spring_and_gravity_force(const Field<T>& x, const Field<T>& v) const {
+    Field<T> f(3, x.cols());
+    for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass_[i] * gravity_;
+    for (const Spring& spring : model_.springs) {
+      const Vector<T> on_a = spring_force<T>(classes_[spring.spring_class], x.col(spring.a), v.col(spring.a),
+                                             x.col(spring.b), v.col(spring.b));
+      f.col(spring.a) += on_a;
+      f.col(spring.b) -= on_a;
+    }
+    return f;
+  }
+
+  void add_contact_force(const Field<T>& x, const Field<T>& v, Field<T>& f) const {
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+      if (inverse_mass_[i] == T(0)) continue;
+      for (const Ground<T>& ground : grounds_) {
+        f.col(i) = with_contact_force<T>(ground, contact_.epsilon, x.col(i), v.col(i), f.col(i));
+      }
+    }
+  }
+
   const Model& model_;
   Vector<T> gravity_;
   ContactConstants<T> contact_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cpu_reference/integrators.h"
+#include "cpu_reference/implicit_euler.h"
 #include "model/integrator.h"
 
 namespace aspic {
@@ -27,7 +27,8 @@ std::optional<Divergence> find_divergence(const Phase<T>& phase, std::uint64_t s
 template <class T>
 class ReferenceSolver final : public Solver {
  public:
-  explicit ReferenceSolver(const Model& model) : model_(model), dynamics_(model) {
+  explicit ReferenceSolver(const Model& model)
+      : model_(model), dynamics_(model), implicit_(dynamics_, model) {
     set(initial_state(model, precision()));
   }
 
@@ -52,15 +53,24 @@ class ReferenceSolver final : public Solver {
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     const double h = model_.simulation.timestep;
+    const bool solved = model_.simulation.integrator == Integrator::implicit_euler;
     for (std::uint64_t n = 0; n < steps && !divergence_; ++n) {
-      Phase<T> next = explicit_step(model_.simulation.integrator, dynamics_, phase_, h);
+      SolveReport report;
+      Phase<T> next = solved ? implicit_.step(phase_, report)
+                             : explicit_step(model_.simulation.integrator, dynamics_, phase_, h);
       dynamics_.respond(phase_.x, phase_.v, next.x, next.v);
       divergence_ = find_divergence(next, step_ + 1);
       if (divergence_) break;
+      if (solved) statistics_.add(report);
       std::swap(phase_, next);
       ++step_;
     }
     return divergence_;
+  }
+
+  std::optional<SolveStatistics> solve_statistics() override {
+    if (model_.simulation.integrator != Integrator::implicit_euler) return std::nullopt;
+    return statistics_;
   }
 
   Result<State> state() override {
@@ -85,10 +95,13 @@ class ReferenceSolver final : public Solver {
     }
     step_ = state.step;
     divergence_.reset();
+    statistics_ = {};
   }
 
   const Model& model_;
   Dynamics<T> dynamics_;
+  ImplicitEuler<T> implicit_;
+  SolveStatistics statistics_;
   Phase<T> phase_;
   std::uint64_t step_ = 0;
   std::optional<Divergence> divergence_;
@@ -98,11 +111,6 @@ class ReferenceSolver final : public Solver {
 }  // namespace reference
 
 Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precision precision) {
-  if (!staged_method(model.simulation.integrator)) {
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("the reference backend does not have the integrator {} yet",
-                             name_of(model.simulation.integrator))};
-  }
   if (precision == Precision::single) {
     return std::unique_ptr<Solver>(std::make_unique<reference::ReferenceSolver<float>>(model));
   }

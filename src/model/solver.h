@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "model/implicit.h"
 #include "model/model.h"
 #include "model/state.h"
 
@@ -41,6 +42,8 @@ class Solver {
   virtual Status load(const State& state) = 0;
   /// Advances by `steps`, fewer only after a divergence, which is returned. Error: the device was lost.
   virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;
+  /// What implicit Euler's solves came to since the last load(); nothing with other integrators.
+  virtual std::optional<SolveStatistics> solve_statistics() { return std::nullopt; }
   /// A copy of the current state.
   virtual Result<State> state() = 0;
 };

@@ -1,0 +1,262 @@
+#pragma once
+// Backward Euler, solved: v' = v + h·a(x + h·v', v'), x' = x + h·v' (spec §2.6; derivation in
+// docs/physics.md).
+//
+// Newton's method on v' with a line search; its linear systems by conjugate gradients with a block-Jacobi
+// preconditioner, the spring Jacobian applied spring by spring and never stored as a matrix (Baraff and
+// Witkin, Large Steps in Cloth Simulation, 1998). The Jacobian of a compressed spring has negative
+// eigenvalues across its axis: they are left out of the matrix (Choi and Ko, Stable but Responsive Cloth,
+// 2002), which keeps it symmetric positive definite, while the residual stays that of the true equation. So
+// the method converges to the true solution, linearly where springs are compressed.
+#include <utility>
+
+#include "cpu_reference/integrators.h"
+#include "cpu_reference/reductions.h"
+#include "model/implicit.h"
+
+namespace aspic::reference {
+
+/// −h·∂f/∂v' of a spring as seen from one end: H·d = across·d + (along − across)·n(n·d).
+template <class T>
+struct SpringJacobian {
+  T along, across;  ///< [kg]
+  Vector<T> n;      ///< unit vector along the spring
+
+  Vector<T> operator*(const Vector<T>& d) const {
+    return across * d + ((along - across) * dot3<T>(n, d)) * n;
+  }
+};
+
+/// Force on end a and Jacobian of a spring whose vector at the step's end is e and whose relative velocity is
+/// v.
+template <class T>
+std::pair<Vector<T>, SpringJacobian<T>> linearised(const SpringConstants<T>& spring, T h, const Vector<T>& e,
+                                                   const Vector<T>& v) {
+  const Vector<T> none = Vector<T>::Zero();
+  const T L = norm3<T>(e);
+  if (L == T(0) || (spring.cord && L < spring.r)) return {none, {T(0), T(0), none}};
+  const T q = T(1) / L;
+  const T s = spring.k * (L - spring.r) + spring.c * (dot3<T>(v, e) * q);
+  const Vector<T> f = -((s * q) * e);
+  const T along = (h * h) * spring.k + h * spring.c;
+  const T across = s > T(0) ? (h * h) * (s * q) : T(0);
+  return {f, {along, across, Vector<T>(q * e)}};
+}
+
+/// The symmetric 3×3 block of one particle on the matrix's diagonal, and the solution of B·z = r by Cramer's
+/// rule.
+template <class T>
+struct DiagonalBlock {
+  T xx, yy, zz, xy, xz, yz;
+
+  explicit DiagonalBlock(T m) : xx(m), yy(m), zz(m), xy(0), xz(0), yz(0) {}
+
+  void add(const SpringJacobian<T>& H) {
+    const Vector<T>& n = H.n;
+    const T w = H.along - H.across;
+    xx += H.across + w * (n.x() * n.x());
+    yy += H.across + w * (n.y() * n.y());
+    zz += H.across + w * (n.z() * n.z());
+    xy += w * (n.x() * n.y());
+    xz += w * (n.x() * n.z());
+    yz += w * (n.y() * n.z());
+  }
+
+  /// The inverse, symmetric as well.
+  DiagonalBlock inverse() const {
+    DiagonalBlock c(T(0));
+    c.xx = yy * zz - yz * yz;
+    c.xy = xz * yz - xy * zz;
+    c.xz = xy * yz - xz * yy;
+    c.yy = xx * zz - xz * xz;
+    c.yz = xy * xz - xx * yz;
+    c.zz = xx * yy - xy * xy;
+    const T d = T(1) / ((xx * c.xx + xy * c.xy) + xz * c.xz);
+    c.xx *= d, c.yy *= d, c.zz *= d, c.xy *= d, c.xz *= d, c.yz *= d;
+    return c;
+  }
+
+  Vector<T> operator*(const Vector<T>& r) const {
+    return {(xx * r.x() + xy * r.y()) + xz * r.z(), (xy * r.x() + yy * r.y()) + yz * r.z(),
+            (xz * r.x() + yz * r.y()) + zz * r.z()};
+  }
+};
+
+/// One step of backward Euler from `s`, before the terrain's response.
+template <class T>
+class ImplicitEuler {
+ public:
+  ImplicitEuler(const Dynamics<T>& dynamics, const Model& model)
+      : dynamics_(dynamics),
+        springs_(model.springs),
+        h_(static_cast<T>(model.simulation.timestep)),
+        tolerance_(static_cast<T>(implicit_tolerance(
+            model.simulation.implicit, sizeof(T) == 4 ? Precision::single : Precision::double_))),
+        max_newton_(static_cast<std::uint32_t>(model.simulation.implicit.newton_iterations)),
+        max_cg_(static_cast<std::uint32_t>(model.simulation.implicit.cg_iterations)) {}
+
+  Phase<T> step(const Phase<T>& s, SolveReport& report);
+
+ private:
+  /// Everything about one trial velocity.
+  struct Evaluation {
+    Field<T> r;  ///< right-hand side of the linear system: m·(v − v') + h·f [kg·m/s]
+    std::vector<SpringJacobian<T>> jacobian;  ///< of every spring
+    std::vector<DiagonalBlock<T>> preconditioner;
+    T residual;  ///< largest component of |(v' − v) − h·a| [m/s]
+    T merit;     ///< Σ |(v' − v) − h·a|² [m²/s²]
+  };
+
+  Evaluation evaluate(const Phase<T>& s, const Field<T>& held, const Field<T>& trial) const;
+  Field<T> solve(const Evaluation& at, std::uint32_t& iterations) const;
+  Field<T> apply(const Evaluation& at, const Field<T>& p) const;
+  T dot(const Field<T>& a, const Field<T>& b) const;
+
+  const Dynamics<T>& dynamics_;
+  const std::vector<Spring>& springs_;
+  T h_, tolerance_;
+  std::uint32_t max_newton_, max_cg_;
+};
+
+template <class T>
+typename ImplicitEuler<T>::Evaluation ImplicitEuler<T>::evaluate(const Phase<T>& s, const Field<T>& held,
+                                                                 const Field<T>& trial) const {
+  const Eigen::Index count = s.x.cols();
+  Evaluation at;
+  Field<T> f(3, count);
+  std::vector<DiagonalBlock<T>> blocks;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    f.col(i) = dynamics_.mass(i) * dynamics_.gravity();
+    blocks.emplace_back(dynamics_.mass(i));
+  }
+  at.jacobian.reserve(springs_.size());
+  for (const Spring& spring : springs_) {
+    // Not from a rounded x': the difference of the positions is exact where they are close.
+    const Vector<T> v = trial.col(spring.a) - trial.col(spring.b);
+    const Vector<T> e = (s.x.col(spring.a) - s.x.col(spring.b)) + h_ * v;
+    const auto [on_a, H] = linearised<T>(dynamics_.spring_class(spring), h_, e, v);
+    f.col(spring.a) += on_a;
+    f.col(spring.b) -= on_a;
+    blocks[spring.a].add(H);
+    blocks[spring.b].add(H);
+    at.jacobian.push_back(H);
+  }
+  at.r = Field<T>::Zero(3, count);
+  std::vector<T> largest(static_cast<std::size_t>(count), T(0)),
+      squared(static_cast<std::size_t>(count), T(0));
+  for (Eigen::Index i = 0; i < count; ++i) {
+    at.preconditioner.push_back(blocks[static_cast<std::size_t>(i)].inverse());
+    if (dynamics_.inverse_mass(i) == T(0)) continue;
+    const Vector<T> total = f.col(i) + held.col(i), change = trial.col(i) - s.v.col(i);
+    at.r.col(i) = h_ * total - dynamics_.mass(i) * change;
+    const Vector<T> R = change - h_ * (dynamics_.inverse_mass(i) * total);
+    const T x = std::abs(R.x()), y = std::abs(R.y()), z = std::abs(R.z());
+    const T xy = y > x ? y : x;
+    largest[static_cast<std::size_t>(i)] = z > xy ? z : xy;
+    squared[static_cast<std::size_t>(i)] = dot3<T>(R, R);
+  }
+  at.residual = tree_max(std::move(largest));
+  at.merit = tree_sum(std::move(squared));
+  return at;
+}
+
+template <class T>
+T ImplicitEuler<T>::dot(const Field<T>& a, const Field<T>& b) const {
+  std::vector<T> products(static_cast<std::size_t>(a.cols()));
+  for (Eigen::Index i = 0; i < a.cols(); ++i)
+    products[static_cast<std::size_t>(i)] = dot3<T>(a.col(i), b.col(i));
+  return tree_sum(std::move(products));
+}
+
+/// A·p with A = m − h·∂f/∂v' at the trial; rows of pinned particles are empty.
+template <class T>
+Field<T> ImplicitEuler<T>::apply(const Evaluation& at, const Field<T>& p) const {
+  Field<T> product(3, p.cols());
+  for (Eigen::Index i = 0; i < p.cols(); ++i) product.col(i) = dynamics_.mass(i) * p.col(i);
+  for (std::size_t n = 0; n < springs_.size(); ++n) {
+    const Vector<T> on_a = at.jacobian[n] * Vector<T>(p.col(springs_[n].a) - p.col(springs_[n].b));
+    product.col(springs_[n].a) += on_a;
+    product.col(springs_[n].b) -= on_a;
+  }
+  for (Eigen::Index i = 0; i < p.cols(); ++i) {
+    if (dynamics_.inverse_mass(i) == T(0)) product.col(i).setZero();
+  }
+  return product;
+}
+
+/// A·δ = r by preconditioned conjugate gradients (Hestenes and Stiefel, 1952).
+template <class T>
+Field<T> ImplicitEuler<T>::solve(const Evaluation& at, std::uint32_t& iterations) const {
+  const auto precondition = [&](const Field<T>& r) {
+    Field<T> z(3, r.cols());
+    for (Eigen::Index i = 0; i < r.cols(); ++i)
+      z.col(i) = at.preconditioner[static_cast<std::size_t>(i)] * Vector<T>(r.col(i));
+    return z;
+  };
+  Field<T> delta = Field<T>::Zero(3, at.r.cols()), r = at.r, z = precondition(r), p = z;
+  T rz = dot(r, z);
+  const T enough = static_cast<T>(cg_reduction) * rz;
+  for (std::uint32_t n = 0; n < max_cg_; ++n) {
+    const Field<T> q = apply(at, p);
+    const T pq = dot(p, q);
+    ++iterations;
+    if (!(pq > T(0))) break;
+    const T alpha = rz / pq;
+    delta += alpha * p;
+    r -= alpha * q;
+    z = precondition(r);
+    const T rz_next = dot(r, z);
+    if (!(rz_next > enough)) break;
+    const T beta = rz_next / rz;
+    rz = rz_next;
+    p = z + beta * p;
+  }
+  return delta;
+}
+
+template <class T>
+Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
+  report = SolveReport{};
+  const Field<T> held = dynamics_.held_contact_force(s.x, s.v);
+  Field<T> v = s.v;
+  Evaluation at = evaluate(s, held, v);
+  T best = at.residual;
+  int without_progress = 0;
+  report.end = SolveEnd::not_converged;
+  while (true) {
+    if (at.residual <= tolerance_) {
+      report.end = SolveEnd::converged;
+      break;
+    }
+    if (without_progress == max_without_progress) {
+      report.end = SolveEnd::stagnated;
+      break;
+    }
+    if (report.newton_iterations == max_newton_) break;
+    const Field<T> delta = solve(at, report.cg_iterations);
+    ++report.newton_iterations;
+    // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down.
+    T lambda = 1;
+    Field<T> trial = v + lambda * delta;
+    Evaluation next = evaluate(s, held, trial);
+    int halvings = 0;
+    while (!(next.merit < at.merit) && halvings < max_halvings) {
+      ++halvings;
+      lambda = lambda / 2;
+      trial = v + lambda * delta;
+      next = evaluate(s, held, trial);
+    }
+    if (!(next.merit < at.merit)) {  // any further iteration would only repeat this one
+      report.end = SolveEnd::stagnated;
+      break;
+    }
+    v = trial;
+    at = std::move(next);
+    without_progress = at.residual < best ? 0 : without_progress + 1;
+    best = at.residual < best ? at.residual : best;
+  }
+  report.residual = static_cast<double>(at.residual);
+  return {s.x + h_ * v, v};
+}
+
+}  // namespace aspic::reference

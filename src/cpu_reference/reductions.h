@@ -1,0 +1,43 @@
+#pragma once
+// Reductions as trees over fixed blocks of 256 elements (spec §2.9): the sum of n numbers does not depend on
+// how many threads or work groups shared the work, on any backend.
+#include <cstddef>
+#include <vector>
+
+namespace aspic::reference {
+
+inline constexpr std::size_t reduction_block = 256;
+
+/// Combines the elements of each block of 256 by halving (0 with 128, 1 with 129, … then 0 with 64, …),
+/// missing elements counting as zero, then the blocks' results in the same way until one is left. Zero if
+/// there are no elements.
+template <class T, class Combine>
+T tree_reduce(std::vector<T> values, Combine combine) {
+  while (values.size() > 1) {
+    std::vector<T> blocks;
+    for (std::size_t first = 0; first < values.size(); first += reduction_block) {
+      T block[reduction_block] = {};
+      for (std::size_t i = 0; i < reduction_block && first + i < values.size(); ++i)
+        block[i] = values[first + i];
+      for (std::size_t half = reduction_block / 2; half > 0; half /= 2) {
+        for (std::size_t i = 0; i < half; ++i) block[i] = combine(block[i], block[i + half]);
+      }
+      blocks.push_back(block[0]);
+    }
+    values = std::move(blocks);
+  }
+  return values.empty() ? T(0) : values.front();
+}
+
+template <class T>
+T tree_sum(std::vector<T> values) {
+  return tree_reduce<T>(std::move(values), [](T a, T b) { return a + b; });
+}
+
+/// Largest element; elements must not be negative.
+template <class T>
+T tree_max(std::vector<T> values) {
+  return tree_reduce<T>(std::move(values), [](T a, T b) { return b > a ? b : a; });
+}
+
+}  // namespace aspic::reference
