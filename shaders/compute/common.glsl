@@ -1,12 +1,6 @@
-// What every kernel of the solver shares: arithmetic whose order of operations is fixed (docs/determinism.md), the
-// step it works on, and the word that stops it.
+// What every kernel of the solver shares: arithmetic whose order of operations is fixed (docs/determinism.md).
 #include "compute/dispatch.glsl"
 #include "compute/exact.glsl"
-
-layout(location = LOCATION_STEP) uniform uint step_index;
-layout(location = LOCATION_STAGE) uniform uint stage_index;
-
-layout(std430, binding = BINDING_CONTROL) restrict buffer ControlBlock { Control control; };
 
 // (aₓbₓ + a_y b_y) + a_z b_z
 float dot3(vec3 a, vec3 b) {
@@ -20,5 +14,15 @@ float norm3(vec3 a) {
   return root;
 }
 
-// An earlier step diverged: its start state must stay as it is.
-bool halted() { return control.bad_step < step_index; }
+bool finite(vec3 a) {
+  uvec3 exponent = floatBitsToUint(a) & 0x7f800000u;
+  return all(notEqual(exponent, uvec3(0x7f800000u)));
+}
+
+// Divergence (spec §2.8): NO_STEP if x, v are sane, else particle i's word for the lowest-particle search:
+// 2·i, + 1 if the numbers are finite and only too fast.
+uint divergence_word(uint i, vec3 x, vec3 v) {
+  bool all_finite = finite(x) && finite(v);
+  if (all_finite && !(dot3(v, v) > divergence_speed_squared)) return NO_STEP;
+  return 2u * i + (all_finite ? 1u : 0u);
+}

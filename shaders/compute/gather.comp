@@ -2,11 +2,10 @@
 // on to the stage of the integrator and the terrain: no force is ever stored.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
+#include "compute/control.glsl"
+#include "compute/incident.glsl"
 #include "compute/spring.glsl"
 #include "compute/stage.glsl"
-
-layout(std430, binding = BINDING_INCIDENT_START) restrict readonly buffer IncidentStart { uint incident_start[]; };
-layout(std430, binding = BINDING_INCIDENT) restrict readonly buffer Incident { uint incident[]; };
 
 void main() {
   uint i = item_index();
@@ -16,9 +15,8 @@ void main() {
   uint end = incident_start[i + 1u];
   for (uint n = incident_start[i]; n < end; ++n) {
     uint word = incident[n];
-    Particle neighbour = stage_state[word >> class_bits];
-    SpringClass spring = spring_classes[word & ((1u << class_bits) - 1u)];
-    f += spring_force(spring, p.position.xyz, p.velocity.xyz, neighbour.position.xyz, neighbour.velocity.xyz).xyz;
+    Particle other = stage_state[neighbour_of(word)];
+    f += spring_force(class_of(word), p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
   }
   finish_stage(i, p, f);
 }

@@ -15,8 +15,41 @@
 #define BINDING_CONTROL 6       // Control
 #define BINDING_SPRING_FORCES 7 // vec4[springs]: force on end a [N], signed spring strength s [N]
 #define BINDING_SPRINGS 4       // uvec2[springs], in the per-spring force pass only
+// Storage blocks of the implicit kernels, where they differ.
+#define BINDING_STATE_A 0       // Particle[]: the state, or where the step's end goes: Solve.parity tells
+#define BINDING_STATE_B 1       // Particle[]: the other one
+#define BINDING_TRIAL 2         // vec4[particles]: v' at which the residual is evaluated [m/s]
+#define BINDING_SEARCH 3        // vec4[particles]: conjugate gradients' search direction p [m/s]
+#define BINDING_SOLVE 6         // Solve, then vec4[blocks]: the reductions' partial results
+#define BINDING_OWN 7           // vec4[OWN_VECTORS · particles]: what only its own invocation touches
 // Uniform blocks.
 #define BINDING_SIMULATION 0
+
+// Vectors of the OWN block, each an array over particles.
+#define OWN_BASE 0u       // v' of the accepted Newton iterate [m/s]
+#define OWN_DELTA 1u      // Newton's step δ [m/s]
+#define OWN_RESIDUAL 2u   // r = right-hand side − A·δ [kg·m/s]
+#define OWN_Z 3u          // preconditioned r [m/s]
+#define OWN_PRODUCT 4u    // A·p [kg·m/s]
+#define OWN_HELD 5u       // contact force held during the step [N]
+#define OWN_INVERSE_A 6u  // inverse diagonal block: xx, yy, zz [1/kg]
+#define OWN_INVERSE_B 7u  // xy, xz, yz [1/kg]
+#define OWN_VECTORS 8u
+
+// Elements of one block of a reduction, and the group size of every kernel that takes part in one (spec §2.9).
+#define REDUCTION_BLOCK 256
+
+// How a solve ended: SolveEnd in src/model/implicit.h.
+#define SOLVE_CONVERGED 0u
+#define SOLVE_STAGNATED 1u
+#define SOLVE_NOT_CONVERGED 2u
+
+#define PHASE_IDLE 0u      // all steps asked for are done
+#define PHASE_BEGIN 1u     // a step begins
+#define PHASE_EVALUATE 2u  // the residual at the trial is wanted
+#define PHASE_CG 3u        // a linear system is being solved
+#define PHASE_DONE 4u      // v' is found: the step can end
+#define PHASE_HALTED 5u    // the step diverged: nothing moves any more
 
 // Uniform locations.
 #define LOCATION_STEP 0   // index of the step since the state was loaded
@@ -68,6 +101,46 @@ struct Control {
   uint padding0, padding1;
 };
 
+// The state of implicit Euler's solve on the device, which decides by itself what the next dispatch does.
+struct Solve {
+  uint phase;        // PHASE_…
+  uint step;         // steps ended since the state was loaded
+  uint target_step;  // where to stop
+  uint parity;       // 0: the state is in A, 1: in B
+  uint bad_particle;  // as in Control
+  uint blocks_done;   // of the reduction under way
+  uint first;         // 1: the trial is the step's first and is accepted whatever it is
+  uint use_trial;     // 1: v' is the trial, 0: the base
+  uint newton;        // iterations in this step
+  uint cg;            // iterations in this linear system
+  uint cg_total;      // iterations in this step
+  uint updates;       // times δ was updated in this linear system
+  uint halvings;      // of Newton's step
+  uint without_progress;  // Newton iterations without a smaller residual
+  uint end;           // SolveEnd
+  uint ticks;         // rounds of kernels in this step
+  float lambda;       // fraction of δ under trial
+  float merit;        // Σ |(v' − v) − h·a|² of the accepted iterate
+  float residual;     // its largest component of |(v' − v) − h·a| [m/s]
+  float best;         // smallest residual in this step
+  float rz;           // r·z
+  float enough;       // r·z at which the linear system counts as solved
+  float alpha;
+  float beta;
+  uint last_newton;   // of the last ended step, for reports
+  uint last_cg;
+  float last_residual;
+  uint last_end;
+  uint last_ticks;
+  float worst_residual;  // since the state was loaded; counters wrap and are read as differences
+  uint converged;
+  uint stagnated;
+  uint not_converged;
+  uint newton_sum;
+  uint cg_sum;
+  uint solve_padding;
+};
+
 #ifdef __cplusplus
 struct Simulation {
 #else
@@ -84,7 +157,14 @@ layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
   uint contact_model;         // CONTACT_…
   uint class_bits;            // low bits of a gather word that hold the spring class
   uint position_from_new_velocity;  // 1: symplectic Euler
-  uint simulation_padding0, simulation_padding1;
+  uint max_newton;            // implicit Euler: src/model/implicit.h
+  uint max_cg;
+  float time_step;            // h [s]
+  float tolerance;            // on the residual [m/s]
+  float cg_reduction;
+  uint max_halvings;
+  uint max_without_progress;
+  uint simulation_padding0, simulation_padding1, simulation_padding2;
   Stage stages[MAX_STAGES];
   SpringClass spring_classes[MAX_SPRING_CLASSES];
   Terrain terrains[MAX_TERRAINS];

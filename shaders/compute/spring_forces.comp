@@ -1,6 +1,7 @@
 // Force path `per-spring`, first pass: one invocation per spring writes the force on its end a.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
+#include "compute/control.glsl"
 #include "compute/spring.glsl"
 
 layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer StageState { Particle stage_state[]; };

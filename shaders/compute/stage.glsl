@@ -8,32 +8,15 @@ layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer StageStat
 layout(std430, binding = BINDING_OUT_STATE) restrict writeonly buffer OutState { Particle out_state[]; };
 layout(std430, binding = BINDING_STAGE_SUMS) restrict buffer StageSums { Particle stage_sums[]; };
 
-bool finite(vec3 a) {
-  uvec3 exponent = floatBitsToUint(a) & 0x7f800000u;
-  return all(notEqual(exponent, uvec3(0x7f800000u)));
-}
-
-void watch_divergence(uint i, vec3 x, vec3 v) {
-  bool all_finite = finite(x) && finite(v);
-  if (!all_finite || dot3(v, v) > divergence_speed_squared) {
-    atomicMin(control.bad_step, step_index);
-    atomicMin(control.bad_particle, 2u * i + (all_finite ? 1u : 0u));
-  }
-}
-
 void end_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
   precise vec3 v = start.velocity.xyz + step_scale * slope_v;
   precise vec3 x = start.position.xyz + step_scale * (position_from_new_velocity != 0u ? v : slope_x);
-  if (start.position.w != 0.0) {
-    for (uint t = 0u; t < terrain_count; ++t) {
-      if (contact_model == CONTACT_COULOMB) {
-        respond_coulomb(t, start.velocity.w, start.position.xyz, start.velocity.xyz, x, v);
-      } else {
-        respond_course(t, start.velocity.w, x, v);
-      }
-    }
+  respond(start, x, v);
+  uint bad = divergence_word(i, x, v);
+  if (bad != NO_STEP) {
+    atomicMin(control.bad_step, step_index);
+    atomicMin(control.bad_particle, bad);
   }
-  watch_divergence(i, x, v);
   out_state[i] = Particle(vec4(x, start.position.w), vec4(v, start.velocity.w));
 }
 

@@ -2,6 +2,7 @@
 // neighbour index, then goes on to the stage of the integrator and the terrain.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
+#include "compute/control.glsl"
 #include "compute/stage.glsl"
 
 layout(std430, binding = BINDING_INCIDENT_START) restrict readonly buffer IncidentStart { uint incident_start[]; };

@@ -75,3 +75,15 @@ void respond_coulomb(uint t, float m, vec3 x_0, vec3 v_0, inout precise vec3 x, 
   }
   if (g.w < 0.0) x = x - g.w * g.xyz;
 }
+
+// The response of all terrains, in file order, at the end of a step from `start` to x, v.
+void respond(Particle start, inout precise vec3 x, inout precise vec3 v) {
+  if (start.position.w == 0.0) return;
+  for (uint t = 0u; t < terrain_count; ++t) {
+    if (contact_model == CONTACT_COULOMB) {
+      respond_coulomb(t, start.velocity.w, start.position.xyz, start.velocity.xyz, x, v);
+    } else {
+      respond_course(t, start.velocity.w, x, v);
+    }
+  }
+}

@@ -202,7 +202,7 @@ Field<T> ImplicitEuler<T>::solve(const Evaluation& at, std::uint32_t& iterations
     ++iterations;
     if (!(pq > T(0))) break;
     const T alpha = rz / pq;
-    delta += alpha * p;
+    delta = n == 0 ? Field<T>(alpha * p) : Field<T>(delta + alpha * p);
     r -= alpha * q;
     z = precondition(r);
     const T rz_next = dot(r, z);

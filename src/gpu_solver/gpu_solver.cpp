@@ -8,8 +8,9 @@
 
 #include "gpu/pass.h"
 #include "gpu/program.h"
-#include "gpu_solver/layout.h"
+#include "gpu_solver/implicit_solver.h"
 #include "gpu_solver/simulation_block.h"
+#include "gpu_solver/support.h"
 #include "gpu_solver/topology.h"
 #include "model/integrator.h"
 
@@ -58,7 +59,6 @@ class ComputeSolver final : public GpuSolver {
   Status build_passes(const GpuOptions& options);
   void queue_step(std::uint32_t step_index, bool last_of_queue);
   Result<layout::Control> read_control();
-  Status check_device();
 
   gl::Context& context_;
   const Model& model_;
@@ -86,14 +86,6 @@ Status ComputeSolver::build(const GpuOptions& options) {
   bytes_ = context_.bytes_held() - held_before;
   return load(initial_state(model_, Precision::single));
 }
-
-/// Makes a buffer or returns the error from the enclosing function.
-#define ASPIC_ASSIGN_OR_RETURN(target, expression) \
-  do {                                             \
-    auto made_ = (expression);                     \
-    if (!made_) return made_.error();              \
-    target = std::move(made_).value();             \
-  } while (false)
 
 Status ComputeSolver::build_buffers() {
   const StagedMethod* method = staged_method(model_.simulation.integrator);
@@ -132,13 +124,10 @@ Status ComputeSolver::build_buffers() {
 
 Status ComputeSolver::build_passes(const GpuOptions& options) {
   const gl::ShaderLibrary library(options.shader_directory);
-  if (options.arithmetic) {
-    arithmetic_ = *options.arithmetic;
-  } else {
-    ASPIC_ASSIGN_OR_RETURN(arithmetic_, gl::choose_arithmetic(context_, library));
-  }
-  std::vector<gl::Define> defines = arithmetic_.defines;
-  defines.push_back({"ASPIC_GROUP_SIZE", std::to_string(options.group_size)});
+  KernelOptions kernels;
+  ASPIC_ASSIGN_OR_RETURN(kernels, kernel_options(context_, library, options, options.group_size));
+  arithmetic_ = kernels.arithmetic;
+  const std::vector<gl::Define>& defines = kernels.defines;
   const Binding constants = {BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform};
   const Binding control = {BINDING_CONTROL, &control_};
   if (path_ == ForcePath::per_spring) {
@@ -163,18 +152,8 @@ Status ComputeSolver::build_passes(const GpuOptions& options) {
 }
 
 Status ComputeSolver::load(const State& state) {
-  if (state.position.size() != model_.particle_count() || state.velocity.size() != model_.particle_count()) {
-    return Error{ErrorCode::usage, fmt::format("the state has {} particles, the scene has {}",
-                                               state.position.size(), model_.particle_count())};
-  }
-  std::vector<layout::Particle> particles(state.position.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const Vec3 &x = state.position[i], &v = state.velocity[i];
-    particles[i].position = {static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z),
-                             static_cast<float>(model_.inverse_mass[i])};
-    particles[i].velocity = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
-                             static_cast<float>(model_.mass[i])};
-  }
+  std::vector<layout::Particle> particles;
+  ASPIC_ASSIGN_OR_RETURN(particles, to_device(state, model_));
   current_ = 0;
   states_[0].upload_items(std::span<const layout::Particle>(particles));
   const layout::Control control = {NO_STEP, NO_STEP, 0, 0};
@@ -182,7 +161,7 @@ Status ComputeSolver::load(const State& state) {
   base_step_ = state.step;
   steps_since_ = 0;
   divergence_.reset();
-  return check_device();
+  return check_device(context_);
 }
 
 void ComputeSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
@@ -223,8 +202,7 @@ Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
     std::uint32_t good = queue;
     if (control->bad_step != NO_STEP) {
       good = control->bad_step - steps_since_;
-      divergence_ = Divergence{base_step_ + control->bad_step + 1, control->bad_particle >> 1,
-                               (control->bad_particle & 1u) != 0};
+      divergence_ = divergence_from(control->bad_particle, base_step_ + control->bad_step + 1);
     }
     current_ = (first_state + good) % 3;
     steps_since_ += good;
@@ -235,31 +213,14 @@ Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
 
 Result<layout::Control> ComputeSolver::read_control() {
   const layout::Control control = control_.download_items<layout::Control>(1).front();
-  if (const Status ok = check_device(); !ok) return ok.error();
+  if (const Status ok = check_device(context_); !ok) return ok.error();
   return control;
 }
 
 Result<State> ComputeSolver::state() {
   const auto particles = states_[current_].download_items<layout::Particle>(model_.particle_count());
-  if (const Status ok = check_device(); !ok) return ok.error();
-  State state;
-  state.precision = Precision::single;
-  state.step = base_step_ + steps_since_;
-  state.position.reserve(particles.size());
-  state.velocity.reserve(particles.size());
-  for (const layout::Particle& p : particles) {
-    state.position.push_back({p.position.x, p.position.y, p.position.z});
-    state.velocity.push_back({p.velocity.x, p.velocity.y, p.velocity.z});
-  }
-  return state;
-}
-
-Status ComputeSolver::check_device() {
-  if (!context_.lost()) return {};
-  return Error{ErrorCode::no_device,
-               fmt::format("{} was reset or lost; the run ends at its last checkpoint. Run again, or "
-                           "choose --backend reference",
-                           context_.info().renderer)};
+  if (const Status ok = check_device(context_); !ok) return ok.error();
+  return from_device(particles, base_step_ + steps_since_);
 }
 
 }  // namespace
@@ -284,6 +245,13 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
     return Error{ErrorCode::scene_rejected,
                  "the force path lattice is not built yet in this version: use gather or per-spring"};
   }
+  if (model.simulation.integrator == Integrator::implicit_euler) {
+    if (options.force_path == ForcePath::per_spring) {
+      return Error{ErrorCode::scene_rejected,
+                   "implicit-euler evaluates springs by gather alone: use the force path auto or gather"};
+    }
+    return make_implicit_solver(context, model, options);
+  }
   const ForcePath path = options.force_path == ForcePath::automatic ? ForcePath::gather : options.force_path;
   auto solver = std::make_unique<ComputeSolver>(context, model, path);
   if (const Status built = solver->build(options); !built) return built.error();
@@ -291,8 +259,13 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
 }
 
 std::uint64_t gpu_bytes(const ModelCounts& counts, Integrator integrator, ForcePath path) {
-  const StagedMethod* method = staged_method(integrator);
-  const std::uint64_t states = method && keeps_sums(*method) ? 4 : 3;
+  if (integrator == Integrator::implicit_euler) {
+    const std::uint64_t blocks = (counts.particles + REDUCTION_BLOCK - 1) / REDUCTION_BLOCK;
+    return counts.particles * (2 * sizeof(layout::Particle) + (2 + OWN_VECTORS) * sizeof(layout::vec4)) +
+           sizeof(layout::Simulation) + sizeof(layout::Solve) + blocks * sizeof(layout::vec4) +
+           4 * (counts.particles + 1) + 8 * counts.springs();
+  }
+  const std::uint64_t states = keeps_sums(*staged_method(integrator)) ? 4 : 3;
   std::uint64_t bytes = states * counts.particles * sizeof(layout::Particle) + sizeof(layout::Simulation) +
                         sizeof(layout::Control) + 4 * (counts.particles + 1) + 8 * counts.springs();
   if (path == ForcePath::per_spring)

@@ -61,11 +61,6 @@ std::uint32_t class_bits(const Model& model) {
 }
 
 Result<layout::Simulation> simulation_block(const Model& model) {
-  const StagedMethod* method = staged_method(model.simulation.integrator);
-  if (!method) {
-    return Error{ErrorCode::scene_rejected, fmt::format("the gpu backend does not have the integrator {} yet",
-                                                        name_of(model.simulation.integrator))};
-  }
   if (model.spring_classes.size() > MAX_SPRING_CLASSES || model.terrain.size() > MAX_TERRAINS) {
     return Error{
         ErrorCode::scene_rejected,
@@ -83,7 +78,17 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.terrain_count = static_cast<std::uint32_t>(model.terrain.size());
   block.contact_model = model.contact.model == ContactModel::coulomb ? CONTACT_COULOMB : CONTACT_COURSE;
   block.class_bits = class_bits(model);
-  fill_stages(block, *method, model.simulation.timestep);
+  if (const StagedMethod* method = staged_method(model.simulation.integrator)) {
+    fill_stages(block, *method, model.simulation.timestep);
+  }
+  const ImplicitSettings& implicit = model.simulation.implicit;
+  block.time_step = static_cast<float>(model.simulation.timestep);
+  block.max_newton = static_cast<std::uint32_t>(implicit.newton_iterations);
+  block.max_cg = static_cast<std::uint32_t>(implicit.cg_iterations);
+  block.tolerance = static_cast<float>(implicit_tolerance(implicit, Precision::single));
+  block.cg_reduction = static_cast<float>(cg_reduction);
+  block.max_halvings = max_halvings;
+  block.max_without_progress = max_without_progress;
   for (std::size_t c = 0; c < model.spring_classes.size(); ++c) {
     const SpringClass& s = model.spring_classes[c];
     block.spring_classes[c] = {static_cast<float>(s.stiffness), static_cast<float>(s.damping),

@@ -1,0 +1,8 @@
+// Explicit methods: the step and stage a dispatch works on, and the words that stop it.
+layout(location = LOCATION_STEP) uniform uint step_index;
+layout(location = LOCATION_STAGE) uniform uint stage_index;
+
+layout(std430, binding = BINDING_CONTROL) restrict buffer ControlBlock { Control control; };
+
+// An earlier step diverged: its start state must stay as it is.
+bool halted() { return control.bad_step < step_index; }

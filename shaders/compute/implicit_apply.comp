@@ -1,0 +1,45 @@
+// Implicit Euler, conjugate gradients: A·p with A = m − h·∂f/∂v' at the trial, spring by spring, and p·A·p.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/implicit.glsl"
+#include "compute/incident.glsl"
+#include "compute/implicit_spring.glsl"
+#include "compute/reduction.glsl"
+
+// Returns 0, p·A·p, 0, 0.
+vec4 apply(uint i) {
+  Particle particle = state(i);
+  precise vec3 p = search[i].xyz;
+  precise vec3 v = trial[i].xyz;
+  precise vec3 product = particle.velocity.w * p;
+  uint end = incident_start[i + 1u];
+  for (uint n = incident_start[i]; n < end; ++n) {
+    uint word = incident[n], j = neighbour_of(word);
+    precise vec3 dv = v - trial[j].xyz;
+    precise vec3 e = (particle.position.xyz - state(j).position.xyz) + time_step * dv;
+    SpringJacobian H;
+    linearised(class_of(word), e, dv, H);
+    precise vec3 d = p - search[j].xyz;
+    product += times(H, d);
+  }
+  if (particle.position.w == 0.0) product = vec3(0.0);
+  set_own(OWN_PRODUCT, i, product);
+  return vec4(0.0, dot3(p, product), 0.0, 0.0);
+}
+
+void main() {
+  if (solve.phase != PHASE_CG) return;
+  uint i = item_index();
+  vec4 element = vec4(0.0);
+  if (i < particle_count) element = apply(i);
+  vec4 total;
+  if (!reduce(element, total) || gl_LocalInvocationIndex != 0u) return;
+  ++solve.cg;
+  ++solve.cg_total;
+  if (total.y > 0.0) {
+    precise float alpha = exact_div(solve.rz, total.y);
+    solve.alpha = alpha;
+  } else {
+    solve.phase = PHASE_EVALUATE;
+  }
+}

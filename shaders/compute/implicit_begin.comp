@@ -1,0 +1,42 @@
+// Implicit Euler, a step begins: the first trial is v itself, and the course model's contact force at (x, v) is
+// evaluated once and held.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/implicit.glsl"
+#include "compute/incident.glsl"
+#include "compute/reduction.glsl"
+#include "compute/spring.glsl"
+#include "compute/terrain.glsl"
+
+vec3 held_contact_force(uint i, Particle p) {
+  if (contact_model == CONTACT_COULOMB || p.position.w == 0.0) return vec3(0.0);
+  precise vec3 f = p.velocity.w * gravity.xyz;
+  uint end = incident_start[i + 1u];
+  for (uint n = incident_start[i]; n < end; ++n) {
+    uint word = incident[n];
+    Particle other = state(neighbour_of(word));
+    f += spring_force(class_of(word), p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
+  }
+  precise vec3 held = with_contact_force(p.position.xyz, p.velocity.xyz, f) - f;
+  return held;
+}
+
+void main() {
+  if (solve.phase != PHASE_BEGIN) return;
+  uint i = item_index();
+  if (i < particle_count) {
+    Particle p = state(i);
+    set_own(OWN_HELD, i, held_contact_force(i, p));
+    trial[i] = vec4(p.velocity.xyz, 0.0);
+  }
+  vec4 total;
+  if (!reduce(vec4(0.0), total) || gl_LocalInvocationIndex != 0u) return;
+  solve.newton = 0u;
+  solve.cg_total = 0u;
+  solve.without_progress = 0u;
+  solve.halvings = 0u;
+  solve.ticks = 0u;
+  solve.lambda = 1.0;
+  solve.first = 1u;
+  solve.phase = PHASE_EVALUATE;
+}

@@ -1,0 +1,20 @@
+// Implicit Euler, the end of a round: within a linear system the next search direction p = z + β·p; after one, or after a
+// trial was refused, the next trial v' = base + λ·δ. The accepted trial has become the base by then.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/implicit.glsl"
+
+void main() {
+  uint i = item_index();
+  if (i >= particle_count) return;
+  if (solve.phase == PHASE_CG) {
+    precise vec3 p = own(OWN_Z, i) + solve.beta * search[i].xyz;
+    search[i] = vec4(p, 0.0);
+  } else if (solve.phase == PHASE_EVALUATE) {
+    precise vec3 base = solve.halvings == 0u ? trial[i].xyz : own(OWN_BASE, i);
+    precise vec3 delta = solve.updates == 0u ? vec3(0.0) : own(OWN_DELTA, i);
+    precise vec3 next = base + solve.lambda * delta;
+    set_own(OWN_BASE, i, base);
+    trial[i] = vec4(next, 0.0);
+  }
+}

@@ -1,0 +1,30 @@
+// A spring in the linear system, see src/cpu_reference/implicit_euler.h.
+
+// −h·∂f/∂v' as seen from one end: H·d = across·d + (along − across)·n(n·d). A compressed spring's negative part across
+// its axis is left out (Choi and Ko, 2002).
+struct SpringJacobian {
+  float along;   // [kg]
+  float across;  // [kg]
+  vec3 n;        // unit vector along the spring
+};
+
+// Force on the end the vectors point to, and the Jacobian: e = spring vector at the step's end, v = relative velocity.
+vec3 linearised(SpringClass spring, vec3 e, vec3 v, out SpringJacobian H) {
+  H = SpringJacobian(0.0, 0.0, vec3(0.0));
+  precise float L = norm3(e);
+  if (L == 0.0 || (spring.cord != 0u && L < spring.rest_length)) return vec3(0.0);
+  precise float q = exact_div(1.0, L);
+  precise float s = spring.stiffness * (L - spring.rest_length) + spring.damping * (dot3(v, e) * q);
+  precise vec3 f = -((s * q) * e);
+  precise float along = (time_step * time_step) * spring.stiffness + time_step * spring.damping;
+  precise float stretched = (time_step * time_step) * (s * q);
+  precise vec3 n = q * e;
+  H = SpringJacobian(along, s > 0.0 ? stretched : 0.0, n);
+  return f;
+}
+
+vec3 times(SpringJacobian H, vec3 d) {
+  precise float along_n = (H.along - H.across) * dot3(H.n, d);
+  precise vec3 product = H.across * d + along_n * H.n;
+  return product;
+}

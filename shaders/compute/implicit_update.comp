@@ -1,0 +1,37 @@
+// Implicit Euler, conjugate gradients: δ += α·p, r −= α·A·p, z = B⁻¹·r, and r·z.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/implicit.glsl"
+#include "compute/implicit_spring.glsl"
+#include "compute/implicit_block.glsl"
+#include "compute/reduction.glsl"
+
+// Returns 0, r·z, 0, 0.
+vec4 update(uint i) {
+  precise vec3 along_p = solve.alpha * search[i].xyz;
+  precise vec3 delta = own(OWN_DELTA, i) + along_p;
+  if (solve.updates == 0u) delta = along_p;
+  precise vec3 r = own(OWN_RESIDUAL, i) - solve.alpha * own(OWN_PRODUCT, i);
+  precise vec3 z = times(DiagonalBlock(own(OWN_INVERSE_A, i), own(OWN_INVERSE_B, i)), r);
+  set_own(OWN_DELTA, i, delta);
+  set_own(OWN_RESIDUAL, i, r);
+  set_own(OWN_Z, i, z);
+  return vec4(0.0, dot3(r, z), 0.0, 0.0);
+}
+
+void main() {
+  if (solve.phase != PHASE_CG) return;
+  uint i = item_index();
+  vec4 element = vec4(0.0);
+  if (i < particle_count) element = update(i);
+  vec4 total;
+  if (!reduce(element, total) || gl_LocalInvocationIndex != 0u) return;
+  ++solve.updates;
+  if (!(total.y > solve.enough) || solve.cg == max_cg) {
+    solve.phase = PHASE_EVALUATE;
+  } else {
+    precise float beta = exact_div(total.y, solve.rz);
+    solve.beta = beta;
+    solve.rz = total.y;
+  }
+}

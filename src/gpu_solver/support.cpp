@@ -1,0 +1,63 @@
+#include "gpu_solver/support.h"
+
+#include <fmt/format.h>
+
+namespace aspic {
+
+Result<std::vector<layout::Particle>> to_device(const State& state, const Model& model) {
+  if (state.position.size() != model.particle_count() || state.velocity.size() != model.particle_count()) {
+    return Error{ErrorCode::usage, fmt::format("the state has {} particles, the scene has {}",
+                                               state.position.size(), model.particle_count())};
+  }
+  std::vector<layout::Particle> particles(state.position.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec3 &x = state.position[i], &v = state.velocity[i];
+    particles[i].position = {static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z),
+                             static_cast<float>(model.inverse_mass[i])};
+    particles[i].velocity = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
+                             static_cast<float>(model.mass[i])};
+  }
+  return particles;
+}
+
+State from_device(std::span<const layout::Particle> particles, std::uint64_t step) {
+  State state;
+  state.precision = Precision::single;
+  state.step = step;
+  state.position.reserve(particles.size());
+  state.velocity.reserve(particles.size());
+  for (const layout::Particle& p : particles) {
+    state.position.push_back({p.position.x, p.position.y, p.position.z});
+    state.velocity.push_back({p.velocity.x, p.velocity.y, p.velocity.z});
+  }
+  return state;
+}
+
+Status check_device(gl::Context& context) {
+  if (!context.lost()) return {};
+  return Error{
+      ErrorCode::no_device,
+      fmt::format(
+          "{} was reset or lost, and with it the state since the last checkpoint: run again from there, or "
+          "choose --backend reference",
+          context.info().renderer)};
+}
+
+Divergence divergence_from(std::uint32_t word, std::uint64_t step) {
+  return {step, word >> 1, (word & 1u) != 0};
+}
+
+Result<KernelOptions> kernel_options(gl::Context& context, const gl::ShaderLibrary& library,
+                                     const GpuOptions& options, std::uint32_t group_size) {
+  KernelOptions kernels;
+  if (options.arithmetic) {
+    kernels.arithmetic = *options.arithmetic;
+  } else {
+    ASPIC_ASSIGN_OR_RETURN(kernels.arithmetic, gl::choose_arithmetic(context, library));
+  }
+  kernels.defines = kernels.arithmetic.defines;
+  kernels.defines.push_back({"ASPIC_GROUP_SIZE", std::to_string(group_size)});
+  return kernels;
+}
+
+}  // namespace aspic
