@@ -41,7 +41,7 @@ bool reduce(vec4 element, out vec4 total) {
   for (uint left = blocks; left > 1u; left = blocks_of(left)) {
     for (uint b = 0u; b < blocks_of(left); ++b) {
       uint index = b * REDUCTION_BLOCK + gl_LocalInvocationIndex;
-      vec4 element_of_block = index < left ? partials[index] : vec4(0.0);
+      precise vec4 element_of_block = index < left ? partials[index] : vec4(0.0);
       reduce_block(element_of_block);
       if (gl_LocalInvocationIndex == 0u) partials[b] = reduction[0];
       memoryBarrierBuffer();

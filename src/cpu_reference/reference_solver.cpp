@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "cpu_reference/implicit_euler.h"
-#include "model/integrator.h"
 
 namespace aspic {
 namespace reference {
@@ -111,10 +111,17 @@ class ReferenceSolver final : public Solver {
 }  // namespace reference
 
 Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precision precision) {
-  if (precision == Precision::single) {
-    return std::unique_ptr<Solver>(std::make_unique<reference::ReferenceSolver<float>>(model));
+  try {
+    if (precision == Precision::single) {
+      return std::unique_ptr<Solver>(std::make_unique<reference::ReferenceSolver<float>>(model));
+    }
+    return std::unique_ptr<Solver>(std::make_unique<reference::ReferenceSolver<double>>(model));
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::scene_rejected,
+                 fmt::format("no memory left for the reference solver of {} particles ({} bytes): use fewer "
+                             "particles-per-edge",
+                             model.particle_count(), reference_bytes(count(model), precision))};
   }
-  return std::unique_ptr<Solver>(std::make_unique<reference::ReferenceSolver<double>>(model));
 }
 
 std::uint64_t reference_bytes(const ModelCounts& counts, Precision precision) {

@@ -7,7 +7,7 @@
 namespace aspic {
 
 /// A reference solver at the model's initial state, in single or double precision.
-/// The model must outlive it. Error (scene_rejected): an integrator that is not built yet.
+/// The model must outlive it. Error (scene_rejected): there is no memory left for its fields.
 Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precision precision);
 
 /// Bytes a reference solver would hold for a model of these counts.

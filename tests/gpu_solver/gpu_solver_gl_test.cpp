@@ -96,6 +96,9 @@ TEST_F(GpuSolverTest, HoldsAsManyBytesAsItSaid) {
   for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
     EXPECT_EQ(solver_for(model, path)->bytes(), gpu_bytes(count(model), Integrator::explicit_euler, path));
   }
+  Model implicit = model;
+  implicit.simulation.integrator = Integrator::implicit_euler;
+  EXPECT_EQ(solver_for(implicit)->bytes(), gpu_bytes(count(model), Integrator::implicit_euler, ForcePath::gather));
 }
 
 TEST_F(GpuSolverTest, RefusesWhatIsNotBuilt) {
@@ -104,7 +107,8 @@ TEST_F(GpuSolverTest, RefusesWhatIsNotBuilt) {
   options.force_path = ForcePath::lattice;
   EXPECT_EQ(make_gpu_solver(context(), model, options).error().code, ErrorCode::scene_rejected);
   model.simulation.integrator = Integrator::implicit_euler;
-  EXPECT_EQ(make_gpu_solver(context(), model).error().code, ErrorCode::scene_rejected);
+  options.force_path = ForcePath::per_spring;
+  EXPECT_EQ(make_gpu_solver(context(), model, options).error().code, ErrorCode::scene_rejected);
 }
 
 TEST_F(GpuSolverTest, RefusesAnotherScenesState) {
