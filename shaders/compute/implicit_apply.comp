@@ -30,9 +30,9 @@ vec4 apply(uint i) {
 void main() {
   if (solve.phase != PHASE_CG) return;
   uint i = item_index();
-  vec4 element = vec4(0.0);
+  precise vec4 element = vec4(0.0);
   if (i < particle_count) element = apply(i);
-  vec4 total;
+  precise vec4 total;
   if (!reduce(element, total) || gl_LocalInvocationIndex != 0u) return;
   ++solve.cg;
   ++solve.cg_total;

@@ -29,7 +29,7 @@ void main() {
     set_own(OWN_HELD, i, held_contact_force(i, p));
     trial[i] = vec4(p.velocity.xyz, 0.0);
   }
-  vec4 total;
+  precise vec4 total;
   if (!reduce(vec4(0.0), total) || gl_LocalInvocationIndex != 0u) return;
   solve.newton = 0u;
   solve.cg_total = 0u;

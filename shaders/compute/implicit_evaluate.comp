@@ -88,8 +88,8 @@ void main() {
   uint i = item_index();
   if (i == 0u && (phase == PHASE_EVALUATE || phase == PHASE_CG)) ++solve.ticks;
   if (phase != PHASE_EVALUATE) return;
-  vec4 element = vec4(0.0);
+  precise vec4 element = vec4(0.0);
   if (i < particle_count) element = evaluate(i);
-  vec4 total;
+  precise vec4 total;
   if (reduce(element, total) && gl_LocalInvocationIndex == 0u) judge(total.x, total.y, total.z);
 }

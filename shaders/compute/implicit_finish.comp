@@ -39,7 +39,7 @@ void main() {
   if (solve.phase != PHASE_DONE) return;
   uint i = item_index();
   if (i < particle_count) finish(i);
-  vec4 total;
+  precise vec4 total;
   if (!reduce(vec4(0.0), total) || gl_LocalInvocationIndex != 0u) return;
   if (atomicAdd(solve.bad_particle, 0u) != NO_STEP) {
     solve.phase = PHASE_HALTED;

@@ -57,12 +57,7 @@ std::optional<std::string> complaint_about(const Parameter& p, double value) {
 }
 
 std::optional<std::string> complaint_about_word(const Parameter& p, const std::string& word) {
-  const std::vector<std::string_view> words = built_words(p);
-  if (std::find(words.begin(), words.end(), word) != words.end()) return std::nullopt;
-  if (not_built::is_word(p.path, word)) {
-    return fmt::format("{} \"{}\" is not built yet in this version; allowed: {}", key_text(p), word,
-                       allowed_text(p));
-  }
+  if (std::find(p.words.begin(), p.words.end(), word) != p.words.end()) return std::nullopt;
   return fmt::format("'{}' does not know \"{}\"; allowed: {}{}", key_text(p), word, allowed_text(p),
                      diagnostics::did_you_mean(diagnostics::nearest(word, p.words)));
 }
@@ -97,14 +92,6 @@ const Parameter* find_parameter(std::string_view path) {
   const auto all = parameters();
   const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.path == path; });
   return found == all.end() ? nullptr : &*found;
-}
-
-std::vector<std::string_view> built_words(const Parameter& p) {
-  std::vector<std::string_view> words;
-  for (const std::string_view word : p.words) {
-    if (!not_built::is_word(p.path, word)) words.push_back(word);
-  }
-  return words;
 }
 
 std::string key_text(const Parameter& parameter) {
@@ -224,9 +211,9 @@ std::string allowed_text(const Parameter& p) {
     case ParameterType::text:
       return "a string";
     case ParameterType::word:
-      return diagnostics::list_text(built_words(p), true);
+      return diagnostics::list_text(p.words, true);
     case ParameterType::words:
-      return fmt::format("an array of {}, each at most once", diagnostics::list_text(built_words(p), true));
+      return fmt::format("an array of {}, each at most once", diagnostics::list_text(p.words, true));
     case ParameterType::vector:
       return fmt::format("three numbers [x, y, z], each {}{}", range_text(p),
                          p.direction ? ", not all zero" : "");

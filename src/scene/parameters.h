@@ -103,9 +103,6 @@ struct Complaint {
 /// Checks range, finiteness, words and direction of a value of the parameter's type; nothing if it is legal.
 std::optional<Complaint> check_value(const Parameter& parameter, const Value& value);
 
-/// The words of a word parameter that this version has built.
-std::vector<std::string_view> built_words(const Parameter& parameter);
-
 /// What is allowed, in words: `a number > 0 and ≤ 1 s`.
 std::string allowed_text(const Parameter& parameter);
 

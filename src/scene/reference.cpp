@@ -43,12 +43,8 @@ std::string condition(const Parameter& p) {
 std::string table_row(const Parameter& p) {
   const std::size_t dot = p.path.find('.');
   const std::string_view key = dot == std::string_view::npos ? p.path : p.path.substr(dot + 1);
-  std::string later;
-  for (const std::string_view word : p.words) {
-    if (not_built::is_word(p.path, word)) later += fmt::format(" `\"{}\"` is not built yet.", word);
-  }
-  return fmt::format("| `{}` | {}{}{} | {} | {} | {} |\n", key, p.meaning, condition(p), later,
-                     allowed_text(p), default_text(p), p.live ? "yes" : "no");
+  return fmt::format("| `{}` | {}{} | {} | {} | {} |\n", key, p.meaning, condition(p), allowed_text(p),
+                     default_text(p), p.live ? "yes" : "no");
 }
 
 }  // namespace
@@ -85,7 +81,6 @@ std::string scene_reference() {
     page += fmt::format("| `{}` | {} |\n", scene.name, scene.description);
   page += "\n## Not built yet\n\nThese parts of the format are known by name and refused:";
   for (const std::string_view name : not_built::sections) page += fmt::format(" `[[{}]]`", name);
-  for (const auto& word : not_built::words) page += fmt::format(" `{} = \"{}\"`", word.path, word.word);
   page += "; and the built-in scenes";
   for (const std::string_view name : not_built::builtin_scenes) page += fmt::format(" `{}`", name);
   return page + ".\n";

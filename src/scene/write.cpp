@@ -84,7 +84,7 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
     const std::string text = toml_value(*value);
     if (dot == std::string_view::npos) {
       std::string comment(p.unit);
-      if (p.type == ParameterType::word) comment = fmt::format("{}", fmt::join(built_words(p), " | "));
+      if (p.type == ParameterType::word) comment = fmt::format("{}", fmt::join(p.words, " | "));
       lines.push_back({fmt::format("{} = {}", rest, text), comment});
       continue;
     }

@@ -165,7 +165,6 @@ TEST(Set, PointsAtWhatIsWrongInAnArgument) {
       {"simulation.timestep=5", 21, "out of range"},
       {"simulation.timestep=nan", 21, "must be finite"},
       {"simulation=3", 12, "must be a table"},
-      {"simulation.integrator=implicit-euler", 23, "is not built yet in this version"},
       {"schema=2", 8, "unknown schema version 2"},
       {"cube[0]=2", 9, "is a table"},
       {"cube=[]", 1, "needs an index"},

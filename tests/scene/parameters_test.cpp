@@ -148,7 +148,7 @@ TEST_P(EveryKey, RefusesValuesOutOfRangeInTheirPlace) {
 
 TEST_P(EveryKey, AcceptsTheEndsOfItsRange) {
   if (p.type != ParameterType::integer && p.type != ParameterType::number) {
-    for (const std::string_view word : built_words(p)) {
+    for (const std::string_view word : p.words) {
       const std::string value =
           p.type == ParameterType::word ? fmt::format("\"{}\"", word) : fmt::format("[\"{}\"]", word);
       test::parsed(file_with(p, value).text);

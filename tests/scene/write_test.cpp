@@ -51,7 +51,7 @@ Value random_value(const Parameter& p, std::mt19937_64& random) {
     case ParameterType::text:
       return std::string("a \"name\" with \\ and \t and \x7f and é");
     case ParameterType::word: {
-      const auto words = built_words(p);
+      const auto words = p.words;
       return std::string(words[std::uniform_int_distribution<std::size_t>(0, words.size() - 1)(random)]);
     }
     case ParameterType::words: {
