@@ -1,0 +1,178 @@
+#include "scene/diagnostics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+
+#include "scene/not_built.h"
+#include "scene/parameters.h"
+
+namespace aspic::diagnostics {
+namespace {
+
+/// Lines longer than this are shown in part, around the culprit.
+constexpr std::size_t shown_characters = 100;
+
+std::string_view line_of(std::string_view text, std::uint32_t line) {
+  for (std::uint32_t current = 1; current < line; ++current) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return {};
+    text.remove_prefix(end + 1);
+  }
+  text = text.substr(0, text.find('\n'));
+  if (text.ends_with('\r')) text.remove_suffix(1);
+  return text;
+}
+
+/// The line as UTF-8 characters, fit for a terminal: tabs as single spaces, control characters as question
+/// marks.
+std::vector<std::string> characters_of(std::string_view line) {
+  std::vector<std::string> characters;
+  for (const char c : line) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xc0u) == 0x80u && !characters.empty()) {
+      characters.back() += c;
+    } else if (c == '\t') {
+      characters.emplace_back(" ");
+    } else {
+      characters.emplace_back(1, byte < 0x20u || byte == 0x7fu ? '?' : c);
+    }
+  }
+  return characters;
+}
+
+/// Two lines: the text behind `gutter`, and the caret behind `blank_gutter` of the same width.
+std::string line_with_caret(std::string_view line, std::uint32_t column, std::string_view gutter,
+                            std::string_view blank_gutter) {
+  const std::vector<std::string> characters = characters_of(line);
+  const std::size_t culprit = column - 1;
+  std::size_t begin = 0, end = characters.size();
+  if (characters.size() > shown_characters) {
+    begin = culprit > shown_characters / 2 ? culprit - shown_characters / 2 : 0;
+    begin = std::min(begin, characters.size() - shown_characters);
+    end = begin + shown_characters;
+  }
+  const std::string_view cut_before = begin > 0 ? "… " : "", cut_after = end < characters.size() ? " …" : "";
+  std::string shown;
+  for (std::size_t i = begin; i < end; ++i) shown += characters[i];
+  const std::size_t indent = (begin > 0 ? 2 : 0) + culprit - begin;
+  return fmt::format("{}{}{}{}\n{}{}^", gutter, cut_before, shown, cut_after, blank_gutter,
+                     std::string(indent, ' '));
+}
+
+std::string rendered(const Source& source, const document::Problem& problem) {
+  const std::string_view line = line_of(source.text, problem.at.line);
+  const std::uint32_t column = problem.at.column;
+  if (!source.is_file) {
+    return fmt::format("{}: {}\n{}", source.label, problem.message,
+                       line_with_caret(line, column, "  ", "  "));
+  }
+  return fmt::format(
+      "{}:{}:{}: {}\n{}", source.label, problem.at.line, column, problem.message,
+      line_with_caret(
+          line, column, fmt::format("{:>4} | ", problem.at.line),
+          fmt::format("{:>{}} | ", "", std::max<std::size_t>(4, std::to_string(problem.at.line).size()))));
+}
+
+}  // namespace
+
+Error rejection(std::span<const Source> sources, std::vector<document::Problem> problems) {
+  const auto key = [](const document::Problem& p) {
+    return std::tie(p.at.source, p.at.line, p.at.column, p.message);
+  };
+  const auto position = [](const document::Problem& p) {
+    return std::tie(p.at.source, p.at.line, p.at.column);
+  };
+  std::stable_sort(problems.begin(), problems.end(),
+                   [&](const auto& a, const auto& b) { return position(a) < position(b); });
+  problems.erase(std::unique(problems.begin(), problems.end(),
+                             [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+                 problems.end());
+  std::string message;
+  for (const document::Problem& problem : problems) {
+    if (!message.empty()) message += "\n\n";
+    message += rendered(sources[problem.at.source], problem);
+  }
+  return Error{ErrorCode::scene_rejected, message};
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  const std::size_t columns = b.size() + 1;
+  std::vector<std::size_t> before_last(columns), last(columns), current(columns);
+  for (std::size_t j = 0; j < columns; ++j) current[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before_last.swap(last);
+    last.swap(current);
+    current[0] = i;
+    for (std::size_t j = 1; j < columns; ++j) {
+      const std::size_t substituted = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      current[j] = std::min({last[j] + 1, current[j - 1] + 1, substituted});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        current[j] = std::min(current[j], before_last[j - 2] + 1);
+      }
+    }
+  }
+  return current[b.size()];
+}
+
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
+  std::string_view best;
+  std::size_t best_distance = 0;
+  for (const std::string_view candidate : candidates) {
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    // Nothing longer than any key by so much can be near, and huge keys would cost time.
+    if (longer > 100) continue;
+    const std::size_t distance = edit_distance(word, candidate);
+    if (3 * distance > std::max<std::size_t>(longer, 3)) continue;
+    if (best.empty() || distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+std::string did_you_mean(std::string_view suggestion) {
+  return suggestion.empty() ? "" : fmt::format("; did you mean '{}'?", suggestion);
+}
+
+std::string list_text(std::span<const std::string_view> words, bool quoted) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    text += quoted ? fmt::format("\"{}\"", words[i]) : std::string(words[i]);
+  }
+  return text;
+}
+
+std::string table_text(std::string_view table_path) {
+  if (table_path.empty()) return "the file";
+  if (table_path.ends_with("[]")) return fmt::format("[[{}]]", table_path.substr(0, table_path.size() - 2));
+  std::string text(table_path);
+  if (const std::size_t brackets = text.find("[]"); brackets != std::string::npos) text.erase(brackets, 2);
+  return fmt::format("[{}]", text);
+}
+
+std::string unknown_key(std::string_view table_path, std::string_view key) {
+  std::vector<std::string_view> known = child_keys(table_path);
+  if (table_path.empty()) known.insert(known.end(), not_built::sections.begin(), not_built::sections.end());
+  if (const std::string_view near = nearest(key, known); !near.empty()) {
+    return fmt::format("unknown key '{}' in {}{}", key, table_text(table_path), did_you_mean(near));
+  }
+  // The right key in the wrong table is the other common slip.
+  std::vector<std::string_view> homes;
+  for (const Parameter& p : parameters()) {
+    const std::size_t dot = p.path.rfind('.');
+    if (dot != std::string_view::npos && p.path.substr(dot + 1) == key) homes.push_back(p.path);
+  }
+  if (!homes.empty() && homes.size() <= 4) {
+    return fmt::format("unknown key '{}' in {}; did you mean {}?", key, table_text(table_path),
+                       list_text(homes, false));
+  }
+  return fmt::format("unknown key '{}' in {}; known are {}", key, table_text(table_path),
+                     list_text(known, false));
+}
+
+}  // namespace aspic::diagnostics

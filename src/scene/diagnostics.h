@@ -1,0 +1,44 @@
+#pragma once
+// Messages about scene text: where, the line with a caret, what is allowed, what was probably meant.
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "scene/document.h"
+
+namespace aspic::diagnostics {
+
+/// A text that problems point into.
+struct Source {
+  std::string label;  ///< the file's name; for an argument the whole `--set KEY=VALUE`
+  std::string text;
+  bool is_file = true;
+};
+
+/// All problems as one scene_rejected error: those of the file by line and column, then those of the
+/// arguments in their order, a blank line between. A problem that was found twice in one place is told once.
+Error rejection(std::span<const Source> sources, std::vector<document::Problem> problems);
+
+/// Damerau–Levenshtein distance in its restricted form (optimal string alignment): insertions, deletions,
+/// substitutions and swaps of neighbours. Damerau, Communications of the ACM 7 (1964); Levenshtein (1966).
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate nearest to a word, or empty if none is near enough to have been meant: at most a third of
+/// its letters may be wrong. The first wins among equals.
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
+
+/// "; did you mean 'x'?" or "" if x is empty.
+std::string did_you_mean(std::string_view suggestion);
+
+/// Words as a list: `a, b or c`, each in quotation marks if `quoted`.
+std::string list_text(std::span<const std::string_view> words, bool quoted);
+
+/// The message for a key that a table ("" is the file itself) does not have.
+std::string unknown_key(std::string_view table_path, std::string_view key);
+
+/// A table's path as people read it: "cube[]" is `[[cube]]`, "simulation" is `[simulation]`.
+std::string table_text(std::string_view table_path);
+
+}  // namespace aspic::diagnostics

@@ -1,0 +1,111 @@
+#pragma once
+// THE parameter table: every key of a scene file, once. Parser, validator, --set, `scene show`, the window's
+// widgets and docs/scene-reference.md are all driven by it.
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace aspic {
+
+/// What a key's value looks like in the file.
+enum class ParameterType {
+  boolean,  ///< bool
+  integer,  ///< std::int64_t
+  number,   ///< double; whole numbers are accepted too
+  text,     ///< std::string, free
+  word,     ///< std::string, one of Parameter::words
+  words,    ///< std::vector<std::string>, each one of Parameter::words, at most once
+  vector,   ///< Vec3; the range holds for each component
+  pinned    ///< PinnedSettings: face names, corner names, local indices
+};
+
+/// A parameter's value, in the alternative its type names.
+using Value =
+    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3, PinnedSettings>;
+
+/// Legal numbers, both ends included unless said otherwise.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool min_excluded = false;
+};
+
+/// When a key has a meaning. Keys of planes and of round terrain exclude each other by shape, those of
+/// explicit springs and of a material by what the cube is made of.
+enum class Belonging { always, plane, round, explicit_springs, material };
+
+/// One key.
+struct Parameter {
+  std::string_view path;  ///< `simulation.timestep`, `cube[].shear.stiffness`; [] stands for an index
+  ParameterType type = ParameterType::number;
+  std::string_view unit;                ///< empty: a pure number or not a number
+  Range range;                          ///< integer, number, vector
+  std::vector<std::string_view> words;  ///< word, words: those allowed, not-yet-built ones included
+  Belonging belonging = Belonging::always;
+  bool direction = false;        ///< vector: any length but zero
+  bool live = true;              ///< may change while the simulation runs, without starting anew
+  std::string_view when_absent;  ///< what an absent value means; empty: the default is a value
+  std::string_view meaning;      ///< one sentence
+
+  /// The value in a scene; `index` picks the terrain or cube (0 for other keys) and must exist. Absent
+  /// terrain geometry reads as the shape's default. Nothing if the key is absent or does not apply
+  /// (Belonging).
+  std::optional<Value> get(const Scene& scene, std::size_t index) const;
+  /// Stores a value that check_value passed.
+  void set(Scene& scene, std::size_t index, const Value& value) const { write(*this, scene, index, value); }
+
+  std::optional<Value> (*read)(const Parameter&, const Scene&, std::size_t) = nullptr;  ///< for get()
+  void (*write)(const Parameter&, Scene&, std::size_t, const Value&) = nullptr;         ///< for set()
+};
+
+/// The table, in the order in which files are written.
+std::span<const Parameter> parameters();
+
+/// The row of a path (with [] for indices), or nullptr.
+const Parameter* find_parameter(std::string_view path);
+
+/// The path as messages write it, without brackets: `cube.shear.stiffness`.
+std::string key_text(const Parameter& parameter);
+
+/// What a path means to the file format.
+enum class PathKind { unknown, parameter, table, list };
+
+/// Kind of a path such as `simulation` (table), `cube` (list), `cube[]` (table), `cube[].shear` (table).
+PathKind path_kind(std::string_view path);
+
+/// Names of the keys directly below a table path ("" is the file itself), in table order.
+std::vector<std::string_view> child_keys(std::string_view table_path);
+
+/// Whether a key has a meaning in this scene at this index.
+bool applies(const Parameter& parameter, const Scene& scene, std::size_t index);
+
+/// Whether terrain of a shape has this key (always true outside `terrain`).
+bool belongs_to_shape(const Parameter& parameter, TerrainShape shape);
+
+/// How many terrains or cubes the scene has for an indexed path, 1 for other paths.
+std::size_t index_count(const Parameter& parameter, const Scene& scene);
+
+/// A value that is not allowed.
+struct Complaint {
+  std::size_t element = 0;  ///< which element of a vector or list is to blame; 0 for single values
+  std::string message;      ///< a sentence that names the key and says what is allowed
+};
+
+/// Checks range, finiteness, words and direction of a value of the parameter's type; nothing if it is legal.
+std::optional<Complaint> check_value(const Parameter& parameter, const Value& value);
+
+/// What is allowed, in words: `a number > 0 and ≤ 1 s`.
+std::string allowed_text(const Parameter& parameter);
+
+/// The default as TOML, or a phrase where it depends on the shape or is absent.
+std::string default_text(const Parameter& parameter);
+
+}  // namespace aspic

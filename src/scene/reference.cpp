@@ -1,0 +1,94 @@
+#include "scene/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "scene/diagnostics.h"
+#include "scene/load.h"
+#include "scene/not_built.h"
+#include "scene/parameters.h"
+
+namespace aspic {
+namespace {
+
+std::string section_heading(std::string_view section) {
+  if (section.empty()) return "## Head of the file\n\n";
+  std::string heading = fmt::format("## `{}`\n\n", diagnostics::table_text(section));
+  if (section.ends_with("[]")) {
+    heading += fmt::format("May stand any number of times. `--set` counts from 0: `{}[0]`.\n\n",
+                           section.substr(0, section.size() - 2));
+  }
+  return heading;
+}
+
+std::string condition(const Parameter& p) {
+  switch (p.belonging) {
+    case Belonging::always:
+      break;
+    case Belonging::plane:
+      return " Planes only.";
+    case Belonging::round:
+      return " Spheres and bowls only.";
+    case Belonging::explicit_springs:
+      return " Not together with `material`.";
+    case Belonging::material:
+      return " Instead of `particle-mass`, `structural`, `shear` and `bending`.";
+  }
+  return "";
+}
+
+std::string table_row(const Parameter& p) {
+  const std::size_t dot = p.path.find('.');
+  const std::string_view key = dot == std::string_view::npos ? p.path : p.path.substr(dot + 1);
+  std::string later;
+  for (const std::string_view word : p.words) {
+    if (not_built::is_word(p.path, word)) later += fmt::format(" `\"{}\"` is not built yet.", word);
+  }
+  return fmt::format("| `{}` | {}{}{} | {} | {} | {} |\n", key, p.meaning, condition(p), later,
+                     allowed_text(p), default_text(p), p.live ? "yes" : "no");
+}
+
+}  // namespace
+
+std::string scene_reference() {
+  std::string page =
+      "# Scene file reference\n\n"
+      "A scene is one TOML file. This page is generated from the program's parameter table: every key, what "
+      "it means,\n"
+      "what is allowed and what holds if it is left out. Units are SI. Every key can be set on the command "
+      "line as well,\n"
+      "by its path: `--set simulation.timestep=0.002`, `--set cube[0].shear.stiffness=10`, `--set "
+      "contact.model=course`,\n"
+      "`--set 'cube[0].pinned=[\"top\", 3]'`. A value is written as in the file; a single word needs no "
+      "quotation marks.\n"
+      "A key marked *live* may change while a simulation runs; changing any other starts it anew.\n\n"
+      "A part that is not in the file is not in the scene: without `[[cube]]` there is no cube. Inner tables "
+      "may be written\n"
+      "inline, `shear = { stiffness = 2000.0, damping = 60.0 }`, or as tables of their own.\n\n";
+  std::string_view section = "-";
+  for (const Parameter& p : parameters()) {
+    const std::size_t dot = p.path.find('.');
+    const std::string_view own = dot == std::string_view::npos ? std::string_view{} : p.path.substr(0, dot);
+    if (own != section) {
+      section = own;
+      if (!page.ends_with("\n\n")) page += '\n';
+      page +=
+          section_heading(section) + "| key | meaning | allowed | default | live |\n|---|---|---|---|---|\n";
+    }
+    page += table_row(p);
+  }
+  page += "\n## Built-in scenes\n\n| name | |\n|---|---|\n";
+  for (const BuiltinScene& scene : list_builtin_scenes())
+    page += fmt::format("| `{}` | {} |\n", scene.name, scene.description);
+  page += "\n## Not built yet\n\nThese parts of the format are known by name and refused:";
+  for (const std::string_view name : not_built::sections) page += fmt::format(" `[[{}]]`", name);
+  for (const auto& word : not_built::words) page += fmt::format(" `{} = \"{}\"`", word.path, word.word);
+  page += "; and the built-in scenes";
+  for (const std::string_view name : not_built::builtin_scenes) page += fmt::format(" `{}`", name);
+  return page + ".\n";
+}
+
+}  // namespace aspic

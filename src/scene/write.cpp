@@ -1,0 +1,144 @@
+#include "scene/write.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace aspic {
+namespace {
+
+std::string number_text(double x) {
+  std::string text = fmt::format("{}", x);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string string_text(std::string_view s) {
+  std::string text = "\"";
+  for (const char c : s) {
+    if (c == '"' || c == '\\') {
+      text += '\\';
+      text += c;
+    } else if (static_cast<unsigned char>(c) < 0x20u || c == 0x7f) {
+      text += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+    } else {
+      text += c;
+    }
+  }
+  return text + "\"";
+}
+
+struct Writer {
+  std::string operator()(bool x) const { return x ? "true" : "false"; }
+  std::string operator()(std::int64_t x) const { return fmt::format("{}", x); }
+  std::string operator()(double x) const { return number_text(x); }
+  std::string operator()(const std::string& x) const { return string_text(x); }
+  std::string operator()(const Vec3& x) const {
+    return fmt::format("[{}, {}, {}]", number_text(x.x), number_text(x.y), number_text(x.z));
+  }
+  std::string operator()(const std::vector<std::string>& x) const { return list(x, {}); }
+  std::string operator()(const PinnedSettings& x) const { return list(x.names, x.indices); }
+
+  static std::string list(const std::vector<std::string>& words, const std::vector<std::uint32_t>& numbers) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + string_text(word);
+    for (const std::uint32_t number : numbers) text += fmt::format("{}{}", text.empty() ? "" : ", ", number);
+    return "[" + text + "]";
+  }
+};
+
+/// A line of the file: what is said, and the comment behind it.
+struct Line {
+  std::string text, comment;
+};
+
+/// Lines of one table; `prefix` is its path with a dot ("" for the head of the file). Keys one level deeper
+/// are gathered into inline tables.
+std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::size_t index) {
+  struct Inline {
+    std::string_view name;
+    std::string text, comment;
+  };
+  std::vector<Line> lines;
+  std::vector<Inline> open;
+  const auto close = [&] {
+    for (const Inline& t : open) lines.push_back({fmt::format("{} = {{ {} }}", t.name, t.text), t.comment});
+    open.clear();
+  };
+  for (const Parameter& p : parameters()) {
+    if (!p.path.starts_with(prefix) || (prefix.empty() && p.path.find('.') != std::string_view::npos))
+      continue;
+    const std::string_view rest = p.path.substr(prefix.size());
+    const std::size_t dot = rest.find('.');
+    const std::string_view head = rest.substr(0, dot);
+    if (!open.empty() && open.back().name != head) close();
+    const auto value = p.get(scene, index);
+    if (!value) {
+      // Told as a comment, so that the file shows everything that could be said.
+      if (dot == std::string_view::npos && applies(p, scene, index)) {
+        lines.push_back({fmt::format("# {}: {}", rest, p.when_absent), ""});
+      }
+      continue;
+    }
+    const std::string text = toml_value(*value);
+    if (dot == std::string_view::npos) {
+      std::string comment(p.unit);
+      if (p.type == ParameterType::word) comment = allowed_text(p);
+      lines.push_back({fmt::format("{} = {}", rest, text), comment});
+      continue;
+    }
+    if (open.empty()) open.push_back({head, "", ""});
+    Inline& table = open.back();
+    table.text += fmt::format("{}{} = {}", table.text.empty() ? "" : ", ", rest.substr(dot + 1), text);
+    if (!p.unit.empty()) table.comment += fmt::format("{}{}", table.comment.empty() ? "" : "; ", p.unit);
+  }
+  close();
+  return lines;
+}
+
+/// Lines with their comments in one column, as far as lines are short enough.
+std::string aligned(const std::vector<Line>& lines) {
+  constexpr std::size_t widest = 44;
+  std::size_t column = 0;
+  for (const Line& line : lines) {
+    if (!line.comment.empty() && line.text.size() <= widest) column = std::max(column, line.text.size());
+  }
+  std::string text;
+  for (const Line& line : lines) {
+    text += line.text;
+    if (!line.comment.empty()) {
+      text +=
+          std::string(line.text.size() < column ? column - line.text.size() : 0, ' ') + "  # " + line.comment;
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string toml_value(const Value& value) {
+  return std::visit(Writer{}, value);
+}
+
+std::string to_toml(const Scene& scene) {
+  std::string text = aligned(lines_of(scene, "", 0));
+  std::vector<std::string_view> done;
+  for (const Parameter& p : parameters()) {
+    const std::size_t dot = p.path.find('.');
+    if (dot == std::string_view::npos) continue;
+    const std::string_view section = p.path.substr(0, dot);
+    if (std::find(done.begin(), done.end(), section) != done.end()) continue;
+    done.push_back(section);
+    const bool list = section.ends_with("[]");
+    for (std::size_t i = 0; i < index_count(p, scene); ++i) {
+      text += list ? fmt::format("\n[[{}]]\n", section.substr(0, section.size() - 2))
+                   : fmt::format("\n[{}]\n", section);
+      text += aligned(lines_of(scene, fmt::format("{}.", section), i));
+    }
+  }
+  return text;
+}
+
+}  // namespace aspic
