@@ -1,6 +1,5 @@
 #include "scene/document.h"
 
-#define TOML_EXCEPTIONS 0
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
@@ -89,14 +88,16 @@ Position start_of_key_before(std::string_view text, Position at) {
 }  // namespace
 
 std::variant<Node, Problem> parse(std::string_view text, std::uint32_t source) {
-  const toml::parse_result result = toml::parse(text);
-  if (result) return converted(result.table(), source);
-  Position at = position_of(result.error().source().begin, source);
-  const std::string_view description = result.error().description();
-  if (description.find("key-value pair: cannot redefine") != std::string_view::npos) {
-    at = start_of_key_before(text, at);
+  try {
+    return converted(toml::parse(text), source);
+  } catch (const toml::parse_error& error) {
+    Position at = position_of(error.source().begin, source);
+    const std::string_view description = error.description();
+    if (description.find("key-value pair: cannot redefine") != std::string_view::npos) {
+      at = start_of_key_before(text, at);
+    }
+    return Problem{at, reworded(description)};
   }
-  return Problem{at, reworded(description)};
 }
 
 const Member* find(const Node& table, std::string_view key) {

@@ -258,11 +258,11 @@ std::vector<Parameter> terrain_rows() {
                                         FIELD(model.terrain[i].radius), "Radius of the sphere or bowl."))),
       absent("infinite", number("terrain[].mass", "kg", {0.0, heaviest, true}, FIELD(model.terrain[i].mass),
                                 "Mass M in the bounce speed (m − e·M)/(m + M)·u; the terrain never moves.")),
-      absent("contact.restitution",
+      absent("that of [contact]",
              number("terrain[].restitution", "", fraction, FIELD(model.terrain[i].restitution),
                     "Restitution of this terrain.")),
-      absent("contact.friction", number("terrain[].friction", "", friction, FIELD(model.terrain[i].friction),
-                                        "Friction coefficient of this terrain.")),
+      absent("that of [contact]", number("terrain[].friction", "", friction, FIELD(model.terrain[i].friction),
+                                         "Friction coefficient of this terrain.")),
   };
 }
 

@@ -21,16 +21,12 @@ bool is_round(TerrainShape shape) {
   return shape == TerrainShape::sphere || shape == TerrainShape::bowl;
 }
 
-std::vector<std::string_view> built_words(const Parameter& p) {
-  std::vector<std::string_view> words;
-  for (const std::string_view word : p.words) {
-    if (!not_built::is_word(p.path, word)) words.push_back(word);
-  }
-  return words;
-}
-
 std::string range_text(const Parameter& p) {
-  const auto figure = [](double x) { return fmt::format("{}", x); };
+  // Large ends are powers of ten: 1e6 reads better than 1000000.
+  const auto figure = [](double x) {
+    if (std::abs(x) < 1e6) return fmt::format("{}", x);
+    return fmt::format("{}1e{}", x < 0.0 ? "-" : "", std::lround(std::log10(std::abs(x))));
+  };
   const std::string unit = p.unit.empty() ? "" : fmt::format(" {}", p.unit);
   const Range& r = p.range;
   if (r.min == r.max) return figure(r.min);
@@ -103,6 +99,14 @@ const Parameter* find_parameter(std::string_view path) {
   return found == all.end() ? nullptr : &*found;
 }
 
+std::vector<std::string_view> built_words(const Parameter& p) {
+  std::vector<std::string_view> words;
+  for (const std::string_view word : p.words) {
+    if (!not_built::is_word(p.path, word)) words.push_back(word);
+  }
+  return words;
+}
+
 std::string key_text(const Parameter& parameter) {
   std::string text(parameter.path);
   if (const std::size_t brackets = text.find("[]"); brackets != std::string::npos) text.erase(brackets, 2);
@@ -162,20 +166,19 @@ std::size_t index_count(const Parameter& parameter, const Scene& scene) {
 }
 
 std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
-  const auto complaint = [](std::optional<std::string> message,
-                            std::size_t element) -> std::optional<Complaint> {
-    return message ? std::optional<Complaint>({element, *message}) : std::nullopt;
+  const auto complaint = [](std::optional<std::string> message) -> std::optional<Complaint> {
+    return message ? std::optional<Complaint>({std::nullopt, *message}) : std::nullopt;
   };
   switch (p.type) {
     case ParameterType::boolean:
     case ParameterType::text:
       return std::nullopt;
     case ParameterType::integer:
-      return complaint(complaint_about(p, static_cast<double>(std::get<std::int64_t>(value))), 0);
+      return complaint(complaint_about(p, static_cast<double>(std::get<std::int64_t>(value))));
     case ParameterType::number:
-      return complaint(complaint_about(p, std::get<double>(value)), 0);
+      return complaint(complaint_about(p, std::get<double>(value)));
     case ParameterType::word:
-      return complaint(complaint_about_word(p, std::get<std::string>(value)), 0);
+      return complaint(complaint_about_word(p, std::get<std::string>(value)));
     case ParameterType::words: {
       const auto& words = std::get<std::vector<std::string>>(value);
       for (std::size_t i = 0; i < words.size(); ++i) {
@@ -194,8 +197,8 @@ std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
           return Complaint{static_cast<std::size_t>(axis), *message};
       }
       if (p.direction && length(v) < shortest_direction) {
-        return Complaint{0, fmt::format("'{}' has no direction: its length is zero; allowed: {}", key_text(p),
-                                        allowed_text(p))};
+        return Complaint{std::nullopt, fmt::format("'{}' has no direction: its length is zero; allowed: {}",
+                                                   key_text(p), allowed_text(p))};
       }
       return std::nullopt;
     }
@@ -225,8 +228,8 @@ std::string allowed_text(const Parameter& p) {
     case ParameterType::words:
       return fmt::format("an array of {}, each at most once", diagnostics::list_text(built_words(p), true));
     case ParameterType::vector:
-      return p.direction ? "three numbers [x, y, z], not all zero"
-                         : fmt::format("three numbers [x, y, z], each {}", range_text(p));
+      return fmt::format("three numbers [x, y, z], each {}{}", range_text(p),
+                         p.direction ? ", not all zero" : "");
     case ParameterType::pinned:
       return fmt::format(
           "an array of faces ({}), corners (three faces joined by hyphens, such as left-top-front) and local "

@@ -95,12 +95,16 @@ std::size_t index_count(const Parameter& parameter, const Scene& scene);
 
 /// A value that is not allowed.
 struct Complaint {
-  std::size_t element = 0;  ///< which element of a vector or list is to blame; 0 for single values
-  std::string message;      ///< a sentence that names the key and says what is allowed
+  std::optional<std::size_t>
+      element;          ///< of a vector or list, the element to blame (of pinned: the name); else the whole
+  std::string message;  ///< a sentence that names the key and says what is allowed
 };
 
 /// Checks range, finiteness, words and direction of a value of the parameter's type; nothing if it is legal.
 std::optional<Complaint> check_value(const Parameter& parameter, const Value& value);
+
+/// The words of a word parameter that this version has built.
+std::vector<std::string_view> built_words(const Parameter& parameter);
 
 /// What is allowed, in words: `a number > 0 and ≤ 1 s`.
 std::string allowed_text(const Parameter& parameter);

@@ -109,11 +109,11 @@ class Reader {
 
   /// The node a complaint is about: the value itself, or the element of an array.
   static const Node& culprit(const Parameter& p, const Node& node, const Complaint& complaint) {
-    if (node.kind != Kind::array || p.direction) return node;
+    if (!complaint.element) return node;
     std::size_t seen = 0;
     for (const Node& element : node.elements) {
       if (p.type == ParameterType::pinned && element.kind != Kind::string) continue;
-      if (seen++ == complaint.element) return element;
+      if (seen++ == *complaint.element) return element;
     }
     return node;
   }

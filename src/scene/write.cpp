@@ -84,14 +84,14 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
     const std::string text = toml_value(*value);
     if (dot == std::string_view::npos) {
       std::string comment(p.unit);
-      if (p.type == ParameterType::word) comment = allowed_text(p);
+      if (p.type == ParameterType::word) comment = fmt::format("{}", fmt::join(built_words(p), " | "));
       lines.push_back({fmt::format("{} = {}", rest, text), comment});
       continue;
     }
     if (open.empty()) open.push_back({head, "", ""});
     Inline& table = open.back();
     table.text += fmt::format("{}{} = {}", table.text.empty() ? "" : ", ", rest.substr(dot + 1), text);
-    if (!p.unit.empty()) table.comment += fmt::format("{}{}", table.comment.empty() ? "" : "; ", p.unit);
+    if (!p.unit.empty()) table.comment += fmt::format("{}{}", table.comment.empty() ? "" : ", ", p.unit);
   }
   close();
   return lines;
@@ -99,7 +99,7 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
 
 /// Lines with their comments in one column, as far as lines are short enough.
 std::string aligned(const std::vector<Line>& lines) {
-  constexpr std::size_t widest = 44;
+  constexpr std::size_t widest = 54;
   std::size_t column = 0;
   for (const Line& line : lines) {
     if (!line.comment.empty() && line.text.size() <= widest) column = std::max(column, line.text.size());

@@ -1,0 +1,269 @@
+#include "scene/load.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "model/model.h"
+#include "scene/not_built.h"
+#include "scene/scene_support.h"
+
+namespace aspic {
+namespace {
+
+using test::problems_in;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string smallest = "schema = 1\n[[cube]]\n";
+
+// The numbers are those of the format's specification, written out once more.
+TEST(Defaults, AreThoseOfTheFormat) {
+  const Scene s = test::parsed("schema = 1\n[[terrain]]\n[[cube]]\n");
+  const ModelSettings& m = s.model;
+  EXPECT_EQ(s.name, "scene");
+  EXPECT_EQ(m.simulation.integrator, Integrator::explicit_euler);
+  EXPECT_EQ(m.simulation.timestep, 0.001);
+  EXPECT_EQ(m.simulation.duration, 4.0);
+  EXPECT_EQ(m.simulation.gravity, (Vec3{0.0, -9.8, 0.0}));
+  EXPECT_EQ(m.simulation.steps_per_frame, 8);
+  EXPECT_EQ(m.simulation.implicit.newton_iterations, 20);
+  EXPECT_EQ(m.simulation.implicit.cg_iterations, 200);
+  EXPECT_FALSE(m.simulation.implicit.tolerance.has_value());
+  EXPECT_EQ(m.contact.model, ContactModel::coulomb);
+  EXPECT_EQ(m.contact.epsilon, 0.01);
+  EXPECT_EQ(m.contact.restitution, 0.8);
+  EXPECT_EQ(m.contact.friction, 0.3);
+  EXPECT_EQ(m.contact.ball_restitution, 1.0);
+  EXPECT_EQ(m.contact.ball_friction, 0.3);
+  EXPECT_TRUE(m.contact.spin);
+  ASSERT_EQ(m.terrain.size(), 1u);
+  EXPECT_EQ(m.terrain[0].shape, TerrainShape::plane);
+  EXPECT_FALSE(m.terrain[0].mass || m.terrain[0].restitution || m.terrain[0].friction);
+  ASSERT_EQ(m.cubes.size(), 1u);
+  const CubeSettings& c = m.cubes[0];
+  EXPECT_EQ(c.particles_per_edge, 10);
+  EXPECT_EQ(c.edge_length, 4.0);
+  EXPECT_EQ(c.position, (Vec3{0.0, 9.0, 0.0}));
+  EXPECT_EQ(c.rotation.axis, (Vec3{1.0, 0.0, 1.0}));
+  EXPECT_EQ(c.rotation.angle, 0.0);
+  EXPECT_EQ(c.velocity, (Vec3{}));
+  EXPECT_EQ(c.particle_mass, 1.0);
+  for (const SpringSettings& springs : {c.structural, c.shear, c.bending}) {
+    EXPECT_EQ(springs.stiffness, 2000.0);
+    EXPECT_EQ(springs.damping, 60.0);
+  }
+  EXPECT_FALSE(c.material.has_value());
+  EXPECT_TRUE(c.pinned.names.empty() && c.pinned.indices.empty());
+  EXPECT_EQ(s.view.camera.position, (Vec3{10.0, 6.0, 14.0}));
+  EXPECT_EQ(s.view.camera.target, (Vec3{0.0, 2.0, 0.0}));
+  EXPECT_EQ(s.view.camera.fov, 45.0);
+  EXPECT_EQ(s.view.draw, (DrawSettings{true, false, false, false, false}));
+  EXPECT_EQ(s.view.colour, ViewColour::material);
+}
+
+TEST(Defaults, OfTerrainFollowItsShape) {
+  const Scene s = test::parsed(smallest +
+                               "[[terrain]]\nshape = \"tilted-plane\"\n[[terrain]]\nshape = \"sphere\"\n"
+                               "[[terrain]]\nshape = \"bowl\"\n[[terrain]]\n");
+  const auto value = [&](std::string_view key, std::size_t index) {
+    return find_parameter(key)->get(s, index);
+  };
+  EXPECT_EQ(std::get<Vec3>(*value("terrain[].point", 0)), (Vec3{0.0, 0.0, 0.0}));
+  EXPECT_EQ(std::get<Vec3>(*value("terrain[].normal", 0)), (Vec3{1.0, 1.0, 0.0}));
+  EXPECT_EQ(std::get<Vec3>(*value("terrain[].centre", 1)), (Vec3{0.0, -1.0, 0.0}));
+  EXPECT_EQ(std::get<double>(*value("terrain[].radius", 1)), 3.0);
+  EXPECT_EQ(std::get<Vec3>(*value("terrain[].centre", 2)), (Vec3{2.0, 7.0, 1.0}));
+  EXPECT_EQ(std::get<double>(*value("terrain[].radius", 2)), 7.0);
+  EXPECT_EQ(std::get<Vec3>(*value("terrain[].point", 3)), (Vec3{0.0, -1.0, 0.0}));
+  EXPECT_FALSE(value("terrain[].radius", 0).has_value());
+  EXPECT_FALSE(value("terrain[].normal", 1).has_value());
+}
+
+TEST(Defaults, OfAnEmptyMaterialAreThoseOfTheFormat) {
+  const Scene s = test::parsed(smallest + "material = {}\n");
+  ASSERT_TRUE(s.model.cubes[0].material.has_value());
+  EXPECT_EQ(s.model.cubes[0].material->density, 16.0);
+  EXPECT_EQ(s.model.cubes[0].material->youngs_modulus, 33000.0);
+  EXPECT_EQ(s.model.cubes[0].material->damping_ratio, 0.95);
+}
+
+TEST(Parse, TakesWholeNumbersForNumbers) {
+  EXPECT_EQ(test::parsed(smallest + "[simulation]\ngravity = [0, -10, 0]\n").model.simulation.gravity,
+            (Vec3{0.0, -10.0, 0.0}));
+}
+
+TEST(Parse, ShowsTheMisspeltKeyOfTheFormatsExample) {
+  std::string text = "schema = 1\n";
+  for (int line = 2; line < 19; ++line) text += "\n";
+  text += "[[cube]]\nshear = { stifness = 1 }\n";
+  EXPECT_EQ(test::rejection(text),
+            "scene.toml:20:11: unknown key 'stifness' in [cube.shear]; did you mean 'stiffness'?\n"
+            "  20 | shear = { stifness = 1 }\n"
+            "     |           ^");
+}
+
+TEST(Parse, KnowsTheTableAMisplacedKeyBelongsTo) {
+  EXPECT_THAT(test::rejection("schema = 1\ntimestep = 0.1\n[[cube]]\n"),
+              HasSubstr("did you mean simulation.timestep?"));
+}
+
+TEST(Parse, ShowsLongLinesInPart) {
+  std::string numbers = "0";
+  for (int i = 1; i < 200; ++i) numbers += fmt::format(", {}", i);
+  const std::string message = test::rejection(smallest + "pinned = [" + numbers + ", \"tap\", 5, 6]\n");
+  const std::size_t second = message.find('\n') + 1, third = message.find('\n', second) + 1;
+  // Columns count characters; an ellipsis is one character of three bytes.
+  const std::string shown = message.substr(second, third - 1 - second);
+  EXPECT_LT(shown.size(), 130u);
+  EXPECT_EQ(shown.find("\"tap\"") - 2, message.find('^', third) - third);
+}
+
+TEST(Parse, ShowsNoControlCharacters) {
+  const std::string message = test::rejection("schema = 1\n\tx\x1b[31m = 1\n");
+  EXPECT_EQ(message.find('\x1b', message.find('\n')), std::string::npos);
+}
+
+TEST(Parse, RefusesWhatMemoryCannotHold) {
+  const std::string text = "schema = 1\n[[cube]]\n[[cube]]\nparticles-per-edge = 64\n";
+  ModelSettings settings;
+  settings.cubes.resize(2);
+  settings.cubes[1].particles_per_edge = 64;
+  const std::uint64_t needed = model_bytes(predict_counts(settings));
+  EXPECT_TRUE(parse_scene(text, "scene.toml", {}, {needed}).ok());
+  const std::string message = test::rejection(text, {}, {needed - 1});
+  EXPECT_THAT(message, StartsWith("scene.toml:4:22: the scene has 263144 particles"));
+  EXPECT_THAT(message, HasSubstr("are available"));
+}
+
+TEST(Parse, RefusesMoreThanIndicesName) {
+  const std::string text =
+      "schema = 1\n[[cube]]\nparticles-per-edge = 512\n[[cube]]\nparticles-per-edge = 200\n";
+  EXPECT_THAT(test::rejection(text), HasSubstr("more than 32-bit indices can name"));
+}
+
+TEST(AvailableMemory, IsKnownOnThisSystem) {
+  const auto bytes = available_memory();
+  ASSERT_TRUE(bytes.has_value());
+  EXPECT_GT(*bytes, std::uint64_t{1} << 20);
+}
+
+// ---- files that must be refused; each says itself with what ----
+
+std::vector<std::string> bad_files() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(ASPIC_TEST_DATA "/bad")) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().stem().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class BadFile : public testing::TestWithParam<std::string> {};
+
+TEST_P(BadFile, IsRefusedWithWhatItExpects) {
+  const std::string path = std::string(ASPIC_TEST_DATA "/bad/") + GetParam() + ".toml";
+  std::ifstream file(path);
+  std::vector<std::string> expected;
+  const std::string marker = "# expect: ";
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with(marker)) expected.push_back(line.substr(marker.size()));
+  }
+  ASSERT_FALSE(expected.empty()) << path << " has no line that starts with " << marker;
+  const auto scene = load_scene(path, {}, test::unlimited);
+  ASSERT_FALSE(scene.ok());
+  EXPECT_EQ(scene.error().code, ErrorCode::scene_rejected);
+  const std::vector<std::string> problems = problems_in(scene.error().message);
+  ASSERT_EQ(problems.size(), expected.size()) << scene.error().message;
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    EXPECT_THAT(problems[i], StartsWith(fmt::format("{}:{}", path, expected[i])));
+}
+
+INSTANTIATE_TEST_SUITE_P(Data, BadFile, testing::ValuesIn(bad_files()), [](const auto& instance) {
+  std::string name = instance.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+// ---- built-in scenes and files ----
+
+TEST(Builtin, ScenesLoadAndBuild) {
+  std::vector<std::string> names;
+  for (const BuiltinScene& builtin : list_builtin_scenes()) {
+    names.emplace_back(builtin.name);
+    EXPECT_FALSE(builtin.description.empty());
+    const auto scene = load_scene(names.back());
+    ASSERT_TRUE(scene.ok()) << scene.error().message;
+    EXPECT_EQ(scene->name, names.back());
+    const auto model = build_model(scene->model);
+    ASSERT_TRUE(model.ok()) << model.error().message;
+    EXPECT_EQ(model->particle_count(), names.back() == "large-cube" ? 262144u : 1000u);
+    // No particle starts in the ground.
+    for (const Vec3& x : model->initial_position) {
+      for (const Terrain& t : model->terrain)
+        ASSERT_GT(t.shape == TerrainShape::bowl     ? t.radius - length(x - t.point)
+                  : t.shape == TerrainShape::sphere ? length(x - t.point) - t.radius
+                                                    : dot(t.normal, x - t.point),
+                  0.1);
+    }
+  }
+  EXPECT_THAT(names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
+                                          "large-cube"));
+}
+
+// Spec §2.6: limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.
+TEST(Builtin, LargeCubeStepsBelowItsStabilityLimit) {
+  const auto scene = load_scene("large-cube");
+  ASSERT_TRUE(scene.ok());
+  const auto model = build_model(scene->model);
+  ASSERT_TRUE(model.ok());
+  const SpringClass& spring = model->spring_classes[0];
+  const double gamma = 17.63 * spring.damping / model->mass[0],
+               kappa = 17.63 * spring.stiffness / model->mass[0];
+  const double limit = (-gamma + std::sqrt(gamma * gamma + 4.0 * kappa)) / kappa;
+  ASSERT_EQ(scene->model.simulation.integrator, Integrator::symplectic_euler);
+  EXPECT_LT(scene->model.simulation.timestep, 0.85 * limit);
+  EXPECT_GT(scene->model.simulation.timestep, 0.7 * limit);
+}
+
+TEST(Builtin, ScenesNotBuiltYetAreRefusedByName) {
+  for (const std::string_view name : not_built::builtin_scenes) {
+    const auto scene = load_scene(std::string(name));
+    ASSERT_FALSE(scene.ok());
+    EXPECT_EQ(scene.error().code, ErrorCode::scene_rejected);
+    EXPECT_THAT(scene.error().message, HasSubstr(fmt::format("'{}' is not built yet", name)));
+  }
+}
+
+TEST(Load, SuggestsTheNearestBuiltin) {
+  const auto scene = load_scene("cube-plnae");
+  ASSERT_FALSE(scene.ok());
+  EXPECT_EQ(scene.error().code, ErrorCode::scene_rejected);
+  EXPECT_THAT(scene.error().message, HasSubstr("large-cube"));
+  EXPECT_THAT(scene.error().message, HasSubstr("did you mean 'cube-plane'?"));
+}
+
+TEST(Load, SaysWhichFileItCannotRead) {
+  for (const std::string path : {"no/such/scene.toml", ASPIC_TEST_DATA}) {
+    const auto scene = load_scene(path);
+    ASSERT_FALSE(scene.ok());
+    EXPECT_EQ(scene.error().code, ErrorCode::io);
+    EXPECT_THAT(scene.error().message, StartsWith(path));
+  }
+}
+
+TEST(Load, NamesAnUnnamedSceneAfterItsFile) {
+  const std::string path = testing::TempDir() + "aspic-unnamed.toml";
+  std::ofstream(path) << smallest;
+  const auto scene = load_scene(path);
+  std::filesystem::remove(path);
+  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  EXPECT_EQ(scene->name, "aspic-unnamed");
+}
+
+}  // namespace
+}  // namespace aspic

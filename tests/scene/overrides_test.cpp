@@ -1,0 +1,199 @@
+#include "scene/overrides.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene/scene_support.h"
+#include "scene/write.h"
+
+namespace aspic {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string base = "schema = 1\n[[terrain]]\n[[cube]]\nshear = { stiffness = 1000.0 }\n";
+
+/// A legal value that is not the default.
+Value other_value(const Parameter& p) {
+  switch (p.type) {
+    case ParameterType::boolean:
+      return false;
+    case ParameterType::integer:
+      return p.path == "schema" ? std::int64_t{1} : std::int64_t{7};
+    case ParameterType::number:
+      return p.path == "view.camera.fov" ? 30.5 : 0.515625;
+    case ParameterType::text:
+      return std::string("other name");
+    case ParameterType::word:
+      return std::string(built_words(p).back());
+    case ParameterType::words:
+      return std::vector<std::string>{"solid", "bending"};
+    case ParameterType::vector:
+      return Vec3{0.5, -0.25, 2.0};
+    case ParameterType::pinned:
+      return PinnedSettings{{"top", "left-bottom-back"}, {3}};
+  }
+  return false;
+}
+
+std::string argument_for(const Parameter& p) {
+  std::string key(p.path);
+  if (const std::size_t at = key.find("[]"); at != std::string::npos) key.replace(at, 2, "[0]");
+  return fmt::format("{}={}", key, toml_value(other_value(p)));
+}
+
+TEST(Set, ReachesEveryKeyAndNoOther) {
+  for (const Parameter& p : parameters()) {
+    std::string text = base;
+    if (p.belonging == Belonging::round) text += "[[terrain]]\n";
+    std::vector<std::string> arguments;
+    if (p.belonging == Belonging::round) arguments.emplace_back("terrain[0].shape=sphere");
+    if (p.belonging == Belonging::material) arguments.emplace_back("cube[0].material={}");
+    const Scene before = test::parsed(text, arguments);
+    arguments.push_back(argument_for(p));
+    const Scene after = test::parsed(text, arguments);
+    const auto value = p.get(after, 0);
+    ASSERT_TRUE(value.has_value()) << p.path;
+    EXPECT_TRUE(test::same_bits(*value, other_value(p))) << p.path;
+    if (p.path == "terrain[].shape") continue;  // decides which other keys there are
+    test::expect_same_scene(before, after, p.path);
+  }
+}
+
+TEST(Set, RefusesWhatTheFileCouldNotSayEither) {
+  for (const Parameter& p : parameters()) {
+    const std::string argument =
+        fmt::format("{}=1979-05-27", argument_for(p).substr(0, argument_for(p).find('=')));
+    std::vector<std::string> arguments;
+    if (p.belonging == Belonging::round) arguments.emplace_back("terrain[0].shape=sphere");
+    if (p.belonging == Belonging::material) arguments.emplace_back("cube[0].material={}");
+    arguments.push_back(argument);
+    const std::string message = test::rejection(base, arguments);
+    EXPECT_THAT(message, StartsWith(fmt::format("--set {}: ", argument))) << message;
+    EXPECT_EQ(test::problems_in(message).size(), 1u) << message;
+  }
+}
+
+TEST(Set, TakesTheFormsOfTheFormat) {
+  const Scene s =
+      test::parsed(base, {"simulation.timestep=0.002", "cube[0].shear.stiffness=10", "contact.model=course",
+                          "cube[0].pinned=[\"top\",3]", "terrain[0].normal=[0,1,0]", "view.colour=strain",
+                          "terrain[0].mass=10", "name=\"two words\""});
+  EXPECT_EQ(s.model.simulation.timestep, 0.002);
+  EXPECT_EQ(s.model.cubes[0].shear.stiffness, 10.0);
+  EXPECT_EQ(s.model.contact.model, ContactModel::course);
+  EXPECT_EQ(s.model.cubes[0].pinned.names, std::vector<std::string>{"top"});
+  EXPECT_EQ(s.model.cubes[0].pinned.indices, std::vector<std::uint32_t>{3});
+  EXPECT_EQ(s.model.terrain[0].normal, (Vec3{0.0, 1.0, 0.0}));
+  EXPECT_EQ(s.model.terrain[0].mass, 10.0);
+  EXPECT_EQ(s.view.colour, ViewColour::strain);
+  EXPECT_EQ(s.name, "two words");
+}
+
+TEST(Set, LastOneWins) {
+  EXPECT_EQ(test::parsed(base, {"simulation.timestep=0.002", "simulation.timestep=0.003"})
+                .model.simulation.timestep,
+            0.003);
+}
+
+TEST(Set, MergesTables) {
+  const Scene s = test::parsed(base, {"cube[0].shear={damping=5}", "cube[0]={position=[1,2,3]}"});
+  EXPECT_EQ(s.model.cubes[0].shear.stiffness, 1000.0);
+  EXPECT_EQ(s.model.cubes[0].shear.damping, 5.0);
+  EXPECT_EQ(s.model.cubes[0].position, (Vec3{1.0, 2.0, 3.0}));
+}
+
+TEST(Set, MaterialTakesThePlaceOfTheFilesSprings) {
+  const Scene s = test::parsed(base, {"cube[0].material.density=20"});
+  ASSERT_TRUE(s.model.cubes[0].material.has_value());
+  EXPECT_EQ(s.model.cubes[0].material->density, 20.0);
+  EXPECT_EQ(s.model.cubes[0].material->youngs_modulus, 33000.0);
+}
+
+TEST(Set, SpringsTakeThePlaceOfAMaterialOnlyWhole) {
+  const std::string text = "schema = 1\n[[cube]]\nmaterial = { density = 8.0 }\n";
+  EXPECT_THAT(test::rejection(text, {"cube[0].shear.stiffness=10"}),
+              HasSubstr("this cube is made of a material"));
+  const Scene s = test::parsed(
+      text, {"cube[0].structural={stiffness=10,damping=1}", "cube[0].shear={stiffness=10,damping=1}",
+             "cube[0].bending={stiffness=10,damping=1}", "cube[0].particle-mass=2"});
+  EXPECT_FALSE(s.model.cubes[0].material.has_value());
+  EXPECT_EQ(s.model.cubes[0].particle_mass, 2.0);
+  EXPECT_EQ(s.model.cubes[0].bending.damping, 1.0);
+}
+
+TEST(Set, DoesNotMendAFileThatGivesBoth) {
+  const std::string text = "schema = 1\n[[cube]]\nmaterial = { density = 8.0 }\nparticle-mass = 1.0\n";
+  EXPECT_THAT(test::rejection(text, {"cube[0].material.density=20"}), StartsWith("scene.toml:3:1: "));
+}
+
+TEST(Set, ANewShapeDropsTheFilesOtherGeometry) {
+  const Scene s =
+      test::parsed("schema = 1\n[[cube]]\n[[terrain]]\npoint = [0, 5, 0]\n", {"terrain[0].shape=bowl"});
+  EXPECT_EQ(s.model.terrain[0].shape, TerrainShape::bowl);
+  EXPECT_FALSE(s.model.terrain[0].point.has_value());
+  EXPECT_THAT(test::rejection(base, {"terrain[0].shape=bowl", "terrain[0].point=[0,5,0]"}),
+              HasSubstr("a bowl has no 'point'"));
+}
+
+struct Refused {
+  std::string argument;
+  std::size_t column;  // of the caret, from 1
+  std::string fragment;
+};
+
+TEST(Set, PointsAtWhatIsWrongInAnArgument) {
+  const std::vector<Refused> cases = {
+      {"cube[1].edge-length=2", 1, "the scene has only one [[cube]]: cube[0]"},
+      {"goal-nets=2", 1, "did you mean 'goal-net'?"},
+      {"cube.shear.stiffness=10", 1, "did you mean 'cube[0].shear.stiffness'?"},
+      {"cube[0].shear.stifness=10", 15, "did you mean 'stiffness'?"},
+      {"cube[0].shear={stifness=1}", 16, "did you mean 'stiffness'?"},
+      {"cube[zero].edge-length=2", 6, "an index is a whole number"},
+      {"cube[-1].edge-length=2", 6, "an index is a whole number"},
+      {"cube[0]x.edge-length=2", 6, "an index is a whole number"},
+      {"simulation[0].timestep=2", 1, "takes no index"},
+      {"simulation.gravity.y=2", 20, "is a value and has no keys"},
+      {"simulation..timestep=2", 12, "a part of the key is missing"},
+      {"=2", 1, "a part of the key is missing"},
+      {"simulation.timestep", 1, "KEY=VALUE"},
+      {"simulation.timestep=", 21, "neither a TOML value nor a single word"},
+      {"name=two words", 6, "needs quotation marks"},
+      {"name=\"a\"\nschema=2", 6, "the value ends with its first line"},
+      {"simulation.timestep=5", 21, "out of range"},
+      {"simulation.timestep=nan", 21, "must be finite"},
+      {"simulation=3", 12, "must be a table"},
+      {"simulation.integrator=implicit-euler", 23, "is not built yet in this version"},
+      {"schema=2", 8, "unknown schema version 2"},
+      {"cube[0]=2", 9, "is a table"},
+      {"cube=[]", 1, "needs an index"},
+      {"cube[0].pinned=[\"tap\"]", 17, "did you mean 'top'?"},
+  };
+  for (const Refused& c : cases) {
+    const std::string message = test::rejection(base, {c.argument});
+    EXPECT_THAT(message, StartsWith(fmt::format("--set {}: ", c.argument)));
+    EXPECT_THAT(message, HasSubstr(c.fragment));
+    const std::string last = message.substr(message.rfind('\n') + 1);
+    EXPECT_EQ(last, fmt::format("{:>{}}", "^", c.column + 2)) << message;
+  }
+}
+
+TEST(Set, ReportsAllArgumentsAfterTheFile) {
+  const std::string message =
+      test::rejection("schema = 1\n[[cube]]\nedge = 1\n", {"a=1", "simulation.timestep=0"});
+  const std::vector<std::string> problems = test::problems_in(message);
+  ASSERT_EQ(problems.size(), 3u) << message;
+  EXPECT_THAT(problems[0], StartsWith("scene.toml:3:1: "));
+  EXPECT_THAT(problems[1], StartsWith("--set a=1: "));
+  EXPECT_THAT(problems[2], StartsWith("--set simulation.timestep=0: "));
+}
+
+TEST(Set, AppliesToASceneWithoutBodies) {
+  EXPECT_THAT(test::rejection("schema = 1\n", {"cube[0].edge-length=2"}),
+              HasSubstr("the scene has no [[cube]]"));
+}
+
+}  // namespace
+}  // namespace aspic

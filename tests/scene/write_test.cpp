@@ -1,0 +1,107 @@
+#include "scene/write.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "scene/scene_support.h"
+
+namespace aspic {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+void expect_round_trip(const Scene& scene) {
+  const std::string text = to_toml(scene);
+  const auto again = parse_scene(text, "scene.toml", {}, test::unlimited);
+  ASSERT_TRUE(again.ok()) << again.error().message << "\n" << text;
+  test::expect_same_scene(scene, *again);
+  EXPECT_EQ(to_toml(*again), text);
+}
+
+TEST(Write, RoundTripsBuiltins) {
+  for (const BuiltinScene& builtin : list_builtin_scenes()) {
+    const auto scene = load_scene(std::string(builtin.name));
+    ASSERT_TRUE(scene.ok()) << scene.error().message;
+    expect_round_trip(*scene);
+  }
+}
+
+/// Any legal value, with all the digits a double can have.
+Value random_value(const Parameter& p, std::mt19937_64& random) {
+  const auto number = [&] {
+    // The widest ranges would hardly ever give a small number, so magnitudes are drawn first.
+    const double least = std::max(p.range.min, -1e3), most = std::min(p.range.max, 1e3);
+    const double x = std::uniform_real_distribution<double>(least, most)(random);
+    return x == p.range.min ? most : x;
+  };
+  const auto chance = [&] { return std::uniform_int_distribution<int>(0, 1)(random) == 1; };
+  switch (p.type) {
+    case ParameterType::boolean:
+      return chance();
+    case ParameterType::integer:
+      return std::uniform_int_distribution<std::int64_t>(
+          static_cast<std::int64_t>(p.range.min),
+          static_cast<std::int64_t>(std::min(p.range.max, 40.0)))(random);
+    case ParameterType::number:
+      return number();
+    case ParameterType::text:
+      return std::string("a \"name\" with \\ and \t and \x7f and é");
+    case ParameterType::word: {
+      const auto words = built_words(p);
+      return std::string(words[std::uniform_int_distribution<std::size_t>(0, words.size() - 1)(random)]);
+    }
+    case ParameterType::words: {
+      std::vector<std::string> words;
+      for (const std::string_view word : p.words) {
+        if (chance()) words.emplace_back(word);
+      }
+      return words;
+    }
+    case ParameterType::vector:
+      return Vec3{number(), number(), chance() ? -0.0 : number()};
+    case ParameterType::pinned:
+      return PinnedSettings{{"front", "left-bottom-back"}, {0, 7, 3}};
+  }
+  return false;
+}
+
+TEST(Write, RoundTripsRandomScenes) {
+  std::mt19937_64 random(20210611);
+  for (int trial = 0; trial < 200; ++trial) {
+    Scene scene;
+    scene.model.terrain.resize(static_cast<std::size_t>(trial % 4));
+    scene.model.cubes.resize(1 + static_cast<std::size_t>(trial % 3));
+    if (trial % 2 == 0) scene.model.cubes[0].material.emplace();
+    for (const Parameter& p : parameters()) {
+      for (std::size_t i = 0; i < index_count(p, scene); ++i) {
+        // Some keys stay absent or at their defaults.
+        const bool left_out = std::uniform_int_distribution<int>(0, 3)(random) == 0;
+        if (applies(p, scene, i) && !left_out) p.set(scene, i, random_value(p, random));
+      }
+    }
+    expect_round_trip(scene);
+  }
+}
+
+TEST(Write, LeavesOutWhatIsAbsent) {
+  const Scene scene = test::parsed("schema = 1\n[[terrain]]\n[[cube]]\n");
+  const std::string text = to_toml(scene);
+  EXPECT_THAT(text, HasSubstr("\n# mass: infinite\n"));
+  EXPECT_THAT(text, Not(HasSubstr("\nmass")));
+  EXPECT_THAT(text, HasSubstr("\n# restitution: that of [contact]\n"));
+  EXPECT_THAT(text, Not(HasSubstr("material =")));
+}
+
+TEST(Write, LooksLikeAFileOfAPerson) {
+  const std::string text = to_toml(test::parsed("schema = 1\n[[cube]]\n"));
+  EXPECT_THAT(text, HasSubstr("[simulation]\n"));
+  EXPECT_THAT(text, HasSubstr("\nshear = { stiffness = 2000.0, damping = 60.0 }"));
+  EXPECT_THAT(text, HasSubstr("# m/s²\n"));
+}
+
+}  // namespace
+}  // namespace aspic
