@@ -1,5 +1,6 @@
 #include <glad/gl.h>
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <numeric>
 
@@ -51,6 +52,26 @@ TEST_F(BufferGl, RefusesWhatExceedsTheBlockSize) {
   EXPECT_THAT(uniform.error().message, HasSubstr("uniform buffer"));
   EXPECT_EQ(context().bytes_held(), held);
   EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
+}
+
+TEST_F(BufferGl, SaysWhenTheDeviceHasNoMemoryLeft) {
+  // A software device takes its memory from the process, whose address space can be closed for a moment.
+  ASSERT_TRUE(context().info().is_software);
+  const std::uint64_t held = context().bytes_held();
+  const std::uint64_t size = context().info().limits.storage_block_bytes;
+  rlimit before;
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  const rlimit closed = {size / 4, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &closed), 0);
+  const auto refused = Buffer::create(context(), "too much", size);
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
+  EXPECT_THAT(refused.error().message, HasSubstr("has no memory for the storage buffer \"too much\""));
+  EXPECT_EQ(context().bytes_held(), held);
+  EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
+  // The debug context heard of it too.
+  EXPECT_GE(forgive_errors(), 1);
 }
 
 TEST_F(BufferGl, CountsTheBytesHeld) {

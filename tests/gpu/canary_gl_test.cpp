@@ -1,8 +1,12 @@
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "gpu/canary.h"
 #include "gpu/canary_operands.h"
+#include "gpu/pass.h"
 #include "support/gl_fixture.h"
 
 namespace aspic::gl {
@@ -99,6 +103,40 @@ TEST_F(CanaryGl, CorrectedFormsAreExactFromWrongStarts) {
          {&choice.corrected->quotient, &choice.corrected->reciprocal, &choice.corrected->root})
       EXPECT_EQ(check->wrong, 0u) << check->name << " of " << check->operands[0] << ", " << check->operands[1]
                                   << ": got " << check->got << ", expected " << check->expected;
+  }
+}
+
+TEST_F(CanaryGl, CorrectedFormsKeepTheMeaningOfSpecialValues) {
+  using Limits = std::numeric_limits<float>;
+  std::vector<float> values = {
+      0.0f,          1.0f,         3.0f, Limits::infinity(), Limits::quiet_NaN(), Limits::denorm_min(),
+      Limits::min(), Limits::max()};
+  for (std::size_t i = 0, n = values.size(); i < n; ++i) values.push_back(-values[i]);
+  std::vector<std::array<float, 2>> pairs;
+  for (const float a : values)
+    for (const float b : values) pairs.push_back({a, b});
+  const auto count = static_cast<std::uint32_t>(pairs.size());
+
+  const Define defines[] = {
+      {"ASPIC_CORRECT_DIV", "1"}, {"ASPIC_CORRECT_SQRT", "1"}, {"FAULT_DIV", "1"}, {"FAULT_SQRT", "1"}};
+  const auto program =
+      Program::compute(context(), ShaderLibrary(ASPIC_TEST_SHADERS), "exact_pairs.comp", defines);
+  ASSERT_TRUE(program.ok()) << program.error().message;
+  const auto input = Buffer::of(context(), "pairs", std::span<const std::array<float, 2>>(pairs));
+  const auto output = Buffer::create(context(), "results", count * 8);
+  ASSERT_TRUE(input.ok() && output.ok());
+  program->set(0, count);
+  Pass(*program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &*output}}, Reader::read_back)
+      .dispatch_for(count);
+  const auto got = output->download_items<std::array<float, 2>>(count);
+  const auto same = [](float x, float y) {
+    return (std::isnan(x) && std::isnan(y)) ||
+           std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+  };
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto [a, b] = pairs[i];
+    EXPECT_TRUE(same(got[i][0], a / b)) << a << " / " << b << " gave " << got[i][0];
+    EXPECT_TRUE(same(got[i][1], std::sqrt(a))) << "the root of " << a << " gave " << got[i][1];
   }
 }
 
