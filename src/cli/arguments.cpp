@@ -1,0 +1,308 @@
+#include "cli/arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string_view>
+
+#include "scene/diagnostics.h"
+
+namespace aspic::cli {
+namespace {
+
+constexpr const char* main_examples = R"(Examples:
+  aspic run cube-plane                              simulate a built-in scene, print a summary
+  aspic run my-scene.toml --duration 2 --state end.csv --series energy.csv --every 10
+  aspic run cube-plane --set simulation.timestep=0.002 --set "cube[0].shear.stiffness=10"
+  aspic compare cube-plane --backends gpu,reference --steps 1000
+  aspic scene check my-scene.toml                   counts, memory and stable time steps
+  aspic info                                        devices and limits
+
+SCENE is a TOML file or the name of a built-in scene (aspic scene list).
+Exit codes: 0 ok, 1 comparison failed, 2 usage, 3 scene rejected, 4 no usable GL device, 5 diverged,
+6 input/output failed, 130 interrupted.)";
+
+constexpr const char* run_examples = R"(Examples:
+  aspic run cube-plane --steps 1000 --json
+  aspic run cube-sphere --backend reference --precision double --state end.csv
+  aspic run cube-plane --duration 2 --checkpoint half.aspic
+  aspic run --resume half.aspic --duration 4 --state end.csv)";
+
+constexpr const char* compare_examples = R"(Examples:
+  aspic compare cube-plane --steps 1000
+  aspic compare cube-bowl --backends gpu:gather,gpu:per-spring --steps 500
+  aspic compare cube-plane --backends reference,reference:double --steps 100 --tolerance 1e-4)";
+
+struct NotBuilt {
+  std::string_view command, what;
+};
+constexpr std::array<NotBuilt, 4> not_built_commands = {{
+    {"view", "the window"},
+    {"verify", "the verification battery"},
+    {"bench", "the throughput measurement"},
+    {"report", "the report with plots"},
+}};
+
+/// What the parser fills in before words become values.
+struct RawOptions {
+  std::string backend = "auto", precision, force_path = "auto";
+  std::vector<std::string> backends = {"gpu", "reference"};
+};
+
+Error usage(std::string message) {
+  return {ErrorCode::usage, std::move(message)};
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+/// The deepest command that was named.
+const CLI::App& named_command(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return parsed.empty() ? app : named_command(*parsed.front());
+}
+
+std::string full_name(const CLI::App& app) {
+  return app.get_parent() ? full_name(*app.get_parent()) + " " + app.get_name() : app.get_name();
+}
+
+/// A sentence for words that no option or argument takes.
+Error unexpected_word(const CLI::App& command, const std::string& word) {
+  const bool option = word.starts_with('-');
+  const std::string name = word.substr(0, word.find('='));
+  const std::vector<std::string> known = option ? option_names(command) : command_names(command);
+  std::string message = option          ? fmt::format("{} has no option {}.", full_name(command), name)
+                        : known.empty() ? fmt::format("{} does not expect \"{}\".", full_name(command), word)
+                                        : fmt::format("{} has no command \"{}\".", full_name(command), word);
+  const std::vector<std::string_view> candidates(known.begin(), known.end());
+  const std::string_view near = diagnostics::nearest(name, candidates);
+  if (!near.empty()) message += fmt::format(" Did you mean {}?", near);
+  return usage(message + fmt::format(" See {} --help.", full_name(command)));
+}
+
+/// CLI11 wraps negative numbers round into large counts.
+std::string not_negative(const std::string& word) {
+  return word.starts_with('-') ? fmt::format("{} is negative; give 0 or more", word) : "";
+}
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command.add_option("--set", overrides, "set a scene value, e.g. simulation.timestep=0.002; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_length(CLI::App& command, RunLength& length) {
+  auto* steps = command.add_option("--steps", length.steps, "simulate up to this step")
+                    ->type_name("N")
+                    ->check(not_negative);
+  command
+      .add_option("--duration", length.duration, "simulate up to this time, in seconds; default: the scene's")
+      ->type_name("S")
+      ->excludes(steps);
+}
+
+CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
+  CLI::App* c = app.add_subcommand("run", "Simulate a scene headless");
+  c->add_option("scene", run.scene, "scene file or built-in name; not needed with --resume")
+      ->type_name("SCENE");
+  c->add_option("--backend", raw.backend, "auto, gpu, cpu, reference")
+      ->capture_default_str()
+      ->type_name("NAME");
+  c->add_option("--precision", raw.precision, "single or double (reference only); default single")
+      ->type_name("NAME");
+  c->add_option("--force-path", raw.force_path, "auto, per-spring, gather, lattice (gpu only)")
+      ->capture_default_str()
+      ->type_name("NAME");
+  add_length(*c, run.length);
+  add_overrides(*c, run.overrides);
+  c->add_option("--state", run.state_file, "write the final state as CSV")->type_name("FILE");
+  auto* series = c->add_option("--series", run.series_file, "write energies and momentum over time as CSV")
+                     ->type_name("FILE");
+  c->add_option("--every", run.every, "steps between rows of the series")
+      ->capture_default_str()
+      ->type_name("N")
+      ->check(not_negative)
+      ->needs(series);
+  c->add_option("--video", run.pictures.video, "write a video")->type_name("FILE.mp4");
+  c->add_option("--frames", run.pictures.frames, "write pictures into a directory")->type_name("DIR");
+  c->add_option("--fps", run.pictures.fps, "pictures per second of simulated time")
+      ->capture_default_str()
+      ->type_name("F");
+  c->add_option("--size", run.pictures.size, "size of the pictures")->capture_default_str()->type_name("WxH");
+  c->add_option("--checkpoint", run.checkpoint_file, "write scene and final state, to resume from")
+      ->type_name("FILE");
+  c->add_option("--resume", run.resume_file,
+                "go on from a checkpoint; --steps and --duration count from its start")
+      ->type_name("FILE");
+  c->add_flag("--force", run.force, "overwrite files");
+  c->add_flag("--json", run.json, "summary on stdout as JSON");
+  c->footer(run_examples);
+  return c;
+}
+
+CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
+  CLI::App* c = app.add_subcommand("compare", "Run two backends side by side, step by step");
+  c->add_option("scene", compare.scene, "scene file or built-in name")->type_name("SCENE")->required();
+  c->add_option("--backends", raw.backends, "the two, options after colons: gpu:per-spring,reference:double")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("A,B")
+      ->capture_default_str();
+  c->add_option("--force-path", raw.force_path, "force path of gpu backends that name none")
+      ->type_name("NAME");
+  add_length(*c, compare.length);
+  add_overrides(*c, compare.overrides);
+  c->add_option("--tolerance", compare.tolerance,
+                "largest difference allowed, in m and m/s; 0: identical bits")
+      ->capture_default_str()
+      ->type_name("T");
+  c->add_flag("--json", compare.json, "result on stdout as JSON");
+  c->footer(compare_examples);
+  return c;
+}
+
+Status check_length(const RunLength& length) {
+  if (length.duration && !(std::isfinite(*length.duration) && *length.duration >= 0.0)) {
+    return usage(
+        fmt::format("--duration must be a finite number of seconds, 0 or more, not {}.", *length.duration));
+  }
+  return {};
+}
+
+Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
+  const auto kind = parse_backend_kind(raw.backend);
+  if (!kind) return kind.error();
+  const auto precision = parse_precision(raw.precision.empty() ? "single" : raw.precision);
+  if (!precision) return precision.error();
+  const auto path = parse_force_path(raw.force_path);
+  if (!path) return path.error();
+  run.backend = {*kind, *precision, *path};
+  run.precision_given = !raw.precision.empty();
+  if (const Status length = check_length(run.length); !length) return length.error();
+  if (run.every < 1) return usage("--every must be 1 or more.");
+  if (run.scene.empty() && run.resume_file.empty()) {
+    return usage("aspic run needs a SCENE: a file, or a built-in name from aspic scene list.");
+  }
+  if (run.scene.empty() && !run.overrides.empty()) {
+    return usage(
+        "a resumed run goes on with the scene of its checkpoint, which --set cannot change. Leave --set out, "
+        "or run a scene.");
+  }
+  if (const Status choice = check_choice(run.backend); !choice) return choice.error();
+  return Command(std::move(run));
+}
+
+Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
+  const auto path = parse_force_path(raw.force_path);
+  if (!path) return path.error();
+  const auto choose = [&](const std::string& text) -> Result<BackendChoice> {
+    auto choice = parse_backend(text);
+    if (!choice) return choice;
+    if (choice->kind == BackendKind::gpu && choice->force_path == ForcePath::automatic)
+      choice->force_path = *path;
+    if (const Status possible = check_choice(*choice); !possible) return possible.error();
+    return choice;
+  };
+  const auto first = choose(raw.backends.front());
+  if (!first) return first.error();
+  const auto second = choose(raw.backends.back());
+  if (!second) return second.error();
+  compare.first = *first;
+  compare.second = *second;
+  if (const Status length = check_length(compare.length); !length) return length.error();
+  if (!(std::isfinite(compare.tolerance) && compare.tolerance >= 0.0)) {
+    return usage(fmt::format("--tolerance must be a finite number, 0 or more, not {}.", compare.tolerance));
+  }
+  return Command(std::move(compare));
+}
+
+}  // namespace
+
+Result<Command> parse_arguments(int argc, const char* const* argv) {
+  CLI::App app("Soft bodies of point masses and springs on OpenGL compute", "aspic");
+  app.footer(main_examples);
+  app.set_version_flag("--version", "aspic " ASPIC_VERSION);
+  app.require_subcommand(1);
+  RawOptions raw;
+  RunOptions run;
+  CompareOptions compare;
+  SceneListOptions list;
+  SceneShowOptions show;
+  SceneCheckOptions check;
+  InfoOptions info;
+  CLI::App* run_command = add_run(app, run, raw);
+  CLI::App* compare_command = add_compare(app, compare, raw);
+  CLI::App* scene = app.add_subcommand("scene", "List, show and check scenes");
+  scene->require_subcommand(1);
+  CLI::App* list_command = scene->add_subcommand("list", "The built-in scenes");
+  list_command->add_flag("--json", list.json, "as JSON");
+  CLI::App* show_command =
+      scene->add_subcommand("show", "Print a scene as complete TOML, every default spelt out");
+  show_command->add_option("scene", show.scene, "scene file or built-in name")
+      ->type_name("SCENE")
+      ->required();
+  add_overrides(*show_command, show.overrides);
+  CLI::App* check_command = scene->add_subcommand("check", "Counts, memory and stable time steps of a scene");
+  check_command->add_option("scene", check.scene, "scene file or built-in name")
+      ->type_name("SCENE")
+      ->required();
+  check_command->add_flag("--json", check.json, "as JSON");
+  add_overrides(*check_command, check.overrides);
+  CLI::App* info_command = app.add_subcommand("info", "Devices, drivers, GL limits, and what auto picks");
+  info_command->add_flag("--json", info.json, "as JSON");
+
+  if (argc < 2) return usage("no command given.\n\n" + app.help());
+  const std::string first = argv[1];
+  for (const NotBuilt& entry : not_built_commands) {
+    if (first == entry.command) {
+      return usage(fmt::format("aspic {} ({}) is not built yet in version {}.", entry.command, entry.what,
+                               ASPIC_VERSION));
+    }
+  }
+  if (first == "scene" && argc > 2 && std::string_view(argv[2]) == "import") {
+    return usage(fmt::format("aspic scene import is not built yet in version {}.", ASPIC_VERSION));
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForVersion&) {
+    return Command(ShowText{"aspic " ASPIC_VERSION "\n"});
+  } catch (const CLI::Success&) {
+    return Command(ShowText{named_command(app).help()});
+  } catch (const CLI::ParseError& error) {
+    const CLI::App& command = named_command(app);
+    const auto extras = command.remaining();
+    // Where a command is missing, CLI11 reports that before the word that stands in its place.
+    const bool command_missing =
+        command.get_require_subcommand_min() > 0 && command.get_subcommands().empty();
+    if (!extras.empty()) return unexpected_word(command, extras.front());
+    if (command_missing) {
+      for (int i = &command == &app ? 1 : 2; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word != command.get_name()) return unexpected_word(command, word);
+      }
+    }
+    return usage(fmt::format("{}. See {} --help.", error.what(), full_name(command)));
+  }
+  if (*run_command) return finish_run(std::move(run), raw);
+  if (*compare_command) return finish_compare(std::move(compare), raw);
+  if (*list_command) return Command(list);
+  if (*show_command) return Command(std::move(show));
+  if (*check_command) return Command(std::move(check));
+  return Command(info);
+}
+
+}  // namespace aspic::cli

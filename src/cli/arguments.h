@@ -1,0 +1,77 @@
+#pragma once
+// The command line as plain data.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/result.h"
+#include "cli/backends.h"
+#include "model/state.h"
+
+namespace aspic::cli {
+
+/// How far a run goes, counted from the scene's start, also when resumed.
+struct RunLength {
+  std::optional<std::uint64_t> steps;
+  std::optional<double> duration;  ///< [s], ≥ 0; rounded to the nearest whole number of steps
+};
+
+/// Pictures of a run.
+struct PictureOptions {
+  std::string video, frames;      ///< file and directory; empty: none
+  double fps = 60.0;              ///< > 0
+  std::string size = "1280x720";  ///< width × height in pixels
+};
+
+struct RunOptions {
+  std::string scene;  ///< empty: that of the checkpoint
+  std::vector<std::string> overrides;
+  BackendChoice backend;
+  bool precision_given = false;
+  RunLength length;
+  std::string state_file, series_file, checkpoint_file, resume_file;  ///< empty: none
+  std::uint64_t every = 1;                                            ///< steps between series rows, ≥ 1
+  PictureOptions pictures;
+  bool force = false;
+  bool json = false;
+};
+
+struct CompareOptions {
+  std::string scene;
+  std::vector<std::string> overrides;
+  BackendChoice first, second;
+  RunLength length;
+  double tolerance = 0.0;  ///< [m] and [m/s], ≥ 0; 0: every bit the same
+  bool json = false;
+};
+
+struct SceneListOptions {
+  bool json = false;
+};
+struct SceneShowOptions {
+  std::string scene;
+  std::vector<std::string> overrides;
+};
+struct SceneCheckOptions {
+  std::string scene;
+  std::vector<std::string> overrides;
+  bool json = false;
+};
+struct InfoOptions {
+  bool json = false;
+};
+/// --help, --version: text for stdout and nothing else to do.
+struct ShowText {
+  std::string text;
+};
+
+using Command = std::variant<ShowText, RunOptions, CompareOptions, SceneListOptions, SceneShowOptions,
+                             SceneCheckOptions, InfoOptions>;
+
+/// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built
+/// yet.
+Result<Command> parse_arguments(int argc, const char* const* argv);
+
+}  // namespace aspic::cli

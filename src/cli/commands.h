@@ -1,0 +1,26 @@
+#pragma once
+// The commands. Each prints its data to stdout and returns success or the error whose code is the exit code.
+#include "base/result.h"
+#include "cli/arguments.h"
+
+namespace aspic::cli {
+
+/// Simulates; writes the files asked for. Errors beside those of its parts: diverged and interrupted, both
+/// after the files are closed whole.
+Status run_command(const RunOptions& options);
+
+/// Steps two backends side by side. Error (check_failed): they differ by more than the tolerance.
+Status compare_command(const CompareOptions& options);
+
+Status scene_list_command(const SceneListOptions& options);
+Status scene_show_command(const SceneShowOptions& options);
+Status scene_check_command(const SceneCheckOptions& options);
+
+/// Never fails for want of a GPU: says so instead.
+Status info_command(const InfoOptions& options);
+
+/// Steps of a run of this length: what was asked for, else the scene's duration, rounded to the nearest whole
+/// step. Error (usage): more steps than can be counted.
+Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings& simulation);
+
+}  // namespace aspic::cli

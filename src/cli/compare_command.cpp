@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+
+#include "analysis/compare.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/json_report.h"
+#include "io/interrupt.h"
+#include "scene/load.h"
+
+namespace aspic::cli {
+namespace {
+
+/// The largest difference of a quantity over all steps compared.
+struct Worst {
+  QuantityDifference difference;
+  std::uint64_t absolute_step = 0, ulp_step = 0;
+
+  void take(const QuantityDifference& d, std::uint64_t step) {
+    if (d.absolute > difference.absolute) {
+      difference.absolute = d.absolute;
+      difference.absolute_index = d.absolute_index;
+      absolute_step = step;
+    }
+    if (d.ulp > difference.ulp) {
+      difference.ulp = d.ulp;
+      difference.ulp_index = d.ulp_index;
+      ulp_step = step;
+    }
+  }
+};
+
+struct Comparison {
+  std::uint64_t steps = 0;  ///< compared
+  Worst position, velocity;
+  std::optional<std::uint64_t> first_difference;
+  std::array<std::string, 2> hash;
+  std::array<std::optional<Divergence>, 2> divergence;
+  bool interrupted = false;
+};
+
+Result<Comparison> compare_steps(std::array<Backend, 2>& backends, std::uint64_t steps,
+                                 const InterruptGuard& interrupt) {
+  Comparison result;
+  ProgressBar bar(steps);
+  for (std::uint64_t step = 0;; ++step) {
+    auto first = backends[0].solver->state();
+    if (!first) return first.error();
+    const auto second = backends[1].solver->state();
+    if (!second) return second.error();
+    const auto difference = compare_states(*first, *second);
+    if (!difference) return difference.error();
+    // States of two precisions with equal single-precision values still differ where a number does.
+    if (!result.first_difference && (!difference->identical() || difference->largest_absolute() > 0.0)) {
+      result.first_difference = step;
+    }
+    result.position.take(difference->position, step);
+    result.velocity.take(difference->velocity, step);
+    result.hash = {state_hash_text(*first), state_hash_text(*second)};
+    result.steps = step;
+    result.interrupted = interrupt.interrupted();
+    if (step == steps || result.interrupted) return result;
+
+    for (std::size_t i = 0; i < backends.size(); ++i) {
+      const auto advanced = backends[i].solver->advance(1);
+      if (!advanced) return advanced.error();
+      result.divergence[i] = *advanced;
+    }
+    if (result.divergence[0] || result.divergence[1]) return result;
+    bar.update(step + 1);
+  }
+}
+
+std::string name_of(const Backend& backend) {
+  if (!backend.force_path.empty()) return backend.name + ":" + backend.force_path;
+  return backend.solver->precision() == Precision::double_ ? backend.name + ":double" : backend.name;
+}
+
+JsonObject to_json_object(const Worst& worst) {
+  return {{"largest_absolute", worst.difference.absolute},
+          {"largest_absolute_particle", worst.difference.absolute_index},
+          {"largest_absolute_step", worst.absolute_step},
+          {"largest_ulp", worst.difference.ulp},
+          {"largest_ulp_particle", worst.difference.ulp_index},
+          {"largest_ulp_step", worst.ulp_step}};
+}
+
+Status print_result(const CompareOptions& options, const Scene& scene, const std::array<Backend, 2>& backends,
+                    const Comparison& result, bool within) {
+  if (options.json) {
+    JsonArray sides;
+    for (std::size_t i = 0; i < backends.size(); ++i) {
+      sides.emplace_back(JsonObject{
+          {"backend", name_of(backends[i])},
+          {"device", backends[i].device},
+          {"state_hash", result.hash[i]},
+          {"diverged_in_step", result.divergence[i] ? JsonValue(result.divergence[i]->step) : JsonValue()}});
+    }
+    return print_data(to_json({{"scene", scene.name},
+                               {"integrator", aspic::name_of(scene.model.simulation.integrator)},
+                               {"steps", result.steps},
+                               {"tolerance", options.tolerance},
+                               {"within_tolerance", within},
+                               {"identical", !result.first_difference},
+                               {"first_differing_step",
+                                result.first_difference ? JsonValue(*result.first_difference) : JsonValue()},
+                               {"position", to_json_object(result.position)},
+                               {"velocity", to_json_object(result.velocity)},
+                               {"interrupted", result.interrupted},
+                               {"backends", sides}}));
+  }
+  std::string text = fmt::format("scene       {}, {}, {} steps compared\n", scene.name,
+                                 aspic::name_of(scene.model.simulation.integrator), result.steps);
+  for (std::size_t i = 0; i < backends.size(); ++i) {
+    text += fmt::format("{:<11} {}  {}\n", name_of(backends[i]), result.hash[i], backends[i].device);
+  }
+  const auto line = [](std::string_view name, std::string_view unit, const Worst& w) {
+    const QuantityDifference& d = w.difference;
+    if (d.absolute == 0.0 && d.ulp == 0) return fmt::format("{:<11} identical in every step\n", name);
+    return fmt::format(
+        "{:<11} largest difference {:.6g} {} (particle {}, step {}), {} ULP (particle {}, step {})\n", name,
+        d.absolute, unit, d.absolute_index, w.absolute_step, d.ulp, d.ulp_index, w.ulp_step);
+  };
+  text += line("position", "m", result.position) + line("velocity", "m/s", result.velocity);
+  text += result.first_difference ? fmt::format("first differing step {}\n", *result.first_difference)
+                                  : "no step differs\n";
+  text += fmt::format("{}: tolerance {}\n", within ? "within" : "EXCEEDED", options.tolerance);
+  return print_data(text);
+}
+
+}  // namespace
+
+Status compare_command(const CompareOptions& options) {
+  const InterruptGuard interrupt;
+  const auto scene = load_scene(options.scene, options.overrides);
+  if (!scene) return scene.error();
+  const auto steps = steps_of(options.length, scene->model.simulation);
+  if (!steps) return steps.error();
+  const auto model = build_model(scene->model);
+  if (!model) return model.error();
+
+  std::array<Backend, 2> backends;
+  for (std::size_t i = 0; i < backends.size(); ++i) {
+    BackendChoice choice = i == 0 ? options.first : options.second;
+    auto backend = make_backend(choice, *model);
+    if (!backend) return backend.error();
+    backends[i] = std::move(*backend);
+  }
+  const auto result = compare_steps(backends, *steps, interrupt);
+  if (!result) return result.error();
+  const bool within = options.tolerance == 0.0
+                          ? !result->first_difference
+                          : result->position.difference.absolute <= options.tolerance &&
+                                result->velocity.difference.absolute <= options.tolerance;
+  if (const Status printed = print_result(options, *scene, backends, *result, within); !printed)
+    return printed;
+  if (result->interrupted) {
+    return Error{ErrorCode::interrupted, fmt::format("interrupted at step {} of {}.", result->steps, *steps)};
+  }
+  const auto& [first, second] = result->divergence;
+  if (first && second && first->step == second->step) {
+    return Error{ErrorCode::diverged, fmt::format("both diverged in step {} (particles {} and {}).",
+                                                  first->step, first->particle, second->particle)};
+  }
+  if (first || second) {
+    return Error{ErrorCode::diverged,
+                 fmt::format("{} alone diverged, in step {} (particle {}).", name_of(backends[first ? 0 : 1]),
+                             (first ? *first : *second).step, (first ? *first : *second).particle)};
+  }
+  if (!within) {
+    return Error{ErrorCode::check_failed,
+                 fmt::format("{} and {} differ by more than the tolerance {}.", name_of(backends[0]),
+                             name_of(backends[1]), options.tolerance)};
+  }
+  return {};
+}
+
+}  // namespace aspic::cli

@@ -1,0 +1,50 @@
+#include "cli/console.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+
+#include "io/atomic_file.h"
+
+namespace aspic::cli {
+
+Status print_data(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    return file_error("write", "standard output", errno);
+  }
+  return {};
+}
+
+void print_message(std::string_view text) {
+  fmt::print(stderr, "aspic: {}\n", text);
+}
+
+void print_warning(std::string_view text) {
+  fmt::print(stderr, "aspic: warning: {}\n", text);
+}
+
+ProgressBar::ProgressBar(std::uint64_t total)
+    : visible_(::isatty(STDERR_FILENO) == 1 && total > 0), total_(total) {}
+
+ProgressBar::~ProgressBar() {
+  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+}
+
+void ProgressBar::update(std::uint64_t done) {
+  const auto now = Clock::now();
+  if (!visible_ || now - last_ < std::chrono::milliseconds(100)) return;
+  last_ = now;
+  drawn_ = true;
+  const double share = static_cast<double>(done) / static_cast<double>(total_);
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  constexpr int width = 32;
+  std::string bar(static_cast<std::size_t>(share * width), '#');
+  bar.resize(width, '.');
+  std::string left = share > 0.0 ? fmt::format(", {:.0f} s left", elapsed / share - elapsed) : "";
+  fmt::print(stderr, "\r[{}] {:3.0f} %  step {} of {}{}\x1b[K", bar, 100.0 * share, done, total_, left);
+  std::fflush(stderr);
+}
+
+}  // namespace aspic::cli

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/json_report.h"
+#include "gpu/canary.h"
+
+namespace aspic::cli {
+namespace {
+
+std::string_view kind_of(const gl::EglDevice& device) {
+  return device.software ? "software" : "hardware";
+}
+
+JsonValue to_json_value(const gl::DeviceInfo& info) {
+  const gl::DeviceLimits& l = info.limits;
+  const auto triple = [](const std::array<std::uint32_t, 3>& v) { return JsonArray{v[0], v[1], v[2]}; };
+  return JsonObject{{"vendor", info.vendor},
+                    {"renderer", info.renderer},
+                    {"version", info.version},
+                    {"glsl_version", info.glsl_version},
+                    {"platform", info.platform},
+                    {"software", info.is_software},
+                    {"robust", info.robust},
+                    {"limits", JsonObject{{"storage_block_bytes", l.storage_block_bytes},
+                                          {"uniform_block_bytes", l.uniform_block_bytes},
+                                          {"compute_storage_blocks", l.compute_storage_blocks},
+                                          {"vertex_storage_blocks", l.vertex_storage_blocks},
+                                          {"group_invocations", l.group_invocations},
+                                          {"group_count", triple(l.group_count)},
+                                          {"group_size", triple(l.group_size)},
+                                          {"shared_bytes", l.shared_bytes},
+                                          {"storage_offset_alignment", l.storage_offset_alignment},
+                                          {"uniform_offset_alignment", l.uniform_offset_alignment}}}};
+}
+
+/// What the canary kernel finds out about the device's arithmetic, and what is done about it.
+std::vector<std::string> arithmetic_sentences(gl::Context& context) {
+  const auto arithmetic = gl::choose_arithmetic(context, gl::ShaderLibrary());
+  if (!arithmetic) return {"The arithmetic could not be measured: " + arithmetic.error().message};
+  return arithmetic->sentences();
+}
+
+}  // namespace
+
+Status info_command(const InfoOptions& options) {
+  const std::vector<gl::EglDevice> devices = gl::list_devices();
+  AutomaticChoice automatic = choose_automatically({});
+  const char* chosen = automatic.kind == BackendKind::gpu ? "gpu" : "reference";
+  // The device that --backend gpu would take: the hardware found just now, or whatever else there is.
+  std::unique_ptr<gl::Context> context = std::move(automatic.context);
+  std::string no_context;
+  if (!context) {
+    auto made = gl::Context::create_headless();
+    if (made) {
+      context = std::move(*made);
+    } else {
+      no_context = made.error().message;
+    }
+  }
+  const std::vector<std::string> arithmetic =
+      context ? arithmetic_sentences(*context) : std::vector<std::string>{};
+  if (options.json) {
+    JsonArray list, sentences;
+    for (const std::string& sentence : arithmetic) sentences.emplace_back(sentence);
+    for (const gl::EglDevice& device : devices) {
+      list.emplace_back(JsonObject{
+          {"index", std::uint64_t(device.index)}, {"name", device.name}, {"software", device.software}});
+    }
+    return print_data(
+        to_json({{"version", ASPIC_VERSION},
+                 {"devices", list},
+                 {"gpu", context ? to_json_value(context->info()) : JsonValue()},
+                 {"gpu_error", context ? JsonValue() : JsonValue(no_context)},
+                 {"arithmetic", sentences},
+                 {"auto", chosen},
+                 {"auto_reason", automatic.reason},
+                 {"auto_detail", automatic.detail.empty() ? JsonValue() : JsonValue(automatic.detail)}}));
+  }
+  std::string text = "aspic " ASPIC_VERSION "\n\n";
+  text += devices.empty() ? "EGL lists no devices.\n" : "EGL devices\n";
+  for (const gl::EglDevice& device : devices)
+    text += fmt::format("  {}  {} ({})\n", device.index, device.name, kind_of(device));
+  if (context) {
+    text += "\nDevice of --backend gpu\n";
+    for (const std::string& line : gl::describe(context->info())) text += "  " + line + "\n";
+    text += "\nArithmetic and workarounds\n";
+    for (const std::string& sentence : arithmetic) text += "  " + sentence + "\n";
+  } else {
+    text += fmt::format("\nNo usable GL device: {}\n", no_context);
+  }
+  text += fmt::format("\nBackend auto: {}, since {}.\n", chosen, automatic.reason);
+  if (!automatic.detail.empty()) text += automatic.detail + "\n";
+  return print_data(text);
+}
+
+}  // namespace aspic::cli

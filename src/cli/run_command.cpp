@@ -1,0 +1,303 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "analysis/energy.h"
+#include "analysis/stability.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/json_report.h"
+#include "cli/run_files.h"
+#include "cli/stability_text.h"
+#include "io/checkpoint.h"
+#include "io/interrupt.h"
+#include "scene/load.h"
+#include "scene/write.h"
+
+namespace aspic::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Scene and start of a run.
+struct Start {
+  Scene scene;
+  std::string scene_toml;
+  std::optional<State> state;  ///< absent: the scene's own
+};
+
+/// Where two scene texts part, for a message.
+std::string first_difference(const std::string& a, const std::string& b) {
+  std::istringstream in_a(a), in_b(b);
+  std::string line_a, line_b;
+  for (;;) {
+    const bool more_a = static_cast<bool>(std::getline(in_a, line_a)),
+               more_b = static_cast<bool>(std::getline(in_b, line_b));
+    if (!more_a) line_a = "(end)";
+    if (!more_b) line_b = "(end)";
+    if (line_a != line_b || !more_a) return fmt::format("  checkpoint: {}\n  given:      {}", line_a, line_b);
+  }
+}
+
+Result<Start> load_start(const RunOptions& options) {
+  Start start;
+  if (options.resume_file.empty()) {
+    auto scene = load_scene(options.scene, options.overrides);
+    if (!scene) return scene.error();
+    start.scene = std::move(*scene);
+    start.scene_toml = to_toml(start.scene);
+    return start;
+  }
+  auto checkpoint = read_checkpoint(options.resume_file);
+  if (!checkpoint) return checkpoint.error();
+  auto scene = parse_scene(checkpoint->scene, options.resume_file);
+  if (!scene) {
+    return Error{
+        scene.error().code,
+        fmt::format("the scene inside the checkpoint, written by aspic {}, is not accepted by aspic {}:\n{}",
+                    checkpoint->program_version, ASPIC_VERSION, scene.error().message)};
+  }
+  if (!options.scene.empty()) {
+    const auto given = load_scene(options.scene, options.overrides);
+    if (!given) return given.error();
+    const std::string text = to_toml(*given);
+    if (text != checkpoint->scene) {
+      return Error{
+          ErrorCode::scene_rejected,
+          fmt::format("{} continues another scene than {}. They differ first at\n{}\nLeave SCENE and --set "
+                      "out to go on "
+                      "with the checkpoint's scene, or leave --resume out to start the changed one anew.",
+                      options.resume_file, options.scene, first_difference(checkpoint->scene, text))};
+    }
+  }
+  if (options.precision_given && options.backend.precision != checkpoint->state.precision) {
+    return Error{ErrorCode::usage,
+                 fmt::format("{} was written in {} precision: resume it without --precision.",
+                             options.resume_file, name_of(checkpoint->state.precision))};
+  }
+  start.scene = std::move(*scene);
+  start.scene_toml = std::move(checkpoint->scene);
+  start.state = std::move(checkpoint->state);
+  return start;
+}
+
+/// What became of a run.
+struct Outcome {
+  State state;
+  std::uint64_t first_step = 0, last_step = 0;  ///< of this run; last: as planned
+  std::optional<Divergence> divergence;
+  bool interrupted = false;
+  double wall_seconds = 0.0;
+  double steps_per_second() const {
+    return wall_seconds > 0.0 ? static_cast<double>(state.step - first_step) / wall_seconds : 0.0;
+  }
+};
+
+/// Steps between polls for Ctrl-C and redraws: as many as take about a twentieth of a second.
+class BatchSize {
+ public:
+  std::uint64_t next() const { return size_; }
+  void took(std::uint64_t steps, double seconds) {
+    if (steps < size_) return;
+    if (seconds < 0.025) size_ = std::min<std::uint64_t>(2 * size_, 1u << 20);
+    if (seconds > 0.1) size_ = std::max<std::uint64_t>(size_ / 2, 1);
+  }
+
+ private:
+  std::uint64_t size_ = 1;
+};
+
+Result<Outcome> simulate(Solver& solver, RunFiles& files, std::uint64_t last_step,
+                         const InterruptGuard& interrupt) {
+  const Model& model = solver.model();
+  auto state = solver.state();
+  if (!state) return state.error();
+  Outcome outcome;
+  outcome.first_step = state->step;
+  outcome.last_step = last_step;
+  const std::uint64_t interval = files.series_interval();
+  if (const Status row = files.add_row(model, *state); !row) return row.error();
+
+  ProgressBar bar(last_step);
+  BatchSize batch;
+  std::uint64_t step = state->step;
+  const auto started = Clock::now();
+  while (step < last_step && !outcome.divergence && !(outcome.interrupted = interrupt.interrupted())) {
+    std::uint64_t count = std::min(batch.next(), last_step - step);
+    if (interval > 0) count = std::min(count, interval - step % interval);
+    const auto before = Clock::now();
+    const auto advanced = solver.advance(count);
+    if (!advanced) return advanced.error();
+    outcome.divergence = *advanced;
+    if (outcome.divergence) break;
+    step += count;
+    if (interval > 0 && (step % interval == 0 || step == last_step)) {
+      state = solver.state();
+      if (!state) return state.error();
+      if (const Status row = files.add_row(model, *state); !row) return row.error();
+    }
+    batch.took(count, std::chrono::duration<double>(Clock::now() - before).count());
+    bar.update(step);
+  }
+  state = solver.state();  // waits for the device, so that the time below is that of finished work
+  if (!state) return state.error();
+  outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - started).count();
+  outcome.state = std::move(*state);
+  return outcome;
+}
+
+JsonObject to_json_object(const Divergence& divergence, double timestep) {
+  return {{"step", divergence.step},
+          {"time", static_cast<double>(divergence.step) * timestep},
+          {"particle", divergence.particle},
+          {"finite", divergence.finite}};
+}
+
+Status print_summary(const RunOptions& options, const Scene& scene, const Model& model,
+                     const Backend& backend, const Outcome& outcome, const RunFiles& files) {
+  const State& state = outcome.state;
+  const Measures m = measure(model, state);
+  const double time = static_cast<double>(state.step) * model.simulation.timestep;
+  const std::string hash = state_hash_text(state);
+  if (options.json) {
+    JsonArray written;
+    for (const std::string& file : files.written()) written.emplace_back(file);
+    const auto or_null = [](const std::string& text) { return text.empty() ? JsonValue() : JsonValue(text); };
+    return print_data(to_json({
+        {"scene", scene.name},
+        {"backend", backend.name},
+        {"backend_reason", or_null(backend.reason)},
+        {"device", backend.device},
+        {"precision", name_of(state.precision)},
+        {"force_path", or_null(backend.force_path)},
+        {"integrator", name_of(model.simulation.integrator)},
+        {"timestep", model.simulation.timestep},
+        {"particles", model.particle_count()},
+        {"springs", std::uint64_t{model.springs.size()}},
+        {"first_step", outcome.first_step},
+        {"steps", state.step},
+        {"time", time},
+        {"wall_seconds", outcome.wall_seconds},
+        {"steps_per_second", outcome.steps_per_second()},
+        {"state_hash", hash},
+        {"diverged", outcome.divergence
+                         ? JsonValue(to_json_object(*outcome.divergence, model.simulation.timestep))
+                         : JsonValue()},
+        {"interrupted", outcome.interrupted},
+        {"energies", JsonObject{{"kinetic", m.kinetic},
+                                {"elastic", m.elastic},
+                                {"gravitational", m.gravitational},
+                                {"total", m.total()}}},
+        {"momentum", JsonArray{m.momentum.x, m.momentum.y, m.momentum.z}},
+        {"max_speed", m.max_speed},
+        {"min_height", m.min_height},
+        {"files", written},
+    }));
+  }
+  std::string text = fmt::format("scene        {} ({} particles, {} springs)\n", scene.name,
+                                 model.particle_count(), model.springs.size());
+  text += fmt::format("backend      {}{}, {} precision{}\n", backend.name,
+                      backend.force_path.empty() ? "" : ", force path " + backend.force_path,
+                      name_of(state.precision),
+                      backend.reason.empty() ? "" : fmt::format("; chosen since {}", backend.reason));
+  text += fmt::format("device       {}\n", backend.device);
+  text += fmt::format("integrator   {}, time step {} s\n", name_of(model.simulation.integrator),
+                      model.simulation.timestep);
+  text += fmt::format("reached      step {} of {}, t = {:.6g} s\n", state.step, outcome.last_step, time);
+  text += fmt::format("took         {:.3g} s, {:.4g} steps/s\n", outcome.wall_seconds,
+                      outcome.steps_per_second());
+  text +=
+      fmt::format("energy       kinetic {:.6g} J, elastic {:.6g} J, gravitational {:.6g} J, total {:.6g} J\n",
+                  m.kinetic, m.elastic, m.gravitational, m.total());
+  text += fmt::format("extremes     fastest {:.6g} m/s, lowest y = {:.6g} m\n", m.max_speed, m.min_height);
+  text += fmt::format("state hash   {}\n", hash);
+  for (const std::string& file : files.written()) text += fmt::format("wrote        {}\n", file);
+  return print_data(text);
+}
+
+Error divergence_error(const Model& model, const Outcome& outcome, const StabilityLimit& stable) {
+  const Divergence& d = *outcome.divergence;
+  const double h = model.simulation.timestep;
+  return {ErrorCode::diverged,
+          fmt::format("the simulation diverged in step {} (t = {:.6g} s): particle {} {}. The time step is "
+                      "{} s; {}. The last good "
+                      "step is {}; every output holds that state.",
+                      d.step, static_cast<double>(d.step) * h, d.particle,
+                      d.finite ? fmt::format("became faster than {} m/s", divergence_speed)
+                               : "is no longer a finite number",
+                      h, stability_sentence(model.simulation.integrator, stable), outcome.state.step)};
+}
+
+}  // namespace
+
+Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings& simulation) {
+  if (length.steps) return *length.steps;
+  const double duration = length.duration.value_or(simulation.duration);
+  const double steps = std::round(duration / simulation.timestep);
+  // Beyond 2⁵³ a double cannot count.
+  if (!(steps <= 0x1p53)) {
+    return Error{ErrorCode::usage,
+                 fmt::format("{} s at a time step of {} s are more steps than can be counted.", duration,
+                             simulation.timestep)};
+  }
+  return static_cast<std::uint64_t>(steps);
+}
+
+Status run_command(const RunOptions& options) {
+  if (!options.pictures.video.empty() || !options.pictures.frames.empty()) {
+    return Error{ErrorCode::scene_rejected,
+                 fmt::format("{} is not built yet in version {}: run without it.",
+                             options.pictures.video.empty() ? "--frames" : "--video", ASPIC_VERSION)};
+  }
+  const InterruptGuard interrupt;
+  auto start = load_start(options);
+  if (!start) return start.error();
+  const auto steps = steps_of(options.length, start->scene.model.simulation);
+  if (!steps) return steps.error();
+  if (start->state && start->state->step > *steps) {
+    return Error{ErrorCode::usage, fmt::format("{} is at step {} already, and the run is to end at step {}: "
+                                               "--steps and --duration count from the "
+                                               "scene's start.",
+                                               options.resume_file, start->state->step, *steps)};
+  }
+  auto files = RunFiles::open(options);
+  if (!files) return files.error();
+  const auto model = build_model(start->scene.model);
+  if (!model) return model.error();
+
+  BackendChoice choice = options.backend;
+  if (start->state) choice.precision = start->state->precision;
+  auto backend = make_backend(choice, *model);
+  if (!backend) return backend.error();
+  if (start->state) {
+    if (const Status loaded = backend->solver->load(*start->state); !loaded) return loaded.error();
+  }
+  const StabilityLimit stable = stability_limit(*model, model->simulation.integrator, StabilityEffort::quick);
+  if (exceeds(model->simulation.timestep, stable)) {
+    print_warning(fmt::format("the time step {} s is not stable: {}.", model->simulation.timestep,
+                              stability_sentence(model->simulation.integrator, stable)));
+  }
+
+  auto outcome = simulate(*backend->solver, *files, *steps, interrupt);
+  if (!outcome) return outcome.error();
+  const Status finished = files->finish(*model, start->scene_toml, outcome->state);
+  const Status summary = print_summary(options, start->scene, *model, *backend, *outcome, *files);
+  if (!finished) return finished;
+  if (!summary) return summary;
+  if (outcome->divergence) return divergence_error(*model, *outcome, stable);
+  if (outcome->interrupted) {
+    return Error{
+        ErrorCode::interrupted,
+        fmt::format("interrupted at step {} of {}; all files are whole.{}", outcome->state.step, *steps,
+                    options.checkpoint_file.empty()
+                        ? ""
+                        : fmt::format(" Go on with aspic run --resume {}.", options.checkpoint_file))};
+  }
+  return {};
+}
+
+}  // namespace aspic::cli

@@ -1,0 +1,89 @@
+#include "cli/run_files.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+#include "io/checkpoint.h"
+#include "io/state_csv.h"
+
+namespace aspic::cli {
+namespace {
+
+Status refuse_duplicates(const RunOptions& options) {
+  struct Named {
+    const char* option;
+    const std::string* path;
+  };
+  const std::array<Named, 3> files = {{{"--state", &options.state_file},
+                                       {"--series", &options.series_file},
+                                       {"--checkpoint", &options.checkpoint_file}}};
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t j = i + 1; j < files.size(); ++j) {
+      if (files[i].path->empty() || files[j].path->empty()) continue;
+      std::error_code failed_a, failed_b;
+      const auto a = std::filesystem::weakly_canonical(std::filesystem::absolute(*files[i].path), failed_a);
+      const auto b = std::filesystem::weakly_canonical(std::filesystem::absolute(*files[j].path), failed_b);
+      // Devices may take several outputs one after the other.
+      if (failed_a || failed_b || a != b || a.native().starts_with("/dev/")) continue;
+      return Error{ErrorCode::usage, fmt::format("{} and {} both name {}: give each file its own name.",
+                                                 files[i].option, files[j].option, *files[i].path)};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<RunFiles> RunFiles::open(const RunOptions& options) {
+  if (const Status distinct = refuse_duplicates(options); !distinct) return distinct.error();
+  const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
+  RunFiles files;
+  files.every_ = options.every;
+  if (!options.series_file.empty()) {
+    auto series = SeriesWriter::create(options.series_file, overwrite);
+    if (!series) return series.error();
+    files.series_ = std::move(*series);
+    files.series_path_ = options.series_file;
+  }
+  if (!options.state_file.empty()) {
+    auto file = AtomicFile::create(options.state_file, overwrite);
+    if (!file) return file.error();
+    files.state_ = std::move(*file);
+  }
+  if (!options.checkpoint_file.empty()) {
+    auto file = AtomicFile::create(options.checkpoint_file, overwrite);
+    if (!file) return file.error();
+    files.checkpoint_ = std::move(*file);
+  }
+  return files;
+}
+
+Status RunFiles::add_row(const Model& model, const State& state) {
+  return series_ ? series_->add(model, state) : Status{};
+}
+
+Status RunFiles::finish(const Model& model, const std::string& scene_toml, const State& state) {
+  Status first;
+  const auto complete = [&](const std::string& path, Status written, auto& file, auto close) {
+    if (written) written = close(*file);
+    if (written) {
+      written_.push_back(path);
+    } else if (first) {
+      first = written;
+    }
+    file.reset();
+  };
+  if (series_) complete(series_path_, {}, series_, [](SeriesWriter& s) { return s.finish(); });
+  const auto commit = [](AtomicFile& file) { return file.commit(); };
+  if (state_) complete(std::string(state_->path()), write_state_csv(*state_, state), state_, commit);
+  if (checkpoint_) {
+    const Checkpoint checkpoint = {ASPIC_VERSION, scene_toml, model.simulation.timestep, state};
+    complete(std::string(checkpoint_->path()), write_checkpoint(*checkpoint_, checkpoint), checkpoint_,
+             commit);
+  }
+  return first;
+}
+
+}  // namespace aspic::cli

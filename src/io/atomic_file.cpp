@@ -1,0 +1,264 @@
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace aspic {
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 18;
+
+// Paths of temporary files, readable by a signal handler: fixed storage, published by a lock-free flag.
+struct TemporarySlot {
+  std::atomic<int> state{0};  // 0 free, 1 being written, 2 published
+  char path[PATH_MAX] = {};
+};
+std::array<TemporarySlot, 16> temporary_slots;
+static_assert(std::atomic<int>::is_always_lock_free);
+
+/// Nothing (−1) when all slots are taken or the path is too long: the file is then removed by its destructor
+/// only.
+int remember_temporary(const std::string& path) {
+  if (path.size() >= PATH_MAX) return -1;
+  for (std::size_t i = 0; i < temporary_slots.size(); ++i) {
+    int expected = 0;
+    if (!temporary_slots[i].state.compare_exchange_strong(expected, 1)) continue;
+    std::memcpy(temporary_slots[i].path, path.c_str(), path.size() + 1);
+    temporary_slots[i].state.store(2);
+    return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void forget_temporary(int slot) {
+  if (slot >= 0) temporary_slots[static_cast<std::size_t>(slot)].state.store(0);
+}
+
+std::string directory_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+/// Where a symbolic link leads, so that renaming replaces what it points to and not the link.
+std::string follow_links(const std::string& path) {
+  char* resolved = ::realpath(path.c_str(), nullptr);
+  if (resolved == nullptr) return path;
+  std::string result = resolved;
+  std::free(resolved);
+  return result;
+}
+
+Error already_exists(const std::string& path) {
+  return {
+      ErrorCode::io,
+      fmt::format(
+          "{} exists already and was left as it is. Choose another name, or allow overwriting with --force.",
+          path)};
+}
+
+std::string_view remedy(int error_number) {
+  switch (error_number) {
+    case ENOSPC:
+    case EDQUOT:
+      return "Free some space or choose another disk; nothing incomplete was left behind.";
+    case EFBIG:
+      return "The file would be larger than the file system or the limit of this process (ulimit -f) allows.";
+    case EACCES:
+    case EPERM:
+      return "Choose a place you have permission for.";
+    case EROFS:
+      return "The file system is read-only: choose another place.";
+    case ENOENT:
+    case ENOTDIR:
+      return "Check the spelling, and that the directory exists.";
+    case EISDIR:
+      return "Give the name of a file, not of a directory.";
+    case ENAMETOOLONG:
+      return "Choose a shorter name.";
+    case EMFILE:
+    case ENFILE:
+      return "Too many files are open: close other programs or raise the limit (ulimit -n).";
+    default:
+      return "Check the path and the disk, then try again.";
+  }
+}
+
+}  // namespace
+
+Error file_error(std::string_view verb, const std::string& path, int error_number) {
+  return {ErrorCode::io,
+          fmt::format("Cannot {} {}: {}. {}", verb, path.empty() ? "a file without a name" : path,
+                      std::strerror(error_number), remedy(error_number))};
+}
+
+Result<AtomicFile> AtomicFile::create(const std::string& path, Overwrite overwrite) {
+  AtomicFile file;
+  file.path_ = path;
+  file.overwrite_ = overwrite;
+  if (path.empty()) return file_error("write", path, ENOENT);
+
+  struct stat present = {};
+  const bool exists = ::stat(path.c_str(), &present) == 0;
+  if (exists && S_ISDIR(present.st_mode)) return file_error("write", path, EISDIR);
+  if (exists && !S_ISREG(present.st_mode)) {
+    file.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    if (file.descriptor_ < 0) return file_error("write", path, errno);
+    return file;
+  }
+  if (exists && overwrite == Overwrite::refuse) return already_exists(path);
+  // Renaming would succeed over a file that is closed to writing: its owner's wish counts.
+  if (exists && ::access(path.c_str(), W_OK) != 0) return file_error("write", path, errno);
+
+  file.target_ = follow_links(path);
+  static std::atomic<unsigned> counter{0};
+  const std::string directory = directory_of(file.target_);
+  for (int attempt = 0; file.descriptor_ < 0; ++attempt) {
+    file.temporary_ = fmt::format("{}/.aspic-{}-{}.tmp", directory, ::getpid(), counter++);
+    file.descriptor_ = ::open(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file.descriptor_ < 0 && (errno != EEXIST || attempt == 1000)) {
+      const int reason = errno;
+      file.temporary_.clear();
+      return file_error("write", path, reason);
+    }
+  }
+  file.slot_ = remember_temporary(file.temporary_);
+  if (exists) (void)::fchmod(file.descriptor_, present.st_mode & 07777);
+  return file;
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept {
+  *this = std::move(other);
+}
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+  if (this == &other) return *this;
+  discard();
+  path_ = std::move(other.path_);
+  target_ = std::move(other.target_);
+  temporary_ = std::exchange(other.temporary_, {});
+  buffer_ = std::move(other.buffer_);
+  descriptor_ = std::exchange(other.descriptor_, -1);
+  slot_ = std::exchange(other.slot_, -1);
+  overwrite_ = other.overwrite_;
+  return *this;
+}
+
+AtomicFile::~AtomicFile() {
+  discard();
+}
+
+void AtomicFile::discard() noexcept {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+  forget_temporary(std::exchange(slot_, -1));
+}
+
+Status AtomicFile::write(std::string_view text) {
+  if (descriptor_ < 0)
+    return Error{ErrorCode::io, fmt::format("{} was discarded after an earlier error.", path_)};
+  buffer_ += text;
+  return buffer_.size() >= buffer_size ? flush() : Status{};
+}
+
+Status AtomicFile::flush() {
+  for (std::size_t done = 0; done < buffer_.size();) {
+    const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+    if (written >= 0) {
+      done += static_cast<std::size_t>(written);
+    } else if (errno != EINTR) {
+      const Error error = file_error("write", path_, errno);
+      discard();
+      return error;
+    }
+  }
+  buffer_.clear();
+  return {};
+}
+
+Status AtomicFile::give_final_name() {
+  if (overwrite_ == Overwrite::refuse) {
+    // link() refuses an existing name in one step; rename() would replace a file made since create() looked.
+    if (::link(temporary_.c_str(), target_.c_str()) == 0) {
+      ::unlink(temporary_.c_str());
+      return {};
+    }
+    if (errno == EEXIST) return already_exists(path_);
+    if (::access(target_.c_str(), F_OK) == 0)
+      return already_exists(path_);  // a file system without hard links
+  }
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) return file_error("write", path_, errno);
+  return {};
+}
+
+Status AtomicFile::commit() {
+  if (descriptor_ < 0)
+    return Error{ErrorCode::io, fmt::format("{} was discarded after an earlier error.", path_)};
+  if (const Status flushed = flush(); !flushed) return flushed;
+  const bool device = temporary_.empty();
+  if (!device && ::fsync(descriptor_) != 0) {
+    const Error error = file_error("write", path_, errno);
+    discard();
+    return error;
+  }
+  if (::close(std::exchange(descriptor_, -1)) != 0) {
+    const Error error = file_error("write", path_, errno);
+    discard();
+    return error;
+  }
+  if (device) return {};
+  if (const Status named = give_final_name(); !named) {
+    discard();
+    return named;
+  }
+  temporary_.clear();
+  forget_temporary(std::exchange(slot_, -1));
+  const int directory = ::open(directory_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (directory >= 0) {
+    // The content is safe already; whether the name survives a power cut is all that this decides.
+    (void)::fsync(directory);
+    ::close(directory);
+  }
+  return {};
+}
+
+Result<std::string> read_whole_file(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return file_error("read", path, errno);
+  std::string content;
+  std::array<char, 65536> block;
+  for (;;) {
+    const ssize_t got = ::read(descriptor, block.data(), block.size());
+    if (got == 0) break;
+    if (got > 0) {
+      content.append(block.data(), static_cast<std::size_t>(got));
+    } else if (errno != EINTR) {
+      const int reason = errno;
+      ::close(descriptor);
+      return file_error("read", path, reason);
+    }
+  }
+  ::close(descriptor);
+  return content;
+}
+
+void remove_temporary_files() noexcept {
+  for (TemporarySlot& slot : temporary_slots) {
+    if (slot.state.load() == 2) ::unlink(slot.path);
+  }
+}
+
+}  // namespace aspic

@@ -1,0 +1,67 @@
+#pragma once
+// Files that appear whole or not at all: written under a temporary name beside their place and renamed when
+// complete.
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace aspic {
+
+enum class Overwrite { refuse, allow };
+
+/// One output file in the making. Until commit() nothing stands under the final name; a file that is never
+/// committed (an error, an exception, Ctrl-C) leaves nothing behind. A path that names a device or pipe, such
+/// as /dev/stdout, is written straight, since renaming would replace the device.
+///
+/// Every error has ErrorCode::io and says the path, what the system said, and a remedy.
+class AtomicFile {
+ public:
+  /// Opens the temporary file, which proves that the directory exists and may be written to: call it before
+  /// the work whose result the file shall hold. Errors: the directory is missing or closed to us, the path is
+  /// a directory, or a file is there already and `overwrite` is refuse.
+  static Result<AtomicFile> create(const std::string& path, Overwrite overwrite);
+
+  AtomicFile(AtomicFile&& other) noexcept;
+  AtomicFile& operator=(AtomicFile&& other) noexcept;
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+
+  /// Appends; buffered. After an error the file can only be discarded.
+  Status write(std::string_view text);
+
+  /// Flushes, waits for the disk and gives the file its final name. Error too if another program has put a
+  /// file there in the meantime and overwriting was refused: neither file is lost then, but this one is
+  /// discarded.
+  Status commit();
+
+  const std::string& path() const { return path_; }
+
+ private:
+  AtomicFile() = default;
+  Status flush();
+  Status give_final_name();
+  void discard() noexcept;
+
+  std::string path_;       ///< as the user gave it
+  std::string target_;     ///< the same with symbolic links followed
+  std::string temporary_;  ///< empty for devices
+  std::string buffer_;
+  int descriptor_ = -1;
+  int slot_ = -1;  ///< in the list that remove_temporary_files() reads
+  Overwrite overwrite_ = Overwrite::refuse;
+};
+
+/// Reads a whole file. Error (io): missing, unreadable, a directory.
+Result<std::string> read_whole_file(const std::string& path);
+
+/// Removes the temporary files of this process that are not committed yet. Safe to call from a signal
+/// handler.
+void remove_temporary_files() noexcept;
+
+/// The error for a failed system call on a file: "Cannot <verb> <path>: <reason>. <remedy>".
+Error file_error(std::string_view verb, const std::string& path, int error_number);
+
+}  // namespace aspic

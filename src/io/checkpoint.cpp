@@ -1,0 +1,193 @@
+#include "io/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "base/fnv.h"
+
+namespace aspic {
+namespace {
+
+// As in PNG: a byte above 127, a line end of each kind and an end-of-file mark reveal transfers that alter
+// text.
+constexpr std::string_view magic =
+    "\x89"
+    "ASPIC\r\n\x1a\n";
+
+class Encoder {
+ public:
+  void add_bytes(std::string_view bytes) { out_ += bytes; }
+  void add(std::uint64_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i)
+      out_.push_back(static_cast<char>(static_cast<unsigned char>(value >> (8 * i))));
+  }
+  void add_text(std::string_view text) {
+    add(text.size(), 8);
+    out_ += text;
+  }
+  std::string take() { return std::move(out_); }
+  const std::string& bytes() const { return out_; }
+
+ private:
+  std::string out_;
+};
+
+/// Reads little-endian values; past the end it gives zeros and remembers the failure.
+class Decoder {
+ public:
+  explicit Decoder(std::string_view bytes) : rest_(bytes) {}
+
+  std::uint64_t get(int bytes) {
+    std::uint64_t value = 0;
+    const std::string_view raw = take(static_cast<std::uint64_t>(bytes));
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      value |= std::uint64_t{static_cast<unsigned char>(raw[i])} << (8 * i);
+    }
+    return value;
+  }
+  std::string_view text() { return take(get(8)); }
+  std::string_view take(std::uint64_t bytes) {
+    if (bytes > rest_.size()) {
+      failed_ = true;
+      rest_ = {};
+      return {};
+    }
+    const std::string_view taken = rest_.substr(0, bytes);
+    rest_.remove_prefix(bytes);
+    return taken;
+  }
+  std::size_t left() const { return rest_.size(); }
+  bool failed() const { return failed_; }
+
+ private:
+  std::string_view rest_;
+  bool failed_ = false;
+};
+
+std::uint64_t checksum(std::string_view bytes) {
+  Fnv1a hash;
+  hash.add_bytes(std::as_bytes(std::span(bytes)));
+  return hash.value();
+}
+
+void add_number(Encoder& out, double value, Precision precision) {
+  if (precision == Precision::single) {
+    out.add(std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
+  } else {
+    out.add(std::bit_cast<std::uint64_t>(value), 8);
+  }
+}
+
+double get_number(Decoder& in, Precision precision) {
+  if (precision == Precision::single) return std::bit_cast<float>(static_cast<std::uint32_t>(in.get(4)));
+  return std::bit_cast<double>(in.get(8));
+}
+
+Vec3 get_vector(Decoder& in, Precision precision) {
+  const double x = get_number(in, precision);
+  const double y = get_number(in, precision);
+  const double z = get_number(in, precision);
+  return {x, y, z};
+}
+
+std::optional<std::size_t> first_not_finite(const State& state) {
+  const auto finite = [](const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    if (!finite(state.position[i]) || !finite(state.velocity[i])) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string encode_checkpoint(const Checkpoint& checkpoint) {
+  const State& state = checkpoint.state;
+  Encoder out;
+  out.add_bytes(magic);
+  out.add(checkpoint_version, 4);
+  out.add(state.precision == Precision::single ? 4 : 8, 4);
+  out.add(state.step, 8);
+  out.add(std::bit_cast<std::uint64_t>(checkpoint.timestep), 8);
+  out.add(state_hash(state), 8);
+  out.add_text(checkpoint.program_version);
+  out.add_text(checkpoint.scene);
+  out.add(state.position.size(), 8);
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) add_number(out, state.position[i][axis], state.precision);
+    for (int axis = 0; axis < 3; ++axis) add_number(out, state.velocity[i][axis], state.precision);
+  }
+  out.add(checksum(out.bytes()), 8);
+  return out.take();
+}
+
+Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& name) {
+  const auto error = [&](std::string_view what) {
+    return Error{ErrorCode::io, fmt::format("{}: {}", name, what)};
+  };
+  if (bytes.empty()) return error("the file is empty, so it is no checkpoint.");
+  if (!magic.starts_with(bytes.substr(0, magic.size()))) {
+    return error("this is not a checkpoint of aspic. Give a file that aspic run --checkpoint wrote.");
+  }
+  constexpr std::string_view damaged =
+      "the checkpoint is damaged or cut short, and resuming from it would give a wrong result. Use another "
+      "copy, or run the scene anew.";
+  Decoder in(bytes);
+  in.take(magic.size());
+  const auto version = static_cast<std::uint32_t>(in.get(4));
+  if (in.failed()) return error(damaged);
+  if (version != checkpoint_version) {
+    return error(fmt::format("the checkpoint has format version {}, this program reads version {}. {}",
+                             version, checkpoint_version,
+                             version > checkpoint_version ? "Use the newer aspic that wrote it."
+                                                          : "Run the scene anew to make a new one."));
+  }
+  if (bytes.size() < 8) return error(damaged);
+  Decoder tail(bytes.substr(bytes.size() - 8));
+  if (tail.get(8) != checksum(bytes.substr(0, bytes.size() - 8))) return error(damaged);
+
+  Checkpoint checkpoint;
+  State& state = checkpoint.state;
+  const std::uint64_t width = in.get(4);
+  if (width != 4 && width != 8) return error(damaged);
+  state.precision = width == 4 ? Precision::single : Precision::double_;
+  state.step = in.get(8);
+  checkpoint.timestep = std::bit_cast<double>(in.get(8));
+  const std::uint64_t hash = in.get(8);
+  checkpoint.program_version = in.text();
+  checkpoint.scene = in.text();
+  const std::uint64_t particles = in.get(8);
+  // Sizes are compared before anything is allocated: 6 numbers a particle and the checksum must be all that
+  // is left.
+  if (in.failed() || particles > bytes.size() || in.left() != particles * 6 * width + 8)
+    return error(damaged);
+  state.position.reserve(particles);
+  state.velocity.reserve(particles);
+  for (std::uint64_t i = 0; i < particles; ++i) {
+    state.position.push_back(get_vector(in, state.precision));
+    state.velocity.push_back(get_vector(in, state.precision));
+  }
+  if (state_hash(state) != hash || first_not_finite(state)) return error(damaged);
+  return checkpoint;
+}
+
+Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint) {
+  if (const auto bad = first_not_finite(checkpoint.state)) {
+    return Error{ErrorCode::diverged,
+                 fmt::format("{} was not written: particle {} is not a finite number.", file.path(), *bad)};
+  }
+  return file.write(encode_checkpoint(checkpoint));
+}
+
+Result<Checkpoint> read_checkpoint(const std::string& path) {
+  const auto bytes = read_whole_file(path);
+  if (!bytes) return bytes.error();
+  return decode_checkpoint(*bytes, path);
+}
+
+}  // namespace aspic

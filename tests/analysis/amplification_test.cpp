@@ -1,0 +1,104 @@
+#include "analysis/amplification.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace aspic {
+namespace {
+
+constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integrator::symplectic_euler,
+                                             Integrator::midpoint, Integrator::runge_kutta_4,
+                                             Integrator::implicit_euler_one_pass};
+
+/// Steps ẍ = −κx − γẋ by the formulas of spec §2.6, written out: the growth of the norm after many steps.
+double growth(Integrator integrator, double kappa, double gamma, double h, int steps) {
+  double x = 1.0, v = kappa > 0.0 ? 0.3 * std::sqrt(kappa) : 1.0;
+  const double scale = kappa > 0.0 ? std::sqrt(kappa) : 1.0;
+  const double start = std::hypot(x * scale, v);
+  const auto a = [&](double at_x, double at_v) { return -kappa * at_x - gamma * at_v; };
+  for (int i = 0; i < steps; ++i) {
+    if (std::hypot(x * scale, v) > 1e6 * start) break;
+    const double v1 = v, a1 = a(x, v);
+    switch (integrator) {
+      case Integrator::explicit_euler:
+        x += h * v1;
+        v += h * a1;
+        break;
+      case Integrator::symplectic_euler:
+        v += h * a1;
+        x += h * v;
+        break;
+      case Integrator::midpoint: {
+        const double xm = x + h / 2 * v, vm = v + h / 2 * a1;
+        x += h * vm;
+        v += h * a(xm, vm);
+        break;
+      }
+      case Integrator::implicit_euler_one_pass: {
+        const double xp = x + h * v, vp = v + h * a1;
+        x += h * vp;
+        v += h * a(xp, vp);
+        break;
+      }
+      default: {
+        const double x2 = x + h / 2 * v1, v2 = v + h / 2 * a1, a2 = a(x2, v2);
+        const double x3 = x + h / 2 * v2, v3 = v + h / 2 * a2, a3 = a(x3, v3);
+        const double x4 = x + h * v3, v4 = v + h * a3, a4 = a(x4, v4);
+        x += h / 6 * (v1 + 2 * v2 + 2 * v3 + v4);
+        v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+      }
+    }
+  }
+  return std::hypot(x * scale, v) / start;
+}
+
+struct Mode {
+  double kappa, gamma;
+};
+
+class ModeLimit : public testing::TestWithParam<std::tuple<Integrator, Mode>> {};
+
+// 2 % below the limit a mode must not grow, 2 % above it must: 30,000 steps amplify even the slowest growth.
+TEST_P(ModeLimit, SeparatesDecayFromGrowth) {
+  const auto [integrator, mode] = GetParam();
+  const auto limit = mode_limit(integrator, mode.kappa, mode.gamma);
+  ASSERT_TRUE(limit.has_value());
+  ASSERT_TRUE(std::isfinite(*limit));
+  // A non-normal step matrix may grow at first: by less than the condition of its eigenvectors, far below
+  // 10³.
+  EXPECT_LT(growth(integrator, mode.kappa, mode.gamma, 0.98 * *limit, 30000), 1e3);
+  EXPECT_GT(growth(integrator, mode.kappa, mode.gamma, 1.02 * *limit, 30000), 1e3);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllMethods, ModeLimit,
+                         testing::Combine(testing::ValuesIn(explicit_integrators),
+                                          testing::Values(Mode{33700.0, 1011.0}, Mode{100.0, 4.0},
+                                                          Mode{1.0, 1.9}, Mode{1.0, 2.1}, Mode{0.0, 5.0})));
+
+TEST(ModeLimit, UndampedModesAsTheLiteratureHasThem) {
+  EXPECT_FALSE(mode_limit(Integrator::explicit_euler, 4.0, 0.0).has_value());
+  EXPECT_FALSE(mode_limit(Integrator::midpoint, 4.0, 0.0).has_value());
+  EXPECT_DOUBLE_EQ(*mode_limit(Integrator::symplectic_euler, 4.0, 0.0), 1.0);           // 2/ω
+  EXPECT_NEAR(*mode_limit(Integrator::runge_kutta_4, 4.0, 0.0), std::sqrt(2.0), 1e-9);  // 2√2/ω
+  // R = 1 + z + z²: |R(iy)|² = 1 − y² + y⁴ ≤ 1 for y ≤ 1.
+  EXPECT_NEAR(*mode_limit(Integrator::implicit_euler_one_pass, 4.0, 0.0), 0.5, 1e-9);  // 1/ω
+}
+
+TEST(ModeLimit, WeaklyDampedExplicitEulerIsLimitedByDampingOverStiffness) {
+  // |1 + hλ|² = 1 + 2h Re λ + h²|λ|²: the limit is γ/κ for complex λ.
+  EXPECT_NEAR(*mode_limit(Integrator::explicit_euler, 1e4, 1.0), 1e-4, 1e-12);
+  EXPECT_NEAR(*mode_limit(Integrator::explicit_euler, 1e4, 1e-3), 1e-7, 1e-15);
+}
+
+TEST(ModeLimit, NothingLimitsImplicitEulerOrAFreeParticle) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(*mode_limit(Integrator::implicit_euler, 1e9, 0.0), infinity);
+  for (const Integrator integrator : explicit_integrators)
+    EXPECT_EQ(*mode_limit(integrator, 0.0, 0.0), infinity);
+}
+
+}  // namespace
+}  // namespace aspic

@@ -1,0 +1,158 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/process.h"
+
+namespace aspic {
+namespace {
+
+using test::aspic;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using Words = std::vector<std::string>;
+
+TEST(Usage, VersionAndHelpAreData) {
+  const auto version = aspic({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, testing::MatchesRegex("aspic [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(version.err, IsEmpty());
+  for (const Words& words : {Words{"--help"}, {"run", "--help"}, {"compare", "--help"}}) {
+    const auto help = aspic(words);
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.out, HasSubstr("Examples:"));
+    EXPECT_THAT(help.err, IsEmpty());
+  }
+  EXPECT_THAT(aspic({"run", "--help"}).out, HasSubstr("--checkpoint"));
+  EXPECT_THAT(aspic({"scene", "--help"}).out, HasSubstr("check"));
+}
+
+struct Failure {
+  Words words;
+  int exit_code;
+  const char* message;
+};
+
+class Failures : public testing::TestWithParam<Failure> {};
+
+TEST_P(Failures, HaveTheirExitCodeASentenceAndNoData) {
+  const auto finished = aspic(GetParam().words);
+  EXPECT_EQ(finished.exit_code, GetParam().exit_code) << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr(GetParam().message));
+  EXPECT_THAT(finished.out, IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Usage, Failures,
+    testing::Values(
+        Failure{{}, 2, "Examples:"}, Failure{{"rnu", "cube-plane"}, 2, "Did you mean run?"},
+        Failure{{"frobnicate"}, 2, "no command \"frobnicate\""}, Failure{{"view"}, 2, "not built yet"},
+        Failure{{"verify"}, 2, "not built yet"}, Failure{{"bench"}, 2, "not built yet"},
+        Failure{{"report"}, 2, "not built yet"}, Failure{{"scene", "import", "x.txt"}, 2, "not built yet"},
+        Failure{{"scene", "lst"}, 2, "Did you mean list?"}, Failure{{"scene"}, 2, "--help"},
+        Failure{{"scene", "show"}, 2, "scene is required"}, Failure{{"run"}, 2, "needs a SCENE"},
+        Failure{{"run", "cube-plane", "--stpes", "3"}, 2, "Did you mean --steps?"},
+        Failure{{"run", "cube-plane", "extra"}, 2, "extra"},
+        Failure{{"run", "cube-plane", "--steps", "-3"}, 2, "-3 is negative"},
+        Failure{{"run", "cube-plane", "--steps", "x"}, 2, "--steps"},
+        Failure{{"run", "cube-plane", "--steps"}, 2, "--steps"},
+        Failure{{"run", "cube-plane", "--steps", "3", "--duration", "1"}, 2, "--duration"},
+        Failure{{"run", "cube-plane", "--duration", "-1"}, 2, "0 or more"},
+        Failure{{"run", "cube-plane", "--duration", "nan"}, 2, "finite"},
+        Failure{{"run", "cube-plane", "--duration", "1e300"}, 2, "more steps than can be counted"},
+        Failure{{"run", "cube-plane", "--every", "5"}, 2, "--series"},
+        Failure{{"run", "cube-plane", "--series", "x.csv", "--every", "0"}, 2, "1 or more"},
+        Failure{{"run", "cube-plane", "--backend", "tpu"}, 2, "auto, gpu, cpu, reference"},
+        Failure{{"run", "cube-plane", "--precision", "half"}, 2, "single, double"},
+        Failure{{"run", "cube-plane", "--force-path", "x"}, 2, "per-spring"},
+        Failure{{"run", "cube-plane", "--backend", "gpu", "--precision", "double"}, 2, "--backend reference"},
+        Failure{{"run", "cube-plane", "--backend", "reference", "--force-path", "gather"},
+                2,
+                "belongs to the gpu"},
+        Failure{{"run", "cube-plane", "--state", "same.csv", "--series", "./same.csv"}, 2, "its own name"},
+        Failure{{"run", "--resume", "x", "--set", "a=1"}, 2, "--set cannot change"},
+        Failure{{"compare", "cube-plane", "--backends", "reference"}, 2, "--backends"},
+        Failure{{"compare", "cube-plane", "--backends", "reference,refrence"}, 2, "unknown backend"},
+        Failure{{"compare", "cube-plane", "--backends", "reference,reference:triple"}, 2, "backend option"},
+        Failure{{"compare", "cube-plane", "--tolerance", "-1"}, 2, "--tolerance"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Rejected, Failures,
+    testing::Values(
+        Failure{{"run", "no-such-scene"}, 3, "no-such-scene"}, Failure{{"run", "cube-plan"}, 3, "cube-plane"},
+        Failure{{"run", "cube-plane", "--set", "simulation.timestpe=0.002"}, 3, "timestep"},
+        Failure{{"run", "cube-plane", "--set", "simulation.timestep=-1"}, 3, "timestep"},
+        Failure{{"run", "cube-plane", "--backend", "cpu"}, 3, "not built yet"},
+        Failure{{"run", "cube-plane", "--backend", "gpu", "--force-path", "lattice"}, 3, "not built yet"},
+        Failure{{"run", "cube-plane", "--video", "x.mp4"}, 3, "--video is not built yet"},
+        Failure{{"run", "cube-plane", "--frames", "x"}, 3, "--frames is not built yet"},
+        Failure{{"scene", "check", "cube-plan"}, 3, "cube-plane"},
+        Failure{{"compare", "cube-plane", "--backends", "reference,cpu"}, 3, "not built yet"}));
+
+TEST(Usage, MisspeltKeyInAFileShowsLineAndCaretAndWritesNothing) {
+  const test::TemporaryDirectory dir;
+  dir.write("bad.toml", "schema = 1\n[simulation]\ntimestpe = 0.001\n[[cube]]\n");
+  const auto finished = aspic({"run", dir.file("bad.toml"), "--state", dir.file("s.csv")});
+  EXPECT_EQ(finished.exit_code, 3);
+  EXPECT_THAT(finished.err, HasSubstr("bad.toml:3"));
+  EXPECT_THAT(finished.err, HasSubstr("timestpe = 0.001"));
+  EXPECT_THAT(finished.err, HasSubstr("^"));
+  EXPECT_THAT(finished.err, HasSubstr("timestep"));
+  EXPECT_EQ(dir.entries(), 1u);
+}
+
+TEST(Usage, WithoutADeviceGpuIsRefusedAndInfoSaysSo) {
+  const test::ProcessOptions no_device = {{{"ASPIC_EGL_DEVICE", "97"}}, "", {}};
+  EXPECT_EQ(aspic({"run", "cube-plane", "--steps", "1", "--backend", "gpu"}, no_device).exit_code, 4);
+  EXPECT_EQ(aspic({"compare", "cube-plane", "--steps", "1"}, no_device).exit_code, 4);
+  const auto picked = aspic({"run", "cube-plane", "--steps", "1", "--json"}, no_device);
+  EXPECT_EQ(picked.exit_code, 0) << picked.err;
+  EXPECT_EQ(test::json_member(picked.out, "backend"), "reference");
+  EXPECT_EQ(aspic({"run", "cube-plane", "--steps", "1", "--force-path", "gather"}, no_device).exit_code, 4);
+  const auto info = aspic({"info"}, no_device);
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("No usable GL device"));
+  EXPECT_THAT(info.out, HasSubstr("Backend auto: reference"));
+}
+
+TEST(Usage, InfoIsJsonOnRequest) {
+  const auto info = aspic({"info", "--json"});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_TRUE(test::is_json(info.out)) << info.out;
+}
+
+TEST(Scene, ListNamesBuiltInScenesThatShowPrintsAndShownTextIsAScene) {
+  const auto list = aspic({"scene", "list"});
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_THAT(list.out, HasSubstr("cube-plane "));
+  const auto shown = aspic({"scene", "show", "cube-plane", "--set", "simulation.timestep=0.0015"});
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_THAT(shown.out, HasSubstr("0.0015"));
+  const test::TemporaryDirectory dir;
+  dir.write("shown.toml", shown.out);
+  const auto again = aspic({"scene", "show", dir.file("shown.toml")});
+  EXPECT_EQ(again.out, shown.out) << again.err;
+}
+
+TEST(Scene, CheckPrintsCountsMemoryAndStableSteps) {
+  const auto check = aspic({"scene", "check", "cube-plane"});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  for (const char* part : {"1000, 0 of them pinned", "12876 (2700 structural, 7776 shear, 2400 bending)",
+                           "gpu:gather", "0.002048 s", "0.001024 s", "0.002852 s", "0.001917 s"}) {
+    EXPECT_THAT(check.out, HasSubstr(part));
+  }
+  EXPECT_THAT(check.err, IsEmpty());
+  const auto json = aspic({"scene", "check", "cube-plane", "--json"});
+  EXPECT_TRUE(test::is_json(json.out)) << json.out;
+  EXPECT_EQ(test::json_member(json.out, "shear"), "7776");
+}
+
+TEST(Scene, CheckWarnsOfAnUnstableStep) {
+  const auto check = aspic({"scene", "check", "cube-plane", "--set", "simulation.timestep=0.0021"});
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_THAT(check.err, HasSubstr("0.0021 s is not stable"));
+  EXPECT_THAT(check.err, HasSubstr("0.002048"));
+}
+
+}  // namespace
+}  // namespace aspic
