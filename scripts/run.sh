@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 caller=$PWD
 aspic_install run
 aspic_build aspic
-aspic=$aspic_build_dir/src/aspic
+aspic=$aspic_build_dir/aspic
 cd "$caller"
 
 if [ $# -gt 0 ]; then

@@ -27,7 +27,7 @@ Value other_value(const Parameter& p) {
     case ParameterType::text:
       return std::string("other name");
     case ParameterType::word:
-      return std::string(built_words(p).back());
+      return std::string(p.words.back());
     case ParameterType::words:
       return std::vector<std::string>{"solid", "bending"};
     case ParameterType::vector:
