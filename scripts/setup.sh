@@ -39,7 +39,7 @@ aspic_build() {
   if [ ! -f "$aspic_build_dir/build.ninja" ]; then
     cmake --preset release >&2 || return 1
   fi
-  if ! ninja -C "$aspic_build_dir" --quiet "$@" >&2; then
+  if ! ninja -C "$aspic_build_dir" --quiet "$@" | sed '/^ninja: no work to do/d' >&2; then
     echo "The build failed; the compiler's messages stand above." >&2
     return 1
   fi

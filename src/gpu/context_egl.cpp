@@ -263,7 +263,7 @@ Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& 
       ErrorCode::no_device,
       fmt::format("No usable OpenGL 4.3 core device was found without a display. Tried: {}. Install the "
                   "graphics card's OpenGL driver with its EGL part, or Mesa's software rasteriser "
-                  "(apt install libegl1 libegl-mesa0 libgl1-mesa-dri), or use --backend cpu.",
+                  "(apt install libegl1 libegl-mesa0 libgl1-mesa-dri), or use --backend reference.",
                   tried.empty() ? "nothing, EGL offers no platform" : tried)};
 }
 
