@@ -90,12 +90,19 @@ struct Outcome {
   State state;
   std::uint64_t first_step = 0, last_step = 0;  ///< of this run; last: as planned
   std::optional<Divergence> divergence;
+  std::optional<SolveStatistics> solves;  ///< implicit Euler only
   bool interrupted = false;
   double wall_seconds = 0.0;
   double steps_per_second() const {
     return wall_seconds > 0.0 ? static_cast<double>(state.step - first_step) / wall_seconds : 0.0;
   }
 };
+
+JsonObject to_json_object(const SolveStatistics& s) {
+  return {{"converged", s.converged},         {"stagnated", s.stagnated},
+          {"not_converged", s.not_converged}, {"newton_iterations", s.newton_iterations},
+          {"cg_iterations", s.cg_iterations}, {"worst_residual", s.worst_residual}};
+}
 
 /// Steps between polls for Ctrl-C and redraws: as many as take about a twentieth of a second.
 class BatchSize {
@@ -147,6 +154,7 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, std::uint64_t last_ste
   if (!state) return state.error();
   outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - started).count();
   outcome.state = std::move(*state);
+  outcome.solves = solver.solve_statistics();
   return outcome;
 }
 
@@ -188,6 +196,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
                          ? JsonValue(to_json_object(*outcome.divergence, model.simulation.timestep))
                          : JsonValue()},
         {"interrupted", outcome.interrupted},
+        {"implicit_solves", outcome.solves ? JsonValue(to_json_object(*outcome.solves)) : JsonValue()},
         {"energies", JsonObject{{"kinetic", m.kinetic},
                                 {"elastic", m.elastic},
                                 {"gravitational", m.gravitational},

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <ostream>
 
 namespace aspic {
 namespace {
@@ -58,6 +59,10 @@ double growth(Integrator integrator, double kappa, double gamma, double h, int s
 struct Mode {
   double kappa, gamma;
 };
+
+void PrintTo(const Mode& mode, std::ostream* os) {
+  *os << "kappa " << mode.kappa << ", gamma " << mode.gamma;
+}
 
 class ModeLimit : public testing::TestWithParam<std::tuple<Integrator, Mode>> {};
 

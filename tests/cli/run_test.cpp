@@ -62,6 +62,15 @@ TEST(Run, SetChangesTheScene) {
   EXPECT_EQ(json_member(run.out, "particles"), "64");
 }
 
+TEST(Run, ImplicitEulerReportsItsSolves) {
+  const auto run = aspic({"run", "cube-plane", "--backend", "reference", "--steps", "5", "--set",
+                          "simulation.integrator=implicit-euler", "--json"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto count_of = [&](const char* key) { return std::stoi(json_member(run.out, key)); };
+  EXPECT_EQ(count_of("converged") + count_of("stagnated") + count_of("not_converged"), 5);
+  EXPECT_GE(count_of("newton_iterations"), 5);
+}
+
 TEST(Run, DivergenceEndsAtTheLastGoodStateAndSaysWhy) {
   const test::TemporaryDirectory dir;
   const auto run =

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "cli/process.h"
 
 namespace aspic {
@@ -32,6 +34,11 @@ struct Failure {
   int exit_code;
   const char* message;
 };
+
+void PrintTo(const Failure& failure, std::ostream* os) {
+  *os << "aspic";
+  for (const std::string& word : failure.words) *os << ' ' << word;
+}
 
 class Failures : public testing::TestWithParam<Failure> {};
 

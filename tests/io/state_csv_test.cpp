@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "support/random_state.h"
 #include "support/temporary_directory.h"
 
@@ -57,6 +59,10 @@ struct BadTable {
   const char* text;
   const char* message;
 };
+
+void PrintTo(const BadTable& table, std::ostream* os) {
+  *os << table.message;
+}
 
 class StateCsvErrors : public testing::TestWithParam<BadTable> {};
 
