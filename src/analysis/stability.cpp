@@ -191,6 +191,32 @@ std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const
   return limits;
 }
 
+bool certainly_stable(const Model& model, Integrator integrator, double timestep) {
+  if (integrator == Integrator::implicit_euler) return true;
+  std::uint32_t covered = 0;
+  for (const Body& body : model.bodies) {
+    covered += body.particle_count;
+    double stiffness = 0.0, ratio = 0.0, inverse_mass = 0.0;
+    for (std::uint32_t c = body.first_class; c < body.first_class + body.class_count; ++c) {
+      const SpringClass& spring = model.spring_classes[c];
+      if (spring.stiffness == 0.0) return false;
+      if (stiffness != 0.0 && spring.damping / spring.stiffness != ratio) return false;
+      ratio = spring.damping / spring.stiffness;
+      stiffness = std::max(stiffness, spring.stiffness);
+    }
+    for (std::uint32_t i = body.first_particle; i < body.first_particle + body.particle_count; ++i) {
+      inverse_mass = std::max(inverse_mass, model.inverse_mass[i]);
+    }
+    const double kappa = infinite_lattice_eigenvalue * stiffness * inverse_mass;
+    StabilityLimit least = of_mode(integrator, kappa, ratio * kappa);
+    scan_unit_interval(300, [&](double share) {
+      least = smaller(least, of_mode(integrator, share * kappa, ratio * share * kappa));
+    });
+    if (body.kind != BodyKind::cube || !least.step || timestep > *least.step) return false;
+  }
+  return covered == model.particle_count();
+}
+
 StabilityLimit stability_limit(const Model& model, Integrator integrator, StabilityEffort effort) {
   if (integrator == Integrator::implicit_euler) return {infinity, true};
   return stability_limits(model, {&integrator, 1}, effort).front();

@@ -228,8 +228,19 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   return print_data(text);
 }
 
-Error divergence_error(const Model& model, const Outcome& outcome, const StabilityLimit& stable) {
+/// The infinite lattice clears most cubes at once; a large one's own spectrum takes seconds.
+void warn_if_unstable(const Model& model) {
+  const SimulationSettings& simulation = model.simulation;
+  if (certainly_stable(model, simulation.integrator, simulation.timestep)) return;
+  const StabilityLimit stable = stability_limit(model, simulation.integrator, StabilityEffort::quick);
+  if (!exceeds(simulation.timestep, stable)) return;
+  print_warning(fmt::format("the time step {} s is not stable: {}.", simulation.timestep,
+                            stability_sentence(simulation.integrator, stable)));
+}
+
+Error divergence_error(const Model& model, const Outcome& outcome) {
   const Divergence& d = *outcome.divergence;
+  const StabilityLimit stable = stability_limit(model, model.simulation.integrator, StabilityEffort::quick);
   const double h = model.simulation.timestep;
   return {ErrorCode::diverged,
           fmt::format("the simulation diverged in step {} (t = {:.6g} s): particle {} {}. The time step is "
@@ -285,11 +296,7 @@ Status run_command(const RunOptions& options) {
   if (start->state) {
     if (const Status loaded = backend->solver->load(*start->state); !loaded) return loaded.error();
   }
-  const StabilityLimit stable = stability_limit(*model, model->simulation.integrator, StabilityEffort::quick);
-  if (exceeds(model->simulation.timestep, stable)) {
-    print_warning(fmt::format("the time step {} s is not stable: {}.", model->simulation.timestep,
-                              stability_sentence(model->simulation.integrator, stable)));
-  }
+  warn_if_unstable(*model);
 
   auto outcome = simulate(*backend->solver, *files, *steps, interrupt);
   if (!outcome) return outcome.error();
@@ -297,7 +304,7 @@ Status run_command(const RunOptions& options) {
   const Status summary = print_summary(options, start->scene, *model, *backend, *outcome, *files);
   if (!finished) return finished;
   if (!summary) return summary;
-  if (outcome->divergence) return divergence_error(*model, *outcome, stable);
+  if (outcome->divergence) return divergence_error(*model, *outcome);
   if (outcome->interrupted) {
     return Error{
         ErrorCode::interrupted,

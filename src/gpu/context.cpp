@@ -36,7 +36,7 @@ Result<std::unique_ptr<Context>> Context::adopt_current(Loader loader) {
     return Error{
         ErrorCode::no_device,
         fmt::format("The window's context is OpenGL {}.{} ({}), but 4.3 core is needed for compute shaders. "
-                    "Install a newer driver, or use --backend cpu.",
+                    "Install a newer driver, or use --backend reference.",
                     GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version),
                     reinterpret_cast<const char*>(glGetString(GL_RENDERER)))};
   std::unique_ptr<Context> context(new Context);
