@@ -127,7 +127,9 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, std::uint64_t last_ste
   outcome.first_step = state->step;
   outcome.last_step = last_step;
   const std::uint64_t interval = files.series_interval();
-  if (const Status row = files.add_row(model, *state); !row) return row.error();
+  if (const Status row = files.add_row(model, *state, solver.solve_statistics().value_or(SolveStatistics{}));
+      !row)
+    return row.error();
 
   ProgressBar bar(last_step);
   BatchSize batch;
@@ -145,7 +147,10 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, std::uint64_t last_ste
     if (interval > 0 && (step % interval == 0 || step == last_step)) {
       state = solver.state();
       if (!state) return state.error();
-      if (const Status row = files.add_row(model, *state); !row) return row.error();
+      if (const Status row =
+              files.add_row(model, *state, solver.solve_statistics().value_or(SolveStatistics{}));
+          !row)
+        return row.error();
     }
     batch.took(count, std::chrono::duration<double>(Clock::now() - before).count());
     bar.update(step);
@@ -223,6 +228,14 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
       fmt::format("energy       kinetic {:.6g} J, elastic {:.6g} J, gravitational {:.6g} J, total {:.6g} J\n",
                   m.kinetic, m.elastic, m.gravitational, m.total());
   text += fmt::format("extremes     fastest {:.6g} m/s, lowest y = {:.6g} m\n", m.max_speed, m.min_height);
+  if (outcome.solves) {
+    const SolveStatistics& s = *outcome.solves;
+    text += fmt::format(
+        "solves       {} converged, {} stagnated, {} not converged; worst residual {:.3g} m/s; {} Newton and "
+        "{} "
+        "conjugate gradient iterations\n",
+        s.converged, s.stagnated, s.not_converged, s.worst_residual, s.newton_iterations, s.cg_iterations);
+  }
   text += fmt::format("state hash   {}\n", hash);
   for (const std::string& file : files.written()) text += fmt::format("wrote        {}\n", file);
   return print_data(text);
@@ -284,7 +297,7 @@ Status run_command(const RunOptions& options) {
                                                "scene's start.",
                                                options.resume_file, start->state->step, *steps)};
   }
-  auto files = RunFiles::open(options);
+  auto files = RunFiles::open(options, start->scene.model.simulation.integrator);
   if (!files) return files.error();
   const auto model = build_model(start->scene.model);
   if (!model) return model.error();

@@ -36,13 +36,14 @@ Status refuse_duplicates(const RunOptions& options) {
 
 }  // namespace
 
-Result<RunFiles> RunFiles::open(const RunOptions& options) {
+Result<RunFiles> RunFiles::open(const RunOptions& options, Integrator integrator) {
   if (const Status distinct = refuse_duplicates(options); !distinct) return distinct.error();
   const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
   RunFiles files;
   files.every_ = options.every;
   if (!options.series_file.empty()) {
-    auto series = SeriesWriter::create(options.series_file, overwrite);
+    auto series =
+        SeriesWriter::create(options.series_file, overwrite, integrator == Integrator::implicit_euler);
     if (!series) return series.error();
     files.series_ = std::move(*series);
     files.series_path_ = options.series_file;
@@ -60,8 +61,8 @@ Result<RunFiles> RunFiles::open(const RunOptions& options) {
   return files;
 }
 
-Status RunFiles::add_row(const Model& model, const State& state) {
-  return series_ ? series_->add(model, state) : Status{};
+Status RunFiles::add_row(const Model& model, const State& state, const SolveStatistics& solves) {
+  return series_ ? series_->add(model, state, solves) : Status{};
 }
 
 Status RunFiles::finish(const Model& model, const std::string& scene_toml, const State& state) {

@@ -14,12 +14,12 @@ namespace aspic::cli {
 class RunFiles {
  public:
   /// Opens every file the options name. Errors: usage for one name given twice; io.
-  static Result<RunFiles> open(const RunOptions& options);
+  static Result<RunFiles> open(const RunOptions& options, Integrator integrator);
 
   /// Steps between rows of the series; 0 without one.
   std::uint64_t series_interval() const { return series_ ? every_ : 0; }
   /// Adds a row of the series, if there is one.
-  Status add_row(const Model& model, const State& state);
+  Status add_row(const Model& model, const State& state, const SolveStatistics& solves);
 
   /// Writes final state and checkpoint and completes all files. One that fails does not keep the others from
   /// being completed; the first error is returned.

@@ -6,15 +6,16 @@
 
 namespace aspic {
 
-Result<SeriesWriter> SeriesWriter::create(const std::string& path, Overwrite overwrite) {
+Result<SeriesWriter> SeriesWriter::create(const std::string& path, Overwrite overwrite, bool solves) {
   auto file = AtomicFile::create(path, overwrite);
   if (!file) return file.error();
-  if (const Status header = file->write(fmt::format("{}\n", series_csv_header)); !header)
-    return header.error();
-  return SeriesWriter(std::move(*file));
+  const Status header =
+      file->write(fmt::format("{}{}\n", series_csv_header, solves ? series_csv_solve_header : ""));
+  if (!header) return header.error();
+  return SeriesWriter(std::move(*file), solves);
 }
 
-Status SeriesWriter::add(const Model& model, const State& state) {
+Status SeriesWriter::add(const Model& model, const State& state, const SolveStatistics& solves) {
   if (has_row_ && last_step_ == state.step) return {};
   const Measures m = measure(model, state);
   // Every figure is a sum or an extreme of finite terms, so one test of the sum of all finds a NaN or
@@ -26,9 +27,17 @@ Status SeriesWriter::add(const Model& model, const State& state) {
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
   has_row_ = true;
   last_step_ = state.step;
-  return file_.write(fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", state.step, time, m.kinetic, m.elastic,
-                                 m.gravitational, m.total(), m.momentum.x, m.momentum.y, m.momentum.z,
-                                 m.max_speed, m.min_height));
+  std::string row =
+      fmt::format("{},{},{},{},{},{},{},{},{},{},{}", state.step, time, m.kinetic, m.elastic, m.gravitational,
+                  m.total(), m.momentum.x, m.momentum.y, m.momentum.z, m.max_speed, m.min_height);
+  if (has_solves_) {
+    row += fmt::format(",{},{},{},{},{},{}", solves.newton_iterations - before_.newton_iterations,
+                       solves.cg_iterations - before_.cg_iterations, solves.last.residual,
+                       solves.converged - before_.converged, solves.stagnated - before_.stagnated,
+                       solves.not_converged - before_.not_converged);
+    before_ = solves;
+  }
+  return file_.write(row + "\n");
 }
 
 }  // namespace aspic

@@ -6,6 +6,7 @@
 #include "analysis/energy.h"
 #include "base/result.h"
 #include "io/atomic_file.h"
+#include "model/implicit.h"
 #include "model/model.h"
 
 namespace aspic {
@@ -14,22 +15,30 @@ namespace aspic {
 inline constexpr std::string_view series_csv_header =
     "step,time,kinetic,elastic,gravitational,total,px,py,pz,max_speed,min_height";
 
+/// What follows it where the integrator is implicit-euler: iterations and ends of the solves since the row
+/// before, the residual [m/s] of the last of them.
+inline constexpr std::string_view series_csv_solve_header =
+    ",newton_iterations,cg_iterations,residual,converged,stagnated,not_converged";
+
 /// Writes rows as a run goes on; the file appears when finish() succeeds.
 class SeriesWriter {
  public:
-  /// Opens the file (AtomicFile::create) and writes the header.
-  static Result<SeriesWriter> create(const std::string& path, Overwrite overwrite);
+  /// Opens the file (AtomicFile::create) and writes the header, with the columns of solves if `solves`.
+  static Result<SeriesWriter> create(const std::string& path, Overwrite overwrite, bool solves = false);
 
-  /// Appends the row of a state unless the last row was of the same step; time is step · h [s]. Errors: io
-  /// from the file; diverged if a figure is not finite.
-  Status add(const Model& model, const State& state);
+  /// Appends the row of a state unless the last row was of the same step; time is step · h [s]. `solves` are
+  /// the run's statistics so far, read only where the file has their columns. Errors: io from the file;
+  /// diverged if a figure is not finite.
+  Status add(const Model& model, const State& state, const SolveStatistics& solves = {});
 
   /// Completes the file with the rows so far.
   Status finish() { return file_.commit(); }
 
  private:
-  explicit SeriesWriter(AtomicFile file) : file_(std::move(file)) {}
+  SeriesWriter(AtomicFile file, bool solves) : file_(std::move(file)), has_solves_(solves) {}
   AtomicFile file_;
+  bool has_solves_ = false;
+  SolveStatistics before_;  // as of the last row
   bool has_row_ = false;
   std::uint64_t last_step_ = 0;
 };

@@ -20,13 +20,17 @@ class EqualBits : public aspic::testing::GlTest {
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();
     ASSERT_FALSE((*reference->advance(steps)).has_value());
     const State expected = *reference->state();
-    // The run means nothing unless it went through contact: a free fall is known in closed form.
-    double lowest = 1e30;
-    for (const Vec3& v : expected.velocity) lowest = std::min(lowest, v.y);
-    ASSERT_GT(
-        lowest,
-        static_cast<double>(steps) * settings.simulation.timestep * settings.simulation.gravity.y + 1.0);
+    // The run means nothing unless it went through contact: an undeformed cube that touches nothing falls as one.
+    const double time = static_cast<double>(steps) * settings.simulation.timestep;
+    double contact = 0.0;
+    for (std::size_t i = 0; i < expected.velocity.size(); ++i) {
+      const Vec3 fallen = model.initial_velocity[i] + time * settings.simulation.gravity;
+      contact = std::max(contact, length(expected.velocity[i] - fallen));
+    }
+    ASSERT_GT(contact, 0.5);
+    const bool solved = settings.simulation.integrator == Integrator::implicit_euler;
     for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+      if (solved && path == ForcePath::per_spring) continue;  // refused by name
       for (const std::uint32_t group_size : group_sizes) {
         GpuOptions options;
         options.force_path = path;
@@ -99,6 +103,32 @@ TEST_F(EqualBits, FiveWithSeveralTerrainsMaterialAndPinnedCorner) {
     settings.terrain[2].friction = 0.9;
     expect_equal(settings, 2000, {64});
   }
+}
+
+/// Implicit Euler with 60 steps a second; what contact does to it shows after a few.
+ModelSettings implicit(ModelSettings settings) {
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = 1.0 / 60.0;
+  settings.cubes[0].position.y -= 0.5;
+  return settings;
+}
+
+TEST_F(EqualBits, FiveImplicit) {
+  for (const ContactModel contact : both_models) {
+    expect_equal(implicit(low_cube(5, Integrator::implicit_euler, contact)), 30, {64});
+  }
+}
+
+// 1,000 particles are four blocks of a reduction, 74,088 are 290: their results make two more blocks.
+TEST_F(EqualBits, TenPerEdgeImplicit) {
+  expect_equal(implicit(low_cube(10, Integrator::implicit_euler, ContactModel::coulomb)), 20, {64});
+}
+
+TEST_F(EqualBits, FortyTwoPerEdgeImplicit) {
+  ModelSettings settings = implicit(low_cube(42, Integrator::implicit_euler, ContactModel::course));
+  settings.cubes[0].material = MaterialSettings{};
+  settings.cubes[0].velocity = {1.0, -12.0, 0.5};
+  expect_equal(settings, 1, {64});
 }
 
 TEST_F(EqualBits, TenPerEdge) {

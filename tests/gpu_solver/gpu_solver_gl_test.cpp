@@ -75,6 +75,51 @@ TEST_F(GpuSolverTest, DivergenceIsFoundOnTheDeviceWhereTheReferenceFindsIt) {
   }
 }
 
+TEST_F(GpuSolverTest, ImplicitEulerStopsWhereTheReferenceStops) {
+  ModelSettings settings = test::cube_on_plane(4, 1.2);
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = 1.0 / 60.0;
+  settings.simulation.gravity = {0.0, 0.0, 1500.0};
+  settings.terrain.clear();
+  const Model model = test::build(settings);
+  auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+  const auto expected = *reference->advance(1000);
+  ASSERT_TRUE(expected.has_value());
+  auto solver = solver_for(model);
+  const auto found = *solver->advance(1000);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->step, expected->step);
+  EXPECT_EQ(found->particle, expected->particle);
+  EXPECT_EQ(*solver->state(), *reference->state());
+  EXPECT_EQ((*solver->advance(5))->step, expected->step);
+  ASSERT_TRUE(solver->load(initial_state(model, Precision::single)).ok());
+  EXPECT_FALSE((*solver->advance(1)).has_value());
+}
+
+TEST_F(GpuSolverTest, ImplicitEulerSplitChangesNoBitAndCountsTheSame) {
+  ModelSettings settings = test::cube_on_plane(4, 1.2);
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = 0.005;
+  const Model model = test::build(settings);
+  auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+  ASSERT_FALSE((*reference->advance(50)).has_value());
+  auto whole = solver_for(model), split = solver_for(model);
+  ASSERT_FALSE((*whole->advance(50)).has_value());
+  for (const std::uint64_t steps : {1u, 17u, 2u}) ASSERT_FALSE((*split->advance(steps)).has_value());
+  ASSERT_TRUE(split->load(*split->state()).ok());
+  ASSERT_FALSE((*split->advance(30)).has_value());
+  EXPECT_EQ(*split->state(), *whole->state());
+  EXPECT_EQ(*whole->state(), *reference->state());
+  const SolveStatistics counted = *whole->solve_statistics(), expected = *reference->solve_statistics();
+  EXPECT_EQ(counted.steps, 50u);
+  EXPECT_EQ(counted.converged, expected.converged);
+  EXPECT_EQ(counted.newton_iterations, expected.newton_iterations);
+  EXPECT_EQ(counted.cg_iterations, expected.cg_iterations);
+  EXPECT_EQ(counted.worst_residual, expected.worst_residual);
+  EXPECT_EQ(counted.last.residual, expected.last.residual);
+  EXPECT_EQ(split->solve_statistics()->steps, 30u);
+}
+
 TEST_F(GpuSolverTest, NotANumberIsDivergenceAtTheLowestParticle) {
   const Model model = test::build(test::cube_on_plane(4));
   State state = initial_state(model, Precision::single);
@@ -98,7 +143,8 @@ TEST_F(GpuSolverTest, HoldsAsManyBytesAsItSaid) {
   }
   Model implicit = model;
   implicit.simulation.integrator = Integrator::implicit_euler;
-  EXPECT_EQ(solver_for(implicit)->bytes(), gpu_bytes(count(model), Integrator::implicit_euler, ForcePath::gather));
+  EXPECT_EQ(solver_for(implicit)->bytes(),
+            gpu_bytes(count(model), Integrator::implicit_euler, ForcePath::gather));
 }
 
 TEST_F(GpuSolverTest, RefusesWhatIsNotBuilt) {

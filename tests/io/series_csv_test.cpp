@@ -47,5 +47,29 @@ TEST(SeriesCsv, NotANumberIsNeverWritten) {
   EXPECT_EQ(added.error().code, ErrorCode::diverged);
 }
 
+TEST(SeriesCsv, SolveColumnsHoldWhatCameSinceTheRowBefore) {
+  const test::TemporaryDirectory dir;
+  const Model model = one_particle();
+  State state;
+  state.position = {{0.0, 3.0, 0.0}};
+  state.velocity = {{1.0, 0.0, 0.0}};
+  auto series = SeriesWriter::create(dir.file("e.csv"), Overwrite::refuse, true);
+  ASSERT_TRUE(series.ok());
+  SolveStatistics solves;
+  ASSERT_TRUE(series->add(model, state, solves).ok());
+  solves.add({3, 40, 0.5, SolveEnd::converged});
+  solves.add({5, 60, 0.25, SolveEnd::stagnated});
+  state.step = 2;
+  ASSERT_TRUE(series->add(model, state, solves).ok());
+  solves.add({1, 7, 0.125, SolveEnd::not_converged});
+  state.step = 3;
+  ASSERT_TRUE(series->add(model, state, solves).ok());
+  ASSERT_TRUE(series->finish().ok());
+  EXPECT_EQ(dir.read("e.csv"), std::string(series_csv_header) + std::string(series_csv_solve_header) +
+                                   "\n0,0,1,0,60,61,2,0,0,1,3,0,0,0,0,0,0\n"
+                                   "2,1,1,0,60,61,2,0,0,1,3,8,100,0.25,1,1,0\n"
+                                   "3,1.5,1,0,60,61,2,0,0,1,3,1,7,0.125,0,0,1\n");
+}
+
 }  // namespace
 }  // namespace aspic
