@@ -48,6 +48,13 @@ void end_solve(uint how, uint use_trial) {
   solve.phase = PHASE_DONE;
 }
 
+// Eisenstat and Walker's forcing term from the ratio of two successive square sums of residuals.
+float next_forcing(float ratio) {
+  precise float wanted = forcing_factor * ratio;
+  if (wanted < least_forcing) return least_forcing;
+  return wanted > most_forcing ? most_forcing : wanted;
+}
+
 void judge(float residual, float merit, float rz) {
   if (solve.first == 0u && !(merit < solve.merit)) {
     if (solve.halvings == max_halvings) {
@@ -58,10 +65,16 @@ void judge(float residual, float merit, float rz) {
     }
     return;
   }
-  bool smaller = solve.first != 0u || residual < solve.best;
-  solve.without_progress = smaller ? 0u : solve.without_progress + 1u;
-  if (smaller) solve.best = residual;
+  precise float enough_progress = progress_share * solve.best;
+  precise float forcing = first_forcing;
+  if (solve.first == 0u) {
+    solve.without_progress = residual < enough_progress ? 0u : solve.without_progress + 1u;
+    precise float ratio = exact_div(merit, solve.merit);
+    forcing = next_forcing(ratio);
+  }
+  if (solve.first != 0u || residual < solve.best) solve.best = residual;
   solve.first = 0u;
+  solve.forcing = forcing;
   solve.merit = merit;
   solve.residual = residual;
   if (residual <= tolerance) {
@@ -77,7 +90,7 @@ void judge(float residual, float merit, float rz) {
     solve.halvings = 0u;
     solve.lambda = 1.0;
     solve.rz = rz;
-    precise float enough = cg_reduction * rz;
+    precise float enough = (forcing * forcing) * rz;
     solve.enough = enough;
     solve.phase = PHASE_CG;
   }

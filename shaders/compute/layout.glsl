@@ -138,7 +138,7 @@ struct Solve {
   uint not_converged;
   uint newton_sum;
   uint cg_sum;
-  uint solve_padding;
+  float forcing;      // η of the linear system under way
 };
 
 #ifdef __cplusplus
@@ -161,7 +161,11 @@ layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
   uint max_cg;
   float time_step;            // h [s]
   float tolerance;            // on the residual [m/s]
-  float cg_reduction;
+  float first_forcing;
+  float forcing_factor;
+  float least_forcing;
+  float most_forcing;
+  float progress_share;
   uint max_halvings;
   uint max_without_progress;
   uint simulation_padding0, simulation_padding1, simulation_padding2;

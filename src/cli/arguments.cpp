@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -36,13 +37,21 @@ constexpr const char* compare_examples = R"(Examples:
   aspic compare cube-bowl --backends gpu:gather,gpu:per-spring --steps 500
   aspic compare cube-plane --backends reference,reference:double --steps 100 --tolerance 1e-4)";
 
+constexpr const char* bench_examples = R"(Examples:
+  aspic bench --backend reference --backend gpu:gather --backend gpu:per-spring --size 10 --size 20
+  aspic bench large-cube --seconds 10 --json
+  aspic bench --integrator explicit-euler --integrator implicit-euler --timestep largest --duration 1
+
+Each case runs --repeats times over the same steps from the scene's start; the median counts, the spread is
+(slowest - fastest) / median. Spring evaluations are springs x force evaluations x steps; with implicit-euler
+an application of the Jacobian counts as one. A software rasteriser's figures are no GPU's: the renderer is named.)";
+
 struct NotBuilt {
   std::string_view command, what;
 };
-constexpr std::array<NotBuilt, 4> not_built_commands = {{
+constexpr std::array<NotBuilt, 3> not_built_commands = {{
     {"view", "the window"},
     {"verify", "the verification battery"},
-    {"bench", "the throughput measurement"},
     {"report", "the report with plots"},
 }};
 
@@ -50,6 +59,8 @@ constexpr std::array<NotBuilt, 4> not_built_commands = {{
 struct RawOptions {
   std::string backend = "auto", precision, force_path = "auto";
   std::vector<std::string> backends = {"gpu", "reference"};
+  std::vector<std::string> bench_backends = {"auto"}, bench_force_paths, bench_integrators;
+  std::string bench_timestep = "scene";
 };
 
 Error usage(std::string message) {
@@ -175,6 +186,42 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
   return c;
 }
 
+CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
+  CLI::App* c = app.add_subcommand("bench", "Measure throughput by backend, force path, size and integrator");
+  c->add_option("scene", bench.scene, "scene file or built-in name")
+      ->type_name("SCENE")
+      ->capture_default_str();
+  c->add_option("--backend", raw.bench_backends,
+                "auto, gpu, gpu:per-spring, reference, reference:double; repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  c->add_option("--force-path", raw.bench_force_paths, "of gpu backends that name none; repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  c->add_option("--size", bench.sizes, "particles per edge of the scene's cubes; repeatable")
+      ->type_name("N")
+      ->allow_extra_args(false);
+  c->add_option("--integrator", raw.bench_integrators, "instead of the scene's; repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  c->add_option("--timestep", raw.bench_timestep,
+                "scene, or largest: 0.99 of the largest stable step, 1/60 s with implicit-euler")
+      ->type_name("WORD")
+      ->capture_default_str();
+  auto* seconds = c->add_option("--seconds", bench.seconds, "time to spend on each case")
+                      ->type_name("S")
+                      ->capture_default_str();
+  c->add_option("--duration", bench.duration, "simulated seconds of each repeat, however long they take")
+      ->type_name("S")
+      ->excludes(seconds);
+  c->add_option("--repeats", bench.repeats, "runs of each case")->type_name("N")->capture_default_str();
+  add_overrides(*c, bench.overrides);
+  c->add_flag("--json", bench.json, "result on stdout as JSON");
+  c->footer(bench_examples);
+  return c;
+}
+
 Status check_length(const RunLength& length) {
   if (length.duration && !(std::isfinite(*length.duration) && *length.duration >= 0.0)) {
     return usage(
@@ -230,6 +277,57 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
   return Command(std::move(compare));
 }
 
+Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
+  std::vector<BackendChoice> backends;
+  for (const std::string& text : raw.bench_backends) {
+    const auto choice = parse_backend(text);
+    if (!choice) return choice.error();
+    const bool open = choice->kind == BackendKind::gpu && choice->force_path == ForcePath::automatic;
+    if (!open || raw.bench_force_paths.empty()) {
+      backends.push_back(*choice);
+      continue;
+    }
+    for (const std::string& word : raw.bench_force_paths) {
+      const auto path = parse_force_path(word);
+      if (!path) return path.error();
+      backends.push_back(*choice);
+      backends.back().force_path = *path;
+    }
+  }
+  for (const BackendChoice& choice : backends) {
+    if (const Status possible = check_choice(choice); !possible) return possible.error();
+  }
+  return backends;
+}
+
+Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
+  auto backends = bench_backends(raw);
+  if (!backends) return backends.error();
+  bench.backends = std::move(*backends);
+  for (const std::string& word : raw.bench_integrators) {
+    const auto known = std::find_if(std::begin(all_integrators), std::end(all_integrators),
+                                    [&](Integrator i) { return name_of(i) == word; });
+    if (known == std::end(all_integrators)) {
+      std::vector<std::string_view> names;
+      for (const Integrator i : all_integrators) names.push_back(name_of(i));
+      return usage(
+          fmt::format("--integrator does not know \"{}\"; allowed: {}.", word, fmt::join(names, ", ")));
+    }
+    bench.integrators.push_back(*known);
+  }
+  if (raw.bench_timestep != "scene" && raw.bench_timestep != "largest") {
+    return usage(fmt::format("--timestep must be scene or largest, not \"{}\".", raw.bench_timestep));
+  }
+  bench.timestep = raw.bench_timestep == "largest" ? BenchTimestep::largest : BenchTimestep::scene;
+  if (!(std::isfinite(bench.seconds) && bench.seconds > 0.0))
+    return usage("--seconds must be a number above 0.");
+  if (bench.duration && !(std::isfinite(*bench.duration) && *bench.duration > 0.0)) {
+    return usage("--duration must be a number above 0.");
+  }
+  if (bench.repeats < 1) return usage("--repeats must be 1 or more.");
+  return Command(std::move(bench));
+}
+
 }  // namespace
 
 Result<Command> parse_arguments(int argc, const char* const* argv) {
@@ -246,6 +344,8 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   InfoOptions info;
   CLI::App* run_command = add_run(app, run, raw);
   CLI::App* compare_command = add_compare(app, compare, raw);
+  BenchOptions bench;
+  CLI::App* bench_command = add_bench(app, bench, raw);
   CLI::App* scene = app.add_subcommand("scene", "List, show and check scenes");
   scene->require_subcommand(1);
   CLI::App* list_command = scene->add_subcommand("list", "The built-in scenes");
@@ -299,6 +399,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   }
   if (*run_command) return finish_run(std::move(run), raw);
   if (*compare_command) return finish_compare(std::move(compare), raw);
+  if (*bench_command) return finish_bench(std::move(bench), raw);
   if (*list_command) return Command(list);
   if (*show_command) return Command(std::move(show));
   if (*check_command) return Command(std::move(check));

@@ -47,6 +47,24 @@ struct CompareOptions {
   bool json = false;
 };
 
+enum class BenchTimestep {
+  scene,   ///< the scene's own
+  largest  ///< 0.99 of the largest stable one; a sixtieth of a second with implicit-euler
+};
+
+struct BenchOptions {
+  std::string scene = "cube-plane";
+  std::vector<std::string> overrides;
+  std::vector<BackendChoice> backends;  ///< at least one
+  std::vector<int> sizes;               ///< particles per edge of all cubes; empty: the scene's
+  std::vector<Integrator> integrators;  ///< empty: the scene's
+  BenchTimestep timestep = BenchTimestep::scene;
+  double seconds = 2.0;            ///< per measurement, all repeats together, > 0
+  std::optional<double> duration;  ///< simulated time of each repeat [s], instead of `seconds`
+  int repeats = 5;                 ///< ≥ 1
+  bool json = false;
+};
+
 struct SceneListOptions {
   bool json = false;
 };
@@ -67,8 +85,8 @@ struct ShowText {
   std::string text;
 };
 
-using Command = std::variant<ShowText, RunOptions, CompareOptions, SceneListOptions, SceneShowOptions,
-                             SceneCheckOptions, InfoOptions>;
+using Command = std::variant<ShowText, RunOptions, CompareOptions, BenchOptions, SceneListOptions,
+                             SceneShowOptions, SceneCheckOptions, InfoOptions>;
 
 /// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built
 /// yet.

@@ -12,6 +12,9 @@ Status run_command(const RunOptions& options);
 /// Steps two backends side by side. Error (check_failed): they differ by more than the tolerance.
 Status compare_command(const CompareOptions& options);
 
+/// Measures throughput, one line for each size, integrator, backend and force path.
+Status bench_command(const BenchOptions& options);
+
 Status scene_list_command(const SceneListOptions& options);
 Status scene_show_command(const SceneShowOptions& options);
 Status scene_check_command(const SceneCheckOptions& options);

@@ -108,7 +108,7 @@ class ImplicitEuler {
   };
 
   Evaluation evaluate(const Phase<T>& s, const Field<T>& held, const Field<T>& trial) const;
-  Field<T> solve(const Evaluation& at, std::uint32_t& iterations) const;
+  Field<T> solve(const Evaluation& at, T forcing, std::uint32_t& iterations) const;
   Field<T> apply(const Evaluation& at, const Field<T>& p) const;
   T dot(const Field<T>& a, const Field<T>& b) const;
 
@@ -186,7 +186,7 @@ Field<T> ImplicitEuler<T>::apply(const Evaluation& at, const Field<T>& p) const 
 
 /// A·δ = r by preconditioned conjugate gradients (Hestenes and Stiefel, 1952).
 template <class T>
-Field<T> ImplicitEuler<T>::solve(const Evaluation& at, std::uint32_t& iterations) const {
+Field<T> ImplicitEuler<T>::solve(const Evaluation& at, T forcing, std::uint32_t& iterations) const {
   const auto precondition = [&](const Field<T>& r) {
     Field<T> z(3, r.cols());
     for (Eigen::Index i = 0; i < r.cols(); ++i)
@@ -195,7 +195,7 @@ Field<T> ImplicitEuler<T>::solve(const Evaluation& at, std::uint32_t& iterations
   };
   Field<T> delta = Field<T>::Zero(3, at.r.cols()), r = at.r, z = precondition(r), p = z;
   T rz = dot(r, z);
-  const T enough = static_cast<T>(cg_reduction) * rz;
+  const T enough = (forcing * forcing) * rz;
   for (std::uint32_t n = 0; n < max_cg_; ++n) {
     const Field<T> q = apply(at, p);
     const T pq = dot(p, q);
@@ -214,13 +214,21 @@ Field<T> ImplicitEuler<T>::solve(const Evaluation& at, std::uint32_t& iterations
   return delta;
 }
 
+/// Eisenstat and Walker's forcing term from the ratio of two successive square sums of residuals.
+template <class T>
+T next_forcing(T ratio) {
+  const T wanted = static_cast<T>(forcing_factor) * ratio;
+  if (wanted < static_cast<T>(least_forcing)) return static_cast<T>(least_forcing);
+  return wanted > static_cast<T>(most_forcing) ? static_cast<T>(most_forcing) : wanted;
+}
+
 template <class T>
 Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
   report = SolveReport{};
   const Field<T> held = dynamics_.held_contact_force(s.x, s.v);
   Field<T> v = s.v;
   Evaluation at = evaluate(s, held, v);
-  T best = at.residual;
+  T best = at.residual, forcing = static_cast<T>(first_forcing);
   int without_progress = 0;
   report.end = SolveEnd::not_converged;
   while (true) {
@@ -233,7 +241,7 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
       break;
     }
     if (report.newton_iterations == max_newton_) break;
-    const Field<T> delta = solve(at, report.cg_iterations);
+    const Field<T> delta = solve(at, forcing, report.cg_iterations);
     ++report.newton_iterations;
     // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down.
     T lambda = 1;
@@ -250,9 +258,10 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
       report.end = SolveEnd::stagnated;
       break;
     }
+    forcing = next_forcing(next.merit / at.merit);
     v = trial;
     at = std::move(next);
-    without_progress = at.residual < best ? 0 : without_progress + 1;
+    without_progress = at.residual < static_cast<T>(progress_share) * best ? 0 : without_progress + 1;
     best = at.residual < best ? at.residual : best;
   }
   report.residual = static_cast<double>(at.residual);

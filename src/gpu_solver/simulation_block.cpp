@@ -86,7 +86,11 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.max_newton = static_cast<std::uint32_t>(implicit.newton_iterations);
   block.max_cg = static_cast<std::uint32_t>(implicit.cg_iterations);
   block.tolerance = static_cast<float>(implicit_tolerance(implicit, Precision::single));
-  block.cg_reduction = static_cast<float>(cg_reduction);
+  block.first_forcing = static_cast<float>(first_forcing);
+  block.forcing_factor = static_cast<float>(forcing_factor);
+  block.least_forcing = static_cast<float>(least_forcing);
+  block.most_forcing = static_cast<float>(most_forcing);
+  block.progress_share = static_cast<float>(progress_share);
   block.max_halvings = max_halvings;
   block.max_without_progress = max_without_progress;
   for (std::size_t c = 0; c < model.spring_classes.size(); ++c) {

@@ -31,12 +31,20 @@ struct SolveStatistics {
 /// Tolerance on the residual [m/s]: the scene's, or 1e-4 in single and 1e-9 in double precision.
 double implicit_tolerance(const ImplicitSettings& settings, Precision precision);
 
-/// A linear system is solved until r·z fell below this fraction of its first value: the square of the forcing
-/// term η = 0.01 of an inexact Newton method (Dembo, Eisenstat, Steihaug, SIAM J. Numer. Anal. 19, 1982).
-inline constexpr double cg_reduction = 1e-4;
+/// A linear system is solved until √(r·z) fell below η times its first value, the forcing term of an inexact Newton
+/// method. The step's first system takes `first_forcing`, every later one η = forcing_factor·|R|²/|R before|², held
+/// between least_forcing and most_forcing: no digits are computed that the next residual would not keep, and where
+/// rounding stops the residual the systems end at once. Source: Eisenstat and Walker, SIAM J. Sci. Comput. 17, 1996,
+/// choice 2 with γ = 0.9, α = 2.
+inline constexpr double first_forcing = 0.1;
+inline constexpr double forcing_factor = 0.9;
+inline constexpr double least_forcing = 0.05;
+inline constexpr double most_forcing = 0.5;
 /// Newton's step is halved at most this often before the line search gives up.
-inline constexpr int max_halvings = 8;
-/// Newton iterations without a smaller residual that end a step as stagnated.
+inline constexpr int max_halvings = 4;
+/// Newton iterations without a smaller residual that end a step as stagnated. Smaller means below this share of the
+/// smallest before: differences of rounding are no progress.
 inline constexpr int max_without_progress = 3;
+inline constexpr double progress_share = 0.5;
 
 }  // namespace aspic
