@@ -98,6 +98,10 @@ Result<VideoFormat> video_format_of(const std::string& path) {
                fmt::format("the video's name {} must end in .mp4, .webm or .gif, which says its format.", path)};
 }
 
+double default_fps(VideoFormat format) {
+  return format == VideoFormat::gif ? gif_fps_limit : 60.0;
+}
+
 Status check_video(VideoFormat format, const PictureSize& size, double fps) {
   if (format == VideoFormat::gif) {
     if (fps <= gif_fps_limit) return {};

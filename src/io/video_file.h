@@ -16,6 +16,9 @@ enum class VideoFormat {
 /// The format a file name's end stands for: .mp4, .webm, .gif. Error (usage): another end.
 Result<VideoFormat> video_format_of(const std::string& path);
 
+/// Pictures per second where none are asked for: 60, in a GIF 50, the most that viewers honour.
+double default_fps(VideoFormat format);
+
 /// Whether such a video can have this size and rate. Errors (usage): an odd side where colour is stored at half
 /// resolution (mp4, webm), with the nearest even size; more than 50 pictures a second in a GIF.
 Status check_video(VideoFormat format, const PictureSize& size, double fps);
