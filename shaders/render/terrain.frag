@@ -33,7 +33,7 @@ void main() {
   vec3 p = sphere.w * n / texture_size;
   vec3 albedo = weight.x * texture(ground, p.yz).rgb + weight.y * texture(ground, p.xz).rgb +
                 weight.z * texture(ground, p.xy).rgb;
-  albedo *= vec3(0.93, 0.97, 1.06);
+  albedo *= vec3(1.16, 1.20, 1.30);
   bool from_behind = false;
 #endif
   float nl = max(dot(n, sun.xyz), 0.0);

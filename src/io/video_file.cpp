@@ -71,9 +71,10 @@ class VideoFile : public FrameSink {
                                               : fmt::format("ended with exit code {}", end.exit_code);
       const std::string said = ffmpeg_->last_lines(6);
       path_ = file_->path();
-      reason_ = fmt::format("the video {} could not be made: ffmpeg {}{}. Check the disk and that ffmpeg has the encoder "
+      reason_ = fmt::format("the video {} could not be made: ffmpeg {}{}{}Check the disk and that ffmpeg has the encoder "
                             "(the Debian package ffmpeg has it), or write pictures with --frames.",
-                            path_, how, said.empty() ? " without a word" : fmt::format(" and said\n{}", said));
+                            path_, how, said.empty() ? " without a word." : fmt::format(" and said\n{}", said),
+                            said.empty() ? " " : "");
       ffmpeg_.reset();
       file_.reset();  // removes the temporary file
     }

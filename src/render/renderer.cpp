@@ -17,7 +17,20 @@
 namespace aspic {
 namespace {
 
-const glm::vec3 to_sun = glm::normalize(glm::vec3(-0.60f, 0.78f, -0.12f));
+/// Towards the sun: from behind on the left of the default camera, so that light shines through bodies; from the
+/// right where that would leave a slope in the dark.
+glm::vec3 sun_over(const std::vector<Terrain>& terrain) {
+  const auto least_slant = [&](const glm::vec3& sun) {
+    float least = 1.0f;
+    for (const Terrain& t : terrain)
+      if (t.shape == TerrainShape::plane || t.shape == TerrainShape::tilted_plane)
+        least = std::min(least, glm::dot(sun, glm::vec3(t.normal.x, t.normal.y, t.normal.z)));
+    return least;
+  };
+  const glm::vec3 left = glm::normalize(glm::vec3(-0.60f, 0.78f, -0.12f));
+  const glm::vec3 right = glm::normalize(glm::vec3(0.35f, 0.85f, -0.38f));
+  return least_slant(left) >= 0.5f || least_slant(left) >= least_slant(right) ? left : right;
+}
 
 /// The walls of a translucent body that face away from the eye, or towards it.
 enum class JellySide { far, near };
@@ -137,6 +150,7 @@ void Renderer::Parts::write_frame(const PictureOptions& options, const Camera& c
   block.projection = camera.projection();
   block.view_projection = camera.projection() * camera.view();
   block.clip_to_world = glm::inverse(block.view_projection);
+  const glm::vec3 to_sun = sun_over(model->terrain);
   block.lights[LIGHT_SUN] = light_rotation(to_sun);
   // The sky's light falls on a slope squarely, as far as shadow goes: contact darkens there, not downhill.
   glm::vec3 above(0, 1, 0);
