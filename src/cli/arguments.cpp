@@ -125,19 +125,26 @@ void add_length(CLI::App& command, RunLength& length) {
 void add_pictures(CLI::App& command, RecordingOptions& pictures, RawOptions& raw) {
   command.add_option("--video", pictures.video, "write a video: .mp4, .webm or .gif (needs ffmpeg)")
       ->type_name("FILE");
-  command.add_option("--frames", pictures.frames, "write numbered pictures into a directory")->type_name("DIR");
-  command.add_option("--frames-format", raw.frames_format, "png or jpg")->capture_default_str()->type_name("NAME");
-  command.add_option("--fps", pictures.fps, "pictures per second shown; default 60, for a GIF 50")->type_name("F");
+  command.add_option("--frames", pictures.frames, "write numbered pictures into a directory")
+      ->type_name("DIR");
+  command.add_option("--frames-format", raw.frames_format, "png or jpg")
+      ->capture_default_str()
+      ->type_name("NAME");
+  command.add_option("--fps", pictures.fps, "pictures per second shown; default 60, for a GIF 50")
+      ->type_name("F");
   command.add_option("--speed", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion")
       ->capture_default_str()
       ->type_name("X");
-  command.add_option("--size", raw.size, "size of the pictures in pixels")->capture_default_str()->type_name("WxH");
+  command.add_option("--size", raw.size, "size of the pictures in pixels")
+      ->capture_default_str()
+      ->type_name("WxH");
   command.add_option("--text", raw.text, "facts written on the pictures: on or off")
       ->capture_default_str()
       ->type_name("on|off");
   command.add_flag("--no-text", raw.no_text, "the same as --text off");
-  command.add_option("--view", pictures.view,
-                     "set a value of the scene's view, e.g. camera.position=[8,4,12]; repeatable")
+  command
+      .add_option("--view", pictures.view,
+                  "set a value of the scene's view, e.g. camera.position=[8,4,12]; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
 }
@@ -217,7 +224,8 @@ Result<PictureSize> parse_size(const std::string& text) {
         std::max(size.width, size.height) <= most)
       return size;
   }
-  return usage(fmt::format("--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".", text));
+  return usage(fmt::format(
+      "--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".", text));
 }
 
 Status finish_pictures(RecordingOptions& pictures, const RawOptions& raw) {

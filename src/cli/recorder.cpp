@@ -51,7 +51,8 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordingOptions& optio
   if (!r->context_) {
     auto context = gl::Context::create_headless();
     if (!context)
-      return Error{context.error().code, "pictures need an OpenGL device, if only a software one. " + context.error().message};
+      return Error{context.error().code,
+                   "pictures need an OpenGL device, if only a software one. " + context.error().message};
     r->own_context_ = std::move(*context);
     r->context_ = r->own_context_.get();
   }
@@ -70,7 +71,8 @@ const std::string& Recorder::device() const {
 }
 
 std::uint64_t Recorder::next_step() const {
-  return next_frame_ < schedule_.count() ? schedule_.step_of(next_frame_) : std::numeric_limits<std::uint64_t>::max();
+  return next_frame_ < schedule_.count() ? schedule_.step_of(next_frame_)
+                                         : std::numeric_limits<std::uint64_t>::max();
 }
 
 Status Recorder::reach(Solver& solver, std::uint64_t step) {

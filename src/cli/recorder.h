@@ -19,8 +19,8 @@ namespace aspic::cli {
 /// --fps, or what the outputs take where it is absent.
 double frames_per_second(const RecordingOptions& options);
 
-/// Time the program spent in each stage of its pictures [s], in all. A device works on while the program does: its
-/// time shows where it is waited for.
+/// Time the program spent in each stage of its pictures [s], in all. A device works on while the program
+/// does: its time shows where it is waited for.
 struct FrameTimes {
   std::uint64_t frames = 0;
   double simulate = 0.0, draw = 0.0, read = 0.0, encode = 0.0;
@@ -29,8 +29,8 @@ struct FrameTimes {
 
 class Recorder {
  public:
-  /// Draws in the backend's context where it has one, else in a headless one of its own. Everything given must
-  /// outlive the recorder. Errors: no_device, scene_rejected (no device memory), io (a shader file).
+  /// Draws in the backend's context where it has one, else in a headless one of its own. Everything given
+  /// must outlive the recorder. Errors: no_device, scene_rejected (no device memory), io (a shader file).
   static Result<std::unique_ptr<Recorder>> create(const RecordingOptions& options, const Scene& scene,
                                                   const Model& model, const Backend& backend,
                                                   std::vector<FrameSink*> sinks, std::uint64_t first_step,
@@ -43,8 +43,8 @@ class Recorder {
   std::uint64_t next_step() const;
   /// The solver stands at `step` ≤ next_step(): draws every picture that shows it.
   Status reach(Solver& solver, std::uint64_t step);
-  /// The run ended at `step`, perhaps early: its state is in the last picture, and all pictures are handed on. The
-  /// sinks are not finished.
+  /// The run ended at `step`, perhaps early: its state is in the last picture, and all pictures are handed
+  /// on. The sinks are not finished.
   Status finish(Solver& solver, std::uint64_t step);
 
   void add_simulation(double seconds) { times_.simulate += seconds; }
@@ -53,8 +53,8 @@ class Recorder {
   const std::string& device() const;
 
  private:
-  Recorder(const RecordingOptions& options, const Scene& scene, const Model& model, std::vector<FrameSink*> sinks,
-           const FrameSchedule& schedule);
+  Recorder(const RecordingOptions& options, const Scene& scene, const Model& model,
+           std::vector<FrameSink*> sinks, const FrameSchedule& schedule);
   Status draw(Solver& solver, std::uint64_t step);
   Status hand_on();
 

@@ -206,9 +206,10 @@ JsonValue to_json_value(const Recorder* recorder) {
 void print_frame_times(const Recorder& recorder) {
   const FrameTimes t = recorder.times();
   const auto ms = [&](double seconds) { return 1000.0 * t.per_frame(seconds); };
-  print_message(fmt::format("{} pictures on {}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, "
-                            "encode {:.1f} ms.",
-                            t.frames, recorder.device(), ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
+  print_message(
+      fmt::format("{} pictures on {}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, "
+                  "encode {:.1f} ms.",
+                  t.frames, recorder.device(), ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
 }
 
 Status print_summary(const RunOptions& options, const Scene& scene, const Model& model,
@@ -359,7 +360,8 @@ Status run_command(const RunOptions& options) {
   auto outcome = simulate(*backend->solver, *files, recorder.get(), *steps, interrupt);
   if (!outcome) return outcome.error();
   const Status finished = files->finish(*model, start->scene_toml, outcome->state);
-  const Status summary = print_summary(options, start->scene, *model, *backend, *outcome, *files, recorder.get());
+  const Status summary =
+      print_summary(options, start->scene, *model, *backend, *outcome, *files, recorder.get());
   if (recorder) print_frame_times(*recorder);
   if (!finished) return finished;
   if (!summary) return summary;

@@ -5,8 +5,8 @@
 #include <array>
 #include <filesystem>
 
-#include "io/checkpoint.h"
 #include "cli/recorder.h"
+#include "io/checkpoint.h"
 #include "io/state_csv.h"
 #include "io/video_file.h"
 

@@ -23,7 +23,8 @@ Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
   ring.context_ = &context;
   ring.width_ = width;
   ring.height_ = height;
-  const std::size_t bytes = stored_channels * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  const std::size_t bytes =
+      stored_channels * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   glGenBuffers(capacity, ring.buffers_.data());
   for (const GLuint buffer : ring.buffers_) {
     glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
@@ -101,13 +102,13 @@ Status PixelRing::take(std::vector<std::byte>& rgb) {
   const auto* pixels = static_cast<const std::byte*>(
       state == GL_WAIT_FAILED || context_->lost()
           ? nullptr
-          : glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(stored_channels * width * height),
-                             GL_MAP_READ_BIT));
+          : glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0,
+                             static_cast<GLsizeiptr>(stored_channels * width * height), GL_MAP_READ_BIT));
   if (!pixels) {
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    return Error{ErrorCode::no_device,
-                 fmt::format("A picture could not be read back: the device {} was lost.",
-                             context_->info().renderer)};
+    return Error{
+        ErrorCode::no_device,
+        fmt::format("A picture could not be read back: the device {} was lost.", context_->info().renderer)};
   }
   rgb.resize(3 * width * height);
   std::byte* out = rgb.data();

@@ -140,11 +140,11 @@ Result<Program> Program::graphics(Context& context, const ShaderLibrary& library
   glGetProgramInterfaceiv(program.id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES,
                           &program.storage_blocks_);
   if (program.storage_blocks_ > 0)
-    return Error{ErrorCode::no_device,
-                 fmt::format("The shader {} with {} uses storage blocks ({}), but OpenGL 4.3 guarantees none "
-                             "while drawing. Pass the data as vertex attributes or a uniform block.",
-                             stages.vertex, stages.fragment,
-                             block_names(program.id_, program.storage_blocks_))};
+    return Error{
+        ErrorCode::no_device,
+        fmt::format("The shader {} with {} uses storage blocks ({}), but OpenGL 4.3 guarantees none "
+                    "while drawing. Pass the data as vertex attributes or a uniform block.",
+                    stages.vertex, stages.fragment, block_names(program.id_, program.storage_blocks_))};
   label(context, program.id_, stages.fragment);
   return program;
 }

@@ -91,8 +91,7 @@ Texture::~Texture() {
   release();
 }
 
-Texture::Texture(Texture&& other) noexcept
-    : id_(std::exchange(other.id_, 0)), settings_(other.settings_) {}
+Texture::Texture(Texture&& other) noexcept : id_(std::exchange(other.id_, 0)), settings_(other.settings_) {}
 
 Texture& Texture::operator=(Texture&& other) noexcept {
   if (this == &other) return *this;

@@ -58,8 +58,7 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
     return start_error(arguments.front(), errno);
   child.input_ = ends[0];
   child.errors_ = ::memfd_create("messages", MFD_CLOEXEC);
-  const int failed =
-      child.errors_ < 0 ? errno : spawn(arguments, ends[1], child.errors_, child.pid_);
+  const int failed = child.errors_ < 0 ? errno : spawn(arguments, ends[1], child.errors_, child.pid_);
   ::close(ends[1]);
   if (failed != 0) {
     child.pid_ = -1;

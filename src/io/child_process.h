@@ -12,8 +12,8 @@
 namespace aspic {
 
 /// A program that reads what we write, found on PATH, started without a shell. It has a process group of its
-/// own, so that Ctrl-C reaches us alone and its input ends in good order. Its standard output goes nowhere; its
-/// standard error is kept.
+/// own, so that Ctrl-C reaches us alone and its input ends in good order. Its standard output goes nowhere;
+/// its standard error is kept.
 class ChildProcess {
  public:
   /// Error (io): `arguments[0]` is not on PATH or cannot be started; the message is the system's alone.

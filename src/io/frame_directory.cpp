@@ -70,35 +70,42 @@ class FrameDirectory : public FrameSink {
 
 }  // namespace
 
-Result<std::string> encode_image(ImageFormat format, const PictureSize& size, std::span<const std::byte> rgb) {
+Result<std::string> encode_image(ImageFormat format, const PictureSize& size,
+                                 std::span<const std::byte> rgb) {
   assert(rgb.size() == 3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
   std::string content;
   const auto append = [](void* into, void* data, int bytes) {
     static_cast<std::string*>(into)->append(static_cast<const char*>(data), static_cast<std::size_t>(bytes));
   };
-  const int ok = format == ImageFormat::png
-                     ? stbi_write_png_to_func(append, &content, size.width, size.height, 3, rgb.data(), 3 * size.width)
-                     : stbi_write_jpg_to_func(append, &content, size.width, size.height, 3, rgb.data(), jpeg_quality);
+  const int ok =
+      format == ImageFormat::png
+          ? stbi_write_png_to_func(append, &content, size.width, size.height, 3, rgb.data(), 3 * size.width)
+          : stbi_write_jpg_to_func(append, &content, size.width, size.height, 3, rgb.data(), jpeg_quality);
   if (ok == 0 || content.empty())
-    return Error{ErrorCode::io, fmt::format("A picture of {} x {} pixels could not be encoded as {}: not enough memory.",
-                                            size.width, size.height, extension(format))};
+    return Error{ErrorCode::io,
+                 fmt::format("A picture of {} x {} pixels could not be encoded as {}: not enough memory.",
+                             size.width, size.height, extension(format))};
   return content;
 }
 
 Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& directory, ImageFormat format,
                                                         const PictureSize& size, Overwrite overwrite) {
-  if (::mkdir(directory.c_str(), 0777) != 0 && errno != EEXIST) return file_error("make the directory", directory, errno);
+  if (::mkdir(directory.c_str(), 0777) != 0 && errno != EEXIST)
+    return file_error("make the directory", directory, errno);
   struct stat present = {};
   if (::stat(directory.c_str(), &present) != 0) return file_error("read the directory", directory, errno);
   if (!S_ISDIR(present.st_mode))
-    return Error{ErrorCode::io, fmt::format("{} is a file, but pictures need a directory. Choose another name.", directory)};
+    return Error{ErrorCode::io,
+                 fmt::format("{} is a file, but pictures need a directory. Choose another name.", directory)};
   if (::access(directory.c_str(), W_OK | X_OK) != 0) return file_error("write into", directory, errno);
   const auto frames = frames_in(directory);
   if (!frames) return frames.error();
   if (!frames->empty() && overwrite == Overwrite::refuse)
-    return Error{ErrorCode::io, fmt::format("{} holds pictures already ({} and others) and was left as it is. Choose "
-                                            "another directory, or allow replacing them with --force.",
-                                            directory, std::min_element(frames->begin(), frames->end())->filename().string())};
+    return Error{
+        ErrorCode::io,
+        fmt::format("{} holds pictures already ({} and others) and was left as it is. Choose "
+                    "another directory, or allow replacing them with --force.",
+                    directory, std::min_element(frames->begin(), frames->end())->filename().string())};
   for (const fs::path& frame : *frames)
     if (::unlink(frame.c_str()) != 0) return file_error("remove", frame.string(), errno);
   return std::unique_ptr<FrameSink>(std::make_unique<FrameDirectory>(directory, format, size));

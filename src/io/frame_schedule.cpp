@@ -13,7 +13,8 @@ FrameSchedule::FrameSchedule(double timestep, std::uint64_t first_step, std::uin
   const double frames = static_cast<double>(last_ - first_) / steps_per_frame_;
   // A whole number of pictures up to rounding is meant to be whole.
   const double nearest = std::round(frames);
-  const double whole = std::abs(frames - nearest) < 1e-9 * std::max(frames, 1.0) ? nearest : std::ceil(frames);
+  const double whole =
+      std::abs(frames - nearest) < 1e-9 * std::max(frames, 1.0) ? nearest : std::ceil(frames);
   count_ = static_cast<std::uint64_t>(whole) + 1;
 }
 

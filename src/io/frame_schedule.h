@@ -4,8 +4,8 @@
 
 namespace aspic {
 
-/// Picture f shows the state nearest to f·speed/fps seconds after the run's first state; the last picture shows the
-/// run's last state, so that it may come less than a picture's time after the one before.
+/// Picture f shows the state nearest to f·speed/fps seconds after the run's first state; the last picture
+/// shows the run's last state, so that it may come less than a picture's time after the one before.
 class FrameSchedule {
  public:
   /// h: time step [s], > 0. `first_step` ≤ `last_step`. fps: pictures per second shown, > 0; speed: simulated

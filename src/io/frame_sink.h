@@ -14,12 +14,13 @@ struct PictureSize {
   int height = 720;
 };
 
-/// Takes the pictures of a run in order. One that is destroyed before finish() leaves nothing that looks whole.
+/// Takes the pictures of a run in order. One that is destroyed before finish() leaves nothing that looks
+/// whole.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  /// height·width·3 bytes RGB, sRGB encoded, rows from the top down. Error (io): it cannot be written; the sink
-  /// takes no more.
+  /// height·width·3 bytes RGB, sRGB encoded, rows from the top down. Error (io): it cannot be written; the
+  /// sink takes no more.
   virtual Status write(std::span<const std::byte> rgb) = 0;
   /// Completes the output. Error (io).
   virtual Status finish() = 0;

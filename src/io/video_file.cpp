@@ -15,16 +15,17 @@ constexpr double gif_fps_limit = 50.0;  // shortest picture that viewers honour:
 
 /// What ffmpeg is told about the output; sRGB in, BT.709 video range out.
 std::vector<std::string> encoding(VideoFormat format) {
-  const std::vector<std::string> colour = {"-vf",
-                                           "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd,format=yuv420p",
-                                           "-colorspace",
-                                           "bt709",
-                                           "-color_primaries",
-                                           "bt709",
-                                           "-color_trc",
-                                           "iec61966-2-1",
-                                           "-color_range",
-                                           "tv"};
+  const std::vector<std::string> colour = {
+      "-vf",
+      "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd,format=yuv420p",
+      "-colorspace",
+      "bt709",
+      "-color_primaries",
+      "bt709",
+      "-color_trc",
+      "iec61966-2-1",
+      "-color_range",
+      "tv"};
   std::vector<std::string> words;
   switch (format) {
     case VideoFormat::mp4:
@@ -33,13 +34,15 @@ std::vector<std::string> encoding(VideoFormat format) {
       words.insert(words.end(), {"-f", "mp4"});
       break;
     case VideoFormat::webm:
-      words = {"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-deadline", "good", "-cpu-used", "4", "-row-mt", "1"};
+      words = {"-c:v",      "libvpx-vp9", "-crf",      "28", "-b:v",    "0",
+               "-deadline", "good",       "-cpu-used", "4",  "-row-mt", "1"};
       words.insert(words.end(), colour.begin(), colour.end());
       words.insert(words.end(), {"-f", "webm"});
       break;
     case VideoFormat::gif:
-      words = {"-vf", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=sierra2_4a", "-loop", "0",
-               "-f",  "gif"};
+      words = {"-vf",   "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=sierra2_4a",
+               "-loop", "0",
+               "-f",    "gif"};
       break;
   }
   return words;
@@ -71,10 +74,11 @@ class VideoFile : public FrameSink {
                                               : fmt::format("ended with exit code {}", end.exit_code);
       const std::string said = ffmpeg_->last_lines(6);
       path_ = file_->path();
-      reason_ = fmt::format("the video {} could not be made: ffmpeg {}{}{}Check the disk and that ffmpeg has the encoder "
-                            "(the Debian package ffmpeg has it), or write pictures with --frames.",
-                            path_, how, said.empty() ? " without a word." : fmt::format(" and said\n{}", said),
-                            said.empty() ? " " : "");
+      reason_ = fmt::format(
+          "the video {} could not be made: ffmpeg {}{}{}Check the disk and that ffmpeg has the encoder "
+          "(the Debian package ffmpeg has it), or write pictures with --frames.",
+          path_, how, said.empty() ? " without a word." : fmt::format(" and said\n{}", said),
+          said.empty() ? " " : "");
       ffmpeg_.reset();
       file_.reset();  // removes the temporary file
     }
@@ -91,12 +95,14 @@ class VideoFile : public FrameSink {
 Result<VideoFormat> video_format_of(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   std::string end = dot == std::string::npos ? "" : path.substr(dot);
-  std::ranges::transform(end, end.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(end, end.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (end == ".mp4") return VideoFormat::mp4;
   if (end == ".webm") return VideoFormat::webm;
   if (end == ".gif") return VideoFormat::gif;
-  return Error{ErrorCode::usage,
-               fmt::format("the video's name {} must end in .mp4, .webm or .gif, which says its format.", path)};
+  return Error{
+      ErrorCode::usage,
+      fmt::format("the video's name {} must end in .mp4, .webm or .gif, which says its format.", path)};
 }
 
 double default_fps(VideoFormat format) {
@@ -106,14 +112,16 @@ double default_fps(VideoFormat format) {
 Status check_video(VideoFormat format, const PictureSize& size, double fps) {
   if (format == VideoFormat::gif) {
     if (fps <= gif_fps_limit) return {};
-    return Error{ErrorCode::usage, fmt::format("a GIF shows at most {} pictures a second, not {}: give --fps 50 or less.",
-                                               gif_fps_limit, fps)};
+    return Error{ErrorCode::usage,
+                 fmt::format("a GIF shows at most {} pictures a second, not {}: give --fps 50 or less.",
+                             gif_fps_limit, fps)};
   }
   if (size.width % 2 == 0 && size.height % 2 == 0) return {};
-  return Error{ErrorCode::usage, fmt::format("a video stores colour for squares of 2 x 2 pixels, so that --size {}x{} is not "
-                                             "possible: give an even width and height, {}x{} say.",
-                                             size.width, size.height, size.width + size.width % 2,
-                                             size.height + size.height % 2)};
+  return Error{
+      ErrorCode::usage,
+      fmt::format("a video stores colour for squares of 2 x 2 pixels, so that --size {}x{} is not "
+                  "possible: give an even width and height, {}x{} say.",
+                  size.width, size.height, size.width + size.width % 2, size.height + size.height % 2)};
 }
 
 Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const PictureSize& size, double fps,
@@ -125,19 +133,34 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Pic
   if (!file) return file.error();
   if (file->temporary_path().empty())
     return Error{ErrorCode::io, fmt::format("{} is a device or a pipe, but a video needs a file.", path)};
-  std::vector<std::string> words = {"ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-xerror", "-y",
-                                    "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
-                                    fmt::format("{}x{}", size.width, size.height), "-framerate", fmt::format("{}", fps),
-                                    "-i", "pipe:0", "-an"};
+  std::vector<std::string> words = {"ffmpeg",
+                                    "-hide_banner",
+                                    "-nostdin",
+                                    "-loglevel",
+                                    "error",
+                                    "-xerror",
+                                    "-y",
+                                    "-f",
+                                    "rawvideo",
+                                    "-pixel_format",
+                                    "rgb24",
+                                    "-video_size",
+                                    fmt::format("{}x{}", size.width, size.height),
+                                    "-framerate",
+                                    fmt::format("{}", fps),
+                                    "-i",
+                                    "pipe:0",
+                                    "-an"};
   const std::vector<std::string> output = encoding(*format);
   words.insert(words.end(), output.begin(), output.end());
   words.push_back("file:" + file->temporary_path());
   auto ffmpeg = ChildProcess::start(words);
   if (!ffmpeg)
-    return Error{ErrorCode::io,
-                 fmt::format("the video {} cannot be made: {} Videos need the program ffmpeg on PATH: install it with "
-                             "apt install ffmpeg, or write pictures with --frames.",
-                             path, ffmpeg.error().message)};
+    return Error{
+        ErrorCode::io,
+        fmt::format("the video {} cannot be made: {} Videos need the program ffmpeg on PATH: install it with "
+                    "apt install ffmpeg, or write pictures with --frames.",
+                    path, ffmpeg.error().message)};
   return std::unique_ptr<FrameSink>(std::make_unique<VideoFile>(std::move(*file), std::move(*ffmpeg)));
 }
 

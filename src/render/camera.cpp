@@ -24,7 +24,8 @@ Camera::Camera(const CameraSettings& settings, int width, int height)
   const glm::vec3 forward = (target - eye_) / target_distance_;
   const glm::vec3 up = std::abs(forward.y) > 0.99999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
   view_ = glm::lookAt(eye_, target, up);
-  // The near plane follows the distance, so that depth has the same relative resolution in scenes of any size.
+  // The near plane follows the distance, so that depth has the same relative resolution in scenes of any
+  // size.
   const float near = target_distance_ / 200.0f;
   projection_ = glm::perspective(glm::radians(static_cast<float>(settings.fov)),
                                  static_cast<float>(width) / static_cast<float>(height), near,

@@ -101,9 +101,10 @@ Colour spring_colour(SpringType type) {
 }
 
 Colour body_colour(std::size_t body) {
-  static const std::array<Colour, 8> palette = {
-      encoded(0.93, 0.22, 0.30), encoded(0.35, 0.80, 0.30), encoded(0.98, 0.62, 0.16), encoded(0.30, 0.52, 0.95),
-      encoded(0.72, 0.36, 0.90), encoded(0.15, 0.78, 0.74), encoded(0.96, 0.42, 0.66), encoded(0.90, 0.84, 0.22)};
+  static const std::array<Colour, 8> palette = {encoded(0.93, 0.22, 0.30), encoded(0.35, 0.80, 0.30),
+                                                encoded(0.98, 0.62, 0.16), encoded(0.30, 0.52, 0.95),
+                                                encoded(0.72, 0.36, 0.90), encoded(0.15, 0.78, 0.74),
+                                                encoded(0.96, 0.42, 0.66), encoded(0.90, 0.84, 0.22)};
   return palette[body % palette.size()];
 }
 

@@ -28,7 +28,11 @@ std::vector<char32_t> character_set() {
 
 char32_t next_character(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t size = first < 0x80 ? 1 : (first >> 5) == 6 ? 2 : (first >> 4) == 14 ? 3 : (first >> 3) == 30 ? 4 : 0;
+  const std::size_t size = first < 0x80         ? 1
+                           : (first >> 5) == 6  ? 2
+                           : (first >> 4) == 14 ? 3
+                           : (first >> 3) == 30 ? 4
+                                                : 0;
   if (size == 0 || size > text.size()) {
     text.remove_prefix(1);
     return 0xfffd;

@@ -23,8 +23,8 @@ class Font {
   explicit Font(int pixel_height);
 
   int pixel_height() const { return pixel_height_; }
-  int ascent() const { return ascent_; }              ///< from the top of a line to its baseline [pixels]
-  int line_height() const { return line_height_; }    ///< from baseline to baseline [pixels]
+  int ascent() const { return ascent_; }            ///< from the top of a line to its baseline [pixels]
+  int line_height() const { return line_height_; }  ///< from baseline to baseline [pixels]
   /// The character, or the question mark's where the font sheet lacks it.
   const Glyph& glyph(char32_t character) const;
   /// Width of a line of UTF-8 text, kerning left out [pixels].

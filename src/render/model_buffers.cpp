@@ -101,7 +101,8 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   return b;
 }
 
-Status ModelBuffers::upload(gl::Context& context, const Model& model, const State& state, gl::Buffer& particles) {
+Status ModelBuffers::upload(gl::Context& context, const Model& model, const State& state,
+                            gl::Buffer& particles) {
   assert(state.position.size() == model.particle_count() && state.velocity.size() == model.particle_count());
   std::vector<std::array<float, 8>> items(state.position.size());
   const auto narrow = [](double v) { return static_cast<float>(v); };
@@ -151,8 +152,8 @@ void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const gl:
   gl::Pass(programs.bounds, {{BINDING_PARTICLES, &particles}, {BINDING_BOUNDS, &bounds_}},
            Reader::compute_pass | Reader::copy)
       .dispatch_for(particle_count_);
-  gl::Pass(programs.light_boxes,
-           {{BINDING_BOUNDS, &bounds_}, {BINDING_LIGHT_BOXES_OUT, &light_boxes_}}, Reader::uniform)
+  gl::Pass(programs.light_boxes, {{BINDING_BOUNDS, &bounds_}, {BINDING_LIGHT_BOXES_OUT, &light_boxes_}},
+           Reader::uniform)
       .dispatch_for(LIGHTS);
 }
 

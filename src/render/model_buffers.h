@@ -43,7 +43,9 @@ class ModelBuffers {
   /// Inputs of the skin's, the particles' and the springs' shaders.
   gl::VertexArray skin_array(const gl::Buffer& particles) const { return array(particles, &skin_indices_); }
   gl::VertexArray particle_array(const gl::Buffer& particles) const { return array(particles, nullptr); }
-  gl::VertexArray spring_array(const gl::Buffer& particles) const { return array(particles, &spring_indices_); }
+  gl::VertexArray spring_array(const gl::Buffer& particles) const {
+    return array(particles, &spring_indices_);
+  }
 
   std::uint32_t particle_count() const { return particle_count_; }
   const std::vector<Surface::Part>& parts() const { return parts_; }

@@ -29,8 +29,8 @@ constexpr float glyph_shape = 0.0f, panel_shape = 1.0f, scale_shape = 2.0f;
 
 Result<OverlayPainter> OverlayPainter::create(gl::Context& context, const gl::ShaderLibrary& library) {
   OverlayPainter painter(context);
-  auto program = gl::Program::graphics(
-      context, library, {.vertex = "render/overlay.vert", .fragment = "render/overlay.frag"});
+  auto program = gl::Program::graphics(context, library,
+                                       {.vertex = "render/overlay.vert", .fragment = "render/overlay.frag"});
   if (!program) return program.error();
   painter.program_ = std::move(*program);
   return painter;
@@ -52,13 +52,13 @@ Status OverlayPainter::prepare_font(int pixel_height) {
 void OverlayPainter::rectangle(float x, float y, float width, float height, const std::array<float, 4>& uv,
                                const std::array<float, 4>& tint, const std::array<float, 4>& shape) {
   const auto vertex = [&](bool right, bool low) {
-    pending_.push_back({{x + (right ? width : 0.0f), y + (low ? height : 0.0f), right ? uv[2] : uv[0],
-                         low ? uv[3] : uv[1]},
-                        tint,
-                        shape});
+    pending_.push_back(
+        {{x + (right ? width : 0.0f), y + (low ? height : 0.0f), right ? uv[2] : uv[0], low ? uv[3] : uv[1]},
+         tint,
+         shape});
   };
-  for (const auto& [right, low] : {std::pair(false, false), {false, true}, {true, false}, {true, false},
-                                   {false, true}, {true, true}})
+  for (const auto& [right, low] :
+       {std::pair(false, false), {false, true}, {true, false}, {true, false}, {false, true}, {true, true}})
     vertex(right, low);
 }
 
@@ -110,11 +110,13 @@ void OverlayPainter::scale(const Legend& legend, float picture_width, float pict
   const float inset = std::round(padding * em);
   const bool bar = legend.entries.empty();
   float width = font_->width_of(legend.title);
-  for (const Legend::Entry& entry : legend.entries) width = std::max(width, 1.6f * em + font_->width_of(entry.name));
+  for (const Legend::Entry& entry : legend.entries)
+    width = std::max(width, 1.6f * em + font_->width_of(entry.name));
   if (bar) width = std::max(width, bar_width * em);
   width = std::ceil(width);
   const float rows = 1.0f + (bar ? 1.0f : static_cast<float>(legend.entries.size()));
-  const float height = rows * step + (bar ? std::round((bar_height + 0.3f) * em) : 0.0f) + 2 * inset - (step - em);
+  const float height =
+      rows * step + (bar ? std::round((bar_height + 0.3f) * em) : 0.0f) + 2 * inset - (step - em);
   const float left = std::round(picture_width - margin * em - width - 2 * inset);
   const float top = std::round(picture_height - margin * em - height);
   panel(left, top, width + 2 * inset, height);
@@ -126,7 +128,8 @@ void OverlayPainter::scale(const Legend& legend, float picture_width, float pict
     const float size = std::round(0.8f * em);
     const std::array<float, 4> tint = {entry.colour[0], entry.colour[1], entry.colour[2], 1.0f};
     const float h = 0.5f * size;
-    rectangle(x, y + std::round(0.12f * em), size, size, {-h, -h, h, h}, tint, {panel_shape, h, h, 0.25f * size});
+    rectangle(x, y + std::round(0.12f * em), size, size, {-h, -h, h, h}, tint,
+              {panel_shape, h, h, 0.25f * size});
     text(x + 1.6f * em, y, entry.name, bright);
     y += step;
   }

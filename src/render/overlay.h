@@ -37,9 +37,9 @@ class OverlayPainter {
  public:
   static Result<OverlayPainter> create(gl::Context& context, const gl::ShaderLibrary& library);
 
-  /// Draws over `picture`, an sRGB image; text height is a fixed fraction of its height, 11 pixels at least. The
-  /// colour map must be bound to its unit and the frame block to its binding. Leaves blending off.
-  /// Error (scene_rejected): no device memory.
+  /// Draws over `picture`, an sRGB image; text height is a fixed fraction of its height, 11 pixels at least.
+  /// The colour map must be bound to its unit and the frame block to its binding. Leaves blending off. Error
+  /// (scene_rejected): no device memory.
   Status draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines, const Legend& legend);
 
  private:

@@ -67,14 +67,16 @@ std::vector<OverlayLine> overlay_lines(const ModelSettings& settings, double tim
     const CubeSettings& cube = settings.cubes.front();
     SpringSettings structural = cube.structural, shear = cube.shear, bending = cube.bending;
     if (cube.material)
-      structural = shear = bending = material_springs(*cube.material, cube.particles_per_edge, cube.edge_length);
+      structural = shear = bending =
+          material_springs(*cube.material, cube.particles_per_edge, cube.edge_length);
     lines.push_back({"structural", springs(structural)});
     lines.push_back({"shear", springs(shear)});
     lines.push_back({"bending", springs(bending)});
     const std::string more =
         settings.cubes.size() > 1 ? fmt::format("   (first of {} cubes)", settings.cubes.size()) : "";
     lines.push_back({"offset", triple(cube.position) + " m" + more});
-    lines.push_back({"rotation", fmt::format("{}° about {}", short_number(cube.rotation.angle), triple(cube.rotation.axis))});
+    lines.push_back({"rotation", fmt::format("{}° about {}", short_number(cube.rotation.angle),
+                                             triple(cube.rotation.axis))});
   }
   lines.push_back({"time", fmt::format("{:.3f} s", time)});
   return lines;

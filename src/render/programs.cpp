@@ -27,8 +27,10 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   kernel(p.normals, "render/normals.comp");
   kernel(p.quantity, "render/quantity.comp");
   drawing(p.light_surface, {"render/light_map.vert", "render/light_map.frag"});
-  drawing(p.light_particles, {"render/light_points.vert", "render/light_points.frag", "render/light_points.geom"});
-  drawing(p.light_springs, {"render/light_points.vert", "render/light_points.frag", "render/light_springs.geom"});
+  drawing(p.light_particles,
+          {"render/light_points.vert", "render/light_points.frag", "render/light_points.geom"});
+  drawing(p.light_springs,
+          {"render/light_points.vert", "render/light_points.frag", "render/light_springs.geom"});
   drawing(p.thickness, {"render/thickness.vert", "render/thickness.frag"});
   drawing(p.jelly_far, {"render/jelly.vert", "render/jelly_far.frag"});
   drawing(p.jelly, {"render/jelly.vert", "render/jelly.frag"});

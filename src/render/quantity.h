@@ -11,11 +11,10 @@ namespace aspic {
 /// Lower and upper end of a colour scale.
 using QuantityRange = std::array<double, 2>;
 
-/// The range shown where none is asked for, a round number that suits the model and stays the same all through
-/// a run, so that colours can be compared between frames:
-/// strain 0…0.2; speed 0 to that of a free fall from the highest particle to the terrain (at least 1 m/s);
-/// force 0 to the one that stretches the stiffest spring by a tenth (at least 1 N).
-/// Other colourings have no range: (0, 1).
+/// The range shown where none is asked for, a round number that suits the model and stays the same all
+/// through a run, so that colours can be compared between frames: strain 0…0.2; speed 0 to that of a free
+/// fall from the highest particle to the terrain (at least 1 m/s); force 0 to the one that stretches the
+/// stiffest spring by a tenth (at least 1 N). Other colourings have no range: (0, 1).
 QuantityRange default_range(const Model& model, ViewColour colour);
 
 /// The smallest of 1, 2, 5 times a power of ten that is not below `value` > 0.

@@ -17,8 +17,8 @@
 namespace aspic {
 namespace {
 
-/// Towards the sun: from behind on the left of the default camera, so that light shines through bodies; from the
-/// right where that would leave a slope in the dark.
+/// Towards the sun: from behind on the left of the default camera, so that light shines through bodies; from
+/// the right where that would leave a slope in the dark.
 glm::vec3 sun_over(const std::vector<Terrain>& terrain) {
   const auto least_slant = [&](const glm::vec3& sun) {
     float least = 1.0f;
@@ -64,7 +64,11 @@ void draw_elements(GLenum mode, std::uint32_t first, std::uint32_t count) {
 
 struct Renderer::Parts {
   Parts(gl::Context& c, RenderPrograms p, OverlayPainter o, TerrainPainter t, LightMaps l)
-      : context(&c), programs(std::move(p)), overlay(std::move(o)), terrain(std::move(t)), lights(std::move(l)) {}
+      : context(&c),
+        programs(std::move(p)),
+        overlay(std::move(o)),
+        terrain(std::move(t)),
+        lights(std::move(l)) {}
 
   gl::Context* context;
   RenderPrograms programs;
@@ -102,8 +106,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
   if (!terrain) return terrain.error();
   auto lights = LightMaps::create(context);
   if (!lights) return lights.error();
-  auto parts = std::make_unique<Parts>(context, std::move(*programs), std::move(*overlay), std::move(*terrain),
-                                       std::move(*lights));
+  auto parts = std::make_unique<Parts>(context, std::move(*programs), std::move(*overlay),
+                                       std::move(*terrain), std::move(*lights));
   auto map = gl::Texture::create(context, "colour map", {.width = 256, .height = 1});
   if (!map) return map.error();
   map->upload(colour_map_texels());
@@ -135,7 +139,8 @@ Result<const gl::Buffer*> Renderer::upload(const State& state) {
 }
 
 Status Renderer::Parts::prepare_targets(int width, int height) {
-  if (targets && targets->picture.colour.width() == width && targets->picture.colour.height() == height) return {};
+  if (targets && targets->picture.colour.width() == width && targets->picture.colour.height() == height)
+    return {};
   targets.reset();
   auto made = PictureTargets::create(*context, width, height, samples);
   if (!made) return made.error();
@@ -215,7 +220,8 @@ void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
   glUseProgram(programs.thickness.id());
   const gl::VertexArray skin = buffers->skin_array(particles);
   skin.bind();
-  for (const Surface::Part& part : buffers->parts()) draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
+  for (const Surface::Part& part : buffers->parts())
+    draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
   glDisable(GL_BLEND);
   targets->thickness.colour.bind(UNIT_THICKNESS);
 }
@@ -249,7 +255,8 @@ void Renderer::Parts::draw_springs(const gl::Buffer& particles, const DrawSettin
   }
 }
 
-void Renderer::Parts::draw_jelly(const gl::Buffer& particles, const ViewSettings& view, JellySide side) const {
+void Renderer::Parts::draw_jelly(const gl::Buffer& particles, const ViewSettings& view,
+                                 JellySide side) const {
   const gl::Program& program = side == JellySide::far ? programs.jelly_far : programs.jelly;
   glEnable(GL_CULL_FACE);
   glCullFace(side == JellySide::far ? GL_FRONT : GL_BACK);
@@ -347,8 +354,8 @@ void Renderer::present(std::uint32_t framebuffer, int width, int height) const {
 
 std::vector<Vec3> Renderer::normals() const {
   std::vector<Vec3> result;
-  for (const auto& n : parts_->buffers->normals().download_items<std::array<float, 4>>(
-           parts_->buffers->particle_count()))
+  for (const auto& n :
+       parts_->buffers->normals().download_items<std::array<float, 4>>(parts_->buffers->particle_count()))
     result.push_back({static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
   return result;
 }

@@ -19,7 +19,7 @@
 namespace aspic {
 
 struct RendererOptions {
-  int samples = 4;              ///< per pixel, 1 … what the device offers; fewer are taken where it has fewer
+  int samples = 4;  ///< per pixel, 1 … what the device offers; fewer are taken where it has fewer
   gl::ShaderLibrary shaders{};  ///< where shaders come from
 };
 
@@ -51,9 +51,9 @@ class Renderer {
   /// Error (scene_rejected): no device memory.
   Result<const gl::Buffer*> upload(const State& state);
 
-  /// Draws width × height pixels. `particles` holds the model's particles, 32 bytes each: position and inverse
-  /// mass, velocity and mass (GpuSolver::particles() is such a buffer). Legal after set_model.
-  /// Error: scene_rejected or no_device, a picture of this size cannot be made.
+  /// Draws width × height pixels. `particles` holds the model's particles, 32 bytes each: position and
+  /// inverse mass, velocity and mass (GpuSolver::particles() is such a buffer). Legal after set_model. Error:
+  /// scene_rejected or no_device, a picture of this size cannot be made.
   Status draw(int width, int height, const gl::Buffer& particles, const PictureOptions& options);
 
   /// The picture last drawn: one sample, sRGB encoded values. Legal after draw().

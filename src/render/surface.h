@@ -16,8 +16,8 @@ struct Surface {
   std::vector<Part> parts;             ///< by body, in the order of Model::bodies
 
   /// The fans: vertex i of the skin is particle fan_vertex[i]; at it meet the quads
-  /// fan_start[i] … fan_start[i + 1] − 1, of each of which `fan` holds the vertex's next and previous neighbour
-  /// (two words).
+  /// fan_start[i] … fan_start[i + 1] − 1, of each of which `fan` holds the vertex's next and previous
+  /// neighbour (two words).
   std::vector<std::uint32_t> fan_vertex, fan_start, fan;
 };
 

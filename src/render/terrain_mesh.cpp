@@ -50,7 +50,9 @@ Mesh sphere_mesh(int rings, int sectors) {
                                static_cast<float>(std::sin(polar) * std::sin(around)), 1.0f});
     }
   }
-  const auto index = [&](int ring, int sector) { return static_cast<std::uint32_t>(ring * (sectors + 1) + sector); };
+  const auto index = [&](int ring, int sector) {
+    return static_cast<std::uint32_t>(ring * (sectors + 1) + sector);
+  };
   for (int ring = 0; ring < rings; ++ring) {
     for (int sector = 0; sector < sectors; ++sector) {
       const std::uint32_t a = index(ring, sector), b = index(ring, sector + 1);

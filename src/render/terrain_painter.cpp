@@ -128,7 +128,8 @@ void TerrainPainter::draw_bowls(const RenderPrograms& programs, const std::vecto
   glBindVertexArray(0);
 }
 
-void TerrainPainter::draw_far_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain) const {
+void TerrainPainter::draw_far_glass(const RenderPrograms& programs,
+                                    const std::vector<Terrain>& terrain) const {
   draw_bowls(programs, terrain, true);
 }
 

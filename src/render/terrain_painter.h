@@ -2,12 +2,12 @@
 // Ground, balls and bowls.
 #include <vector>
 
+#include "gpu/buffer.h"
+#include "gpu/texture.h"
+#include "gpu/vertex_array.h"
 #include "model/model.h"
 #include "render/camera.h"
 #include "render/programs.h"
-#include "gpu/texture.h"
-#include "gpu/vertex_array.h"
-#include "gpu/buffer.h"
 
 namespace aspic {
 
@@ -17,8 +17,8 @@ class TerrainPainter {
   static Result<TerrainPainter> create(gl::Context& context);
 
   /// Solid balls, and planes as seen from their free side.
-  void draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain, const CameraSettings& camera,
-                  const Camera& lens) const;
+  void draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
+                  const CameraSettings& camera, const Camera& lens) const;
   /// The far walls of bowls, before the bodies.
   void draw_far_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain) const;
   /// After the bodies: the near walls of bowls, and planes seen through from behind.

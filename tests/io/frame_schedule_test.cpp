@@ -34,7 +34,8 @@ TEST(FrameSchedule, SlowMotionShowsAStepSeveralTimes) {
   EXPECT_EQ(schedule.step_of(1), 10u);
   for (std::uint64_t f = 1; f < schedule.count(); ++f) {
     EXPECT_GE(schedule.step_of(f), schedule.step_of(f - 1));
-    EXPECT_LE(std::abs(static_cast<double>(schedule.step_of(f)) - 10 - static_cast<double>(f) / 2.4), 0.5 + 1e-12);
+    EXPECT_LE(std::abs(static_cast<double>(schedule.step_of(f)) - 10 - static_cast<double>(f) / 2.4),
+              0.5 + 1e-12);
   }
 }
 

@@ -5,8 +5,8 @@
 namespace aspic {
 namespace {
 
-// Matrices are single precision: a pixel of a thousand is a few units in the last place of its coordinate, times the
-// handful of products of a projection.
+// Matrices are single precision: a pixel of a thousand is a few units in the last place of its coordinate,
+// times the handful of products of a projection.
 constexpr double pixel_tolerance = 1000.0 * 64 * 0x1p-24;
 
 TEST(Camera, TargetIsInTheMiddle) {

@@ -37,8 +37,8 @@ TEST(ColourMap, OklabOfWhiteIsWhite) {
 TEST(ColourMap, IsPerceptuallyUniform) {
   const auto texels = colour_map_texels();
   ASSERT_EQ(texels.size(), 4u * 256);
-  // Sixteen texels apart, so that rounding to 8 bits (half a step of 1/255 per channel, under 0.003 in Oklab) is
-  // small beside the distance.
+  // Sixteen texels apart, so that rounding to 8 bits (half a step of 1/255 per channel, under 0.003 in Oklab)
+  // is small beside the distance.
   std::vector<double> steps;
   double lightness = -1.0;
   for (std::size_t i = 0; i + 15 < 256; i += 15) {

@@ -1,6 +1,6 @@
-// The default view of every built-in scene at a stated step, 640 × 360, on Mesa's software rasteriser. To take new
-// pictures as golden: ASPIC_UPDATE_GOLDEN=1 build/release/tests/render/render_tests --gtest_filter='Golden*', then look
-// at tests/golden/*.png before committing them.
+// The default view of every built-in scene at a stated step, 640 × 360, on Mesa's software rasteriser. To
+// take new pictures as golden: ASPIC_UPDATE_GOLDEN=1 build/release/tests/render/render_tests
+// --gtest_filter='Golden*', then look at tests/golden/*.png before committing them.
 #include <gtest/gtest.h>
 
 #include "render/overlay_text.h"
@@ -20,6 +20,10 @@ struct Shot {
   std::string name = {};
 };
 
+void PrintTo(const Shot& shot, std::ostream* out) {
+  *out << shot.scene << " at step " << shot.step;
+}
+
 class Golden : public test::Studio, public ::testing::WithParamInterface<Shot> {};
 
 TEST_P(Golden, Picture) {
@@ -37,13 +41,13 @@ TEST_P(Golden, Picture) {
 INSTANTIATE_TEST_SUITE_P(
     Scenes, Golden,
     ::testing::Values(Shot{"cube-plane", 1500}, Shot{"cube-tilted-plane", 1300}, Shot{"cube-sphere", 1000},
-                    Shot{"cube-bowl", 1300}, Shot{"large-cube", 0},
-                    Shot{"cube-plane", 1500, {"view.colour=strain"}, "strain"},
-                    Shot{"cube-plane",
-                         1500,
-                         {"view.draw=[\"solid\", \"particles\", \"structural\", \"shear\", \"bending\"]",
-                          "cube[0].pinned=[\"top\"]", "cube[0].position=[0.0, 2.0, 0.0]"},
-                         "springs"}),
+                      Shot{"cube-bowl", 1300}, Shot{"large-cube", 0},
+                      Shot{"cube-plane", 1500, {"view.colour=strain"}, "strain"},
+                      Shot{"cube-plane",
+                           1500,
+                           {"view.draw=[\"solid\", \"particles\", \"structural\", \"shear\", \"bending\"]",
+                            "cube[0].pinned=[\"top\"]", "cube[0].position=[0.0, 2.0, 0.0]"},
+                           "springs"}),
     [](const ::testing::TestParamInfo<Shot>& shot) {
       std::string name = shot.param.name.empty() ? shot.param.scene : shot.param.name;
       std::erase(name, '-');

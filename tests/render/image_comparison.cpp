@@ -13,7 +13,8 @@ namespace {
 
 void write(const std::string& path, const Image& image) {
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  ASSERT_NE(stbi_write_png(path.c_str(), image.width, image.height, 3, image.rgb.data(), 3 * image.width), 0) << path;
+  ASSERT_NE(stbi_write_png(path.c_str(), image.width, image.height, 3, image.rgb.data(), 3 * image.width), 0)
+      << path;
 }
 
 }  // namespace
@@ -41,7 +42,8 @@ void expect_golden(const Image& image, const std::string& name, int tolerance) {
   for (std::size_t pixel = 0; pixel < image.rgb.size(); pixel += 3) {
     int worst = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      const int off = std::abs(std::to_integer<int>(image.rgb[pixel + c]) - static_cast<int>(golden[pixel + c]));
+      const int off =
+          std::abs(std::to_integer<int>(image.rgb[pixel + c]) - static_cast<int>(golden[pixel + c]));
       difference.rgb[pixel + c] = static_cast<std::byte>(std::min(255, 8 * off));
       worst = std::max(worst, off);
     }
@@ -52,9 +54,9 @@ void expect_golden(const Image& image, const std::string& name, int tolerance) {
   if (failing == 0) return;
   write(actual_path, image);
   write(difference_path, difference);
-  ADD_FAILURE() << failing << " pixels of " << name << " differ from the golden picture by more than " << tolerance
-                << "/255, the worst by " << largest << "; see " << actual_path << " and " << difference_path
-                << ". If the change is meant, run with ASPIC_UPDATE_GOLDEN=1.";
+  ADD_FAILURE() << failing << " pixels of " << name << " differ from the golden picture by more than "
+                << tolerance << "/255, the worst by " << largest << "; see " << actual_path << " and "
+                << difference_path << ". If the change is meant, run with ASPIC_UPDATE_GOLDEN=1.";
 }
 
 }  // namespace aspic::test

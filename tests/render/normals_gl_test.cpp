@@ -46,8 +46,8 @@ TEST_F(Normals, CubeBlownUpToASphereHasRadialNormals) {
     if (length(normals[i]) == 0.0) continue;
     worst = std::max(worst, length(normals[i] - state.position[i] / length(state.position[i])));
   }
-  // Quads on the unit sphere span up to δ = 2/16 rad. Where their sizes change along the surface, or a cube's edge
-  // bends them, the sum leans by a first-order share of δ: no more than δ itself.
+  // Quads on the unit sphere span up to δ = 2/16 rad. Where their sizes change along the surface, or a cube's
+  // edge bends them, the sum leans by a first-order share of δ: no more than δ itself.
   EXPECT_LT(worst, 2.0 / 16);
   EXPECT_GT(worst, 0.0);
 }

@@ -25,7 +25,8 @@ class Studio : public testing::GlTest {
   Renderer& renderer() { return *renderer_; }
 
   /// Draws a state and reads it back.
-  Image draw(const Model& model, const State& state, const PictureOptions& options, int width = 640, int height = 360) {
+  Image draw(const Model& model, const State& state, const PictureOptions& options, int width = 640,
+             int height = 360) {
     Image image{width, height, {}};
     const Status taken = renderer_->set_model(model);
     EXPECT_TRUE(taken.ok());

@@ -20,7 +20,8 @@ TEST(Surface, CubeHasAClosedSkinThatFacesOutwards) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   double volume = 0.0;
   for (std::size_t t = 0; t < surface.indices.size(); t += 3) {
-    const std::array<std::uint32_t, 3> corner = {surface.indices[t], surface.indices[t + 1], surface.indices[t + 2]};
+    const std::array<std::uint32_t, 3> corner = {surface.indices[t], surface.indices[t + 1],
+                                                 surface.indices[t + 2]};
     for (std::size_t i = 0; i < 3; ++i) ++edges[{corner[i], corner[(i + 1) % 3]}];
     const auto& x = model.initial_position;
     volume += dot(x[corner[0]], cross(x[corner[1]], x[corner[2]])) / 6.0;

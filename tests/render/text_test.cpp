@@ -16,7 +16,7 @@ std::string value_of(const std::vector<OverlayLine>& lines, const std::string& l
 
 TEST(Text, SaysWhatTheSceneIs) {
   ModelSettings settings;
-  settings.terrain.push_back({.shape = TerrainShape::tilted_plane});
+  settings.terrain.emplace_back().shape = TerrainShape::tilted_plane;
   settings.simulation.integrator = Integrator::runge_kutta_4;
   settings.simulation.timestep = 0.0005;
   CubeSettings cube;
@@ -57,7 +57,8 @@ TEST(Text, ReadsUtf8) {
 
 TEST(Font, HasEverySignOfTheOverlay) {
   const Font font(17);
-  for (const char32_t c : std::u32string(U"azAZ09°·–−≥%√²")) EXPECT_NE(&font.glyph(c), &font.glyph(U'?')) << static_cast<unsigned>(c);
+  for (const char32_t c : std::u32string(U"azAZ09°·–−≥%√²"))
+    EXPECT_NE(&font.glyph(c), &font.glyph(U'?')) << static_cast<unsigned>(c);
   EXPECT_EQ(&font.glyph(0x4e00), &font.glyph(U'?'));
 }
 
@@ -68,8 +69,10 @@ TEST(Font, GlyphsLieApartInTheAtlasAndHaveInk) {
   int ink = 0;
   for (int y = 0; y < g.height; ++y)
     for (int x = 0; x < g.width; ++x)
-      ink += std::to_integer<int>(
-                 font.atlas()[static_cast<std::size_t>((g.atlas_y + y) * font.atlas_width() + g.atlas_x + x)]) > 128;
+      ink +=
+          std::to_integer<int>(
+              font.atlas()[static_cast<std::size_t>((g.atlas_y + y) * font.atlas_width() + g.atlas_x + x)]) >
+          128;
   // Two stems and a bar: some two fifths of the box.
   EXPECT_GT(ink, g.width * g.height / 5);
   EXPECT_LT(ink, g.width * g.height * 3 / 4);
