@@ -20,18 +20,22 @@ void main() {
   if (i < particle_count) {
     for (int light = 0; light < LIGHTS; ++light) {
       vec3 p = mat3(lights[light]) * particles[i].position.xyz;
-      for (int axis = 0; axis < 3; ++axis) {
-        atomicMin(group_lower[light][axis], ordered(p[axis]));
-        atomicMax(group_upper[light][axis], ordered(p[axis]));
-      }
+      atomicMin(group_lower[light].x, ordered(p.x));
+      atomicMin(group_lower[light].y, ordered(p.y));
+      atomicMin(group_lower[light].z, ordered(p.z));
+      atomicMax(group_upper[light].x, ordered(p.x));
+      atomicMax(group_upper[light].y, ordered(p.y));
+      atomicMax(group_upper[light].z, ordered(p.z));
     }
   }
   barrier();
   if (gl_LocalInvocationIndex < uint(LIGHTS)) {
     int light = int(gl_LocalInvocationIndex);
-    for (int axis = 0; axis < 3; ++axis) {
-      atomicMin(bounds[light].lower[axis], group_lower[light][axis]);
-      atomicMax(bounds[light].upper[axis], group_upper[light][axis]);
-    }
+    atomicMin(bounds[light].lower.x, group_lower[light].x);
+    atomicMin(bounds[light].lower.y, group_lower[light].y);
+    atomicMin(bounds[light].lower.z, group_lower[light].z);
+    atomicMax(bounds[light].upper.x, group_upper[light].x);
+    atomicMax(bounds[light].upper.y, group_upper[light].y);
+    atomicMax(bounds[light].upper.z, group_upper[light].z);
   }
 }

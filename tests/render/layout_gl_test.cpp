@@ -36,11 +36,11 @@ TEST_F(RenderLayout, LightBoxesMatchTheDriver) {
   const auto program = gl::Program::compute(context(), gl::ShaderLibrary(), "render/light_boxes.comp");
   ASSERT_TRUE(program.ok()) << program.error().message;
   EXPECT_EQ(program->storage_block_binding("LightBoxes"), BINDING_LIGHT_BOXES_OUT);
-  EXPECT_EQ(program->buffer_variable_offset("LightBoxes.light_boxes[0].depth"),
+  EXPECT_EQ(program->buffer_variable_offset("light_boxes[0].depth"),
             static_cast<int>(offsetof(render_layout::LightBox, depth)));
-  EXPECT_EQ(program->buffer_variable_top_level_stride("LightBoxes.light_boxes[0].centre"),
+  EXPECT_EQ(program->buffer_variable_top_level_stride("light_boxes[0].centre"),
             static_cast<int>(sizeof(render_layout::LightBox)));
-  EXPECT_EQ(program->buffer_variable_offset("BoundsBlock.bounds[0].upper"),
+  EXPECT_EQ(program->buffer_variable_offset("bounds[0].upper"),
             static_cast<int>(offsetof(render_layout::Bounds, upper)));
 }
 
