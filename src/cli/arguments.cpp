@@ -5,10 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <functional>
 #include <string_view>
 
+#include "io/video_file.h"
 #include "scene/diagnostics.h"
 
 namespace aspic::cli {
@@ -29,6 +31,8 @@ Exit codes: 0 ok, 1 comparison failed, 2 usage, 3 scene rejected, 4 no usable GL
 constexpr const char* run_examples = R"(Examples:
   aspic run cube-plane --steps 1000 --json
   aspic run cube-sphere --backend reference --precision double --state end.csv
+  aspic run cube-bowl --video bowl.mp4 --speed 0.5 --view colour=strain
+  aspic run cube-plane --frames out --fps 30 --size 640x360 --no-text
   aspic run cube-plane --duration 2 --checkpoint half.aspic
   aspic run --resume half.aspic --duration 4 --state end.csv)";
 
@@ -61,6 +65,8 @@ struct RawOptions {
   std::vector<std::string> backends = {"gpu", "reference"};
   std::vector<std::string> bench_backends = {"auto"}, bench_force_paths, bench_integrators;
   std::string bench_timestep = "scene";
+  std::string size = "1280x720", frames_format = "png", text = "on";
+  bool no_text = false;
 };
 
 Error usage(std::string message) {
@@ -126,6 +132,33 @@ void add_length(CLI::App& command, RunLength& length) {
       ->excludes(steps);
 }
 
+void add_pictures(CLI::App& command, RecordingOptions& pictures, RawOptions& raw) {
+  command.add_option("--video", pictures.video, "write a video: .mp4, .webm or .gif (needs ffmpeg)")
+      ->type_name("FILE");
+  command.add_option("--frames", pictures.frames, "write numbered pictures into a directory")
+      ->type_name("DIR");
+  command.add_option("--frames-format", raw.frames_format, "png or jpg")
+      ->capture_default_str()
+      ->type_name("NAME");
+  command.add_option("--fps", pictures.fps, "pictures per second shown; default 60, for a GIF 50")
+      ->type_name("F");
+  command.add_option("--speed", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion")
+      ->capture_default_str()
+      ->type_name("X");
+  command.add_option("--size", raw.size, "size of the pictures in pixels")
+      ->capture_default_str()
+      ->type_name("WxH");
+  command.add_option("--text", raw.text, "facts written on the pictures: on or off")
+      ->capture_default_str()
+      ->type_name("on|off");
+  command.add_flag("--no-text", raw.no_text, "the same as --text off");
+  command
+      .add_option("--view", pictures.view,
+                  "set a value of the scene's view, e.g. camera.position=[8,4,12]; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
 CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   CLI::App* c = app.add_subcommand("run", "Simulate a scene headless");
   c->add_option("scene", run.scene, "scene file or built-in name; not needed with --resume")
@@ -148,12 +181,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
       ->type_name("N")
       ->check(not_negative)
       ->needs(series);
-  c->add_option("--video", run.pictures.video, "write a video")->type_name("FILE.mp4");
-  c->add_option("--frames", run.pictures.frames, "write pictures into a directory")->type_name("DIR");
-  c->add_option("--fps", run.pictures.fps, "pictures per second of simulated time")
-      ->capture_default_str()
-      ->type_name("F");
-  c->add_option("--size", run.pictures.size, "size of the pictures")->capture_default_str()->type_name("WxH");
+  add_pictures(*c, run.pictures, raw);
   c->add_option("--checkpoint", run.checkpoint_file, "write scene and final state, to resume from")
       ->type_name("FILE");
   c->add_option("--resume", run.resume_file,
@@ -230,6 +258,43 @@ Status check_length(const RunLength& length) {
   return {};
 }
 
+/// "1280x720". The limits are those that every OpenGL 4.3 device takes.
+Result<PictureSize> parse_size(const std::string& text) {
+  PictureSize size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+    const auto height = std::from_chars(width.ptr + 1, end, size.height);
+    constexpr int least = 16, most = 16384;
+    if (height.ec == std::errc() && height.ptr == end && std::min(size.width, size.height) >= least &&
+        std::max(size.width, size.height) <= most)
+      return size;
+  }
+  return usage(fmt::format(
+      "--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".", text));
+}
+
+Status finish_pictures(RecordingOptions& pictures, const RawOptions& raw) {
+  const auto size = parse_size(raw.size);
+  if (!size) return size.error();
+  pictures.size = *size;
+  if (raw.frames_format != "png" && raw.frames_format != "jpg")
+    return usage(fmt::format("--frames-format must be png or jpg, not \"{}\".", raw.frames_format));
+  pictures.frames_format = raw.frames_format == "png" ? ImageFormat::png : ImageFormat::jpg;
+  if (raw.text != "on" && raw.text != "off")
+    return usage(fmt::format("--text must be on or off, not \"{}\".", raw.text));
+  pictures.text = raw.text == "on" && !raw.no_text;
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  if (pictures.fps && !(positive(*pictures.fps) && *pictures.fps <= 1000.0))
+    return usage(fmt::format("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps));
+  if (!positive(pictures.speed))
+    return usage(fmt::format("--speed must be a finite number above 0, not {}.", pictures.speed));
+  if (pictures.video.empty()) return {};
+  const auto format = video_format_of(pictures.video);
+  if (!format) return format.error();
+  return check_video(*format, pictures.size, pictures.fps.value_or(default_fps(*format)));
+}
+
 Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
   const auto kind = parse_backend_kind(raw.backend);
   if (!kind) return kind.error();
@@ -249,6 +314,7 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
         "a resumed run goes on with the scene of its checkpoint, which --set cannot change. Leave --set out, "
         "or run a scene.");
   }
+  if (const Status pictures = finish_pictures(run.pictures, raw); !pictures) return pictures.error();
   if (const Status choice = check_choice(run.backend); !choice) return choice.error();
   return Command(std::move(run));
 }

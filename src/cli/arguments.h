@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "cli/backends.h"
+#include "io/frame_directory.h"
 #include "model/state.h"
 
 namespace aspic::cli {
@@ -19,10 +20,16 @@ struct RunLength {
 };
 
 /// Pictures of a run.
-struct PictureOptions {
-  std::string video, frames;      ///< file and directory; empty: none
-  double fps = 60.0;              ///< > 0
-  std::string size = "1280x720";  ///< width × height in pixels
+struct RecordingOptions {
+  std::string video, frames;  ///< file and directory; empty: none
+  ImageFormat frames_format = ImageFormat::png;
+  std::optional<double> fps;  ///< pictures per second shown, > 0; absent: 60, a GIF 50
+  double speed = 1.0;         ///< simulated seconds per second shown, > 0
+  PictureSize size;
+  bool text = true;
+  std::vector<std::string> view;  ///< KEY=VALUE of the scene's view table
+
+  bool any() const { return !video.empty() || !frames.empty(); }
 };
 
 struct RunOptions {
@@ -33,7 +40,7 @@ struct RunOptions {
   RunLength length;
   std::string state_file, series_file, checkpoint_file, resume_file;  ///< empty: none
   std::uint64_t every = 1;                                            ///< steps between series rows, ≥ 1
-  PictureOptions pictures;
+  RecordingOptions pictures;
   bool force = false;
   bool json = false;
 };

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/json_report.h"
+#include "cli/recorder.h"
 #include "cli/run_files.h"
 #include "cli/stability_text.h"
 #include "io/checkpoint.h"
@@ -43,18 +44,26 @@ std::string first_difference(const std::string& a, const std::string& b) {
   }
 }
 
+/// --view as --set sees it. A view changes no checkpoint: it is no part of the run.
+std::vector<std::string> with_view(std::vector<std::string> overrides, const std::vector<std::string>& view) {
+  for (const std::string& argument : view) overrides.push_back("view." + argument);
+  return overrides;
+}
+
 Result<Start> load_start(const RunOptions& options) {
   Start start;
   if (options.resume_file.empty()) {
-    auto scene = load_scene(options.scene, options.overrides);
+    const auto scene = load_scene(options.scene, options.overrides);
     if (!scene) return scene.error();
-    start.scene = std::move(*scene);
-    start.scene_toml = to_toml(start.scene);
+    start.scene_toml = to_toml(*scene);
+    auto seen = load_scene(options.scene, with_view(options.overrides, options.pictures.view));
+    if (!seen) return seen.error();
+    start.scene = std::move(*seen);
     return start;
   }
   auto checkpoint = read_checkpoint(options.resume_file);
   if (!checkpoint) return checkpoint.error();
-  auto scene = parse_scene(checkpoint->scene, options.resume_file);
+  auto scene = parse_scene(checkpoint->scene, options.resume_file, with_view({}, options.pictures.view));
   if (!scene) {
     return Error{
         scene.error().code,
@@ -118,7 +127,8 @@ class BatchSize {
   std::uint64_t size_ = 1;
 };
 
-Result<Outcome> simulate(Solver& solver, RunFiles& files, std::uint64_t last_step,
+/// `recorder` is null where no pictures are wanted.
+Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, std::uint64_t last_step,
                          const InterruptGuard& interrupt) {
   const Model& model = solver.model();
   auto state = solver.state();
@@ -135,9 +145,13 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, std::uint64_t last_ste
   BatchSize batch;
   std::uint64_t step = state->step;
   const auto started = Clock::now();
+  if (recorder) {
+    if (const Status shown = recorder->reach(solver, step); !shown) return shown.error();
+  }
   while (step < last_step && !outcome.divergence && !(outcome.interrupted = interrupt.interrupted())) {
     std::uint64_t count = std::min(batch.next(), last_step - step);
     if (interval > 0) count = std::min(count, interval - step % interval);
+    if (recorder) count = std::min(count, recorder->next_step() - step);
     const auto before = Clock::now();
     const auto advanced = solver.advance(count);
     if (!advanced) return advanced.error();
@@ -152,11 +166,18 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, std::uint64_t last_ste
           !row)
         return row.error();
     }
+    if (recorder) {
+      recorder->add_simulation(std::chrono::duration<double>(Clock::now() - before).count());
+      if (const Status shown = recorder->reach(solver, step); !shown) return shown.error();
+    }
     batch.took(count, std::chrono::duration<double>(Clock::now() - before).count());
     bar.update(step);
   }
   state = solver.state();  // waits for the device, so that the time below is that of finished work
   if (!state) return state.error();
+  if (recorder) {
+    if (const Status shown = recorder->finish(solver, state->step); !shown) return shown.error();
+  }
   outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - started).count();
   outcome.state = std::move(*state);
   outcome.solves = solver.solve_statistics();
@@ -170,8 +191,30 @@ JsonObject to_json_object(const Divergence& divergence, double timestep) {
           {"finite", divergence.finite}};
 }
 
+JsonValue to_json_value(const Recorder* recorder) {
+  if (!recorder) return nullptr;
+  const FrameTimes t = recorder->times();
+  return JsonObject{{"count", t.frames},
+                    {"device", recorder->device()},
+                    {"seconds_per_frame", JsonObject{{"simulate", t.per_frame(t.simulate)},
+                                                     {"draw", t.per_frame(t.draw)},
+                                                     {"read", t.per_frame(t.read)},
+                                                     {"encode", t.per_frame(t.encode)}}}};
+}
+
+/// One line on stderr: pictures are by the way, the summary on stdout is the run's.
+void print_frame_times(const Recorder& recorder) {
+  const FrameTimes t = recorder.times();
+  const auto ms = [&](double seconds) { return 1000.0 * t.per_frame(seconds); };
+  print_message(
+      fmt::format("{} pictures on {}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, "
+                  "encode {:.1f} ms.",
+                  t.frames, recorder.device(), ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
+}
+
 Status print_summary(const RunOptions& options, const Scene& scene, const Model& model,
-                     const Backend& backend, const Outcome& outcome, const RunFiles& files) {
+                     const Backend& backend, const Outcome& outcome, const RunFiles& files,
+                     const Recorder* recorder) {
   const State& state = outcome.state;
   const Measures m = measure(model, state);
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
@@ -209,6 +252,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"momentum", JsonArray{m.momentum.x, m.momentum.y, m.momentum.z}},
         {"max_speed", m.max_speed},
         {"min_height", m.min_height},
+        {"pictures", to_json_value(recorder)},
         {"files", written},
     }));
   }
@@ -281,11 +325,6 @@ Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings
 }
 
 Status run_command(const RunOptions& options) {
-  if (!options.pictures.video.empty() || !options.pictures.frames.empty()) {
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("{} is not built yet in version {}: run without it.",
-                             options.pictures.video.empty() ? "--frames" : "--video", ASPIC_VERSION)};
-  }
   const InterruptGuard interrupt;
   auto start = load_start(options);
   if (!start) return start.error();
@@ -311,10 +350,19 @@ Status run_command(const RunOptions& options) {
   }
   warn_if_unstable(*model);
 
-  auto outcome = simulate(*backend->solver, *files, *steps, interrupt);
+  std::unique_ptr<Recorder> recorder;
+  if (options.pictures.any()) {
+    auto made = Recorder::create(options.pictures, start->scene, *model, *backend, files->frame_sinks(),
+                                 start->state ? start->state->step : 0, *steps);
+    if (!made) return made.error();
+    recorder = std::move(*made);
+  }
+  auto outcome = simulate(*backend->solver, *files, recorder.get(), *steps, interrupt);
   if (!outcome) return outcome.error();
   const Status finished = files->finish(*model, start->scene_toml, outcome->state);
-  const Status summary = print_summary(options, start->scene, *model, *backend, *outcome, *files);
+  const Status summary =
+      print_summary(options, start->scene, *model, *backend, *outcome, *files, recorder.get());
+  if (recorder) print_frame_times(*recorder);
   if (!finished) return finished;
   if (!summary) return summary;
   if (outcome->divergence) return divergence_error(*model, *outcome);

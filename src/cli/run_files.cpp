@@ -5,8 +5,10 @@
 #include <array>
 #include <filesystem>
 
+#include "cli/recorder.h"
 #include "io/checkpoint.h"
 #include "io/state_csv.h"
+#include "io/video_file.h"
 
 namespace aspic::cli {
 namespace {
@@ -16,9 +18,10 @@ Status refuse_duplicates(const RunOptions& options) {
     const char* option;
     const std::string* path;
   };
-  const std::array<Named, 3> files = {{{"--state", &options.state_file},
+  const std::array<Named, 4> files = {{{"--state", &options.state_file},
                                        {"--series", &options.series_file},
-                                       {"--checkpoint", &options.checkpoint_file}}};
+                                       {"--checkpoint", &options.checkpoint_file},
+                                       {"--video", &options.pictures.video}}};
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t j = i + 1; j < files.size(); ++j) {
       if (files[i].path->empty() || files[j].path->empty()) continue;
@@ -58,7 +61,25 @@ Result<RunFiles> RunFiles::open(const RunOptions& options, Integrator integrator
     if (!file) return file.error();
     files.checkpoint_ = std::move(*file);
   }
+  const RecordingOptions& pictures = options.pictures;
+  if (!pictures.frames.empty()) {
+    auto frames = open_frame_directory(pictures.frames, pictures.frames_format, pictures.size, overwrite);
+    if (!frames) return frames.error();
+    files.frames_ = std::move(*frames);
+  }
+  if (!pictures.video.empty()) {
+    auto video = open_video(pictures.video, pictures.size, frames_per_second(pictures), overwrite);
+    if (!video) return video.error();
+    files.video_ = std::move(*video);
+  }
   return files;
+}
+
+std::vector<FrameSink*> RunFiles::frame_sinks() const {
+  std::vector<FrameSink*> sinks;
+  for (FrameSink* sink : {video_.get(), frames_.get()})
+    if (sink) sinks.push_back(sink);
+  return sinks;
 }
 
 Status RunFiles::add_row(const Model& model, const State& state, const SolveStatistics& solves) {
@@ -76,6 +97,11 @@ Status RunFiles::finish(const Model& model, const std::string& scene_toml, const
     }
     file.reset();
   };
+  for (std::unique_ptr<FrameSink>* sink : {&video_, &frames_}) {
+    if (!*sink) continue;
+    const std::string path = (*sink)->path();
+    complete(path, {}, *sink, [](FrameSink& s) { return s.finish(); });
+  }
   if (series_) complete(series_path_, {}, series_, [](SeriesWriter& s) { return s.finish(); });
   const auto commit = [](AtomicFile& file) { return file.commit(); };
   if (state_) complete(std::string(state_->path()), write_state_csv(*state_, state), state_, commit);

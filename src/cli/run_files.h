@@ -1,5 +1,6 @@
 #pragma once
 // The output files of a run: opened before it, closed whole after it.
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "base/result.h"
 #include "cli/arguments.h"
 #include "io/atomic_file.h"
+#include "io/frame_sink.h"
 #include "io/series_csv.h"
 
 namespace aspic::cli {
@@ -18,6 +20,8 @@ class RunFiles {
 
   /// Steps between rows of the series; 0 without one.
   std::uint64_t series_interval() const { return series_ ? every_ : 0; }
+  /// Where pictures go; empty without any.
+  std::vector<FrameSink*> frame_sinks() const;
   /// Adds a row of the series, if there is one.
   Status add_row(const Model& model, const State& state, const SolveStatistics& solves);
 
@@ -33,6 +37,7 @@ class RunFiles {
   std::uint64_t every_ = 1;
   std::optional<AtomicFile> state_, checkpoint_;
   std::optional<SeriesWriter> series_;
+  std::unique_ptr<FrameSink> video_, frames_;
   std::string series_path_;
   std::vector<std::string> written_;
 };

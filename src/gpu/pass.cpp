@@ -20,10 +20,6 @@ void bind(const Binding& b) {
   }
 }
 
-void barrier(Reader readers) {
-  if (const std::uint32_t bits = barrier_bits(readers)) glMemoryBarrier(bits);
-}
-
 }  // namespace
 
 std::uint32_t barrier_bits(Reader readers) {
@@ -37,6 +33,10 @@ std::uint32_t barrier_bits(Reader readers) {
   if (set(Reader::indirect)) bits |= GL_COMMAND_BARRIER_BIT;
   if (set(Reader::read_back) || set(Reader::copy)) bits |= GL_BUFFER_UPDATE_BARRIER_BIT;
   return bits;
+}
+
+void barrier(Reader readers) {
+  if (const std::uint32_t bits = barrier_bits(readers)) glMemoryBarrier(bits);
 }
 
 GroupCount groups_for(std::uint32_t count, std::uint32_t group_size) {

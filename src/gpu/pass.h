@@ -26,6 +26,9 @@ constexpr Reader operator|(Reader a, Reader b) {
 /// The bits glMemoryBarrier takes for these readers; 0 for later_barrier alone.
 std::uint32_t barrier_bits(Reader readers);
 
+/// Makes what passes before wrote visible to these readers: for one who did not dispatch them himself.
+void barrier(Reader readers);
+
 /// A buffer at a binding number of a program.
 struct Binding {
   std::uint32_t binding = 0;       ///< `layout(binding = …)`

@@ -4,6 +4,7 @@
 #include <glad/gl.h>
 
 #include <utility>
+#include <vector>
 
 namespace aspic::gl {
 namespace {
@@ -41,38 +42,75 @@ std::string block_names(GLuint program, int count) {
   return names;
 }
 
+/// One shader file with its kind.
+struct StageFile {
+  GLenum kind;
+  std::string_view path;
+};
+
+/// Compiles the files and links them into `program`.
+Status build(GLuint program, Context& context, const ShaderLibrary& library, std::span<const StageFile> files,
+             std::span<const Define> defines) {
+  std::vector<GLuint> shaders;
+  const auto detach_all = [&] {
+    for (const GLuint shader : shaders) {
+      glDetachShader(program, shader);
+      glDeleteShader(shader);
+    }
+  };
+  std::optional<FlatShader> first;
+  std::string names;
+  for (const StageFile& file : files) {
+    Result<FlatShader> source = library.flatten(file.path, defines);
+    if (!source) {
+      detach_all();
+      return source.error();
+    }
+    const GLuint shader = glCreateShader(file.kind);
+    const GLchar* text = source->text().data();
+    const auto length = static_cast<GLint>(source->text().size());
+    glShaderSource(shader, 1, &text, &length);
+    glCompileShader(shader);
+    glAttachShader(program, shader);
+    shaders.push_back(shader);
+    GLint ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (!ok) {
+      const std::string log = source->rewrite_log(shader_log(shader));
+      detach_all();
+      return Error{ErrorCode::no_device, fmt::format("{} does not compile the shader {}:\n{}",
+                                                     context.info().renderer, file.path, log)};
+    }
+    names += fmt::format("{}{}", names.empty() ? "" : " with ", file.path);
+    if (!first) first = std::move(*source);
+  }
+  glLinkProgram(program);
+  detach_all();
+  GLint ok = 0;
+  glGetProgramiv(program, GL_LINK_STATUS, &ok);
+  if (ok) return {};
+  // With several stages a line number does not say whose it is, so only a lone stage's log is translated.
+  const std::string log = program_log(program);
+  return Error{ErrorCode::no_device,
+               fmt::format("{} does not link the shader {}:\n{}", context.info().renderer, names,
+                           files.size() == 1 ? first->rewrite_log(log) : log)};
+}
+
+void label(const Context& context, GLuint program, std::string_view path) {
+  if (context.info().debug)
+    glObjectLabel(GL_PROGRAM, program, static_cast<GLsizei>(path.size()), path.data());
+}
+
 }  // namespace
 
 Result<Program> Program::compute(Context& context, const ShaderLibrary& library, std::string_view path,
                                  std::span<const Define> defines) {
-  const Result<FlatShader> source = library.flatten(path, defines);
-  if (!source) return source.error();
-
   Program program;
   program.path_ = path;
   program.id_ = glCreateProgram();
-  const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
-  const GLchar* text = source->text().data();
-  const auto length = static_cast<GLint>(source->text().size());
-  glShaderSource(shader, 1, &text, &length);
-  glCompileShader(shader);
-  GLint ok = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-  if (!ok) {
-    const std::string log = source->rewrite_log(shader_log(shader));
-    glDeleteShader(shader);
-    return Error{ErrorCode::no_device,
-                 fmt::format("{} does not compile the shader {}:\n{}", context.info().renderer, path, log)};
-  }
-  glAttachShader(program.id_, shader);
-  glLinkProgram(program.id_);
-  glDetachShader(program.id_, shader);
-  glDeleteShader(shader);
-  glGetProgramiv(program.id_, GL_LINK_STATUS, &ok);
-  if (!ok)
-    return Error{ErrorCode::no_device,
-                 fmt::format("{} does not link the shader {}:\n{}", context.info().renderer, path,
-                             source->rewrite_log(program_log(program.id_)))};
+  const StageFile files[] = {{GL_COMPUTE_SHADER, path}};
+  const Status built = build(program.id_, context, library, files, defines);
+  if (!built) return built.error();
 
   glGetProgramInterfaceiv(program.id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES,
                           &program.storage_blocks_);
@@ -86,8 +124,28 @@ Result<Program> Program::compute(Context& context, const ShaderLibrary& library,
   GLint size[3] = {};
   glGetProgramiv(program.id_, GL_COMPUTE_WORK_GROUP_SIZE, size);
   for (std::size_t i = 0; i < 3; ++i) program.group_size_[i] = static_cast<std::uint32_t>(size[i]);
-  if (context.info().debug)
-    glObjectLabel(GL_PROGRAM, program.id_, static_cast<GLsizei>(path.size()), path.data());
+  label(context, program.id_, path);
+  return program;
+}
+
+Result<Program> Program::graphics(Context& context, const ShaderLibrary& library,
+                                  const GraphicsStages& stages, std::span<const Define> defines) {
+  Program program;
+  program.path_ = stages.fragment;
+  program.id_ = glCreateProgram();
+  std::vector<StageFile> files = {{GL_VERTEX_SHADER, stages.vertex}, {GL_FRAGMENT_SHADER, stages.fragment}};
+  if (!stages.geometry.empty()) files.push_back({GL_GEOMETRY_SHADER, stages.geometry});
+  const Status built = build(program.id_, context, library, files, defines);
+  if (!built) return built.error();
+  glGetProgramInterfaceiv(program.id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES,
+                          &program.storage_blocks_);
+  if (program.storage_blocks_ > 0)
+    return Error{
+        ErrorCode::no_device,
+        fmt::format("The shader {} with {} uses storage blocks ({}), but OpenGL 4.3 guarantees none "
+                    "while drawing. Pass the data as vertex attributes or a uniform block.",
+                    stages.vertex, stages.fragment, block_names(program.id_, program.storage_blocks_))};
+  label(context, program.id_, stages.fragment);
   return program;
 }
 
@@ -130,6 +188,10 @@ void Program::set(int location, float value) const {
 
 void Program::set(int location, const std::array<float, 3>& value) const {
   glProgramUniform3f(id_, location, value[0], value[1], value[2]);
+}
+
+void Program::set(int location, const std::array<float, 4>& value) const {
+  glProgramUniform4f(id_, location, value[0], value[1], value[2], value[3]);
 }
 
 std::optional<int> Program::property(std::uint32_t interface, std::string_view name,

@@ -1,5 +1,5 @@
 #pragma once
-// A compute program: compiled, linked, checked and asked about its blocks.
+// A compute or graphics program: compiled, linked, checked and asked about its blocks.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -16,7 +16,14 @@ namespace aspic::gl {
 /// What OpenGL 4.3 guarantees to a compute shader; no kernel of the project uses more.
 inline constexpr int max_storage_blocks = 8;
 
-/// Owns one linked compute program. Movable; its context must outlive it and be current.
+/// The shader files of a graphics program, relative to shaders/.
+struct GraphicsStages {
+  std::string_view vertex;
+  std::string_view fragment;
+  std::string_view geometry = {};  ///< empty: none
+};
+
+/// Owns one linked program. Movable; its context must outlive it and be current.
 class Program {
  public:
   /// An empty handle: id 0.
@@ -27,6 +34,12 @@ class Program {
   /// or it has more than max_storage_blocks active storage blocks, named).
   static Result<Program> compute(Context& context, const ShaderLibrary& library, std::string_view path,
                                  std::span<const Define> defines = {});
+
+  /// Compiles and links a vertex and a fragment shader, and a geometry shader where one is named; all get the
+  /// same defines. Errors: io (file or include missing), no_device (the driver refuses one of them: the log
+  /// in our files and lines; or the vertex shader has storage blocks, which OpenGL 4.3 does not guarantee).
+  static Result<Program> graphics(Context& context, const ShaderLibrary& library,
+                                  const GraphicsStages& stages, std::span<const Define> defines = {});
 
   ~Program();
   Program(Program&& other) noexcept;
@@ -39,11 +52,12 @@ class Program {
   void set(int location, std::int32_t value) const;
   void set(int location, float value) const;
   void set(int location, const std::array<float, 3>& value) const;
+  void set(int location, const std::array<float, 4>& value) const;
 
   std::uint32_t id() const { return id_; }
-  /// The path it was compiled from.
+  /// The path it was compiled from; of a graphics program, the fragment shader's.
   const std::string& path() const { return path_; }
-  /// Invocations per group along x, y, z, as its layout says.
+  /// Invocations per group along x, y, z, as its layout says; all 0 for a graphics program.
   const std::array<std::uint32_t, 3>& group_size() const { return group_size_; }
   /// Active storage blocks.
   int storage_block_count() const { return storage_blocks_; }

@@ -38,6 +38,8 @@ class AtomicFile {
   Status commit();
 
   const std::string& path() const { return path_; }
+  /// The temporary file, which another program may write instead of write(); empty for devices and pipes.
+  const std::string& temporary_path() const { return temporary_; }
 
  private:
   AtomicFile() = default;

@@ -91,8 +91,6 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"run", "cube-plane", "--set", "simulation.timestep=-1"}, 3, "timestep"},
         Failure{{"run", "cube-plane", "--backend", "cpu"}, 3, "not built yet"},
         Failure{{"run", "cube-plane", "--backend", "gpu", "--force-path", "lattice"}, 3, "not built yet"},
-        Failure{{"run", "cube-plane", "--video", "x.mp4"}, 3, "--video is not built yet"},
-        Failure{{"run", "cube-plane", "--frames", "x"}, 3, "--frames is not built yet"},
         Failure{{"scene", "check", "cube-plan"}, 3, "cube-plane"},
         Failure{{"compare", "cube-plane", "--backends", "reference,cpu"}, 3, "not built yet"}));
 

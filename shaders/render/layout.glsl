@@ -1,0 +1,93 @@
+// The blocks, binding numbers and locations of drawing, read by GLSL and by C++ (src/render/layout.h).
+// mat4, vec4 and scalars in groups of four only: then std140, std430 and C++ agree on every offset.
+
+#define MAX_SHADOW_SPHERES 16
+
+// Uniform blocks.
+#define BINDING_FRAME 1
+#define BINDING_LIGHT_BOXES 2
+// Storage blocks of the kernels that prepare a picture.
+#define BINDING_PARTICLES 0
+#define BINDING_FAN_START 1   // uint[surface vertices + 1]: where each vertex's fan begins
+#define BINDING_FAN 2         // uvec2[]: next and previous neighbour along each quad at the vertex
+#define BINDING_FAN_VERTEX 3  // uint[surface vertices]: the particle
+#define BINDING_NORMALS 4     // vec4[particles]
+#define BINDING_BOUNDS 5      // Bounds[LIGHTS]
+#define BINDING_QUANTITY 6    // float[particles]
+#define BINDING_LIGHT_BOXES_OUT 7  // LightBox[LIGHTS]
+#define BINDING_SPRING_START 1  // uint[particles + 1], in the quantity kernel only
+#define BINDING_SPRING_ENDS 2   // uvec2[2 · springs]: neighbour, class
+#define BINDING_SPRING_CLASSES 3
+
+// Texture units.
+#define UNIT_GROUND 0
+#define UNIT_SUN_MAP 1
+#define UNIT_SKY_MAP 2
+#define UNIT_THICKNESS 3
+#define UNIT_BEHIND 4
+#define UNIT_COLOUR_MAP 5
+#define UNIT_GLYPHS 6
+#define UNIT_FRAME 7
+
+// Vertex attributes.
+#define ATTRIBUTE_POSITION 0
+#define ATTRIBUTE_VELOCITY 1
+#define ATTRIBUTE_NORMAL 2
+#define ATTRIBUTE_QUANTITY 3
+
+// Uniforms outside blocks.
+#define LOCATION_COUNT 0
+#define LOCATION_LIGHT 0
+#define LOCATION_BASE_COLOUR 1
+#define LOCATION_SPRING 2         // k, c, r, cord
+#define LOCATION_RADIUS 3         // of spheres and springs [m]
+#define LOCATION_PLANE_POINT 4
+#define LOCATION_PLANE_NORMAL 5
+#define LOCATION_SPHERE 6         // centre, radius
+#define LOCATION_SIDE 7
+
+// Lights that the bodies keep off: the sun, and the sky straight above.
+#define LIGHT_SUN 0
+#define LIGHT_SKY 1
+#define LIGHTS 2
+
+// What colours mean.
+#define COLOUR_MATERIAL 0u
+#define COLOUR_TYPE 1u
+#define COLOUR_STRAIN 2u
+#define COLOUR_FORCE 3u
+#define COLOUR_SPEED 4u
+
+// Light-space box of the particles; floats as unsigned integers in the same order, for atomicMin and atomicMax.
+struct Bounds {
+  uvec4 lower;
+  uvec4 upper;
+};
+
+// The square map of a light, fitted to that box.
+struct LightBox {
+  vec4 centre;  // in the light's space [m]; w: half side of the map [m]
+  vec4 depth;   // half depth [m]; y: 1/half side [1/m]; z, w: unused
+};
+
+#ifdef __cplusplus
+struct Frame {
+#else
+layout(std140, binding = BINDING_FRAME) uniform Frame {
+#endif
+  mat4 view;
+  mat4 projection;
+  mat4 view_projection;
+  mat4 clip_to_world;
+  mat4 lights[LIGHTS];        // rotations from the world to each light's space, +z away from the light
+  vec4 eye;                   // [m]; w: distance from the eye to the target
+  vec4 sun;                   // unit, towards the sun
+  vec4 viewport;              // width, height, 1/width, 1/height [pixels]
+  vec4 shadow_tint;           // light that the bodies let through
+  vec4 quantity_range;        // lower end, 1/(upper − lower) of the colour scale
+  vec4 shadow_spheres[MAX_SHADOW_SPHERES];  // solid spheres of the terrain: centre, radius
+  uint shadow_sphere_count;
+  uint colour_mode;           // COLOUR_…
+  uint particle_count;
+  float see_through;          // 0…1: how far bodies let their inside be seen
+};

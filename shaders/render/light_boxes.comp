@@ -1,0 +1,23 @@
+// The map of each light, from the box of the particles: one invocation per light.
+#include "render/layout.glsl"
+#include "render/bounds.glsl"
+#include "compute/dispatch.glsl"
+
+layout(std430, binding = BINDING_BOUNDS) restrict readonly buffer BoundsBlock { Bounds bounds[LIGHTS]; };
+layout(std430, binding = BINDING_LIGHT_BOXES_OUT) restrict writeonly buffer LightBoxes { LightBox light_boxes[LIGHTS]; };
+
+vec3 decoded(uvec3 bits) { return vec3(unordered(bits.x), unordered(bits.y), unordered(bits.z)); }
+
+void main() {
+  uint light = item_index();
+  if (light >= uint(LIGHTS)) return;
+  vec3 lower = decoded(bounds[light].lower.xyz);
+  vec3 upper = decoded(bounds[light].upper.xyz);
+  if (particle_count == 0u) lower = upper = vec3(0.0);
+  vec3 size = upper - lower;
+  // Room for penumbras, which are wider for the sky.
+  float margin = light == uint(LIGHT_SKY) ? 0.85 : 0.65;
+  float extent = margin * max(size.x, size.y) + 0.05;
+  light_boxes[light].centre = vec4(0.5 * (lower + upper), extent);
+  light_boxes[light].depth = vec4(0.55 * size.z + 0.05, 1.0 / extent, 0.0, 0.0);
+}

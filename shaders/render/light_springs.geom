@@ -1,0 +1,27 @@
+// Springs into a light map, as ribbons that face the light.
+#include "render/layout.glsl"
+#include "render/light.glsl"
+
+layout(lines) in;
+layout(triangle_strip, max_vertices = 4) out;
+layout(location = LOCATION_LIGHT) uniform int light;
+layout(location = LOCATION_RADIUS) uniform float radius;
+out float depth;
+out vec2 on_disc;
+
+void main() {
+  vec3 a = in_light(light, gl_in[0].gl_Position.xyz);
+  vec3 b = in_light(light, gl_in[1].gl_Position.xyz);
+  vec2 along = b.xy - a.xy;
+  float size = length(along);
+  if (size == 0.0) return;
+  vec2 side = vec2(-along.y, along.x) / size * (radius * light_boxes[light].depth.y);
+  for (int corner = 0; corner < 4; ++corner) {
+    vec3 end = (corner & 1) == 0 ? a : b;
+    on_disc = vec2(0.0);
+    depth = end.z;
+    gl_Position = vec4(end.xy + ((corner >> 1) == 0 ? -side : side), end.z / light_boxes[light].depth.x, 1.0);
+    EmitVertex();
+  }
+  EndPrimitive();
+}

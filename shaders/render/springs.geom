@@ -1,0 +1,49 @@
+// A ribbon along each spring that faces the eye, at least a pixel wide.
+#include "render/layout.glsl"
+
+layout(lines) in;
+layout(triangle_strip, max_vertices = 4) out;
+layout(location = LOCATION_RADIUS) uniform float radius;
+layout(location = LOCATION_SPRING) uniform vec4 spring;  // k, c, r, cord
+in vec3 end_velocity[];
+in float end_quantity[];
+out float across;
+out vec3 sideways;
+out vec3 towards_eye;
+out float shown;
+
+void main() {
+  vec3 xa = gl_in[0].gl_Position.xyz;
+  vec3 xb = gl_in[1].gl_Position.xyz;
+  vec3 e = xa - xb;
+  float L = length(e);
+  if (L == 0.0) return;
+  float strain = (L - spring.z) / spring.z;
+  float damped = spring.y * dot(end_velocity[0] - end_velocity[1], e) / L;
+  bool slack = spring.w > 0.0 && strain < 0.0;
+  float force = slack ? 0.0 : abs(spring.x * (L - spring.z) + damped);
+  vec3 a = (view * vec4(xa, 1.0)).xyz;
+  vec3 b = (view * vec4(xb, 1.0)).xyz;
+  // What lies behind the eye would turn the ribbon inside out.
+  const float nearest = 0.02;
+  if (a.z > -nearest && b.z > -nearest) return;
+  if (a.z > -nearest) a = mix(b, a, (b.z + nearest) / (b.z - a.z));
+  if (b.z > -nearest) b = mix(a, b, (a.z + nearest) / (a.z - b.z));
+  float pixel = 2.0 / (projection[1][1] * viewport.y);
+  for (int corner = 0; corner < 4; ++corner) {
+    bool first = (corner & 1) == 0;
+    vec3 end = first ? a : b;
+    across = float((corner >> 1) * 2 - 1);
+    towards_eye = normalize(-end);
+    vec3 side = cross(normalize(b - a), towards_eye);
+    side = dot(side, side) > 0.0 ? normalize(side) : vec3(1.0, 0.0, 0.0);
+    sideways = side;
+    float value = colour_mode == COLOUR_STRAIN  ? abs(strain)
+                  : colour_mode == COLOUR_FORCE ? force
+                                                : end_quantity[first ? 0 : 1];
+    shown = (value - quantity_range.x) * quantity_range.y;
+    gl_Position = projection * vec4(end + across * max(radius, 0.6 * pixel * -end.z) * side, 1.0);
+    EmitVertex();
+  }
+  EndPrimitive();
+}

@@ -1,0 +1,52 @@
+// Solid terrain: textured ground or a textured ball, in sun, sky and shadow.
+#include "render/frame.glsl"
+#ifdef UNSHADOWED_PLANE
+vec3 sunlight_at(vec3 position) { return vec3(sphere_shade(position)); }
+float skylight_at(vec3 position) { return 1.0; }
+#else
+#include "render/shadow.glsl"
+#endif
+
+layout(binding = UNIT_GROUND) uniform sampler2D ground;
+#ifdef PLANE
+layout(location = LOCATION_PLANE_POINT) uniform vec4 plane_point;
+layout(location = LOCATION_PLANE_NORMAL) uniform vec4 plane_normal;
+#else
+layout(location = LOCATION_SPHERE) uniform vec4 sphere;
+#endif
+in vec3 world;
+in vec3 local;
+layout(location = 0) out vec4 colour;
+
+const float texture_size = 4.0;  // one repeat of the ground's texture [m]
+
+void main() {
+  vec3 from_eye = world - eye.xyz;
+  vec3 v = -normalize(from_eye);
+#ifdef PLANE
+  vec3 n = plane_normal.xyz;
+  vec3 albedo = texture(ground, local.xy / texture_size).rgb;
+  bool from_behind = dot(n, v) < 0.0;
+#else
+  vec3 n = normalize(local);
+  vec3 weight = n * n;
+  vec3 p = sphere.w * n / texture_size;
+  vec3 albedo = weight.x * texture(ground, p.yz).rgb + weight.y * texture(ground, p.xz).rgb +
+                weight.z * texture(ground, p.xy).rgb;
+  albedo *= vec3(1.16, 1.20, 1.30);
+  bool from_behind = false;
+#endif
+  float nl = max(dot(n, sun.xyz), 0.0);
+  vec3 sunlit = nl > 0.0 && !from_behind ? sun_light * nl * sunlight_at(world) : vec3(0.0);
+  float open = from_behind ? 0.6 : skylight_at(world);
+  vec3 light = albedo * (0.46 * sunlit + 0.62 * open * ambient(n));
+  light += 0.10 * open * fresnel(dot(n, v), 0.03) * horizon_light;
+#ifdef PLANE
+  vec3 off = (world - plane_point.xyz) / plane_point.w;
+  float haze = smoothstep(0.01, 0.55, dot(off, off));
+  light = mix(light, sky(-v), 1.0 - (1.0 - haze) * (1.0 - haze));
+  colour = vec4(to_display(light), from_behind ? 0.3 : 1.0);
+#else
+  colour = vec4(to_display(light), 1.0);
+#endif
+}

@@ -1,0 +1,10 @@
+// How much of a body a sight line crosses: front faces count minus their distance, back faces plus it.
+#include "render/layout.glsl"
+
+layout(location = ATTRIBUTE_POSITION) in vec4 position;
+out vec3 from_eye;
+
+void main() {
+  from_eye = position.xyz - eye.xyz;
+  gl_Position = view_projection * vec4(position.xyz, 1.0);
+}

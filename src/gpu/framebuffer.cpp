@@ -1,0 +1,69 @@
+#include "gpu/framebuffer.h"
+
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include <cassert>
+#include <utility>
+
+namespace aspic::gl {
+
+Result<Framebuffer> Framebuffer::create(Context& context, const Texture* colour, const Texture* depth) {
+  assert(colour || depth);
+  const Texture& any = colour ? *colour : *depth;
+  Framebuffer result;
+  result.width_ = any.width();
+  result.height_ = any.height();
+  glGenFramebuffers(1, &result.id_);
+  glBindFramebuffer(GL_FRAMEBUFFER, result.id_);
+  if (colour) glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, colour->id(), 0);
+  if (depth) glFramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth->id(), 0);
+  if (!colour) {
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+  }
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    return Error{ErrorCode::no_device,
+                 fmt::format("{} cannot draw into an image of {} x {} pixels with {} sample{} (framebuffer "
+                             "status 0x{:04x}).",
+                             context.info().renderer, any.width(), any.height(), any.settings().samples,
+                             any.settings().samples == 1 ? "" : "s", status)};
+  return result;
+}
+
+Framebuffer::~Framebuffer() {
+  release();
+}
+
+Framebuffer::Framebuffer(Framebuffer&& other) noexcept
+    : id_(std::exchange(other.id_, 0)), width_(other.width_), height_(other.height_) {}
+
+Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
+  if (this == &other) return *this;
+  release();
+  id_ = std::exchange(other.id_, 0);
+  width_ = other.width_;
+  height_ = other.height_;
+  return *this;
+}
+
+void Framebuffer::release() {
+  if (id_) glDeleteFramebuffers(1, &id_);
+  id_ = 0;
+}
+
+void Framebuffer::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, id_);
+  glViewport(0, 0, width_, height_);
+}
+
+void Framebuffer::copy_colour_from(const Framebuffer& source) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id_);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id_);
+  const bool same = source.width_ == width_ && source.height_ == height_;
+  glBlitFramebuffer(0, 0, source.width_, source.height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                    same ? GL_NEAREST : GL_LINEAR);
+}
+
+}  // namespace aspic::gl

@@ -1,0 +1,128 @@
+#include "gpu/pixel_ring.h"
+
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include <cassert>
+#include <utility>
+
+namespace aspic::gl {
+namespace {
+
+// Four bytes a pixel go straight through; three would be repacked by the driver texel by texel.
+constexpr std::size_t stored_channels = 4;
+constexpr GLuint64 wait_ns = 100'000'000;
+
+}  // namespace
+
+Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
+  assert(width >= 1 && height >= 1);
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  PixelRing ring;
+  ring.context_ = &context;
+  ring.width_ = width;
+  ring.height_ = height;
+  const std::size_t bytes =
+      stored_channels * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  glGenBuffers(capacity, ring.buffers_.data());
+  for (const GLuint buffer : ring.buffers_) {
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
+    glBufferData(GL_PIXEL_PACK_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
+  }
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  const GLenum error = glGetError();
+  if (error != GL_NO_ERROR)
+    return Error{ErrorCode::scene_rejected,
+                 fmt::format("{} has no memory to read back pictures of {} x {} pixels (GL error 0x{:04x}). "
+                             "Choose a smaller picture.",
+                             context.info().renderer, width, height, error)};
+  return ring;
+}
+
+PixelRing::~PixelRing() {
+  release();
+}
+
+PixelRing::PixelRing(PixelRing&& other) noexcept
+    : context_(other.context_),
+      width_(other.width_),
+      height_(other.height_),
+      buffers_(std::exchange(other.buffers_, {})),
+      fences_(std::exchange(other.fences_, {})),
+      first_(other.first_),
+      pending_(std::exchange(other.pending_, 0)) {}
+
+PixelRing& PixelRing::operator=(PixelRing&& other) noexcept {
+  if (this == &other) return *this;
+  release();
+  context_ = other.context_;
+  width_ = other.width_;
+  height_ = other.height_;
+  buffers_ = std::exchange(other.buffers_, {});
+  fences_ = std::exchange(other.fences_, {});
+  first_ = other.first_;
+  pending_ = std::exchange(other.pending_, 0);
+  return *this;
+}
+
+void PixelRing::release() {
+  for (void*& fence : fences_)
+    if (fence) glDeleteSync(static_cast<GLsync>(std::exchange(fence, nullptr)));
+  if (buffers_[0]) glDeleteBuffers(capacity, buffers_.data());
+  buffers_ = {};
+}
+
+void PixelRing::submit(const Framebuffer& source) {
+  assert(!full() && source.width() == width_ && source.height() == height_);
+  const std::size_t slot = (first_ + pending_) % capacity;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id());
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot]);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  fences_[slot] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+  ++pending_;
+}
+
+Status PixelRing::take(std::vector<std::byte>& rgb) {
+  assert(pending_ > 0);
+  const std::size_t slot = first_;
+  const auto fence = static_cast<GLsync>(std::exchange(fences_[slot], nullptr));
+  GLenum state = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait_ns);
+  while (state == GL_TIMEOUT_EXPIRED && !context_->lost()) state = glClientWaitSync(fence, 0, wait_ns);
+  glDeleteSync(fence);
+  first_ = (first_ + 1) % capacity;
+  --pending_;
+
+  const auto width = static_cast<std::size_t>(width_);
+  const auto height = static_cast<std::size_t>(height_);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot]);
+  const auto* pixels = static_cast<const std::byte*>(
+      state == GL_WAIT_FAILED || context_->lost()
+          ? nullptr
+          : glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0,
+                             static_cast<GLsizeiptr>(stored_channels * width * height), GL_MAP_READ_BIT));
+  if (!pixels) {
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    return Error{
+        ErrorCode::no_device,
+        fmt::format("A picture could not be read back: the device {} was lost.", context_->info().renderer)};
+  }
+  rgb.resize(3 * width * height);
+  std::byte* out = rgb.data();
+  for (std::size_t row = height; row-- > 0;) {
+    const std::byte* in = pixels + row * width * stored_channels;
+    for (std::size_t column = 0; column < width; ++column, in += stored_channels, out += 3) {
+      out[0] = in[0];
+      out[1] = in[1];
+      out[2] = in[2];
+    }
+  }
+  glUnmapBuffer(GL_PIXEL_PACK_BUFFER);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  return {};
+}
+
+}  // namespace aspic::gl

@@ -1,0 +1,52 @@
+#pragma once
+// Pictures on their way back from the device, several at once, so that nobody waits for the newest.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/result.h"
+#include "gpu/context.h"
+#include "gpu/framebuffer.h"
+
+namespace aspic::gl {
+
+/// A ring of pixel buffers with fences, for pictures of one size. OpenGL 4.3 has no persistent mapping, so a
+/// buffer is mapped when its fence has passed. Its context must outlive it and be current.
+class PixelRing {
+ public:
+  /// Pictures under way at once.
+  static constexpr std::size_t capacity = 3;
+
+  /// Makes the buffers. Error (scene_rejected): no device memory for them.
+  static Result<PixelRing> create(Context& context, int width, int height);
+
+  ~PixelRing();
+  PixelRing(PixelRing&& other) noexcept;
+  PixelRing& operator=(PixelRing&& other) noexcept;
+  PixelRing(const PixelRing&) = delete;
+  PixelRing& operator=(const PixelRing&) = delete;
+
+  bool full() const { return pending_ == capacity; }
+  std::size_t pending() const { return pending_; }
+
+  /// Queues the read-back of the framebuffer's colour as it will be when all calls so far are done; legal
+  /// unless full(). The framebuffer must have the ring's size and one sample.
+  void submit(const Framebuffer& source);
+
+  /// The oldest picture: height·width·3 bytes RGB, rows from the top down, values as stored (of an sRGB
+  /// image: encoded). Waits for the device. Legal while pending() > 0. Error (no_device): the device was
+  /// lost.
+  Status take(std::vector<std::byte>& rgb);
+
+ private:
+  PixelRing() = default;
+  void release();
+  Context* context_ = nullptr;
+  int width_ = 0, height_ = 0;
+  std::array<std::uint32_t, capacity> buffers_ = {};
+  std::array<void*, capacity> fences_ = {};
+  std::size_t first_ = 0, pending_ = 0;
+};
+
+}  // namespace aspic::gl

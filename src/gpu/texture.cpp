@@ -1,0 +1,132 @@
+#include "gpu/texture.h"
+
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <utility>
+
+namespace aspic::gl {
+namespace {
+
+struct Storage {
+  GLenum internal;
+  GLenum format;  // of uploads
+  std::size_t upload_bytes;
+};
+
+Storage storage_of(TexelFormat format) {
+  switch (format) {
+    case TexelFormat::r8:
+      return {GL_R8, GL_RED, 1};
+    case TexelFormat::srgba8:
+      return {GL_SRGB8_ALPHA8, GL_RGBA, 4};
+    case TexelFormat::r16f:
+      return {GL_R16F, 0, 0};
+    case TexelFormat::rg16f:
+      return {GL_RG16F, 0, 0};
+    case TexelFormat::depth32f:
+      return {GL_DEPTH_COMPONENT32F, 0, 0};
+  }
+  return {};
+}
+
+GLenum target_of(const TextureSettings& settings) {
+  return settings.samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+}
+
+}  // namespace
+
+Result<Texture> Texture::create(Context& context, std::string name, const TextureSettings& settings) {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (settings.width < 1 || settings.height < 1 || settings.width > largest || settings.height > largest)
+    return Error{ErrorCode::scene_rejected,
+                 fmt::format("The image \"{}\" of {} x {} pixels cannot be made: {} takes 1 to {} along each "
+                             "side. Choose another picture size.",
+                             name, settings.width, settings.height, context.info().renderer, largest)};
+  if (settings.samples > 1) {
+    GLint most = 1;
+    glGetIntegerv(GL_MAX_SAMPLES, &most);
+    if (settings.samples > most)
+      return Error{ErrorCode::no_device, fmt::format("{} takes at most {} samples per pixel, not {}.",
+                                                     context.info().renderer, most, settings.samples)};
+  }
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  Texture texture;
+  texture.settings_ = settings;
+  glGenTextures(1, &texture.id_);
+  const GLenum target = target_of(settings);
+  const Storage storage = storage_of(settings.format);
+  glBindTexture(target, texture.id_);
+  if (settings.samples > 1) {
+    glTexStorage2DMultisample(target, settings.samples, storage.internal, settings.width, settings.height,
+                              GL_TRUE);
+  } else {
+    const auto side = static_cast<unsigned>(std::max(settings.width, settings.height));
+    glTexStorage2D(target, settings.mipmaps ? std::bit_width(side) : 1, storage.internal, settings.width,
+                   settings.height);
+    const GLint wrap = settings.wrap == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
+    glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
+    glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, settings.mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+    glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  }
+  const GLenum error = glGetError();
+  if (error != GL_NO_ERROR)
+    return Error{ErrorCode::scene_rejected,
+                 fmt::format("{} has no memory for the image \"{}\" of {} x {} pixels with {} sample{} (GL "
+                             "error 0x{:04x}). Choose a smaller picture.",
+                             context.info().renderer, name, settings.width, settings.height, settings.samples,
+                             settings.samples == 1 ? "" : "s", error)};
+  if (context.info().debug && !name.empty())
+    glObjectLabel(GL_TEXTURE, texture.id_, static_cast<GLsizei>(name.size()), name.data());
+  return texture;
+}
+
+Texture::~Texture() {
+  release();
+}
+
+Texture::Texture(Texture&& other) noexcept : id_(std::exchange(other.id_, 0)), settings_(other.settings_) {}
+
+Texture& Texture::operator=(Texture&& other) noexcept {
+  if (this == &other) return *this;
+  release();
+  id_ = std::exchange(other.id_, 0);
+  settings_ = other.settings_;
+  return *this;
+}
+
+void Texture::release() {
+  if (id_) glDeleteTextures(1, &id_);
+  id_ = 0;
+}
+
+void Texture::upload(std::span<const std::byte> texels) {
+  const Storage storage = storage_of(settings_.format);
+  assert(storage.upload_bytes > 0 && settings_.samples == 1);
+  assert(texels.size() == storage.upload_bytes * static_cast<std::size_t>(settings_.width) *
+                              static_cast<std::size_t>(settings_.height));
+  glBindTexture(GL_TEXTURE_2D, id_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, settings_.width, settings_.height, storage.format, GL_UNSIGNED_BYTE,
+                  texels.data());
+}
+
+void Texture::generate_mipmaps() {
+  assert(settings_.mipmaps);
+  glBindTexture(GL_TEXTURE_2D, id_);
+  glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+void Texture::bind(std::uint32_t unit) const {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(target_of(settings_), id_);
+  glActiveTexture(GL_TEXTURE0);
+}
+
+}  // namespace aspic::gl

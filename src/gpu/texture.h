@@ -1,0 +1,68 @@
+#pragma once
+// A two-dimensional image in device memory.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "base/result.h"
+#include "gpu/context.h"
+
+namespace aspic::gl {
+
+/// How a texel is stored.
+enum class TexelFormat {
+  r8,      ///< one channel 0…1
+  srgba8,  ///< colour encoded as sRGB, linear to shaders and blending; alpha linear
+  r16f,    ///< one half float
+  rg16f,   ///< two half floats
+  depth32f
+};
+
+/// What happens outside the image.
+enum class Wrap { repeat, clamp };
+
+struct TextureSettings {
+  TexelFormat format = TexelFormat::srgba8;
+  int width = 1, height = 1;  ///< [texels], ≥ 1
+  int samples = 1;            ///< > 1: multisampled, neither sampled nor filtered by the project's shaders
+  bool mipmaps = false;       ///< a full chain, filled by generate_mipmaps()
+  Wrap wrap = Wrap::clamp;
+};
+
+/// Owns one GL texture of fixed size, filtered linearly. Movable; its context must outlive it and be current.
+class Texture {
+ public:
+  /// An empty handle: id 0.
+  Texture() = default;
+
+  /// Allocates an image of undefined content. `name` appears in errors and debug messages.
+  /// Errors: scene_rejected (larger than the device's images, or no memory left), no_device (the device
+  /// cannot take that many samples).
+  static Result<Texture> create(Context& context, std::string name, const TextureSettings& settings);
+
+  ~Texture();
+  Texture(Texture&& other) noexcept;
+  Texture& operator=(Texture&& other) noexcept;
+  Texture(const Texture&) = delete;
+  Texture& operator=(const Texture&) = delete;
+
+  /// Writes level 0, rows from the bottom up without padding: width·height texels of 1 (r8) or 4 (srgba8)
+  /// bytes. No other format may be uploaded.
+  void upload(std::span<const std::byte> texels);
+  void generate_mipmaps();
+  /// Binds it to a texture unit, for a sampler of that binding number.
+  void bind(std::uint32_t unit) const;
+
+  std::uint32_t id() const { return id_; }
+  int width() const { return settings_.width; }
+  int height() const { return settings_.height; }
+  const TextureSettings& settings() const { return settings_; }
+
+ private:
+  void release();
+  std::uint32_t id_ = 0;
+  TextureSettings settings_;
+};
+
+}  // namespace aspic::gl

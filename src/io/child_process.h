@@ -1,0 +1,51 @@
+#pragma once
+// Another program, fed through its standard input.
+#include <sys/types.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace aspic {
+
+/// A program that reads what we write, found on PATH, started without a shell. It has a process group of its
+/// own, so that Ctrl-C reaches us alone and its input ends in good order. Its standard output goes nowhere;
+/// its standard error is kept.
+class ChildProcess {
+ public:
+  /// Error (io): `arguments[0]` is not on PATH or cannot be started; the message is the system's alone.
+  static Result<ChildProcess> start(const std::vector<std::string>& arguments);
+
+  /// Closes the input, ends the program if it runs on, and waits for it.
+  ~ChildProcess();
+  ChildProcess(ChildProcess&& other) noexcept;
+  ChildProcess& operator=(ChildProcess&&) = delete;
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// Writes all of it; raises no SIGPIPE. False: the program has stopped reading.
+  bool write(std::span<const std::byte> data);
+
+  /// How a program ended.
+  struct End {
+    int exit_code = -1;  ///< −1 if a signal ended it
+    int signal = 0;
+    bool ok() const { return exit_code == 0; }
+  };
+  /// Closes the input and waits for the end.
+  End finish();
+
+  /// The last lines that it wrote to its standard error, at most `count`, each ended by a newline.
+  std::string last_lines(std::size_t count) const;
+
+ private:
+  ChildProcess() = default;
+  pid_t pid_ = -1;
+  int input_ = -1;
+  int errors_ = -1;
+};
+
+}  // namespace aspic

@@ -1,0 +1,114 @@
+#include "io/frame_directory.h"
+
+#include <fmt/format.h>
+#include <stb_image_write.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <cerrno>
+#include <filesystem>
+#include <vector>
+
+namespace aspic {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int jpeg_quality = 92;
+
+std::string_view extension(ImageFormat format) {
+  return format == ImageFormat::png ? "png" : "jpg";
+}
+
+/// frame-, six digits or more, .png or .jpg.
+bool is_frame_name(const std::string& name) {
+  const fs::path path(name);
+  const std::string stem = path.stem().string();
+  if (path.extension() != ".png" && path.extension() != ".jpg") return false;
+  return stem.size() >= 12 && stem.starts_with("frame-") &&
+         std::all_of(stem.begin() + 6, stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+Result<std::vector<fs::path>> frames_in(const std::string& directory) {
+  std::vector<fs::path> frames;
+  std::error_code failed;
+  for (fs::directory_iterator it(directory, failed), end; !failed && it != end; it.increment(failed))
+    if (is_frame_name(it->path().filename().string())) frames.push_back(it->path());
+  if (failed) return file_error("read the directory", directory, failed.value());
+  return frames;
+}
+
+class FrameDirectory : public FrameSink {
+ public:
+  FrameDirectory(std::string directory, ImageFormat format, const PictureSize& size)
+      : directory_(std::move(directory)), format_(format), size_(size) {}
+
+  Status write(std::span<const std::byte> rgb) override {
+    const auto content = encode_image(format_, size_, rgb);
+    if (!content) return content.error();
+    const std::string name = fmt::format("{}/frame-{:06}.{}", directory_, next_, extension(format_));
+    auto file = AtomicFile::create(name, Overwrite::refuse);
+    if (!file) return file.error();
+    if (const Status written = file->write(*content); !written) return written;
+    if (const Status named = file->commit(); !named) return named;
+    ++next_;
+    return {};
+  }
+
+  Status finish() override { return {}; }
+  const std::string& path() const override { return directory_; }
+
+ private:
+  std::string directory_;
+  ImageFormat format_;
+  PictureSize size_;
+  std::uint64_t next_ = 0;
+};
+
+}  // namespace
+
+Result<std::string> encode_image(ImageFormat format, const PictureSize& size,
+                                 std::span<const std::byte> rgb) {
+  assert(rgb.size() == 3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+  std::string content;
+  const auto append = [](void* into, void* data, int bytes) {
+    static_cast<std::string*>(into)->append(static_cast<const char*>(data), static_cast<std::size_t>(bytes));
+  };
+  const int ok =
+      format == ImageFormat::png
+          ? stbi_write_png_to_func(append, &content, size.width, size.height, 3, rgb.data(), 3 * size.width)
+          : stbi_write_jpg_to_func(append, &content, size.width, size.height, 3, rgb.data(), jpeg_quality);
+  if (ok == 0 || content.empty())
+    return Error{ErrorCode::io,
+                 fmt::format("A picture of {} x {} pixels could not be encoded as {}: not enough memory.",
+                             size.width, size.height, extension(format))};
+  return content;
+}
+
+Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& directory, ImageFormat format,
+                                                        const PictureSize& size, Overwrite overwrite) {
+  if (::mkdir(directory.c_str(), 0777) != 0 && errno != EEXIST)
+    return file_error("make the directory", directory, errno);
+  struct stat present = {};
+  if (::stat(directory.c_str(), &present) != 0) return file_error("read the directory", directory, errno);
+  if (!S_ISDIR(present.st_mode))
+    return Error{ErrorCode::io,
+                 fmt::format("{} is a file, but pictures need a directory. Choose another name.", directory)};
+  if (::access(directory.c_str(), W_OK | X_OK) != 0) return file_error("write into", directory, errno);
+  const auto frames = frames_in(directory);
+  if (!frames) return frames.error();
+  if (!frames->empty() && overwrite == Overwrite::refuse)
+    return Error{
+        ErrorCode::io,
+        fmt::format("{} holds pictures already ({} and others) and was left as it is. Choose "
+                    "another directory, or allow replacing them with --force.",
+                    directory, std::min_element(frames->begin(), frames->end())->filename().string())};
+  for (const fs::path& frame : *frames)
+    if (::unlink(frame.c_str()) != 0) return file_error("remove", frame.string(), errno);
+  return std::unique_ptr<FrameSink>(std::make_unique<FrameDirectory>(directory, format, size));
+}
+
+}  // namespace aspic

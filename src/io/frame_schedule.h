@@ -1,0 +1,25 @@
+#pragma once
+// Which state each picture of a run shows.
+#include <cstdint>
+
+namespace aspic {
+
+/// Picture f shows the state nearest to f·speed/fps seconds after the run's first state; the last picture
+/// shows the run's last state, so that it may come less than a picture's time after the one before.
+class FrameSchedule {
+ public:
+  /// h: time step [s], > 0. `first_step` ≤ `last_step`. fps: pictures per second shown, > 0; speed: simulated
+  /// seconds per second shown, > 0.
+  FrameSchedule(double timestep, std::uint64_t first_step, std::uint64_t last_step, double fps, double speed);
+
+  /// Pictures in all, ≥ 1.
+  std::uint64_t count() const { return count_; }
+  /// The step that picture `frame` < count() shows; never decreases.
+  std::uint64_t step_of(std::uint64_t frame) const;
+
+ private:
+  std::uint64_t first_, last_, count_;
+  double steps_per_frame_;
+};
+
+}  // namespace aspic

@@ -1,0 +1,58 @@
+#include "render/camera.h"
+
+#include <cassert>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec4.hpp>
+
+namespace aspic {
+namespace {
+
+glm::vec3 to_glm(const Vec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+}  // namespace
+
+Camera::Camera(const CameraSettings& settings, int width, int height)
+    : eye_(to_glm(settings.position)), width_(width), height_(height) {
+  assert(width >= 1 && height >= 1);
+  const glm::vec3 target = to_glm(settings.target);
+  target_distance_ = glm::length(target - eye_);
+  assert(target_distance_ > 0.0f);
+  const glm::vec3 forward = (target - eye_) / target_distance_;
+  const glm::vec3 up = std::abs(forward.y) > 0.99999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+  view_ = glm::lookAt(eye_, target, up);
+  // The near plane follows the distance, so that depth has the same relative resolution in scenes of any
+  // size.
+  const float near = target_distance_ / 200.0f;
+  projection_ = glm::perspective(glm::radians(static_cast<float>(settings.fov)),
+                                 static_cast<float>(width) / static_cast<float>(height), near,
+                                 40.0f * target_distance_);
+}
+
+std::optional<Projected> Camera::project(const Vec3& point) const {
+  const glm::vec4 clip = projection_ * view_ * glm::vec4(to_glm(point), 1.0f);
+  if (clip.w <= 0.0f) return std::nullopt;
+  Projected result;
+  result.x = (0.5 + 0.5 * static_cast<double>(clip.x / clip.w)) * width_;
+  result.y = (0.5 - 0.5 * static_cast<double>(clip.y / clip.w)) * height_;
+  result.distance = static_cast<double>(clip.w);
+  return result;
+}
+
+Ray Camera::ray_through(double x, double y) const {
+  const double right = (2.0 * x / width_ - 1.0) / static_cast<double>(projection_[0][0]);
+  const double up = (1.0 - 2.0 * y / height_) / static_cast<double>(projection_[1][1]);
+  const glm::dmat3 to_world = glm::transpose(glm::dmat3(view_));
+  const glm::dvec3 d = glm::normalize(to_world * glm::dvec3(right, up, -1.0));
+  const glm::dvec3 e(eye_);
+  return {{e.x, e.y, e.z}, {d.x, d.y, d.z}};
+}
+
+double Camera::pixels_per_metre(double distance) const {
+  return 0.5 * height_ * static_cast<double>(projection_[1][1]) / distance;
+}
+
+}  // namespace aspic

@@ -1,0 +1,115 @@
+#include "render/colour_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aspic {
+namespace {
+
+constexpr int map_size = 256;
+constexpr double pi = 3.14159265358979323846;
+
+bool in_gamut(const Colour& c) {
+  return std::ranges::all_of(c, [](float v) { return v >= 0.0f && v <= 1.0f; });
+}
+
+/// The point of the scale's path at t in 0…1: lightness and hue run straight, chroma is as large as the sRGB
+/// gamut allows within a cap that keeps the path smooth.
+Oklab path(double t) {
+  const double lightness = 0.27 + 0.64 * t;
+  const double hue = (305.0 - 200.0 * t) * pi / 180.0;
+  double chroma = 0.085 + 0.05 * std::sin(pi * t) + 0.06 * t;
+  const auto at = [&](double c) { return Oklab{lightness, c * std::cos(hue), c * std::sin(hue)}; };
+  while (!in_gamut(from_oklab(at(chroma)))) chroma *= 0.995;
+  return at(chroma);
+}
+
+double distance(const Oklab& a, const Oklab& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+Colour encoded(double r, double g, double b) {
+  return {static_cast<float>(srgb_to_linear(r)), static_cast<float>(srgb_to_linear(g)),
+          static_cast<float>(srgb_to_linear(b))};
+}
+
+}  // namespace
+
+double srgb_to_linear(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+double linear_to_srgb(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+Oklab to_oklab(const Colour& linear) {
+  const double r = static_cast<double>(linear[0]), g = static_cast<double>(linear[1]),
+               b = static_cast<double>(linear[2]);
+  const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+  const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+  const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+          1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+          0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+}
+
+Colour from_oklab(const Oklab& lab) {
+  const double l = std::pow(lab[0] + 0.3963377774 * lab[1] + 0.2158037573 * lab[2], 3.0);
+  const double m = std::pow(lab[0] - 0.1055613458 * lab[1] - 0.0638541728 * lab[2], 3.0);
+  const double s = std::pow(lab[0] - 0.0894841775 * lab[1] - 1.2914855480 * lab[2], 3.0);
+  return {static_cast<float>(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+          static_cast<float>(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+          static_cast<float>(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
+std::vector<std::byte> colour_map_texels() {
+  // Equal steps along the path's length, not along its parameter.
+  constexpr int fine = 4096;
+  std::vector<double> length(fine + 1, 0.0);
+  Oklab before = path(0.0);
+  for (int i = 1; i <= fine; ++i) {
+    const Oklab here = path(static_cast<double>(i) / fine);
+    length[static_cast<std::size_t>(i)] = length[static_cast<std::size_t>(i) - 1] + distance(before, here);
+    before = here;
+  }
+  std::vector<std::byte> texels;
+  for (int i = 0; i < map_size; ++i) {
+    const double wanted = length.back() * i / (map_size - 1);
+    const auto above = std::ranges::lower_bound(length, wanted);
+    const double t = static_cast<double>(above - length.begin()) / fine;
+    const Colour colour = from_oklab(path(std::min(t, 1.0)));
+    for (const float channel : colour) {
+      const double value = linear_to_srgb(std::clamp(static_cast<double>(channel), 0.0, 1.0));
+      texels.push_back(static_cast<std::byte>(std::lround(255.0 * value)));
+    }
+    texels.push_back(std::byte{255});
+  }
+  return texels;
+}
+
+Colour spring_colour(SpringType type) {
+  switch (type) {
+    case SpringType::structural:
+      return encoded(0.05, 0.85, 0.90);
+    case SpringType::shear:
+      return encoded(0.98, 0.85, 0.10);
+    case SpringType::bending:
+      return encoded(0.16, 0.78, 0.22);
+  }
+  return {};
+}
+
+Colour body_colour(std::size_t body) {
+  static const std::array<Colour, 8> palette = {encoded(0.93, 0.22, 0.30), encoded(0.35, 0.80, 0.30),
+                                                encoded(0.98, 0.62, 0.16), encoded(0.30, 0.52, 0.95),
+                                                encoded(0.72, 0.36, 0.90), encoded(0.15, 0.78, 0.74),
+                                                encoded(0.96, 0.42, 0.66), encoded(0.90, 0.84, 0.22)};
+  return palette[body % palette.size()];
+}
+
+Colour neutral_body_colour() {
+  return encoded(0.80, 0.81, 0.83);
+}
+
+}  // namespace aspic

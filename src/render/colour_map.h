@@ -1,0 +1,37 @@
+#pragma once
+// Colours of the picture: the course's spring colours, bodies, and a perceptually uniform scale.
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "model/settings.h"
+
+namespace aspic {
+
+/// Linear light, red, green, blue, each 0…1.
+using Colour = std::array<float, 3>;
+
+/// IEC 61966-2-1: an encoded value 0…1 to linear light and back.
+double srgb_to_linear(double encoded);
+double linear_to_srgb(double linear);
+
+/// Oklab (Ottosson, 2020): lightness and two opponent axes. Equal distances look about equally different.
+using Oklab = std::array<double, 3>;
+Oklab to_oklab(const Colour& linear);
+Colour from_oklab(const Oklab& lab);
+
+/// The scale of strain, force and speed: 256 colours, RGBA with 8 bits each, sRGB encoded. From dark violet
+/// over blue, green to bright yellow; lightness rises evenly, so it also reads in grey; neighbouring colours
+/// are equally far apart in Oklab, up to the rounding to 8 bits.
+std::vector<std::byte> colour_map_texels();
+
+/// Structural cyan, shear yellow, bending green, as the course drew them.
+Colour spring_colour(SpringType type);
+
+/// The flesh of the body of that index; repeats after eight.
+Colour body_colour(std::size_t body);
+
+/// Bodies that show no material: neutral.
+Colour neutral_body_colour();
+
+}  // namespace aspic

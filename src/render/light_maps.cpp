@@ -1,0 +1,93 @@
+#include "render/light_maps.h"
+
+#include <glad/gl.h>
+
+namespace aspic {
+namespace {
+
+constexpr int sun_size = 512;
+constexpr int sky_size = 256;
+
+}  // namespace
+
+double particle_radius(double spacing) {
+  return 0.16 * spacing;
+}
+
+double spring_radius(double spacing, SpringType type) {
+  return (type == SpringType::structural ? 0.026 : type == SpringType::shear ? 0.014 : 0.018) * spacing;
+}
+
+bool draws(const DrawSettings& draw, SpringType type) {
+  switch (type) {
+    case SpringType::structural:
+      return draw.structural;
+    case SpringType::shear:
+      return draw.shear;
+    case SpringType::bending:
+      return draw.bending;
+  }
+  return false;
+}
+
+Result<LightMaps> LightMaps::create(gl::Context& context) {
+  LightMaps result;
+  for (int light = 0; light < LIGHTS; ++light) {
+    const int size = light == LIGHT_SUN ? sun_size : sky_size;
+    auto map = DrawableImage::create(
+        context, light == LIGHT_SUN ? "sun map" : "sky map",
+        {.format = gl::TexelFormat::rg16f, .width = size, .height = size, .mipmaps = true}, true);
+    if (!map) return map.error();
+    result.maps_[static_cast<std::size_t>(light)] = std::move(*map);
+  }
+  return result;
+}
+
+void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model, const gl::Buffer& particles,
+                       const DrawSettings& draw) {
+  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_LIGHT_BOXES, model.light_boxes().id());
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  const gl::VertexArray skin = model.skin_array(particles);
+  const gl::VertexArray points = model.particle_array(particles);
+  const gl::VertexArray lines = model.spring_array(particles);
+  for (int light = 0; light < LIGHTS; ++light) {
+    DrawableImage& map = maps_[static_cast<std::size_t>(light)];
+    map.framebuffer.bind();
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (draw.solid && model.has_skin()) {
+      programs.light_surface.set(LOCATION_LIGHT, light);
+      glUseProgram(programs.light_surface.id());
+      skin.bind();
+      for (const Surface::Part& part : model.parts())
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{part.first_index}));
+    }
+    if (draw.particles) {
+      programs.light_particles.set(LOCATION_LIGHT, light);
+      programs.light_particles.set(LOCATION_RADIUS, static_cast<float>(particle_radius(model.spacing())));
+      glUseProgram(programs.light_particles.id());
+      points.bind();
+      glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(model.particle_count()));
+    }
+    for (const SpringRun& run : model.springs()) {
+      if (!draws(draw, run.constants.type) || run.index_count == 0) continue;
+      programs.light_springs.set(LOCATION_LIGHT, light);
+      programs.light_springs.set(LOCATION_RADIUS,
+                                 static_cast<float>(spring_radius(model.spacing(), run.constants.type)));
+      glUseProgram(programs.light_springs.id());
+      lines.bind();
+      glDrawElements(GL_LINES, static_cast<GLsizei>(run.index_count), GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{run.first_index}));
+    }
+    map.colour.generate_mipmaps();
+    map.colour.bind(light == LIGHT_SUN ? UNIT_SUN_MAP : UNIT_SKY_MAP);
+  }
+  glBindVertexArray(0);
+}
+
+}  // namespace aspic

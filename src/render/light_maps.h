@@ -1,0 +1,32 @@
+#pragma once
+// What the bodies cover, seen from the sun and from straight above.
+#include <array>
+
+#include "render/model_buffers.h"
+#include "render/targets.h"
+#include "scene/view_settings.h"
+
+namespace aspic {
+
+/// Radius that particles are drawn with [m]: a share of the spacing.
+double particle_radius(double spacing);
+/// Radius that springs of a type are drawn with [m].
+double spring_radius(double spacing, SpringType type);
+/// Whether springs of the type are drawn.
+bool draws(const DrawSettings& draw, SpringType type);
+
+class LightMaps {
+ public:
+  /// Error (scene_rejected, no_device): those of textures and framebuffers.
+  static Result<LightMaps> create(gl::Context& context);
+
+  /// Draws what `draw` shows of the bodies into both maps. The frame block must be bound; binds the bounds'
+  /// block and both maps to their places.
+  void render(const RenderPrograms& programs, const ModelBuffers& model, const gl::Buffer& particles,
+              const DrawSettings& draw);
+
+ private:
+  std::array<DrawableImage, LIGHTS> maps_;
+};
+
+}  // namespace aspic

@@ -1,0 +1,73 @@
+#pragma once
+// What drawing needs of a model on the device, and what is derived from its particles for each picture.
+#include <cstdint>
+#include <vector>
+
+#include "base/result.h"
+#include "gpu/buffer.h"
+#include "gpu/vertex_array.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "render/layout.h"
+#include "render/programs.h"
+#include "render/surface.h"
+
+namespace aspic {
+
+/// Bytes from one particle to the next in a particle buffer: position and velocity, four floats each
+/// (shaders/compute/layout.glsl).
+inline constexpr std::uint32_t particle_stride = 32;
+
+/// Springs of one class, as a run of index pairs.
+struct SpringRun {
+  SpringClass constants;
+  std::uint32_t first_index = 0, index_count = 0;
+};
+
+/// Buffers of one model. Their context must outlive them and be current.
+class ModelBuffers {
+ public:
+  /// Error (scene_rejected): no device memory, or larger than the device's buffers.
+  static Result<ModelBuffers> create(gl::Context& context, const Model& model);
+
+  /// Fills `particles` (made or made larger as needed) with a state, as a solver would hold it.
+  static Status upload(gl::Context& context, const Model& model, const State& state, gl::Buffer& particles);
+
+  /// Normals of the skin at these particles' positions, readable as vertices afterwards.
+  void compute_normals(const RenderPrograms& programs, const gl::Buffer& particles);
+  /// The coloured quantity of each particle; the frame block must be bound.
+  void compute_quantity(const RenderPrograms& programs, const gl::Buffer& particles);
+  /// The map of each light, fitted to the particles; the frame block must be bound.
+  void compute_light_boxes(const RenderPrograms& programs, const gl::Buffer& particles);
+
+  /// Inputs of the skin's, the particles' and the springs' shaders.
+  gl::VertexArray skin_array(const gl::Buffer& particles) const { return array(particles, &skin_indices_); }
+  gl::VertexArray particle_array(const gl::Buffer& particles) const { return array(particles, nullptr); }
+  gl::VertexArray spring_array(const gl::Buffer& particles) const {
+    return array(particles, &spring_indices_);
+  }
+
+  std::uint32_t particle_count() const { return particle_count_; }
+  const std::vector<Surface::Part>& parts() const { return parts_; }
+  bool has_skin() const { return skin_vertices_ > 0; }
+  const std::vector<SpringRun>& springs() const { return springs_; }
+  /// Typical distance between neighbours [m]; 1 without springs.
+  double spacing() const { return spacing_; }
+  const gl::Buffer& light_boxes() const { return light_boxes_; }
+  const gl::Buffer& normals() const { return normals_; }
+  const gl::Buffer& quantity() const { return quantity_; }
+
+ private:
+  ModelBuffers() = default;
+  gl::VertexArray array(const gl::Buffer& particles, const gl::Buffer* indices) const;
+
+  std::uint32_t particle_count_ = 0, skin_vertices_ = 0;
+  double spacing_ = 1.0;
+  std::vector<Surface::Part> parts_;
+  std::vector<SpringRun> springs_;
+  gl::Buffer skin_indices_, fan_vertex_, fan_start_, fan_;
+  gl::Buffer spring_indices_, spring_start_, spring_ends_, spring_classes_;
+  gl::Buffer normals_, quantity_, bounds_, light_boxes_;
+};
+
+}  // namespace aspic

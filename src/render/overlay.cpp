@@ -1,0 +1,180 @@
+#include "render/overlay.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu/vertex_array.h"
+#include "render/layout.h"
+
+namespace aspic {
+namespace {
+
+// In heights of the text.
+constexpr float margin = 0.9f;
+constexpr float padding = 0.75f;
+constexpr float column_gap = 0.9f;
+constexpr float corner = 0.55f;
+constexpr float bar_width = 15.0f;
+constexpr float bar_height = 0.75f;
+
+constexpr std::array<float, 4> bright = {0.93f, 0.95f, 0.97f, 1.0f};
+constexpr std::array<float, 4> dim = {0.42f, 0.49f, 0.57f, 1.0f};
+constexpr std::array<float, 4> backdrop = {0.006f, 0.009f, 0.014f, 0.66f};
+
+constexpr float glyph_shape = 0.0f, panel_shape = 1.0f, scale_shape = 2.0f;
+
+}  // namespace
+
+Result<OverlayPainter> OverlayPainter::create(gl::Context& context, const gl::ShaderLibrary& library) {
+  OverlayPainter painter(context);
+  auto program = gl::Program::graphics(context, library,
+                                       {.vertex = "render/overlay.vert", .fragment = "render/overlay.frag"});
+  if (!program) return program.error();
+  painter.program_ = std::move(*program);
+  return painter;
+}
+
+Status OverlayPainter::prepare_font(int pixel_height) {
+  if (font_ && font_->pixel_height() == pixel_height) return {};
+  auto font = std::make_unique<Font>(pixel_height);
+  auto texture = gl::Texture::create(
+      *context_, "glyphs",
+      {.format = gl::TexelFormat::r8, .width = font->atlas_width(), .height = font->atlas_height()});
+  if (!texture) return texture.error();
+  texture->upload(font->atlas());
+  glyphs_ = std::move(*texture);
+  font_ = std::move(font);
+  return {};
+}
+
+void OverlayPainter::rectangle(float x, float y, float width, float height, const std::array<float, 4>& uv,
+                               const std::array<float, 4>& tint, const std::array<float, 4>& shape) {
+  const auto vertex = [&](bool right, bool low) {
+    pending_.push_back(
+        {{x + (right ? width : 0.0f), y + (low ? height : 0.0f), right ? uv[2] : uv[0], low ? uv[3] : uv[1]},
+         tint,
+         shape});
+  };
+  for (const auto& [right, low] :
+       {std::pair(false, false), {false, true}, {true, false}, {true, false}, {false, true}, {true, true}})
+    vertex(right, low);
+}
+
+void OverlayPainter::panel(float x, float y, float width, float height) {
+  const float w = 0.5f * width, h = 0.5f * height;
+  const auto em = static_cast<float>(font_->pixel_height());
+  rectangle(x, y, width, height, {-w, -h, w, h}, backdrop, {panel_shape, w, h, corner * em});
+}
+
+void OverlayPainter::text(float x, float y, std::string_view utf8, const std::array<float, 4>& tint) {
+  float pen = x;
+  const float baseline = std::round(y) + static_cast<float>(font_->ascent());
+  while (!utf8.empty()) {
+    const Glyph& g = font_->glyph(next_character(utf8));
+    const float left = std::round(pen) + static_cast<float>(g.left);
+    const auto u = static_cast<float>(g.atlas_x), v = static_cast<float>(g.atlas_y);
+    const auto w = static_cast<float>(g.width), h = static_cast<float>(g.height);
+    if (g.width > 0)
+      rectangle(left, baseline + static_cast<float>(g.top), w, h, {u, v, u + w, v + h}, tint,
+                {glyph_shape, 0, 0, 0});
+    pen += g.advance;
+  }
+}
+
+void OverlayPainter::facts(const std::vector<OverlayLine>& lines) {
+  const auto em = static_cast<float>(font_->pixel_height());
+  const auto step = static_cast<float>(font_->line_height());
+  float labels = 0.0f, values = 0.0f;
+  for (const OverlayLine& line : lines) {
+    labels = std::max(labels, font_->width_of(line.label));
+    values = std::max(values, font_->width_of(line.value));
+  }
+  if (labels > 0.0f) labels += column_gap * em;
+  const float left = std::round(margin * em), top = left;
+  const float inset = std::round(padding * em);
+  panel(left, top, std::ceil(labels + values) + 2 * inset,
+        static_cast<float>(lines.size()) * step + 2 * inset - (step - em));
+  float y = top + inset;
+  for (const OverlayLine& line : lines) {
+    text(left + inset, y, line.label, dim);
+    text(left + inset + labels, y, line.value, bright);
+    y += step;
+  }
+}
+
+void OverlayPainter::scale(const Legend& legend, float picture_width, float picture_height) {
+  const auto em = static_cast<float>(font_->pixel_height());
+  const auto step = static_cast<float>(font_->line_height());
+  const float inset = std::round(padding * em);
+  const bool bar = legend.entries.empty();
+  float width = font_->width_of(legend.title);
+  for (const Legend::Entry& entry : legend.entries)
+    width = std::max(width, 1.6f * em + font_->width_of(entry.name));
+  if (bar) width = std::max(width, bar_width * em);
+  width = std::ceil(width);
+  const float rows = 1.0f + (bar ? 1.0f : static_cast<float>(legend.entries.size()));
+  const float height =
+      rows * step + (bar ? std::round((bar_height + 0.3f) * em) : 0.0f) + 2 * inset - (step - em);
+  const float left = std::round(picture_width - margin * em - width - 2 * inset);
+  const float top = std::round(picture_height - margin * em - height);
+  panel(left, top, width + 2 * inset, height);
+  const float x = left + inset;
+  float y = top + inset;
+  text(x, y, legend.title, bright);
+  y += step;
+  for (const Legend::Entry& entry : legend.entries) {
+    const float size = std::round(0.8f * em);
+    const std::array<float, 4> tint = {entry.colour[0], entry.colour[1], entry.colour[2], 1.0f};
+    const float h = 0.5f * size;
+    rectangle(x, y + std::round(0.12f * em), size, size, {-h, -h, h, h}, tint,
+              {panel_shape, h, h, 0.25f * size});
+    text(x + 1.6f * em, y, entry.name, bright);
+    y += step;
+  }
+  if (!bar) return;
+  rectangle(x, y, width, std::round(bar_height * em), {0, 0, 1, 0}, bright, {scale_shape, 0, 0, 0});
+  y += std::round((bar_height + 0.3f) * em);
+  text(x, y, legend.marks[0], bright);
+  text(x + 0.5f * (width - font_->width_of(legend.marks[1])), y, legend.marks[1], bright);
+  text(x + width - font_->width_of(legend.marks[2]), y, legend.marks[2], bright);
+}
+
+Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines,
+                            const Legend& legend) {
+  if (lines.empty() && legend.empty()) return {};
+  const int wanted = static_cast<int>(std::lround(picture.height() / 42.0));
+  const Status font = prepare_font(std::clamp(wanted, 11, 256));
+  if (!font) return font;
+  pending_.clear();
+  if (!lines.empty()) facts(lines);
+  if (!legend.empty())
+    scale(legend, static_cast<float>(picture.width()), static_cast<float>(picture.height()));
+
+  const std::uint64_t bytes = pending_.size() * sizeof(Vertex);
+  if (vertices_.bytes() < bytes) {
+    auto buffer = gl::Buffer::create(*context_, "overlay", 2 * bytes);
+    if (!buffer) return buffer.error();
+    vertices_ = std::move(*buffer);
+  }
+  vertices_.upload_items(std::span<const Vertex>(pending_));
+  const gl::Attribute attributes[] = {{0, &vertices_, 4, sizeof(Vertex), 0},
+                                      {1, &vertices_, 4, sizeof(Vertex), 16},
+                                      {2, &vertices_, 4, sizeof(Vertex), 32}};
+  const gl::VertexArray array = gl::VertexArray::create(attributes);
+  picture.bind();
+  array.bind();
+  glUseProgram(program_.id());
+  glyphs_.bind(UNIT_GLYPHS);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(pending_.size()));
+  glDisable(GL_BLEND);
+  glBindVertexArray(0);
+  return {};
+}
+
+}  // namespace aspic

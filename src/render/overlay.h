@@ -1,0 +1,66 @@
+#pragma once
+// What is written over a picture: a panel of facts, and the scale of the colours.
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "gpu/buffer.h"
+#include "gpu/framebuffer.h"
+#include "gpu/program.h"
+#include "render/colour_map.h"
+#include "render/font.h"
+
+namespace aspic {
+
+/// One line of the panel.
+struct OverlayLine {
+  std::string label;  ///< in the left column, dimmer; may be empty
+  std::string value;  ///< in the right column
+};
+
+/// A scale of colours with its ends, or a key of named colours, bottom right.
+struct Legend {
+  std::string title;
+  std::array<std::string, 3> marks;  ///< lower end, middle, upper end; all empty: no scale is drawn
+  struct Entry {
+    Colour colour;
+    std::string name;
+  };
+  std::vector<Entry> entries;  ///< below the title, instead of a scale
+  bool empty() const { return title.empty(); }
+};
+
+/// Draws text; knows nothing of scenes. Its context must outlive it and be current.
+class OverlayPainter {
+ public:
+  static Result<OverlayPainter> create(gl::Context& context, const gl::ShaderLibrary& library);
+
+  /// Draws over `picture`, an sRGB image; text height is a fixed fraction of its height, 11 pixels at least.
+  /// The colour map must be bound to its unit and the frame block to its binding. Leaves blending off. Error
+  /// (scene_rejected): no device memory.
+  Status draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines, const Legend& legend);
+
+ private:
+  struct Vertex {
+    std::array<float, 4> place, tint, shape;
+  };
+  explicit OverlayPainter(gl::Context& context) : context_(&context) {}
+  Status prepare_font(int pixel_height);
+  void rectangle(float x, float y, float width, float height, const std::array<float, 4>& uv,
+                 const std::array<float, 4>& tint, const std::array<float, 4>& shape);
+  void panel(float x, float y, float width, float height);
+  void text(float x, float y, std::string_view utf8, const std::array<float, 4>& tint);
+  void facts(const std::vector<OverlayLine>& lines);
+  void scale(const Legend& legend, float picture_width, float picture_height);
+
+  gl::Context* context_;
+  gl::Program program_;
+  gl::Texture glyphs_;
+  std::unique_ptr<Font> font_;
+  gl::Buffer vertices_;
+  std::vector<Vertex> pending_;
+};
+
+}  // namespace aspic

@@ -1,0 +1,19 @@
+#pragma once
+// Every program of the picture, compiled once.
+#include "base/result.h"
+#include "gpu/program.h"
+
+namespace aspic {
+
+struct RenderPrograms {
+  gl::Program bounds, light_boxes, normals, quantity;           ///< kernels
+  gl::Program light_surface, light_particles, light_springs;    ///< into light maps
+  gl::Program thickness, jelly_far, jelly, particles, springs;  ///< bodies
+  gl::Program plane, shadowed_plane, sphere, glass, sky;        ///< surroundings
+  gl::Program present;                                          ///< into a window
+
+  /// Errors: those of Program::compute and Program::graphics.
+  static Result<RenderPrograms> create(gl::Context& context, const gl::ShaderLibrary& library);
+};
+
+}  // namespace aspic

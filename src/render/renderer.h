@@ -1,0 +1,74 @@
+#pragma once
+// Draws a model's particles, wherever they come from, as a picture: the same code for window and file.
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/result.h"
+#include "gpu/buffer.h"
+#include "gpu/context.h"
+#include "gpu/framebuffer.h"
+#include "gpu/shader_source.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "render/camera.h"
+#include "render/overlay.h"
+#include "render/quantity.h"
+#include "scene/view_settings.h"
+
+namespace aspic {
+
+struct RendererOptions {
+  int samples = 4;  ///< per pixel, 1 … what the device offers; fewer are taken where it has fewer
+  gl::ShaderLibrary shaders{};  ///< where shaders come from
+};
+
+/// What a picture shows beside the particles.
+struct PictureOptions {
+  ViewSettings view;
+  std::optional<QuantityRange> range;  ///< of strain, force [N] or speed [m/s]; absent: default_range()
+  std::vector<OverlayLine> text;       ///< empty: no panel
+  bool legend = true;                  ///< of colours, where they mean something
+};
+
+/// Everything of OpenGL that pictures need. The context must outlive it and be current in every call. The
+/// state of the context that it changes it leaves as OpenGL starts with, bindings excepted.
+class Renderer {
+ public:
+  /// Compiles the shaders and makes the textures. Errors: no_device (a shader is refused), io (a shader file
+  /// is missing), scene_rejected (no device memory).
+  static Result<std::unique_ptr<Renderer>> create(gl::Context& context, const RendererOptions& options = {});
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Takes on a model, which must outlive the renderer or the next set_model.
+  /// Error (scene_rejected): no device memory for it.
+  Status set_model(const Model& model);
+
+  /// Copies a state of the model to the device, for solvers that do not live there, and returns its buffer,
+  /// valid until the next call. The state has as many particles as the model.
+  /// Error (scene_rejected): no device memory.
+  Result<const gl::Buffer*> upload(const State& state);
+
+  /// Draws width × height pixels. `particles` holds the model's particles, 32 bytes each: position and
+  /// inverse mass, velocity and mass (GpuSolver::particles() is such a buffer). Legal after set_model. Error:
+  /// scene_rejected or no_device, a picture of this size cannot be made.
+  Status draw(int width, int height, const gl::Buffer& particles, const PictureOptions& options);
+
+  /// The picture last drawn: one sample, sRGB encoded values. Legal after draw().
+  const gl::Framebuffer& picture() const;
+  /// Puts the picture last drawn into a window's framebuffer (0: the default one), stretched to
+  /// width × height from the lower left corner. The framebuffer takes encoded values as they are.
+  void present(std::uint32_t framebuffer, int width, int height) const;
+
+  /// For tests and probes: normals as of the last draw of solid bodies, one by particle (zero inside bodies).
+  std::vector<Vec3> normals() const;
+
+ private:
+  struct Parts;
+  explicit Renderer(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace aspic

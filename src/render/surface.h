@@ -1,0 +1,27 @@
+#pragma once
+// The skin of a model's bodies: which particles it joins, and what normals are summed from.
+#include <cstdint>
+#include <vector>
+
+#include "model/model.h"
+
+namespace aspic {
+
+/// Triangles over global particle indices. They turn anticlockwise seen from outside the undeformed body.
+struct Surface {
+  struct Part {
+    std::uint32_t first_index = 0, index_count = 0;  ///< of one body, into `indices`
+  };
+  std::vector<std::uint32_t> indices;  ///< three per triangle
+  std::vector<Part> parts;             ///< by body, in the order of Model::bodies
+
+  /// The fans: vertex i of the skin is particle fan_vertex[i]; at it meet the quads
+  /// fan_start[i] … fan_start[i + 1] − 1, of each of which `fan` holds the vertex's next and previous
+  /// neighbour (two words).
+  std::vector<std::uint32_t> fan_vertex, fan_start, fan;
+};
+
+/// The six faces of every cube. Bodies without an inside have no triangles.
+Surface make_surface(const Model& model);
+
+}  // namespace aspic

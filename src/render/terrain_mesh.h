@@ -1,0 +1,26 @@
+#pragma once
+// Shapes and texture of the terrain, made here by procedures.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace aspic {
+
+struct Mesh {
+  std::vector<std::array<float, 4>> vertices;  ///< position; the last component is 1
+  std::vector<std::uint32_t> indices;          ///< three per triangle, anticlockwise from outside
+};
+
+/// The square −1…1 in x and y, z = 0.
+Mesh square_mesh();
+
+/// The unit sphere by latitude (`rings` ≥ 2 strips) and longitude (`sectors` ≥ 3), poles at ±y.
+Mesh sphere_mesh(int rings, int sectors);
+
+/// A floor of square tiles, 4 × 4 of them, as size² texels RGBA with 8 bits each, sRGB encoded; the edges
+/// match when it is repeated. Each tile has its own shade of warm grey, a grain of five octaves of value
+/// noise and a bevelled joint. `size` is a power of two ≥ 64.
+std::vector<std::byte> ground_texels(int size);
+
+}  // namespace aspic

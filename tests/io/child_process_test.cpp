@@ -1,0 +1,57 @@
+#include "io/child_process.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+namespace aspic {
+namespace {
+
+std::span<const std::byte> bytes(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
+
+TEST(ChildProcess, FeedsAndKeepsTheLastLines) {
+  auto child = ChildProcess::start({"sh", "-c", "cat >&2; exit 3"});
+  ASSERT_TRUE(child.ok()) << child.error().message;
+  EXPECT_TRUE(child->write(bytes("one\ntwo\nthree\n")));
+  EXPECT_EQ(child->finish().exit_code, 3);
+  EXPECT_EQ(child->last_lines(2), "two\nthree\n");
+  EXPECT_EQ(child->last_lines(9), "one\ntwo\nthree\n");
+}
+
+TEST(ChildProcess, ArgumentsPassNoShell) {
+  auto child = ChildProcess::start({"sh", "-c", "printf %s \"$1\" >&2", "sh", "a b; $(exit 1) 'c'"});
+  ASSERT_TRUE(child.ok());
+  EXPECT_TRUE(child->finish().ok());
+  EXPECT_EQ(child->last_lines(1), "a b; $(exit 1) 'c'\n");
+}
+
+TEST(ChildProcess, AReaderThatEndsRaisesNoSignal) {
+  auto child = ChildProcess::start({"sh", "-c", "echo enough >&2; exit 1"});
+  ASSERT_TRUE(child.ok());
+  const std::string block(1 << 16, 'x');
+  bool open = true;
+  for (int i = 0; i < 1000 && open; ++i) open = child->write(bytes(block));
+  EXPECT_FALSE(open);
+  EXPECT_EQ(child->finish().exit_code, 1);
+  EXPECT_EQ(child->last_lines(5), "enough\n");
+}
+
+TEST(ChildProcess, ReportsSignals) {
+  auto child = ChildProcess::start({"sh", "-c", "kill -TERM $$"});
+  ASSERT_TRUE(child.ok());
+  const ChildProcess::End end = child->finish();
+  EXPECT_EQ(end.signal, SIGTERM);
+  EXPECT_FALSE(end.ok());
+  EXPECT_EQ(child->last_lines(3), "");
+}
+
+TEST(ChildProcess, MissingProgramIsAnError) {
+  const auto child = ChildProcess::start({"no-such-program-anywhere"});
+  ASSERT_FALSE(child.ok());
+  EXPECT_THAT(child.error().message, testing::HasSubstr("no-such-program-anywhere cannot be started"));
+}
+
+}  // namespace
+}  // namespace aspic

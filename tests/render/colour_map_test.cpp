@@ -1,0 +1,86 @@
+#include "render/colour_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/cube.h"
+#include "render/quantity.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+Colour texel(const std::vector<std::byte>& texels, std::size_t i) {
+  const auto channel = [&](std::size_t c) {
+    return static_cast<float>(srgb_to_linear(std::to_integer<int>(texels[4 * i + c]) / 255.0));
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
+TEST(ColourMap, SrgbGoesThereAndBack) {
+  for (int i = 0; i <= 255; ++i) EXPECT_NEAR(linear_to_srgb(srgb_to_linear(i / 255.0)), i / 255.0, 1e-7);
+}
+
+TEST(ColourMap, OklabOfWhiteIsWhite) {
+  // Ottosson's matrices are given to ten digits and white to within a few units of the eighth.
+  const Oklab white = to_oklab({1.0f, 1.0f, 1.0f});
+  EXPECT_NEAR(white[0], 1.0, 1e-7);
+  EXPECT_NEAR(white[1], 0.0, 1e-7);
+  EXPECT_NEAR(white[2], 0.0, 1e-7);
+  const Colour back = from_oklab(to_oklab({0.2f, 0.5f, 0.1f}));
+  EXPECT_NEAR(back[0], 0.2f, 1e-6f);
+  EXPECT_NEAR(back[1], 0.5f, 1e-6f);
+  EXPECT_NEAR(back[2], 0.1f, 1e-6f);
+}
+
+TEST(ColourMap, IsPerceptuallyUniform) {
+  const auto texels = colour_map_texels();
+  ASSERT_EQ(texels.size(), 4u * 256);
+  // Sixteen texels apart, so that rounding to 8 bits (half a step of 1/255 per channel, under 0.003 in Oklab)
+  // is small beside the distance.
+  std::vector<double> steps;
+  double lightness = -1.0;
+  for (std::size_t i = 0; i + 15 < 256; i += 15) {
+    const Oklab a = to_oklab(texel(texels, i)), b = to_oklab(texel(texels, i + 15));
+    steps.push_back(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+    EXPECT_GT(a[0], lightness) << "lightness falls at texel " << i;
+    lightness = a[0];
+  }
+  double mean = 0.0;
+  for (const double step : steps) mean += step / static_cast<double>(steps.size());
+  for (const double step : steps) EXPECT_NEAR(step, mean, 0.1 * mean + 0.006);
+}
+
+TEST(Quantity, RoundsUpToOneTwoFive) {
+  EXPECT_DOUBLE_EQ(round_up(0.013), 0.02);
+  EXPECT_DOUBLE_EQ(round_up(5.0), 5.0);
+  EXPECT_DOUBLE_EQ(round_up(5.1), 10.0);
+  EXPECT_DOUBLE_EQ(round_up(700.0), 1000.0);
+}
+
+TEST(Quantity, SpeedRangeIsThatOfTheFall) {
+  // The highest particle stands at 9 + 2 m over a plane at −1 m: √(2·9.8·12) = 15.3 m/s.
+  const Model model = test::build(test::cube_on_plane(4));
+  const QuantityRange range = default_range(model, ViewColour::speed);
+  EXPECT_DOUBLE_EQ(range[0], 0.0);
+  EXPECT_DOUBLE_EQ(range[1], 20.0);
+  // k·r/10 of the stiffest: bending springs of 2·4/3 m at 2000 N/m, 533 N.
+  EXPECT_DOUBLE_EQ(default_range(model, ViewColour::force)[1], 1000.0);
+}
+
+TEST(Quantity, LegendNamesUnitAndRange) {
+  ViewSettings view;
+  view.colour = ViewColour::strain;
+  const Legend legend = legend_for(view, {0.0, 0.2});
+  EXPECT_EQ(legend.marks[0], "0 %");
+  EXPECT_EQ(legend.marks[1], "10 %");
+  EXPECT_EQ(legend.marks[2], "≥ 20 %");
+  view.colour = ViewColour::material;
+  EXPECT_TRUE(legend_for(view, {0.0, 1.0}).empty());
+  view.draw.shear = true;
+  ASSERT_EQ(legend_for(view, {0.0, 1.0}).entries.size(), 1u);
+}
+
+}  // namespace
+}  // namespace aspic

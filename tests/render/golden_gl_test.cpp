@@ -1,0 +1,58 @@
+// The default view of every built-in scene at a stated step, 640 × 360, on Mesa's software rasteriser. To
+// take new pictures as golden: ASPIC_UPDATE_GOLDEN=1 build/release/tests/render/render_tests
+// --gtest_filter='Golden*', then look at tests/golden/*.png before committing them.
+#include <gtest/gtest.h>
+
+#include "render/overlay_text.h"
+#include "render/studio.h"
+#include "scene/load.h"
+
+namespace aspic {
+namespace {
+
+// The golden pictures are this rasteriser's own; another build of it may round a channel differently.
+constexpr int tolerance = 2;
+
+struct Shot {
+  std::string scene;
+  std::uint64_t step;
+  std::vector<std::string> overrides = {};
+  std::string name = {};
+};
+
+void PrintTo(const Shot& shot, std::ostream* out) {
+  *out << shot.scene << " at step " << shot.step;
+}
+
+class Golden : public test::Studio, public ::testing::WithParamInterface<Shot> {};
+
+TEST_P(Golden, Picture) {
+  const Shot& shot = GetParam();
+  const auto scene = load_scene(shot.scene, shot.overrides);
+  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  const Model model = test::build(scene->model);
+  const State state = shot.step > 0 ? test::after(model, shot.step) : initial_state(model, Precision::single);
+  PictureOptions options;
+  options.view = scene->view;
+  options.text = overlay_lines(scene->model, static_cast<double>(state.step) * model.simulation.timestep);
+  test::expect_golden(draw(model, state, options), shot.name.empty() ? shot.scene : shot.name, tolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Golden,
+    ::testing::Values(Shot{"cube-plane", 1500}, Shot{"cube-tilted-plane", 1300}, Shot{"cube-sphere", 1000},
+                      Shot{"cube-bowl", 1300}, Shot{"large-cube", 0},
+                      Shot{"cube-plane", 1500, {"view.colour=strain"}, "strain"},
+                      Shot{"cube-plane",
+                           1500,
+                           {"view.draw=[\"solid\", \"particles\", \"structural\", \"shear\", \"bending\"]",
+                            "cube[0].pinned=[\"top\"]", "cube[0].position=[0.0, 2.0, 0.0]"},
+                           "springs"}),
+    [](const ::testing::TestParamInfo<Shot>& shot) {
+      std::string name = shot.param.name.empty() ? shot.param.scene : shot.param.name;
+      std::erase(name, '-');
+      return name;
+    });
+
+}  // namespace
+}  // namespace aspic

@@ -1,0 +1,86 @@
+#include "render/surface.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "render/terrain_mesh.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+TEST(Surface, CubeHasAClosedSkinThatFacesOutwards) {
+  const int n = 5;
+  const Model model = test::build(test::cube_on_plane(n));
+  const Surface surface = make_surface(model);
+  ASSERT_EQ(surface.indices.size(), 6u * 2 * 3 * (n - 1) * (n - 1));
+  ASSERT_EQ(surface.fan_vertex.size(), static_cast<std::size_t>(n * n * n - (n - 2) * (n - 2) * (n - 2)));
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  double volume = 0.0;
+  for (std::size_t t = 0; t < surface.indices.size(); t += 3) {
+    const std::array<std::uint32_t, 3> corner = {surface.indices[t], surface.indices[t + 1],
+                                                 surface.indices[t + 2]};
+    for (std::size_t i = 0; i < 3; ++i) ++edges[{corner[i], corner[(i + 1) % 3]}];
+    const auto& x = model.initial_position;
+    volume += dot(x[corner[0]], cross(x[corner[1]], x[corner[2]])) / 6.0;
+  }
+  for (const auto& [edge, times] : edges) {
+    EXPECT_EQ(times, 1);
+    EXPECT_EQ(edges.count({edge.second, edge.first}), 1u) << "an edge borders on nothing";
+  }
+  EXPECT_NEAR(volume, 64.0, 1e-9);  // edge 4 m, by the divergence theorem: positive means outwards
+}
+
+TEST(Surface, FansHoldThreeQuadsAtCornersFourElsewhere) {
+  const Surface surface = make_surface(test::build(test::cube_on_plane(4)));
+  int three = 0;
+  for (std::size_t i = 0; i < surface.fan_vertex.size(); ++i) {
+    const std::uint32_t quads = surface.fan_start[i + 1] - surface.fan_start[i];
+    if (quads == 3) {
+      ++three;
+    } else {
+      EXPECT_EQ(quads, 4u);
+    }
+  }
+  EXPECT_EQ(three, 8);
+}
+
+TEST(TerrainMesh, SphereIsClosedAndFacesOutwards) {
+  const Mesh mesh = sphere_mesh(32, 64);
+  double volume = 0.0;
+  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+    std::array<Vec3, 3> x;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& v = mesh.vertices[mesh.indices[t + i]];
+      x[i] = {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+      EXPECT_NEAR(length(x[i]), 1.0, 1e-6);
+    }
+    volume += dot(x[0], cross(x[1], x[2])) / 6.0;
+  }
+  // An inscribed mesh of angular step δ has volume 4π/3·(1 − O(δ²)), δ = π/32.
+  const double ball = 4.0 / 3.0 * 3.14159265358979;
+  EXPECT_LT(volume, ball);
+  EXPECT_GT(volume, ball * (1.0 - 0.0097));
+}
+
+TEST(TerrainMesh, GroundRepeatsWithoutASeam) {
+  const int size = 128;
+  const auto texels = ground_texels(size);
+  ASSERT_EQ(texels.size(), 4u * size * size);
+  const auto red = [&](int row, int column) {
+    return std::to_integer<int>(texels[4 * static_cast<std::size_t>(row * size + column)]);
+  };
+  // A joint runs along both edges: its two sides differ by no more than neighbouring tiles' shades do.
+  for (int i = 0; i < size; ++i) {
+    EXPECT_NEAR(red(i, 0), red(i, size - 1), 48);
+    EXPECT_NEAR(red(0, i), red(size - 1, i), 48);
+  }
+  std::set<int> shades;
+  for (const std::byte b : texels) shades.insert(std::to_integer<int>(b));
+  EXPECT_GT(shades.size(), 30u);
+}
+
+}  // namespace
+}  // namespace aspic
