@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Release and runs aspic with the arguments given here. Without arguments: the window,
-# where there is a display and a window to open, else cube-plane simulated headless into out/.
+# where there is a display and a window to open, else cube-plane simulated and filmed headless into out/.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
@@ -15,4 +15,4 @@ if [ $# -gt 0 ]; then
 fi
 out=$aspic_root/out
 mkdir -p "$out"
-exec "$aspic" run cube-plane --state "$out/cube-plane-state.csv" --series "$out/cube-plane.csv" --every 10 --force
+exec "$aspic" run cube-plane --duration 4 --video "$out/cube-plane.mp4" --series "$out/cube-plane.csv" --every 10 --force

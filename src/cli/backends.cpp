@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic::cli {
@@ -24,6 +26,9 @@ Result<Backend> make_gpu(std::unique_ptr<gl::Context> context, const BackendChoi
   }
   GpuOptions options;
   options.force_path = choice.force_path;
+  auto directory = shader_directory();
+  if (!directory) return directory.error();
+  options.shader_directory = std::move(*directory);
   auto solver = make_gpu_solver(*context, model, options);
   if (!solver) return solver.error();
   Backend backend;
@@ -46,6 +51,20 @@ Result<Backend> make_reference(const BackendChoice& choice, const Model& model) 
 }
 
 }  // namespace
+
+Result<std::filesystem::path> shader_directory() {
+  const char* value = std::getenv("ASPIC_SHADER_DIR");
+  if (!value || !*value) return std::filesystem::path();
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(value, ignored)) {
+    return Error{
+        ErrorCode::io,
+        fmt::format("ASPIC_SHADER_DIR names {}, which is no directory: name one laid out as shaders/ "
+                    "of the sources, or unset it.",
+                    value)};
+  }
+  return std::filesystem::path(value);
+}
 
 AutomaticChoice choose_automatically(const BackendChoice& choice) {
   if (choice.precision == Precision::double_) {

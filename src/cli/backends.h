@@ -1,5 +1,6 @@
 #pragma once
 // The one place that knows every backend by name.
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -51,6 +52,10 @@ Result<BackendChoice> parse_backend(std::string_view text);
 /// Finds choices that no machine could satisfy, before any work: double precision on a gpu, a force path
 /// without gpu (usage); what is not built yet (scene_rejected).
 Status check_choice(const BackendChoice& choice);
+
+/// The directory in the environment variable ASPIC_SHADER_DIR, whose shaders go before the embedded ones;
+/// empty if it is not set. Error (io): it names no directory.
+Result<std::filesystem::path> shader_directory();
 
 /// Makes the solver at the model's initial state; the model must outlive it. Errors: as check_choice;
 /// no_device.

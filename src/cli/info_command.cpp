@@ -36,7 +36,9 @@ JsonValue to_json_value(const gl::DeviceInfo& info) {
 
 /// What the canary kernel finds out about the device's arithmetic, and what is done about it.
 std::vector<std::string> arithmetic_sentences(gl::Context& context) {
-  const auto arithmetic = gl::choose_arithmetic(context, gl::ShaderLibrary());
+  const auto directory = shader_directory();
+  if (!directory) return {directory.error().message};
+  const auto arithmetic = gl::choose_arithmetic(context, gl::ShaderLibrary(*directory));
   if (!arithmetic) return {"The arithmetic could not be measured: " + arithmetic.error().message};
   return arithmetic->sentences();
 }

@@ -56,7 +56,11 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordingOptions& optio
     r->own_context_ = std::move(*context);
     r->context_ = r->own_context_.get();
   }
-  auto renderer = Renderer::create(*r->context_);
+  const auto directory = shader_directory();
+  if (!directory) return directory.error();
+  RendererOptions look;
+  look.shaders = gl::ShaderLibrary(*directory);
+  auto renderer = Renderer::create(*r->context_, look);
   if (!renderer) return renderer.error();
   r->renderer_ = std::move(*renderer);
   if (const Status taken = r->renderer_->set_model(model); !taken) return taken.error();

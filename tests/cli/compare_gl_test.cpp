@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+
 #include "cli/process.h"
+#include "support/temporary_directory.h"
 
 namespace aspic {
 namespace {
@@ -27,6 +31,24 @@ TEST(CompareGl, RunOnTheGpuEndsWithTheReferencesHash) {
   EXPECT_EQ(json_member(gpu.out, "force_path"), "gather");
   const auto reference = aspic({"run", "cube-plane", "--backend", "reference", "--steps", "60", "--json"});
   EXPECT_EQ(json_member(gpu.out, "state_hash"), json_member(reference.out, "state_hash"));
+}
+
+// A shader edited without rebuilding: its mistakes are told in its own file and line.
+TEST(CompareGl, ShaderDirectoryGoesBeforeTheEmbeddedShaders) {
+  const test::TemporaryDirectory dir;
+  std::filesystem::create_directory(dir.file("compute"));
+  dir.write("compute/gather.comp",
+            "#include \"compute/layout.glsl\"\n\nvoid main() { no_such_function(); }\n");
+  const std::vector<std::string> run = {"run", "cube-plane", "--backend", "gpu", "--steps", "1"};
+  ASSERT_EQ(setenv("ASPIC_SHADER_DIR", dir.file("").c_str(), 1), 0);
+  const auto broken = aspic(run);
+  ASSERT_EQ(setenv("ASPIC_SHADER_DIR", dir.file("none").c_str(), 1), 0);
+  const auto missing = aspic(run);
+  ASSERT_EQ(unsetenv("ASPIC_SHADER_DIR"), 0);
+  EXPECT_EQ(broken.exit_code, 4) << broken.err;
+  EXPECT_NE(broken.err.find("compute/gather.comp:3: error"), std::string::npos) << broken.err;
+  EXPECT_EQ(missing.exit_code, 6) << missing.err;
+  EXPECT_EQ(aspic(run).exit_code, 0);
 }
 
 TEST(CompareGl, DivergenceOnTheGpuEndsWhereTheReferenceEnds) {

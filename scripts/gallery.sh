@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Draws the pictures of the README anew into docs/images: the last frame of a short run of each scene.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+aspic_install run
+aspic_build aspic
+
+images=$aspic_root/docs/images
+mkdir -p "$images"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# draw NAME SECONDS SCENE [option …]
+draw() {
+  local name=$1 seconds=$2
+  shift 2
+  "$aspic_build_dir/aspic" run "$@" --duration "$seconds" --fps 1 --size 960x540 --frames "$work/$name" --frames-format jpg >&2
+  cp "$(ls "$work/$name"/*.jpg | tail -1)" "$images/$name.jpg"
+  echo "docs/images/$name.jpg" >&2
+}
+
+draw cube-plane 1.47 cube-plane
+draw cube-tilted-plane 1.3 cube-tilted-plane
+draw cube-sphere 1.1 cube-sphere
+draw cube-bowl 1.5 cube-bowl
+draw strain 1.42 cube-plane --view colour=strain
+draw springs 1.42 cube-plane --view 'draw=["structural","shear","bending"]'
