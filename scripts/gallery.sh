@@ -3,7 +3,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 aspic_install run
-aspic_build aspic
+aspic_build OFF aspic
 
 images=$aspic_root/docs/images
 mkdir -p "$images"

@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 caller=$PWD
 aspic_install run
-aspic_build aspic
+aspic_build OFF aspic
 aspic=$aspic_build_dir/aspic
 cd "$caller"
 

@@ -1,5 +1,5 @@
 # Sourced by run.sh and test.sh: installs what is missing and builds Release. Everything it says goes to stderr.
-# Usage: source scripts/setup.sh; aspic_install run|all; aspic_build [ninja target …]
+# Usage: source scripts/setup.sh; aspic_install run|all; aspic_build ON|OFF [ninja target …]
 
 aspic_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 aspic_build_dir=$aspic_root/build/release
@@ -33,11 +33,14 @@ aspic_install() {
   } >&2
 }
 
-# Ninja configures again by itself when a CMake file changed.
+# aspic_build ON|OFF [target …]: ON has the tests built as well. Ninja configures again by itself when a CMake file changed.
 aspic_build() {
+  local tests=$1
+  shift
   cd "$aspic_root" || return 1
-  if [ ! -f "$aspic_build_dir/build.ninja" ]; then
-    cmake --preset release >&2 || return 1
+  if [ ! -f "$aspic_build_dir/build.ninja" ] ||
+    { [ "$tests" = ON ] && ! grep -q '^ASPIC_BUILD_TESTS:BOOL=ON$' "$aspic_build_dir/CMakeCache.txt"; }; then
+    cmake --preset release -DASPIC_BUILD_TESTS="$tests" >&2 || return 1
   fi
   if ! ninja -C "$aspic_build_dir" --quiet "$@" | sed '/^ninja: no work to do/d' >&2; then
     echo "The build failed; the compiler's messages stand above." >&2

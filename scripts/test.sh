@@ -4,5 +4,5 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 aspic_install all
-aspic_build
+aspic_build ON
 exec ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -j "$(nproc)" "$@"
