@@ -245,6 +245,10 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
     return Error{ErrorCode::scene_rejected,
                  "the force path lattice is not built yet in this version: use gather or per-spring"};
   }
+  if (model.ball_count() > 0) {
+    return Error{ErrorCode::scene_rejected,
+                 "balls are not built yet on the gpu backend in this version: use --backend reference"};
+  }
   if (model.simulation.integrator == Integrator::implicit_euler) {
     if (options.force_path == ForcePath::per_spring) {
       return Error{ErrorCode::scene_rejected,

@@ -5,10 +5,7 @@
 namespace aspic {
 
 Result<std::vector<layout::Particle>> to_device(const State& state, const Model& model) {
-  if (state.position.size() != model.particle_count() || state.velocity.size() != model.particle_count()) {
-    return Error{ErrorCode::usage, fmt::format("the state has {} particles, the scene has {}",
-                                               state.position.size(), model.particle_count())};
-  }
+  if (const Status fits = check_sizes(model, state); !fits) return fits.error();
   std::vector<layout::Particle> particles(state.position.size());
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Vec3 &x = state.position[i], &v = state.velocity[i];
