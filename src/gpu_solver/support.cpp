@@ -40,8 +40,10 @@ Status check_device(gl::Context& context) {
           context.info().renderer)};
 }
 
-Divergence divergence_from(std::uint32_t word, std::uint64_t step) {
-  return {step, word >> 1, (word & 1u) != 0};
+Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model) {
+  const std::uint32_t index = word >> 1, particles = model.particle_count();
+  const bool ball = index >= particles;
+  return {step, ball ? index - particles : index, (word & 1u) != 0, ball};
 }
 
 Result<KernelOptions> kernel_options(gl::Context& context, const gl::ShaderLibrary& library,

@@ -98,7 +98,8 @@ TEST_F(GpuSolverTest, HoldsAsManyBytesAsItSaid) {
   }
   Model implicit = model;
   implicit.simulation.integrator = Integrator::implicit_euler;
-  EXPECT_EQ(solver_for(implicit)->bytes(), gpu_bytes(count(model), Integrator::implicit_euler, ForcePath::gather));
+  EXPECT_EQ(solver_for(implicit)->bytes(),
+            gpu_bytes(count(model), Integrator::implicit_euler, ForcePath::gather));
 }
 
 TEST_F(GpuSolverTest, RefusesWhatIsNotBuilt) {
