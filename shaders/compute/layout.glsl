@@ -22,6 +22,11 @@
 #define BINDING_SEARCH 3        // vec4[particles]: conjugate gradients' search direction p [m/s]
 #define BINDING_SOLVE 6         // Solve, then vec4[blocks]: the reductions' partial results
 #define BINDING_OWN 7           // vec4[OWN_VECTORS · particles]: what only its own invocation touches
+// Storage blocks of the ball kernels; particles are STATE_A and STATE_B: the step's start and its end.
+#define BINDING_BALLS 2         // Ball[BALL_SLOTS · balls]
+#define BINDING_BALL_BODIES 3   // BallBody[balls]
+#define BINDING_BALL_COUNTS 4   // uint[balls + particles]: acting or overlapping pairs of each body
+#define BINDING_BALL_GRID 5     // uint[2 · buckets + balls + particles]: heads of lists, then their links
 // Uniform blocks.
 #define BINDING_SIMULATION 0
 
@@ -48,12 +53,27 @@
 #define PHASE_BEGIN 1u     // a step begins
 #define PHASE_EVALUATE 2u  // the residual at the trial is wanted
 #define PHASE_CG 3u        // a linear system is being solved
+#define PHASE_BALLS 6u     // the particles' step has ended, the balls' has not
 #define PHASE_DONE 4u      // v' is found: the step can end
 #define PHASE_HALTED 5u    // the step diverged: nothing moves any more
 
 // Uniform locations.
 #define LOCATION_STEP 0   // index of the step since the state was loaded
 #define LOCATION_STAGE 1  // index of the stage within the step
+#define LOCATION_BALL_PARITY 2  // explicit methods: slot of the balls' state at the start of the step
+#define LOCATION_BALL_PHASE 3   // BALL_PHASE_…
+
+// Ball slots: two that take turns as start and end of a step, and one between phases.
+#define BALL_SLOTS 3u
+#define BALL_SLOT_BETWEEN 2u
+
+// Phases of a step in which balls meet others, in their order.
+#define BALL_PHASE_BALLS 0u      // velocities, ball and ball
+#define BALL_PHASE_PARTICLES 1u  // velocities, ball and particle
+#define BALL_PHASE_POSITIONS 2u  // overlaps of either kind
+#define BALL_PHASES 3u
+
+#define NO_BODY 0xffffffffu
 
 #define SHAPE_PLANE 0u
 #define SHAPE_SPHERE 1u
@@ -67,6 +87,20 @@
 struct Particle {
   vec4 position;  // x [m]; w: inverse mass [1/kg], 0 = pinned
   vec4 velocity;  // v [m/s]; w: mass [kg]
+};
+
+struct Ball {
+  vec4 position;        // x [m]; w: radius R [m]
+  vec4 velocity;        // v [m/s]; w: inverse mass [1/kg], 0 while it is not launched
+  vec4 spin;            // ω [rad/s]; w: R/I [1/(kg·m)]
+  vec4 start_velocity;  // v at the start of the step [m/s], between phases; w: R²/I [1/kg]
+};
+
+struct BallBody {
+  float ball_mass;          // m [kg]
+  float ball_inverse_mass;  // 1/m [1/kg]
+  uint launch_step;         // first step it takes part in, counted since the state was loaded
+  uint ball_padding;
 };
 
 // One stage of an explicit method, see src/model/integrator.h.
@@ -168,7 +202,13 @@ layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
   float progress_share;
   uint max_halvings;
   uint max_without_progress;
-  uint simulation_padding0, simulation_padding1, simulation_padding2;
+  uint ball_count;
+  uint ball_spin;             // 1: friction makes balls rotate
+  uint bucket_mask;           // buckets of the grid − 1
+  float ball_restitution;     // e of balls and particles
+  float ball_friction;        // μ of balls and particles
+  float ball_cells_per_metre;      // cells of the grid of balls
+  float particle_cells_per_metre;  // cells of the grid of particles
   Stage stages[MAX_STAGES];
   SpringClass spring_classes[MAX_SPRING_CLASSES];
   Terrain terrains[MAX_TERRAINS];

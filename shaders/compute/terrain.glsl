@@ -27,19 +27,23 @@ float bounce_speed(uint t, float m, float u) {
   return bounced > 0.0 ? bounced : 0.0;
 }
 
-// The course model's contact force: f [N] after gravity and springs, resisted and rubbed by every terrain.
+// The course model's contact force: f [N] on a body with gap g and velocity v, resisted and rubbed by one terrain.
+vec3 resisted(uint t, vec4 g, vec3 v, vec3 f_in) {
+  precise vec3 f = f_in;
+  precise float u = dot3(v, g.xyz);
+  precise float f_n = dot3(f, g.xyz);
+  if (g.w < epsilon && abs(u) < epsilon && f_n < 0.0) {
+    precise float N = -f_n;
+    precise vec3 v_t = v - u * g.xyz;
+    f = (f + N * g.xyz) - (terrains[t].friction * N) * v_t;
+  }
+  return f;
+}
+
+// By every terrain, on a particle, after gravity and springs.
 vec3 with_contact_force(vec3 x, vec3 v, vec3 f_in) {
   precise vec3 f = f_in;
-  for (uint t = 0u; t < terrain_count; ++t) {
-    precise vec4 g = gap(t, x);
-    precise float u = dot3(v, g.xyz);
-    precise float f_n = dot3(f, g.xyz);
-    if (g.w < epsilon && abs(u) < epsilon && f_n < 0.0) {
-      precise float N = -f_n;
-      precise vec3 v_t = v - u * g.xyz;
-      f = (f + N * g.xyz) - (terrains[t].friction * N) * v_t;
-    }
-  }
+  for (uint t = 0u; t < terrain_count; ++t) f = resisted(t, gap(t, x), v, f);
   return f;
 }
 

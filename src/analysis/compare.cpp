@@ -57,9 +57,17 @@ Result<StateDifference> compare_states(const State& a, const State& b) {
                  fmt::format("The states have {} and {} particles: only states of one scene can be compared.",
                              a.position.size(), b.position.size())};
   }
+  if (a.ball_position.size() != b.ball_position.size()) {
+    return Error{ErrorCode::usage,
+                 fmt::format("The states have {} and {} balls: only states of one scene can be compared.",
+                             a.ball_position.size(), b.ball_position.size())};
+  }
   const bool in_double = a.precision == Precision::double_ && b.precision == Precision::double_;
   return StateDifference{compare(a.position, b.position, in_double),
-                         compare(a.velocity, b.velocity, in_double)};
+                         compare(a.velocity, b.velocity, in_double),
+                         compare(a.ball_position, b.ball_position, in_double),
+                         compare(a.ball_velocity, b.ball_velocity, in_double),
+                         compare(a.ball_angular_velocity, b.ball_angular_velocity, in_double)};
 }
 
 }  // namespace aspic

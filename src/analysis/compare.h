@@ -1,5 +1,6 @@
 #pragma once
 // How far two states of the same model differ.
+#include <algorithm>
 #include <cstdint>
 
 #include "base/result.h"
@@ -10,24 +11,29 @@ namespace aspic {
 /// The largest differences in one quantity. With no difference all members are 0.
 struct QuantityDifference {
   double absolute = 0.0;             ///< largest |a − b| of any component, in the quantity's unit
-  std::uint32_t absolute_index = 0;  ///< the particle it was found at, the lowest if several
+  std::uint32_t absolute_index = 0;  ///< the particle or ball it was found at, the lowest if several
   std::uint64_t ulp = 0;             ///< largest distance of any component in units in the last place
   std::uint32_t ulp_index = 0;
 };
 
 struct StateDifference {
-  QuantityDifference position;  ///< [m]
-  QuantityDifference velocity;  ///< [m/s]
+  QuantityDifference position;                                             ///< [m]
+  QuantityDifference velocity;                                             ///< [m/s]
+  QuantityDifference ball_position, ball_velocity, ball_angular_velocity;  ///< [m], [m/s], [rad/s]
 
   /// Whether every bit is the same: −0 and +0 differ.
-  bool identical() const { return position.ulp == 0 && velocity.ulp == 0; }
+  bool identical() const {
+    return position.ulp == 0 && velocity.ulp == 0 && ball_position.ulp == 0 && ball_velocity.ulp == 0 &&
+           ball_angular_velocity.ulp == 0;
+  }
   double largest_absolute() const {
-    return position.absolute > velocity.absolute ? position.absolute : velocity.absolute;
+    return std::max({position.absolute, velocity.absolute, ball_position.absolute, ball_velocity.absolute,
+                     ball_angular_velocity.absolute});
   }
 };
 
 /// Compares component by component. ULPs are counted in the states' own precision; where the two differ, in
-/// single precision, to which the other is rounded. Error (usage): another number of particles.
+/// single precision, to which the other is rounded. Error (usage): another number of particles or balls.
 Result<StateDifference> compare_states(const State& a, const State& b);
 
 /// Steps from one representable number to the other; −0 and +0 are one step apart. Finite numbers only.

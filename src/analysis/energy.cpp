@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 namespace aspic {
 
 Measures measure(const Model& model, const State& state) {
-  assert(state.position.size() == model.mass.size());
+  assert(check_sizes(model, state));
   Measures m;
   double fastest_squared = 0.0;
   double lowest = std::numeric_limits<double>::infinity();
@@ -20,8 +21,18 @@ Measures measure(const Model& model, const State& state) {
     m.momentum = m.momentum + model.mass[i] * state.velocity[i];
     fastest_squared = std::max(fastest_squared, speed_squared);
   }
+  for (std::size_t b = 0; b < model.balls.size(); ++b) {
+    const Ball& ball = model.balls[b];
+    if (!ball.launched(state.step)) continue;
+    const Vec3 &v = state.ball_velocity[b], &omega = state.ball_angular_velocity[b];
+    m.gravitational -= ball.mass * dot(model.simulation.gravity, state.ball_position[b]);
+    m.kinetic += 0.5 * ball.mass * dot(v, v) + 0.5 * ball.inertia() * dot(omega, omega);
+    m.momentum = m.momentum + ball.mass * v;
+    lowest = std::min(lowest, state.ball_position[b].y);
+    fastest_squared = std::max(fastest_squared, dot(v, v));
+  }
   m.max_speed = std::sqrt(fastest_squared);
-  if (!model.mass.empty()) m.min_height = lowest;
+  if (std::isfinite(lowest)) m.min_height = lowest;
   for (const Spring& spring : model.springs) {
     const SpringClass& c = model.spring_classes[spring.spring_class];
     const double stretch = length(state.position[spring.a] - state.position[spring.b]) - c.rest_length;

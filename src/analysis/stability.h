@@ -33,12 +33,13 @@ enum class StabilityEffort {
 StabilityLimit stability_limit(const Model& model, Integrator integrator,
                                StabilityEffort effort = StabilityEffort::thorough);
 
-/// Largest eigenvalue α of the infinite cube lattice with all spring constants and masses 1: the maximum over wave
-/// vectors of Σ 2(1 − cos θ·d)·nnᵀ, rounded up. A cube has springs missing at its surface, which only lowers it.
+/// Largest eigenvalue α of the infinite cube lattice with all spring constants and masses 1: the maximum over
+/// wave vectors of Σ 2(1 − cos θ·d)·nnᵀ, rounded up. A cube has springs missing at its surface, which only
+/// lowers it.
 inline constexpr double infinite_lattice_eigenvalue = 17.6334;
 
-/// True if `timestep` is stable beyond doubt, from the infinite lattice alone and in no time: cubes with one ratio of
-/// damping to stiffness. False says nothing: ask stability_limit.
+/// True if `timestep` is stable beyond doubt, from the infinite lattice alone and in no time: cubes with one
+/// ratio of damping to stiffness. False says nothing: ask stability_limit.
 bool certainly_stable(const Model& model, Integrator integrator, double timestep);
 
 /// The limits of several integrators, sharing what they have in common; in the order of `integrators`.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -34,11 +35,17 @@ struct Worst {
 
 struct Comparison {
   std::uint64_t steps = 0;  ///< compared
-  Worst position, velocity;
+  Worst position, velocity, ball_position, ball_velocity, ball_angular_velocity;
   std::optional<std::uint64_t> first_difference;
   std::array<std::string, 2> hash;
   std::array<std::optional<Divergence>, 2> divergence;
   bool interrupted = false;
+
+  double largest_absolute() const {
+    return std::max({position.difference.absolute, velocity.difference.absolute,
+                     ball_position.difference.absolute, ball_velocity.difference.absolute,
+                     ball_angular_velocity.difference.absolute});
+  }
 };
 
 Result<Comparison> compare_steps(std::array<Backend, 2>& backends, std::uint64_t steps,
@@ -58,6 +65,9 @@ Result<Comparison> compare_steps(std::array<Backend, 2>& backends, std::uint64_t
     }
     result.position.take(difference->position, step);
     result.velocity.take(difference->velocity, step);
+    result.ball_position.take(difference->ball_position, step);
+    result.ball_velocity.take(difference->ball_velocity, step);
+    result.ball_angular_velocity.take(difference->ball_angular_velocity, step);
     result.hash = {state_hash_text(*first), state_hash_text(*second)};
     result.steps = step;
     result.interrupted = interrupt.interrupted();
@@ -78,12 +88,13 @@ std::string name_of(const Backend& backend) {
   return backend.solver->precision() == Precision::double_ ? backend.name + ":double" : backend.name;
 }
 
-JsonObject to_json_object(const Worst& worst) {
+/// `body` is "particle" or "ball".
+JsonObject to_json_object(const Worst& worst, const std::string& body) {
   return {{"largest_absolute", worst.difference.absolute},
-          {"largest_absolute_particle", worst.difference.absolute_index},
+          {"largest_absolute_" + body, worst.difference.absolute_index},
           {"largest_absolute_step", worst.absolute_step},
           {"largest_ulp", worst.difference.ulp},
-          {"largest_ulp_particle", worst.difference.ulp_index},
+          {"largest_ulp_" + body, worst.difference.ulp_index},
           {"largest_ulp_step", worst.ulp_step}};
 }
 
@@ -98,32 +109,42 @@ Status print_result(const CompareOptions& options, const Scene& scene, const std
           {"state_hash", result.hash[i]},
           {"diverged_in_step", result.divergence[i] ? JsonValue(result.divergence[i]->step) : JsonValue()}});
     }
-    return print_data(to_json({{"scene", scene.name},
-                               {"integrator", aspic::name_of(scene.model.simulation.integrator)},
-                               {"steps", result.steps},
-                               {"tolerance", options.tolerance},
-                               {"within_tolerance", within},
-                               {"identical", !result.first_difference},
-                               {"first_differing_step",
-                                result.first_difference ? JsonValue(*result.first_difference) : JsonValue()},
-                               {"position", to_json_object(result.position)},
-                               {"velocity", to_json_object(result.velocity)},
-                               {"interrupted", result.interrupted},
-                               {"backends", sides}}));
+    return print_data(
+        to_json({{"scene", scene.name},
+                 {"integrator", aspic::name_of(scene.model.simulation.integrator)},
+                 {"steps", result.steps},
+                 {"tolerance", options.tolerance},
+                 {"within_tolerance", within},
+                 {"identical", !result.first_difference},
+                 {"first_differing_step",
+                  result.first_difference ? JsonValue(*result.first_difference) : JsonValue()},
+                 {"position", to_json_object(result.position, "particle")},
+                 {"velocity", to_json_object(result.velocity, "particle")},
+                 {"ball_position", to_json_object(result.ball_position, "ball")},
+                 {"ball_velocity", to_json_object(result.ball_velocity, "ball")},
+                 {"ball_angular_velocity", to_json_object(result.ball_angular_velocity, "ball")},
+                 {"interrupted", result.interrupted},
+                 {"backends", sides}}));
   }
   std::string text = fmt::format("scene       {}, {}, {} steps compared\n", scene.name,
                                  aspic::name_of(scene.model.simulation.integrator), result.steps);
   for (std::size_t i = 0; i < backends.size(); ++i) {
     text += fmt::format("{:<11} {}  {}\n", name_of(backends[i]), result.hash[i], backends[i].device);
   }
-  const auto line = [](std::string_view name, std::string_view unit, const Worst& w) {
+  const auto line = [](std::string_view name, std::string_view unit, const Worst& w,
+                       std::string_view body = "particle") {
     const QuantityDifference& d = w.difference;
     if (d.absolute == 0.0 && d.ulp == 0) return fmt::format("{:<11} identical in every step\n", name);
-    return fmt::format(
-        "{:<11} largest difference {:.6g} {} (particle {}, step {}), {} ULP (particle {}, step {})\n", name,
-        d.absolute, unit, d.absolute_index, w.absolute_step, d.ulp, d.ulp_index, w.ulp_step);
+    return fmt::format("{:<11} largest difference {:.6g} {} ({} {}, step {}), {} ULP ({} {}, step {})\n",
+                       name, d.absolute, unit, body, d.absolute_index, w.absolute_step, d.ulp, body,
+                       d.ulp_index, w.ulp_step);
   };
   text += line("position", "m", result.position) + line("velocity", "m/s", result.velocity);
+  if (backends[0].solver->model().ball_count() > 0) {
+    text += line("ball x", "m", result.ball_position, "ball") +
+            line("ball v", "m/s", result.ball_velocity, "ball") +
+            line("ball ω", "rad/s", result.ball_angular_velocity, "ball");
+  }
   text += result.first_difference ? fmt::format("first differing step {}\n", *result.first_difference)
                                   : "no step differs\n";
   text += fmt::format("{}: tolerance {}\n", within ? "within" : "EXCEEDED", options.tolerance);
@@ -150,10 +171,8 @@ Status compare_command(const CompareOptions& options) {
   }
   const auto result = compare_steps(backends, *steps, interrupt);
   if (!result) return result.error();
-  const bool within = options.tolerance == 0.0
-                          ? !result->first_difference
-                          : result->position.difference.absolute <= options.tolerance &&
-                                result->velocity.difference.absolute <= options.tolerance;
+  const bool within =
+      options.tolerance == 0.0 ? !result->first_difference : result->largest_absolute() <= options.tolerance;
   if (const Status printed = print_result(options, *scene, backends, *result, within); !printed)
     return printed;
   if (result->interrupted) {
@@ -161,13 +180,13 @@ Status compare_command(const CompareOptions& options) {
   }
   const auto& [first, second] = result->divergence;
   if (first && second && first->step == second->step) {
-    return Error{ErrorCode::diverged, fmt::format("both diverged in step {} (particles {} and {}).",
-                                                  first->step, first->particle, second->particle)};
+    return Error{ErrorCode::diverged, fmt::format("both diverged in step {} ({} and {}).", first->step,
+                                                  body_text(*first), body_text(*second))};
   }
   if (first || second) {
     return Error{ErrorCode::diverged,
-                 fmt::format("{} alone diverged, in step {} (particle {}).", name_of(backends[first ? 0 : 1]),
-                             (first ? *first : *second).step, (first ? *first : *second).particle)};
+                 fmt::format("{} alone diverged, in step {} ({}).", name_of(backends[first ? 0 : 1]),
+                             (first ? *first : *second).step, body_text(first ? *first : *second))};
   }
   if (!within) {
     return Error{ErrorCode::check_failed,

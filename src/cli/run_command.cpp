@@ -187,7 +187,7 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, st
 JsonObject to_json_object(const Divergence& divergence, double timestep) {
   return {{"step", divergence.step},
           {"time", static_cast<double>(divergence.step) * timestep},
-          {"particle", divergence.particle},
+          {divergence.ball ? "ball" : "particle", divergence.particle},
           {"finite", divergence.finite}};
 }
 
@@ -234,6 +234,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"timestep", model.simulation.timestep},
         {"particles", model.particle_count()},
         {"springs", std::uint64_t{model.springs.size()}},
+        {"balls", model.ball_count()},
         {"first_step", outcome.first_step},
         {"steps", state.step},
         {"time", time},
@@ -256,8 +257,9 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"files", written},
     }));
   }
-  std::string text = fmt::format("scene        {} ({} particles, {} springs)\n", scene.name,
-                                 model.particle_count(), model.springs.size());
+  std::string text = fmt::format("scene        {} ({} particles, {} springs{})\n", scene.name,
+                                 model.particle_count(), model.springs.size(),
+                                 model.ball_count() > 0 ? fmt::format(", {} balls", model.ball_count()) : "");
   text += fmt::format("backend      {}{}, {} precision{}\n", backend.name,
                       backend.force_path.empty() ? "" : ", force path " + backend.force_path,
                       name_of(state.precision),
@@ -300,10 +302,10 @@ Error divergence_error(const Model& model, const Outcome& outcome) {
   const StabilityLimit stable = stability_limit(model, model.simulation.integrator, StabilityEffort::quick);
   const double h = model.simulation.timestep;
   return {ErrorCode::diverged,
-          fmt::format("the simulation diverged in step {} (t = {:.6g} s): particle {} {}. The time step is "
+          fmt::format("the simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is "
                       "{} s; {}. The last good "
                       "step is {}; every output holds that state.",
-                      d.step, static_cast<double>(d.step) * h, d.particle,
+                      d.step, static_cast<double>(d.step) * h, body_text(d),
                       d.finite ? fmt::format("became faster than {} m/s", divergence_speed)
                                : "is no longer a finite number",
                       h, stability_sentence(model.simulation.integrator, stable), outcome.state.step)};

@@ -65,7 +65,7 @@ Status scene_check_command(const SceneCheckOptions& options) {
                                                                       {"shear", counts.shear},
                                                                       {"bending", counts.bending},
                                                                       {"total", counts.springs()}}},
-                                               {"balls", std::uint64_t{0}},
+                                               {"balls", counts.balls},
                                                {"bytes", bytes},
                                                {"integrator", name_of(own)},
                                                {"timestep", timestep},
@@ -76,7 +76,7 @@ Status scene_check_command(const SceneCheckOptions& options) {
     text += fmt::format("particles    {}, {} of them pinned\n", counts.particles, counts.pinned);
     text += fmt::format("springs      {} ({} structural, {} shear, {} bending)\n", counts.springs(),
                         counts.structural, counts.shear, counts.bending);
-    text += fmt::format("balls        0\n");
+    text += fmt::format("balls        {}\n", counts.balls);
     for (const BackendBytes& backend : bytes_by_backend(*model)) {
       text += fmt::format("memory       {:<24} {:>10}\n", backend.backend, gl::human_bytes(backend.bytes));
     }

@@ -66,18 +66,25 @@ struct ContactConstants {
   T resting_speed;  ///< max(ε, 2|g|h) [m/s]
 };
 
-/// The course model's contact force: f [N] on a particle at x, v after gravity and springs, resisted and
-/// rubbed.
+/// The course model's contact force: f [N] on a body with this gap and velocity after gravity and springs,
+/// resisted and rubbed.
 template <class T>
-Vector<T> with_contact_force(const Ground<T>& ground, T epsilon, const Vector<T>& x, const Vector<T>& v,
+Vector<T> with_contact_force(const Ground<T>& ground, T epsilon, const Gap<T>& at, const Vector<T>& v,
                              const Vector<T>& f) {
-  const auto [d, n] = gap<T>(ground, x);
+  const auto& [d, n] = at;
   const T u = dot3<T>(v, n);
   const T f_n = dot3<T>(f, n);
   if (!(d < epsilon && std::abs(u) < epsilon && f_n < T(0))) return f;
   const T N = -f_n;
   const Vector<T> v_t = v - u * n;
   return (f + N * n) - (ground.friction * N) * v_t;
+}
+
+/// The same for a particle at x.
+template <class T>
+Vector<T> with_contact_force(const Ground<T>& ground, T epsilon, const Vector<T>& x, const Vector<T>& v,
+                             const Vector<T>& f) {
+  return with_contact_force<T>(ground, epsilon, gap<T>(ground, x), v, f);
 }
 
 /// The course model's response at the end of a step: v' = v_t + B(u)·n.

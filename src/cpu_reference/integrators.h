@@ -1,34 +1,35 @@
 #pragma once
 // The explicit integrators of spec §2.6, each as its textbook writes it. `h` is the time step [s].
+// `dynamics.acceleration(x, v)` gives a(x, v) of all particles, or of all balls.
 #include "cpu_reference/dynamics.h"
 
 namespace aspic::reference {
 
-/// Positions and velocities of all particles.
+/// Positions and velocities of all particles, or balls.
 template <class T>
 struct Phase {
   Field<T> x, v;
 };
 
 /// x' = x + h·v, v' = v + h·a(x, v)   (Euler, 1768)
-template <class T>
-Phase<T> explicit_euler(const Dynamics<T>& dynamics, const Phase<T>& s, double step) {
+template <class T, class Forces>
+Phase<T> explicit_euler(const Forces& dynamics, const Phase<T>& s, double step) {
   const T h = static_cast<T>(step);
   return {s.x + h * s.v, s.v + h * dynamics.acceleration(s.x, s.v)};
 }
 
 /// v' = v + h·a(x, v), x' = x + h·v'   (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006,
 /// §I.1.2)
-template <class T>
-Phase<T> symplectic_euler(const Dynamics<T>& dynamics, const Phase<T>& s, double step) {
+template <class T, class Forces>
+Phase<T> symplectic_euler(const Forces& dynamics, const Phase<T>& s, double step) {
   const T h = static_cast<T>(step);
   const Field<T> v = s.v + h * dynamics.acceleration(s.x, s.v);
   return {s.x + h * v, v};
 }
 
 /// x_m = x + h/2·v, v_m = v + h/2·a(x, v);  x' = x + h·v_m, v' = v + h·a(x_m, v_m)   (Runge, 1895)
-template <class T>
-Phase<T> midpoint(const Dynamics<T>& dynamics, const Phase<T>& s, double step) {
+template <class T, class Forces>
+Phase<T> midpoint(const Forces& dynamics, const Phase<T>& s, double step) {
   const T h = static_cast<T>(step), half_h = static_cast<T>(step / 2);
   const Field<T> x_m = s.x + half_h * s.v;
   const Field<T> v_m = s.v + half_h * dynamics.acceleration(s.x, s.v);
@@ -37,8 +38,8 @@ Phase<T> midpoint(const Dynamics<T>& dynamics, const Phase<T>& s, double step) {
 
 /// x_p = x + h·v, v_p = v + h·a(x, v);  x' = x + h·v_p, v' = v + h·a(x_p, v_p): the assignments' shortcut for
 /// backward Euler, a predictor evaluated once. It is an explicit method (docs/physics.md).
-template <class T>
-Phase<T> implicit_euler_one_pass(const Dynamics<T>& dynamics, const Phase<T>& s, double step) {
+template <class T, class Forces>
+Phase<T> implicit_euler_one_pass(const Forces& dynamics, const Phase<T>& s, double step) {
   const T h = static_cast<T>(step);
   const Field<T> x_p = s.x + h * s.v;
   const Field<T> v_p = s.v + h * dynamics.acceleration(s.x, s.v);
@@ -46,8 +47,8 @@ Phase<T> implicit_euler_one_pass(const Dynamics<T>& dynamics, const Phase<T>& s,
 }
 
 /// The classical four stages (Kutta, 1901): x' = x + h/6·(k₁ + 2k₂ + 2k₃ + k₄), the same for v.
-template <class T>
-Phase<T> runge_kutta_4(const Dynamics<T>& dynamics, const Phase<T>& s, double step) {
+template <class T, class Forces>
+Phase<T> runge_kutta_4(const Forces& dynamics, const Phase<T>& s, double step) {
   const T h = static_cast<T>(step), half_h = static_cast<T>(step / 2), sixth_h = static_cast<T>(step / 6);
   const Field<T> k1_x = s.v;
   const Field<T> k1_v = dynamics.acceleration(s.x, s.v);
@@ -63,8 +64,8 @@ Phase<T> runge_kutta_4(const Dynamics<T>& dynamics, const Phase<T>& s, double st
 }
 
 /// One step of an explicit method, before the terrain's response. `integrator` is not implicit_euler.
-template <class T>
-Phase<T> explicit_step(Integrator integrator, const Dynamics<T>& dynamics, const Phase<T>& s, double step) {
+template <class T, class Forces>
+Phase<T> explicit_step(Integrator integrator, const Forces& dynamics, const Phase<T>& s, double step) {
   switch (integrator) {
     case Integrator::symplectic_euler:
       return symplectic_euler(dynamics, s, step);

@@ -6,20 +6,29 @@
 #include <new>
 #include <utility>
 
+#include "cpu_reference/balls.h"
 #include "cpu_reference/implicit_euler.h"
 
 namespace aspic {
 namespace reference {
 namespace {
 
-/// Lowest particle that is not finite or too fast, if any.
+/// Lowest particle, else lowest ball, that is not finite or too fast, if any.
 template <class T>
-std::optional<Divergence> find_divergence(const Phase<T>& phase, std::uint64_t step) {
+std::optional<Divergence> find_divergence(const Phase<T>& phase, const BallPhase<T>& balls,
+                                          std::uint64_t step) {
   const T limit = static_cast<T>(divergence_speed * divergence_speed);
   for (Eigen::Index i = 0; i < phase.x.cols(); ++i) {
     const Vector<T> v = phase.v.col(i);
     const bool finite = phase.x.col(i).allFinite() && v.allFinite();
-    if (!finite || dot3<T>(v, v) > limit) return Divergence{step, static_cast<std::uint32_t>(i), finite};
+    if (!finite || dot3<T>(v, v) > limit)
+      return Divergence{step, static_cast<std::uint32_t>(i), finite, false};
+  }
+  for (Eigen::Index b = 0; b < balls.x.cols(); ++b) {
+    const Vector<T> v = balls.v.col(b);
+    const bool finite = balls.x.col(b).allFinite() && v.allFinite() && balls.omega.col(b).allFinite();
+    if (!finite || dot3<T>(v, v) > limit)
+      return Divergence{step, static_cast<std::uint32_t>(b), finite, true};
   }
   return std::nullopt;
 }
@@ -28,7 +37,7 @@ template <class T>
 class ReferenceSolver final : public Solver {
  public:
   explicit ReferenceSolver(const Model& model)
-      : model_(model), dynamics_(model), implicit_(dynamics_, model) {
+      : model_(model), dynamics_(model), implicit_(dynamics_, model), balls_(model) {
     set(initial_state(model, precision()));
   }
 
@@ -42,11 +51,7 @@ class ReferenceSolver final : public Solver {
   std::uint64_t bytes() const override { return reference_bytes(count(model_), precision()); }
 
   Status load(const State& state) override {
-    if (state.position.size() != model_.particle_count() ||
-        state.velocity.size() != model_.particle_count()) {
-      return Error{ErrorCode::usage, fmt::format("the state has {} particles, the scene has {}",
-                                                 state.position.size(), model_.particle_count())};
-    }
+    if (const Status fits = check_sizes(model_, state); !fits) return fits;
     set(state);
     return {};
   }
@@ -59,10 +64,13 @@ class ReferenceSolver final : public Solver {
       Phase<T> next = solved ? implicit_.step(phase_, report)
                              : explicit_step(model_.simulation.integrator, dynamics_, phase_, h);
       dynamics_.respond(phase_.x, phase_.v, next.x, next.v);
-      divergence_ = find_divergence(next, step_ + 1);
+      BallPhase<T> next_balls;
+      if (model_.ball_count() > 0) next_balls = balls_.step(step_, ball_phase_, phase_, next);
+      divergence_ = find_divergence(next, next_balls, step_ + 1);
       if (divergence_) break;
       if (solved) statistics_.add(report);
       std::swap(phase_, next);
+      std::swap(ball_phase_, next_balls);
       ++step_;
     }
     return divergence_;
@@ -77,22 +85,31 @@ class ReferenceSolver final : public Solver {
     State state;
     state.precision = precision();
     state.step = step_;
-    for (Eigen::Index i = 0; i < phase_.x.cols(); ++i) {
-      state.position.push_back({phase_.x(0, i), phase_.x(1, i), phase_.x(2, i)});
-      state.velocity.push_back({phase_.v(0, i), phase_.v(1, i), phase_.v(2, i)});
-    }
+    state.position = columns(phase_.x);
+    state.velocity = columns(phase_.v);
+    state.ball_position = columns(ball_phase_.x);
+    state.ball_velocity = columns(ball_phase_.v);
+    state.ball_angular_velocity = columns(ball_phase_.omega);
     return state;
   }
 
  private:
+  static Field<T> field(const std::vector<Vec3>& vectors) {
+    Field<T> f(3, static_cast<Eigen::Index>(vectors.size()));
+    for (Eigen::Index i = 0; i < f.cols(); ++i) f.col(i) = rounded<T>(vectors[static_cast<std::size_t>(i)]);
+    return f;
+  }
+  static std::vector<Vec3> columns(const Field<T>& f) {
+    std::vector<Vec3> vectors;
+    vectors.reserve(static_cast<std::size_t>(f.cols()));
+    for (Eigen::Index i = 0; i < f.cols(); ++i) vectors.push_back({f(0, i), f(1, i), f(2, i)});
+    return vectors;
+  }
+
   void set(const State& state) {
-    const auto count = static_cast<Eigen::Index>(state.position.size());
-    phase_.x.resize(3, count);
-    phase_.v.resize(3, count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      phase_.x.col(i) = rounded<T>(state.position[static_cast<std::size_t>(i)]);
-      phase_.v.col(i) = rounded<T>(state.velocity[static_cast<std::size_t>(i)]);
-    }
+    phase_ = {field(state.position), field(state.velocity)};
+    ball_phase_ = {field(state.ball_position), field(state.ball_velocity),
+                   field(state.ball_angular_velocity)};
     step_ = state.step;
     divergence_.reset();
     statistics_ = {};
@@ -102,7 +119,9 @@ class ReferenceSolver final : public Solver {
   Dynamics<T> dynamics_;
   ImplicitEuler<T> implicit_;
   SolveStatistics statistics_;
+  Balls<T> balls_;
   Phase<T> phase_;
+  BallPhase<T> ball_phase_;
   std::uint64_t step_ = 0;
   std::optional<Divergence> divergence_;
 };
@@ -128,7 +147,8 @@ std::uint64_t reference_bytes(const ModelCounts& counts, Precision precision) {
   // Start and end of a step, the four slopes of a Runge–Kutta method, one argument field and one force field:
   // x and v.
   const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
-  return counts.particles * real * (3 * 14 + 2);
+  // Balls: the same, ω, constants and their order along x.
+  return counts.particles * real * (3 * 14 + 2) + counts.balls * real * (3 * 17 + 7);
 }
 
 }  // namespace aspic

@@ -8,6 +8,7 @@
 
 #include "gpu/pass.h"
 #include "gpu/program.h"
+#include "gpu_solver/ball_passes.h"
 #include "gpu_solver/implicit_solver.h"
 #include "gpu_solver/simulation_block.h"
 #include "gpu_solver/support.h"
@@ -32,6 +33,11 @@ bool keeps_sums(const StagedMethod& method) {
                      [](const Stage& s) { return s.weight != 0.0; });
 }
 
+/// Backward Euler without springs is symplectic Euler.
+const StagedMethod* method_of(Integrator integrator) {
+  return staged_method(integrator == Integrator::implicit_euler ? Integrator::symplectic_euler : integrator);
+}
+
 class ComputeSolver final : public GpuSolver {
  public:
   ComputeSolver(gl::Context& context, const Model& model, ForcePath path)
@@ -47,6 +53,8 @@ class ComputeSolver final : public GpuSolver {
   const Model& model() const override { return model_; }
   std::uint64_t bytes() const override { return bytes_; }
   const Buffer& particles() const override { return states_[current_]; }
+  const Buffer& balls() const override { return balls_.buffer(); }
+  std::uint32_t first_ball() const override { return ball_parity_ * model_.ball_count(); }
   ForcePath force_path() const override { return path_; }
   const gl::Arithmetic& arithmetic() const override { return arithmetic_; }
 
@@ -72,7 +80,9 @@ class ComputeSolver final : public GpuSolver {
   Buffer sums_, simulation_, incident_start_, incident_, control_, springs_, forces_;
   gl::Arithmetic arithmetic_;
   gl::Program force_program_, particle_program_;
-  std::vector<gl::Pass> passes_;  // one per stage: particles, preceded on the per-spring path by springs
+  BallPasses balls_;
+  std::uint32_t ball_parity_ = 0;  // slot of the balls' current state
+  std::vector<gl::Pass> passes_;   // one per stage: particles, preceded on the per-spring path by springs
 
   std::uint64_t base_step_ = 0;    // step number of the loaded state
   std::uint32_t steps_since_ = 0;  // steps since: what the kernels count in
@@ -88,7 +98,7 @@ Status ComputeSolver::build(const GpuOptions& options) {
 }
 
 Status ComputeSolver::build_buffers() {
-  const StagedMethod* method = staged_method(model_.simulation.integrator);
+  const StagedMethod* method = method_of(model_.simulation.integrator);
   auto block = simulation_block(model_);
   if (!block) return block.error();
   stages_ = static_cast<std::uint32_t>(method->stages.size());
@@ -148,7 +158,8 @@ Status ComputeSolver::build_passes(const GpuOptions& options) {
                                    {BINDING_INCIDENT, &incident_}};
   if (path_ == ForcePath::per_spring) bindings.push_back({BINDING_SPRING_FORCES, &forces_});
   passes_.emplace_back(particle_program_, std::move(bindings), Reader::compute_pass);
-  return {};
+  return balls_.build(context_, model_, library, kernels, {&simulation_, &control_, false},
+                      options.ball_search);
 }
 
 Status ComputeSolver::load(const State& state) {
@@ -156,6 +167,8 @@ Status ComputeSolver::load(const State& state) {
   ASPIC_ASSIGN_OR_RETURN(particles, to_device(state, model_));
   current_ = 0;
   states_[0].upload_items(std::span<const layout::Particle>(particles));
+  balls_.load(state);
+  ball_parity_ = 0;
   const layout::Control control = {NO_STEP, NO_STEP, 0, 0};
   control_.upload_items(std::span<const layout::Control>(&control, 1));
   base_step_ = state.step;
@@ -180,10 +193,13 @@ void ComputeSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
       passes_.front().dispatch_for(static_cast<std::uint32_t>(model_.springs.size()),
                                    std::span(states).first(1));
     }
-    const bool leaves = last_of_queue && s + 1 == stages_;
+    const bool leaves = last_of_queue && s + 1 == stages_ && !balls_.any();
     passes_.back().dispatch_for(model_.particle_count(), states, leaves ? anyone : Reader::compute_pass);
     stage_state = out;
   }
+  balls_.queue(states_[current_], states_[end], step_index, ball_parity_,
+               last_of_queue ? anyone : Reader::compute_pass);
+  ball_parity_ = 1 - ball_parity_;
   current_ = end;
 }
 
@@ -193,18 +209,21 @@ Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
         0x7fffffffu) {  // the kernels count steps in 32 bits: begin anew, no step is under way here
       base_step_ += steps_since_;
       steps_since_ = 0;
+      balls_.set_base_step(base_step_);
     }
     const auto queue = static_cast<std::uint32_t>(std::min(steps, steps_per_look));
     const std::size_t first_state = current_;
+    const std::uint32_t first_parity = ball_parity_;
     for (std::uint32_t n = 0; n < queue; ++n) queue_step(steps_since_ + n, n + 1 == queue);
     const auto control = read_control();
     if (!control) return control.error();
     std::uint32_t good = queue;
     if (control->bad_step != NO_STEP) {
       good = control->bad_step - steps_since_;
-      divergence_ = divergence_from(control->bad_particle, base_step_ + control->bad_step + 1);
+      divergence_ = divergence_from(control->bad_particle, base_step_ + control->bad_step + 1, model_);
     }
     current_ = (first_state + good) % 3;
+    ball_parity_ = (first_parity + good) % 2;
     steps_since_ += good;
     steps -= good;
   }
@@ -220,7 +239,9 @@ Result<layout::Control> ComputeSolver::read_control() {
 Result<State> ComputeSolver::state() {
   const auto particles = states_[current_].download_items<layout::Particle>(model_.particle_count());
   if (const Status ok = check_device(context_); !ok) return ok.error();
-  return from_device(particles, base_step_ + steps_since_);
+  State state = from_device(particles, base_step_ + steps_since_);
+  balls_.read(state, ball_parity_);
+  return state;
 }
 
 }  // namespace
@@ -245,7 +266,8 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
     return Error{ErrorCode::scene_rejected,
                  "the force path lattice is not built yet in this version: use gather or per-spring"};
   }
-  if (model.simulation.integrator == Integrator::implicit_euler) {
+  // Without particles there is nothing to solve: balls fly by the formula.
+  if (model.simulation.integrator == Integrator::implicit_euler && model.particle_count() > 0) {
     if (options.force_path == ForcePath::per_spring) {
       return Error{ErrorCode::scene_rejected,
                    "implicit-euler evaluates springs by gather alone: use the force path auto or gather"};
@@ -259,15 +281,17 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
 }
 
 std::uint64_t gpu_bytes(const ModelCounts& counts, Integrator integrator, ForcePath path) {
-  if (integrator == Integrator::implicit_euler) {
+  if (integrator == Integrator::implicit_euler && counts.particles > 0) {
     const std::uint64_t blocks = (counts.particles + REDUCTION_BLOCK - 1) / REDUCTION_BLOCK;
-    return counts.particles * (2 * sizeof(layout::Particle) + (2 + OWN_VECTORS) * sizeof(layout::vec4)) +
+    return ball_bytes(counts) +
+           counts.particles * (2 * sizeof(layout::Particle) + (2 + OWN_VECTORS) * sizeof(layout::vec4)) +
            sizeof(layout::Simulation) + sizeof(layout::Solve) + blocks * sizeof(layout::vec4) +
            4 * (counts.particles + 1) + 8 * counts.springs();
   }
-  const std::uint64_t states = keeps_sums(*staged_method(integrator)) ? 4 : 3;
-  std::uint64_t bytes = states * counts.particles * sizeof(layout::Particle) + sizeof(layout::Simulation) +
-                        sizeof(layout::Control) + 4 * (counts.particles + 1) + 8 * counts.springs();
+  const std::uint64_t states = keeps_sums(*method_of(integrator)) ? 4 : 3;
+  std::uint64_t bytes = ball_bytes(counts) + states * counts.particles * sizeof(layout::Particle) +
+                        sizeof(layout::Simulation) + sizeof(layout::Control) + 4 * (counts.particles + 1) +
+                        8 * counts.springs();
   if (path == ForcePath::per_spring)
     bytes += counts.springs() * (sizeof(layout::uvec2) + sizeof(layout::vec4));
   return bytes;

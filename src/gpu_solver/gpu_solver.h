@@ -23,9 +23,17 @@ enum class ForcePath {
 
 std::string_view name_of(ForcePath path);
 
+/// How balls find whom they touch; either way gives the same bits.
+enum class BallSearch {
+  automatic,  ///< all pairs for a handful, the grid for many
+  all_pairs,  ///< every body is tried
+  grid        ///< a uniform grid, hashed
+};
+
 struct GpuOptions {
   ForcePath force_path = ForcePath::automatic;
   std::uint32_t group_size = 64;  ///< invocations per work group, 1…1024; never affects the bits
+  BallSearch ball_search = BallSearch::automatic;
   /// Files here go before the embedded shaders; empty: embedded alone.
   std::filesystem::path shader_directory;
   /// How to compile for this device's arithmetic; absent: the canary is asked first.
@@ -37,6 +45,11 @@ class GpuSolver : public Solver {
  public:
   /// The current state: layout::Particle per particle (stride 32 bytes, x at 0, v at 16).
   virtual const gl::Buffer& particles() const = 0;
+  /// All balls, of which the model's ball_count() from item first_ball() on are the current state:
+  /// layout::Ball (64 bytes: x at 0 and R behind it; v at 16 and behind it 1/m, or 0 while the ball waits for
+  /// its launch; ω at 32). An empty handle without balls.
+  virtual const gl::Buffer& balls() const = 0;
+  virtual std::uint32_t first_ball() const = 0;
   /// The path in use, never automatic.
   virtual ForcePath force_path() const = 0;
   /// What the canary found on this device, and how the kernels were compiled for it.

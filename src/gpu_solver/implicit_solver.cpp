@@ -8,6 +8,7 @@
 
 #include "gpu/pass.h"
 #include "gpu/program.h"
+#include "gpu_solver/ball_passes.h"
 #include "gpu_solver/simulation_block.h"
 #include "gpu_solver/support.h"
 #include "gpu_solver/topology.h"
@@ -46,6 +47,8 @@ class ImplicitSolver final : public GpuSolver {
   const Model& model() const override { return model_; }
   std::uint64_t bytes() const override { return bytes_; }
   const Buffer& particles() const override { return states_[solve_.parity]; }
+  const Buffer& balls() const override { return balls_.buffer(); }
+  std::uint32_t first_ball() const override { return solve_.parity * model_.ball_count(); }
   ForcePath force_path() const override { return ForcePath::gather; }
   const gl::Arithmetic& arithmetic() const override { return arithmetic_; }
 
@@ -72,6 +75,7 @@ class ImplicitSolver final : public GpuSolver {
   gl::Arithmetic arithmetic_;
   std::array<gl::Program, kernel_count> programs_;
   std::vector<gl::Pass> passes_;  // by Kernel
+  BallPasses balls_;
 
   layout::Solve solve_{};  // as last read or written
   std::uint64_t base_step_ = 0;
@@ -109,7 +113,6 @@ Status ImplicitSolver::build_buffers() {
 Status ImplicitSolver::build(const GpuOptions& options) {
   const std::uint64_t held_before = context_.bytes_held();
   if (const Status made = build_buffers(); !made) return made;
-  bytes_ = context_.bytes_held() - held_before;
 
   const gl::ShaderLibrary library(options.shader_directory);
   KernelOptions kernels;
@@ -129,6 +132,12 @@ Status ImplicitSolver::build(const GpuOptions& options) {
                            gl::Program::compute(context_, library, kernel_paths[k], kernels.defines));
     passes_.emplace_back(programs_[k], bindings, Reader::compute_pass);
   }
+  if (const Status made = balls_.build(context_, model_, library, kernels,
+                                       {&simulation_, &solve_buffer_, true}, options.ball_search);
+      !made) {
+    return made;
+  }
+  bytes_ = context_.bytes_held() - held_before;
   return load(initial_state(model_, Precision::single));
 }
 
@@ -136,6 +145,7 @@ Status ImplicitSolver::load(const State& state) {
   std::vector<layout::Particle> particles;
   ASPIC_ASSIGN_OR_RETURN(particles, to_device(state, model_));
   states_[0].upload_items(std::span<const layout::Particle>(particles));
+  balls_.load(state);
   solve_ = {};
   solve_.bad_particle = NO_STEP;
   write_solve();
@@ -173,7 +183,8 @@ void ImplicitSolver::queue_rounds(std::uint32_t rounds) const {
   for (std::uint32_t r = 0; r < rounds; ++r) {
     for (const Kernel kernel : {evaluate, apply, update, direction}) dispatch(kernel);
   }
-  dispatch(finish, anyone);
+  dispatch(finish, balls_.any() ? Reader::compute_pass : anyone);
+  balls_.queue(states_[0], states_[1], 0, 0, anyone);
 }
 
 Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
@@ -182,6 +193,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
         0x7fffffffu) {  // the device counts steps in 32 bits: begin anew, no step is under way here
       base_step_ += solve_.step;
       solve_.step = 0;
+      balls_.set_base_step(base_step_);
     }
     const auto queue = static_cast<std::uint32_t>(std::min(steps, steps_per_look));
     const std::uint32_t first = solve_.step;
@@ -202,7 +214,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
       rounds = std::max(more_rounds, solve_.last_ticks + solve_.last_ticks / 4 + 1);
     }
     if (solve_.phase == PHASE_HALTED) {
-      divergence_ = divergence_from(solve_.bad_particle, base_step_ + solve_.step + 1);
+      divergence_ = divergence_from(solve_.bad_particle, base_step_ + solve_.step + 1, model_);
     }
     steps -= solve_.step - first;
   }
@@ -212,7 +224,9 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
 Result<State> ImplicitSolver::state() {
   const auto particles = states_[solve_.parity].download_items<layout::Particle>(model_.particle_count());
   if (const Status ok = check_device(context_); !ok) return ok.error();
-  return from_device(particles, base_step_ + solve_.step);
+  State state = from_device(particles, base_step_ + solve_.step);
+  balls_.read(state, solve_.parity);
+  return state;
 }
 
 }  // namespace

@@ -18,6 +18,9 @@ struct uvec2 {
 #include "compute/layout.glsl"
 
 static_assert(sizeof(Particle) == 32 && offsetof(Particle, velocity) == 16);
+static_assert(sizeof(Ball) == 64 && offsetof(Ball, velocity) == 16 && offsetof(Ball, spin) == 32);
+static_assert(sizeof(BallBody) == 16 && offsetof(BallBody, launch_step) == 8);
+static_assert(offsetof(Simulation, ball_count) == 84 && offsetof(Simulation, ball_restitution) == 96);
 static_assert(sizeof(Stage) == 16 && sizeof(SpringClass) == 16 && sizeof(Control) == 16);
 static_assert(sizeof(Solve) == 144 && offsetof(Solve, lambda) == 64 && offsetof(Solve, converged) == 120);
 static_assert(sizeof(Terrain) == 64 && offsetof(Terrain, mass) == 32 && offsetof(Terrain, shape) == 48);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "gpu_solver/ball_passes.h"
 #include "model/integrator.h"
 #include "model/solver.h"
 
@@ -78,9 +79,12 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.terrain_count = static_cast<std::uint32_t>(model.terrain.size());
   block.contact_model = model.contact.model == ContactModel::coulomb ? CONTACT_COULOMB : CONTACT_COURSE;
   block.class_bits = class_bits(model);
-  if (const StagedMethod* method = staged_method(model.simulation.integrator)) {
-    fill_stages(block, *method, model.simulation.timestep);
-  }
+  // Implicit Euler stages nothing but its balls, whose backward Euler is symplectic Euler.
+  const bool implicit_euler = model.simulation.integrator == Integrator::implicit_euler;
+  fill_stages(block,
+              *staged_method(implicit_euler ? Integrator::symplectic_euler : model.simulation.integrator),
+              model.simulation.timestep);
+  fill_balls(block, model);
   const ImplicitSettings& implicit = model.simulation.implicit;
   block.time_step = static_cast<float>(model.simulation.timestep);
   block.max_newton = static_cast<std::uint32_t>(implicit.newton_iterations);

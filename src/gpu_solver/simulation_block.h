@@ -6,7 +6,7 @@
 
 namespace aspic {
 
-/// Fills the block. Errors (scene_rejected): an integrator that is not staged, more spring classes or
+/// Fills the block. Errors (scene_rejected): more spring classes or
 /// terrains than the block holds.
 Result<layout::Simulation> simulation_block(const Model& model);
 

@@ -5,10 +5,7 @@
 namespace aspic {
 
 Result<std::vector<layout::Particle>> to_device(const State& state, const Model& model) {
-  if (state.position.size() != model.particle_count() || state.velocity.size() != model.particle_count()) {
-    return Error{ErrorCode::usage, fmt::format("the state has {} particles, the scene has {}",
-                                               state.position.size(), model.particle_count())};
-  }
+  if (const Status fits = check_sizes(model, state); !fits) return fits.error();
   std::vector<layout::Particle> particles(state.position.size());
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Vec3 &x = state.position[i], &v = state.velocity[i];
@@ -43,8 +40,10 @@ Status check_device(gl::Context& context) {
           context.info().renderer)};
 }
 
-Divergence divergence_from(std::uint32_t word, std::uint64_t step) {
-  return {step, word >> 1, (word & 1u) != 0};
+Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model) {
+  const std::uint32_t index = word >> 1, particles = model.particle_count();
+  const bool ball = index >= particles;
+  return {step, ball ? index - particles : index, (word & 1u) != 0, ball};
 }
 
 Result<KernelOptions> kernel_options(gl::Context& context, const gl::ShaderLibrary& library,

@@ -22,17 +22,17 @@ namespace aspic {
   } while (false)
 
 /// The state as the kernels hold it, rounded to single precision.
-/// Error (usage): the state has another number of particles than the model.
+/// Error (usage): the state has other numbers of particles and balls than the model.
 Result<std::vector<layout::Particle>> to_device(const State& state, const Model& model);
 
-/// The other way, exactly.
+/// The other way, exactly; without balls.
 State from_device(std::span<const layout::Particle> particles, std::uint64_t step);
 
 /// Error (no_device) if the context was reset or lost.
 Status check_device(gl::Context& context);
 
 /// The divergence a kernel's word for it means (layout.glsl, Control and Solve).
-Divergence divergence_from(std::uint32_t word, std::uint64_t step);
+Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model);
 
 /// Asks the canary unless the options know already, and adds the group size to its defines.
 struct KernelOptions {

@@ -82,6 +82,10 @@ void add_number(Encoder& out, double value, Precision precision) {
   }
 }
 
+void add_vector(Encoder& out, const Vec3& v, Precision precision) {
+  for (int axis = 0; axis < 3; ++axis) add_number(out, v[axis], precision);
+}
+
 double get_number(Decoder& in, Precision precision) {
   if (precision == Precision::single) return std::bit_cast<float>(static_cast<std::uint32_t>(in.get(4)));
   return std::bit_cast<double>(in.get(8));
@@ -94,12 +98,19 @@ Vec3 get_vector(Decoder& in, Precision precision) {
   return {x, y, z};
 }
 
-std::optional<std::size_t> first_not_finite(const State& state) {
+/// The first particle or ball that is not finite, in words.
+std::optional<std::string> first_not_finite(const State& state) {
   const auto finite = [](const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
   for (std::size_t i = 0; i < state.position.size(); ++i) {
-    if (!finite(state.position[i]) || !finite(state.velocity[i])) return i;
+    if (!finite(state.position[i]) || !finite(state.velocity[i])) return fmt::format("particle {}", i);
+  }
+  for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
+    if (!finite(state.ball_position[b]) || !finite(state.ball_velocity[b]) ||
+        !finite(state.ball_angular_velocity[b])) {
+      return fmt::format("ball {}", b);
+    }
   }
   return std::nullopt;
 }
@@ -118,9 +129,15 @@ std::string encode_checkpoint(const Checkpoint& checkpoint) {
   out.add_text(checkpoint.program_version);
   out.add_text(checkpoint.scene);
   out.add(state.position.size(), 8);
+  out.add(state.ball_position.size(), 8);
   for (std::size_t i = 0; i < state.position.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) add_number(out, state.position[i][axis], state.precision);
-    for (int axis = 0; axis < 3; ++axis) add_number(out, state.velocity[i][axis], state.precision);
+    add_vector(out, state.position[i], state.precision);
+    add_vector(out, state.velocity[i], state.precision);
+  }
+  for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
+    add_vector(out, state.ball_position[b], state.precision);
+    add_vector(out, state.ball_velocity[b], state.precision);
+    add_vector(out, state.ball_angular_velocity[b], state.precision);
   }
   out.add(checksum(out.bytes()), 8);
   return out.take();
@@ -162,15 +179,22 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
   checkpoint.program_version = in.text();
   checkpoint.scene = in.text();
   const std::uint64_t particles = in.get(8);
-  // Sizes are compared before anything is allocated: 6 numbers a particle and the checksum must be all that
-  // is left.
-  if (in.failed() || particles > bytes.size() || in.left() != particles * 6 * width + 8)
+  const std::uint64_t balls = in.get(8);
+  // Sizes are compared before anything is allocated: 6 numbers a particle, 9 a ball and the checksum must be
+  // all that is left.
+  if (in.failed() || particles > bytes.size() || balls > bytes.size() ||
+      in.left() != (particles * 6 + balls * 9) * width + 8)
     return error(damaged);
   state.position.reserve(particles);
   state.velocity.reserve(particles);
   for (std::uint64_t i = 0; i < particles; ++i) {
     state.position.push_back(get_vector(in, state.precision));
     state.velocity.push_back(get_vector(in, state.precision));
+  }
+  for (std::uint64_t b = 0; b < balls; ++b) {
+    state.ball_position.push_back(get_vector(in, state.precision));
+    state.ball_velocity.push_back(get_vector(in, state.precision));
+    state.ball_angular_velocity.push_back(get_vector(in, state.precision));
   }
   if (state_hash(state) != hash || first_not_finite(state)) return error(damaged);
   return checkpoint;
@@ -179,7 +203,7 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
 Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint) {
   if (const auto bad = first_not_finite(checkpoint.state)) {
     return Error{ErrorCode::diverged,
-                 fmt::format("{} was not written: particle {} is not a finite number.", file.path(), *bad)};
+                 fmt::format("{} was not written: {} is not a finite number.", file.path(), *bad)};
   }
   return file.write(encode_checkpoint(checkpoint));
 }

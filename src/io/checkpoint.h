@@ -11,7 +11,7 @@
 namespace aspic {
 
 /// Version of the checkpoint format this program writes, and the only one it reads.
-inline constexpr std::uint32_t checkpoint_version = 1;
+inline constexpr std::uint32_t checkpoint_version = 2;
 
 struct Checkpoint {
   std::string program_version;  ///< of the program that wrote it

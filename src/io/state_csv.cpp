@@ -76,6 +76,13 @@ Status write_state_csv(AtomicFile& file, const State& state) {
                    fmt::format("{} was not written: particle {} is not a finite number.", file.path(), i)};
     }
   }
+  for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
+    if (!finite(state.ball_position[b]) || !finite(state.ball_velocity[b]) ||
+        !finite(state.ball_angular_velocity[b])) {
+      return Error{ErrorCode::diverged,
+                   fmt::format("{} was not written: ball {} is not a finite number.", file.path(), b)};
+    }
+  }
   if (const Status header = file.write(fmt::format("{}\n", state_csv_header)); !header) return header;
   fmt::memory_buffer line;
   for (std::size_t i = 0; i < state.position.size(); ++i) {
@@ -84,6 +91,16 @@ Status write_state_csv(AtomicFile& file, const State& state) {
     for (int axis = 0; axis < 3; ++axis) append_number(line, state.position[i][axis], state.precision);
     for (int axis = 0; axis < 3; ++axis) append_number(line, state.velocity[i][axis], state.precision);
     line.append(std::string_view(",0,0,0\n"));
+    if (const Status written = file.write({line.data(), line.size()}); !written) return written;
+  }
+  for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
+    line.clear();
+    fmt::format_to(std::back_inserter(line), "ball,{}", b);
+    for (const std::vector<Vec3>* part :
+         {&state.ball_position, &state.ball_velocity, &state.ball_angular_velocity}) {
+      for (int axis = 0; axis < 3; ++axis) append_number(line, (*part)[b][axis], state.precision);
+    }
+    line.push_back('\n');
     if (const Status written = file.write({line.data(), line.size()}); !written) return written;
   }
   return {};
@@ -104,10 +121,13 @@ Result<State> parse_state_csv(std::string_view text, const std::string& name, Pr
   while (const auto line = lines.next()) {
     const auto fields = split(*line);
     if (!fields) return error(fmt::format("expected {} fields separated by commas", field_count));
-    if ((*fields)[0] != "particle")
-      return error(fmt::format("unknown kind \"{}\"; allowed: particle", (*fields)[0]));
-    if ((*fields)[1] != std::to_string(state.position.size())) {
-      return error(fmt::format("expected index {}, found \"{}\"", state.position.size(), (*fields)[1]));
+    const bool ball = (*fields)[0] == "ball";
+    if (!ball && (*fields)[0] != "particle")
+      return error(fmt::format("unknown kind \"{}\"; allowed: particle, ball", (*fields)[0]));
+    if (!ball && !state.ball_position.empty()) return error("particles stand before balls");
+    const std::size_t expected = ball ? state.ball_position.size() : state.position.size();
+    if ((*fields)[1] != std::to_string(expected)) {
+      return error(fmt::format("expected index {}, found \"{}\"", expected, (*fields)[1]));
     }
     std::array<double, 9> values = {};
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -117,8 +137,9 @@ Result<State> parse_state_csv(std::string_view text, const std::string& name, Pr
         return error(fmt::format("\"{}\" is not a finite number of {} precision", field, name_of(precision)));
       values[i] = *value;
     }
-    state.position.push_back({values[0], values[1], values[2]});
-    state.velocity.push_back({values[3], values[4], values[5]});
+    (ball ? state.ball_position : state.position).push_back({values[0], values[1], values[2]});
+    (ball ? state.ball_velocity : state.velocity).push_back({values[3], values[4], values[5]});
+    if (ball) state.ball_angular_velocity.push_back({values[6], values[7], values[8]});
   }
   return state;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The state as a table: header kind,index,x,y,z,vx,vy,vz,wx,wy,wz, one line per particle in index order.
+// The state as a table: header kind,index,x,y,z,vx,vy,vz,wx,wy,wz, one line per particle, then one
+// per ball, each in index order.
 #include <string>
 #include <string_view>
 
@@ -12,9 +13,10 @@ namespace aspic {
 /// The header line, without its line end.
 inline constexpr std::string_view state_csv_header = "kind,index,x,y,z,vx,vy,vz,wx,wy,wz";
 
-/// Writes every particle; positions [m], velocities [m/s], angular velocity 0. Each number is the shortest
-/// decimal that reads back to the same bits in the state's own precision. Errors: io from the file; diverged
-/// if a value is not finite, before anything is written.
+/// Writes every particle, then every ball; positions [m], velocities [m/s], angular velocities [rad/s], 0 for
+/// particles. A ball that is not launched yet stands at its start, with the velocity it will have. Each
+/// number is the shortest decimal that reads back to the same bits in the state's own precision. Errors: io
+/// from the file; diverged if a value is not finite, before anything is written.
 Status write_state_csv(AtomicFile& file, const State& state);
 
 /// Reads what write_state_csv wrote, as `precision`. `name` is for messages. The step number is not in the

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "model/cube.h"
+#include "model/goal_net.h"
+#include "model/launcher.h"
 #include "model/terrain.h"
 
 namespace aspic {
@@ -30,11 +32,11 @@ Vec3 rounded_to(const Vec3& v, Precision precision) {
 Result<Model> build_model(const ModelSettings& settings) {
   const ModelCounts predicted = predict_counts(settings);
   // CSR words hold a spring's two ends: 2·springs and all particles must be addressable by 32 bits.
-  if (2 * predicted.springs() > 0xffffffffull || predicted.particles > 0x7fffffffull) {
+  if (2 * predicted.springs() > 0xffffffffull || predicted.particles + predicted.balls > 0x7fffffffull) {
     return Error{ErrorCode::scene_rejected,
-                 fmt::format("the scene has {} particles and {} springs: more than 32-bit indices can name; "
-                             "use fewer particles-per-edge",
-                             predicted.particles, predicted.springs())};
+                 fmt::format("the scene has {} particles, {} springs and {} balls: more than 32-bit indices "
+                             "can name; use fewer particles-per-edge",
+                             predicted.particles, predicted.springs(), predicted.balls)};
   }
   Model model;
   model.simulation = settings.simulation;
@@ -56,6 +58,12 @@ Result<Model> build_model(const ModelSettings& settings) {
       return Error{added.error().code, fmt::format("cube[{}].{}", c, added.error().message)};
     }
   }
+  for (const GoalNetSettings& net : settings.goal_nets) add_goal_net(model, net);
+  model.balls.reserve(predicted.balls);
+  for (const BallSettings& ball : settings.balls) {
+    model.balls.push_back({ball.radius, ball.mass, 0, ball.position, ball.velocity, ball.angular_velocity});
+  }
+  for (const LauncherSettings& launcher : settings.launchers) add_launcher(model, launcher);
   return model;
 }
 
@@ -66,7 +74,25 @@ State initial_state(const Model& model, Precision precision) {
   state.velocity.reserve(model.initial_velocity.size());
   for (const Vec3& x : model.initial_position) state.position.push_back(rounded_to(x, precision));
   for (const Vec3& v : model.initial_velocity) state.velocity.push_back(rounded_to(v, precision));
+  for (const Ball& ball : model.balls) {
+    state.ball_position.push_back(rounded_to(ball.initial_position, precision));
+    state.ball_velocity.push_back(rounded_to(ball.initial_velocity, precision));
+    state.ball_angular_velocity.push_back(rounded_to(ball.initial_angular_velocity, precision));
+  }
   return state;
+}
+
+Status check_sizes(const Model& model, const State& state) {
+  if (state.position.size() != model.particle_count() || state.velocity.size() != model.particle_count()) {
+    return Error{ErrorCode::usage, fmt::format("the state has {} particles, the scene has {}",
+                                               state.position.size(), model.particle_count())};
+  }
+  if (state.ball_position.size() != model.ball_count() || state.ball_velocity.size() != model.ball_count() ||
+      state.ball_angular_velocity.size() != model.ball_count()) {
+    return Error{ErrorCode::usage, fmt::format("the state has {} balls, the scene has {}",
+                                               state.ball_position.size(), model.ball_count())};
+  }
+  return {};
 }
 
 double resting_speed(const Model& model) {
@@ -76,6 +102,7 @@ double resting_speed(const Model& model) {
 ModelCounts count(const Model& model) {
   ModelCounts counts;
   counts.particles = model.particle_count();
+  counts.balls = model.ball_count();
   counts.pinned =
       static_cast<std::uint64_t>(std::count(model.inverse_mass.begin(), model.inverse_mass.end(), 0.0));
   for (const Spring& spring : model.springs) {
@@ -103,11 +130,23 @@ ModelCounts predict_counts(const ModelSettings& settings) {
     sum.shear += c.shear;
     sum.bending += c.bending;
   }
+  for (const GoalNetSettings& net : settings.goal_nets) {
+    const ModelCounts c = goal_net_counts(net);
+    sum.particles += c.particles;
+    sum.structural += c.structural;
+    sum.shear += c.shear;
+    sum.bending += c.bending;
+  }
+  sum.balls = settings.balls.size();
+  for (const LauncherSettings& launcher : settings.launchers) {
+    sum.balls += static_cast<std::uint64_t>(launcher.count);
+  }
   return sum;
 }
 
 std::uint64_t model_bytes(const ModelCounts& counts) {
-  return counts.particles * (2 * sizeof(double) + 2 * sizeof(Vec3)) + counts.springs() * sizeof(Spring);
+  return counts.particles * (2 * sizeof(double) + 2 * sizeof(Vec3)) + counts.springs() * sizeof(Spring) +
+         counts.balls * sizeof(Ball);
 }
 
 std::string_view name_of(Integrator integrator) {

@@ -41,15 +41,29 @@ struct Terrain {
   double friction = 0.3;                                  ///< μ
 };
 
-enum class BodyKind { cube };
+enum class BodyKind { cube, goal_net };
 
 /// A run of consecutive particles that was made as one body.
 struct Body {
   BodyKind kind = BodyKind::cube;
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
-  std::array<int, 3> lattice = {0, 0, 0};          ///< particles along x, y, z
-  double spacing = 0.0;                            ///< s [m] between lattice neighbours
+  std::array<int, 3> lattice = {0, 0, 0};          ///< particles along x, y, z (nets: net_index)
+  double spacing = 0.0;                            ///< cubes: s [m] between lattice neighbours; nets: 0
+};
+
+/// A ball: a solid sphere. Those of [[ball]] come first, in file order, then those of the launchers.
+struct Ball {
+  double radius = 0.0;            ///< R [m]
+  double mass = 0.0;              ///< m [kg], > 0
+  std::uint64_t launch_step = 0;  ///< takes part in the steps that begin at this step number or later
+  Vec3 initial_position;          ///< [m]; a ball that is not launched yet waits here
+  Vec3 initial_velocity;          ///< [m/s]
+  Vec3 initial_angular_velocity;  ///< ω [rad/s]
+
+  double inertia() const { return 0.4 * mass * radius * radius; }  ///< I = 2/5·m·R² [kg·m²]
+  /// Whether it takes part in the step that begins with a state of this step number.
+  bool launched(std::uint64_t step) const { return step >= launch_step; }
 };
 
 /// The model. Springs are sorted by (a, b), so that adding spring forces in this order adds to every
@@ -64,8 +78,10 @@ struct Model {
   std::vector<Spring> springs;
   std::vector<Body> bodies;
   std::vector<Vec3> initial_position, initial_velocity;
+  std::vector<Ball> balls;
 
   std::uint32_t particle_count() const { return static_cast<std::uint32_t>(mass.size()); }
+  std::uint32_t ball_count() const { return static_cast<std::uint32_t>(balls.size()); }
 };
 
 /// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
@@ -79,9 +95,12 @@ State initial_state(const Model& model, Precision precision);
 /// Approach speed below which a contact is at rest: max(ε, 2|g|h) [m/s], spec §2.5.
 double resting_speed(const Model& model);
 
-/// Springs and pinned particles of a model, for reports.
+/// Error (usage): the state has another number of particles or balls than the model.
+Status check_sizes(const Model& model, const State& state);
+
+/// Springs, pinned particles and balls of a model, for reports.
 struct ModelCounts {
-  std::uint64_t particles = 0, pinned = 0, structural = 0, shear = 0, bending = 0;
+  std::uint64_t particles = 0, pinned = 0, structural = 0, shear = 0, bending = 0, balls = 0;
   std::uint64_t springs() const { return structural + shear + bending; }
 };
 ModelCounts count(const Model& model);

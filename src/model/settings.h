@@ -1,6 +1,7 @@
 #pragma once
 // What a scene says about physics: plain data, SI units. Legal ranges and one-sentence meanings stand in the
 // parameter table (scene/parameters.cpp), which feeds the parser, --set, `scene show` and the documentation.
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -103,12 +104,64 @@ struct CubeSettings {
   PinnedSettings pinned;
 };
 
+/// Springs of a net that may be left out.
+struct OptionalSpringSettings {
+  double stiffness = 0.0;  ///< k [N/m], ≥ 0; 0: there are no such springs
+  double damping = 50.0;   ///< c [N·s/m], ≥ 0
+};
+
+/// A goal net, spec §2.2: back, top and two sides of a box; its front (+x) and its bottom are open.
+struct GoalNetSettings {
+  std::array<int, 3> particles = {10, 20,
+                                  35};  ///< nw, nh, nl along width (x), height (y), length (z), each ≥ 2
+  Vec3 size = {2.0, 3.0, 8.0};          ///< width, height, length [m], each > 0
+  Vec3 position = {0.0, 0.6, 0.0};      ///< of the box's centre [m]
+  double particle_mass = 0.2;           ///< m [kg], > 0
+  SpringSettings structural = {1500.0, 50.0};
+  OptionalSpringSettings shear, bending;
+  bool cord = false;  ///< springs resist stretch only
+};
+
+/// A ball, spec §2.7: a solid sphere, inertia 2/5·m·R².
+struct BallSettings {
+  double radius = 0.3;                      ///< R [m], > 0
+  double mass = 1.0;                        ///< m [kg], > 0
+  Vec3 position = {7.0, 2.6, 2.0};          ///< of the centre [m]
+  Vec3 velocity = {-49.0, -14.0, -7.0};     ///< [m/s]
+  Vec3 angular_velocity = {0.0, 0.0, 0.0};  ///< ω [rad/s]
+};
+
+/// A box from which points are drawn.
+struct BoxSettings {
+  Vec3 min, max;  ///< [m], min ≤ max in every component
+};
+
+/// Radius and mass of a launcher's balls.
+struct LaunchedBallSettings {
+  double radius = 0.3;  ///< R [m], > 0
+  double mass = 1.0;    ///< m [kg], > 0
+};
+
+/// Throws balls at random, the same ones for the same seed (model/launcher.h).
+struct LauncherSettings {
+  std::int64_t seed = 1;  ///< ≥ 0
+  int count = 10;         ///< balls, ≥ 0
+  double interval = 0.5;  ///< [s] between two balls, ≥ 0; the first comes at the start
+  BoxSettings from = {{5.0, 0.6, 0.0}, {9.0, 4.6, 4.0}};
+  BoxSettings towards = {{0.0, 0.6, 0.0}, {0.0, 0.6, 2.0}};
+  double speed_factor = 7.0;  ///< [1/s], velocity = factor · (target − start)
+  LaunchedBallSettings ball;
+};
+
 /// Everything the physics needs from a scene.
 struct ModelSettings {
   SimulationSettings simulation;
   ContactSettings contact;
   std::vector<TerrainSettings> terrain;
   std::vector<CubeSettings> cubes;
+  std::vector<GoalNetSettings> goal_nets;
+  std::vector<BallSettings> balls;
+  std::vector<LauncherSettings> launchers;
 };
 
 }  // namespace aspic

@@ -15,9 +15,13 @@ namespace aspic {
 /// A step whose result was not a finite number or was faster than 1,000 m/s (spec §2.8).
 struct Divergence {
   std::uint64_t step = 0;      ///< the step that failed: it would have been this step's end
-  std::uint32_t particle = 0;  ///< lowest index of those that failed
+  std::uint32_t particle = 0;  ///< lowest index of those that failed; particles come before balls
   bool finite = true;          ///< false: NaN or infinity; true: too fast
+  bool ball = false;           ///< true: `particle` is the index of a ball
 };
+
+/// Who diverged, for messages: `particle 7`, `ball 2`.
+std::string body_text(const Divergence& divergence);
 
 /// Speed above which a step counts as diverged [m/s].
 inline constexpr double divergence_speed = 1000.0;
@@ -38,7 +42,7 @@ class Solver {
   virtual std::uint64_t bytes() const = 0;
 
   /// Takes over a state: rounds it to the solver's own precision, keeps its step number, forgets any
-  /// divergence. Error (usage): the state has another number of particles.
+  /// divergence. Error (usage): the state has another number of particles or balls.
   virtual Status load(const State& state) = 0;
   /// Advances by `steps`, fewer only after a divergence, which is returned. Error: the device was lost.
   virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;

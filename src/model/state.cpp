@@ -25,6 +25,11 @@ std::uint64_t state_hash(const State& state) {
     add(state.position[i]);
     add(state.velocity[i]);
   }
+  for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
+    add(state.ball_position[b]);
+    add(state.ball_velocity[b]);
+    add(state.ball_angular_velocity[b]);
+  }
   return hash.value();
 }
 

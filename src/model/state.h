@@ -14,18 +14,23 @@ enum class Precision { single, double_ };
 
 std::string_view name_of(Precision precision);
 
-/// Positions and velocities of all particles after `step` steps. Values are held as doubles whatever the
-/// precision: a single-precision value is held exactly.
+/// Positions and velocities of all particles and balls after `step` steps. Values are held as doubles
+/// whatever the precision: a single-precision value is held exactly.
 struct State {
   Precision precision = Precision::single;
   std::uint64_t step = 0;      ///< steps since the start; time is step · h
   std::vector<Vec3> position;  ///< x [m], by global particle index
   std::vector<Vec3> velocity;  ///< v [m/s]
+  // By ball index. A ball that is not launched yet (Ball::launch_step) holds the start it will have.
+  std::vector<Vec3> ball_position;          ///< of the centre [m]
+  std::vector<Vec3> ball_velocity;          ///< [m/s]
+  std::vector<Vec3> ball_angular_velocity;  ///< ω [rad/s]
 
   friend bool operator==(const State&, const State&) = default;
 };
 
-/// 64-bit FNV-1a of the little-endian values (x, v of every particle in index order) in the state's own
+/// 64-bit FNV-1a of the little-endian values (x, v of every particle, then x, v, ω of every
+/// ball, in index order) in the state's own
 /// precision, spec §2.9.
 std::uint64_t state_hash(const State& state);
 

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <tuple>
 
-#include "scene/not_built.h"
 #include "scene/parameters.h"
 
 namespace aspic::diagnostics {
@@ -157,7 +156,6 @@ std::string table_text(std::string_view table_path) {
 
 std::string unknown_key(std::string_view table_path, std::string_view key) {
   std::vector<std::string_view> known = child_keys(table_path);
-  if (table_path.empty()) known.insert(known.end(), not_built::sections.begin(), not_built::sections.end());
   if (const std::string_view near = nearest(key, known); !near.empty()) {
     return fmt::format("unknown key '{}' in {}{}", key, table_text(table_path), did_you_mean(near));
   }

@@ -11,7 +11,6 @@
 
 #include "scene/diagnostics.h"
 #include "scene/document.h"
-#include "scene/not_built.h"
 #include "scene/overrides.h"
 #include "scene/reader.h"
 
@@ -88,11 +87,6 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
   }
   std::error_code error;
   if (!std::filesystem::exists(file_or_builtin, error)) {
-    if (not_built::is_builtin_scene(file_or_builtin)) {
-      return Error{ErrorCode::scene_rejected,
-                   fmt::format("the built-in scene '{}' is not built yet in this version; {}",
-                               file_or_builtin, known_scenes(""))};
-    }
     // A path was meant if it looks like one; any other word was meant as a name.
     if (file_or_builtin.find_first_of("/.") != std::string::npos) {
       const std::string stem = std::filesystem::path(file_or_builtin).stem().string();

@@ -27,7 +27,7 @@ Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
 
 /// Reads a built-in scene by name, or else a file (write `./cube-plane` for a file with a built-in's name).
 /// Errors: as parse_scene; io for a path that cannot be read; scene_rejected for a name nobody knows, with
-/// the list of names and the nearest one, and for a built-in scene that is not built yet.
+/// the list of names and the nearest one.
 Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std::string> overrides = {},
                          const LoadLimits& limits = {});
 

@@ -8,7 +8,6 @@
 #include "model/cube.h"
 #include "model/terrain.h"
 #include "scene/diagnostics.h"
-#include "scene/not_built.h"
 #include "scene/write.h"
 
 namespace aspic {
@@ -149,7 +148,18 @@ bool belongs_to_shape(const Parameter& parameter, TerrainShape shape) {
 std::size_t index_count(const Parameter& parameter, const Scene& scene) {
   if (parameter.path.starts_with("terrain[]")) return scene.model.terrain.size();
   if (parameter.path.starts_with("cube[]")) return scene.model.cubes.size();
+  if (parameter.path.starts_with("goal-net[]")) return scene.model.goal_nets.size();
+  if (parameter.path.starts_with("ball[]")) return scene.model.balls.size();
+  if (parameter.path.starts_with("launcher[]")) return scene.model.launchers.size();
   return 1;
+}
+
+void append_element(Scene& scene, std::string_view list) {
+  if (list == "terrain") scene.model.terrain.emplace_back();
+  if (list == "cube") scene.model.cubes.emplace_back();
+  if (list == "goal-net") scene.model.goal_nets.emplace_back();
+  if (list == "ball") scene.model.balls.emplace_back();
+  if (list == "launcher") scene.model.launchers.emplace_back();
 }
 
 std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
@@ -189,6 +199,13 @@ std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
       }
       return std::nullopt;
     }
+    case ParameterType::counts: {
+      const auto& counts = std::get<std::array<int, 3>>(value);
+      for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (auto message = complaint_about(p, counts[i])) return Complaint{i, *message};
+      }
+      return std::nullopt;
+    }
     case ParameterType::pinned: {
       const auto& names = std::get<PinnedSettings>(value).names;
       for (std::size_t i = 0; i < names.size(); ++i) {
@@ -217,6 +234,8 @@ std::string allowed_text(const Parameter& p) {
     case ParameterType::vector:
       return fmt::format("three numbers [x, y, z], each {}{}", range_text(p),
                          p.direction ? ", not all zero" : "");
+    case ParameterType::counts:
+      return fmt::format("three whole numbers [along x, y, z], each {}", range_text(p));
     case ParameterType::pinned:
       return fmt::format(
           "an array of faces ({}), corners (three faces joined by hyphens, such as left-top-front) and local "
@@ -240,8 +259,8 @@ std::string default_text(const Parameter& p) {
   }
   if (!p.when_absent.empty()) return std::string(p.when_absent);
   Scene scene;
-  scene.model.terrain.emplace_back();
-  scene.model.cubes.emplace_back();
+  for (const std::string_view list : {"terrain", "cube", "goal-net", "ball", "launcher"})
+    append_element(scene, list);
   if (p.belonging == Belonging::material) scene.model.cubes[0].material.emplace();
   return toml_value(*p.get(scene, 0));
 }

@@ -1,6 +1,7 @@
 #pragma once
 // THE parameter table: every key of a scene file, once. Parser, validator, --set, `scene show`, the window's
 // widgets and docs/scene-reference.md are all driven by it.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -24,12 +25,13 @@ enum class ParameterType {
   word,     ///< std::string, one of Parameter::words
   words,    ///< std::vector<std::string>, each one of Parameter::words, at most once
   vector,   ///< Vec3; the range holds for each component
+  counts,   ///< std::array<int, 3>; the range holds for each
   pinned    ///< PinnedSettings: face names, corner names, local indices
 };
 
 /// A parameter's value, in the alternative its type names.
-using Value =
-    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3, PinnedSettings>;
+using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3,
+                           std::array<int, 3>, PinnedSettings>;
 
 /// Legal numbers, both ends included unless said otherwise.
 struct Range {
@@ -47,7 +49,7 @@ struct Parameter {
   std::string_view path;  ///< `simulation.timestep`, `cube[].shear.stiffness`; [] stands for an index
   ParameterType type = ParameterType::number;
   std::string_view unit;                ///< empty: a pure number or not a number
-  Range range;                          ///< integer, number, vector
+  Range range;                          ///< integer, number, vector, counts
   std::vector<std::string_view> words;  ///< word, words: those allowed, not-yet-built ones included
   Belonging belonging = Belonging::always;
   bool direction = false;        ///< vector: any length but zero
@@ -55,7 +57,7 @@ struct Parameter {
   std::string_view when_absent;  ///< what an absent value means; empty: the default is a value
   std::string_view meaning;      ///< one sentence
 
-  /// The value in a scene; `index` picks the terrain or cube (0 for other keys) and must exist. Absent
+  /// The value in a scene; `index` picks the element of its list (0 for other keys) and must exist. Absent
   /// terrain geometry reads as the shape's default. Nothing if the key is absent or does not apply
   /// (Belonging).
   std::optional<Value> get(const Scene& scene, std::size_t index) const;
@@ -90,8 +92,11 @@ bool applies(const Parameter& parameter, const Scene& scene, std::size_t index);
 /// Whether terrain of a shape has this key (always true outside `terrain`).
 bool belongs_to_shape(const Parameter& parameter, TerrainShape shape);
 
-/// How many terrains or cubes the scene has for an indexed path, 1 for other paths.
+/// How many elements the scene has in the list of an indexed path, 1 for other paths.
 std::size_t index_count(const Parameter& parameter, const Scene& scene);
+
+/// Appends an element with default values to a list of the scene, by its key (`cube`).
+void append_element(Scene& scene, std::string_view list);
 
 /// A value that is not allowed.
 struct Complaint {

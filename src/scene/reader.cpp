@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
 #include "scene/diagnostics.h"
-#include "scene/not_built.h"
 #include "scene/parameters.h"
 #include "scene/scene_checks.h"
 
@@ -37,11 +38,6 @@ class Reader {
   void read_table(const Node& table, const std::string& path, std::size_t index) {
     for (const Member& member : table.members) {
       const std::string child = path.empty() ? member.key : path + "." + member.key;
-      if (path.empty() && not_built::is_section(member.key)) {
-        problems_.push_back(
-            {member.position, fmt::format("[[{}]] is not built yet in this version", member.key)});
-        continue;
-      }
       // A key with brackets or dots inside quotes must not be taken for a path.
       const bool plain = member.key.find_first_of("[].") == std::string::npos && !member.key.empty();
       switch (plain ? path_kind(child) : PathKind::unknown) {
@@ -83,11 +79,7 @@ class Reader {
     if (member.value.kind != Kind::array) return wrong(member.value);
     for (std::size_t i = 0; i < member.value.elements.size(); ++i) {
       // One entry in the scene for each element, right or wrong, so that indices stay those of the file.
-      if (path == "cube") {
-        scene_.model.cubes.emplace_back();
-      } else {
-        scene_.model.terrain.emplace_back();
-      }
+      append_element(scene_, path);
       const Node& element = member.value.elements[i];
       if (element.kind != Kind::table) {
         wrong(element);
@@ -146,6 +138,8 @@ class Reader {
         return converted_words(p, node);
       case ParameterType::vector:
         return converted_vector(p, node);
+      case ParameterType::counts:
+        return converted_counts(p, node);
       case ParameterType::pinned:
         return converted_pinned(p, node);
     }
@@ -162,13 +156,32 @@ class Reader {
     return Value(words);
   }
 
-  std::optional<Value> converted_vector(const Parameter& p, const Node& node) {
-    if (node.kind != Kind::array) return wrong_type(p, node);
-    if (node.elements.size() != 3) {
-      problems_.push_back({node.position, fmt::format("'{}' must be {}, not {} of them", key_text(p),
-                                                      allowed_text(p), node.elements.size())});
-      return std::nullopt;
+  /// Whether the node is an array of three, and a problem if it is not.
+  bool has_three(const Parameter& p, const Node& node) {
+    if (node.kind != Kind::array) {
+      wrong_type(p, node);
+      return false;
     }
+    if (node.elements.size() == 3) return true;
+    problems_.push_back({node.position, fmt::format("'{}' must be {}, not {} of them", key_text(p),
+                                                    allowed_text(p), node.elements.size())});
+    return false;
+  }
+
+  std::optional<Value> converted_counts(const Parameter& p, const Node& node) {
+    if (!has_three(p, node)) return std::nullopt;
+    std::array<int, 3> counts = {};
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const Node& element = node.elements[i];
+      if (element.kind != Kind::integer) return wrong_type(p, element);
+      // Far numbers are out of every range: the nearest int says so as well.
+      counts[i] = static_cast<int>(std::clamp<std::int64_t>(element.integer, -2147483647, 2147483647));
+    }
+    return Value(counts);
+  }
+
+  std::optional<Value> converted_vector(const Parameter& p, const Node& node) {
+    if (!has_three(p, node)) return std::nullopt;
     Vec3 v;
     for (int axis = 0; axis < 3; ++axis) {
       const Node& element = node.elements[static_cast<std::size_t>(axis)];

@@ -8,7 +8,6 @@
 
 #include "scene/diagnostics.h"
 #include "scene/load.h"
-#include "scene/not_built.h"
 #include "scene/parameters.h"
 
 namespace aspic {
@@ -79,11 +78,7 @@ std::string scene_reference() {
   page += "\n## Built-in scenes\n\n| name | |\n|---|---|\n";
   for (const BuiltinScene& scene : list_builtin_scenes())
     page += fmt::format("| `{}` | {} |\n", scene.name, scene.description);
-  page += "\n## Not built yet\n\nThese parts of the format are known by name and refused:";
-  for (const std::string_view name : not_built::sections) page += fmt::format(" `[[{}]]`", name);
-  page += "; and the built-in scenes";
-  for (const std::string_view name : not_built::builtin_scenes) page += fmt::format(" `{}`", name);
-  return page + ".\n";
+  return page;
 }
 
 }  // namespace aspic

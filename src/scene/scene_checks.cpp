@@ -5,9 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "model/cube.h"
+#include "model/goal_net.h"
 #include "model/model.h"
 #include "scene/diagnostics.h"
-#include "scene/not_built.h"
 #include "scene/parameters.h"
 
 namespace aspic::reader {
@@ -105,26 +106,51 @@ void check_camera(const Node& root, const Scene& scene, std::vector<Problem>& pr
                       "the camera's position and target are the same point: it looks nowhere"});
 }
 
-/// Whether anything in the document is meant to move, built yet or not.
-bool has_bodies(const Node& root) {
-  for (const std::string_view section : not_built::sections) {
-    if (find(root, section)) return true;
+void check_box(const Node& launcher, std::string_view key, const BoxSettings& box,
+               std::vector<Problem>& problems) {
+  const Member* written = find(launcher, key);
+  if (!written) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.min[axis] <= box.max[axis]) continue;
+    problems.push_back(
+        {written->value.position,
+         fmt::format("'launcher.{}' is no box: its min has the {} {} and its max {}; min must not "
+                     "exceed max",
+                     key, "xyz"[axis], box.min[axis], box.max[axis])});
   }
-  const Member* cube = find(root, "cube");
-  return cube && (cube->value.kind != Kind::array || !cube->value.elements.empty());
 }
 
-/// Where the scene's size is decided: the particles per edge of its largest cube.
-Position largest_cube(const Node& root, const Scene& scene) {
+/// Whether anything in the document is meant to move.
+bool has_bodies(const Node& root) {
+  for (const std::string_view list : {"cube", "goal-net", "ball", "launcher"}) {
+    const Member* member = find(root, list);
+    if (member && (member->value.kind != Kind::array || !member->value.elements.empty())) return true;
+  }
+  return false;
+}
+
+/// Where the scene's size is decided: the counts of its largest net or launcher, or the particles per edge of
+/// its largest cube.
+Position largest_body(const Node& root, const Scene& scene) {
   Position position;
-  int most = 0;
-  const std::vector<Node>& elements = tables_of(root, "cube");
-  for (std::size_t c = 0; c < elements.size(); ++c) {
-    const int n = scene.model.cubes[c].particles_per_edge;
-    if (n <= most) continue;
-    most = n;
-    const Member* written = find(elements[c], "particles-per-edge");
-    position = written ? written->value.position : elements[c].position;
+  std::uint64_t most_of_all = 0;
+  const auto consider = [&](std::uint64_t size, const Node& element, std::string_view key) {
+    if (size <= most_of_all) return;
+    most_of_all = size;
+    const Member* written = find(element, key);
+    position = written ? written->value.position : element.position;
+  };
+  const std::vector<Node>& nets = tables_of(root, "goal-net");
+  for (std::size_t i = 0; i < nets.size(); ++i) {
+    consider(goal_net_counts(scene.model.goal_nets[i]).particles, nets[i], "particles");
+  }
+  const std::vector<Node>& launchers = tables_of(root, "launcher");
+  for (std::size_t i = 0; i < launchers.size(); ++i) {
+    consider(static_cast<std::uint64_t>(scene.model.launchers[i].count), launchers[i], "count");
+  }
+  const std::vector<Node>& cubes = tables_of(root, "cube");
+  for (std::size_t i = 0; i < cubes.size(); ++i) {
+    consider(cube_counts(scene.model.cubes[i].particles_per_edge).particles, cubes[i], "particles-per-edge");
   }
   return position;
 }
@@ -141,15 +167,18 @@ void check_size(const Node& root, const Scene& scene, std::optional<std::uint64_
   const ModelCounts counts = predict_counts(scene.model);
   const std::uint64_t bytes = model_bytes(counts);
   const std::string size =
-      fmt::format("the scene has {} particles and {} springs", counts.particles, counts.springs());
+      counts.balls == 0
+          ? fmt::format("the scene has {} particles and {} springs", counts.particles, counts.springs())
+          : fmt::format("the scene has {} particles, {} springs and {} balls", counts.particles,
+                        counts.springs(), counts.balls);
   // Both ends of every spring are counted by 32 bits (build_model).
-  if (2 * counts.springs() > 0xffffffffull) {
-    problems.push_back({largest_cube(root, scene),
-                        size + ": more than 32-bit indices can name; use fewer particles-per-edge"});
+  if (2 * counts.springs() > 0xffffffffull || counts.particles + counts.balls > 0x7fffffffull) {
+    problems.push_back({largest_body(root, scene),
+                        size + ": more than 32-bit indices can name; use fewer particles or balls"});
   } else if (memory_bytes && bytes > *memory_bytes) {
     problems.push_back(
-        {largest_cube(root, scene),
-         fmt::format("{}: they need {} of memory and {} are available; use fewer particles-per-edge", size,
+        {largest_body(root, scene),
+         fmt::format("{}: they need {} of memory and {} are available; use fewer particles or balls", size,
                      bytes_text(bytes), bytes_text(*memory_bytes))});
   }
 }
@@ -165,9 +194,16 @@ void check_whole_scene(const Node& root, const Scene& scene, std::optional<std::
     check_material(cubes[c], problems);
     check_pinned(cubes[c], scene.model.cubes[c], problems);
   }
+  const std::vector<Node>& launchers = tables_of(root, "launcher");
+  for (std::size_t i = 0; i < launchers.size(); ++i) {
+    check_box(launchers[i], "from", scene.model.launchers[i].from, problems);
+    check_box(launchers[i], "towards", scene.model.launchers[i].towards, problems);
+  }
   check_camera(root, scene, problems);
   if (!has_bodies(root)) {
-    problems.push_back({{}, "the scene is empty: nothing in it moves; add a [[cube]]"});
+    problems.push_back(
+        {{},
+         "the scene is empty: nothing in it moves; add a [[cube]], [[goal-net]], [[ball]] or [[launcher]]"});
   }
   check_size(root, scene, memory_bytes, problems);
 }

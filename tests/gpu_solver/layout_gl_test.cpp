@@ -36,6 +36,7 @@ TEST_F(Layout, UniformBlockMatchesTheDriver) {
   EXPECT_UNIFORM_AT(contact_model);
   EXPECT_UNIFORM_AT(class_bits);
   EXPECT_UNIFORM_AT(position_from_new_velocity);
+  EXPECT_UNIFORM_AT(ball_count);
   EXPECT_UNIFORM_AT(stages[0].advance);
   EXPECT_UNIFORM_AT(stages[0].weight);
   EXPECT_UNIFORM_AT(stages[0].accumulate);
@@ -83,6 +84,38 @@ TEST_F(Layout, StorageBlocksMatchTheDriver) {
   EXPECT_EQ(forces.buffer_variable_array_stride("springs[0]"), static_cast<int>(sizeof(layout::uvec2)));
   EXPECT_EQ(forces.storage_block_binding("SpringForces"), BINDING_SPRING_FORCES);
   EXPECT_EQ(forces.buffer_variable_array_stride("spring_forces[0]"), static_cast<int>(sizeof(layout::vec4)));
+}
+
+TEST_F(Layout, BallBlocksMatchTheDriver) {
+  const gl::Program fly = program("compute/ball_fly.comp");
+  EXPECT_EQ(fly.storage_block_binding("Balls"), BINDING_BALLS);
+  EXPECT_EQ(fly.storage_block_binding("BallBodies"), BINDING_BALL_BODIES);
+  EXPECT_EQ(fly.buffer_variable_offset("balls[0].velocity"),
+            static_cast<int>(offsetof(layout::Ball, velocity)));
+  EXPECT_EQ(fly.buffer_variable_offset("balls[0].spin"), static_cast<int>(offsetof(layout::Ball, spin)));
+  EXPECT_EQ(fly.buffer_variable_offset("balls[0].start_velocity"),
+            static_cast<int>(offsetof(layout::Ball, start_velocity)));
+  EXPECT_EQ(fly.buffer_variable_top_level_stride("balls[0].spin"), static_cast<int>(sizeof(layout::Ball)));
+  EXPECT_EQ(fly.buffer_variable_offset("bodies[0].launch_step"),
+            static_cast<int>(offsetof(layout::BallBody, launch_step)));
+  EXPECT_EQ(fly.buffer_variable_top_level_stride("bodies[0].launch_step"),
+            static_cast<int>(sizeof(layout::BallBody)));
+  const gl::Program exchange = program("compute/ball_exchange.comp");
+  EXPECT_EQ(exchange.storage_block_binding("StateA"), BINDING_STATE_A);
+  EXPECT_EQ(exchange.storage_block_binding("StateB"), BINDING_STATE_B);
+  EXPECT_EQ(exchange.storage_block_binding("BallCounts"), BINDING_BALL_COUNTS);
+  EXPECT_EQ(exchange.uniform_location("ball_phase"), LOCATION_BALL_PHASE);
+  EXPECT_EQ(exchange.uniform_location("ball_parity"), LOCATION_BALL_PARITY);
+  EXPECT_EQ(exchange.uniform_offset("ball_restitution"),
+            static_cast<int>(offsetof(layout::Simulation, ball_restitution)));
+  EXPECT_EQ(exchange.uniform_offset("ball_friction"),
+            static_cast<int>(offsetof(layout::Simulation, ball_friction)));
+  const gl::Program insert = program("compute/ball_insert.comp");
+  EXPECT_EQ(insert.storage_block_binding("BallGrid"), BINDING_BALL_GRID);
+  EXPECT_EQ(insert.uniform_offset("bucket_mask"),
+            static_cast<int>(offsetof(layout::Simulation, bucket_mask)));
+  EXPECT_EQ(insert.uniform_offset("particle_cells_per_metre"),
+            static_cast<int>(offsetof(layout::Simulation, particle_cells_per_metre)));
 }
 
 TEST_F(Layout, UniformLocationsAndBlockCounts) {

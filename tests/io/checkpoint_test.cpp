@@ -66,10 +66,10 @@ TEST(Checkpoint, SaysWhatIsWrong) {
   std::string bytes = encode_checkpoint(example(Precision::single));
   EXPECT_THAT(decode_checkpoint(bytes.substr(0, bytes.size() / 2), "c").error().message,
               HasSubstr("cut short"));
-  bytes[10] = 2;  // the format version follows the ten bytes of the mark
+  bytes[10] = 3;  // the format version follows the ten bytes of the mark
   const auto newer = decode_checkpoint(bytes, "c");
   ASSERT_FALSE(newer.ok());
-  EXPECT_THAT(newer.error().message, HasSubstr("format version 2"));
+  EXPECT_THAT(newer.error().message, HasSubstr("format version 3"));
   EXPECT_THAT(newer.error().message, HasSubstr("newer aspic"));
   EXPECT_FALSE(read_checkpoint("/nonexistent/c").ok());
 }

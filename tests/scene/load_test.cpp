@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "model/model.h"
-#include "scene/not_built.h"
 #include "scene/scene_support.h"
 
 namespace aspic {
@@ -191,6 +190,16 @@ INSTANTIATE_TEST_SUITE_P(Data, BadFile, testing::ValuesIn(bad_files()), [](const
 
 // ---- built-in scenes and files ----
 
+/// Particles and balls.
+std::pair<std::uint32_t, std::uint32_t> expected_sizes(const std::string& scene) {
+  if (scene == "large-cube") return {262144, 0};
+  if (scene == "goal-net") return {1357, 1};
+  if (scene == "penalty") return {1357, 10};
+  if (scene == "ball-pit") return {0, 1000};
+  if (scene == "cube-and-balls") return {1000, 3};
+  return {1000, 0};
+}
+
 TEST(Builtin, ScenesLoadAndBuild) {
   std::vector<std::string> names;
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
@@ -201,18 +210,19 @@ TEST(Builtin, ScenesLoadAndBuild) {
     EXPECT_EQ(scene->name, names.back());
     const auto model = build_model(scene->model);
     ASSERT_TRUE(model.ok()) << model.error().message;
-    EXPECT_EQ(model->particle_count(), names.back() == "large-cube" ? 262144u : 1000u);
+    const std::pair<std::uint32_t, std::uint32_t> sizes = {model->particle_count(), model->ball_count()};
+    EXPECT_EQ(sizes, expected_sizes(names.back())) << names.back();
     // No particle starts in the ground.
     for (const Vec3& x : model->initial_position) {
       for (const Terrain& t : model->terrain)
         ASSERT_GT(t.shape == TerrainShape::bowl     ? t.radius - length(x - t.point)
                   : t.shape == TerrainShape::sphere ? length(x - t.point) - t.radius
                                                     : dot(t.normal, x - t.point),
-                  0.1);
+                  0.05);
     }
   }
   EXPECT_THAT(names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
-                                          "large-cube"));
+                                          "goal-net", "penalty", "ball-pit", "cube-and-balls", "large-cube"));
 }
 
 // Spec §2.6: limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.
@@ -228,15 +238,6 @@ TEST(Builtin, LargeCubeStepsBelowItsStabilityLimit) {
   ASSERT_EQ(scene->model.simulation.integrator, Integrator::symplectic_euler);
   EXPECT_LT(scene->model.simulation.timestep, 0.85 * limit);
   EXPECT_GT(scene->model.simulation.timestep, 0.7 * limit);
-}
-
-TEST(Builtin, ScenesNotBuiltYetAreRefusedByName) {
-  for (const std::string_view name : not_built::builtin_scenes) {
-    const auto scene = load_scene(std::string(name));
-    ASSERT_FALSE(scene.ok());
-    EXPECT_EQ(scene.error().code, ErrorCode::scene_rejected);
-    EXPECT_THAT(scene.error().message, HasSubstr(fmt::format("'{}' is not built yet", name)));
-  }
 }
 
 TEST(Load, SuggestsTheNearestBuiltin) {

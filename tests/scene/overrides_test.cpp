@@ -13,13 +13,17 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string base = "schema = 1\n[[terrain]]\n[[cube]]\nshear = { stiffness = 1000.0 }\n";
+const std::string box = " = { min = [-9, -9, -9], max = [9, 9, 9] }\n";
+const std::string base =
+    "schema = 1\n[[terrain]]\n[[cube]]\nshear = { stiffness = 1000.0 "
+    "}\n[[goal-net]]\n[[ball]]\n[[launcher]]\nfrom" +
+    box + "towards" + box;
 
 /// A legal value that is not the default.
 Value other_value(const Parameter& p) {
   switch (p.type) {
     case ParameterType::boolean:
-      return false;
+      return p.path == "goal-net[].cord";
     case ParameterType::integer:
       return p.path == "schema" ? std::int64_t{1} : std::int64_t{7};
     case ParameterType::number:
@@ -31,7 +35,9 @@ Value other_value(const Parameter& p) {
     case ParameterType::words:
       return std::vector<std::string>{"solid", "bending"};
     case ParameterType::vector:
-      return Vec3{0.5, -0.25, 2.0};
+      return Vec3{0.5, p.range.min < 0.0 ? -0.25 : 0.25, 2.0};
+    case ParameterType::counts:
+      return std::array<int, 3>{3, 4, 5};
     case ParameterType::pinned:
       return PinnedSettings{{"top", "left-bottom-back"}, {3}};
   }

@@ -69,6 +69,10 @@ std::vector<Wrong> wrong_types(ParameterType type) {
       wrong = {{"\"x\""},          {"1.0"}, {"[1.0, 2.0]"}, {"[]"}, {"[1, 2, 3, 4]"}, {"[0, \"a\", 1]", 4},
                {"[0, 0, true]", 7}};
       break;
+    case ParameterType::counts:
+      wrong = {{"\"x\""},         {"2"}, {"[2, 2]"}, {"[]"}, {"[2, 2, 2, 2]"}, {"[2, \"a\", 2]", 4},
+               {"[2, 2, 2.0]", 7}};
+      break;
     case ParameterType::pinned:
       wrong = {{"\"top\""}, {"1"}, {"[1.0]", 1}, {"[\"top\", true]", 8}};
       break;
@@ -126,6 +130,9 @@ std::vector<Wrong> out_of_range(const Parameter& p) {
       break;
     case ParameterType::words:
       wrong = {{"[\"solid\", \"no-such-word\"]", 10}, {"[\"solid\", \"shear\", \"solid\"]", 19}};
+      break;
+    case ParameterType::counts:
+      wrong = {{"[1, 2, 2]", 1}, {"[2, 513, 2]", 4}, {"[2, 2, -9223372036854775808]", 7}};
       break;
     case ParameterType::pinned:
       wrong = {{"[\"no-such-word\"]", 1}, {"[3, \"top-top-top\"]", 4}, {"[\"top\", -1]", 8}, {"[1000]", 1},

@@ -98,6 +98,7 @@ inline bool same_bits(const Value& a, const Value& b) {
     const auto& y = std::get<PinnedSettings>(b);
     return x->names == y.names && x->indices == y.indices;
   }
+  if (const auto* x = std::get_if<std::array<int, 3>>(&a)) return *x == std::get<std::array<int, 3>>(b);
   if (const auto* x = std::get_if<bool>(&a)) return *x == std::get<bool>(b);
   if (const auto* x = std::get_if<std::int64_t>(&a)) return *x == std::get<std::int64_t>(b);
   if (const auto* x = std::get_if<std::string>(&a)) return *x == std::get<std::string>(b);

@@ -62,7 +62,9 @@ Value random_value(const Parameter& p, std::mt19937_64& random) {
       return words;
     }
     case ParameterType::vector:
-      return Vec3{number(), number(), chance() ? -0.0 : number()};
+      return Vec3{number(), number(), chance() && p.range.min < 0.0 ? -0.0 : number()};
+    case ParameterType::counts:
+      return std::array<int, 3>{2, 40, std::uniform_int_distribution<int>(2, 40)(random)};
     case ParameterType::pinned:
       return PinnedSettings{{"front", "left-bottom-back"}, {0, 7, 3}};
   }
@@ -76,11 +78,22 @@ TEST(Write, RoundTripsRandomScenes) {
     scene.model.terrain.resize(static_cast<std::size_t>(trial % 4));
     scene.model.cubes.resize(1 + static_cast<std::size_t>(trial % 3));
     if (trial % 2 == 0) scene.model.cubes[0].material.emplace();
+    scene.model.goal_nets.resize(static_cast<std::size_t>(trial % 2));
+    scene.model.balls.resize(static_cast<std::size_t>(trial % 5));
+    scene.model.launchers.resize(static_cast<std::size_t>(trial % 3));
     for (const Parameter& p : parameters()) {
       for (std::size_t i = 0; i < index_count(p, scene); ++i) {
         // Some keys stay absent or at their defaults.
         const bool left_out = std::uniform_int_distribution<int>(0, 3)(random) == 0;
         if (applies(p, scene, i) && !left_out) p.set(scene, i, random_value(p, random));
+      }
+    }
+    // Corners are drawn apart from each other; a box has them in order.
+    for (LauncherSettings& launcher : scene.model.launchers) {
+      for (BoxSettings* box : {&launcher.from, &launcher.towards}) {
+        for (int axis = 0; axis < 3; ++axis) {
+          if (box->max[axis] < box->min[axis]) std::swap(box->min[axis], box->max[axis]);
+        }
       }
     }
     expect_round_trip(scene);

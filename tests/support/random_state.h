@@ -10,7 +10,8 @@
 
 namespace aspic::test {
 
-inline State random_bits_state(std::size_t particles, Precision precision, std::uint64_t seed = 1) {
+inline State random_bits_state(std::size_t particles, Precision precision, std::uint64_t seed = 1,
+                               std::size_t balls = 7) {
   std::mt19937_64 random(seed);
   const auto number = [&] {
     for (;;) {
@@ -26,6 +27,11 @@ inline State random_bits_state(std::size_t particles, Precision precision, std::
   for (std::size_t i = 0; i < particles; ++i) {
     state.position.push_back({number(), number(), number()});
     state.velocity.push_back({number(), number(), number()});
+  }
+  for (std::size_t b = 0; b < balls; ++b) {
+    state.ball_position.push_back({number(), number(), number()});
+    state.ball_velocity.push_back({number(), number(), number()});
+    state.ball_angular_velocity.push_back({number(), number(), number()});
   }
   if (particles > 0) {
     state.velocity[0] = {-0.0, 0.0,

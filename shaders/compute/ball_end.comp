@@ -1,0 +1,9 @@
+// Implicit Euler: the balls' part of a step is over.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/implicit.glsl"
+#include "compute/implicit_end.glsl"
+
+void main() {
+  if (solve.phase == PHASE_BALLS && item_index() == 0u) end_step();
+}

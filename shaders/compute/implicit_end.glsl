@@ -1,0 +1,26 @@
+// Implicit Euler, the end of a whole step, by one invocation: what the solve came to, and the states change places.
+void report() {
+  solve.last_newton = solve.newton;
+  solve.last_cg = solve.cg_total;
+  solve.last_residual = solve.residual;
+  solve.last_end = solve.end;
+  solve.last_ticks = solve.ticks;
+  if (solve.residual > solve.worst_residual) solve.worst_residual = solve.residual;
+  if (solve.end == SOLVE_CONVERGED) ++solve.converged;
+  if (solve.end == SOLVE_STAGNATED) ++solve.stagnated;
+  if (solve.end == SOLVE_NOT_CONVERGED) ++solve.not_converged;
+  solve.newton_sum += solve.newton;
+  solve.cg_sum += solve.cg_total;
+}
+
+// Unless the step diverged: then nothing moves any more.
+void end_step() {
+  if (atomicAdd(solve.bad_particle, 0u) != NO_STEP) {
+    solve.phase = PHASE_HALTED;
+    return;
+  }
+  report();
+  solve.parity = 1u - solve.parity;
+  ++solve.step;
+  solve.phase = solve.step == solve.target_step ? PHASE_IDLE : PHASE_BEGIN;
+}

@@ -1,0 +1,73 @@
+#pragma once
+// Balls on the device: the passes that follow the particles' step (shaders/compute/ball_blocks.glsl), for the
+// explicit and the implicit solver alike.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "gpu/pass.h"
+#include "gpu/program.h"
+#include "gpu_solver/gpu_solver.h"
+#include "gpu_solver/layout.h"
+#include "gpu_solver/support.h"
+
+namespace aspic {
+
+/// Buckets of the grid's hash table for this many bodies of one kind: a power of two, about two for each.
+std::uint32_t grid_buckets(std::uint32_t balls, std::uint32_t particles);
+
+/// Whether `automatic` takes the grid: from 40,000 pairs of a ball with another body on. With fewer, trying
+/// all pairs costs less than keeping a grid.
+bool grid_pays(std::uint32_t balls, std::uint32_t particles);
+
+/// Fills the balls' part of the constants.
+void fill_balls(layout::Simulation& block, const Model& model);
+
+/// Bytes of device memory the balls of a scene take.
+std::uint64_t ball_bytes(const ModelCounts& counts);
+
+class BallPasses {
+ public:
+  /// Where the particles are and what stops the kernels: bound to every pass.
+  struct Surroundings {
+    const gl::Buffer* simulation = nullptr;
+    const gl::Buffer* control = nullptr;  ///< Control, or Solve under implicit Euler
+    bool implicit = false;
+  };
+
+  /// Makes buffers and passes; nothing at all for a model without balls. Errors as make_gpu_solver.
+  Status build(gl::Context& context, const Model& model, const gl::ShaderLibrary& library,
+               const KernelOptions& kernels, const Surroundings& surroundings, BallSearch search);
+
+  bool any() const { return count_ > 0; }
+
+  /// Writes the balls of a state into slot 0; launch steps count from the state's step.
+  void load(const State& state);
+  /// Writes the launch steps anew, counted from `base_step`.
+  void set_base_step(std::uint64_t base_step);
+
+  /// Queues the passes of one step between particle states `start` and `end`. `step` and `parity` (which slot
+  /// the step starts from) matter under explicit methods alone; under implicit Euler a and b are the two
+  /// states.
+  void queue(const gl::Buffer& start, const gl::Buffer& end, std::uint32_t step, std::uint32_t parity,
+             gl::Reader last) const;
+
+  /// Reads the balls of a slot into a state.
+  void read(State& state, std::uint32_t slot) const;
+
+  const gl::Buffer& buffer() const { return balls_; }
+
+ private:
+  enum Kernel : std::size_t { fly, clear, insert, tally, exchange, particles, end_implicit, kernel_count };
+  void dispatch(Kernel kernel, std::uint32_t items, std::span<const gl::Binding> states, std::uint32_t phase,
+                gl::Reader readers) const;
+
+  const Model* model_ = nullptr;
+  std::uint32_t count_ = 0, particle_count_ = 0, buckets_ = 0;
+  bool grid_ = false, implicit_ = false;
+  gl::Buffer balls_, bodies_, counts_, lists_;
+  std::array<gl::Program, kernel_count> programs_;
+  std::vector<gl::Pass> passes_;  // by Kernel
+};
+
+}  // namespace aspic

@@ -1,0 +1,141 @@
+#include "model/goal_net.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+namespace aspic {
+namespace {
+
+/// A spring's direction seen from its lower particle, and its class relative to the net's first.
+struct Offset {
+  int di, dj, dk;
+  std::uint32_t spring_class;
+};
+
+/// Whether both points lie in one of the four faces.
+bool share_face(const std::array<int, 3>& n, int i, int j, int k, const Offset& o) {
+  const auto both = [](int a, int delta, int at) { return a == at && a + delta == at; };
+  return both(i, o.di, 0) || both(j, o.dj, n[1] - 1) || both(k, o.dk, 0) || both(k, o.dk, n[2] - 1);
+}
+
+Vec3 spacing_of(const GoalNetSettings& net) {
+  return {net.size.x / (net.particles[0] - 1), net.size.y / (net.particles[1] - 1),
+          net.size.z / (net.particles[2] - 1)};
+}
+
+/// Adds a class for each direction of one type and returns the directions, with both signs of diagonals.
+void add_directions(Model& model, const Body& body, const Vec3& s, const SpringClass& type,
+                    std::vector<Offset>& offsets) {
+  const auto add = [&](const Vec3& step) {
+    SpringClass c = type;
+    c.rest_length = length(step);
+    model.spring_classes.push_back(c);
+    return static_cast<std::uint32_t>(model.spring_classes.size() - 1) - body.first_class;
+  };
+  if (type.type == SpringType::shear) {
+    const std::uint32_t xy = add({s.x, s.y, 0.0}), xz = add({s.x, 0.0, s.z}), yz = add({0.0, s.y, s.z});
+    offsets.insert(
+        offsets.end(),
+        {{1, 1, 0, xy}, {1, -1, 0, xy}, {1, 0, 1, xz}, {1, 0, -1, xz}, {0, 1, 1, yz}, {0, 1, -1, yz}});
+    return;
+  }
+  const int steps = type.type == SpringType::bending ? 2 : 1;
+  const std::uint32_t x = add({steps * s.x, 0.0, 0.0}), y = add({0.0, steps * s.y, 0.0}),
+                      z = add({0.0, 0.0, steps * s.z});
+  offsets.insert(offsets.end(), {{steps, 0, 0, x}, {0, steps, 0, y}, {0, 0, steps, z}});
+}
+
+}  // namespace
+
+ModelCounts goal_net_counts(const GoalNetSettings& net) {
+  const auto nw = static_cast<std::uint64_t>(net.particles[0]),
+             nh = static_cast<std::uint64_t>(net.particles[1]),
+             nl = static_cast<std::uint64_t>(net.particles[2]);
+  ModelCounts counts;
+  counts.particles = nh * nl + (nw - 1) * (nl + 2 * (nh - 1));
+  // Perimeter of the top, bottom row, and what of the posts lies between them.
+  counts.pinned = 2 * (nw + nl) - 4 + (nl + 2 * (nw - 1)) + 4 * (nh - 2);
+  // Lines along each axis that lie in a face, times the springs of a line.
+  const std::uint64_t along_x = nl + 2 * (nh - 1), along_y = nl + 2 * (nw - 1), along_z = nh + nw - 1;
+  counts.structural = along_x * (nw - 1) + along_y * (nh - 1) + along_z * (nl - 1);
+  if (net.shear.stiffness > 0.0) {
+    counts.shear = 2 * ((nh - 1) * (nl - 1) + (nw - 1) * (nl - 1) + 2 * (nw - 1) * (nh - 1));
+  }
+  if (net.bending.stiffness > 0.0) {
+    counts.bending = along_x * (nw - 2) + along_y * (nh - 2) + along_z * (nl - 2);
+  }
+  return counts;
+}
+
+std::optional<std::uint32_t> net_index(const std::array<int, 3>& lattice, int i, int j, int k) {
+  const auto [nw, nh, nl] = lattice;
+  if (i < 0 || i >= nw || j < 0 || j >= nh || k < 0 || k >= nl) return std::nullopt;
+  if (i == 0) return static_cast<std::uint32_t>(j * nl + k);
+  const bool top = j == nh - 1;
+  if (!top && k != 0 && k != nl - 1) return std::nullopt;
+  // Slices i ≥ 1: two posts in every row below the top, then the top row.
+  const int slice = nh * nl + (i - 1) * (2 * (nh - 1) + nl);
+  return static_cast<std::uint32_t>(slice + 2 * j + (top ? k : k == 0 ? 0 : 1));
+}
+
+bool net_pinned(const std::array<int, 3>& lattice, int i, int j, int k) {
+  const auto [nw, nh, nl] = lattice;
+  const bool end_i = i == 0 || i == nw - 1, end_k = k == 0 || k == nl - 1;
+  const bool perimeter_of_top = j == nh - 1 && (end_i || end_k);
+  return perimeter_of_top || j == 0 || (end_i && end_k);
+}
+
+void add_goal_net(Model& model, const GoalNetSettings& net) {
+  const auto [nw, nh, nl] = net.particles;
+  const Vec3 s = spacing_of(net);
+  Body body;
+  body.kind = BodyKind::goal_net;
+  body.first_particle = model.particle_count();
+  body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());
+  body.lattice = net.particles;
+
+  std::vector<Offset> offsets;
+  add_directions(model, body, s,
+                 {SpringType::structural, net.structural.stiffness, net.structural.damping, 0.0, net.cord},
+                 offsets);
+  if (net.shear.stiffness > 0.0) {
+    add_directions(model, body, s, {SpringType::shear, net.shear.stiffness, net.shear.damping, 0.0, net.cord},
+                   offsets);
+  }
+  if (net.bending.stiffness > 0.0) {
+    add_directions(model, body, s,
+                   {SpringType::bending, net.bending.stiffness, net.bending.damping, 0.0, net.cord}, offsets);
+  }
+  // Lexicographic order of the steps is ascending index of the other end, so springs come out sorted.
+  std::sort(offsets.begin(), offsets.end(), [](const Offset& a, const Offset& b) {
+    return std::array{a.di, a.dj, a.dk} < std::array{b.di, b.dj, b.dk};
+  });
+
+  for (int i = 0; i < nw; ++i) {
+    for (int j = 0; j < nh; ++j) {
+      for (int k = 0; k < nl; ++k) {
+        const auto local = net_index(net.particles, i, j, k);
+        if (!local) continue;
+        model.initial_position.push_back(net.position + Vec3{i * s.x - net.size.x / 2.0,
+                                                             j * s.y - net.size.y / 2.0,
+                                                             k * s.z - net.size.z / 2.0});
+        model.initial_velocity.push_back({});
+        model.mass.push_back(net.particle_mass);
+        model.inverse_mass.push_back(net_pinned(net.particles, i, j, k) ? 0.0 : 1.0 / net.particle_mass);
+        for (const Offset& o : offsets) {
+          const auto other = net_index(net.particles, i + o.di, j + o.dj, k + o.dk);
+          if (!other || !share_face(net.particles, i, j, k, o)) continue;
+          model.springs.push_back({body.first_particle + *local, body.first_particle + *other,
+                                   body.first_class + o.spring_class});
+        }
+      }
+    }
+  }
+  body.particle_count = model.particle_count() - body.first_particle;
+  body.class_count = static_cast<std::uint32_t>(model.spring_classes.size()) - body.first_class;
+  model.bodies.push_back(body);
+}
+
+}  // namespace aspic

@@ -1,0 +1,128 @@
+#include "model/solver.h"
+#include "scene/parameter_rows.h"
+
+namespace aspic {
+namespace {
+
+using namespace rows;
+
+std::vector<Parameter> cube_rows() {
+  return {
+      fixed(integer("cube[].particles-per-edge", {2, 512}, FIELD(model.cubes[i].particles_per_edge),
+                    "Particles n along each edge, n³ in all.")),
+      fixed(number("cube[].edge-length", "m", positive_length, FIELD(model.cubes[i].edge_length),
+                   "Edge of the undeformed cube.")),
+      fixed(vector("cube[].position", "m", far, FIELD(model.cubes[i].position),
+                   "Centre of the cube at the start.")),
+      fixed(direction("cube[].rotation.axis", FIELD(model.cubes[i].rotation.axis),
+                      "Axis through the centre about which the cube is turned; its length does not matter.")),
+      fixed(number("cube[].rotation.angle", "°", {-36000.0, 36000.0}, FIELD(model.cubes[i].rotation.angle),
+                   "Angle of that turn, right-handed.")),
+      fixed(vector("cube[].velocity", "m/s", divergence_speed, FIELD(model.cubes[i].velocity),
+                   "Velocity of the particles that are not pinned at the start.")),
+      of(springs, number("cube[].particle-mass", "kg", {0.0, heaviest, true},
+                         FIELD(model.cubes[i].particle_mass), "Mass m of each particle.")),
+      of(springs,
+         number("cube[].structural.stiffness", "N/m", stiffness, FIELD(model.cubes[i].structural.stiffness),
+                "Stiffness k of the springs between axis neighbours.")),
+      of(springs,
+         number("cube[].structural.damping", "N·s/m", damping, FIELD(model.cubes[i].structural.damping),
+                "Damping c of the springs between axis neighbours.")),
+      of(springs, number("cube[].shear.stiffness", "N/m", stiffness, FIELD(model.cubes[i].shear.stiffness),
+                         "Stiffness k of the springs along face and body diagonals.")),
+      of(springs, number("cube[].shear.damping", "N·s/m", damping, FIELD(model.cubes[i].shear.damping),
+                         "Damping c of the springs along face and body diagonals.")),
+      of(springs,
+         number("cube[].bending.stiffness", "N/m", stiffness, FIELD(model.cubes[i].bending.stiffness),
+                "Stiffness k of the springs between particles two steps apart along an axis.")),
+      of(springs, number("cube[].bending.damping", "N·s/m", damping, FIELD(model.cubes[i].bending.damping),
+                         "Damping c of the springs between particles two steps apart along an axis.")),
+      of(material, number("cube[].material.density", "kg/m³", {0.0, heaviest, true}, MATERIAL(density),
+                          "Density ρ, from which m = ρ·edge³/n³.")),
+      of(material,
+         number("cube[].material.youngs-modulus", "Pa", {0.0, stiffest, true}, MATERIAL(youngs_modulus),
+                "Young's modulus E along an axis, from which k = E·s/7.3125 at spacing s.")),
+      of(material, number("cube[].material.damping-ratio", "", {0.0, 1e6}, MATERIAL(damping_ratio),
+                          "Damping ratio ζ, from which c = 2ζ√(k·m/2).")),
+      fixed(row("cube[].pinned", ParameterType::pinned, FIELD(model.cubes[i].pinned),
+                "Particles that never move: faces, corners such as left-top-front, or local indices.")),
+  };
+}
+
+std::vector<Parameter> net_rows() {
+  return {
+      fixed(counts("goal-net[].particles", {2, 512}, FIELD(model.goal_nets[i].particles),
+                   "Lattice points nw, nh, nl along width (x), height (y) and length (z).")),
+      fixed(extent("goal-net[].size", positive_length, FIELD(model.goal_nets[i].size),
+                   "Width, height and length; the front, towards +x, and the bottom are open.")),
+      fixed(
+          vector("goal-net[].position", "m", far, FIELD(model.goal_nets[i].position), "Centre of the box.")),
+      number("goal-net[].particle-mass", "kg", {0.0, heaviest, true}, FIELD(model.goal_nets[i].particle_mass),
+             "Mass m of each particle."),
+      number("goal-net[].structural.stiffness", "N/m", stiffness,
+             FIELD(model.goal_nets[i].structural.stiffness),
+             "Stiffness k of the springs between axis neighbours."),
+      number("goal-net[].structural.damping", "N·s/m", damping, FIELD(model.goal_nets[i].structural.damping),
+             "Damping c of the springs between axis neighbours."),
+      fixed(number("goal-net[].shear.stiffness", "N/m", stiffness, FIELD(model.goal_nets[i].shear.stiffness),
+                   "Stiffness k of the springs along the diagonals of the faces' cells; 0: there are none.")),
+      number("goal-net[].shear.damping", "N·s/m", damping, FIELD(model.goal_nets[i].shear.damping),
+             "Damping c of the springs along face diagonals."),
+      fixed(number(
+          "goal-net[].bending.stiffness", "N/m", stiffness, FIELD(model.goal_nets[i].bending.stiffness),
+          "Stiffness k of the springs between particles two steps apart in a face; 0: there are none.")),
+      number("goal-net[].bending.damping", "N·s/m", damping, FIELD(model.goal_nets[i].bending.damping),
+             "Damping c of the springs between particles two steps apart."),
+      row("goal-net[].cord", ParameterType::boolean, FIELD(model.goal_nets[i].cord),
+          "Whether its springs resist stretch only, as cord does."),
+  };
+}
+
+std::vector<Parameter> ball_rows() {
+  return {
+      number("ball[].radius", "m", positive_length, FIELD(model.balls[i].radius), "Radius R."),
+      number("ball[].mass", "kg", {0.0, heaviest, true}, FIELD(model.balls[i].mass),
+             "Mass m; its moment of inertia is 2/5·m·R², a solid sphere's."),
+      fixed(vector("ball[].position", "m", far, FIELD(model.balls[i].position), "Centre at the start.")),
+      fixed(vector("ball[].velocity", "m/s", divergence_speed, FIELD(model.balls[i].velocity),
+                   "Velocity at the start.")),
+      fixed(vector("ball[].angular-velocity", "rad/s", 1e6, FIELD(model.balls[i].angular_velocity),
+                   "Angular velocity ω at the start.")),
+  };
+}
+
+std::vector<Parameter> launcher_rows() {
+  return {
+      fixed(integer("launcher[].seed", {0, 1e15}, FIELD(model.launchers[i].seed),
+                    "Start of the random sequence: the same seed throws the same balls.")),
+      fixed(integer("launcher[].count", {0, 10000000}, FIELD(model.launchers[i].count), "Balls it throws.")),
+      fixed(number("launcher[].interval", "s", {0.0, longest}, FIELD(model.launchers[i].interval),
+                   "Time between two balls; the first comes at the start.")),
+      fixed(vector("launcher[].from.min", "m", far, FIELD(model.launchers[i].from.min),
+                   "Lower corner of the box in which balls start.")),
+      fixed(vector("launcher[].from.max", "m", far, FIELD(model.launchers[i].from.max),
+                   "Upper corner of that box.")),
+      fixed(vector("launcher[].towards.min", "m", far, FIELD(model.launchers[i].towards.min),
+                   "Lower corner of the box of targets.")),
+      fixed(vector("launcher[].towards.max", "m", far, FIELD(model.launchers[i].towards.max),
+                   "Upper corner of that box.")),
+      fixed(number("launcher[].speed-factor", "1/s", {0.0, 1e6}, FIELD(model.launchers[i].speed_factor),
+                   "Velocity is this times the way from start to target.")),
+      fixed(number("launcher[].ball.radius", "m", positive_length, FIELD(model.launchers[i].ball.radius),
+                   "Radius of its balls.")),
+      fixed(number("launcher[].ball.mass", "kg", {0.0, heaviest, true}, FIELD(model.launchers[i].ball.mass),
+                   "Mass of its balls.")),
+  };
+}
+
+}  // namespace
+
+std::vector<Parameter> body_rows() {
+  std::vector<Parameter> all;
+  for (auto part : {cube_rows(), net_rows(), ball_rows(), launcher_rows()}) {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+}  // namespace aspic

@@ -1,0 +1,216 @@
+#pragma once
+// How rows of the parameter table are written: a field of the scene, its type and range, one sentence.
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+#include "model/model.h"
+#include "scene/parameters.h"
+
+namespace aspic::rows {
+
+// ---- conversions between a field of the settings and a Value ----
+
+inline std::optional<Value> to_value(const Parameter&, bool field) {
+  return Value(field);
+}
+inline std::optional<Value> to_value(const Parameter&, int field) {
+  return Value(std::int64_t{field});
+}
+inline std::optional<Value> to_value(const Parameter&, double field) {
+  return Value(field);
+}
+inline std::optional<Value> to_value(const Parameter&, const std::string& field) {
+  return Value(field);
+}
+inline std::optional<Value> to_value(const Parameter&, const Vec3& field) {
+  return Value(field);
+}
+inline std::optional<Value> to_value(const Parameter&, std::int64_t field) {
+  return Value(field);
+}
+inline std::optional<Value> to_value(const Parameter&, const std::array<int, 3>& field) {
+  return Value(field);
+}
+inline std::optional<Value> to_value(const Parameter&, const PinnedSettings& field) {
+  return Value(field);
+}
+template <class T>
+std::optional<Value> to_value(const Parameter&, const std::optional<T>& field) {
+  return field ? std::optional<Value>(*field) : std::nullopt;
+}
+template <class Enum>
+requires std::is_enum_v<Enum> std::optional<Value> to_value(const Parameter&, Enum field) {
+  return Value(std::string(name_of(field)));
+}
+inline std::optional<Value> to_value(const Parameter& p, const DrawSettings& field) {
+  const bool drawn[] = {field.solid, field.particles, field.structural, field.shear, field.bending};
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < p.words.size(); ++i) {
+    if (drawn[i]) words.emplace_back(p.words[i]);
+  }
+  return Value(words);
+}
+
+template <class T>
+void from_value(const Parameter&, T& field, const Value& value) {
+  field = std::get<T>(value);
+}
+inline void from_value(const Parameter&, int& field, const Value& value) {
+  field = static_cast<int>(std::get<std::int64_t>(value));
+}
+template <class T>
+void from_value(const Parameter&, std::optional<T>& field, const Value& value) {
+  field = std::get<T>(value);
+}
+template <class Enum>
+requires std::is_enum_v<Enum>
+void from_value(const Parameter& p, Enum& field, const Value& value) {
+  const auto word = std::find(p.words.begin(), p.words.end(), std::get<std::string>(value));
+  field = static_cast<Enum>(word - p.words.begin());
+}
+inline void from_value(const Parameter& p, DrawSettings& field, const Value& value) {
+  const auto& words = std::get<std::vector<std::string>>(value);
+  bool* const drawn[] = {&field.solid, &field.particles, &field.structural, &field.shear, &field.bending};
+  for (std::size_t i = 0; i < p.words.size(); ++i) {
+    *drawn[i] = std::find(words.begin(), words.end(), p.words[i]) != words.end();
+  }
+}
+
+/// The words of an enumeration whose values count from 0.
+template <class Enum>
+std::vector<std::string_view> words_of(Enum last) {
+  std::vector<std::string_view> words;
+  for (int i = 0; i <= static_cast<int>(last); ++i) words.push_back(name_of(static_cast<Enum>(i)));
+  return words;
+}
+
+// ---- rows ----
+
+/// A row whose field `Access` finds in a scene: a stateless generic lambda (scene, index) -> field&.
+template <class Access>
+Parameter row(std::string_view path, ParameterType type, Access, std::string_view meaning) {
+  Parameter p;
+  p.path = path;
+  p.type = type;
+  p.meaning = meaning;
+  p.read = [](const Parameter& self, const Scene& scene, std::size_t index) {
+    return to_value(self, Access{}(scene, index));
+  };
+  p.write = [](const Parameter& self, Scene& scene, std::size_t index, const Value& value) {
+    from_value(self, Access{}(scene, index), value);
+  };
+  return p;
+}
+
+template <class Access>
+Parameter number(std::string_view path, std::string_view unit, Range range, Access access,
+                 std::string_view meaning) {
+  Parameter p = row(path, ParameterType::number, access, meaning);
+  p.unit = unit;
+  p.range = range;
+  return p;
+}
+
+template <class Access>
+Parameter integer(std::string_view path, Range range, Access access, std::string_view meaning) {
+  Parameter p = row(path, ParameterType::integer, access, meaning);
+  p.range = range;
+  return p;
+}
+
+template <class Access>
+Parameter vector(std::string_view path, std::string_view unit, double largest, Access access,
+                 std::string_view meaning) {
+  Parameter p = row(path, ParameterType::vector, access, meaning);
+  p.unit = unit;
+  p.range = {-largest, largest};
+  return p;
+}
+
+/// A vector of lengths, each positive.
+template <class Access>
+Parameter extent(std::string_view path, Range range, Access access, std::string_view meaning) {
+  Parameter p = row(path, ParameterType::vector, access, meaning);
+  p.unit = "m";
+  p.range = range;
+  return p;
+}
+
+template <class Access>
+Parameter counts(std::string_view path, Range range, Access access, std::string_view meaning) {
+  Parameter p = row(path, ParameterType::counts, access, meaning);
+  p.range = range;
+  return p;
+}
+
+template <class Access>
+Parameter word(std::string_view path, std::vector<std::string_view> words, Access access,
+               std::string_view meaning) {
+  Parameter p = row(path, ParameterType::word, access, meaning);
+  p.words = std::move(words);
+  return p;
+}
+
+template <class Access>
+Parameter direction(std::string_view path, Access access, std::string_view meaning) {
+  Parameter p = vector(path, "", 1e6, access, meaning);
+  p.direction = true;
+  return p;
+}
+
+inline Parameter fixed(Parameter p) {
+  p.live = false;
+  return p;
+}
+
+inline Parameter of(Belonging belonging, Parameter p) {
+  p.belonging = belonging;
+  return p;
+}
+
+inline Parameter absent(std::string_view meaning_of_absence, Parameter p) {
+  p.when_absent = meaning_of_absence;
+  return p;
+}
+
+// Ends of ranges that a formula does not give keep every product the solvers form far inside single
+// precision.
+inline constexpr double far = 1e6;        // m
+inline constexpr double longest = 1e6;    // s
+inline constexpr double stiffest = 1e12;  // N/m, Pa
+inline constexpr double heaviest = 1e9;   // kg, kg/m³
+inline constexpr Range positive_length = {0.0, far, true};
+inline constexpr Range fraction = {0.0, 1.0};
+inline constexpr Range friction = {0.0, 1e6};
+inline constexpr Range stiffness = {0.0, stiffest};
+inline constexpr Range damping = {0.0, 1e9};
+
+// A stateless lambda that finds a field in a const or mutable scene; `i` is the index in its list.
+#define FIELD(expression)                                    \
+  [](auto& scene, [[maybe_unused]] std::size_t i) -> auto& { \
+    return scene.expression;                                 \
+  }
+#define MATERIAL(field)                                                          \
+  [](auto& scene, std::size_t i) -> auto& {                                      \
+    auto& chosen = scene.model.cubes[i].material;                                \
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(chosen)>>) { \
+      if (!chosen) chosen.emplace();                                             \
+    }                                                                            \
+    return chosen->field;                                                        \
+  }
+
+inline constexpr auto planes = Belonging::plane;
+inline constexpr auto round = Belonging::round;
+inline constexpr auto springs = Belonging::explicit_springs;
+inline constexpr auto material = Belonging::material;
+inline constexpr std::string_view of_shape = "by shape";
+
+}  // namespace aspic::rows
+
+namespace aspic {
+
+/// Rows of the tables that describe bodies: cube, goal-net, ball, launcher.
+std::vector<Parameter> body_rows();
+
+}  // namespace aspic
