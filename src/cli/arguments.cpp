@@ -21,12 +21,13 @@ constexpr const char* main_examples = R"(Examples:
   aspic run my-scene.toml --duration 2 --state end.csv --series energy.csv --every 10
   aspic run cube-plane --set simulation.timestep=0.002 --set "cube[0].shear.stiffness=10"
   aspic compare cube-plane --backends gpu,reference --steps 1000
+  aspic verify --quick                              check this build on this machine
   aspic scene check my-scene.toml                   counts, memory and stable time steps
   aspic info                                        devices and limits
 
 SCENE is a TOML file or the name of a built-in scene (aspic scene list).
-Exit codes: 0 ok, 1 comparison failed, 2 usage, 3 scene rejected, 4 no usable GL device, 5 diverged,
-6 input/output failed, 130 interrupted.)";
+Exit codes: 0 ok, 1 comparison or verification failed, 2 usage, 3 scene rejected, 4 no usable
+GL device, 5 diverged, 6 input/output failed, 130 interrupted.)";
 
 constexpr const char* run_examples = R"(Examples:
   aspic run cube-plane --steps 1000 --json
@@ -50,12 +51,18 @@ Each case runs --repeats times over the same steps from the scene's start; the m
 (slowest - fastest) / median. Spring evaluations are springs x force evaluations x steps; with implicit-euler
 an application of the Jacobian counts as one. A software rasteriser's figures are no GPU's: the renderer is named.)";
 
+constexpr const char* verify_examples = R"(Examples:
+  aspic verify                                      everything, a few minutes
+  aspic verify --quick
+  aspic verify --only equality --only repeat --require-gpu
+
+Exit code 1 if a check fails. Without a GL device the checks that need one are reported as not run.)";
+
 struct NotBuilt {
   std::string_view command, what;
 };
-constexpr std::array<NotBuilt, 3> not_built_commands = {{
+constexpr std::array<NotBuilt, 2> not_built_commands = {{
     {"view", "the window"},
-    {"verify", "the verification battery"},
     {"report", "the report with plots"},
 }};
 
@@ -247,6 +254,18 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
   add_overrides(*c, bench.overrides);
   c->add_flag("--json", bench.json, "result on stdout as JSON");
   c->footer(bench_examples);
+
+CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
+  CLI::App* c =
+      app.add_subcommand("verify", "Check physics and equivalence on this machine, as a table of figures");
+  c->add_flag("--quick", verify.quick, "only checks that are done in seconds");
+  c->add_option("--only", verify.only, "one check or group, e.g. order or rest/midpoint; repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  c->add_flag("--require-gpu", verify.require_gpu,
+              "fail where a check finds no GL device, instead of leaving it out");
+  c->add_flag("--json", verify.json, "the table on stdout as JSON");
+  c->footer(verify_examples);
   return c;
 }
 
@@ -404,6 +423,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   RawOptions raw;
   RunOptions run;
   CompareOptions compare;
+  VerifyOptions verify;
   SceneListOptions list;
   SceneShowOptions show;
   SceneCheckOptions check;
@@ -412,6 +432,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   CLI::App* compare_command = add_compare(app, compare, raw);
   BenchOptions bench;
   CLI::App* bench_command = add_bench(app, bench, raw);
+  CLI::App* verify_command = add_verify(app, verify);
   CLI::App* scene = app.add_subcommand("scene", "List, show and check scenes");
   scene->require_subcommand(1);
   CLI::App* list_command = scene->add_subcommand("list", "The built-in scenes");
@@ -466,6 +487,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   if (*run_command) return finish_run(std::move(run), raw);
   if (*compare_command) return finish_compare(std::move(compare), raw);
   if (*bench_command) return finish_bench(std::move(bench), raw);
+  if (*verify_command) return Command(std::move(verify));
   if (*list_command) return Command(list);
   if (*show_command) return Command(std::move(show));
   if (*check_command) return Command(std::move(check));

@@ -69,6 +69,11 @@ struct BenchOptions {
   double seconds = 2.0;            ///< per measurement, all repeats together, > 0
   std::optional<double> duration;  ///< simulated time of each repeat [s], instead of `seconds`
   int repeats = 5;                 ///< ≥ 1
+
+struct VerifyOptions {
+  bool quick = false;
+  std::vector<std::string> only;  ///< names of checks or groups; empty: all
+  bool require_gpu = false;       ///< rows that found no device fail
   bool json = false;
 };
 
@@ -92,7 +97,7 @@ struct ShowText {
   std::string text;
 };
 
-using Command = std::variant<ShowText, RunOptions, CompareOptions, BenchOptions, SceneListOptions,
+using Command = std::variant<ShowText, RunOptions, CompareOptions, BenchOptions, VerifyOptions, SceneListOptions,
                              SceneShowOptions, SceneCheckOptions, InfoOptions>;
 
 /// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built

@@ -15,6 +15,9 @@ Status compare_command(const CompareOptions& options);
 /// Measures throughput, one line for each size, integrator, backend and force path.
 Status bench_command(const BenchOptions& options);
 
+/// Runs the verification battery and prints its table. Errors: usage, an unknown name; check_failed.
+Status verify_command(const VerifyOptions& options);
+
 Status scene_list_command(const SceneListOptions& options);
 Status scene_show_command(const SceneShowOptions& options);
 Status scene_check_command(const SceneCheckOptions& options);

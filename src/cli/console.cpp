@@ -25,8 +25,8 @@ void print_warning(std::string_view text) {
   fmt::print(stderr, "aspic: warning: {}\n", text);
 }
 
-ProgressBar::ProgressBar(std::uint64_t total)
-    : visible_(::isatty(STDERR_FILENO) == 1 && total > 0), total_(total) {}
+ProgressBar::ProgressBar(std::uint64_t total, std::string_view unit)
+    : visible_(::isatty(STDERR_FILENO) == 1 && total > 0), total_(total), unit_(unit) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) fmt::print(stderr, "\r\x1b[K");
@@ -43,7 +43,7 @@ void ProgressBar::update(std::uint64_t done) {
   std::string bar(static_cast<std::size_t>(share * width), '#');
   bar.resize(width, '.');
   std::string left = share > 0.0 ? fmt::format(", {:.0f} s left", elapsed / share - elapsed) : "";
-  fmt::print(stderr, "\r[{}] {:3.0f} %  step {} of {}{}\x1b[K", bar, 100.0 * share, done, total_, left);
+  fmt::print(stderr, "\r[{}] {:3.0f} %  {} {} of {}{}\x1b[K", bar, 100.0 * share, unit_, done, total_, left);
   std::fflush(stderr);
 }
 

@@ -20,7 +20,8 @@ void print_warning(std::string_view text);
 /// A bar on stderr where that is a terminal, nothing elsewhere. Removed when it goes out of scope.
 class ProgressBar {
  public:
-  explicit ProgressBar(std::uint64_t total);
+  /// `unit`: what is counted, in the singular.
+  explicit ProgressBar(std::uint64_t total, std::string_view unit = "step");
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -33,6 +34,7 @@ class ProgressBar {
   bool visible_;
   bool drawn_ = false;
   std::uint64_t total_;
+  std::string unit_;
   Clock::time_point start_ = Clock::now(), last_ = {};
 };
 

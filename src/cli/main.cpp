@@ -21,6 +21,7 @@ int main(int argc, const char* const* argv) {
         if constexpr (std::is_same_v<Options, RunOptions>) return run_command(options);
         if constexpr (std::is_same_v<Options, CompareOptions>) return compare_command(options);
         if constexpr (std::is_same_v<Options, BenchOptions>) return bench_command(options);
+        if constexpr (std::is_same_v<Options, VerifyOptions>) return verify_command(options);
         if constexpr (std::is_same_v<Options, SceneListOptions>) return scene_list_command(options);
         if constexpr (std::is_same_v<Options, SceneShowOptions>) return scene_show_command(options);
         if constexpr (std::is_same_v<Options, SceneCheckOptions>) return scene_check_command(options);

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/json_report.h"
+#include "gpu/context.h"
+#include "verify/check.h"
+
+namespace aspic::cli {
+namespace {
+
+using verify::Row;
+using verify::Verdict;
+
+std::string_view name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::passed:
+      return "pass";
+    case Verdict::failed:
+      return "FAIL";
+    case Verdict::not_run:
+      break;
+  }
+  return "not run";
+}
+
+std::size_t count(const std::vector<Row>& rows, Verdict verdict) {
+  return static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return row.verdict == verdict; }));
+}
+
+/// Characters a terminal shows: UTF-8 continuation bytes are none.
+std::size_t width(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+}
+
+std::string padded(std::string_view text, std::size_t columns) {
+  std::string result(text);
+  result.append(columns > width(text) ? columns - width(text) : 0, ' ');
+  return result;
+}
+
+/// A line per claim, with its rows below: a claim that holds for every integrator is said once.
+std::string table(const std::vector<Row>& rows, const std::string& device, double seconds) {
+  std::size_t names = 0, bounds = 0;
+  for (const Row& row : rows) {
+    names = std::max(names, width(row.name));
+    bounds = std::max(bounds, width(row.bound));
+  }
+  std::string text = fmt::format("device: {}\n", device);
+  const Row* before = nullptr;
+  for (const Row& row : rows) {
+    if (before == nullptr || before->claim != row.claim) text += fmt::format("\n{}\n", row.claim);
+    text += fmt::format("  {:<7}  {}  {}  {}  ({:.1f} s)\n", name_of(row.verdict), padded(row.name, names),
+                        padded(row.bound, bounds), row.measured, row.seconds);
+    before = &row;
+  }
+  return text + fmt::format("\n{} passed, {} failed, {} not run, in {:.0f} s\n", count(rows, Verdict::passed),
+                            count(rows, Verdict::failed), count(rows, Verdict::not_run), seconds);
+}
+
+Status print_rows(const VerifyOptions& options, const std::vector<Row>& rows, const std::string& device,
+                  double seconds) {
+  if (!options.json) return print_data(table(rows, device, seconds));
+  JsonArray array;
+  for (const Row& row : rows) {
+    array.emplace_back(JsonObject{{"name", row.name},
+                                  {"claim", row.claim},
+                                  {"bound", row.bound},
+                                  {"measured", row.measured},
+                                  {"verdict", row.verdict == Verdict::failed ? "fail" : name_of(row.verdict)},
+                                  {"seconds", row.seconds}});
+  }
+  return print_data(to_json({{"version", ASPIC_VERSION},
+                             {"device", device},
+                             {"passed", std::uint64_t{count(rows, Verdict::passed)}},
+                             {"failed", std::uint64_t{count(rows, Verdict::failed)}},
+                             {"not_run", std::uint64_t{count(rows, Verdict::not_run)}},
+                             {"seconds", seconds},
+                             {"rows", array}}));
+}
+
+}  // namespace
+
+Status verify_command(const VerifyOptions& options) {
+  const auto checks = verify::select(verify::battery(), options.only, options.quick);
+  if (!checks) return checks.error();
+
+  std::unique_ptr<gl::Context> context;
+  std::string device = "none";
+  const bool wanted =
+      std::any_of(checks->begin(), checks->end(), [](const verify::Check& check) { return check.needs_gpu; });
+  if (wanted) {
+    auto made = gl::Context::create_headless();
+    if (made) {
+      context = std::move(*made);
+      device = context->info().renderer;
+    } else {
+      print_warning("no usable GL device; checks that need one are not run. " + made.error().message);
+    }
+  } else {
+    device = "none needed";
+  }
+  std::error_code unreadable;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe", unreadable).string();
+  const verify::Subject subject = verify::product(context.get(), program);
+
+  const auto started = std::chrono::steady_clock::now();
+  std::vector<Row> rows;
+  {
+    ProgressBar bar(checks->size(), "check");
+    rows = verify::evaluate_all(*checks, subject, [&](std::size_t done) { bar.update(done); });
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (const Status printed = print_rows(options, rows, device, seconds); !printed) return printed;
+
+  const std::size_t failed = count(rows, Verdict::failed), not_run = count(rows, Verdict::not_run);
+  if (failed > 0)
+    return Error{ErrorCode::check_failed, fmt::format("{} of {} checks failed.", failed, rows.size())};
+  if (not_run > 0 && options.require_gpu) {
+    return Error{
+        ErrorCode::check_failed,
+        fmt::format("{} of {} checks were not run for want of a GL device, and --require-gpu was given.",
+                    not_run, rows.size())};
+  }
+  return {};
+}
+
+}  // namespace aspic::cli

@@ -1,0 +1,109 @@
+#include "verify/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "cpu_reference/reference_solver.h"
+
+namespace aspic::verify {
+
+Subject product(gl::Context* context, std::string program) {
+  Subject subject;
+  subject.reference = [](const Model& model, Precision precision) {
+    return make_reference_solver(model, precision);
+  };
+  if (context != nullptr) {
+    subject.gpu = [context](const Model& model, const GpuOptions& options) {
+      return make_gpu_solver(*context, model, options);
+    };
+    subject.software_device = context->info().is_software;
+  }
+  subject.program = std::move(program);
+  return subject;
+}
+
+std::vector<Check> battery() {
+  std::vector<Check> checks;
+  add_order_checks(checks);
+  add_closed_form_checks(checks);
+  add_stability_checks(checks);
+  add_conservation_checks(checks);
+  add_force_checks(checks);
+  add_contact_checks(checks);
+  add_scene_checks(checks);
+  add_implicit_checks(checks);
+  add_equality_checks(checks);
+  return checks;
+}
+
+Result<std::vector<Check>> select(std::vector<Check> checks, std::span<const std::string> names, bool quick) {
+  const auto meant = [](const Check& check, const std::string& name) {
+    return check.name == name || check.name.starts_with(name + "/");
+  };
+  for (const std::string& name : names) {
+    if (std::any_of(checks.begin(), checks.end(), [&](const Check& c) { return meant(c, name); })) continue;
+    std::string message = fmt::format(
+        "no check is called \"{}\". A name stands for itself and for all below it; the checks:", name);
+    for (const Check& check : checks) message += "\n  " + check.name;
+    return Error{ErrorCode::usage, message};
+  }
+  std::erase_if(checks, [&](const Check& check) {
+    const bool named = names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+                         return meant(check, name);
+                       });
+    return !named || (quick && !check.quick);
+  });
+  if (checks.empty()) {
+    return Error{ErrorCode::usage, "none of the checks named is part of --quick: leave --quick out."};
+  }
+  return checks;
+}
+
+Row evaluate(const Check& check, const Subject& subject) {
+  Row row{check.name, check.claim, check.bound, "", Verdict::failed, 0.0};
+  if (check.needs_gpu && !subject.gpu) {
+    row.verdict = Verdict::not_run;
+    row.measured = "not run: no device";
+    return row;
+  }
+  const auto started = std::chrono::steady_clock::now();
+  const auto finding = check.run(subject);
+  row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  row.measured = finding ? finding->measured : finding.error().message;
+  if (finding && finding->passed) row.verdict = Verdict::passed;
+  return row;
+}
+
+std::vector<Row> evaluate_all(const std::vector<Check>& checks, const Subject& subject,
+                              const std::function<void(std::size_t)>& finished) {
+  std::vector<Row> rows(checks.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto run = [&](bool on_device) {
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+      if (checks[i].needs_gpu != on_device) continue;
+      rows[i] = evaluate(checks[i], subject);
+      const std::lock_guard lock(mutex);
+      finished(++done);
+    }
+  };
+  std::thread without_device([&] { run(false); });
+  run(true);  // the context is current on this thread
+  without_device.join();
+  return rows;
+}
+
+Finding at_most(double figure, double bound, std::string_view unit) {
+  return {figure <= bound, fmt::format("{:.3g}{}{}", figure, unit.empty() ? "" : " ", unit)};
+}
+
+std::string at_most_text(double bound, std::string_view unit) {
+  return fmt::format("≤ {:.3g}{}{}", bound, unit.empty() ? "" : " ", unit);
+}
+
+}  // namespace aspic::verify

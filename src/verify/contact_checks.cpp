@@ -1,0 +1,122 @@
+// One particle on a terrain against closed forms.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "model/terrain.h"
+#include "verify/experiments.h"
+
+namespace aspic::verify {
+namespace {
+
+constexpr double g = 9.8, friction = 0.3;
+
+/// A particle of 1 kg at the origin, on the level ground y = 0 or on a slope through it.
+Model particle_on_plane(Integrator integrator, ContactModel contact, double slope_angle,
+                        const Vec3& velocity) {
+  Model model = loose_particles({{0, 0, 0}}, {velocity});
+  model.simulation.integrator = integrator;
+  model.simulation.implicit.tolerance = 1e-15;
+  model.contact.model = contact;
+  TerrainSettings plane;
+  plane.point = Vec3{0, 0, 0};
+  plane.normal = Vec3{std::sin(slope_angle), std::cos(slope_angle), 0};
+  model.terrain.push_back(make_terrain(plane, model.contact));
+  return model;
+}
+
+/// Error of the speed after a fall of 5 m/s without gravity, relative.
+Result<double> bounce_error(const Subject& subject, Integrator integrator, ContactModel contact, double mass,
+                            double restitution, double factor) {
+  Model model = particle_on_plane(integrator, contact, 0.0, {0, -5, 0});
+  model.initial_position[0].y = 0.1;
+  model.simulation.gravity = {0, 0, 0};
+  model.terrain[0].mass = mass;
+  model.terrain[0].restitution = restitution;
+  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 100));
+  return std::abs(end.velocity[0].y / (factor * 5.0) - 1.0);
+}
+
+Result<Finding> bounce(const Subject& subject) {
+  double worst = 0.0;
+  for (const Integrator integrator : all_integrators) {
+    for (const ContactModel contact : both_contact_models) {
+      ASPIC_VERIFY_LET(heavy, bounce_error(subject, integrator, contact,
+                                           std::numeric_limits<double>::infinity(), 0.8, 0.8));
+      ASPIC_VERIFY_LET(light, bounce_error(subject, integrator, contact, 10.0, 1.0, 9.0 / 11.0));
+      worst = std::max({worst, heavy, light});
+    }
+  }
+  return at_most(worst, 8 * epsilon_double);
+}
+
+Result<Finding> resist(const Subject& subject) {
+  double worst = 0.0;
+  for (const Integrator integrator : all_integrators) {
+    const Model model = particle_on_plane(integrator, ContactModel::course, 0.0, {0, 0, 0});
+    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1000));
+    worst = std::max({worst, length(end.position[0]), length(end.velocity[0])});
+  }
+  return at_most(worst, 0.0);
+}
+
+/// Sliding on level ground in the course model: v̇ = −μg·v, so one step multiplies the speed by R(−hμg).
+Result<Finding> viscous(const Subject& subject, Integrator integrator) {
+  constexpr int steps = 1000;
+  const Model model = particle_on_plane(integrator, ContactModel::course, 0.0, {2, 0, 0});
+  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, steps));
+  const double z = -model.simulation.timestep * friction * g;
+  double factor = 1 + z;  // also implicit Euler, which holds the contact force of the step's start
+  if (integrator == Integrator::midpoint) factor = 1 + z + z * z / 2;
+  if (integrator == Integrator::runge_kutta_4)
+    factor = 1 + z + z * z / 2 + z * z * z / 6 + z * z * z * z / 24;
+  if (integrator == Integrator::implicit_euler_one_pass) factor = 1 + z + z * z;
+  return at_most(std::abs(end.velocity[0].x / (2 * std::pow(factor, steps)) - 1), 4 * steps * epsilon_double);
+}
+
+Result<Finding> sticks(const Subject& subject, Integrator integrator) {
+  const Model model =
+      particle_on_plane(integrator, ContactModel::coulomb, std::atan(0.99 * friction), {0, 0, 0});
+  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 3000));
+  return at_most(length(end.position[0]), 1e-12, "m");
+}
+
+Result<Finding> slides(const Subject& subject, Integrator integrator) {
+  const double angle = std::atan(1.01 * friction);
+  const Model model = particle_on_plane(integrator, ContactModel::coulomb, angle, {0, 0, 0});
+  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 3000));
+  const double expected = 3.0 * g * (std::sin(angle) - friction * std::cos(angle));
+  return at_most(std::abs(length(end.velocity[0]) / expected - 1), 1e-3);
+}
+
+}  // namespace
+
+void add_contact_checks(std::vector<Check>& checks) {
+  checks.push_back(
+      {"contact/bounce",
+       "speed after an impact: −e·u, and 9/11·|u| for e = 1, M = 10, m = 1; every integrator, both models",
+       at_most_text(8 * epsilon_double), true, false, bounce});
+  checks.push_back({"contact/resist",
+                    "course model: the ground carries a resting particle exactly; every integrator",
+                    at_most_text(0.0), true, false, resist});
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back({fmt::format("contact/viscous/{}", name_of(integrator)),
+                      "course friction slows a slide by R(−hμg) a step, 1,000 steps",
+                      at_most_text(4000 * epsilon_double), true, false,
+                      [=](const Subject& s) { return viscous(s, integrator); }});
+  }
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back({fmt::format("contact/stick/{}", name_of(integrator)),
+                      "Coulomb: tan θ = 0.99 μ holds a particle for 3 s", at_most_text(1e-12, "m"), true,
+                      false, [=](const Subject& s) { return sticks(s, integrator); }});
+  }
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back({fmt::format("contact/slide/{}", name_of(integrator)),
+                      "Coulomb: tan θ = 1.01 μ slides with g(sin θ − μ cos θ) for 3 s", at_most_text(1e-3),
+                      true, false, [=](const Subject& s) { return slides(s, integrator); }});
+  }
+}
+
+}  // namespace aspic::verify

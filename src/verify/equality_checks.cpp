@@ -1,0 +1,209 @@
+// The device against the reference: the same bits, however often and in whatever groups.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "analysis/compare.h"
+#include "scene/load.h"
+#include "verify/child_process.h"
+#include "verify/experiments.h"
+#include "verify/textbook.h"
+
+namespace aspic::verify {
+namespace {
+
+constexpr std::uint64_t explicit_steps = 2000, implicit_steps = 60, repeat_steps = 500;
+
+struct Worst {
+  std::uint64_t ulp = 0;
+  double absolute = 0.0;
+  int runs = 0;
+  std::string arithmetic;  ///< the canary's sentences
+  bool arithmetic_exact = true;
+};
+
+Status compare_run(const Subject& subject, const Model& model, ForcePath path, std::uint64_t steps,
+                   const State& expected, Worst& worst) {
+  GpuOptions options;
+  options.force_path = path;
+  auto solver = subject.gpu(model, options);
+  if (!solver) return solver.error();
+  const auto end = run(**solver, steps);
+  if (!end) return end.error();
+  const auto difference = compare_states(*end, expected);
+  if (!difference) return difference.error();
+  worst.ulp = std::max({worst.ulp, difference->position.ulp, difference->velocity.ulp});
+  worst.absolute = std::max(worst.absolute, difference->largest_absolute());
+  ++worst.runs;
+  worst.arithmetic_exact = (*solver)->arithmetic().exact();
+  worst.arithmetic.clear();
+  for (const std::string& sentence : (*solver)->arithmetic().sentences()) worst.arithmetic += " " + sentence;
+  return {};
+}
+
+Result<Finding> same_bits(const Subject& subject, Integrator integrator) {
+  const bool solved = integrator == Integrator::implicit_euler;
+  const std::uint64_t steps = solved ? implicit_steps : explicit_steps;
+  Worst worst;
+  for (const TerrainShape shape : all_terrains) {
+    for (const ContactModel contact : both_contact_models) {
+      ModelSettings settings = cube_on_terrain(solved ? 4 : 5, shape, integrator, contact);
+      if (solved) settings.simulation.timestep = 0.01;
+      ASPIC_VERIFY_LET(model, build_model(settings));
+      ASPIC_VERIFY_LET(expected, run_reference(subject, model, Precision::single, steps));
+      for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+        if (solved && path == ForcePath::per_spring) continue;
+        if (const Status done = compare_run(subject, model, path, steps, expected, worst); !done)
+          return done.error();
+      }
+    }
+  }
+  const std::string text = fmt::format("{} ULP in {} runs", worst.ulp, worst.runs);
+  if (worst.ulp == 0) return Finding{true, text};
+  // Hardware that the canary found to compute otherwise is excused by that finding, and by nothing else.
+  return Finding{!subject.software_device && !worst.arithmetic_exact,
+                 fmt::format("{}, {:.3g} in metres and m/s.{}", text, worst.absolute, worst.arithmetic)};
+}
+
+/// Two particles, one spring: after one step of explicit Euler from known velocities the force is (v' −
+/// v)·m/h, and with h a power of two and v = 0 but along the spring nothing is lost in reading it back.
+Result<Finding> spring_force(const Subject& subject) {
+  Noise noise(77);
+  constexpr int pairs = 1000;
+  Model model;
+  model.simulation.gravity = {0, 0, 0};
+  model.simulation.timestep = 0x1p-20;
+  model.spring_classes.push_back({SpringType::structural, 2000.0, 60.0, 0.5, false});
+  std::vector<Vec3> x, v;
+  for (int i = 0; i < pairs; ++i) {
+    // Close to the origin, so that positions lose nothing; only one end moves.
+    const Vec3 e = noise.vector();
+    x.push_back(e);
+    x.push_back(Vec3{});
+    v.push_back(4.0 * noise.vector());
+    v.push_back(Vec3{});
+    model.springs.push_back({static_cast<std::uint32_t>(2 * i), static_cast<std::uint32_t>(2 * i + 1), 0});
+  }
+  model.initial_position = x;
+  model.initial_velocity = v;
+  model.mass.assign(x.size(), 1.0);
+  model.inverse_mass.assign(x.size(), 1.0);
+  const State start = initial_state(model, Precision::single);
+  const auto f = force(model, motion_of<double>(start));
+  GpuOptions options;
+  auto solver = subject.gpu(model, options);
+  if (!solver) return solver.error();
+  const auto end = run(**solver, 1, &start);
+  if (!end) return end.error();
+  double worst = 0.0;
+  for (int i = 0; i < pairs; ++i) {
+    // The end at rest: v' = h·f exactly, so f = v'/h.
+    const auto a = static_cast<std::size_t>(2 * i), b = a + 1;
+    const Vec3 read = (1 / model.simulation.timestep) * end->velocity[b];
+    const double L = length(start.position[a] - start.position[b]);
+    const double scale = 2000.0 * (L + 0.5) + 60.0 * length(start.velocity[a] - start.velocity[b]);
+    for (int axis = 0; axis < 3; ++axis) {
+      worst = std::max(worst, std::abs(read[axis] - f[static_cast<Eigen::Index>(3 * b) + axis]) / scale);
+    }
+  }
+  return at_most(worst, 4e-7);
+}
+
+Result<Model> repeat_model(Integrator integrator) {
+  ModelSettings settings = cube_on_terrain(5, TerrainShape::plane, integrator, ContactModel::coulomb);
+  if (integrator == Integrator::implicit_euler) settings.simulation.timestep = 0.01;
+  return build_model(settings);
+}
+
+Finding one_hash(const std::set<std::string>& hashes, std::size_t runs, const std::string& expected) {
+  const bool one = hashes.size() == 1 && (expected.empty() || *hashes.begin() == expected);
+  return {one, fmt::format("{} hash{} in {} runs{}", hashes.size(), hashes.size() == 1 ? "" : "es", runs,
+                           one && !expected.empty() ? ", that of the reference" : "")};
+}
+
+Result<Finding> repeated(const Subject& subject, Integrator integrator, std::uint64_t steps) {
+  ASPIC_VERIFY_LET(model, repeat_model(integrator));
+  auto solver = subject.gpu(model, {});
+  if (!solver) return solver.error();
+  const State start = initial_state(model, Precision::single);
+  std::set<std::string> hashes;
+  for (int i = 0; i < 20; ++i) {
+    ASPIC_VERIFY_LET(end, run(**solver, steps, &start));
+    hashes.insert(state_hash_text(end));
+  }
+  return one_hash(hashes, 20, "");
+}
+
+Result<Finding> group_sizes(const Subject& subject) {
+  ASPIC_VERIFY_LET(model, repeat_model(Integrator::runge_kutta_4));
+  std::set<std::string> hashes;
+  std::size_t runs = 0;
+  for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+    for (const std::uint32_t size : {32u, 64u, 128u, 256u}) {
+      GpuOptions options;
+      options.force_path = path;
+      options.group_size = size;
+      auto solver = subject.gpu(model, options);
+      if (!solver) return solver.error();
+      ASPIC_VERIFY_LET(end, run(**solver, repeat_steps));
+      hashes.insert(state_hash_text(end));
+      ++runs;
+    }
+  }
+  return one_hash(hashes, runs, "");
+}
+
+Result<Finding> driver_threads(const Subject& subject) {
+  const std::vector<std::string> overrides = {
+      "cube[0].particles-per-edge=6", "cube[0].position=[0.0, 2.0, 0.0]", "cube[0].rotation.angle=20.0",
+      "cube[0].rotation.axis=[1.0, 2.0, 3.0]"};
+  ASPIC_VERIFY_LET(scene, load_scene("cube-plane", overrides));
+  ASPIC_VERIFY_LET(model, build_model(scene.model));
+  ASPIC_VERIFY_LET(expected, run_reference(subject, model, Precision::single, repeat_steps));
+  std::vector<std::string> words = {
+      "run", "cube-plane", "--backend", "gpu", "--json", "--steps", std::to_string(repeat_steps)};
+  for (const std::string& text : overrides) words.insert(words.end(), {"--set", text});
+  std::set<std::string> hashes;
+  for (const char* threads : {"1", "2", "8"}) {
+    // The driver reads its thread count once, at its start: each count is a process of its own.
+    ASPIC_VERIFY_LET(output, output_of(subject.program, words, {{"LP_NUM_THREADS", threads}}));
+    const std::string key = "\"state_hash\": \"";
+    const std::size_t at = output.find(key);
+    if (at == std::string::npos)
+      return Error{ErrorCode::check_failed, "the child process printed no state hash"};
+    hashes.insert(output.substr(at + key.size(), 16));
+  }
+  return one_hash(hashes, 3, subject.software_device ? state_hash_text(expected) : "");
+}
+
+}  // namespace
+
+void add_equality_checks(std::vector<Check>& checks) {
+  for (const Integrator integrator : all_integrators) {
+    const bool solved = integrator == Integrator::implicit_euler;
+    checks.push_back(
+        {fmt::format("equality/{}", name_of(integrator)),
+         fmt::format("gpu and reference after {} steps through contact: 4 terrains, 2 contact models, {}",
+                     solved ? implicit_steps : explicit_steps, solved ? "gather" : "2 force paths"),
+         "0 ULP, or the canary's finding on hardware", integrator == Integrator::explicit_euler, true,
+         [=](const Subject& subject) { return same_bits(subject, integrator); }});
+  }
+  checks.push_back({"equality/force",
+                    "spring force of the gpu against double precision, over k(L + r) + c|v|, 1,000 springs",
+                    at_most_text(4e-7), true, true, spring_force});
+  checks.push_back({"repeat/runs", "20 runs of 500 steps on the gpu end with one hash", "1 hash", true, true,
+                    [](const Subject& s) { return repeated(s, Integrator::explicit_euler, repeat_steps); }});
+  checks.push_back({"repeat/implicit", "20 runs of 10 steps of implicit-euler on the gpu end with one hash",
+                    "1 hash", false, true,
+                    [](const Subject& s) { return repeated(s, Integrator::implicit_euler, 10); }});
+  checks.push_back({"repeat/group-sizes",
+                    "work groups of 32, 64, 128, 256 on both force paths end with one hash", "1 hash", false,
+                    true, group_sizes});
+  checks.push_back({"repeat/driver-threads",
+                    "1, 2 and 8 driver threads end with one hash, on software that of the reference",
+                    "1 hash", true, true, driver_threads});
+}
+
+}  // namespace aspic::verify

@@ -1,0 +1,73 @@
+#include "verify/experiments.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace aspic::verify {
+
+ModelSettings cube_settings(int particles_per_edge, const Vec3& centre) {
+  ModelSettings settings;
+  CubeSettings cube;
+  cube.particles_per_edge = particles_per_edge;
+  cube.position = centre;
+  settings.cubes.push_back(cube);
+  return settings;
+}
+
+ModelSettings cube_on_terrain(int particles_per_edge, TerrainShape shape, Integrator integrator,
+                              ContactModel contact) {
+  const Vec3 centre = shape == TerrainShape::plane          ? Vec3{0.0, 1.9, 0.0}
+                      : shape == TerrainShape::tilted_plane ? Vec3{1.0, 3.2, 0.0}
+                      : shape == TerrainShape::sphere       ? Vec3{0.4, 4.9, 0.2}
+                                                            : Vec3{2.3, 5.5, 1.2};
+  ModelSettings settings = cube_settings(particles_per_edge, centre);
+  settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
+  settings.cubes[0].velocity = {1.0, -1.0, 0.5};
+  settings.simulation.integrator = integrator;
+  settings.contact.model = contact;
+  TerrainSettings terrain;
+  terrain.shape = shape;
+  settings.terrain.push_back(terrain);
+  return settings;
+}
+
+Model loose_particles(std::vector<Vec3> positions, std::vector<Vec3> velocities, double mass) {
+  Model model;
+  model.initial_position = std::move(positions);
+  model.initial_velocity = std::move(velocities);
+  model.mass.assign(model.initial_position.size(), mass);
+  model.inverse_mass.assign(model.initial_position.size(), 1.0 / mass);
+  return model;
+}
+
+double Noise::operator()() {
+  seed_ += 0x9e3779b97f4a7c15ull;
+  std::uint64_t z = seed_;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
+}
+
+Status require_good(const Result<std::optional<Divergence>>& advanced) {
+  if (!advanced) return advanced.error();
+  if (!advanced->has_value()) return {};
+  return Error{ErrorCode::check_failed,
+               fmt::format("diverged in step {} at particle {}", (*advanced)->step, (*advanced)->particle)};
+}
+
+Result<State> run(Solver& solver, std::uint64_t steps, const State* start) {
+  if (start != nullptr) {
+    if (const Status loaded = solver.load(*start); !loaded) return loaded.error();
+  }
+  if (const Status good = require_good(solver.advance(steps)); !good) return good.error();
+  return solver.state();
+}
+
+Result<State> run_reference(const Subject& subject, const Model& model, Precision precision,
+                            std::uint64_t steps, const State* start) {
+  ASPIC_VERIFY_LET(solver, subject.reference(model, precision));
+  return run(*solver, steps, start);
+}
+
+}  // namespace aspic::verify

@@ -1,0 +1,66 @@
+#pragma once
+// Models and runs that several checks share.
+#include <array>
+#include <cstdint>
+#include <random>
+
+#include "model/integrator.h"
+#include "verify/check.h"
+
+namespace aspic::verify {
+
+/// Assigns the value of a Result to a new variable, or returns its error from the enclosing function.
+#define ASPIC_VERIFY_LET(variable, expression)              \
+  auto variable##_result = (expression);                    \
+  if (!variable##_result) return variable##_result.error(); \
+  auto& variable = *variable##_result
+
+inline constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integrator::symplectic_euler,
+                                                    Integrator::midpoint, Integrator::runge_kutta_4,
+                                                    Integrator::implicit_euler_one_pass};
+inline constexpr std::array all_integrators = {
+    Integrator::explicit_euler, Integrator::symplectic_euler,        Integrator::midpoint,
+    Integrator::runge_kutta_4,  Integrator::implicit_euler_one_pass, Integrator::implicit_euler};
+inline constexpr std::array all_terrains = {TerrainShape::plane, TerrainShape::tilted_plane,
+                                            TerrainShape::sphere, TerrainShape::bowl};
+inline constexpr std::array both_contact_models = {ContactModel::coulomb, ContactModel::course};
+
+inline constexpr double epsilon_double = 2.220446049250313e-16;
+inline constexpr double epsilon_single = 1.1920929e-7;
+
+/// Settings of one cube of edge 4 m with the default springs, its centre at `centre`; no terrain.
+ModelSettings cube_settings(int particles_per_edge, const Vec3& centre = {0.0, 9.0, 0.0});
+
+/// A tilted 5³ cube that reaches the terrain of this shape within the first tenth of 2,000 steps.
+ModelSettings cube_on_terrain(int particles_per_edge, TerrainShape shape, Integrator integrator,
+                              ContactModel contact);
+
+/// Loose particles of mass m without springs; gravity stays the default.
+Model loose_particles(std::vector<Vec3> positions, std::vector<Vec3> velocities, double mass = 1.0);
+
+/// Numbers in [−1, 1), the same on every machine (splitmix64: Steele, Lea, Flood, 2014).
+class Noise {
+ public:
+  explicit Noise(std::uint64_t seed) : seed_(seed) {}
+  double operator()();
+  Vec3 vector() {
+    const double x = (*this)(), y = (*this)(), z = (*this)();
+    return {x, y, z};
+  }
+
+ private:
+  std::uint64_t seed_;
+};
+
+/// The solver after `steps` steps from `start` (the model's own if null).
+/// Error (check_failed): it diverged.
+Result<State> run(Solver& solver, std::uint64_t steps, const State* start = nullptr);
+
+/// The same on a new reference solver.
+Result<State> run_reference(const Subject& subject, const Model& model, Precision precision,
+                            std::uint64_t steps, const State* start = nullptr);
+
+/// Error (check_failed) unless `advanced` is success without divergence.
+Status require_good(const Result<std::optional<Divergence>>& advanced);
+
+}  // namespace aspic::verify

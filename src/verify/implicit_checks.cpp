@@ -1,0 +1,138 @@
+// Implicit Euler: the equation is solved, and the method does what backward Euler does.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/energy.h"
+#include "analysis/stability.h"
+#include "scene/load.h"
+#include "verify/experiments.h"
+#include "verify/textbook.h"
+
+namespace aspic::verify {
+namespace {
+
+constexpr const char* scenes[] = {"cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl"};
+
+Result<Finding> bounded(const Subject& subject) {
+  ModelSettings settings = cube_settings(5);
+  settings.simulation.gravity = {0, 0, 0};
+  ASPIC_VERIFY_LET(explicit_model, build_model(settings));
+  const auto limit = stability_limit(explicit_model, Integrator::explicit_euler).step;
+  if (!limit) return Error{ErrorCode::check_failed, "explicit Euler has no limit here"};
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = 1000 * *limit;
+  ASPIC_VERIFY_LET(model, build_model(settings));
+  State state = initial_state(model, Precision::double_);
+  Noise noise(23);
+  for (Vec3& x : state.position) x = x + 0.01 * noise.vector();  // 1 % of the spacing of 1 m
+  const double energy = measure(model, state).total();
+  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
+  if (const Status loaded = solver->load(state); !loaded) return loaded.error();
+  double worst = 0.0;
+  for (int step = 0; step < 100; ++step) {
+    ASPIC_VERIFY_LET(now, run(*solver, 1));
+    worst = std::max(worst, measure(model, now).total() / energy);
+  }
+  return Finding{worst <= 1.0, fmt::format("{:.3g} of the start's energy", worst)};
+}
+
+struct Solves {
+  SolveStatistics statistics;
+  double tolerance = 0.0;
+};
+
+Result<Solves> solve(const Subject& subject, const std::string& scene, ContactModel contact, double h) {
+  ASPIC_VERIFY_LET(loaded, load_scene(scene));
+  loaded.model.simulation.integrator = Integrator::implicit_euler;
+  loaded.model.simulation.timestep = h;
+  loaded.model.contact.model = contact;
+  ASPIC_VERIFY_LET(model, build_model(loaded.model));
+  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::single));
+  const auto steps = static_cast<std::uint64_t>(std::lround(model.simulation.duration / h));
+  if (const Status good = require_good(solver->advance(steps)); !good) return good.error();
+  const auto statistics = solver->solve_statistics();
+  if (!statistics) return Error{ErrorCode::check_failed, "the solver keeps no statistics"};
+  return Solves{*statistics, implicit_tolerance(model.simulation.implicit, Precision::single)};
+}
+
+std::string told(const Solves& s) {
+  return fmt::format("{:.3g} m/s, {} of {} steps unconverged", s.statistics.worst_residual,
+                     s.statistics.steps - s.statistics.converged, s.statistics.steps);
+}
+
+Result<Finding> residual(const Subject& subject, const std::string& scene, ContactModel contact, double h) {
+  ASPIC_VERIFY_LET(solves, solve(subject, scene, contact, h));
+  return Finding{solves.statistics.worst_residual <= solves.tolerance && solves.statistics.steps > 0,
+                 told(solves)};
+}
+
+Result<Finding> never_diverges(const Subject& subject, const std::string& scene) {
+  ASPIC_VERIFY_LET(solves, solve(subject, scene, ContactModel::coulomb, 1.0 / 60));
+  return Finding{solves.statistics.steps > 0, told(solves)};
+}
+
+Result<Finding> dense(const Subject& subject) {
+  ModelSettings settings = cube_settings(4);
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = 1.0 / 60;
+  ASPIC_VERIFY_LET(model, build_model(settings));
+  double worst = 0.0;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    State state = initial_state(model, Precision::double_);
+    Noise noise(seed);
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+      state.position[i] = state.position[i] + 0.05 * noise.vector();
+      state.velocity[i] = noise.vector();
+    }
+    const Eigen::VectorXd expected = dense_backward_euler(model, state);
+    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1, &state));
+    worst = std::max(worst, (motion_of<double>(end).v - expected).cwiseAbs().maxCoeff());
+  }
+  return at_most(worst, 1e-8, "m/s");
+}
+
+Result<Finding> rests(const Subject& subject) {
+  ModelSettings settings = cube_settings(10);
+  settings.terrain.push_back({});
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = 1.0 / 60;
+  ASPIC_VERIFY_LET(model, build_model(settings));
+  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::single, 900));
+  return at_most(measure(model, end).max_speed, 1e-3, "m/s");
+}
+
+}  // namespace
+
+void add_implicit_checks(std::vector<Check>& checks) {
+  checks.push_back({"implicit/bounded",
+                    "free 5³ cube, 1 % perturbed, at 1,000 times explicit Euler's limit, 100 steps: energy "
+                    "never above the "
+                    "start's",
+                    "≤ 1", true, false, bounded});
+  checks.push_back({"implicit/dense",
+                    "one step equals a dense Newton solve in double precision (shaken 4³ cube, h = 1/60 s)",
+                    at_most_text(1e-8, "m/s"), true, false, dense});
+  checks.push_back({"implicit/rest", "the default cube at h = 1/60 s, 15 s after its drop: fastest particle",
+                    at_most_text(1e-3, "m/s"), false, false, rests});
+  for (const std::string scene : scenes) {
+    checks.push_back({"implicit/residual/course/" + scene, "course model, h = 1/60 s: residual in every step",
+                      at_most_text(1e-4, "m/s"), false, false, [=](const Subject& subject) {
+                        return residual(subject, scene, ContactModel::course, 1.0 / 60);
+                      }});
+  }
+  for (const std::string scene : scenes) {
+    checks.push_back({"implicit/residual/coulomb/" + scene, "Coulomb model, h = 2 ms: residual in every step",
+                      at_most_text(1e-4, "m/s"), false, false, [=](const Subject& subject) {
+                        return residual(subject, scene, ContactModel::coulomb, 0.002);
+                      }});
+  }
+  for (const std::string scene : scenes) {
+    checks.push_back({"implicit/large-step/" + scene,
+                      "Coulomb model, h = 1/60 s: never diverges; unconverged steps counted", "no divergence",
+                      false, false, [=](const Subject& subject) { return never_diverges(subject, scene); }});
+  }
+}
+
+}  // namespace aspic::verify

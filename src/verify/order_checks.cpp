@@ -1,0 +1,77 @@
+// Order of convergence on a smooth free spring system.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "verify/experiments.h"
+#include "verify/textbook.h"
+
+namespace aspic::verify {
+namespace {
+
+constexpr double duration = 0.4, first_step = 0.004;
+constexpr int halvings = 6;
+
+/// A 2³ cube of edge 1 m, k = 20 N/m, c = 0.2 N·s/m, deformed and moving, far from any singular length.
+Result<Model> smooth_system(Integrator integrator, double h) {
+  ModelSettings settings = cube_settings(2, {0.0, 0.0, 0.0});
+  settings.simulation.integrator = integrator;
+  settings.simulation.timestep = h;
+  settings.simulation.gravity = {0.0, 0.0, 0.0};
+  // Far below the error of any step here: the solve takes no part in the order.
+  settings.simulation.implicit = {50, 500, 1e-15};
+  CubeSettings& cube = settings.cubes[0];
+  cube.edge_length = 1.0;
+  cube.structural = cube.shear = cube.bending = {20.0, 0.2};
+  return build_model(settings);
+}
+
+State deformed(const Model& model) {
+  State state = initial_state(model, Precision::double_);
+  Noise noise(11);
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    state.position[i] = state.position[i] + 0.08 * noise.vector();
+    state.velocity[i] = 0.3 * noise.vector();
+  }
+  return state;
+}
+
+Result<Finding> order_of(const Subject& subject, Integrator integrator, int order) {
+  double previous = 0.0, observed = 0.0, finest = 0.0;
+  Motion<long double> truth;
+  for (int halving = 0; halving <= halvings; ++halving) {
+    const double h = first_step / (1 << halving);
+    ASPIC_VERIFY_LET(model, smooth_system(integrator, h));
+    const State start = deformed(model);
+    // hω of the truth is 2e-3 at most: its error, of fourth order, is below 1e-14.
+    if (halving == 0) truth = exact_motion(model, start, duration, 4000);
+    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_,
+                                        static_cast<std::uint64_t>(std::lround(duration / h)), &start));
+    const Motion<long double> reached = motion_of<long double>(end);
+    const double error = static_cast<double>(
+        std::sqrt((reached.x - truth.x).squaredNorm() + (reached.v - truth.v).squaredNorm()));
+    if (halving > 0 && error > 1e-12) {
+      observed = std::log2(previous / error);
+      finest = error;
+    }
+    previous = error;
+  }
+  return Finding{std::abs(observed - order) <= 0.05,
+                 fmt::format("{:.4f} (finest error {:.2g})", observed, finest)};
+}
+
+}  // namespace
+
+void add_order_checks(std::vector<Check>& checks) {
+  constexpr int orders[] = {1, 1, 2, 4, 1, 1};
+  for (std::size_t i = 0; i < all_integrators.size(); ++i) {
+    const Integrator integrator = all_integrators[i];
+    const int order = orders[i];
+    checks.push_back({fmt::format("order/{}", name_of(integrator)),
+                      fmt::format("halving h divides the error of {} by 2^{}", name_of(integrator), order),
+                      fmt::format("{} ± 0.05", order), true, false,
+                      [=](const Subject& subject) { return order_of(subject, integrator, order); }});
+  }
+}
+
+}  // namespace aspic::verify

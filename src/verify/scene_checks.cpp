@@ -1,0 +1,131 @@
+// The built-in scenes: how deep particles get, and whether the default cube comes to rest.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/terrain.h"
+#include "scene/load.h"
+#include "verify/experiments.h"
+
+namespace aspic::verify {
+namespace {
+
+constexpr double resting_bound = 0.02;
+
+double max_speed(const State& state) {
+  double fastest = 0.0;
+  for (const Vec3& v : state.velocity) fastest = std::max(fastest, length(v));
+  return fastest;
+}
+
+double deepest(const Model& model, const State& state) {
+  double depth = 0.0;
+  for (const Terrain& terrain : model.terrain) {
+    for (const Vec3& x : state.position) depth = std::max(depth, -signed_distance(terrain, x));
+  }
+  return depth;
+}
+
+/// Largest depth before the projection as a share of h·max|v|, and in metres.
+struct Depth {
+  double share = 0.0, metres = 0.0;
+};
+
+/// In the Coulomb model the ground acts at the end of a step alone: what a step was before that is the step
+/// of the same model without terrain.
+Result<Depth> depth_before_projection(const Subject& subject, const Model& model, std::uint64_t steps) {
+  Model airborne = model;
+  airborne.terrain.clear();
+  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
+  ASPIC_VERIFY_LET(unhindered, subject.reference(airborne, Precision::double_));
+  State now = initial_state(model, Precision::double_);
+  double extent = 0.0;
+  for (const Vec3& x : now.position) extent = std::max(extent, length(x));
+  for (const Terrain& terrain : model.terrain)
+    extent = std::max(extent, length(terrain.point) + terrain.radius);
+  const double rounding = 16 * epsilon_double * extent;
+  Depth worst;
+  for (std::uint64_t step = 0; step < steps; ++step) {
+    ASPIC_VERIFY_LET(before, run(*unhindered, 1, &now));
+    const double depth = deepest(model, before);
+    if (depth > rounding) {
+      const double reach = model.simulation.timestep * std::max(max_speed(now), max_speed(before));
+      worst.share = std::max(worst.share, (depth - rounding) / reach);
+      worst.metres = std::max(worst.metres, depth);
+    }
+    ASPIC_VERIFY_LET(next, run(*solver, 1));
+    now = std::move(next);
+  }
+  return worst;
+}
+
+Result<Finding> depth(const Subject& subject, const std::string& scene, std::vector<std::string> overrides,
+                      std::uint64_t steps) {
+  ASPIC_VERIFY_LET(loaded, load_scene(scene, overrides));
+  ASPIC_VERIFY_LET(model, build_model(loaded.model));
+  ASPIC_VERIFY_LET(worst, depth_before_projection(subject, model, steps));
+  if (worst.metres == 0.0) return Finding{false, "nothing touched the ground"};
+  return Finding{worst.share <= 1.0, fmt::format("{:.4f} ({:.3g} mm)", worst.share, 1000 * worst.metres)};
+}
+
+Result<Finding> course_depth(const Subject& subject) {
+  ModelSettings settings = cube_settings(10);
+  settings.terrain.push_back({});
+  settings.contact.model = ContactModel::course;
+  std::string text;
+  for (const Integrator integrator : explicit_integrators) {
+    settings.simulation.integrator = integrator;
+    ASPIC_VERIFY_LET(model, build_model(settings));
+    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 5000));
+    text += fmt::format("{}{:.1f}", text.empty() ? "" : ", ", 1000 * deepest(model, end));
+  }
+  return Finding{true, text + " mm"};
+}
+
+Result<Finding> rests(const Subject& subject, Integrator integrator) {
+  ModelSettings settings = cube_settings(10);
+  settings.terrain.push_back({});
+  settings.simulation.integrator = integrator;
+  if (integrator == Integrator::implicit_euler) settings.simulation.timestep = 1.0 / 60;
+  ASPIC_VERIFY_LET(model, build_model(settings));
+  const auto steps = static_cast<std::uint64_t>(std::lround(10.0 / model.simulation.timestep));
+  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::single, steps));
+  return at_most(max_speed(end), resting_bound, "m/s");
+}
+
+}  // namespace
+
+void add_scene_checks(std::vector<Check>& checks) {
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back({fmt::format("rest/{}", name_of(integrator)),
+                      "the default cube, dropped on the plane (Coulomb), 10 s later: fastest particle",
+                      at_most_text(resting_bound, "m/s"), integrator == Integrator::explicit_euler, false,
+                      [=](const Subject& subject) { return rests(subject, integrator); }});
+  }
+  for (const BuiltinScene& scene : list_builtin_scenes()) {
+    const std::string name(scene.name);
+    const bool large = name == "large-cube";
+    // The same jelly at 10 per edge: 64 per edge would take the reference half an hour.
+    std::vector<std::string> overrides;
+    if (large) overrides.push_back("cube[0].particles-per-edge=10");
+    checks.push_back(
+        {"depth/" + name,
+         fmt::format("depth before projection over h·max|v|, 10,000 steps{}", large ? ", 10 per edge" : ""),
+         "≤ 1", false, false,
+         [=](const Subject& subject) { return depth(subject, name, overrides, 10000); }});
+  }
+  checks.push_back({"depth/impact", "the same for cube-plane arriving at 50 m/s, h = 0.5 ms, 4,000 steps",
+                    "≤ 1", false, false, [](const Subject& subject) {
+                      return depth(subject, "cube-plane",
+                                   {"cube[0].velocity=[0.0, -50.0, 0.0]", "simulation.timestep=0.0005"},
+                                   4000);
+                    }});
+  checks.push_back(
+      {"depth/course",
+       "course model, cube-plane after 5 s: depth under explicit-euler, symplectic-euler, midpoint, "
+       "runge-kutta-4, one-pass",
+       "none: it sinks", false, false, course_depth});
+}
+
+}  // namespace aspic::verify

@@ -1,0 +1,42 @@
+#pragma once
+// The physics once more, dense and slow, written for comparison alone: nothing here is shared with the
+// solvers.
+#include <Eigen/Core>
+
+#include "model/model.h"
+#include "model/state.h"
+
+namespace aspic::verify {
+
+/// Positions and velocities of all particles, one after another.
+template <class T>
+struct Motion {
+  Eigen::Matrix<T, Eigen::Dynamic, 1> x, v;
+};
+
+template <class T>
+Motion<T> motion_of(const State& state);
+
+/// Spring forces and gravity [N] on all particles, spec §2.3; no contact.
+template <class T>
+Eigen::Matrix<T, Eigen::Dynamic, 1> force(const Model& model, const Motion<T>& at);
+
+/// Σ ½k(L − r)² [J] of the springs at one particle, or of all (negative index).
+double elastic_energy(const Model& model, const State& state, std::int64_t particle = -1);
+
+/// The motion after `steps` steps of the classical Runge–Kutta method in extended precision: the truth that
+/// orders are measured against.
+Motion<long double> exact_motion(const Model& model, const State& start, double duration, int steps);
+
+/// v' of one backward Euler step, v' = v + h·a(x + h·v', v'), by Newton's method with the complete dense
+/// Jacobian and LU factors. No particle may be pinned.
+Eigen::VectorXd dense_backward_euler(const Model& model, const State& start);
+
+/// Largest eigenvalue of M^(-1/2) K M^(-1/2) at rest [1/s²] and its mode (unit vector), by power iteration.
+struct WorstMode {
+  double kappa = 0.0;
+  Eigen::VectorXd shape;
+};
+WorstMode power_iteration(const Model& model, int iterations);
+
+}  // namespace aspic::verify
