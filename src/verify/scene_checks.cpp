@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/terrain.h"
 #include "scene/load.h"
@@ -20,16 +21,17 @@ double max_speed(const State& state) {
 }
 
 double deepest(const Model& model, const State& state) {
-  double depth = 0.0;
+  double depth = -std::numeric_limits<double>::infinity();
   for (const Terrain& terrain : model.terrain) {
     for (const Vec3& x : state.position) depth = std::max(depth, -signed_distance(terrain, x));
   }
   return depth;
 }
 
-/// Largest depth before the projection as a share of h·max|v|, and in metres.
+/// Largest depth before the projection as a share of h·max|v|, and in metres; and whether anything came near.
 struct Depth {
   double share = 0.0, metres = 0.0;
+  bool touched = false;
 };
 
 /// In the Coulomb model the ground acts at the end of a step alone: what a step was before that is the step
@@ -49,6 +51,7 @@ Result<Depth> depth_before_projection(const Subject& subject, const Model& model
   for (std::uint64_t step = 0; step < steps; ++step) {
     ASPIC_VERIFY_LET(before, run(*unhindered, 1, &now));
     const double depth = deepest(model, before);
+    worst.touched = worst.touched || depth > -model.contact.epsilon;
     if (depth > rounding) {
       const double reach = model.simulation.timestep * std::max(max_speed(now), max_speed(before));
       worst.share = std::max(worst.share, (depth - rounding) / reach);
@@ -65,7 +68,7 @@ Result<Finding> depth(const Subject& subject, const std::string& scene, std::vec
   ASPIC_VERIFY_LET(loaded, load_scene(scene, overrides));
   ASPIC_VERIFY_LET(model, build_model(loaded.model));
   ASPIC_VERIFY_LET(worst, depth_before_projection(subject, model, steps));
-  if (worst.metres == 0.0) return Finding{false, "nothing touched the ground"};
+  if (!worst.touched) return Finding{false, "nothing touched the ground"};
   return Finding{worst.share <= 1.0, fmt::format("{:.4f} ({:.3g} mm)", worst.share, 1000 * worst.metres)};
 }
 
@@ -78,7 +81,7 @@ Result<Finding> course_depth(const Subject& subject) {
     settings.simulation.integrator = integrator;
     ASPIC_VERIFY_LET(model, build_model(settings));
     ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 5000));
-    text += fmt::format("{}{:.1f}", text.empty() ? "" : ", ", 1000 * deepest(model, end));
+    text += fmt::format("{}{:.1f}", text.empty() ? "" : ", ", 1000 * std::max(0.0, deepest(model, end)));
   }
   return Finding{true, text + " mm"};
 }

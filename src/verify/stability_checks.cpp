@@ -81,7 +81,7 @@ Result<Finding> edge(const Subject& subject, Integrator integrator, double dampi
 
 Result<Finding> largest_eigenvalue(const Subject&) {
   ASPIC_VERIFY_LET(model, free_cube(Integrator::explicit_euler, 60.0));
-  const double power = worst_mode(model).kappa / 2000.0,
+  const double power = power_iteration(model, 8000).kappa / 2000.0,
                lanczos = largest_stiffness_eigenvalue(model) / 2000.0;
   return Finding{std::abs(power - 16.850) <= 5e-4 && std::abs(lanczos - 16.850) <= 5e-4,
                  fmt::format("{:.5f} by power iteration, {:.5f} by Lanczos", power, lanczos)};
