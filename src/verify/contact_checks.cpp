@@ -91,6 +91,46 @@ Result<Finding> slides(const Subject& subject, Integrator integrator) {
   return at_most(std::abs(length(end.velocity[0]) / expected - 1), 1e-3);
 }
 
+/// Two surfaces in a corner, without friction. The first sends the particle up at 0.8 of its speed, and the
+/// second, which it then leaves, does nothing; in the other order the second would act first.
+Result<Finding> file_order(const Subject& subject) {
+  double worst = 0.0;
+  for (const Integrator integrator : all_integrators) {
+    for (const ContactModel contact : both_contact_models) {
+      Model model = particle_on_plane(integrator, contact, 0.0, {0, -5, 0});
+      model.simulation.gravity = {0, 0, 0};
+      model.terrain.push_back(model.terrain[0]);
+      model.terrain[1].normal = {std::sqrt(0.5), std::sqrt(0.5), 0};
+      for (Terrain& terrain : model.terrain) terrain.friction = 0.0;
+      ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1));
+      worst = std::max(worst, length(end.velocity[0] - Vec3{0, 4, 0}));
+    }
+  }
+  return at_most(worst, 8 * 5 * epsilon_double, "m/s");
+}
+
+/// A particle that starts half a metre below a surface ends its first step on it.
+Result<Finding> projection(const Subject& subject) {
+  double worst = 0.0, extent = 0.0;
+  for (const Integrator integrator : all_integrators) {
+    for (const TerrainShape shape : all_terrains) {
+      Model model = particle_on_plane(integrator, ContactModel::coulomb, 0.0, {0, 0, 0});
+      TerrainSettings settings;
+      settings.shape = shape;
+      const Terrain terrain = make_terrain(settings, model.contact);
+      model.terrain = {terrain};
+      const Vec3 outward = Vec3{0.48, 0.6, 0.64};
+      const bool flat = shape == TerrainShape::plane || shape == TerrainShape::tilted_plane;
+      const double away = shape == TerrainShape::bowl ? terrain.radius + 0.5 : terrain.radius - 0.5;
+      model.initial_position[0] = terrain.point + (flat ? -0.5 * terrain.normal : away * outward);
+      ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1));
+      worst = std::max(worst, std::abs(signed_distance(terrain, end.position[0])));
+      extent = std::max(extent, length(terrain.point) + terrain.radius);
+    }
+  }
+  return Finding{worst <= 16 * epsilon_double * extent, fmt::format("{:.3g} m", worst)};
+}
+
 }  // namespace
 
 void add_contact_checks(std::vector<Check>& checks) {
@@ -101,6 +141,12 @@ void add_contact_checks(std::vector<Check>& checks) {
   checks.push_back({"contact/resist",
                     "course model: the ground carries a resting particle exactly; every integrator",
                     at_most_text(0.0), true, false, resist});
+  checks.push_back({"contact/order",
+                    "two surfaces in a corner act in file order; every integrator, both models",
+                    at_most_text(40 * epsilon_double, "m/s"), true, false, file_order});
+  checks.push_back({"contact/projection",
+                    "Coulomb: from 0.5 m below each terrain to its surface in one step; every integrator",
+                    "≤ 16 ε of the coordinates", true, false, projection});
   for (const Integrator integrator : all_integrators) {
     checks.push_back({fmt::format("contact/viscous/{}", name_of(integrator)),
                       "course friction slows a slide by R(−hμg) a step, 1,000 steps",

@@ -117,9 +117,42 @@ Result<Finding> invariance(const Subject& subject) {
   return Finding{worst <= 1.0, fmt::format("{:.3g} of the bound", worst)};
 }
 
+/// An undeformed cube is at rest whatever its attitude: each spring's rest length is the distance of its
+/// ends.
+Result<Finding> undeformed(const Subject& subject) {
+  ModelSettings settings = cube_settings(5, {0.0, 0.0, 0.0});
+  settings.simulation.gravity = {0, 0, 0};
+  settings.simulation.timestep = probe_step;
+  settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
+  ASPIC_VERIFY_LET(model, build_model(settings));
+  ASPIC_VERIFY_LET(f, forces(subject, model, initial_state(model, Precision::double_)));
+  double worst = 0.0;
+  for (const Vec3& force_on_particle : f) worst = std::max(worst, length(force_on_particle));
+  // At most 32 springs of k = 2,000 N/m, each vector rounded by 4√3·ε of coordinates up to √3·2 m.
+  return at_most(worst, 32 * 2000.0 * 4 * 6 * epsilon_double, "N");
+}
+
+Result<Finding> falls(const Subject& subject) {
+  constexpr int steps = 1000;
+  double worst = 0.0;
+  for (const Integrator integrator : all_integrators) {
+    Model model = loose_particles({{0, 0, 0}}, {{0, 0, 0}}, 0.37);
+    model.simulation.integrator = integrator;
+    model.simulation.implicit.tolerance = 1e-15;
+    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, steps));
+    worst = std::max(worst, std::abs(end.velocity[0].y / (-9.8 * steps * model.simulation.timestep) - 1));
+  }
+  // Each step rounds its increment (three operations) and its sum.
+  return at_most(worst, 4 * steps * epsilon_double);
+}
+
 }  // namespace
 
 void add_force_checks(std::vector<Check>& checks) {
+  checks.push_back({"force/undeformed", "an undeformed, turned 5³ cube feels no force",
+                    at_most_text(32 * 2000.0 * 4 * 6 * epsilon_double, "N"), true, false, undeformed});
+  checks.push_back({"force/gravity", "0.37 kg fall as any mass does: v = g·t, every integrator",
+                    at_most_text(4000 * epsilon_double), true, false, falls});
   checks.push_back({"force/gradient",
                     "the force is minus the gradient of the elastic energy (shaken 4³ cube)",
                     "δ²/6·Σ3kr/L² + 2εE/δ, δ = 1e-5 m", true, false, gradient});

@@ -103,7 +103,7 @@ void add_scene_checks(std::vector<Check>& checks) {
   for (const Integrator integrator : all_integrators) {
     checks.push_back({fmt::format("rest/{}", name_of(integrator)),
                       "the default cube, dropped on the plane (Coulomb), 10 s later: fastest particle",
-                      at_most_text(resting_bound, "m/s"), integrator == Integrator::explicit_euler, false,
+                      at_most_text(resting_bound, "m/s"), integrator == Integrator::symplectic_euler, false,
                       [=](const Subject& subject) { return rests(subject, integrator); }});
   }
   for (const BuiltinScene& scene : list_builtin_scenes()) {

@@ -13,6 +13,7 @@ import tomllib
 
 import numpy as np
 
+from oracle_implicit import backward_euler
 from oracle_scene import TERRAIN, Readings, SceneError, build_cube, filled, normalised, read_scene
 
 COLUMNS = ["kind", "index", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"]
@@ -67,11 +68,12 @@ class World:
 
     def __init__(self, scene, readings):
         simulation, contact = scene["simulation"], scene["contact"]
-        if simulation["integrator"] not in INTEGRATORS:
-            raise SceneError(f"Integrator '{simulation['integrator']}' is none of {', '.join(INTEGRATORS)}.")
+        known = [*INTEGRATORS, "implicit-euler"]
+        if simulation["integrator"] not in known:
+            raise SceneError(f"Integrator '{simulation['integrator']}' is none of {', '.join(known)}.")
         if contact["model"] not in ("coulomb", "course"):
             raise SceneError(f"contact.model is '{contact['model']}'; known are coulomb and course.")
-        self.integrate = INTEGRATORS[simulation["integrator"]]
+        self.integrate = INTEGRATORS.get(simulation["integrator"])  # None: implicit-euler, which is solved
         self.h, self.duration = float(simulation["timestep"]), float(simulation["duration"])
         self.gravity = np.array(simulation["gravity"], dtype=float)
         self.model, self.epsilon = contact["model"], float(contact["epsilon"])
@@ -149,7 +151,10 @@ class World:
     def step(self):
         """Advances by h; on divergence the last good state is kept and Diverged is raised."""
         with np.errstate(over="ignore", invalid="ignore"):
-            x, v = self.integrate(self.acceleration, self.x, self.v, self.h)
+            if self.integrate:
+                x, v = self.integrate(self.acceleration, self.x, self.v, self.h)
+            else:
+                x, v = backward_euler(self)
             if self.model == "course":
                 x, v = self.course_response(x, v)
             else:
