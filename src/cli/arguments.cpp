@@ -254,6 +254,8 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
   add_overrides(*c, bench.overrides);
   c->add_flag("--json", bench.json, "result on stdout as JSON");
   c->footer(bench_examples);
+  return c;
+}
 
 CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
   CLI::App* c =

@@ -69,6 +69,8 @@ struct BenchOptions {
   double seconds = 2.0;            ///< per measurement, all repeats together, > 0
   std::optional<double> duration;  ///< simulated time of each repeat [s], instead of `seconds`
   int repeats = 5;                 ///< ≥ 1
+  bool json = false;
+};
 
 struct VerifyOptions {
   bool quick = false;
@@ -97,8 +99,8 @@ struct ShowText {
   std::string text;
 };
 
-using Command = std::variant<ShowText, RunOptions, CompareOptions, BenchOptions, VerifyOptions, SceneListOptions,
-                             SceneShowOptions, SceneCheckOptions, InfoOptions>;
+using Command = std::variant<ShowText, RunOptions, CompareOptions, BenchOptions, VerifyOptions,
+                             SceneListOptions, SceneShowOptions, SceneCheckOptions, InfoOptions>;
 
 /// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built
 /// yet.

@@ -19,7 +19,8 @@ TEST(Usage, VersionAndHelpAreData) {
   EXPECT_EQ(version.exit_code, 0);
   EXPECT_THAT(version.out, testing::MatchesRegex("aspic [0-9]+\\.[0-9]+\\.[0-9]+\n"));
   EXPECT_THAT(version.err, IsEmpty());
-  for (const Words& words : {Words{"--help"}, {"run", "--help"}, {"compare", "--help"}, {"verify", "--help"}}) {
+  for (const Words& words :
+       {Words{"--help"}, {"run", "--help"}, {"compare", "--help"}, {"verify", "--help"}}) {
     const auto help = aspic(words);
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_THAT(help.out, HasSubstr("Examples:"));
@@ -54,8 +55,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Failure{{}, 2, "Examples:"}, Failure{{"rnu", "cube-plane"}, 2, "Did you mean run?"},
         Failure{{"frobnicate"}, 2, "no command \"frobnicate\""}, Failure{{"view"}, 2, "not built yet"},
-        Failure{{"verify", "--only", "odrer"}, 2, "order/midpoint"}, Failure{{"bench", "--repeats", "0"}, 2, "--repeats"},
-        Failure{{"report"}, 2, "not built yet"}, Failure{{"scene", "import", "x.txt"}, 2, "not built yet"},
+        Failure{{"verify", "--only", "odrer"}, 2, "order/midpoint"},
+        Failure{{"bench", "--repeats", "0"}, 2, "--repeats"}, Failure{{"report"}, 2, "not built yet"},
+        Failure{{"scene", "import", "x.txt"}, 2, "not built yet"},
         Failure{{"scene", "lst"}, 2, "Did you mean list?"}, Failure{{"scene"}, 2, "--help"},
         Failure{{"scene", "show"}, 2, "scene is required"}, Failure{{"run"}, 2, "needs a SCENE"},
         Failure{{"run", "cube-plane", "--stpes", "3"}, 2, "Did you mean --steps?"},
