@@ -10,6 +10,8 @@ work=$(mktemp -d "${TMPDIR:-/tmp}/aspic-faults.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 tree=$work/tree build=$work/build
 mkdir "$tree"
+# The same sources at another temporary place are the same to the compiler cache.
+export CCACHE_BASEDIR=$work CCACHE_NOHASHDIR=1
 (cd "$root" && git ls-files -z | xargs -0 cp --parents -t "$tree")
 
 build_program() {
