@@ -106,8 +106,9 @@ void add_scene_checks(std::vector<Check>& checks) {
                       at_most_text(resting_bound, "m/s"), integrator == Integrator::symplectic_euler, false,
                       [=](const Subject& subject) { return rests(subject, integrator); }});
   }
-  for (const BuiltinScene& scene : list_builtin_scenes()) {
-    const std::string name(scene.name);
+  // Scenes without balls: a ball may push a particle further than it flies.
+  for (const std::string name :
+       {"cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "large-cube"}) {
     const bool large = name == "large-cube";
     // The same jelly at 10 per edge: 64 per edge would take the reference half an hour.
     std::vector<std::string> overrides;
