@@ -58,10 +58,8 @@ bool takes_part(Seeker own, uint kind, uint index) {
   return other.gap.w < epsilon && dot3(other.dv, other.gap.xyz) < 0.0;
 }
 
-
 uint found[LIST_SIZE];
 uint found_count = 0u;
-
 uint bodies_of(uint kind) { return kind == KIND_BALL ? ball_count : particle_count; }
 
 #ifdef ASPIC_BALL_GRID

@@ -435,7 +435,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   BenchOptions bench;
   CLI::App* bench_command = add_bench(app, bench, raw);
   CLI::App* verify_command = add_verify(app, verify);
-  CLI::App* scene = app.add_subcommand("scene", "List, show and check scenes");
+  CLI::App* scene = app.add_subcommand("scene", "List, show, check and import scenes");
   scene->require_subcommand(1);
   CLI::App* list_command = scene->add_subcommand("list", "The built-in scenes");
   list_command->add_flag("--json", list.json, "as JSON");
@@ -451,6 +451,10 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
       ->required();
   check_command->add_flag("--json", check.json, "as JSON");
   add_overrides(*check_command, check.overrides);
+  SceneImportOptions import;
+  CLI::App* import_command =
+      scene->add_subcommand("import", "Print Configuration.txt of the 2018 framework as a scene");
+  import_command->add_option("file", import.file, "the file to read")->type_name("FILE")->required();
   CLI::App* info_command = app.add_subcommand("info", "Devices, drivers, GL limits, and what auto picks");
   info_command->add_flag("--json", info.json, "as JSON");
 
@@ -461,9 +465,6 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
       return usage(fmt::format("aspic {} ({}) is not built yet in version {}.", entry.command, entry.what,
                                ASPIC_VERSION));
     }
-  }
-  if (first == "scene" && argc > 2 && std::string_view(argv[2]) == "import") {
-    return usage(fmt::format("aspic scene import is not built yet in version {}.", ASPIC_VERSION));
   }
   try {
     app.parse(argc, argv);
@@ -493,6 +494,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   if (*list_command) return Command(list);
   if (*show_command) return Command(std::move(show));
   if (*check_command) return Command(std::move(check));
+  if (*import_command) return Command(std::move(import));
   return Command(info);
 }
 

@@ -91,6 +91,9 @@ struct SceneCheckOptions {
   std::vector<std::string> overrides;
   bool json = false;
 };
+struct SceneImportOptions {
+  std::string file;  ///< Configuration.txt of the 2018 framework
+};
 struct InfoOptions {
   bool json = false;
 };
@@ -99,8 +102,9 @@ struct ShowText {
   std::string text;
 };
 
-using Command = std::variant<ShowText, RunOptions, CompareOptions, BenchOptions, VerifyOptions,
-                             SceneListOptions, SceneShowOptions, SceneCheckOptions, InfoOptions>;
+using Command =
+    std::variant<ShowText, RunOptions, CompareOptions, BenchOptions, VerifyOptions, SceneListOptions,
+                 SceneShowOptions, SceneCheckOptions, SceneImportOptions, InfoOptions>;
 
 /// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built
 /// yet.

@@ -21,6 +21,8 @@ Status verify_command(const VerifyOptions& options);
 Status scene_list_command(const SceneListOptions& options);
 Status scene_show_command(const SceneShowOptions& options);
 Status scene_check_command(const SceneCheckOptions& options);
+/// The scene goes to stdout; what it does not carry is told there in comments and on stderr.
+Status scene_import_command(const SceneImportOptions& options);
 
 /// Never fails for want of a GPU: says so instead.
 Status info_command(const InfoOptions& options);

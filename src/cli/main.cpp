@@ -25,6 +25,7 @@ int main(int argc, const char* const* argv) {
         if constexpr (std::is_same_v<Options, SceneListOptions>) return scene_list_command(options);
         if constexpr (std::is_same_v<Options, SceneShowOptions>) return scene_show_command(options);
         if constexpr (std::is_same_v<Options, SceneCheckOptions>) return scene_check_command(options);
+        if constexpr (std::is_same_v<Options, SceneImportOptions>) return scene_import_command(options);
         if constexpr (std::is_same_v<Options, InfoOptions>) return info_command(options);
       },
       *command);

@@ -7,6 +7,7 @@
 #include "cli/console.h"
 #include "cli/json_report.h"
 #include "cli/stability_text.h"
+#include "scene/import_configuration.h"
 #include "scene/load.h"
 #include "scene/write.h"
 
@@ -37,6 +38,15 @@ Status scene_show_command(const SceneShowOptions& options) {
   const auto scene = load_scene(options.scene, options.overrides);
   if (!scene) return scene.error();
   return print_data(to_toml(*scene));
+}
+
+Status scene_import_command(const SceneImportOptions& options) {
+  const auto text = read_text_file(options.file);
+  if (!text) return text.error();
+  const auto imported = import_configuration(*text, options.file);
+  if (!imported) return imported.error();
+  for (const std::string& note : imported->notes) print_warning(note);
+  return print_data(imported_toml(*imported, options.file));
 }
 
 Status scene_check_command(const SceneCheckOptions& options) {

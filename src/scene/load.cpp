@@ -20,10 +20,20 @@ namespace {
 /// Far beyond any scene: keeps a device or a wrong file from filling the memory.
 constexpr std::streamsize largest_file = 64 << 20;
 
-Result<std::string> read_file(const std::string& path) {
+/// The end of every message about a name that leads nowhere.
+std::string known_scenes(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const BuiltinScene& scene : list_builtin_scenes()) names.push_back(scene.name);
+  return fmt::format("built-in scenes are {}{}", diagnostics::list_text(names, false),
+                     diagnostics::did_you_mean(diagnostics::nearest(name, names)));
+}
+
+}  // namespace
+
+Result<std::string> read_text_file(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    return Error{ErrorCode::io, fmt::format("{} is a directory, not a scene file", path)};
+    return Error{ErrorCode::io, fmt::format("{} is a directory, not a file to read", path)};
   }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
@@ -35,23 +45,13 @@ Result<std::string> read_file(const std::string& path) {
   while (file.read(block, sizeof block) || file.gcount() > 0) {
     text.append(block, static_cast<std::size_t>(file.gcount()));
     if (static_cast<std::streamsize>(text.size()) > largest_file) {
-      return Error{ErrorCode::io, fmt::format("{} is larger than 64 MiB: that is no scene file", path)};
+      return Error{ErrorCode::io, fmt::format("{} is larger than 64 MiB: that is no scene", path)};
     }
   }
   if (file.bad())
     return Error{ErrorCode::io, fmt::format("{} cannot be read: {}", path, std::strerror(errno))};
   return text;
 }
-
-/// The end of every message about a name that leads nowhere.
-std::string known_scenes(std::string_view name) {
-  std::vector<std::string_view> names;
-  for (const BuiltinScene& scene : list_builtin_scenes()) names.push_back(scene.name);
-  return fmt::format("built-in scenes are {}{}", diagnostics::list_text(names, false),
-                     diagnostics::did_you_mean(diagnostics::nearest(name, names)));
-}
-
-}  // namespace
 
 std::optional<std::uint64_t> available_memory() {
   std::ifstream file("/proc/meminfo");
@@ -95,7 +95,7 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
     return Error{ErrorCode::scene_rejected, fmt::format("'{}' is neither a file nor a built-in scene; {}",
                                                         file_or_builtin, known_scenes(file_or_builtin))};
   }
-  auto text = read_file(file_or_builtin);
+  auto text = read_text_file(file_or_builtin);
   if (!text) return text.error();
   return parse_scene(*text, file_or_builtin, overrides, limits);
 }

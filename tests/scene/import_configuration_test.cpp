@@ -1,0 +1,97 @@
+#include "scene/import_configuration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "scene/scene_support.h"
+
+namespace aspic {
+namespace {
+
+using testing::HasSubstr;
+
+std::string example() {
+  std::ifstream file(ASPIC_TEST_DATA "/import/Configuration.txt");
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_FALSE(text.str().empty());
+  return text.str();
+}
+
+TEST(Import, EveryKeyFindsItsPlace) {
+  const auto imported = import_configuration(example(), "Configuration.txt");
+  ASSERT_TRUE(imported.ok()) << imported.error().message;
+  const Scene& scene = imported->scene;
+  ASSERT_EQ(scene.model.goal_nets.size(), 1u);
+  const GoalNetSettings& net = scene.model.goal_nets[0];
+  EXPECT_EQ(scene.model.simulation.integrator, Integrator::runge_kutta_4);
+  EXPECT_EQ(scene.model.simulation.timestep, 0.0005);
+  EXPECT_EQ(scene.model.simulation.steps_per_frame, 4);
+  EXPECT_EQ(net.position, (Vec3{0.5, 0.7, -1.0}));
+  EXPECT_EQ(net.size, (Vec3{2.5, 3.5, 9.0}));
+  EXPECT_EQ(net.particles, (std::array<int, 3>{8, 12, 24}));
+  EXPECT_EQ(net.structural.stiffness, 1200.0);
+  EXPECT_EQ(net.structural.damping, 40.0);
+  EXPECT_TRUE(scene.view.draw.particles && scene.view.draw.structural && scene.view.draw.bending);
+  EXPECT_FALSE(scene.view.draw.shear);
+  ASSERT_EQ(scene.model.terrain.size(), 1u);
+  EXPECT_EQ(scene.model.launchers.size(), 1u);
+}
+
+TEST(Import, SaysWhatItDoesNotCarryAndPrintsAValidScene) {
+  const auto imported = import_configuration(example(), "Configuration.txt");
+  ASSERT_TRUE(imported.ok());
+  const std::string text = imported_toml(*imported, "Configuration.txt");
+  for (const auto& [line, key] : std::vector<std::pair<int, std::string>>{{2, "StudentID"},
+                                                                          {12, "DrawGoalpost"},
+                                                                          {14, "DrawPlane"},
+                                                                          {16, "DrawBackground"},
+                                                                          {18, "DrawAxis"},
+                                                                          {20, "SimulationStart"},
+                                                                          {51, "NetColour"}}) {
+    const std::string note = fmt::format("Configuration.txt:{}: *{} ", line, key);
+    EXPECT_THAT(imported->notes, testing::Contains(HasSubstr(note)));
+    EXPECT_THAT(text, HasSubstr("# Not carried over: " + note));
+  }
+  EXPECT_EQ(imported->notes.size(), 7u);
+  test::expect_same_scene(test::parsed(text), imported->scene);
+}
+
+TEST(Import, KeepsTheAssignmentsNetWhereNothingIsSaid) {
+  const auto imported = import_configuration("*DeltaT\r\n0.002f\r\n", "c.txt");
+  ASSERT_TRUE(imported.ok());
+  EXPECT_EQ(imported->scene.model.simulation.timestep, 0.002);
+  EXPECT_EQ(imported->scene.model.goal_nets[0].particles, (std::array<int, 3>{10, 20, 35}));
+  EXPECT_TRUE(imported->notes.empty());
+}
+
+TEST(Import, ReportsAllErrorsWithTheirLines) {
+  const auto imported = import_configuration(
+      "*DeltaT\n*IntegratorType\n2\nstray\n*NumAtWidth\n1\n*NumAtHeight\n2.5\n*SpringCoef\nstiff\n"
+      "*NetWidth\n-1\n*SpringCoef\n5\n*DamperCoef\n",
+      "c.txt");
+  ASSERT_FALSE(imported.ok());
+  EXPECT_EQ(imported.error().code, ErrorCode::scene_rejected);
+  for (const char* expected :
+       {"c.txt:1: *DeltaT has no value", "c.txt:3: *IntegratorType must be 0 (Euler) or 1",
+        "c.txt:4: \"stray\" is neither", "c.txt:6: *NumAtWidth: 'goal-net.particles' is out of range: 1",
+        "c.txt:8: *NumAtHeight must be a whole number",
+        "c.txt:10: *SpringCoef must be a number, not \"stiff\"",
+        "c.txt:12: *NetWidth: 'goal-net.size' is out of range",
+        "c.txt:13: *SpringCoef stands in line 9 already", "c.txt:15: *DamperCoef has no value"}) {
+    EXPECT_THAT(imported.error().message, HasSubstr(expected));
+  }
+  EXPECT_FALSE(import_configuration("", "c.txt").ok());
+}
+
+TEST(Import, SuggestsTheNearestKey) {
+  const auto imported = import_configuration("*DeltaTT\n1\n", "c.txt");
+  ASSERT_TRUE(imported.ok());
+  EXPECT_THAT(imported->notes, testing::ElementsAre(HasSubstr("did you mean 'DeltaT'?")));
+}
+
+}  // namespace
+}  // namespace aspic
