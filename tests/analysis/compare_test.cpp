@@ -35,6 +35,22 @@ TEST(Compare, EqualStatesAreIdentical) {
   EXPECT_EQ(d->largest_absolute(), 0.0);
 }
 
+TEST(Compare, BallsAreComparedToo) {
+  State a = three_particles(Precision::single);
+  a.ball_position = {{1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}};
+  a.ball_velocity = a.ball_angular_velocity = a.ball_position;
+  State b = a;
+  b.ball_angular_velocity[1].x = 2.5;
+  const auto d = compare_states(a, b);
+  ASSERT_TRUE(d.ok());
+  EXPECT_FALSE(d->identical());
+  EXPECT_EQ(d->largest_absolute(), 0.5);
+  EXPECT_EQ(d->ball_angular_velocity.absolute_index, 1u);
+  EXPECT_EQ(d->ball_velocity.ulp, 0u);
+  b.ball_position.pop_back();
+  EXPECT_FALSE(compare_states(a, b).ok());
+}
+
 TEST(Compare, FindsTheLargestDifferenceOfEachKind) {
   const State a = three_particles(Precision::single);
   State b = a;

@@ -51,6 +51,27 @@ TEST(Energy, PinnedParticleHasPotentialButNoMotion) {
   EXPECT_EQ(m.elastic, 36.0);
 }
 
+TEST(Energy, BallsCountOnceTheyAreLaunched) {
+  Model model;
+  model.simulation.gravity = {0.0, -10.0, 0.0};
+  model.balls.push_back({0.5, 2.0, 7, {}, {}, {}});
+  State state;
+  state.ball_position = {{0.0, 3.0, 0.0}};
+  state.ball_velocity = {{4.0, 0.0, 0.0}};
+  state.ball_angular_velocity = {{0.0, 0.0, 10.0}};
+  state.step = 6;
+  EXPECT_EQ(measure(model, state).total(), 0.0);
+  EXPECT_EQ(measure(model, state).min_height, 0.0);
+  state.step = 7;
+  const Measures m = measure(model, state);
+  // ½·2·16 + ½·(2/5·2·0.25)·100
+  EXPECT_NEAR(m.kinetic, 26.0, 1e-14);
+  EXPECT_NEAR(m.gravitational, 60.0, 1e-13);
+  EXPECT_EQ(m.momentum, (Vec3{8.0, 0.0, 0.0}));
+  EXPECT_EQ(m.max_speed, 4.0);
+  EXPECT_EQ(m.min_height, 3.0);
+}
+
 TEST(Energy, EmptyModelIsAllZero) {
   const Measures m = measure(Model{}, State{});
   EXPECT_EQ(m.total(), 0.0);

@@ -108,8 +108,8 @@ TEST(Stability, QuickEffortAgreesWithThoroughOnTheDefaultCube) {
   }
 }
 
-// What is certain from the infinite lattice must be stable by the cube's own spectrum, and the other way round but for
-// the lattice's small surplus (17.633 against 16.850 at n = 10).
+// What is certain from the infinite lattice must be stable by the cube's own spectrum, and the other way
+// round but for the lattice's small surplus (17.633 against 16.850 at n = 10).
 TEST(Stability, InfiniteLatticeClearsOnlyStableSteps) {
   for (const double damping : {60.0, 5.0, 0.5}) {
     CubeSettings cube = cube_settings(10);

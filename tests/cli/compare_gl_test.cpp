@@ -33,6 +33,13 @@ TEST(CompareGl, RunOnTheGpuEndsWithTheReferencesHash) {
   EXPECT_EQ(json_member(gpu.out, "state_hash"), json_member(reference.out, "state_hash"));
 }
 
+TEST(CompareGl, PenaltyIsIdenticalOverThreeThousandSteps) {
+  const auto run = aspic({"compare", "penalty", "--steps", "3000", "--json"});
+  EXPECT_EQ(run.exit_code, 0) << run.err << run.out;
+  EXPECT_EQ(json_member(run.out, "identical"), "true");
+  EXPECT_EQ(json_member(run.out, "steps"), "3000");
+}
+
 // A shader edited without rebuilding: its mistakes are told in its own file and line.
 TEST(CompareGl, ShaderDirectoryGoesBeforeTheEmbeddedShaders) {
   const test::TemporaryDirectory dir;

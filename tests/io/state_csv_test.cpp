@@ -39,6 +39,23 @@ TEST(StateCsvFormat, IsTheSpecifiedTable) {
   EXPECT_EQ(dir.read("s.csv"), "kind,index,x,y,z,vx,vy,vz,wx,wy,wz\nparticle,0,0.1,-2,3.5,0,1e-10,4,0,0,0\n");
 }
 
+TEST(StateCsvFormat, BallsFollowTheParticles) {
+  const test::TemporaryDirectory dir;
+  State state;
+  state.ball_position = {{1.0, 2.0, 3.0}};
+  state.ball_velocity = {{4.0, 5.0, 6.0}};
+  state.ball_angular_velocity = {{7.0, 8.0, -9.5}};
+  auto file = AtomicFile::create(dir.file("s.csv"), Overwrite::refuse);
+  ASSERT_TRUE(file.ok() && write_state_csv(*file, state).ok() && file->commit().ok());
+  EXPECT_EQ(dir.read("s.csv"), "kind,index,x,y,z,vx,vy,vz,wx,wy,wz\nball,0,1,2,3,4,5,6,7,8,-9.5\n");
+  state.ball_angular_velocity[0].y = std::numeric_limits<double>::infinity();
+  auto other = AtomicFile::create(dir.file("t.csv"), Overwrite::refuse);
+  ASSERT_TRUE(other.ok());
+  const Status written = write_state_csv(*other, state);
+  ASSERT_FALSE(written.ok());
+  EXPECT_THAT(written.error().message, HasSubstr("ball 0"));
+}
+
 TEST(StateCsvFormat, NotANumberIsNeverWritten) {
   const test::TemporaryDirectory dir;
   State state;
@@ -82,6 +99,9 @@ INSTANTIATE_TEST_SUITE_P(
                     BadTable{HEADER "cloud,0,1,2,3,4,5,6,0,0,0\n", "s.csv:2: unknown kind \"cloud\""},
                     BadTable{HEADER "particle,0,1,2,3,4,5,6,0,0,0\nparticle,2,1,2,3,4,5,6,0,0,0\n",
                              "s.csv:3: expected index 1"},
+                    BadTable{HEADER "ball,0,1,2,3,4,5,6,0,0,0\nparticle,0,1,2,3,4,5,6,0,0,0\n",
+                             "s.csv:3: particles stand before balls"},
+                    BadTable{HEADER "ball,1,1,2,3,4,5,6,0,0,0\n", "s.csv:2: expected index 0"},
                     BadTable{HEADER "particle,0,1,2,nan,4,5,6,0,0,0\n", "\"nan\" is not a finite number"},
                     BadTable{HEADER "particle,0,1,2,3x,4,5,6,0,0,0\n", "\"3x\" is not a finite number"},
                     BadTable{HEADER "particle,0,1,2,1e39,4,5,6,0,0,0\n", "of single precision"}));
