@@ -18,6 +18,8 @@
 #define BINDING_SPRING_START 1  // uint[particles + 1], in the quantity kernel only
 #define BINDING_SPRING_ENDS 2   // uvec2[2 · springs]: neighbour, class
 #define BINDING_SPRING_CLASSES 3
+#define BINDING_BALLS 0   // Ball[], in the balls' kernel only
+#define BINDING_TURNS 1   // vec4[balls]: unit quaternions, from a ball's own frame to the world
 
 // Texture units.
 #define UNIT_GROUND 0
@@ -34,6 +36,8 @@
 #define ATTRIBUTE_VELOCITY 1
 #define ATTRIBUTE_NORMAL 2
 #define ATTRIBUTE_QUANTITY 3
+#define ATTRIBUTE_TURN 4    // of balls: unit quaternion
+#define ATTRIBUTE_COLOUR 5  // of balls: linear light
 
 // Uniforms outside blocks.
 #define LOCATION_COUNT 0
@@ -45,6 +49,8 @@
 #define LOCATION_PLANE_NORMAL 5
 #define LOCATION_SPHERE 6         // centre, radius
 #define LOCATION_SIDE 7
+#define LOCATION_FIRST 8          // item of the first ball
+#define LOCATION_ELAPSED 9        // since the picture before [s]
 
 // Lights that the bodies keep off: the sun, and the sky straight above.
 #define LIGHT_SUN 0

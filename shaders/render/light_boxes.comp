@@ -1,4 +1,4 @@
-// The map of each light, from the box of the particles: one invocation per light.
+// The map of each light, from the box of the bodies: one invocation per light.
 #include "render/layout.glsl"
 #include "render/bounds.glsl"
 #include "compute/dispatch.glsl"
@@ -13,7 +13,7 @@ void main() {
   if (light >= uint(LIGHTS)) return;
   vec3 lower = decoded(bounds[light].lower.xyz);
   vec3 upper = decoded(bounds[light].upper.xyz);
-  if (particle_count == 0u) lower = upper = vec3(0.0);
+  if (bounds[light].lower.x > bounds[light].upper.x) lower = upper = vec3(0.0);  // nothing there
   vec3 size = upper - lower;
   // Room for penumbras, which are wider for the sky.
   float margin = light == uint(LIGHT_SKY) ? 0.85 : 0.65;

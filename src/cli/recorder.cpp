@@ -92,22 +92,22 @@ Status Recorder::draw(Solver& solver, std::uint64_t step) {
     if (const Status handed = hand_on(); !handed) return handed;
   }
   const Stopwatch watch(times_.draw);
-  const gl::Buffer* particles = nullptr;
+  DeviceState drawn_state;
   if (const auto* gpu = dynamic_cast<const GpuSolver*>(&solver); gpu && !own_context_) {
-    particles = &gpu->particles();
+    drawn_state = {&gpu->particles(), &gpu->balls(), gpu->first_ball(), step};
   } else {
     const auto state = solver.state();
     if (!state) return state.error();
     const auto uploaded = renderer_->upload(*state);
     if (!uploaded) return uploaded.error();
-    particles = *uploaded;
+    drawn_state = *uploaded;
   }
   aspic::PictureOptions picture;
   picture.view = scene_.view;
   picture.legend = options_.text;
   if (options_.text)
     picture.text = overlay_lines(scene_.model, static_cast<double>(step) * model_.simulation.timestep);
-  const Status drawn = renderer_->draw(options_.size.width, options_.size.height, *particles, picture);
+  const Status drawn = renderer_->draw(options_.size.width, options_.size.height, drawn_state, picture);
   if (!drawn) return drawn;
   ring_->submit(renderer_->picture());
   last_shown_ = step;

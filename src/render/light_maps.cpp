@@ -30,6 +30,14 @@ bool draws(const DrawSettings& draw, SpringType type) {
   return false;
 }
 
+bool draws_as_cord(const DrawSettings& draw, const SpringRun& run) {
+  return run.net && draw.solid && !draw.structural && run.constants.type == SpringType::structural;
+}
+
+bool draws_balls(const DrawSettings& draw) {
+  return draw.solid || draw.particles;
+}
+
 Result<LightMaps> LightMaps::create(gl::Context& context) {
   LightMaps result;
   for (int light = 0; light < LIGHTS; ++light) {
@@ -43,7 +51,7 @@ Result<LightMaps> LightMaps::create(gl::Context& context) {
   return result;
 }
 
-void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model, const gl::Buffer& particles,
+void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model, const DeviceState& state,
                        const DrawSettings& draw) {
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_LIGHT_BOXES, model.light_boxes().id());
   glEnable(GL_DEPTH_TEST);
@@ -51,9 +59,9 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
   glDepthFunc(GL_LESS);
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
-  const gl::VertexArray skin = model.skin_array(particles);
-  const gl::VertexArray points = model.particle_array(particles);
-  const gl::VertexArray lines = model.spring_array(particles);
+  const gl::VertexArray skin = model.skin_array(*state.particles);
+  const gl::VertexArray points = model.particle_array(*state.particles);
+  const gl::VertexArray lines = model.spring_array(*state.particles);
   for (int light = 0; light < LIGHTS; ++light) {
     DrawableImage& map = maps_[static_cast<std::size_t>(light)];
     map.framebuffer.bind();
@@ -67,6 +75,8 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{part.first_index}));
     }
+    if (draw.solid) model.posts().draw_into_light(programs, light);
+    if (draws_balls(draw)) model.balls().draw_into_light(programs, state, light);
     if (draw.particles) {
       programs.light_particles.set(LOCATION_LIGHT, light);
       programs.light_particles.set(LOCATION_RADIUS, static_cast<float>(particle_radius(model.spacing())));

@@ -12,8 +12,13 @@ namespace aspic {
 double particle_radius(double spacing);
 /// Radius that springs of a type are drawn with [m].
 double spring_radius(double spacing, SpringType type);
-/// Whether springs of the type are drawn.
+/// Whether springs of the type are drawn in their type's manner.
 bool draws(const DrawSettings& draw, SpringType type);
+/// Whether the run is drawn as the cords of a goal net, which take the place of a surface: structural springs,
+/// unless they are drawn as such.
+bool draws_as_cord(const DrawSettings& draw, const SpringRun& run);
+/// Whether balls are drawn: among surfaces, and among particles.
+bool draws_balls(const DrawSettings& draw);
 
 class LightMaps {
  public:
@@ -22,7 +27,7 @@ class LightMaps {
 
   /// Draws what `draw` shows of the bodies into both maps. The frame block must be bound; binds the bounds'
   /// block and both maps to their places.
-  void render(const RenderPrograms& programs, const ModelBuffers& model, const gl::Buffer& particles,
+  void render(const RenderPrograms& programs, const ModelBuffers& model, const DeviceState& state,
               const DrawSettings& draw);
 
  private:

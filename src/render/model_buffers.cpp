@@ -44,9 +44,12 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
   for (const Spring& s : model.springs) count[s.spring_class] += 2;
   std::uint32_t first = 0;
   for (std::size_t c = 0; c < count.size(); ++c) {
-    runs.push_back({model.spring_classes[c], first, count[c]});
+    runs.push_back({model.spring_classes[c], false, first, count[c]});
     first += count[c];
   }
+  for (const Body& body : model.bodies)
+    for (std::uint32_t c = 0; c < body.class_count; ++c)
+      runs[body.first_class + c].net = body.kind == BodyKind::goal_net;
   std::vector<std::uint32_t> next;
   for (const SpringRun& run : runs) next.push_back(run.first_index);
   std::vector<std::uint32_t> pairs(first);
@@ -98,6 +101,12 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   fill(b.bounds_, "light bounds", std::vector<render_layout::Bounds>(LIGHTS));
   fill(b.light_boxes_, "light boxes", std::vector<render_layout::LightBox>(LIGHTS));
   if (!status) return status.error();
+  auto balls = BallBuffers::create(context, model);
+  if (!balls) return balls.error();
+  b.balls_ = std::move(*balls);
+  auto posts = GoalPosts::create(context, model);
+  if (!posts) return posts.error();
+  b.posts_ = std::move(*posts);
   return b;
 }
 
@@ -145,13 +154,14 @@ void ModelBuffers::compute_quantity(const RenderPrograms& programs, const gl::Bu
       .dispatch_for(particle_count_);
 }
 
-void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const gl::Buffer& particles) {
+void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const DeviceState& state) {
   std::array<render_layout::Bounds, LIGHTS> empty;
   empty.fill({glm::uvec4(0xffffffffu), glm::uvec4(0u)});
   bounds_.upload_items(std::span<const render_layout::Bounds>(empty));
-  gl::Pass(programs.bounds, {{BINDING_PARTICLES, &particles}, {BINDING_BOUNDS, &bounds_}},
+  gl::Pass(programs.bounds, {{BINDING_PARTICLES, state.particles}, {BINDING_BOUNDS, &bounds_}},
            Reader::compute_pass | Reader::copy)
       .dispatch_for(particle_count_);
+  balls_->prepare(programs, state, bounds_);
   gl::Pass(programs.light_boxes, {{BINDING_BOUNDS, &bounds_}, {BINDING_LIGHT_BOXES_OUT, &light_boxes_}},
            Reader::uniform)
       .dispatch_for(LIGHTS);

@@ -1,6 +1,7 @@
 #pragma once
 // What drawing needs of a model on the device, and what is derived from its particles for each picture.
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/result.h"
@@ -8,6 +9,9 @@
 #include "gpu/vertex_array.h"
 #include "model/model.h"
 #include "model/state.h"
+#include "render/ball_buffers.h"
+#include "render/device_state.h"
+#include "render/goal_posts.h"
 #include "render/layout.h"
 #include "render/programs.h"
 #include "render/surface.h"
@@ -21,6 +25,7 @@ inline constexpr std::uint32_t particle_stride = 32;
 /// Springs of one class, as a run of index pairs.
 struct SpringRun {
   SpringClass constants;
+  bool net = false;  ///< of a goal net
   std::uint32_t first_index = 0, index_count = 0;
 };
 
@@ -37,8 +42,9 @@ class ModelBuffers {
   void compute_normals(const RenderPrograms& programs, const gl::Buffer& particles);
   /// The coloured quantity of each particle; the frame block must be bound.
   void compute_quantity(const RenderPrograms& programs, const gl::Buffer& particles);
-  /// The map of each light, fitted to the particles; the frame block must be bound.
-  void compute_light_boxes(const RenderPrograms& programs, const gl::Buffer& particles);
+  /// The map of each light, fitted to particles and balls, and the turn of each ball; the frame block must be
+  /// bound.
+  void compute_light_boxes(const RenderPrograms& programs, const DeviceState& state);
 
   /// Inputs of the skin's, the particles' and the springs' shaders.
   gl::VertexArray skin_array(const gl::Buffer& particles) const { return array(particles, &skin_indices_); }
@@ -50,6 +56,8 @@ class ModelBuffers {
   std::uint32_t particle_count() const { return particle_count_; }
   const std::vector<Surface::Part>& parts() const { return parts_; }
   bool has_skin() const { return skin_vertices_ > 0; }
+  const BallBuffers& balls() const { return *balls_; }
+  const GoalPosts& posts() const { return *posts_; }
   const std::vector<SpringRun>& springs() const { return springs_; }
   /// Typical distance between neighbours [m]; 1 without springs.
   double spacing() const { return spacing_; }
@@ -64,6 +72,8 @@ class ModelBuffers {
   std::uint32_t particle_count_ = 0, skin_vertices_ = 0;
   double spacing_ = 1.0;
   std::vector<Surface::Part> parts_;
+  std::optional<BallBuffers> balls_;
+  std::optional<GoalPosts> posts_;
   std::vector<SpringRun> springs_;
   gl::Buffer skin_indices_, fan_vertex_, fan_start_, fan_;
   gl::Buffer spring_indices_, spring_start_, spring_ends_, spring_classes_;

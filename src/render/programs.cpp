@@ -23,6 +23,7 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   const gl::Define shadowed_plane[] = {{"PLANE", "1"}, {"SHADOWED_PLANE", "1"}};
 
   kernel(p.bounds, "render/bounds.comp");
+  kernel(p.balls_turn, "render/balls.comp");
   kernel(p.light_boxes, "render/light_boxes.comp");
   kernel(p.normals, "render/normals.comp");
   kernel(p.quantity, "render/quantity.comp");
@@ -31,11 +32,15 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
           {"render/light_points.vert", "render/light_points.frag", "render/light_points.geom"});
   drawing(p.light_springs,
           {"render/light_points.vert", "render/light_points.frag", "render/light_springs.geom"});
+  drawing(p.light_balls,
+          {"render/light_balls.vert", "render/light_points.frag", "render/light_points.geom"});
   drawing(p.thickness, {"render/thickness.vert", "render/thickness.frag"});
   drawing(p.jelly_far, {"render/jelly.vert", "render/jelly_far.frag"});
   drawing(p.jelly, {"render/jelly.vert", "render/jelly.frag"});
   drawing(p.particles, {"render/particles.vert", "render/particles.frag", "render/particles.geom"});
   drawing(p.springs, {"render/springs.vert", "render/springs.frag", "render/springs.geom"});
+  drawing(p.balls, {"render/balls.vert", "render/balls.frag", "render/balls.geom"});
+  drawing(p.posts, {"render/posts.vert", "render/posts.frag"});
   drawing(p.plane, {"render/terrain.vert", "render/terrain.frag"}, plane);
   drawing(p.shadowed_plane, {"render/terrain.vert", "render/terrain.frag"}, shadowed_plane);
   drawing(p.sphere, {"render/terrain.vert", "render/terrain.frag"});

@@ -6,9 +6,9 @@
 namespace aspic {
 
 struct RenderPrograms {
-  gl::Program bounds, light_boxes, normals, quantity;           ///< kernels
-  gl::Program light_surface, light_particles, light_springs;    ///< into light maps
-  gl::Program thickness, jelly_far, jelly, particles, springs;  ///< bodies
+  gl::Program bounds, balls_turn, light_boxes, normals, quantity;  ///< kernels
+  gl::Program light_surface, light_particles, light_springs, light_balls;  ///< into light maps
+  gl::Program thickness, jelly_far, jelly, particles, springs, balls, posts;  ///< bodies
   gl::Program plane, shadowed_plane, sphere, glass, sky;        ///< surroundings
   gl::Program present;                                          ///< into a window
 

@@ -35,6 +35,9 @@ glm::vec3 sun_over(const std::vector<Terrain>& terrain) {
 /// The walls of a translucent body that face away from the eye, or towards it.
 enum class JellySide { far, near };
 
+/// Cords of goal nets.
+constexpr Colour net_colour = {0.78f, 0.79f, 0.80f};
+
 /// How deep light reaches into a body [m], as a share of its size.
 constexpr double reach_share = 0.30;
 
@@ -82,15 +85,15 @@ struct Renderer::Parts {
   std::optional<PictureTargets> targets;
   const Model* model = nullptr;
   std::optional<ModelBuffers> buffers;
-  gl::Buffer uploaded;
+  gl::Buffer uploaded, uploaded_balls;
 
   Status prepare_targets(int width, int height);
   void write_frame(const PictureOptions& options, const Camera& camera, int width, int height,
                    const QuantityRange& range);
-  void prepare_light(const gl::Buffer& particles, const PictureOptions& options);
+  void prepare_light(const DeviceState& state, const PictureOptions& options);
   void draw_thickness(const gl::Buffer& particles) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
-  void draw_springs(const gl::Buffer& particles, const DrawSettings& draw) const;
+  void draw_springs(const gl::Buffer& particles, const DrawSettings& draw, ViewColour mode) const;
   void draw_jelly(const gl::Buffer& particles, const ViewSettings& view, JellySide side) const;
 };
 
@@ -131,11 +134,13 @@ Status Renderer::set_model(const Model& model) {
   return {};
 }
 
-Result<const gl::Buffer*> Renderer::upload(const State& state) {
-  assert(parts_->model);
-  const Status status = ModelBuffers::upload(*parts_->context, *parts_->model, state, parts_->uploaded);
+Result<DeviceState> Renderer::upload(const State& state) {
+  Parts& p = *parts_;
+  assert(p.model);
+  Status status = ModelBuffers::upload(*p.context, *p.model, state, p.uploaded);
+  if (status) status = BallBuffers::upload(*p.context, *p.model, state, p.uploaded_balls);
   if (!status) return status.error();
-  return static_cast<const gl::Buffer*>(&parts_->uploaded);
+  return DeviceState{&p.uploaded, &p.uploaded_balls, 0, state.step};
 }
 
 Status Renderer::Parts::prepare_targets(int width, int height) {
@@ -170,7 +175,7 @@ void Renderer::Parts::write_frame(const PictureOptions& options, const Camera& c
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
   block.viewport = glm::vec4(w, h, 1.0f / w, 1.0f / h);
   const Colour tint = options.view.colour == ViewColour::material ? body_colour(0) : neutral_body_colour();
-  const bool solid = options.view.draw.solid;
+  const bool solid = options.view.draw.solid && buffers->has_skin();
   for (std::size_t i = 0; i < 3; ++i)
     block.shadow_tint[static_cast<int>(i)] = solid ? 0.10f + 0.22f * tint[i] : 0.15f;
   const double width_of_range = range[1] - range[0];
@@ -202,11 +207,12 @@ void Renderer::Parts::write_frame(const PictureOptions& options, const Camera& c
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
 }
 
-void Renderer::Parts::prepare_light(const gl::Buffer& particles, const PictureOptions& options) {
-  buffers->compute_light_boxes(programs, particles);
+void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
+  const gl::Buffer& particles = *state.particles;
+  buffers->compute_light_boxes(programs, state);
   if (options.view.draw.solid && buffers->has_skin()) buffers->compute_normals(programs, particles);
   if (options.view.colour >= ViewColour::strain) buffers->compute_quantity(programs, particles);
-  lights.render(programs, *buffers, particles, options.view.draw);
+  lights.render(programs, *buffers, state, options.view.draw);
 }
 
 void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
@@ -238,15 +244,17 @@ void Renderer::Parts::draw_particles(const gl::Buffer& particles, const DrawSett
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
-void Renderer::Parts::draw_springs(const gl::Buffer& particles, const DrawSettings& draw) const {
-  if (!shows_springs(draw)) return;
+void Renderer::Parts::draw_springs(const gl::Buffer& particles, const DrawSettings& draw,
+                                   ViewColour mode) const {
   glUseProgram(programs.springs.id());
   const gl::VertexArray lines = buffers->spring_array(particles);
   lines.bind();
   for (const SpringRun& run : buffers->springs()) {
     const SpringClass& c = run.constants;
-    if (!draws(draw, c.type) || run.index_count == 0) continue;
-    programs.springs.set(LOCATION_BASE_COLOUR, with(spring_colour(c.type), 1.0));
+    const bool cord = draws_as_cord(draw, run);
+    if (!(cord || draws(draw, c.type)) || run.index_count == 0) continue;
+    const Colour colour = cord && mode != ViewColour::type ? net_colour : spring_colour(c.type);
+    programs.springs.set(LOCATION_BASE_COLOUR, with(colour, 1.0));
     programs.springs.set(LOCATION_SPRING,
                          std::array{static_cast<float>(c.stiffness), static_cast<float>(c.damping),
                                     static_cast<float>(c.rest_length), c.cord ? 1.0f : 0.0f});
@@ -285,9 +293,11 @@ void Renderer::Parts::draw_jelly(const gl::Buffer& particles, const ViewSettings
   glDisable(GL_CULL_FACE);
 }
 
-Status Renderer::draw(int width, int height, const gl::Buffer& particles, const PictureOptions& options) {
+Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
   Parts& p = *parts_;
-  assert(p.model && particles.bytes() >= std::uint64_t{particle_stride} * p.model->particle_count());
+  assert(p.model && state.particles);
+  const gl::Buffer& particles = *state.particles;
+  assert(particles.bytes() >= std::uint64_t{particle_stride} * p.model->particle_count());
   const Status ready = p.prepare_targets(width, height);
   if (!ready) return ready;
   const ViewSettings& view = options.view;
@@ -298,7 +308,7 @@ Status Renderer::draw(int width, int height, const gl::Buffer& particles, const 
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::Reader::compute_pass | gl::Reader::vertex_draw);
   p.write_frame(options, camera, width, height, range);
-  p.prepare_light(particles, options);
+  p.prepare_light(state, options);
   glEnable(GL_FRAMEBUFFER_SRGB);
   if (solid) p.draw_thickness(particles);
 
@@ -308,7 +318,9 @@ Status Renderer::draw(int width, int height, const gl::Buffer& particles, const 
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
   p.terrain.draw_solid(p.programs, p.model->terrain, view.camera, camera);
-  p.draw_springs(particles, view.draw);
+  if (view.draw.solid) p.buffers->posts().draw(p.programs);
+  if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
+  p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
   // Last of what is opaque: only where nothing else stands.
   p.nothing.bind();

@@ -12,6 +12,7 @@
 #include "model/model.h"
 #include "model/state.h"
 #include "render/camera.h"
+#include "render/device_state.h"
 #include "render/overlay.h"
 #include "render/quantity.h"
 #include "scene/view_settings.h"
@@ -46,15 +47,15 @@ class Renderer {
   /// Error (scene_rejected): no device memory for it.
   Status set_model(const Model& model);
 
-  /// Copies a state of the model to the device, for solvers that do not live there, and returns its buffer,
-  /// valid until the next call. The state has as many particles as the model.
+  /// Copies a state of the model to the device, for solvers that do not live there, and returns where it lies,
+  /// valid until the next call. The state has as many particles and balls as the model.
   /// Error (scene_rejected): no device memory.
-  Result<const gl::Buffer*> upload(const State& state);
+  Result<DeviceState> upload(const State& state);
 
-  /// Draws width × height pixels. `particles` holds the model's particles, 32 bytes each: position and
-  /// inverse mass, velocity and mass (GpuSolver::particles() is such a buffer). Legal after set_model. Error:
+  /// Draws width × height pixels of a state of the model. Balls appear turned by what they have rotated since
+  /// the model was set, as far as the pictures drawn since then tell. Legal after set_model. Error:
   /// scene_rejected or no_device, a picture of this size cannot be made.
-  Status draw(int width, int height, const gl::Buffer& particles, const PictureOptions& options);
+  Status draw(int width, int height, const DeviceState& state, const PictureOptions& options);
 
   /// The picture last drawn: one sample, sRGB encoded values. Legal after draw().
   const gl::Framebuffer& picture() const;

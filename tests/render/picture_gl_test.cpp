@@ -125,10 +125,10 @@ TEST_F(Picture, GpuSolverIsDrawnFromItsOwnBuffer) {
   const test::Image from_state = draw(model, initial_state(model, Precision::single), options, width, height);
   auto solver = make_gpu_solver(context(), model);
   ASSERT_TRUE(solver.ok()) << solver.error().message;
-  ASSERT_TRUE(renderer().draw(width, height, (*solver)->particles(), options).ok());
+  ASSERT_TRUE(renderer().draw(width, height, {&(*solver)->particles()}, options).ok());
   EXPECT_EQ(read(), from_state.rgb);
   ASSERT_TRUE((*solver)->advance(300).ok());
-  ASSERT_TRUE(renderer().draw(width, height, (*solver)->particles(), options).ok());
+  ASSERT_TRUE(renderer().draw(width, height, {&(*solver)->particles()}, options).ok());
   const auto moved = read();
   EXPECT_NE(moved, from_state.rgb);
   const auto state = (*solver)->state();
@@ -216,7 +216,7 @@ TEST_F(Picture, TooLargeIsRefusedWithASentence) {
   const Model model = test::build(test::cube_on_plane(3));
   ASSERT_TRUE(renderer().set_model(model).ok());
   const auto particles = renderer().upload(initial_state(model, Precision::single));
-  const Status drawn = renderer().draw(1 << 20, 16, **particles, {});
+  const Status drawn = renderer().draw(1 << 20, 16, *particles, {});
   ASSERT_FALSE(drawn.ok());
   EXPECT_NE(drawn.error().message.find("1048576 x 16"), std::string::npos) << drawn.error().message;
 }

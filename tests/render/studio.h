@@ -30,9 +30,9 @@ class Studio : public testing::GlTest {
     Image image{width, height, {}};
     const Status taken = renderer_->set_model(model);
     EXPECT_TRUE(taken.ok());
-    const auto particles = renderer_->upload(state);
-    EXPECT_TRUE(particles.ok());
-    const Status drawn = renderer_->draw(width, height, **particles, options);
+    const auto uploaded = renderer_->upload(state);
+    EXPECT_TRUE(uploaded.ok());
+    const Status drawn = renderer_->draw(width, height, *uploaded, options);
     EXPECT_TRUE(drawn.ok()) << (drawn.ok() ? "" : drawn.error().message);
     image.rgb = read();
     return image;

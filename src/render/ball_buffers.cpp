@@ -1,0 +1,119 @@
+#include "render/ball_buffers.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <vector>
+
+#include "gpu/pass.h"
+#include "render/colour_map.h"
+#include "render/layout.h"
+
+namespace aspic {
+namespace {
+
+using gl::Reader;
+using Four = std::array<float, 4>;
+
+std::vector<Four> unturned(std::uint32_t count) {
+  return std::vector<Four>(count, Four{0.0f, 0.0f, 0.0f, 1.0f});
+}
+
+/// White where they are footballs; else each a hue of its own, after those of the bodies.
+std::vector<Four> colours_of(const Model& model) {
+  const bool football = std::ranges::any_of(
+      model.bodies, [](const Body& body) { return body.kind == BodyKind::goal_net; });
+  std::vector<Four> colours;
+  for (std::size_t i = 0; i < model.balls.size(); ++i) {
+    const Colour c = football ? Colour{0.86f, 0.86f, 0.84f} : body_colour(model.bodies.size() + i);
+    colours.push_back({c[0], c[1], c[2], 1.0f});
+  }
+  return colours;
+}
+
+}  // namespace
+
+Result<BallBuffers> BallBuffers::create(gl::Context& context, const Model& model) {
+  BallBuffers b;
+  b.count_ = model.ball_count();
+  b.timestep_ = model.simulation.timestep;
+  auto turns = gl::Buffer::of(context, "turns of balls", std::span<const Four>(unturned(b.count_)));
+  if (!turns) return turns.error();
+  b.turns_ = std::move(*turns);
+  auto colours = gl::Buffer::of(context, "colours of balls", std::span<const Four>(colours_of(model)));
+  if (!colours) return colours.error();
+  b.colours_ = std::move(*colours);
+  return b;
+}
+
+Status BallBuffers::upload(gl::Context& context, const Model& model, const State& state, gl::Buffer& balls) {
+  assert(state.ball_position.size() == model.ball_count());
+  std::vector<std::array<float, 16>> items(model.ball_count());
+  const auto narrow = [](double v) { return static_cast<float>(v); };
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Ball& ball = model.balls[i];
+    const Vec3 &x = state.ball_position[i], &v = state.ball_velocity[i], &w = state.ball_angular_velocity[i];
+    const double inverse_mass = ball.launched(state.step) ? 1.0 / ball.mass : 0.0;
+    items[i] = {narrow(x.x), narrow(x.y), narrow(x.z), narrow(ball.radius),
+                narrow(v.x), narrow(v.y), narrow(v.z), narrow(inverse_mass),
+                narrow(w.x), narrow(w.y), narrow(w.z)};
+  }
+  const std::uint64_t bytes = std::uint64_t{ball_stride} * items.size();
+  if (balls.id() == 0 || balls.bytes() < bytes) {
+    auto made = gl::Buffer::create(context, "balls to draw", bytes);
+    if (!made) return made.error();
+    balls = std::move(*made);
+  }
+  balls.upload_items(std::span<const std::array<float, 16>>(items));
+  return {};
+}
+
+void BallBuffers::prepare(const RenderPrograms& programs, const DeviceState& state,
+                          const gl::Buffer& bounds) {
+  if (!shows(state)) return;
+  const bool back = turned_to_ && state.step < *turned_to_;
+  if (back) turns_.upload_items(std::span<const Four>(unturned(count_)));
+  const std::uint64_t steps = turned_to_ && !back ? state.step - *turned_to_ : 0;
+  turned_to_ = state.step;
+  programs.balls_turn.set(LOCATION_COUNT, count_);
+  programs.balls_turn.set(LOCATION_FIRST, state.first_ball);
+  programs.balls_turn.set(LOCATION_ELAPSED, static_cast<float>(static_cast<double>(steps) * timestep_));
+  gl::Pass(programs.balls_turn,
+           {{BINDING_BALLS, state.balls}, {BINDING_TURNS, &turns_}, {BINDING_BOUNDS, &bounds}},
+           Reader::compute_pass | Reader::vertex_draw | Reader::read_back | Reader::copy)
+      .dispatch_for(count_);
+}
+
+void BallBuffers::draw(const RenderPrograms& programs, const DeviceState& state) const {
+  if (!shows(state)) return;
+  glUseProgram(programs.balls.id());
+  const gl::VertexArray points = array(state);
+  points.bind();
+  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count_));
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+}
+
+void BallBuffers::draw_into_light(const RenderPrograms& programs, const DeviceState& state,
+                                  int light) const {
+  if (!shows(state)) return;
+  programs.light_balls.set(LOCATION_LIGHT, light);
+  programs.light_balls.set(LOCATION_RADIUS, 1.0f);
+  glUseProgram(programs.light_balls.id());
+  const gl::VertexArray points = array(state);
+  points.bind();
+  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count_));
+}
+
+gl::VertexArray BallBuffers::array(const DeviceState& state) const {
+  const std::uint32_t first = ball_stride * state.first_ball;
+  const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, state.balls, 4, ball_stride, first},
+                                      {ATTRIBUTE_VELOCITY, state.balls, 4, ball_stride, first + 16},
+                                      {ATTRIBUTE_TURN, &turns_, 4, 16, 0},
+                                      {ATTRIBUTE_COLOUR, &colours_, 4, 16, 0}};
+  return gl::VertexArray::create(attributes);
+}
+
+}  // namespace aspic

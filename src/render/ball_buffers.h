@@ -1,0 +1,55 @@
+#pragma once
+// What drawing needs of a model's balls, and how far each has turned.
+#include <cstdint>
+#include <optional>
+
+#include "base/result.h"
+#include "gpu/buffer.h"
+#include "gpu/context.h"
+#include "gpu/vertex_array.h"
+#include "model/model.h"
+#include "model/state.h"
+#include "render/device_state.h"
+#include "render/programs.h"
+
+namespace aspic {
+
+/// Bytes from one ball to the next in a ball buffer (shaders/render/ball.glsl).
+inline constexpr std::uint32_t ball_stride = 64;
+
+/// Buffers of one model's balls. Their context must outlive them and be current. A state does not say how a
+/// ball is turned, only how fast it turns: from picture to picture each is turned by the angular velocity it
+/// has in the later one, from the frame it started in. Nothing but the picture depends on it.
+class BallBuffers {
+ public:
+  /// Error (scene_rejected): no device memory.
+  static Result<BallBuffers> create(gl::Context& context, const Model& model);
+
+  /// Fills `balls` (made or made larger as needed) with a state, as a solver would hold it.
+  static Status upload(gl::Context& context, const Model& model, const State& state, gl::Buffer& balls);
+
+  /// Turns the balls to where they are at state.step, and adds those in sight to the box of each light. Going
+  /// back in time starts anew, from no turn at all. The frame block must be bound.
+  void prepare(const RenderPrograms& programs, const DeviceState& state, const gl::Buffer& bounds);
+
+  /// Draws what has been launched, lit; light maps must be in their places.
+  void draw(const RenderPrograms& programs, const DeviceState& state) const;
+  /// Draws what has been launched into the map of a light.
+  void draw_into_light(const RenderPrograms& programs, const DeviceState& state, int light) const;
+
+  std::uint32_t count() const { return count_; }
+  /// Each ball's unit quaternion x, y, z, w, from its own frame to the world.
+  const gl::Buffer& turns() const { return turns_; }
+
+ private:
+  BallBuffers() = default;
+  bool shows(const DeviceState& state) const { return count_ > 0 && state.balls && state.balls->id() != 0; }
+  gl::VertexArray array(const DeviceState& state) const;
+
+  std::uint32_t count_ = 0;
+  double timestep_ = 0.0;
+  std::optional<std::uint64_t> turned_to_;
+  gl::Buffer turns_, colours_;
+};
+
+}  // namespace aspic
