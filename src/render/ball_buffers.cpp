@@ -23,8 +23,8 @@ std::vector<Four> unturned(std::uint32_t count) {
 
 /// White where they are footballs; else each a hue of its own, after those of the bodies.
 std::vector<Four> colours_of(const Model& model) {
-  const bool football = std::ranges::any_of(
-      model.bodies, [](const Body& body) { return body.kind == BodyKind::goal_net; });
+  const bool football =
+      std::ranges::any_of(model.bodies, [](const Body& body) { return body.kind == BodyKind::goal_net; });
   std::vector<Four> colours;
   for (std::size_t i = 0; i < model.balls.size(); ++i) {
     const Colour c = football ? Colour{0.86f, 0.86f, 0.84f} : body_colour(model.bodies.size() + i);
@@ -56,9 +56,8 @@ Status BallBuffers::upload(gl::Context& context, const Model& model, const State
     const Ball& ball = model.balls[i];
     const Vec3 &x = state.ball_position[i], &v = state.ball_velocity[i], &w = state.ball_angular_velocity[i];
     const double inverse_mass = ball.launched(state.step) ? 1.0 / ball.mass : 0.0;
-    items[i] = {narrow(x.x), narrow(x.y), narrow(x.z), narrow(ball.radius),
-                narrow(v.x), narrow(v.y), narrow(v.z), narrow(inverse_mass),
-                narrow(w.x), narrow(w.y), narrow(w.z)};
+    items[i] = {narrow(x.x), narrow(x.y),          narrow(x.z), narrow(ball.radius), narrow(v.x), narrow(v.y),
+                narrow(v.z), narrow(inverse_mass), narrow(w.x), narrow(w.y),         narrow(w.z)};
   }
   const std::uint64_t bytes = std::uint64_t{ball_stride} * items.size();
   if (balls.id() == 0 || balls.bytes() < bytes) {
@@ -96,8 +95,7 @@ void BallBuffers::draw(const RenderPrograms& programs, const DeviceState& state)
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
-void BallBuffers::draw_into_light(const RenderPrograms& programs, const DeviceState& state,
-                                  int light) const {
+void BallBuffers::draw_into_light(const RenderPrograms& programs, const DeviceState& state, int light) const {
   if (!shows(state)) return;
   programs.light_balls.set(LOCATION_LIGHT, light);
   programs.light_balls.set(LOCATION_RADIUS, 1.0f);

@@ -108,7 +108,7 @@ void GoalPosts::draw_triangles() const {
 
 void GoalPosts::draw(const RenderPrograms& programs) const {
   if (index_count_ == 0) return;
-  programs.posts.set(LOCATION_BASE_COLOUR, std::array{0.88f, 0.88f, 0.88f, 1.0f});
+  programs.posts.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
   glUseProgram(programs.posts.id());
   draw_triangles();
 }

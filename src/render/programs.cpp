@@ -32,8 +32,7 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
           {"render/light_points.vert", "render/light_points.frag", "render/light_points.geom"});
   drawing(p.light_springs,
           {"render/light_points.vert", "render/light_points.frag", "render/light_springs.geom"});
-  drawing(p.light_balls,
-          {"render/light_balls.vert", "render/light_points.frag", "render/light_points.geom"});
+  drawing(p.light_balls, {"render/light_balls.vert", "render/light_points.frag", "render/light_points.geom"});
   drawing(p.thickness, {"render/thickness.vert", "render/thickness.frag"});
   drawing(p.jelly_far, {"render/jelly.vert", "render/jelly_far.frag"});
   drawing(p.jelly, {"render/jelly.vert", "render/jelly.frag"});

@@ -36,7 +36,7 @@ glm::vec3 sun_over(const std::vector<Terrain>& terrain) {
 enum class JellySide { far, near };
 
 /// Cords of goal nets.
-constexpr Colour net_colour = {0.78f, 0.79f, 0.80f};
+constexpr Colour net_colour = {0.98f, 0.98f, 0.98f};
 
 /// How deep light reaches into a body [m], as a share of its size.
 constexpr double reach_share = 0.30;

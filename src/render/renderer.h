@@ -47,9 +47,9 @@ class Renderer {
   /// Error (scene_rejected): no device memory for it.
   Status set_model(const Model& model);
 
-  /// Copies a state of the model to the device, for solvers that do not live there, and returns where it lies,
-  /// valid until the next call. The state has as many particles and balls as the model.
-  /// Error (scene_rejected): no device memory.
+  /// Copies a state of the model to the device, for solvers that do not live there, and returns where it
+  /// lies, valid until the next call. The state has as many particles and balls as the model. Error
+  /// (scene_rejected): no device memory.
   Result<DeviceState> upload(const State& state);
 
   /// Draws width × height pixels of a state of the model. Balls appear turned by what they have rotated since

@@ -1,0 +1,141 @@
+// Balls stand where a state says, once they are launched, and turn from picture to picture.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gpu_solver/gpu_solver.h"
+#include "render/studio.h"
+
+namespace aspic {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+class Balls : public test::Studio {
+ protected:
+  static constexpr int width = 160, height = 120;
+
+  /// A ball in empty space that floats and turns once in 1000 steps.
+  static ModelSettings spinning_ball() {
+    ModelSettings settings;
+    settings.simulation.gravity = {};
+    BallSettings ball;
+    ball.radius = 1.0;
+    ball.position = {0.5, 0.25, 0.0};
+    ball.velocity = {};
+    ball.angular_velocity = {0.0, 2.0 * pi / (1000.0 * settings.simulation.timestep), 0.0};
+    settings.balls.push_back(ball);
+    return settings;
+  }
+  static PictureOptions plain() {
+    PictureOptions options;
+    options.view.camera.position = {0.0, 0.0, 8.0};
+    options.view.camera.target = {0.0, 0.0, 0.0};
+    options.legend = false;
+    return options;
+  }
+  test::Image next(const State& state) {
+    const auto uploaded = renderer().upload(state);
+    EXPECT_TRUE(uploaded.ok());
+    EXPECT_TRUE(renderer().draw(width, height, *uploaded, plain()).ok());
+    return {width, height, read()};
+  }
+  static int different(const test::Image& a, const test::Image& b) {
+    int count = 0;
+    for (int y = 0; y < a.height; ++y) {
+      for (int x = 0; x < a.width; ++x) {
+        int sum = 0;
+        for (int c = 0; c < 3; ++c) sum += std::abs(a.channel(x, y, c) - b.channel(x, y, c));
+        count += sum > 24;
+      }
+    }
+    return count;
+  }
+};
+
+TEST_F(Balls, AreDiscsWhereTheStateSays) {
+  const Model model = test::build(spinning_ball());
+  PictureOptions empty = plain();
+  empty.view.draw = {.solid = false};
+  const State state = initial_state(model, Precision::single);
+  const test::Image background = draw(model, state, empty, width, height);
+  const test::Image image = draw(model, state, plain(), width, height);
+  const Camera camera(plain().view.camera, width, height);
+  // The outline is where sight lines touch the sphere.
+  const Vec3 eye = plain().view.camera.position, x = state.ball_position[0];
+  const double away = length(x - eye), sine = 1.0 / away;
+  const double outline = 1.0 * std::sqrt(1.0 - sine * sine);
+  const Vec3 towards = (1.0 / away) * (x - eye);
+  const Vec3 aside = cross(towards, {0.0, 1.0, 0.0});
+  const Vec3 touch = x - sine * towards;
+  const Vec3 right = (outline / length(aside)) * aside;
+  const auto seen = [&](const Vec3& at) {
+    const auto p = camera.project(at);
+    int sum = 0;
+    for (int c = 0; c < 3; ++c)
+      sum += std::abs(image.channel(static_cast<int>(p->x), static_cast<int>(p->y), c) -
+                      background.channel(static_cast<int>(p->x), static_cast<int>(p->y), c));
+    return sum > 24;
+  };
+  const double pixel = 2.0 * away * std::tan(22.5 * pi / 180.0) / height;
+  EXPECT_TRUE(seen(x));
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_TRUE(seen(touch + side * (1.0 - 2.0 * pixel) * right));
+    EXPECT_FALSE(seen(touch + side * (1.0 + 2.0 * pixel) * right));
+  }
+}
+
+TEST_F(Balls, WaitUnseenForTheirLaunch) {
+  Model model = test::build(spinning_ball());
+  State state = initial_state(model, Precision::single);
+  PictureOptions empty = plain();
+  empty.view.draw = {.solid = false};
+  const test::Image background = draw(model, state, empty, width, height);
+  model.balls[0].launch_step = 100;
+  state.step = 99;
+  EXPECT_EQ(draw(model, state, plain(), width, height).rgb, background.rgb);
+  state.step = 100;
+  EXPECT_GT(different(draw(model, state, plain(), width, height), background), 500);
+}
+
+TEST_F(Balls, TurnByTheirAngularVelocityBetweenPictures) {
+  const Model model = test::build(spinning_ball());
+  State state = initial_state(model, Precision::single);
+  const test::Image first = draw(model, state, plain(), width, height);
+  EXPECT_EQ(next(state).rgb, first.rgb);
+  state.step = 130;
+  EXPECT_GT(different(next(state), first), 50);
+  state.step = 480;
+  (void)next(state);
+  // After a whole turn in three strides every patch is back.
+  state.step = 1000;
+  EXPECT_EQ(different(next(state), first), 0);
+  state.step = 1130;
+  (void)next(state);
+  state.step = 0;  // the run starts anew
+  EXPECT_EQ(next(state).rgb, first.rgb);
+}
+
+TEST_F(Balls, OfTheGpuSolverAreDrawnFromItsOwnBuffer) {
+  ModelSettings settings = spinning_ball();
+  settings.simulation.gravity = {0.0, -9.8, 0.0};
+  settings.balls.push_back(settings.balls[0]);
+  settings.balls[1].position = {-1.0, 0.5, 0.5};
+  const Model model = test::build(settings);
+  auto solver = make_gpu_solver(context(), model);
+  ASSERT_TRUE(solver.ok()) << solver.error().message;
+  // An odd and an even number of steps: the state takes turns between slots.
+  for (const std::uint64_t steps : {std::uint64_t{0}, std::uint64_t{101}, std::uint64_t{101}}) {
+    ASSERT_TRUE((*solver)->advance(steps).ok());
+    const auto state = (*solver)->state();
+    ASSERT_TRUE(state.ok());
+    const test::Image from_state = draw(model, *state, plain(), width, height);
+    const DeviceState own = {&(*solver)->particles(), &(*solver)->balls(), (*solver)->first_ball(),
+                             state->step};
+    ASSERT_TRUE(renderer().draw(width, height, own, plain()).ok());
+    EXPECT_EQ(read(), from_state.rgb) << "at step " << state->step;
+  }
+}
+
+}  // namespace
+}  // namespace aspic
