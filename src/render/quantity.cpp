@@ -11,11 +11,13 @@ namespace {
 
 double fall_height(const Model& model) {
   double highest = 0.0;
-  for (const Vec3& x : model.initial_position) {
+  const auto add = [&](const Vec3& x) {
     double least = model.terrain.empty() ? 0.0 : 1e300;
     for (const Terrain& t : model.terrain) least = std::min(least, signed_distance(t, x));
     highest = std::max(highest, least);
-  }
+  };
+  for (const Vec3& x : model.initial_position) add(x);
+  for (const Ball& ball : model.balls) add(ball.initial_position);
   return highest;
 }
 
@@ -48,6 +50,7 @@ QuantityRange default_range(const Model& model, ViewColour colour) {
     case ViewColour::speed: {
       double fastest = std::sqrt(2.0 * length(model.simulation.gravity) * fall_height(model));
       for (const Vec3& v : model.initial_velocity) fastest = std::max(fastest, length(v));
+      for (const Ball& ball : model.balls) fastest = std::max(fastest, length(ball.initial_velocity));
       return {0.0, round_up(std::max(fastest, 1.0))};
     }
     case ViewColour::force: {

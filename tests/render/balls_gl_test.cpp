@@ -116,6 +116,14 @@ TEST_F(Balls, TurnByTheirAngularVelocityBetweenPictures) {
   EXPECT_EQ(next(state).rgb, first.rgb);
 }
 
+TEST_F(Balls, CountInTheRangeOfSpeed) {
+  ModelSettings settings = spinning_ball();
+  settings.balls[0].velocity = {-12.0, 9.0, 0.0};
+  const QuantityRange range = default_range(test::build(settings), ViewColour::speed);
+  EXPECT_EQ(range[0], 0.0);
+  EXPECT_EQ(range[1], 20.0);  // 15 m/s, rounded up
+}
+
 TEST_F(Balls, OfTheGpuSolverAreDrawnFromItsOwnBuffer) {
   ModelSettings settings = spinning_ball();
   settings.simulation.gravity = {0.0, -9.8, 0.0};
