@@ -25,3 +25,5 @@ draw cube-sphere 1.1 cube-sphere
 draw cube-bowl 1.5 cube-bowl
 draw strain 1.42 cube-plane --view colour=strain
 draw springs 1.42 cube-plane --view 'draw=["structural","shear","bending"]'
+draw penalty 1.4 penalty
+draw cube-and-balls 0.7 cube-and-balls
