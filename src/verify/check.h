@@ -87,6 +87,7 @@ void add_force_checks(std::vector<Check>& checks);
 void add_contact_checks(std::vector<Check>& checks);
 void add_scene_checks(std::vector<Check>& checks);
 void add_implicit_checks(std::vector<Check>& checks);
+void add_ball_checks(std::vector<Check>& checks);
 void add_equality_checks(std::vector<Check>& checks);
 
 }  // namespace aspic::verify
