@@ -108,7 +108,9 @@ std::optional<Value> word_widget(Gui& gui, const Parameter& p, const std::string
 std::optional<Value> words_widget(Gui& gui, const Parameter& p, std::vector<std::string> value,
                                   const std::string& mark) {
   std::optional<Value> chosen;
+  int column = 0;
   for (const std::string_view word : p.words) {
+    if (column++ % 2 != 0) ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
     bool on = std::ranges::find(value, word) != value.end();
     const bool toggled = ImGui::Checkbox(std::string(word).c_str(), &on);
     gui.mark(mark + "/" + std::string(word));
@@ -127,7 +129,7 @@ std::optional<Value> pinned_widget(Gui& gui, PinnedSettings value, const std::st
   std::optional<Value> chosen;
   int column = 0;
   for (const char* face : {"top", "bottom", "left", "right", "front", "back"}) {
-    if (column++ % 2 != 0) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.72f);
+    if (column++ % 2 != 0) ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
     bool on = std::ranges::find(value.names, face) != value.names.end();
     const bool toggled = ImGui::Checkbox(face, &on);
     gui.mark(mark + "/" + face);
