@@ -221,14 +221,17 @@ void App::redo() {
 void App::frame_bodies() {
   if (const Status read = simulation_->refresh_snapshot(); !read) return tell(read);
   const State& state = simulation_->snapshot();
-  if (state.position.empty()) return;
-  Vec3 low = state.position.front(), high = low;
-  for (const Vec3& x : state.position) {
+  if (state.position.empty() && state.ball_position.empty()) return;
+  Vec3 low = state.position.empty() ? state.ball_position.front() : state.position.front(), high = low;
+  const auto take_in = [&](const Vec3& x, double radius) {
     for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], x[axis]);
-      high[axis] = std::max(high[axis], x[axis]);
+      low[axis] = std::min(low[axis], x[axis] - radius);
+      high[axis] = std::max(high[axis], x[axis] + radius);
     }
-  }
+  };
+  for (const Vec3& x : state.position) take_in(x, 0.0);
+  for (std::size_t i = 0; i < state.ball_position.size(); ++i)
+    take_in(state.ball_position[i], simulation_->model().balls[i].radius);
   const double height = std::max(viewport_.bottom - viewport_.top, 1.0);
   camera_.frame(0.5 * (low + high), 0.5 * length(high - low), (viewport_.right - viewport_.left) / height);
 }

@@ -10,6 +10,7 @@
 #include "analysis/stability.h"
 #include "app/camera_control.h"
 #include "app/gui.h"
+#include "app/recording.h"
 #include "app/scene_editor.h"
 #include "app/simulation.h"
 #include "app/window.h"
@@ -74,6 +75,10 @@ class App final : public EventReceiver {
   void copy_camera();
   void paste_camera();
   void take_screenshot() { screenshot_wanted_ = true; }
+  /// Films every picture of the scene from now on; a notice says what went wrong. See Recording.
+  void start_recording(const std::string& path);
+  void stop_recording();
+  const Recording* recording() const { return recording_.get(); }
   void step_back();
   void take_stable_step();
   void toggle_panels() { panels_visible_ = !panels_visible_; }
@@ -114,6 +119,7 @@ class App final : public EventReceiver {
   void watch_divergence();
   Status draw_scene(const WindowSize& size);
   Status draw_picture(int width, int height);
+  void film_picture();
   void adapt_scale(double seconds);
   void find_hovered();
   void save_screenshot(const WindowSize& size);
@@ -125,6 +131,7 @@ class App final : public EventReceiver {
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<Gui> gui_;
+  std::unique_ptr<Recording> recording_;
 
   std::optional<Notice> notice_;
   std::optional<StabilityLimit> stable_;

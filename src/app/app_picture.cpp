@@ -35,7 +35,9 @@ Status App::draw_scene(const WindowSize& size) {
   const auto scaled = [scale](int length) {
     return std::max(static_cast<int>(std::lround(scale * length)), 1);
   };
-  if (const Status drawn = draw_picture(scaled(width), scaled(height)); !drawn) return drawn;
+  // A film keeps its size, whatever becomes of the window.
+  const PictureSize picture = recording_ ? recording_->size() : PictureSize{scaled(width), scaled(height)};
+  if (const Status drawn = draw_picture(picture.width, picture.height); !drawn) return drawn;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, size.pixel_width, size.pixel_height);
   glClearColor(0.105f, 0.107f, 0.112f, 1.0f);
@@ -69,12 +71,42 @@ Status App::draw_picture(int width, int height) {
   drawn_view_ = options.view;
   drawn_width_ = width;
   drawn_height_ = height;
+  if (recording_) film_picture();
   draw_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (context_.info().is_software && !new_model) adapt_scale(draw_seconds_);
   return {};
 }
 
+void App::start_recording(const std::string& path) {
+  stop_recording();
+  const double width = viewport_.right - viewport_.left, height = viewport_.bottom - viewport_.top;
+  auto started = Recording::start(
+      context_, path, {std::max(static_cast<int>(width), 16), std::max(static_cast<int>(height), 16)});
+  if (!started) return tell(started.error());
+  recording_ = std::move(*started);
+  drawn_width_ = 0;
+  tell(fmt::format("Recording to {}. Only what moves is filmed.", path));
+}
+
+void App::stop_recording() {
+  if (!recording_) return;
+  const Status finished = recording_->finish();
+  if (finished)
+    tell(fmt::format("{} holds {} pictures.", recording_->path(), recording_->pictures()));
+  else
+    tell(finished);
+  recording_.reset();
+}
+
+void App::film_picture() {
+  const Status added = recording_->add(renderer_->picture());
+  if (added) return;
+  recording_.reset();
+  tell(added);
+}
+
 void App::adapt_scale(double seconds) {
+  if (recording_) return;
   if (!simulation_->running() && still_ > 0.25) return;
   const auto current = std::ranges::find(scales, draw_scale_);
   if (seconds > slow_picture && current + 1 != std::end(scales)) draw_scale_ = current[1];

@@ -48,6 +48,7 @@ int show(const cli::ViewOptions& view) {
     (*window)->show_picture();
     if ((*app)->title() != title) (*window)->set_title(title = (*app)->title());
   }
+  (*app)->stop_recording();
   (*window)->set_receiver(nullptr);
   return 0;
 }
