@@ -10,9 +10,9 @@
 
 #include "app/panels.h"
 #include "app/shortcuts.h"
+#include "cli/backends.h"
 #include "cli/stability_text.h"
 #include "scene/load.h"
-#include "scene/write.h"
 
 namespace aspic::app {
 namespace {
@@ -35,7 +35,12 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   if (!editor) return editor.error();
   std::unique_ptr<App> app(new App(context, std::move(*editor)));
   const bool software = context.info().is_software;
-  auto renderer = Renderer::create(context, {.samples = software ? 1 : 4});
+  const auto directory = cli::shader_directory();
+  if (!directory) return directory.error();
+  RendererOptions look;
+  look.samples = software ? 1 : 4;
+  look.shaders = gl::ShaderLibrary(*directory);
+  auto renderer = Renderer::create(context, look);
   if (!renderer) return renderer.error();
   app->renderer_ = std::move(*renderer);
   const BackendName backend = options.backend.value_or(software ? BackendName::reference : BackendName::gpu);
@@ -196,6 +201,22 @@ void App::reload() {
   if (!notice_) tell(fmt::format("{} loaded again.", source));
 }
 
+void App::read_again() {
+  const SceneEditor before = editor_;
+  if (const Status loaded = editor_.reload(); !loaded) return tell(loaded);
+  const Effect effect = effect_between(before.scene(), editor_.scene());
+  if (const Status changed = simulation_->change(editor_.scene(), effect != Effect::restart); !changed) {
+    editor_ = before;
+    return tell(changed);
+  }
+  pending_ = Effect::none;
+  stable_.reset();
+  if (before.scene().view.camera != editor_.scene().view.camera)
+    camera_ = CameraControl(editor_.scene().view.camera);
+  tell(fmt::format("{} was written and is read again{}.", editor_.source(),
+                   effect == Effect::restart ? "; its bodies changed, the simulation starts anew" : ""));
+}
+
 void App::save_as(const std::string& path) {
   const Status saved = editor_.save_as(path, camera_.goal());
   if (saved)
@@ -216,49 +237,6 @@ void App::redo() {
   const std::string name = editor_.redo_name();
   take_effect(editor_.redo());
   tell(fmt::format("Done again: {}.", name));
-}
-
-void App::frame_bodies() {
-  if (const Status read = simulation_->refresh_snapshot(); !read) return tell(read);
-  const State& state = simulation_->snapshot();
-  if (state.position.empty() && state.ball_position.empty()) return;
-  Vec3 low = state.position.empty() ? state.ball_position.front() : state.position.front(), high = low;
-  const auto take_in = [&](const Vec3& x, double radius) {
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], x[axis] - radius);
-      high[axis] = std::max(high[axis], x[axis] + radius);
-    }
-  };
-  for (const Vec3& x : state.position) take_in(x, 0.0);
-  for (std::size_t i = 0; i < state.ball_position.size(); ++i)
-    take_in(state.ball_position[i], simulation_->model().balls[i].radius);
-  const double height = std::max(viewport_.bottom - viewport_.top, 1.0);
-  camera_.frame(0.5 * (low + high), 0.5 * length(high - low), (viewport_.right - viewport_.left) / height);
-}
-
-void App::copy_camera() {
-  const CameraSettings c = camera_.goal();
-  const std::string text = fmt::format("camera = {{ position = {}, target = {}, fov = {} }}",
-                                       toml_value(c.position), toml_value(c.target), toml_value(c.fov));
-  if (gui_->services().set_clipboard) gui_->services().set_clipboard(text);
-  tell("The camera is on the clipboard, as a line for [view] of a scene file.");
-}
-
-void App::paste_camera() {
-  std::string text = gui_->services().clipboard ? gui_->services().clipboard() : std::string();
-  const std::size_t brace = text.find('{');
-  text = text.find("camera") == std::string::npos || brace == std::string::npos ? "" : text.substr(brace);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
-  if (text.empty()) {
-    return tell(
-        "The clipboard holds no camera. One looks like camera = { position = [10.0, 6.0, 14.0], target = "
-        "[0.0, 2.0, 0.0], fov = 45.0 }.",
-        true);
-  }
-  const std::vector<std::string> set = {"view.camera=" + text};
-  const auto scene = parse_scene(to_toml(editor_.scene()), "clipboard", set);
-  if (!scene) return tell(scene.error());
-  camera_.jump_to(scene->view.camera);
 }
 
 void App::step_back() {
@@ -333,7 +311,7 @@ void App::watch_file(double dt) {
   since_file_look_ += dt;
   if (since_file_look_ < 0.5) return;
   since_file_look_ = 0.0;
-  if (editor_.file_changed()) reload();
+  if (editor_.file_changed()) read_again();
 }
 
 void App::watch_divergence() {

@@ -115,6 +115,7 @@ class App final : public EventReceiver {
   void tell(std::string text, bool is_error = false) { notice_ = Notice{std::move(text), is_error}; }
   void tell(const Status& status);
   void scene_replaced();
+  void read_again();
   void watch_file(double dt);
   void watch_divergence();
   Status draw_scene(const WindowSize& size);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/backends.h"
 #include "cpu_reference/reference_solver.h"
 #include "model/integrator.h"
 
@@ -14,6 +15,8 @@ constexpr std::size_t most_remembered = 20;
 constexpr std::uint64_t most_remembered_bytes = std::uint64_t{256} << 20;
 constexpr auto remember_every = std::chrono::milliseconds(500);
 constexpr auto sample_every = std::chrono::milliseconds(100);
+/// Nobody waits for a job, so it may take longer than a picture [s].
+constexpr double shortest_job = 0.030;
 constexpr double rate_window = 0.5;  // s
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -42,7 +45,10 @@ Simulation::~Simulation() {
 Result<Simulation::Made> Simulation::make_solver(const Model& model, BackendName backend) {
   Made made;
   if (backend == BackendName::gpu) {
+    auto directory = cli::shader_directory();
+    if (!directory) return directory.error();
     GpuOptions options;
+    options.shader_directory = std::move(*directory);
     // The device does not change: what the canary found once holds.
     if (gpu_) options.arithmetic = gpu_->arithmetic();
     auto solver = make_gpu_solver(context_, model, options);
@@ -161,7 +167,10 @@ Status Simulation::update(double dt, double budget) {
   if (!worker_.busy()) {
     if (const Status taken = take_outcome(); !taken) return taken;
   }
-  if (!running_) return {};
+  if (!running_) {
+    // What is told of a pause is what is seen.
+    return gpu_ && snapshot_.step != step_ ? refresh_snapshot() : Status();
+  }
   const SimulationSettings& s = model_->simulation;
   const double asked = pace == Pace::real_time ? speed * dt / s.timestep : speed * s.steps_per_frame;
   due_ += asked;
@@ -177,7 +186,7 @@ Status Simulation::update(double dt, double budget) {
   const auto steps = static_cast<std::uint64_t>(due_);
   if (steps == 0) return {};
   if (gpu_) return advance_gpu(steps, budget);
-  if (!worker_.busy()) start_job(steps, budget);
+  if (!worker_.busy()) start_job(steps, std::max(budget, shortest_job));
   return {};
 }
 

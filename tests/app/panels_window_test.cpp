@@ -210,6 +210,20 @@ TEST_F(Files, ReloadsWhenTheFileChangesAndKeepsTheOldSceneWhileItIsBroken) {
   EXPECT_EQ(simulation().model().particle_count(), 125u);
 }
 
+TEST_F(Files, AFileWithOtherConstantsLetsTheMotionGoOn) {
+  open(write("mine.toml", scene_text(4)));
+  for (int i = 0; i < 6; ++i) type(U'.');
+  const std::string hash = state_hash_text(simulation().snapshot());
+  drag(GLFW_MOUSE_BUTTON_LEFT, middle_x(), middle_y(), 90, -30);
+  const CameraSettings camera = app().camera().goal();
+  write("mine.toml", scene_text(4) + "[contact]\nfriction = 0.9\n");
+  frames(40);
+  EXPECT_EQ(simulation().model().contact.friction, 0.9);
+  EXPECT_EQ(simulation().step(), 6u);
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), hash);
+  EXPECT_EQ(app().camera().goal(), camera) << "the camera stays where it was put";
+}
+
 TEST_F(Files, SavedSceneHoldsChangesAndCamera) {
   open("cube-plane");
   set("cube[].shear.stiffness", 1234.5);
