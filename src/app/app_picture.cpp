@@ -58,13 +58,13 @@ Status App::draw_picture(int width, int height) {
   if (new_model) {
     if (const Status taken = renderer_->set_model(simulation_->model()); !taken) return taken;
   }
-  const gl::Buffer* particles = simulation_->particles();
-  if (!particles) {
+  std::optional<DeviceState> state = simulation_->device_state();
+  if (!state) {
     const auto uploaded = renderer_->upload(simulation_->snapshot());
     if (!uploaded) return uploaded.error();
-    particles = *uploaded;
+    state = *uploaded;
   }
-  if (const Status drawn = renderer_->draw(width, height, *particles, options); !drawn) return drawn;
+  if (const Status drawn = renderer_->draw(width, height, *state, options); !drawn) return drawn;
   if (context_.info().is_software) glFinish();
   drawn_model_ = simulation_->model_number();
   drawn_state_ = simulation_->picture_number();

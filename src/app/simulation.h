@@ -14,6 +14,7 @@
 #include "gpu/context.h"
 #include "gpu_solver/gpu_solver.h"
 #include "model/solver.h"
+#include "render/device_state.h"
 #include "scene/scene.h"
 
 namespace aspic::app {
@@ -65,8 +66,11 @@ class Simulation {
   const Model& model() const { return *model_; }
   /// Changes whenever model() became another.
   std::uint64_t model_number() const { return model_number_; }
-  /// The gpu's own particles to draw; null where the state is the snapshot.
-  const gl::Buffer* particles() const { return gpu_ ? &gpu_->particles() : nullptr; }
+  /// The gpu's own state to draw; nothing where the state is the snapshot.
+  std::optional<DeviceState> device_state() const {
+    if (!gpu_) return std::nullopt;
+    return DeviceState{&gpu_->particles(), &gpu_->balls(), gpu_->first_ball(), step_};
+  }
   /// Changes whenever what there is to draw did.
   std::uint64_t picture_number() const { return picture_number_; }
 
