@@ -1,17 +1,20 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Release and runs aspic with the arguments given here. Without arguments: the window,
-# where there is a display and a window to open, else cube-plane simulated and filmed headless into out/.
+# where there is a display and it could be built, else cube-plane simulated and filmed headless into out/.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 caller=$PWD
 aspic_install run
-aspic_build OFF aspic
+aspic_build OFF programs
 aspic=$aspic_build_dir/aspic
 cd "$caller"
 
 if [ $# -gt 0 ]; then
   exec "$aspic" "$@"
+fi
+if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && [ -x "$aspic_build_dir/aspic-view" ]; then
+  exec "$aspic" view
 fi
 out=$aspic_root/out
 mkdir -p "$out"

@@ -20,6 +20,7 @@ constexpr const char* main_examples = R"(Examples:
   aspic run cube-plane                              simulate a built-in scene, print a summary
   aspic run my-scene.toml --duration 2 --state end.csv --series energy.csv --every 10
   aspic run cube-plane --set simulation.timestep=0.002 --set "cube[0].shear.stiffness=10"
+  aspic view cube-bowl                              the window; F1 there shows all keys
   aspic compare cube-plane --backends gpu,reference --steps 1000
   aspic verify --quick                              check this build on this machine
   aspic scene check my-scene.toml                   counts, memory and stable time steps
@@ -36,6 +37,14 @@ constexpr const char* run_examples = R"(Examples:
   aspic run cube-plane --frames out --fps 30 --size 640x360 --no-text
   aspic run cube-plane --duration 2 --checkpoint half.aspic
   aspic run --resume half.aspic --duration 4 --state end.csv)";
+
+constexpr const char* view_examples = R"(Examples:
+  aspic view                                        the first built-in scene; F1 shows all keys
+  aspic view cube-sphere --backend gpu
+  aspic view my-scene.toml --set simulation.timestep=0.002 --size 1600x900
+
+Left drag turns the camera, right or Shift drag moves it, the wheel zooms; Space starts and pauses, G changes between
+the GPU and the reference in mid-motion, Tab hides the panels.)";
 
 constexpr const char* compare_examples = R"(Examples:
   aspic compare cube-plane --steps 1000
@@ -61,8 +70,7 @@ Exit code 1 if a check fails. Without a GL device the checks that need one are r
 struct NotBuilt {
   std::string_view command, what;
 };
-constexpr std::array<NotBuilt, 2> not_built_commands = {{
-    {"view", "the window"},
+constexpr std::array<NotBuilt, 1> not_built_commands = {{
     {"report", "the report with plots"},
 }};
 
@@ -197,6 +205,20 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   c->add_flag("--force", run.force, "overwrite files");
   c->add_flag("--json", run.json, "summary on stdout as JSON");
   c->footer(run_examples);
+  return c;
+}
+
+CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
+  CLI::App* c = app.add_subcommand("view", "Show a scene in a window");
+  c->add_option("scene", view.scene, "scene file or built-in name")
+      ->type_name("SCENE")
+      ->capture_default_str();
+  c->add_option("--backend", raw.backend, "auto, gpu, reference; G changes it in the window")
+      ->capture_default_str()
+      ->type_name("NAME");
+  add_overrides(*c, view.overrides);
+  c->add_option("--size", raw.size, "size of the window")->capture_default_str()->type_name("WxH");
+  c->footer(view_examples);
   return c;
 }
 
@@ -364,6 +386,17 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
   return Command(std::move(compare));
 }
 
+Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
+  const auto kind = parse_backend_kind(raw.backend);
+  if (!kind) return kind.error();
+  view.backend.kind = *kind;
+  if (const Status possible = check_choice(view.backend); !possible) return possible.error();
+  const auto size = parse_size(raw.size);
+  if (!size) return size.error();
+  view.size = *size;
+  return Command(std::move(view));
+}
+
 Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
   std::vector<BackendChoice> backends;
   for (const std::string& text : raw.bench_backends) {
@@ -431,6 +464,8 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   SceneCheckOptions check;
   InfoOptions info;
   CLI::App* run_command = add_run(app, run, raw);
+  ViewOptions view;
+  CLI::App* view_command = add_view(app, view, raw);
   CLI::App* compare_command = add_compare(app, compare, raw);
   BenchOptions bench;
   CLI::App* bench_command = add_bench(app, bench, raw);
@@ -488,6 +523,10 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
     return usage(fmt::format("{}. See {} --help.", error.what(), full_name(command)));
   }
   if (*run_command) return finish_run(std::move(run), raw);
+  if (*view_command) {
+    view.words.assign(argv + 2, argv + argc);
+    return finish_view(std::move(view), raw);
+  }
   if (*compare_command) return finish_compare(std::move(compare), raw);
   if (*bench_command) return finish_bench(std::move(bench), raw);
   if (*verify_command) return Command(std::move(verify));

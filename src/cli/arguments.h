@@ -79,6 +79,14 @@ struct VerifyOptions {
   bool json = false;
 };
 
+struct ViewOptions {
+  std::string scene = "cube-plane";
+  std::vector<std::string> overrides;
+  BackendChoice backend;
+  PictureSize size;                ///< of the window, in the display's units
+  std::vector<std::string> words;  ///< the arguments after `view` as they were given
+};
+
 struct SceneListOptions {
   bool json = false;
 };
@@ -103,8 +111,8 @@ struct ShowText {
 };
 
 using Command =
-    std::variant<ShowText, RunOptions, CompareOptions, BenchOptions, VerifyOptions, SceneListOptions,
-                 SceneShowOptions, SceneCheckOptions, SceneImportOptions, InfoOptions>;
+    std::variant<ShowText, RunOptions, ViewOptions, CompareOptions, BenchOptions, VerifyOptions,
+                 SceneListOptions, SceneShowOptions, SceneCheckOptions, SceneImportOptions, InfoOptions>;
 
 /// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built
 /// yet.

@@ -9,6 +9,9 @@ namespace aspic::cli {
 /// after the files are closed whole.
 Status run_command(const RunOptions& options);
 
+/// Becomes the window program, aspic-view beside this one. Error (no_device): it is not there.
+Status view_command(const ViewOptions& options);
+
 /// Steps two backends side by side. Error (check_failed): they differ by more than the tolerance.
 Status compare_command(const CompareOptions& options);
 

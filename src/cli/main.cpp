@@ -19,6 +19,7 @@ int main(int argc, const char* const* argv) {
         using Options = std::decay_t<decltype(options)>;
         if constexpr (std::is_same_v<Options, ShowText>) return print_data(options.text);
         if constexpr (std::is_same_v<Options, RunOptions>) return run_command(options);
+        if constexpr (std::is_same_v<Options, ViewOptions>) return view_command(options);
         if constexpr (std::is_same_v<Options, CompareOptions>) return compare_command(options);
         if constexpr (std::is_same_v<Options, BenchOptions>) return bench_command(options);
         if constexpr (std::is_same_v<Options, VerifyOptions>) return verify_command(options);

@@ -352,10 +352,10 @@ const gl::Framebuffer& Renderer::picture() const {
   return parts_->targets->picture.framebuffer;
 }
 
-void Renderer::present(std::uint32_t framebuffer, int width, int height) const {
+void Renderer::present(std::uint32_t framebuffer, int width, int height, int left, int bottom) const {
   assert(parts_->targets);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, width, height);
+  glViewport(left, bottom, width, height);
   parts_->targets->picture.colour.bind(UNIT_FRAME);
   parts_->nothing.bind();
   glUseProgram(parts_->programs.present.id());

@@ -60,8 +60,8 @@ class Renderer {
   /// The picture last drawn: one sample, sRGB encoded values. Legal after draw().
   const gl::Framebuffer& picture() const;
   /// Puts the picture last drawn into a window's framebuffer (0: the default one), stretched to
-  /// width × height from the lower left corner. The framebuffer takes encoded values as they are.
-  void present(std::uint32_t framebuffer, int width, int height) const;
+  /// width × height pixels whose lower left corner is (left, bottom). The framebuffer takes encoded values as they are.
+  void present(std::uint32_t framebuffer, int width, int height, int left = 0, int bottom = 0) const;
 
   /// For tests and probes: normals as of the last draw of solid bodies, one by particle (zero inside bodies).
   std::vector<Vec3> normals() const;

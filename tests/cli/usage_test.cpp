@@ -54,7 +54,9 @@ INSTANTIATE_TEST_SUITE_P(
     Usage, Failures,
     testing::Values(
         Failure{{}, 2, "Examples:"}, Failure{{"rnu", "cube-plane"}, 2, "Did you mean run?"},
-        Failure{{"frobnicate"}, 2, "no command \"frobnicate\""}, Failure{{"view"}, 2, "not built yet"},
+        Failure{{"frobnicate"}, 2, "no command \"frobnicate\""},
+        Failure{{"view", "--size", "huge"}, 2, "--size must be"},
+        Failure{{"view", "--backend", "cpu"}, 3, "not built yet"},
         Failure{{"verify", "--only", "odrer"}, 2, "order/midpoint"},
         Failure{{"bench", "--repeats", "0"}, 2, "--repeats"}, Failure{{"report"}, 2, "not built yet"},
         Failure{{"scene", "import"}, 2, "file is required"},

@@ -1,0 +1,159 @@
+#pragma once
+// The window's inside: scene, simulation, camera, panels and what keys and mouse do to them. Knows no window:
+// events come through EventReceiver, pictures go to the current context's framebuffer 0.
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/stability.h"
+#include "app/camera_control.h"
+#include "app/gui.h"
+#include "app/recording.h"
+#include "app/scene_editor.h"
+#include "app/simulation.h"
+#include "app/window.h"
+#include "render/renderer.h"
+
+namespace aspic::app {
+
+struct AppOptions {
+  std::string scene = "cube-plane";    ///< file or built-in name
+  std::vector<std::string> overrides;  ///< KEY=VALUE
+  std::optional<BackendName> backend;  ///< absent: the gpu where it is hardware, else the reference
+};
+
+/// A line to the user, on top of the picture until dismissed or replaced.
+struct Notice {
+  std::string text;
+  bool is_error = false;
+  double age = 0.0;  ///< [s]; what is no error goes by itself after a while
+};
+
+/// A particle under the mouse.
+struct Hovered {
+  std::uint32_t particle = 0;
+  Vec3 position, velocity;  ///< [m], [m/s] at the snapshot's step
+};
+
+class App final : public EventReceiver {
+ public:
+  /// `context` must outlive it and be current in every call. `scale` as of Gui. Errors: those of the scene,
+  /// the solver and the renderer.
+  static Result<std::unique_ptr<App>> create(gl::Context& context, const AppOptions& options, double scale,
+                                             WindowServices services);
+  ~App() override;
+
+  void key(int key, int action, int modifiers) override;
+  void character(unsigned int code_point) override;
+  void mouse_button(int button, int action, int modifiers) override;
+  void cursor(double x, double y) override;
+  void scroll(double dx, double dy) override;
+  void drop(const std::vector<std::string>& paths) override;
+
+  /// One picture, `dt` ≥ 0 after the last [s]. Error (no_device): the device was lost.
+  Status frame(const WindowSize& size, double dt);
+  /// Nothing moves: the next picture would be the same but for events.
+  bool idle() const;
+  std::string title() const;
+
+  // ---- what keys, buttons and menus do ----
+  void toggle_running();
+  void single_step();
+  void reset();
+  void change_speed(double factor);
+  void toggle_backend();
+  /// Opens a file or built-in scene; on an error the old one stays and a notice says why.
+  void open(const std::string& source);
+  void open_neighbour(int offset);
+  void reload();
+  void save_as(const std::string& path);
+  void undo();
+  void redo();
+  void frame_bodies();
+  void copy_camera();
+  void paste_camera();
+  void take_screenshot() { screenshot_wanted_ = true; }
+  /// Films every picture of the scene from now on; a notice says what went wrong. See Recording.
+  void start_recording(const std::string& path);
+  void stop_recording();
+  const Recording* recording() const { return recording_.get(); }
+  void step_back();
+  void take_stable_step();
+  void toggle_panels() { panels_visible_ = !panels_visible_; }
+  void toggle_help() { help_visible_ = !help_visible_; }
+  void toggle_full_screen();
+  void set_value(const Parameter& parameter, std::size_t index, const Value& value,
+                 const std::string& gesture);
+  void apply(Scene scene, const std::string& name, const std::string& gesture);
+  void dismiss_notice() { notice_.reset(); }
+
+  Simulation& simulation() { return *simulation_; }
+  const SceneEditor& editor() const { return editor_; }
+  CameraControl& camera() { return camera_; }
+  Gui& gui() { return *gui_; }
+  const gl::DeviceInfo& device() const { return context_.info(); }
+  bool panels_visible() const { return panels_visible_; }
+  bool help_visible() const { return help_visible_; }
+  const std::optional<Notice>& notice() const { return notice_; }
+  const std::optional<Hovered>& hovered() const { return hovered_; }
+  /// The largest stable step, while a divergence stands.
+  const std::optional<StabilityLimit>& stable_step() const { return stable_; }
+  /// Where the scene is drawn [window units].
+  const Box& viewport() const { return viewport_; }
+  /// The scene's part of the picture's pixels, 0…1: below 1 where a software rasteriser would be too slow.
+  double draw_scale() const { return draw_scale_; }
+  double draw_seconds() const { return draw_seconds_; }
+  double pictures_per_second() const { return pictures_per_second_; }
+
+ private:
+  App(gl::Context& context, SceneEditor editor)
+      : context_(context), editor_(std::move(editor)), camera_(editor_.scene().view.camera) {}
+  void take_effect(Effect effect);
+  Status carry_out_changes();
+  void tell(std::string text, bool is_error = false) { notice_ = Notice{std::move(text), is_error}; }
+  void tell(const Status& status);
+  void scene_replaced();
+  void read_again();
+  void watch_file(double dt);
+  void watch_divergence();
+  Status draw_scene(const WindowSize& size);
+  Status draw_picture(int width, int height);
+  void film_picture();
+  void adapt_scale(double seconds);
+  void find_hovered();
+  void save_screenshot(const WindowSize& size);
+  void drag(double dx, double dy);
+
+  gl::Context& context_;
+  SceneEditor editor_;
+  CameraControl camera_;
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<Gui> gui_;
+  std::unique_ptr<Recording> recording_;
+
+  std::optional<Notice> notice_;
+  std::optional<StabilityLimit> stable_;
+  bool divergence_told_ = false;
+  Effect pending_ = Effect::none;
+  double rebuild_seconds_ = 0.0, since_rebuild_ = 0.0;
+  bool panels_visible_ = true, help_visible_ = false, screenshot_wanted_ = false;
+
+  Box viewport_;
+  double mouse_x_ = -1.0, mouse_y_ = -1.0;
+  int drag_button_ = -1;
+  bool drag_pans_ = false;
+  std::optional<Hovered> hovered_;
+
+  std::uint64_t drawn_model_ = ~std::uint64_t{0}, drawn_state_ = ~std::uint64_t{0};
+  std::string drawn_terrain_;
+  ViewSettings drawn_view_;
+  int drawn_width_ = 0, drawn_height_ = 0;
+  double draw_scale_ = 1.0, draw_seconds_ = 0.0, still_ = 0.0;
+  double since_file_look_ = 0.0, rate_time_ = 0.0, pictures_per_second_ = 0.0;
+  int rate_pictures_ = 0;
+};
+
+}  // namespace aspic::app

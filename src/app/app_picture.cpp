@@ -1,0 +1,169 @@
+// The part of App that makes pictures: scene, hovering, screenshots.
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "app/app.h"
+#include "io/atomic_file.h"
+#include "io/frame_directory.h"
+#include "render/camera.h"
+
+namespace aspic::app {
+namespace {
+
+/// Shares of the full resolution that a software rasteriser falls back to.
+constexpr double scales[] = {1.0, 0.75, 0.55, 0.4, 0.3};
+constexpr double slow_picture = 0.070, quick_picture = 0.030;  // s
+/// How near the mouse has to be to a particle to mean it [window units].
+constexpr double reach = 12.0;
+
+}  // namespace
+
+Status App::draw_scene(const WindowSize& size) {
+  const double ratio = static_cast<double>(size.pixel_width) / size.width;
+  const int left = static_cast<int>(std::lround(viewport_.left * ratio));
+  const int width = std::max(static_cast<int>(std::lround(viewport_.right * ratio)) - left, 1);
+  const int bottom = size.pixel_height - static_cast<int>(std::lround(viewport_.bottom * ratio));
+  const int height = std::max(static_cast<int>(std::lround((viewport_.bottom - viewport_.top) * ratio)), 1);
+  // Once all stands still there is time for every pixel.
+  const bool still = !simulation_->running() && still_ > 0.25;
+  const double scale = still ? 1.0 : draw_scale_;
+  const auto scaled = [scale](int length) {
+    return std::max(static_cast<int>(std::lround(scale * length)), 1);
+  };
+  // A film keeps its size, whatever becomes of the window.
+  const PictureSize picture = recording_ ? recording_->size() : PictureSize{scaled(width), scaled(height)};
+  if (const Status drawn = draw_picture(picture.width, picture.height); !drawn) return drawn;
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, size.pixel_width, size.pixel_height);
+  glClearColor(0.105f, 0.107f, 0.112f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+  renderer_->present(0, width, height, left, bottom);
+  return {};
+}
+
+Status App::draw_picture(int width, int height) {
+  PictureOptions options;
+  options.view = editor_.scene().view;
+  options.view.camera = camera_.shown();
+  const bool new_model = drawn_model_ != simulation_->model_number();
+  const bool same = !new_model && drawn_state_ == simulation_->picture_number() &&
+                    drawn_view_ == options.view && drawn_width_ == width && drawn_height_ == height;
+  if (same) return {};
+  const auto start = std::chrono::steady_clock::now();
+  if (new_model) {
+    if (const Status taken = renderer_->set_model(simulation_->model()); !taken) return taken;
+  }
+  std::optional<DeviceState> state = simulation_->device_state();
+  if (!state) {
+    const auto uploaded = renderer_->upload(simulation_->snapshot());
+    if (!uploaded) return uploaded.error();
+    state = *uploaded;
+  }
+  if (const Status drawn = renderer_->draw(width, height, *state, options); !drawn) return drawn;
+  if (context_.info().is_software) glFinish();
+  drawn_model_ = simulation_->model_number();
+  drawn_state_ = simulation_->picture_number();
+  drawn_view_ = options.view;
+  drawn_width_ = width;
+  drawn_height_ = height;
+  if (recording_) film_picture();
+  draw_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (context_.info().is_software && !new_model) adapt_scale(draw_seconds_);
+  return {};
+}
+
+void App::start_recording(const std::string& path) {
+  stop_recording();
+  const double width = viewport_.right - viewport_.left, height = viewport_.bottom - viewport_.top;
+  auto started = Recording::start(
+      context_, path, {std::max(static_cast<int>(width), 16), std::max(static_cast<int>(height), 16)});
+  if (!started) return tell(started.error());
+  recording_ = std::move(*started);
+  drawn_width_ = 0;
+  tell(fmt::format("Recording to {}. Only what moves is filmed.", path));
+}
+
+void App::stop_recording() {
+  if (!recording_) return;
+  const Status finished = recording_->finish();
+  if (finished)
+    tell(fmt::format("{} holds {} pictures.", recording_->path(), recording_->pictures()));
+  else
+    tell(finished);
+  recording_.reset();
+}
+
+void App::film_picture() {
+  const Status added = recording_->add(renderer_->picture());
+  if (added) return;
+  recording_.reset();
+  tell(added);
+}
+
+void App::adapt_scale(double seconds) {
+  if (recording_) return;
+  if (!simulation_->running() && still_ > 0.25) return;
+  const auto current = std::ranges::find(scales, draw_scale_);
+  if (seconds > slow_picture && current + 1 != std::end(scales)) draw_scale_ = current[1];
+  if (seconds < quick_picture && current != std::begin(scales)) draw_scale_ = current[-1];
+}
+
+void App::find_hovered() {
+  hovered_.reset();
+  if (drag_button_ >= 0 || gui_->takes_mouse() || !viewport_.contains(mouse_x_, mouse_y_)) return;
+  const State& state = simulation_->snapshot();
+  const double width = viewport_.right - viewport_.left, height = viewport_.bottom - viewport_.top;
+  const Camera camera(camera_.shown(), std::max(static_cast<int>(width), 1),
+                      std::max(static_cast<int>(height), 1));
+  const double x = mouse_x_ - viewport_.left, y = mouse_y_ - viewport_.top;
+  double best = reach * reach;
+  double nearest = 0.0;
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    const auto seen = camera.project(state.position[i]);
+    if (!seen) continue;
+    const double dx = seen->x - x, dy = seen->y - y;
+    const double distance = dx * dx + dy * dy;
+    if (distance > reach * reach) continue;
+    // Among particles that the mouse touches, the one in front.
+    const bool better =
+        !hovered_ || seen->distance < nearest - 1e-9 || (seen->distance <= nearest + 1e-9 && distance < best);
+    if (!better) continue;
+    best = distance;
+    nearest = seen->distance;
+    hovered_ = Hovered{static_cast<std::uint32_t>(i), state.position[i], state.velocity[i]};
+  }
+}
+
+void App::save_screenshot(const WindowSize& size) {
+  screenshot_wanted_ = false;
+  const auto width = static_cast<std::size_t>(size.pixel_width),
+             height = static_cast<std::size_t>(size.pixel_height);
+  std::vector<std::byte> below(3 * width * height), rgb(below.size());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size.pixel_width, size.pixel_height, GL_RGB, GL_UNSIGNED_BYTE, below.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  for (std::size_t row = 0; row < height; ++row)
+    std::copy_n(below.begin() + static_cast<std::ptrdiff_t>((height - 1 - row) * 3 * width), 3 * width,
+                rgb.begin() + static_cast<std::ptrdiff_t>(row * 3 * width));
+  const auto png = encode_image(ImageFormat::png, {size.pixel_width, size.pixel_height}, rgb);
+  if (!png) return tell(png.error());
+  std::string path;
+  for (int number = 1; path.empty() || std::filesystem::exists(path); ++number)
+    path = fmt::format("aspic-{}-{:04}.png", std::filesystem::path(editor_.source()).stem().string(), number);
+  auto file = AtomicFile::create(path, Overwrite::refuse);
+  if (!file) return tell(file.error());
+  Status written = file->write(*png);
+  if (written) written = file->commit();
+  if (written)
+    tell(fmt::format("Screenshot saved as {}.", path));
+  else
+    tell(written);
+}
+
+}  // namespace aspic::app

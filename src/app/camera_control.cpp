@@ -1,0 +1,120 @@
+#include "app/camera_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace aspic::app {
+namespace {
+
+constexpr double steepest = 89.0 * std::numbers::pi / 180.0;
+constexpr double nearest = 1e-3, farthest = 1e6;  // m
+/// Time in which the shown camera makes good 63 % of its way [s]: short enough to feel attached to the hand.
+constexpr double easing = 0.05;
+
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180.0;
+}
+
+}  // namespace
+
+CameraControl::CameraControl(const CameraSettings& home) : home_(home) {
+  jump_to(home);
+}
+
+CameraControl::Orbit CameraControl::orbit_of(const CameraSettings& settings) {
+  const Vec3 d = settings.position - settings.target;
+  Orbit orbit;
+  orbit.target = settings.target;
+  orbit.distance = length(d);
+  orbit.azimuth = std::atan2(d.x, d.z);
+  orbit.elevation = std::clamp(std::asin(std::clamp(d.y / orbit.distance, -1.0, 1.0)), -steepest, steepest);
+  orbit.fov = settings.fov;
+  return orbit;
+}
+
+CameraSettings CameraControl::settings_of(const Orbit& o) {
+  const Vec3 direction = {std::cos(o.elevation) * std::sin(o.azimuth), std::sin(o.elevation),
+                          std::cos(o.elevation) * std::cos(o.azimuth)};
+  return {o.target + o.distance * direction, o.target, o.fov};
+}
+
+void CameraControl::start_moving() {
+  exact_goal_.reset();
+  exact_shown_.reset();
+}
+
+void CameraControl::orbit(double dx, double dy) {
+  start_moving();
+  goal_.azimuth -= std::numbers::pi * dx;
+  goal_.elevation = std::clamp(goal_.elevation + std::numbers::pi * dy, -steepest, steepest);
+}
+
+void CameraControl::pan(double dx, double dy) {
+  start_moving();
+  // At the target's distance the view is this many metres high.
+  const double height = 2.0 * goal_.distance * std::tan(0.5 * radians(goal_.fov));
+  const Vec3 right = {std::cos(goal_.azimuth), 0.0, -std::sin(goal_.azimuth)};
+  const Vec3 up = {-std::sin(goal_.elevation) * std::sin(goal_.azimuth), std::cos(goal_.elevation),
+                   -std::sin(goal_.elevation) * std::cos(goal_.azimuth)};
+  goal_.target = goal_.target + (-dx * height) * right + (dy * height) * up;
+}
+
+void CameraControl::zoom(double notches) {
+  start_moving();
+  goal_.distance = std::clamp(goal_.distance * std::pow(0.9, notches), nearest, farthest);
+}
+
+void CameraControl::reset() {
+  // The short way round, however often the camera was turned.
+  const double turn = 2.0 * std::numbers::pi;
+  const Orbit home = orbit_of(home_);
+  const double turns = std::round((shown_.azimuth - home.azimuth) / turn);
+  shown_.azimuth -= turns * turn;
+  goal_ = home;
+  exact_shown_.reset();
+  exact_goal_ = home_;
+}
+
+void CameraControl::frame(const Vec3& centre, double radius, double aspect) {
+  start_moving();
+  const double half = 0.5 * radians(goal_.fov);
+  const double narrow = aspect < 1.0 ? std::atan(aspect * std::tan(half)) : half;
+  goal_.target = centre;
+  goal_.distance = std::clamp(1.1 * std::max(radius, 10.0 * nearest) / std::sin(narrow), nearest, farthest);
+}
+
+void CameraControl::jump_to(const CameraSettings& settings) {
+  goal_ = shown_ = orbit_of(settings);
+  exact_goal_ = exact_shown_ = settings;
+}
+
+bool CameraControl::update(double dt) {
+  if (shown_ == goal_) {
+    exact_shown_ = exact_goal_;
+    return false;
+  }
+  const double share = 1.0 - std::exp(-dt / easing);
+  const auto ease = [share](double from, double to) { return from + share * (to - from); };
+  const auto near = [](double a, double b, double scale) { return std::abs(a - b) < 1e-4 * scale; };
+  shown_.target = shown_.target + share * (goal_.target - shown_.target);
+  shown_.azimuth = ease(shown_.azimuth, goal_.azimuth);
+  shown_.elevation = ease(shown_.elevation, goal_.elevation);
+  shown_.distance = std::exp(ease(std::log(shown_.distance), std::log(goal_.distance)));
+  shown_.fov = ease(shown_.fov, goal_.fov);
+  if (length(shown_.target - goal_.target) < 1e-4 * goal_.distance &&
+      near(shown_.azimuth, goal_.azimuth, 1) && near(shown_.elevation, goal_.elevation, 1) &&
+      near(shown_.distance, goal_.distance, goal_.distance) && near(shown_.fov, goal_.fov, 1))
+    shown_ = goal_;
+  return true;
+}
+
+CameraSettings CameraControl::shown() const {
+  return exact_shown_ ? *exact_shown_ : settings_of(shown_);
+}
+
+CameraSettings CameraControl::goal() const {
+  return exact_goal_ ? *exact_goal_ : settings_of(goal_);
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,56 @@
+#pragma once
+// The camera under the mouse: orbit, pan and zoom of a goal that the shown camera follows smoothly.
+#include <optional>
+
+#include "scene/view_settings.h"
+
+namespace aspic::app {
+
+class CameraControl {
+ public:
+  /// Starts at rest at `home`, which is shown to the bit until the camera is first moved.
+  explicit CameraControl(const CameraSettings& home);
+
+  /// Turns about the target: dx, dy in heights of the view, to the right and down. One height is half a turn.
+  /// The elevation stays within ±89°.
+  void orbit(double dx, double dy);
+  /// Moves the target with the mouse: dx, dy in heights of the view, to the right and down.
+  void pan(double dx, double dy);
+  /// Comes nearer by a tenth for each notch, or goes away for negative ones.
+  void zoom(double notches);
+  /// Goes back home.
+  void reset();
+  /// Turns to a sphere and backs off until it fits; direction and field of view stay. `aspect` is
+  /// width/height of the view, > 0; a radius of 0 [m] is taken as a small one.
+  void frame(const Vec3& centre, double radius, double aspect);
+  /// Takes on a camera at once, without easing.
+  void jump_to(const CameraSettings& settings);
+  /// A new home, which the camera does not go to by itself.
+  void set_home(const CameraSettings& home) { home_ = home; }
+
+  /// Moves the shown camera towards the goal for dt ≥ 0 [s]. True while it is under way.
+  bool update(double dt);
+
+  const CameraSettings& home() const { return home_; }
+  /// What is shown now.
+  CameraSettings shown() const;
+  /// Where the camera is going.
+  CameraSettings goal() const;
+
+ private:
+  /// A camera as angles about its target [radians, m, degrees].
+  struct Orbit {
+    Vec3 target;
+    double azimuth = 0.0, elevation = 0.0, distance = 1.0, fov = 45.0;
+    friend bool operator==(const Orbit&, const Orbit&) = default;
+  };
+  static Orbit orbit_of(const CameraSettings& settings);
+  static CameraSettings settings_of(const Orbit& orbit);
+  void start_moving();
+
+  CameraSettings home_;
+  Orbit goal_, shown_;
+  std::optional<CameraSettings> exact_goal_, exact_shown_;  ///< until moved: what the angles would round
+};
+
+}  // namespace aspic::app

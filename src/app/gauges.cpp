@@ -1,0 +1,193 @@
+// The sections that show: view, performance, energy.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "app/app.h"
+#include "app/panels.h"
+#include "app/parameter_widget.h"
+
+namespace aspic::app {
+namespace {
+
+void figure(const char* label, const std::string& value, std::string_view help) {
+  ImGui::TextDisabled("%s", label);
+  tooltip(help);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
+  ImGui::TextUnformatted(value.c_str());
+  tooltip(help);
+}
+
+/// 1234567 as "1.23 M".
+std::string short_number(double value) {
+  if (value >= 1e9) return fmt::format("{:.3g} G", value / 1e9);
+  if (value >= 1e6) return fmt::format("{:.3g} M", value / 1e6);
+  if (value >= 1e4) return fmt::format("{:.3g} k", value / 1e3);
+  return fmt::format("{:.3g}", value);
+}
+
+struct Curve {
+  const char* name;
+  ImU32 colour;
+  double (*value)(const Measures&);
+};
+constexpr std::array<Curve, 4> curves = {
+    {{"kinetic", IM_COL32(242, 176, 92, 255), [](const Measures& m) { return m.kinetic; }},
+     {"elastic", IM_COL32(120, 205, 140, 255), [](const Measures& m) { return m.elastic; }},
+     {"gravitational", IM_COL32(110, 165, 240, 255), [](const Measures& m) { return m.gravitational; }},
+     {"total", IM_COL32(230, 232, 236, 255), [](const Measures& m) { return m.total(); }}}};
+
+/// A camera value, which lives in the window and not in the scene until it is saved.
+void edit_camera(App& app, std::string_view path, std::string_view label) {
+  Scene scene;
+  scene.view.camera = app.camera().goal();
+  const Parameter& p = *find_parameter(path);
+  const auto change = parameter_widget(app.gui(), p, scene, 0, label);
+  if (!change || check_value(p, change->value)) return;
+  p.set(scene, 0, change->value);
+  if (length(scene.view.camera.position - scene.view.camera.target) > 1e-3)
+    app.camera().jump_to(scene.view.camera);
+}
+
+void plot(const std::deque<EnergySample>& samples, double scale) {
+  const ImVec2 size = {ImGui::GetContentRegionAvail().x, static_cast<float>(150.0 * scale)};
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::Dummy(size);
+  tooltip("Energies over time [J]. Gravitational energy is zero at the origin.");
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 21, 23, 255), 4.0f);
+  if (samples.size() < 2) return;
+  double low = 0.0, high = 0.0;
+  for (const EnergySample& s : samples) {
+    for (const Curve& c : curves) {
+      low = std::min(low, c.value(s.measures));
+      high = std::max(high, c.value(s.measures));
+    }
+  }
+  if (!(high > low) || !std::isfinite(high - low)) return;
+  const double start = samples.front().time, span = samples.back().time - start;
+  if (!(span > 0.0)) return;
+  const float pad = static_cast<float>(6.0 * scale), line = ImGui::GetTextLineHeight();
+  const auto place = [&](double t, double e) {
+    return ImVec2(corner.x + pad + static_cast<float>((t - start) / span) * (size.x - 2.0f * pad),
+                  corner.y + size.y - pad -
+                      static_cast<float>((e - low) / (high - low)) * (size.y - 2.0f * (pad + line)) - line);
+  };
+  draw.AddLine(place(start, 0.0), place(start + span, 0.0), IM_COL32(80, 84, 90, 255));
+  // One point for each column is all that can be seen.
+  const std::size_t stride =
+      std::max<std::size_t>(samples.size() / static_cast<std::size_t>(std::max(size.x, 1.0f)), 1);
+  for (const Curve& c : curves) {
+    for (std::size_t i = 0; i < samples.size(); i += stride)
+      draw.PathLineTo(place(samples[i].time, c.value(samples[i].measures)));
+    draw.PathLineTo(place(samples.back().time, c.value(samples.back().measures)));
+    draw.PathStroke(c.colour, 0, static_cast<float>(1.5 * scale));
+  }
+  const std::string top = fmt::format("{:.4g} J", high), end = fmt::format("{:.3g} s", start + span);
+  draw.AddText({corner.x + pad, corner.y + 2.0f}, IM_COL32(140, 145, 152, 255), top.c_str());
+  const ImVec2 text = ImGui::CalcTextSize(end.c_str());
+  draw.AddText({corner.x + size.x - pad - text.x, corner.y + size.y - text.y - 2.0f},
+               IM_COL32(140, 145, 152, 255), end.c_str());
+}
+
+/// Start and end of a film.
+void record_row(App& app) {
+  static std::array<char, 512> path = {"aspic.mp4"};
+  Gui& gui = app.gui();
+  if (app.recording()) {
+    const std::string label = fmt::format("Stop recording ({} pictures)", app.recording()->pictures());
+    if (button(gui, "record/stop", label.c_str(), "Completes " + app.recording()->path() + ".", "", true,
+               -1.0f))
+      app.stop_recording();
+    return;
+  }
+  if (button(gui, "record/start", "Record",
+             "Films the scene without the panels, every picture that differs from the one before, to be "
+             "shown at 60 a "
+             "second. The film's size is that of the view now. A file that exists is not overwritten."))
+    app.start_recording(path.data());
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::InputText("##film", path.data(), path.size());
+  gui.mark("record/path");
+  tooltip(
+      "Where the film goes: FILE.mp4, .webm or .gif (needs ffmpeg), or a name without an ending for a "
+      "directory "
+      "of PNG pictures.");
+}
+
+}  // namespace
+
+void view_section(App& app) {
+  edit(app, "view.draw");
+  edit(app, "view.colour", 0, "Colour by");
+  edit_camera(app, "view.camera.position", "Camera");
+  edit_camera(app, "view.camera.target", "Looks at");
+  edit_camera(app, "view.camera.fov", "Field of view");
+  Gui& gui = app.gui();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float half = 0.5f * (ImGui::GetContentRegionAvail().x - gap);
+  if (button(gui, "camera/home", "Reset camera", "To the scene's own camera.", "reset the camera", true,
+             half))
+    app.camera().reset();
+  ImGui::SameLine();
+  if (button(gui, "camera/frame", "Frame bodies", "Turns to the bodies and takes all of them in.",
+             "frame the bodies", true, half))
+    app.frame_bodies();
+  if (button(gui, "camera/copy", "Copy", "The camera as text, a line for [view] of a scene file.",
+             "copy the camera as text", true, half))
+    app.copy_camera();
+  ImGui::SameLine();
+  if (button(gui, "camera/paste", "Paste", "Takes a camera from the clipboard.", "paste a camera", true,
+             half))
+    app.paste_camera();
+  record_row(app);
+}
+
+void performance_section(App& app) {
+  Simulation& s = app.simulation();
+  figure("Steps", s.running() ? short_number(s.steps_per_second()) + "/s" : "paused",
+         "Time steps per second.");
+  const auto evaluations = s.spring_evaluations_per_second();
+  figure(
+      "Spring evaluations",
+      !s.running()  ? "paused"
+      : evaluations ? short_number(*evaluations) + "/s"
+                    : "varies",
+      "Springs × force evaluations of a step × steps per second. Implicit Euler has no fixed number a step.");
+  figure("Real-time factor", s.running() ? fmt::format("{:.3g}", s.real_time_factor()) : "paused",
+         "Simulated seconds per second.");
+  figure("Pictures",
+         fmt::format("{:.0f}/s, {:.1f} ms each", app.pictures_per_second(), 1e3 * app.draw_seconds()),
+         "Pictures per second, and how long the program took over the last one.");
+  if (app.device().is_software) {
+    figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * app.draw_scale()),
+           "A software rasteriser draws: pictures are coarser while something moves.");
+  }
+  const Model& model = s.model();
+  figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
+  figure("Springs", fmt::format("{}", model.springs.size()), "Springs of all types.");
+  if (model.ball_count() > 0)
+    figure("Balls", fmt::format("{}", model.ball_count()), "Balls, launched or waiting.");
+  figure("Solver", fmt::format("{}, {}", s.solver().backend(), gl::human_bytes(s.solver().bytes())),
+         s.solver().description());
+  ImGui::TextDisabled("%s", app.device().renderer.substr(0, 40).c_str());
+  tooltip(fmt::format("Draws the window: {}, OpenGL {}", app.device().renderer, app.device().version));
+}
+
+void energy_section(App& app) {
+  const auto& samples = app.simulation().energies();
+  plot(samples, app.gui().scale());
+  if (samples.empty()) return;
+  for (const Curve& c : curves) {
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(c.colour), "%s", c.name);
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
+    ImGui::Text("%.5g J", c.value(samples.back().measures));
+  }
+}
+
+}  // namespace aspic::app

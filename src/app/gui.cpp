@@ -1,0 +1,194 @@
+#include "app/gui.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace aspic {
+
+std::span<const std::byte> embedded_font();
+
+namespace app {
+namespace {
+
+constexpr float font_height = 15.0f;
+
+/// What labels, units and tooltips are written with.
+constexpr ImWchar characters[] = {0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027, 0x2070, 0x209f,
+                                  0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0};
+
+constexpr std::pair<ImGuiKey_, int> keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                              {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                              {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                              {ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                              {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                              {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
+                                              {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
+                                              {ImGuiKey_Home, GLFW_KEY_HOME},
+                                              {ImGuiKey_End, GLFW_KEY_END},
+                                              {ImGuiKey_Insert, GLFW_KEY_INSERT},
+                                              {ImGuiKey_Delete, GLFW_KEY_DELETE},
+                                              {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                              {ImGuiKey_Space, GLFW_KEY_SPACE},
+                                              {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                              {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                                              {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+                                              {ImGuiKey_A, GLFW_KEY_A},
+                                              {ImGuiKey_C, GLFW_KEY_C},
+                                              {ImGuiKey_V, GLFW_KEY_V},
+                                              {ImGuiKey_X, GLFW_KEY_X},
+                                              {ImGuiKey_Y, GLFW_KEY_Y},
+                                              {ImGuiKey_Z, GLFW_KEY_Z}};
+
+ImVec4 grey(float value, float alpha = 1.0f) {
+  return {value, value * 1.02f, value * 1.07f, alpha};
+}
+
+/// Dark and quiet: grey surfaces, one accent.
+void set_theme(float scale) {
+  ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
+  ImGui::StyleColorsDark(&style);
+  style.WindowRounding = 0.0f;
+  style.FrameRounding = style.GrabRounding = style.PopupRounding = 4.0f;
+  style.WindowBorderSize = 0.0f;
+  style.WindowPadding = {12.0f, 10.0f};
+  style.FramePadding = {7.0f, 4.0f};
+  style.ItemSpacing = {8.0f, 6.0f};
+  style.ScrollbarSize = 11.0f;
+  const ImVec4 accent = {0.25f, 0.56f, 0.62f, 1.0f};
+  const auto tint = [&](float alpha) { return ImVec4(accent.x, accent.y, accent.z, alpha); };
+  ImVec4* c = style.Colors;
+  c[ImGuiCol_Text] = grey(0.88f);
+  c[ImGuiCol_TextDisabled] = grey(0.56f);
+  c[ImGuiCol_WindowBg] = grey(0.105f);
+  c[ImGuiCol_PopupBg] = grey(0.13f, 0.98f);
+  c[ImGuiCol_Border] = grey(0.25f);
+  c[ImGuiCol_FrameBg] = grey(0.18f);
+  c[ImGuiCol_FrameBgHovered] = grey(0.23f);
+  c[ImGuiCol_FrameBgActive] = grey(0.27f);
+  c[ImGuiCol_Button] = grey(0.21f);
+  c[ImGuiCol_ButtonHovered] = tint(0.55f);
+  c[ImGuiCol_ButtonActive] = tint(0.85f);
+  c[ImGuiCol_Header] = grey(0.165f);
+  c[ImGuiCol_HeaderHovered] = tint(0.40f);
+  c[ImGuiCol_HeaderActive] = tint(0.60f);
+  c[ImGuiCol_CheckMark] = {0.45f, 0.82f, 0.87f, 1.0f};
+  c[ImGuiCol_SliderGrab] = tint(0.9f);
+  c[ImGuiCol_SliderGrabActive] = accent;
+  c[ImGuiCol_TextSelectedBg] = tint(0.5f);
+  c[ImGuiCol_Separator] = grey(0.22f);
+  style.ScaleAllSizes(scale);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services) {
+  std::unique_ptr<Gui> gui(new Gui(scale, std::move(services)));
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.ConfigWindowsMoveFromTitleBarOnly = true;
+  for (const auto& [name, key] : keys) io.KeyMap[name] = key;
+  io.ClipboardUserData = gui.get();
+  io.GetClipboardTextFn = [](void* user) {
+    Gui& self = *static_cast<Gui*>(user);
+    self.clipboard_ = self.services_.clipboard ? self.services_.clipboard() : std::string();
+    return self.clipboard_.c_str();
+  };
+  io.SetClipboardTextFn = [](void* user, const char* text) {
+    const Gui& self = *static_cast<Gui*>(user);
+    if (self.services_.set_clipboard) self.services_.set_clipboard(text);
+  };
+  set_theme(static_cast<float>(scale));
+  const std::span<const std::byte> font = embedded_font();
+  ImFontConfig config;
+  config.FontDataOwnedByAtlas = false;
+  io.Fonts->AddFontFromMemoryTTF(const_cast<std::byte*>(font.data()), static_cast<int>(font.size()),
+                                 std::round(font_height * static_cast<float>(scale)), &config, characters);
+  if (!ImGui_ImplOpenGL3_Init("#version 430 core"))
+    return Error{ErrorCode::no_device,
+                 "The panels cannot be drawn: their OpenGL functions could not be loaded. "
+                 "Install libgl1, or use aspic run, which needs no window."};
+  return gui;
+}
+
+Gui::~Gui() {
+  if (ImGui::GetIO().BackendRendererUserData) ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Gui::key(int key, int action, int modifiers) {
+  ImGuiIO& io = ImGui::GetIO();
+  if (key >= 0 && key < IM_ARRAYSIZE(io.KeysDown)) io.KeysDown[key] = action != GLFW_RELEASE;
+  io.KeyCtrl = (modifiers & GLFW_MOD_CONTROL) != 0;
+  io.KeyShift = (modifiers & GLFW_MOD_SHIFT) != 0;
+  io.KeyAlt = (modifiers & GLFW_MOD_ALT) != 0;
+}
+
+void Gui::character(unsigned int code_point) {
+  ImGui::GetIO().AddInputCharacter(code_point);
+}
+
+void Gui::mouse_button(int button, int action) {
+  if (button < 0 || button >= 5) return;
+  held_[button] = action != GLFW_RELEASE;
+  // A click that came and went between two pictures is still seen by one of them.
+  pressed_[button] = pressed_[button] || held_[button];
+}
+
+void Gui::cursor(double x, double y) {
+  ImGui::GetIO().MousePos = {static_cast<float>(x), static_cast<float>(y)};
+}
+
+void Gui::scroll(double dx, double dy) {
+  ImGui::GetIO().MouseWheelH += static_cast<float>(dx);
+  ImGui::GetIO().MouseWheel += static_cast<float>(dy);
+}
+
+bool Gui::takes_keyboard() const {
+  return ImGui::GetIO().WantTextInput;
+}
+
+bool Gui::takes_mouse() const {
+  return ImGui::GetIO().WantCaptureMouse;
+}
+
+void Gui::begin(double width, double height, double pixels_per_unit, double dt) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+  const auto ratio = static_cast<float>(pixels_per_unit);
+  io.DisplayFramebufferScale = {ratio, ratio};
+  io.DeltaTime = static_cast<float>(std::max(dt, 1e-4));
+  for (int i = 0; i < 5; ++i) {
+    io.MouseDown[i] = pressed_[i] || held_[i];
+    pressed_[i] = false;
+  }
+  marking_.clear();
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Gui::end() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  widgets_ = std::move(marking_);
+  marking_ = {};
+}
+
+void Gui::mark(const std::string& name) {
+  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+  marking_[name] = {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(b.x),
+                    static_cast<double>(b.y)};
+}
+
+}  // namespace app
+}  // namespace aspic

@@ -1,0 +1,68 @@
+// aspic-view: the window, started by `aspic view`.
+#include <chrono>
+#include <variant>
+#include <vector>
+
+#include "app/app.h"
+#include "app/window.h"
+#include "cli/arguments.h"
+#include "cli/console.h"
+
+namespace aspic::app {
+namespace {
+
+/// An error that comes before there is a window to show it in, or ends the window.
+int fail(const Error& error) {
+  cli::print_message(error.message);
+  return static_cast<int>(error.code);
+}
+
+AppOptions options_from(const cli::ViewOptions& view) {
+  AppOptions options;
+  options.scene = view.scene;
+  options.overrides = view.overrides;
+  if (view.backend.kind == cli::BackendKind::gpu) options.backend = BackendName::gpu;
+  if (view.backend.kind == cli::BackendKind::reference) options.backend = BackendName::reference;
+  return options;
+}
+
+int show(const cli::ViewOptions& view) {
+  // A scene that is refused needs no window to say so.
+  if (const auto editor = SceneEditor::open(view.scene, view.overrides); !editor) return fail(editor.error());
+  auto window = Window::create(view.size.width, view.size.height, "Aspic");
+  if (!window) return fail(window.error());
+  auto app = App::create((*window)->context(), options_from(view), (*window)->content_scale(),
+                         (*window)->services());
+  if (!app) return fail(app.error());
+  (*window)->set_receiver(app->get());
+  using Clock = std::chrono::steady_clock;
+  auto last = Clock::now();
+  std::string title;
+  while (!(*window)->should_close()) {
+    (*window)->poll((*app)->idle() ? 0.25 : 0.0);
+    const auto now = Clock::now();
+    // After a pause of the whole program time goes on, it does not catch up.
+    const double dt = std::min(std::chrono::duration<double>(now - last).count(), 0.25);
+    last = now;
+    if (const Status drawn = (*app)->frame((*window)->size(), dt); !drawn) return fail(drawn.error());
+    (*window)->show_picture();
+    if ((*app)->title() != title) (*window)->set_title(title = (*app)->title());
+  }
+  (*app)->stop_recording();
+  (*window)->set_receiver(nullptr);
+  return 0;
+}
+
+}  // namespace
+}  // namespace aspic::app
+
+int main(int argc, char** argv) {
+  // The words are those of `aspic view`.
+  std::vector<const char*> words = {"aspic", "view"};
+  words.insert(words.end(), argv + (argc > 0 ? 1 : 0), argv + argc);
+  const auto command = aspic::cli::parse_arguments(static_cast<int>(words.size()), words.data());
+  if (!command) return aspic::app::fail(command.error());
+  if (const auto* text = std::get_if<aspic::cli::ShowText>(&*command))
+    return aspic::cli::print_data(text->text) ? 0 : static_cast<int>(aspic::ErrorCode::io);
+  return aspic::app::show(std::get<aspic::cli::ViewOptions>(*command));
+}

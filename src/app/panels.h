@@ -1,0 +1,23 @@
+#pragma once
+// The panels around the scene. Widgets of scene values are made from the parameter table.
+#include "app/gui.h"
+
+namespace aspic::app {
+
+class App;
+
+/// Makes all panels of one picture, between Gui::begin and end; sizes in window units. Returns the place they
+/// leave to the scene.
+Box draw_panels(App& app, double width, double height);
+
+// ---- sections of the panels; each a heading with its widgets ----
+void scene_section(App& app);
+void simulation_section(App& app);
+void bodies_section(App& app);
+void springs_section(App& app);
+void contact_section(App& app);
+void view_section(App& app);
+void performance_section(App& app);
+void energy_section(App& app);
+
+}  // namespace aspic::app

@@ -1,0 +1,136 @@
+#include "app/scene_editor.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/atomic_file.h"
+#include "scene/load.h"
+#include "scene/write.h"
+
+namespace aspic::app {
+namespace {
+
+/// More than anyone goes back.
+constexpr std::size_t longest_past = 256;
+
+Effect effect_of(const Parameter& p) {
+  if (p.path.starts_with("view.") || p.path == "name") return Effect::view;
+  return p.live ? Effect::constants : Effect::restart;
+}
+
+bool same(const std::optional<Value>& a, const std::optional<Value>& b) {
+  if (a.has_value() != b.has_value()) return false;
+  return !a || toml_value(*a) == toml_value(*b);
+}
+
+std::optional<std::filesystem::file_time_type> time_of(const std::string& path) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(path, error);
+  return error ? std::nullopt : std::optional(time);
+}
+
+}  // namespace
+
+Effect effect_between(const Scene& before, const Scene& after) {
+  const ModelSettings &a = before.model, &b = after.model;
+  if (a.cubes.size() != b.cubes.size() || a.goal_nets.size() != b.goal_nets.size() ||
+      a.balls.size() != b.balls.size() || a.launchers.size() != b.launchers.size())
+    return Effect::restart;
+  Effect effect = Effect::none;
+  if (before.model.terrain.size() != after.model.terrain.size()) effect = Effect::constants;
+  for (const Parameter& p : parameters()) {
+    const std::size_t count = std::min(index_count(p, before), index_count(p, after));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!same(p.get(before, i), p.get(after, i))) effect = std::max(effect, effect_of(p));
+    }
+  }
+  return effect;
+}
+
+Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std::string> overrides) {
+  auto scene = load_scene(source, overrides);
+  if (!scene) return scene.error();
+  SceneEditor editor;
+  editor.scene_ = std::move(*scene);
+  editor.source_ = source;
+  editor.overrides_ = std::move(overrides);
+  editor.look_at_file();
+  return editor;
+}
+
+void SceneEditor::look_at_file() {
+  modified_ = builtin_scene_text(source_) ? std::nullopt : time_of(source_);
+}
+
+Status SceneEditor::replace(const std::string& source) {
+  // --set belongs to the scene it was given with.
+  auto other = open(source, source == source_ ? overrides_ : std::vector<std::string>{});
+  if (!other) return other.error();
+  *this = std::move(*other);
+  return {};
+}
+
+Status SceneEditor::reload() {
+  return replace(std::string(source_));
+}
+
+bool SceneEditor::file_changed() {
+  if (!modified_) return false;
+  const auto now = time_of(source_);
+  if (!now || *now == *modified_) return false;
+  modified_ = now;
+  return true;
+}
+
+Result<Effect> SceneEditor::set(const Parameter& parameter, std::size_t index, const Value& value,
+                                const std::string& gesture) {
+  if (const auto complaint = check_value(parameter, value))
+    return Error{ErrorCode::scene_rejected, complaint->message};
+  Scene changed = scene_;
+  parameter.set(changed, index, value);
+  return apply(std::move(changed), key_text(parameter), gesture);
+}
+
+Result<Effect> SceneEditor::apply(Scene changed, const std::string& name, const std::string& gesture) {
+  const Effect effect = effect_between(scene_, changed);
+  if (effect == Effect::none) return effect;
+  // The checks that need the whole scene stand in one place, behind the file format.
+  if (const auto checked = parse_scene(to_toml(changed), name); !checked) return checked.error();
+  if (gesture.empty() || gesture != gesture_ || undo_.empty()) {
+    if (undo_.size() == longest_past) undo_.erase(undo_.begin());
+    undo_.push_back({std::move(scene_), name});
+  }
+  gesture_ = gesture;
+  redo_.clear();
+  scene_ = std::move(changed);
+  return effect;
+}
+
+Effect SceneEditor::swap_with(std::vector<Entry>& from, std::vector<Entry>& to) {
+  Entry entry = std::move(from.back());
+  from.pop_back();
+  const Effect effect = effect_between(scene_, entry.scene);
+  to.push_back({std::move(scene_), entry.name});
+  scene_ = std::move(entry.scene);
+  gesture_.clear();
+  return effect;
+}
+
+Effect SceneEditor::undo() {
+  return swap_with(undo_, redo_);
+}
+
+Effect SceneEditor::redo() {
+  return swap_with(redo_, undo_);
+}
+
+Status SceneEditor::save_as(const std::string& path, const CameraSettings& camera) const {
+  Scene saved = scene_;
+  saved.view.camera = camera;
+  auto file = AtomicFile::create(path, Overwrite::refuse);
+  if (!file) return file.error();
+  if (const Status written = file->write(to_toml(saved)); !written) return written;
+  return file->commit();
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,81 @@
+#pragma once
+// The scene that is shown and changed: where it came from, what was changed, and the way back.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "scene/parameters.h"
+#include "scene/scene.h"
+
+namespace aspic::app {
+
+/// What a change asks of the simulation.
+enum class Effect {
+  none,       ///< nothing changed
+  view,       ///< the picture alone
+  constants,  ///< other constants; the state goes on
+  restart     ///< another body or another start: the simulation begins anew
+};
+
+/// What lies between two scenes, by the parameter table.
+Effect effect_between(const Scene& before, const Scene& after);
+
+class SceneEditor {
+ public:
+  /// Loads a scene as aspic run does. Errors: those of load_scene.
+  static Result<SceneEditor> open(const std::string& source, std::vector<std::string> overrides);
+
+  const Scene& scene() const { return scene_; }
+  /// File or built-in name.
+  const std::string& source() const { return source_; }
+  bool is_file() const { return modified_.has_value(); }
+  bool changed() const { return !undo_.empty(); }
+
+  /// Loads another scene; its past begins anew. On an error nothing changes.
+  Status replace(const std::string& source);
+  /// Loads the same source again. On an error (a broken file, say) the scene stays as it is.
+  Status reload();
+  /// Whether the file was written since it was last looked at; true once for each time.
+  bool file_changed();
+
+  /// Sets one value. Changes with the same `gesture` (a slider under the mouse; not empty) are one for undo.
+  /// Error (scene_rejected): what the scene checks say; nothing changes.
+  Result<Effect> set(const Parameter& parameter, std::size_t index, const Value& value,
+                     const std::string& gesture);
+  /// Takes on a whole changed scene, under a name for undo. Errors as set.
+  Result<Effect> apply(Scene scene, const std::string& name, const std::string& gesture);
+  /// The next change begins a new entry, whatever its gesture.
+  void end_gesture() { gesture_.clear(); }
+
+  bool can_undo() const { return !undo_.empty(); }
+  bool can_redo() const { return !redo_.empty(); }
+  /// What undo() would take back; legal while can_undo().
+  const std::string& undo_name() const { return undo_.back().name; }
+  const std::string& redo_name() const { return redo_.back().name; }
+  /// Legal while can_undo() and can_redo().
+  Effect undo();
+  Effect redo();
+
+  /// Writes the scene as it is now, complete, with this camera. Error (io): the file exists or cannot be
+  /// written.
+  Status save_as(const std::string& path, const CameraSettings& camera) const;
+
+ private:
+  struct Entry {
+    Scene scene;
+    std::string name;
+  };
+  void look_at_file();
+  Effect swap_with(std::vector<Entry>& from, std::vector<Entry>& to);
+
+  Scene scene_;
+  std::string source_, gesture_;
+  std::vector<std::string> overrides_;
+  std::optional<std::filesystem::file_time_type> modified_;
+  std::vector<Entry> undo_, redo_;
+};
+
+}  // namespace aspic::app

@@ -1,0 +1,290 @@
+// The sections that change the scene.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "app/app.h"
+#include "app/panels.h"
+#include "app/parameter_widget.h"
+#include "scene/load.h"
+
+namespace aspic::app {
+namespace {
+
+constexpr std::string_view spring_types[] = {"structural", "shear", "bending"};
+
+/// Width of one of `count` equal buttons on a line.
+float share_of_line(int count) {
+  const float gaps = static_cast<float>(count - 1) * ImGui::GetStyle().ItemSpacing.x;
+  return (ImGui::GetContentRegionAvail().x - gaps) / static_cast<float>(count);
+}
+
+bool holds(std::string_view text, std::string_view word) {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
+  return std::ranges::search(text, word, same).begin() != text.end() || word.empty();
+}
+
+/// A terrain of another shape with the same surface.
+void terrain_button(App& app, TerrainShape shape, const char* label, float width) {
+  const std::string name = fmt::format("terrain/{}", name_of(shape));
+  const std::string help =
+      fmt::format("Makes the first terrain a {} where its defaults put it. The motion goes on.", label);
+  if (!button(app.gui(), name.c_str(), label, help, "", true, width)) return;
+  Scene scene = app.editor().scene();
+  if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
+  TerrainSettings& terrain = scene.model.terrain.front();
+  TerrainSettings other;
+  other.shape = shape;
+  other.mass = terrain.mass;
+  other.restitution = terrain.restitution;
+  other.friction = terrain.friction;
+  terrain = other;
+  app.apply(std::move(scene), "terrain shape", "");
+}
+
+void save_popup(App& app) {
+  static constexpr const char* popup = "Save scene as";
+  const float third = share_of_line(3);
+  if (button(app.gui(), "scene/reload", "Reload", "Reads the file again; changes made here are dropped.",
+             "reload the scene", true, third))
+    app.reload();
+  ImGui::SameLine();
+  if (button(app.gui(), "scene/reset", "Reset", "Back to the scene's start.", "reset to the start", true,
+             third))
+    app.reset();
+  ImGui::SameLine();
+  if (button(app.gui(), "scene/save", "Save as…", "Writes the scene as it is now, with this camera.", "",
+             true, third))
+    ImGui::OpenPopup(popup);
+  if (!ImGui::BeginPopup(popup)) return;
+  static std::array<char, 512> path = {"my-scene.toml"};
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16.0f);
+  const bool entered =
+      ImGui::InputText("##path", path.data(), path.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  tooltip("The file to write. One that exists is not overwritten.");
+  ImGui::SameLine();
+  if (button(app.gui(), "scene/save/write", "Write", "Writes the file.") || entered) {
+    app.save_as(path.data());
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+void scene_section(App& app) {
+  static ImGuiTextFilter filter;
+  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::InputTextWithHint("##search", "search scenes", filter.InputBuf, sizeof filter.InputBuf);
+  app.gui().mark("scene/search");
+  tooltip(
+      "Shows scenes whose name or description holds this. A scene file is opened by dropping it on the "
+      "window.");
+  for (const BuiltinScene& scene : list_builtin_scenes()) {
+    const std::string_view word = filter.InputBuf;
+    if (!holds(scene.name, word) && !holds(scene.description, word)) continue;
+    const std::string name(scene.name);
+    if (ImGui::Selectable(name.c_str(), name == app.editor().source())) app.open(name);
+    app.gui().mark("scene/" + name);
+    tooltip(scene.description);
+  }
+  if (app.editor().is_file()) {
+    ImGui::Selectable(app.editor().source().c_str(), true);
+    tooltip("A scene file. It is read again whenever it is written.");
+  }
+  const float half = share_of_line(2);
+  terrain_button(app, TerrainShape::plane, "plane", half);
+  ImGui::SameLine();
+  terrain_button(app, TerrainShape::tilted_plane, "tilted plane", half);
+  terrain_button(app, TerrainShape::sphere, "sphere", half);
+  ImGui::SameLine();
+  terrain_button(app, TerrainShape::bowl, "bowl", half);
+  save_popup(app);
+  const bool undo = app.editor().can_undo(), redo = app.editor().can_redo();
+  const std::string undo_help = undo ? "Takes back: " + app.editor().undo_name() : "Nothing to take back.";
+  const std::string redo_help = redo ? "Does again: " + app.editor().redo_name() : "Nothing to do again.";
+  if (button(app.gui(), "scene/undo", "Undo", undo_help, "undo", undo, half)) app.undo();
+  ImGui::SameLine();
+  if (button(app.gui(), "scene/redo", "Redo", redo_help, "redo", redo, half)) app.redo();
+}
+
+void simulation_section(App& app) {
+  Simulation& s = app.simulation();
+  Gui& gui = app.gui();
+  const float third = share_of_line(3);
+  const bool diverged = s.divergence().has_value();
+  if (button(gui, "simulation/run", s.running() ? "Pause" : "Start", "Starts or pauses the motion.",
+             "start or pause", !diverged, third))
+    app.toggle_running();
+  ImGui::SameLine();
+  if (button(gui, "simulation/step", "Step", "One time step; pauses first.", "single step", !diverged, third))
+    app.single_step();
+  ImGui::SameLine();
+  if (button(gui, "simulation/reset", "Reset", "Back to the scene's start.", "reset to the start", true,
+             third))
+    app.reset();
+  const float half = share_of_line(2);
+  const char* const other = s.backend() == BackendName::gpu ? "Switch to reference" : "Switch to GPU";
+  if (button(gui, "simulation/backend", other, "Carries the state over to the other solver, to the bit.",
+             "other backend", true, half))
+    app.toggle_backend();
+  ImGui::SameLine();
+  const bool back = s.can_step_back();
+  if (button(gui, "simulation/back", "Step back", "To the state of about half a second ago, paused.",
+             "step back in time", back, half))
+    app.step_back();
+  edit(app, "simulation.integrator");
+  edit(app, "simulation.timestep", 0, "Time step");
+  label_column("Pace");
+  static constexpr const char* paces[] = {"steps per frame", "real time"};
+  int pace = static_cast<int>(s.pace);
+  if (ImGui::Combo("##pace", &pace, paces, 2)) s.pace = static_cast<Pace>(pace);
+  gui.mark("simulation/pace");
+  tooltip(
+      "How fast simulated time passes: a fixed number of steps for each picture, or as fast as time itself. "
+      "Where "
+      "the solver cannot keep up, the factor in the status line says so.");
+  if (s.pace == Pace::steps_per_frame) edit(app, "simulation.steps-per-frame");
+  label_column("Speed");
+  const double slowest = 1.0 / 1024.0, fastest = 1024.0;
+  ImGui::SliderScalar("##speed", ImGuiDataType_Double, &s.speed, &slowest, &fastest, "×%.4g",
+                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  gui.mark("simulation/speed");
+  tooltip("Factor on the pace, from 1/1024 to 1024. Keys + and - double and halve it.");
+  edit(app, "simulation.gravity");
+  if (app.editor().scene().model.simulation.integrator == Integrator::implicit_euler) {
+    edit(app, "simulation.implicit.newton-iterations");
+    edit(app, "simulation.implicit.cg-iterations");
+    edit(app, "simulation.implicit.tolerance");
+  }
+}
+
+namespace {
+
+/// Every key of one list of bodies, straight from the table.
+void all_keys_of(App& app, std::string_view list) {
+  const std::string prefix = fmt::format("{}[].", list);
+  const Parameter* first = nullptr;
+  for (const Parameter& p : parameters()) {
+    if (p.path.starts_with(prefix)) first = first ? first : &p;
+  }
+  const std::size_t count = first ? index_count(*first, app.editor().scene()) : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    ImGui::TextDisabled("%.*s %zu", static_cast<int>(list.size()), list.data(), i);
+    for (const Parameter& p : parameters()) {
+      if (!p.path.starts_with(prefix) || !applies(p, app.editor().scene(), i)) continue;
+      std::string label(p.path.substr(prefix.size()));
+      std::ranges::replace(label, '.', ' ');
+      std::ranges::replace(label, '-', ' ');
+      edit(app, p.path, i, label);
+    }
+  }
+}
+
+}  // namespace
+
+void bodies_section(App& app) {
+  const std::size_t count = app.editor().scene().model.cubes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (count > 1) ImGui::TextDisabled("cube %zu", i);
+    edit(app, "cube[].particles-per-edge", i);
+    edit(app, "cube[].edge-length", i, "Edge");
+    edit(app, "cube[].position", i);
+    edit(app, "cube[].rotation.axis", i, "Turn axis");
+    edit(app, "cube[].rotation.angle", i, "Turn angle");
+    edit(app, "cube[].velocity", i);
+    edit(app, "cube[].particle-mass", i);
+    edit(app, "cube[].pinned", i);
+  }
+  for (const std::string_view list : {"goal-net", "ball", "launcher"}) all_keys_of(app, list);
+}
+
+namespace {
+
+/// Springs as they are described: by type, or as a material.
+void kind_of_springs(App& app, std::size_t cube) {
+  const CubeSettings& settings = app.editor().scene().model.cubes[cube];
+  static constexpr const char* kinds[] = {"stiffness, damping", "material"};
+  int kind = settings.material ? 1 : 0;
+  label_column("Given by");
+  const bool chosen = ImGui::Combo("##kind", &kind, kinds, 2);
+  app.gui().mark("springs/kind");
+  tooltip(
+      "Stiffness and damping of each type of spring and the mass of a particle; or a material, which means "
+      "the "
+      "same jelly at every resolution.\n\nScene key: cube[].material");
+  if (!chosen || (kind == 1) == settings.material.has_value()) return;
+  Scene scene = app.editor().scene();
+  CubeSettings& c = scene.model.cubes[cube];
+  if (kind == 1)
+    c.material.emplace();
+  else
+    c.material.reset();
+  app.apply(std::move(scene), "material", "");
+}
+
+void same_for_all(App& app, std::size_t cube, std::string_view what) {
+  const Parameter& first = *find_parameter(fmt::format("cube[].structural.{}", what));
+  const auto change =
+      parameter_widget(app.gui(), first, app.editor().scene(), cube, "All " + std::string(what));
+  if (!change) return;
+  Scene scene = app.editor().scene();
+  for (const std::string_view type : spring_types)
+    find_parameter(fmt::format("cube[].{}.{}", type, what))->set(scene, cube, change->value);
+  app.apply(std::move(scene), "springs", fmt::format("all {}", change->gesture));
+}
+
+}  // namespace
+
+void springs_section(App& app) {
+  static bool together = false;
+  const std::size_t count = app.editor().scene().model.cubes.size();
+  if (count == 0) ImGui::TextDisabled("No cube; springs of nets stand under Bodies.");
+  for (std::size_t i = 0; i < count; ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (count > 1) ImGui::TextDisabled("cube %zu", i);
+    kind_of_springs(app, i);
+    if (app.editor().scene().model.cubes[i].material) {
+      edit(app, "cube[].material.density", i);
+      edit(app, "cube[].material.youngs-modulus", i, "Young's modulus");
+      edit(app, "cube[].material.damping-ratio", i);
+    } else {
+      ImGui::Checkbox("all types together", &together);
+      app.gui().mark("springs/together");
+      tooltip("One stiffness and one damping for structural, shear and bending springs.");
+      if (together) {
+        same_for_all(app, i, "stiffness");
+        same_for_all(app, i, "damping");
+      } else {
+        for (const std::string_view type : spring_types) {
+          std::string label(type);
+          label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+          edit(app, fmt::format("cube[].{}.stiffness", type), i, label + " k");
+          edit(app, fmt::format("cube[].{}.damping", type), i, label + " c");
+        }
+      }
+    }
+    ImGui::PopID();
+  }
+}
+
+void contact_section(App& app) {
+  edit(app, "contact.model");
+  edit(app, "contact.restitution");
+  edit(app, "contact.friction");
+  edit(app, "contact.epsilon");
+  const std::size_t count = app.editor().scene().model.terrain.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    ImGui::TextDisabled("terrain %zu", i);
+    for (const Parameter& p : parameters()) {
+      if (p.path.starts_with("terrain[].") && applies(p, app.editor().scene(), i)) edit(app, p.path, i);
+    }
+  }
+}
+
+}  // namespace aspic::app

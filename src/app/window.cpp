@@ -1,0 +1,151 @@
+#include "app/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace aspic::app {
+namespace {
+
+constexpr const char* instead =
+    "Without a window, aspic run simulates headless, and aspic run SCENE --video FILE.mp4 draws what the "
+    "window "
+    "would show.";
+
+std::string last_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "no reason given";
+}
+
+EventReceiver* receiver_of(GLFWwindow* window) {
+  return *static_cast<EventReceiver**>(glfwGetWindowUserPointer(window));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Window>> Window::create(int width, int height, const std::string& title) {
+  std::unique_ptr<Window> w(new Window);
+  if (!glfwInit()) {
+    const bool named = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+    return Error{ErrorCode::no_device, fmt::format("No window can be opened: {} ({}). {}",
+                                                   named ? "the display does not answer"
+                                                         : "there is no display, DISPLAY is not set",
+                                                   last_error(), instead)};
+  }
+  w->initialised_ = true;
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, gl::debug_by_default ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  w->window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  if (!w->window_)
+    return Error{ErrorCode::no_device,
+                 fmt::format("No window with OpenGL 4.3 core can be opened: {}. Install a newer driver "
+                             "(libgl1-mesa-dri has a software one). {}",
+                             last_error(), instead)};
+  glfwMakeContextCurrent(w->window_);
+  glfwSwapInterval(1);
+  auto context = gl::Context::adopt_current(glfwGetProcAddress);
+  if (!context) return Error{context.error().code, fmt::format("{} {}", context.error().message, instead)};
+  w->context_ = std::move(*context);
+  w->connect();
+  return w;
+}
+
+Window::~Window() {
+  context_.reset();
+  if (window_) glfwDestroyWindow(window_);
+  if (initialised_) glfwTerminate();
+}
+
+void Window::connect() {
+  glfwSetWindowUserPointer(window_, &receiver_);
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
+    if (EventReceiver* r = receiver_of(window)) r->key(key, action, modifiers);
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int code_point) {
+    if (EventReceiver* r = receiver_of(window)) r->character(code_point);
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int modifiers) {
+    if (EventReceiver* r = receiver_of(window)) r->mouse_button(button, action, modifiers);
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    if (EventReceiver* r = receiver_of(window)) r->cursor(x, y);
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* window, double dx, double dy) {
+    if (EventReceiver* r = receiver_of(window)) r->scroll(dx, dy);
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+    if (EventReceiver* r = receiver_of(window)) r->drop({paths, paths + count});
+  });
+}
+
+WindowServices Window::services() {
+  WindowServices services;
+  services.clipboard = [this] {
+    const char* text = glfwGetClipboardString(window_);
+    return std::string(text ? text : "");
+  };
+  services.set_clipboard = [this](const std::string& text) { glfwSetClipboardString(window_, text.c_str()); };
+  services.toggle_full_screen = [this] { toggle_full_screen(); };
+  return services;
+}
+
+WindowSize Window::size() const {
+  WindowSize size;
+  glfwGetWindowSize(window_, &size.width, &size.height);
+  glfwGetFramebufferSize(window_, &size.pixel_width, &size.pixel_height);
+  return size;
+}
+
+double Window::content_scale() const {
+  float x = 1.0f, y = 1.0f;
+  glfwGetWindowContentScale(window_, &x, &y);
+  // Where window units are not pixels the system scales them by itself.
+  const WindowSize s = size();
+  const double ratio = s.width > 0 ? static_cast<double>(s.pixel_width) / s.width : 1.0;
+  return std::clamp(static_cast<double>(std::max(x, y)) / ratio, 0.75, 4.0);
+}
+
+bool Window::should_close() const {
+  return glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
+
+void Window::set_title(const std::string& title) {
+  glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::poll(double wait) {
+  if (wait > 0.0)
+    glfwWaitEventsTimeout(wait);
+  else
+    glfwPollEvents();
+}
+
+void Window::show_picture() {
+  glfwSwapBuffers(window_);
+}
+
+void Window::toggle_full_screen() {
+  if (full_screen_) {
+    glfwSetWindowMonitor(window_, nullptr, place_[0], place_[1], place_[2], place_[3], GLFW_DONT_CARE);
+    full_screen_ = false;
+    return;
+  }
+  GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  if (!mode) return;
+  glfwGetWindowPos(window_, &place_[0], &place_[1]);
+  glfwGetWindowSize(window_, &place_[2], &place_[3]);
+  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  full_screen_ = true;
+}
+
+}  // namespace aspic::app

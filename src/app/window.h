@@ -1,0 +1,67 @@
+#pragma once
+// A GLFW window with an OpenGL 4.3 core context, its events handed to a receiver.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/gui.h"
+#include "base/result.h"
+#include "gpu/context.h"
+
+struct GLFWwindow;
+
+namespace aspic::app {
+
+/// Takes what GLFW's callbacks bring, in their words (GLFW/glfw3.h). Positions in window units.
+class EventReceiver {
+ public:
+  virtual ~EventReceiver() = default;
+  virtual void key(int key, int action, int modifiers) = 0;
+  virtual void character(unsigned int code_point) = 0;
+  virtual void mouse_button(int button, int action, int modifiers) = 0;
+  virtual void cursor(double x, double y) = 0;
+  virtual void scroll(double dx, double dy) = 0;
+  virtual void drop(const std::vector<std::string>& paths) = 0;
+};
+
+/// Sizes of a window: in its own units and in pixels.
+struct WindowSize {
+  int width = 0, height = 0;
+  int pixel_width = 0, pixel_height = 0;
+};
+
+/// One window; one at a time in a process.
+class Window {
+ public:
+  /// Opens a window of that size [window units] and makes its context current. Error (no_device): no display,
+  /// or no OpenGL 4.3; says what to do instead.
+  static Result<std::unique_ptr<Window>> create(int width, int height, const std::string& title);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  gl::Context& context() { return *context_; }
+  /// Events go here from now on; null ends that.
+  void set_receiver(EventReceiver* receiver) { receiver_ = receiver; }
+  WindowServices services();
+  WindowSize size() const;
+  double content_scale() const;
+  bool should_close() const;
+  void set_title(const std::string& title);
+  /// Hands over events; waits for one up to `wait` seconds where that is above 0.
+  void poll(double wait);
+  void show_picture();
+  bool full_screen() const { return full_screen_; }
+  void toggle_full_screen();
+
+ private:
+  Window() = default;
+  void connect();
+  GLFWwindow* window_ = nullptr;
+  bool initialised_ = false, full_screen_ = false;
+  int place_[4] = {};  // x, y, width, height to come back to from full screen
+  std::unique_ptr<gl::Context> context_;
+  EventReceiver* receiver_ = nullptr;
+};
+
+}  // namespace aspic::app

@@ -1,0 +1,97 @@
+#include "app/scene_editor.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/load.h"
+
+namespace aspic::app {
+namespace {
+
+SceneEditor editor_of(const std::string& scene) {
+  auto editor = SceneEditor::open(scene, {});
+  EXPECT_TRUE(editor.ok());
+  return std::move(*editor);
+}
+
+const Parameter& key(std::string_view path) {
+  return *find_parameter(path);
+}
+
+TEST(SceneEditor, EffectsFollowTheTable) {
+  for (const Parameter& p : parameters()) {
+    if (p.path != "simulation.timestep" && p.path != "cube[].edge-length" && p.path != "view.camera.fov")
+      continue;
+    SceneEditor editor = editor_of("cube-plane");
+    const auto effect = editor.set(p, 0, Value(0.5 * std::get<double>(*p.get(editor.scene(), 0))), "");
+    ASSERT_TRUE(effect.ok());
+    const Effect expected = p.path.starts_with("view.") ? Effect::view
+                            : p.live                    ? Effect::constants
+                                                        : Effect::restart;
+    EXPECT_EQ(*effect, expected) << p.path;
+  }
+}
+
+TEST(SceneEditor, TheSameValueIsNoChange) {
+  SceneEditor editor = editor_of("cube-plane");
+  const Parameter& step = key("simulation.timestep");
+  const auto effect = editor.set(step, 0, *step.get(editor.scene(), 0), "");
+  ASSERT_TRUE(effect.ok());
+  EXPECT_EQ(*effect, Effect::none);
+  EXPECT_FALSE(editor.can_undo());
+}
+
+TEST(SceneEditor, AGestureIsOneEntryAndItsEndBeginsAnother) {
+  SceneEditor editor = editor_of("cube-plane");
+  const Parameter& step = key("simulation.timestep");
+  for (const double h : {0.0011, 0.0012, 0.0013}) ASSERT_TRUE(editor.set(step, 0, Value(h), "drag").ok());
+  editor.end_gesture();
+  ASSERT_TRUE(editor.set(step, 0, Value(0.0014), "drag").ok());
+  editor.undo();
+  EXPECT_EQ(editor.scene().model.simulation.timestep, 0.0013);
+  editor.undo();
+  EXPECT_EQ(editor.scene().model.simulation.timestep, 0.001);
+  EXPECT_FALSE(editor.can_undo());
+  editor.redo();
+  editor.redo();
+  EXPECT_EQ(editor.scene().model.simulation.timestep, 0.0014);
+  EXPECT_FALSE(editor.can_redo());
+}
+
+TEST(SceneEditor, AChangeAfterUndoForgetsWhatWasUndone) {
+  SceneEditor editor = editor_of("cube-plane");
+  const Parameter& step = key("simulation.timestep");
+  ASSERT_TRUE(editor.set(step, 0, Value(0.002), "").ok());
+  EXPECT_EQ(editor.undo(), Effect::constants);
+  ASSERT_TRUE(editor.set(key("contact.friction"), 0, Value(0.7), "").ok());
+  EXPECT_FALSE(editor.can_redo());
+}
+
+TEST(SceneEditor, WhatTheWholeSceneForbidsChangesNothing) {
+  SceneEditor editor = editor_of("cube-plane");
+  // Legal by itself, but in the camera's target.
+  const auto refused =
+      editor.set(key("view.camera.position"), 0, Value(editor.scene().view.camera.target), "");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
+  EXPECT_FALSE(editor.can_undo());
+  Scene empty = editor.scene();
+  empty.model.cubes.clear();
+  empty.model.terrain.clear();
+  EXPECT_FALSE(editor.apply(empty, "nothing", "").ok());
+  EXPECT_EQ(editor.scene().model.cubes.size(), 1u);
+}
+
+TEST(SceneEditor, OverridesSurviveAReloadAndGoWithTheirScene) {
+  auto editor = SceneEditor::open("cube-plane", {"simulation.timestep=0.0005"});
+  ASSERT_TRUE(editor.ok());
+  ASSERT_TRUE(editor->set(key("simulation.timestep"), 0, Value(0.002), "").ok());
+  ASSERT_TRUE(editor->reload().ok());
+  EXPECT_EQ(editor->scene().model.simulation.timestep, 0.0005);
+  ASSERT_TRUE(editor->replace("cube-sphere").ok());
+  EXPECT_EQ(editor->scene().model.simulation.timestep, load_scene("cube-sphere")->model.simulation.timestep);
+  EXPECT_FALSE(editor->replace("no-such-scene").ok());
+  EXPECT_EQ(editor->source(), "cube-sphere");
+}
+
+}  // namespace
+}  // namespace aspic::app

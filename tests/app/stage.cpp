@@ -1,0 +1,121 @@
+#include "app/stage.h"
+
+#include <glad/gl.h>
+
+#include "cpu_reference/reference_solver.h"
+
+namespace aspic::test {
+namespace {
+
+constexpr int width = 1280, height = 720;
+
+}  // namespace
+
+void Stage::SetUp() {
+  temporary_ = std::make_unique<TemporaryDirectory>();
+  home_ = std::filesystem::current_path();
+  // Screenshots land where the program was started.
+  std::filesystem::current_path(directory());
+  auto window = app::Window::create(width, height, "test");
+  ASSERT_TRUE(window.ok()) << window.error().message;
+  window_ = std::move(*window);
+}
+
+void Stage::TearDown() {
+  app_.reset();
+  if (window_) {
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  }
+  window_.reset();
+  std::filesystem::current_path(home_);
+}
+
+void Stage::open(const std::string& scene, std::vector<std::string> overrides,
+                 std::optional<app::BackendName> backend) {
+  app::WindowServices services;
+  services.clipboard = [this] { return clipboard; };
+  services.set_clipboard = [this](const std::string& text) { clipboard = text; };
+  services.toggle_full_screen = [this] { ++full_screen_toggles; };
+  auto made = app::App::create(window_->context(), {scene, std::move(overrides), backend}, 1.0, services);
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  app_ = std::move(*made);
+  window_->set_receiver(app_.get());
+  frames(2);
+}
+
+void Stage::frames(int count) {
+  for (int i = 0; i < count; ++i) {
+    const Status drawn = app_->frame(window_->size(), 1.0 / 60.0);
+    ASSERT_TRUE(drawn.ok()) << drawn.error().message;
+    window_->show_picture();
+  }
+}
+
+void Stage::frames_to_step(std::uint64_t step) {
+  for (int i = 0; simulation().step() < step; ++i) {
+    ASSERT_LT(i, 10000) << "stuck at step " << simulation().step();
+    frames(1);
+  }
+}
+
+void Stage::frames_to_rest() {
+  for (int i = 0; app_->camera().shown() != app_->camera().goal(); ++i) {
+    ASSERT_LT(i, 600);
+    frames(1);
+  }
+}
+
+void Stage::press(int key, int modifiers) {
+  app_->key(key, GLFW_PRESS, modifiers);
+  app_->key(key, GLFW_RELEASE, modifiers);
+}
+
+void Stage::type(char32_t character) {
+  app_->character(static_cast<unsigned int>(character));
+}
+
+void Stage::drag(int button, double x, double y, double dx, double dy, int modifiers) {
+  app_->cursor(x, y);
+  frames(1);
+  app_->mouse_button(button, GLFW_PRESS, modifiers);
+  frames(1);
+  app_->cursor(x + 0.5 * dx, y + 0.5 * dy);
+  frames(1);
+  app_->cursor(x + dx, y + dy);
+  app_->mouse_button(button, GLFW_RELEASE, modifiers);
+}
+
+void Stage::click(const std::string& widget) {
+  const auto& widgets = app_->gui().widgets();
+  const auto found = widgets.find(widget);
+  ASSERT_NE(found, widgets.end()) << "no widget " << widget;
+  app_->cursor(found->second.centre_x(), found->second.centre_y());
+  frames(1);
+  app_->mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
+  frames(1);
+  app_->mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+  frames(2);
+}
+
+std::vector<unsigned char> Stage::pixels() const {
+  const app::WindowSize size = window_->size();
+  std::vector<unsigned char> rgb(3 * static_cast<std::size_t>(size.pixel_width) *
+                                 static_cast<std::size_t>(size.pixel_height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size.pixel_width, size.pixel_height, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  return rgb;
+}
+
+std::string reference_hash(const Scene& scene, std::uint64_t steps) {
+  const auto model = build_model(scene.model);
+  EXPECT_TRUE(model.ok());
+  const auto solver = make_reference_solver(*model, Precision::single);
+  EXPECT_TRUE(solver.ok());
+  EXPECT_TRUE((*solver)->advance(steps).ok());
+  const auto state = (*solver)->state();
+  EXPECT_TRUE(state.ok());
+  return state_hash_text(*state);
+}
+
+}  // namespace aspic::test

@@ -1,0 +1,63 @@
+#pragma once
+// The real window and app on whatever display there is, with a hand on keys and mouse.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/app.h"
+#include "app/window.h"
+#include "support/temporary_directory.h"
+
+namespace aspic::test {
+
+/// A test with the window open. Fails on any GL error that is left at its end.
+class Stage : public ::testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  /// Opens the app on a scene; before any other call.
+  void open(const std::string& scene, std::vector<std::string> overrides = {},
+            std::optional<app::BackendName> backend = std::nullopt);
+
+  app::App& app() { return *app_; }
+  app::Simulation& simulation() { return app_->simulation(); }
+  /// Pictures, a sixtieth of a second apart.
+  void frames(int count);
+  /// Pictures until the run is at that step or beyond; a failure after ten thousand.
+  void frames_to_step(std::uint64_t step);
+  /// Pictures until the camera stands still.
+  void frames_to_rest();
+
+  void press(int key, int modifiers = 0);
+  void type(char32_t character);
+  void drag(int button, double x, double y, double dx, double dy, int modifiers = 0);
+  /// Clicks the middle of a widget by name; a failure if it is not there.
+  void click(const std::string& widget);
+  bool has(const std::string& widget) const { return app_->gui().widgets().contains(widget); }
+  double middle_x() { return app_->viewport().centre_x(); }
+  double middle_y() { return app_->viewport().centre_y(); }
+
+  /// Pixels of the window, RGB, rows from the bottom.
+  std::vector<unsigned char> pixels() const;
+  /// The clipboard, which tests keep to themselves.
+  std::string clipboard;
+  int full_screen_toggles = 0;
+  const std::filesystem::path& directory() const { return temporary_->path(); }
+
+ private:
+  std::unique_ptr<TemporaryDirectory> temporary_;
+  std::filesystem::path home_;
+  std::unique_ptr<app::Window> window_;
+  std::unique_ptr<app::App> app_;
+};
+
+/// Hash of the reference's state of a scene after some steps.
+std::string reference_hash(const Scene& scene, std::uint64_t steps);
+
+}  // namespace aspic::test

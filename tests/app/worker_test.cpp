@@ -1,0 +1,49 @@
+#include "app/worker.h"
+
+#include <gtest/gtest.h>
+
+namespace aspic::app {
+namespace {
+
+TEST(Worker, RunsOneJobAfterTheOther) {
+  Worker worker;
+  int sum = 0;
+  for (int i = 1; i <= 100; ++i) {
+    worker.start([&sum, i](const std::atomic<bool>&) { sum += i; });
+    worker.wait();
+    EXPECT_FALSE(worker.busy());
+  }
+  EXPECT_EQ(sum, 5050);
+}
+
+TEST(Worker, FinishHurriesAJobThatWouldNeverEnd) {
+  Worker worker;
+  bool ended = false;
+  worker.start([&ended](const std::atomic<bool>& hurry) {
+    while (!hurry) std::this_thread::yield();
+    ended = true;
+  });
+  EXPECT_TRUE(worker.busy());
+  worker.finish();
+  EXPECT_TRUE(ended);
+  // The hurry was that job's alone.
+  bool hurried = true;
+  worker.start([&hurried](const std::atomic<bool>& hurry) { hurried = hurry; });
+  worker.wait();
+  EXPECT_FALSE(hurried);
+}
+
+TEST(Worker, EndsWithAJobUnderWay) {
+  std::atomic<bool> ended = false;
+  {
+    Worker worker;
+    worker.start([&ended](const std::atomic<bool>& hurry) {
+      while (!hurry) std::this_thread::yield();
+      ended = true;
+    });
+  }
+  EXPECT_TRUE(ended);
+}
+
+}  // namespace
+}  // namespace aspic::app
