@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <functional>
 #include <string_view>
 
-#include "io/video_file.h"
+#include "cli/raw_options.h"
 #include "scene/diagnostics.h"
 
 namespace aspic::cli {
@@ -73,20 +70,6 @@ struct NotBuilt {
 constexpr std::array<NotBuilt, 1> not_built_commands = {{
     {"report", "the report with plots"},
 }};
-
-/// What the parser fills in before words become values.
-struct RawOptions {
-  std::string backend = "auto", precision, force_path = "auto";
-  std::vector<std::string> backends = {"gpu", "reference"};
-  std::vector<std::string> bench_backends = {"auto"}, bench_force_paths, bench_integrators;
-  std::string bench_timestep = "scene";
-  std::string size = "1280x720", frames_format = "png", text = "on";
-  bool no_text = false;
-};
-
-Error usage(std::string message) {
-  return {ErrorCode::usage, std::move(message)};
-}
 
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -291,161 +274,6 @@ CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
   c->add_flag("--json", verify.json, "the table on stdout as JSON");
   c->footer(verify_examples);
   return c;
-}
-
-Status check_length(const RunLength& length) {
-  if (length.duration && !(std::isfinite(*length.duration) && *length.duration >= 0.0)) {
-    return usage(
-        fmt::format("--duration must be a finite number of seconds, 0 or more, not {}.", *length.duration));
-  }
-  return {};
-}
-
-/// "1280x720". The limits are those that every OpenGL 4.3 device takes.
-Result<PictureSize> parse_size(const std::string& text) {
-  PictureSize size;
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width);
-  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, size.height);
-    constexpr int least = 16, most = 16384;
-    if (height.ec == std::errc() && height.ptr == end && std::min(size.width, size.height) >= least &&
-        std::max(size.width, size.height) <= most)
-      return size;
-  }
-  return usage(fmt::format(
-      "--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".", text));
-}
-
-Status finish_pictures(RecordingOptions& pictures, const RawOptions& raw) {
-  const auto size = parse_size(raw.size);
-  if (!size) return size.error();
-  pictures.size = *size;
-  if (raw.frames_format != "png" && raw.frames_format != "jpg")
-    return usage(fmt::format("--frames-format must be png or jpg, not \"{}\".", raw.frames_format));
-  pictures.frames_format = raw.frames_format == "png" ? ImageFormat::png : ImageFormat::jpg;
-  if (raw.text != "on" && raw.text != "off")
-    return usage(fmt::format("--text must be on or off, not \"{}\".", raw.text));
-  pictures.text = raw.text == "on" && !raw.no_text;
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  if (pictures.fps && !(positive(*pictures.fps) && *pictures.fps <= 1000.0))
-    return usage(fmt::format("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps));
-  if (!positive(pictures.speed))
-    return usage(fmt::format("--speed must be a finite number above 0, not {}.", pictures.speed));
-  if (pictures.video.empty()) return {};
-  const auto format = video_format_of(pictures.video);
-  if (!format) return format.error();
-  return check_video(*format, pictures.size, pictures.fps.value_or(default_fps(*format)));
-}
-
-Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
-  const auto kind = parse_backend_kind(raw.backend);
-  if (!kind) return kind.error();
-  const auto precision = parse_precision(raw.precision.empty() ? "single" : raw.precision);
-  if (!precision) return precision.error();
-  const auto path = parse_force_path(raw.force_path);
-  if (!path) return path.error();
-  run.backend = {*kind, *precision, *path};
-  run.precision_given = !raw.precision.empty();
-  if (const Status length = check_length(run.length); !length) return length.error();
-  if (run.every < 1) return usage("--every must be 1 or more.");
-  if (run.scene.empty() && run.resume_file.empty()) {
-    return usage("aspic run needs a SCENE: a file, or a built-in name from aspic scene list.");
-  }
-  if (run.scene.empty() && !run.overrides.empty()) {
-    return usage(
-        "a resumed run goes on with the scene of its checkpoint, which --set cannot change. Leave --set out, "
-        "or run a scene.");
-  }
-  if (const Status pictures = finish_pictures(run.pictures, raw); !pictures) return pictures.error();
-  if (const Status choice = check_choice(run.backend); !choice) return choice.error();
-  return Command(std::move(run));
-}
-
-Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
-  const auto path = parse_force_path(raw.force_path);
-  if (!path) return path.error();
-  const auto choose = [&](const std::string& text) -> Result<BackendChoice> {
-    auto choice = parse_backend(text);
-    if (!choice) return choice;
-    if (choice->kind == BackendKind::gpu && choice->force_path == ForcePath::automatic)
-      choice->force_path = *path;
-    if (const Status possible = check_choice(*choice); !possible) return possible.error();
-    return choice;
-  };
-  const auto first = choose(raw.backends.front());
-  if (!first) return first.error();
-  const auto second = choose(raw.backends.back());
-  if (!second) return second.error();
-  compare.first = *first;
-  compare.second = *second;
-  if (const Status length = check_length(compare.length); !length) return length.error();
-  if (!(std::isfinite(compare.tolerance) && compare.tolerance >= 0.0)) {
-    return usage(fmt::format("--tolerance must be a finite number, 0 or more, not {}.", compare.tolerance));
-  }
-  return Command(std::move(compare));
-}
-
-Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
-  const auto kind = parse_backend_kind(raw.backend);
-  if (!kind) return kind.error();
-  view.backend.kind = *kind;
-  if (const Status possible = check_choice(view.backend); !possible) return possible.error();
-  const auto size = parse_size(raw.size);
-  if (!size) return size.error();
-  view.size = *size;
-  return Command(std::move(view));
-}
-
-Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
-  std::vector<BackendChoice> backends;
-  for (const std::string& text : raw.bench_backends) {
-    const auto choice = parse_backend(text);
-    if (!choice) return choice.error();
-    const bool open = choice->kind == BackendKind::gpu && choice->force_path == ForcePath::automatic;
-    if (!open || raw.bench_force_paths.empty()) {
-      backends.push_back(*choice);
-      continue;
-    }
-    for (const std::string& word : raw.bench_force_paths) {
-      const auto path = parse_force_path(word);
-      if (!path) return path.error();
-      backends.push_back(*choice);
-      backends.back().force_path = *path;
-    }
-  }
-  for (const BackendChoice& choice : backends) {
-    if (const Status possible = check_choice(choice); !possible) return possible.error();
-  }
-  return backends;
-}
-
-Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
-  auto backends = bench_backends(raw);
-  if (!backends) return backends.error();
-  bench.backends = std::move(*backends);
-  for (const std::string& word : raw.bench_integrators) {
-    const auto known = std::find_if(std::begin(all_integrators), std::end(all_integrators),
-                                    [&](Integrator i) { return name_of(i) == word; });
-    if (known == std::end(all_integrators)) {
-      std::vector<std::string_view> names;
-      for (const Integrator i : all_integrators) names.push_back(name_of(i));
-      return usage(
-          fmt::format("--integrator does not know \"{}\"; allowed: {}.", word, fmt::join(names, ", ")));
-    }
-    bench.integrators.push_back(*known);
-  }
-  if (raw.bench_timestep != "scene" && raw.bench_timestep != "largest") {
-    return usage(fmt::format("--timestep must be scene or largest, not \"{}\".", raw.bench_timestep));
-  }
-  bench.timestep = raw.bench_timestep == "largest" ? BenchTimestep::largest : BenchTimestep::scene;
-  if (!(std::isfinite(bench.seconds) && bench.seconds > 0.0))
-    return usage("--seconds must be a number above 0.");
-  if (bench.duration && !(std::isfinite(*bench.duration) && *bench.duration > 0.0)) {
-    return usage("--duration must be a number above 0.");
-  }
-  if (bench.repeats < 1) return usage("--repeats must be 1 or more.");
-  return Command(std::move(bench));
 }
 
 }  // namespace
