@@ -6,22 +6,11 @@
 #include <cmath>
 #include <random>
 
+#include "cpu_reference/phase.h"
 #include "support/model_building.h"
 
 namespace aspic::reference {
 namespace {
-
-Phase<double> start_of(const Model& model) {
-  Phase<double> s;
-  const auto n = static_cast<Eigen::Index>(model.particle_count());
-  s.x.resize(3, n);
-  s.v.resize(3, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    s.x.col(i) = rounded<double>(model.initial_position[static_cast<std::size_t>(i)]);
-    s.v.col(i) = rounded<double>(model.initial_velocity[static_cast<std::size_t>(i)]);
-  }
-  return s;
-}
 
 /// A 4³ cube that is squashed, sheared and spinning: springs stretched and compressed by up to a third.
 Model deformed_cube() {

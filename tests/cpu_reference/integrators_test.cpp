@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/integrator.h"
+#include "cpu_reference/phase.h"
 #include "support/model_building.h"
 
 namespace aspic::reference {
@@ -22,18 +23,6 @@ INSTANTIATE_TEST_SUITE_P(Explicit, EveryMethod, testing::ValuesIn(explicit_metho
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
-
-Phase<double> start_of(const Model& model) {
-  Phase<double> s;
-  const auto n = static_cast<Eigen::Index>(model.particle_count());
-  s.x.resize(3, n);
-  s.v.resize(3, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    s.x.col(i) = rounded<double>(model.initial_position[static_cast<std::size_t>(i)]);
-    s.v.col(i) = rounded<double>(model.initial_velocity[static_cast<std::size_t>(i)]);
-  }
-  return s;
-}
 
 // Free fall: v_n = v_0 + n·h·g for all; the position sums depend on which velocity a method moves with.
 TEST_P(EveryMethod, FreeFallFollowsItsOwnRecurrence) {
