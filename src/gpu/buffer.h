@@ -86,4 +86,27 @@ class Buffer {
   std::uint64_t bytes_ = 0;
 };
 
+/// Makes and fills one buffer after another, and stops at the first that cannot be made: status() has its error.
+class BufferFiller {
+ public:
+  /// The context must be current and outlive the buffers.
+  explicit BufferFiller(Context& context) : context_(context) {}
+
+  template <class T>
+  void operator()(Buffer& into, std::string name, const std::vector<T>& items) {
+    if (!status_) return;
+    auto made = Buffer::of(context_, std::move(name), std::span<const T>(items));
+    if (made) {
+      into = std::move(*made);
+    } else {
+      status_ = made.error();
+    }
+  }
+  const Status& status() const { return status_; }
+
+ private:
+  Context& context_;
+  Status status_;
+};
+
 }  // namespace aspic::gl

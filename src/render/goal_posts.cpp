@@ -81,19 +81,11 @@ TubeMesh goal_post_mesh(const Model& model) {
 Result<GoalPosts> GoalPosts::create(gl::Context& context, const Model& model) {
   const TubeMesh mesh = goal_post_mesh(model);
   GoalPosts posts;
-  Status status;
-  const auto fill = [&]<class T>(gl::Buffer& into, std::string name, const std::vector<T>& items) {
-    if (!status) return;
-    auto made = gl::Buffer::of(context, std::move(name), std::span<const T>(items));
-    if (made)
-      into = std::move(*made);
-    else
-      status = made.error();
-  };
+  gl::BufferFiller fill(context);
   fill(posts.vertices_, "goal posts", mesh.vertices);
   fill(posts.normals_, "goal posts' normals", mesh.normals);
   fill(posts.indices_, "goal posts' indices", mesh.indices);
-  if (!status) return status.error();
+  if (!fill.status()) return fill.status().error();
   posts.index_count_ = static_cast<int>(mesh.indices.size());
   const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &posts.vertices_},
                                       {ATTRIBUTE_NORMAL, &posts.normals_}};

@@ -65,15 +65,7 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
 Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& model) {
   ModelBuffers b;
   b.particle_count_ = model.particle_count();
-  Status status;
-  const auto fill = [&]<class T>(gl::Buffer& into, std::string name, const std::vector<T>& items) {
-    if (!status) return;
-    auto made = gl::Buffer::of(context, std::move(name), std::span<const T>(items));
-    if (made)
-      into = std::move(*made);
-    else
-      status = made.error();
-  };
+  gl::BufferFiller fill(context);
   const Surface surface = make_surface(model);
   b.parts_ = surface.parts;
   b.skin_vertices_ = static_cast<std::uint32_t>(surface.fan_vertex.size());
@@ -100,7 +92,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   fill(b.quantity_, "coloured quantity", std::vector<float>(b.particle_count_, 0.0f));
   fill(b.bounds_, "light bounds", std::vector<render_layout::Bounds>(LIGHTS));
   fill(b.light_boxes_, "light boxes", std::vector<render_layout::LightBox>(LIGHTS));
-  if (!status) return status.error();
+  if (!fill.status()) return fill.status().error();
   auto balls = BallBuffers::create(context, model);
   if (!balls) return balls.error();
   b.balls_ = std::move(*balls);

@@ -35,22 +35,14 @@ Result<TerrainPainter> TerrainPainter::create(gl::Context& context) {
   ground->generate_mipmaps();
   painter.ground_ = std::move(*ground);
 
-  Status status;
-  const auto fill = [&]<class T>(gl::Buffer& into, std::string name, const std::vector<T>& items) {
-    if (!status) return;
-    auto made = gl::Buffer::of(context, std::move(name), std::span<const T>(items));
-    if (made)
-      into = std::move(*made);
-    else
-      status = made.error();
-  };
+  gl::BufferFiller fill(context);
   const Mesh square = square_mesh();
   const Mesh sphere = sphere_mesh(sphere_rings, sphere_sectors);
   fill(painter.square_vertices_, "square", square.vertices);
   fill(painter.square_indices_, "square indices", square.indices);
   fill(painter.sphere_vertices_, "sphere", sphere.vertices);
   fill(painter.sphere_indices_, "sphere indices", sphere.indices);
-  if (!status) return status.error();
+  if (!fill.status()) return fill.status().error();
   painter.sphere_index_count_ = static_cast<int>(sphere.indices.size());
   const gl::Attribute of_square[] = {{ATTRIBUTE_POSITION, &painter.square_vertices_}};
   const gl::Attribute of_sphere[] = {{ATTRIBUTE_POSITION, &painter.sphere_vertices_}};
