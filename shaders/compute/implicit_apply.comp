@@ -22,6 +22,11 @@ vec4 apply(uint i) {
     precise vec3 d = p - search[j].xyz;
     product += times(H, d);
   }
+  if (i == pull.particle) {
+    SpringJacobian H;
+    linearised_pull(particle.position.xyz, v, H);
+    product += times(H, p);
+  }
   if (particle.position.w == 0.0) product = vec3(0.0);
   set_own(OWN_PRODUCT, i, product);
   return vec4(0.0, dot3(p, product), 0.0, 0.0);

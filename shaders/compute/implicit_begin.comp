@@ -4,6 +4,7 @@
 #include "compute/common.glsl"
 #include "compute/implicit.glsl"
 #include "compute/incident.glsl"
+#include "compute/pull.glsl"
 #include "compute/reduction.glsl"
 #include "compute/spring.glsl"
 #include "compute/terrain.glsl"
@@ -17,6 +18,7 @@ vec3 held_contact_force(uint i, Particle p) {
     Particle other = state(neighbour_of(word));
     f += spring_force(class_of(word), p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
   }
+  f = with_pull(i, p.position.xyz, p.velocity.xyz, f);
   precise vec3 held = with_contact_force(p.position.xyz, p.velocity.xyz, f) - f;
   return held;
 }

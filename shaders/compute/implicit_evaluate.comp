@@ -23,6 +23,11 @@ vec4 evaluate(uint i) {
     f += linearised(class_of(word), e, dv, H);
     block = with_spring(block, H);
   }
+  if (i == pull.particle) {
+    SpringJacobian H;
+    f += linearised_pull(p.position.xyz, v, H);
+    block = with_spring(block, H);
+  }
   DiagonalBlock inverted = inverse_of(block);
   precise vec3 r = vec3(0.0);
   precise vec3 R = vec3(0.0);

@@ -1,4 +1,5 @@
 // A spring in the linear system, see src/cpu_reference/implicit_euler.h.
+#include "compute/pull.glsl"
 
 // −h·∂f/∂v' as seen from one end: H·d = across·d + (along − across)·n(n·d). A compressed spring's negative part across
 // its axis is left out (Choi and Ko, 2002).
@@ -20,6 +21,14 @@ vec3 linearised(SpringClass spring, vec3 e, vec3 v, out SpringJacobian H) {
   precise float stretched = (time_step * time_step) * (s * q);
   precise vec3 n = q * e;
   H = SpringJacobian(along, s > 0.0 ? stretched : 0.0, n);
+  return f;
+}
+
+// The same of the pull, for its particle where the step began and its trial velocity: the other end neither moves nor
+// gives way.
+vec3 linearised_pull(vec3 x, vec3 v, out SpringJacobian H) {
+  precise vec3 e = (x - pull.anchor.xyz) + time_step * v;
+  precise vec3 f = linearised(pull_spring(), e, v, H);
   return f;
 }
 

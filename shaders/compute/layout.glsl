@@ -29,6 +29,7 @@
 #define BINDING_BALL_GRID 5     // uint[2 · buckets + balls + particles]: heads of lists, then their links
 // Uniform blocks.
 #define BINDING_SIMULATION 0
+#define BINDING_PULL 1
 
 // Vectors of the OWN block, each an array over particles.
 #define OWN_BASE 0u       // v' of the accepted Newton iterate [m/s]
@@ -127,6 +128,15 @@ struct Terrain {
   uint movable;       // 1: M is finite
   uint shape;         // SHAPE_…
   uint padding0, padding1, padding2;
+};
+
+// A damped spring of rest length 0 to a fixed anchor, see src/model/pull.h.
+struct Pull {
+  vec4 anchor;      // [m]; w: unused
+  float stiffness;  // k [N/m]
+  float damping;    // c [N·s/m]
+  uint particle;    // NO_BODY: nobody is pulled
+  uint pull_padding;
 };
 
 struct Control {

@@ -1,6 +1,7 @@
-// What follows the springs, the same for every force path: contact force, acceleration, the stage of the explicit
-// method (src/model/integrator.h has the formulas), and after the last stage the terrain's response and the watch for
-// divergence. Expects the state blocks below to be bound.
+// What follows the springs, the same for every force path: pull, contact force, acceleration, the stage of the
+// explicit method (src/model/integrator.h has the formulas), and after the last stage the terrain's response and the
+// watch for divergence. Expects the state blocks below to be bound.
+#include "compute/pull.glsl"
 #include "compute/terrain.glsl"
 
 layout(std430, binding = BINDING_START_STATE) restrict readonly buffer StartState { Particle start_state[]; };
@@ -23,7 +24,7 @@ void end_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
 
 // p: the particle in this stage; f_springs: gravity and springs [N].
 void finish_stage(uint i, Particle p, vec3 f_springs) {
-  precise vec3 f = f_springs;
+  precise vec3 f = with_pull(i, p.position.xyz, p.velocity.xyz, f_springs);
   if (contact_model == CONTACT_COURSE && p.position.w != 0.0) f = with_contact_force(p.position.xyz, p.velocity.xyz, f);
   precise vec3 a = p.position.w * f;
 

@@ -1,12 +1,27 @@
 #pragma once
-// Force and acceleration of all particles: a(x, v) = w·f(x, v) with f = m·g + springs + contact force.
+// Force and acceleration of all particles: a(x, v) = w·f(x, v) with f = m·g + springs + pull + contact force.
+#include <optional>
 #include <vector>
 
 #include "cpu_reference/contact.h"
 #include "cpu_reference/spring.h"
 #include "model/model.h"
+#include "model/pull.h"
 
 namespace aspic::reference {
+
+/// A pull in the solver's precision: a spring of rest length 0 whose other end rests at the anchor.
+template <class T>
+struct PullConstants {
+  Eigen::Index particle;
+  Vector<T> anchor;  ///< [m]
+  SpringConstants<T> spring;
+
+  explicit PullConstants(const Pull& pull)
+      : particle(static_cast<Eigen::Index>(pull.particle)),
+        anchor(rounded<T>(pull.anchor)),
+        spring(SpringClass{SpringType::structural, pull.stiffness, pull.damping, 0.0, false}) {}
+};
 
 template <class T>
 class Dynamics {
@@ -27,7 +42,7 @@ class Dynamics {
 
   /// f(x, v) [N], one column per particle.
   Field<T> force(const Field<T>& x, const Field<T>& v) const {
-    Field<T> f = spring_and_gravity_force(x, v);
+    Field<T> f = force_without_contact(x, v);
     if (model_.contact.model == ContactModel::course) add_contact_force(x, v, f);
     return f;
   }
@@ -37,11 +52,18 @@ class Dynamics {
   Field<T> held_contact_force(const Field<T>& x, const Field<T>& v) const {
     Field<T> held = Field<T>::Zero(3, x.cols());
     if (model_.contact.model == ContactModel::coulomb) return held;
-    Field<T> f = spring_and_gravity_force(x, v);
+    Field<T> f = force_without_contact(x, v);
     const Field<T> before = f;
     add_contact_force(x, v, f);
     return f - before;
   }
+
+  /// Holds until it is set again. The particle must exist.
+  void set_pull(const std::optional<Pull>& pull) {
+    pull_.reset();
+    if (pull) pull_.emplace(*pull);
+  }
+  const std::optional<PullConstants<T>>& pull() const { return pull_; }
 
   Vector<T> gravity() const { return gravity_; }
   T mass(Eigen::Index i) const { return mass_[i]; }
@@ -71,9 +93,9 @@ class Dynamics {
   }
 
  private:
-  /// m·g, then the springs. They are sorted by (a, b), so each particle's sum runs over its springs in
-  /// ascending neighbour index.
-  Field<T> spring_and_gravity_force(const Field<T>& x, const Field<T>& v) const {
+  /// m·g, then the springs, then the pull. Springs are sorted by (a, b), so each particle's sum runs over its
+  /// springs in ascending neighbour index.
+  Field<T> force_without_contact(const Field<T>& x, const Field<T>& v) const {
     Field<T> f(3, x.cols());
     for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass_[i] * gravity_;
     for (const Spring& spring : model_.springs) {
@@ -81,6 +103,10 @@ class Dynamics {
                                              x.col(spring.b), v.col(spring.b));
       f.col(spring.a) += on_a;
       f.col(spring.b) -= on_a;
+    }
+    if (pull_) {
+      const Eigen::Index i = pull_->particle;
+      f.col(i) += spring_force<T>(pull_->spring, x.col(i), v.col(i), pull_->anchor, Vector<T>::Zero());
     }
     return f;
   }
@@ -99,6 +125,7 @@ class Dynamics {
   ContactConstants<T> contact_;
   std::vector<SpringConstants<T>> classes_;
   std::vector<Ground<T>> grounds_;
+  std::optional<PullConstants<T>> pull_;
   Eigen::Array<T, Eigen::Dynamic, 1> mass_, inverse_mass_;
 };
 

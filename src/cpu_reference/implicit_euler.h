@@ -102,6 +102,7 @@ class ImplicitEuler {
   struct Evaluation {
     Field<T> r;  ///< right-hand side of the linear system: m·(v − v') + h·f [kg·m/s]
     std::vector<SpringJacobian<T>> jacobian;  ///< of every spring
+    SpringJacobian<T> pull_jacobian;          ///< of the pull, where there is one
     std::vector<DiagonalBlock<T>> preconditioner;
     T residual;  ///< largest component of |(v' − v) − h·a| [m/s]
     T merit;     ///< Σ |(v' − v) − h·a|² [m²/s²]
@@ -141,6 +142,14 @@ typename ImplicitEuler<T>::Evaluation ImplicitEuler<T>::evaluate(const Phase<T>&
     blocks[spring.b].add(H);
     at.jacobian.push_back(H);
   }
+  if (const auto& pull = dynamics_.pull()) {  // a spring whose other end neither moves nor gives way
+    const Vector<T> v = trial.col(pull->particle);
+    const Vector<T> e = (s.x.col(pull->particle) - pull->anchor) + h_ * v;
+    const auto [on_particle, H] = linearised<T>(pull->spring, h_, e, v);
+    f.col(pull->particle) += on_particle;
+    blocks[static_cast<std::size_t>(pull->particle)].add(H);
+    at.pull_jacobian = H;
+  }
   at.r = Field<T>::Zero(3, count);
   std::vector<T> largest(static_cast<std::size_t>(count), T(0)),
       squared(static_cast<std::size_t>(count), T(0));
@@ -177,6 +186,9 @@ Field<T> ImplicitEuler<T>::apply(const Evaluation& at, const Field<T>& p) const 
     const Vector<T> on_a = at.jacobian[n] * Vector<T>(p.col(springs_[n].a) - p.col(springs_[n].b));
     product.col(springs_[n].a) += on_a;
     product.col(springs_[n].b) -= on_a;
+  }
+  if (const auto& pull = dynamics_.pull()) {
+    product.col(pull->particle) += at.pull_jacobian * Vector<T>(p.col(pull->particle));
   }
   for (Eigen::Index i = 0; i < p.cols(); ++i) {
     if (dynamics_.inverse_mass(i) == T(0)) product.col(i).setZero();

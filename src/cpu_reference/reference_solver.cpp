@@ -56,6 +56,13 @@ class ReferenceSolver final : public Solver {
     return {};
   }
 
+  Status set_pull(const std::optional<Pull>& pull) override {
+    const auto taken = rounded_pull(model_, pull, precision());
+    if (!taken) return taken.error();
+    dynamics_.set_pull(*taken);
+    return {};
+  }
+
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     const double h = model_.simulation.timestep;
     const bool solved = model_.simulation.integrator == Integrator::implicit_euler;

@@ -10,6 +10,7 @@
 #include "gpu/program.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/implicit_solver.h"
+#include "gpu_solver/pull_buffer.h"
 #include "gpu_solver/simulation_block.h"
 #include "gpu_solver/support.h"
 #include "gpu_solver/topology.h"
@@ -59,6 +60,7 @@ class ComputeSolver final : public GpuSolver {
   const gl::Arithmetic& arithmetic() const override { return arithmetic_; }
 
   Status load(const State& state) override;
+  Status set_pull(const std::optional<Pull>& pull) override { return pull_.set(model_, pull); }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   Result<State> state() override;
 
@@ -78,6 +80,7 @@ class ComputeSolver final : public GpuSolver {
   std::array<Buffer, 3> states_;
   std::size_t current_ = 0;
   Buffer sums_, simulation_, incident_start_, incident_, control_, springs_, forces_;
+  PullBuffer pull_;
   gl::Arithmetic arithmetic_;
   gl::Program force_program_, particle_program_;
   BallPasses balls_;
@@ -112,6 +115,7 @@ Status ComputeSolver::build_buffers() {
       simulation_, Buffer::of(context_, "simulation constants",
                               std::span<const layout::Simulation>(&*block, 1), gl::BufferKind::uniform));
   ASPIC_ASSIGN_OR_RETURN(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
+  if (const Status made = pull_.build(context_); !made) return made;
 
   IncidentSprings rows;
   if (path_ == ForcePath::gather) {
@@ -153,6 +157,7 @@ Status ComputeSolver::build_passes(const GpuOptions& options) {
   ASPIC_ASSIGN_OR_RETURN(particle_program_, gl::Program::compute(context_, library, kernel, defines));
   std::vector<Binding> bindings = {constants,
                                    control,
+                                   pull_.binding(),
                                    {BINDING_STAGE_SUMS, &sums_},
                                    {BINDING_INCIDENT_START, &incident_start_},
                                    {BINDING_INCIDENT, &incident_}};
@@ -285,12 +290,12 @@ std::uint64_t gpu_bytes(const ModelCounts& counts, Integrator integrator, ForceP
     const std::uint64_t blocks = (counts.particles + REDUCTION_BLOCK - 1) / REDUCTION_BLOCK;
     return ball_bytes(counts) +
            counts.particles * (2 * sizeof(layout::Particle) + (2 + OWN_VECTORS) * sizeof(layout::vec4)) +
-           sizeof(layout::Simulation) + sizeof(layout::Solve) + blocks * sizeof(layout::vec4) +
+           sizeof(layout::Simulation) + sizeof(layout::Pull) + sizeof(layout::Solve) + blocks * sizeof(layout::vec4) +
            4 * (counts.particles + 1) + 8 * counts.springs();
   }
   const std::uint64_t states = keeps_sums(*method_of(integrator)) ? 4 : 3;
   std::uint64_t bytes = ball_bytes(counts) + states * counts.particles * sizeof(layout::Particle) +
-                        sizeof(layout::Simulation) + sizeof(layout::Control) + 4 * (counts.particles + 1) +
+                        sizeof(layout::Simulation) + sizeof(layout::Pull) + sizeof(layout::Control) + 4 * (counts.particles + 1) +
                         8 * counts.springs();
   if (path == ForcePath::per_spring)
     bytes += counts.springs() * (sizeof(layout::uvec2) + sizeof(layout::vec4));

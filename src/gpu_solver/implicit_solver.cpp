@@ -9,6 +9,7 @@
 #include "gpu/pass.h"
 #include "gpu/program.h"
 #include "gpu_solver/ball_passes.h"
+#include "gpu_solver/pull_buffer.h"
 #include "gpu_solver/simulation_block.h"
 #include "gpu_solver/support.h"
 #include "gpu_solver/topology.h"
@@ -53,6 +54,7 @@ class ImplicitSolver final : public GpuSolver {
   const gl::Arithmetic& arithmetic() const override { return arithmetic_; }
 
   Status load(const State& state) override;
+  Status set_pull(const std::optional<Pull>& pull) override { return pull_.set(model_, pull); }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   std::optional<SolveStatistics> solve_statistics() override { return statistics_; }
   Result<State> state() override;
@@ -72,6 +74,7 @@ class ImplicitSolver final : public GpuSolver {
   std::uint64_t bytes_ = 0;
   std::array<Buffer, 2> states_;
   Buffer trial_, search_, own_, simulation_, incident_start_, incident_, solve_buffer_;
+  PullBuffer pull_;
   gl::Arithmetic arithmetic_;
   std::array<gl::Program, kernel_count> programs_;
   std::vector<gl::Pass> passes_;  // by Kernel
@@ -101,6 +104,7 @@ Status ImplicitSolver::build_buffers() {
   ASPIC_ASSIGN_OR_RETURN(
       simulation_, Buffer::of(context_, "simulation constants", std::span<const layout::Simulation>(block),
                               gl::BufferKind::uniform));
+  if (const Status made = pull_.build(context_); !made) return made;
   IncidentSprings rows;
   ASPIC_ASSIGN_OR_RETURN(rows, neighbours_of(model_));
   ASPIC_ASSIGN_OR_RETURN(incident_start_, Buffer::of(context_, "incident spring rows",
@@ -119,6 +123,7 @@ Status ImplicitSolver::build(const GpuOptions& options) {
   ASPIC_ASSIGN_OR_RETURN(kernels, kernel_options(context_, library, options, REDUCTION_BLOCK));
   arithmetic_ = kernels.arithmetic;
   const std::vector<Binding> bindings = {{BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform},
+                                         pull_.binding(),
                                          {BINDING_STATE_A, &states_[0]},
                                          {BINDING_STATE_B, &states_[1]},
                                          {BINDING_TRIAL, &trial_},

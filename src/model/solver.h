@@ -8,6 +8,7 @@
 #include "base/result.h"
 #include "model/implicit.h"
 #include "model/model.h"
+#include "model/pull.h"
 #include "model/state.h"
 
 namespace aspic {
@@ -44,6 +45,10 @@ class Solver {
   /// Takes over a state: rounds it to the solver's own precision, keeps its step number, forgets any
   /// divergence. Error (usage): the state has another number of particles or balls.
   virtual Status load(const State& state) = 0;
+  /// Pulls a particle from the next step on, until it is called again; nothing: lets go. A new solver pulls
+  /// nobody; load() leaves the pull as it is. Cheap enough for every picture, and ordered after the steps that
+  /// advance() did. Errors as rounded_pull (usage): then the pull stays what it was.
+  virtual Status set_pull(const std::optional<Pull>& pull) = 0;
   /// Advances by `steps`, fewer only after a divergence, which is returned. Error: the device was lost.
   virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;
   /// What implicit Euler's solves came to since the last load(); nothing with other integrators.

@@ -1,0 +1,52 @@
+#include "model/pull.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace aspic {
+namespace {
+
+/// A conversion to a float out of its range is undefined, so larger numbers are infinite by decree.
+double rounded(double value, Precision precision) {
+  if (precision == Precision::single) {
+    const double limit = std::numeric_limits<float>::max();
+    value = std::abs(value) > limit ? std::copysign(HUGE_VAL, value)
+                                    : static_cast<double>(static_cast<float>(value));
+  }
+  return value == 0.0 ? 0.0 : value;
+}
+
+}  // namespace
+
+Result<std::optional<Pull>> rounded_pull(const Model& model, const std::optional<Pull>& pull,
+                                         Precision precision) {
+  if (!pull) return std::optional<Pull>();
+  if (pull->particle >= model.particle_count()) {
+    return Error{ErrorCode::usage,
+                 fmt::format("particle {} cannot be pulled: the scene has {} particles, counted from 0",
+                             pull->particle, model.particle_count())};
+  }
+  Pull taken = *pull;
+  for (int axis = 0; axis < 3; ++axis) taken.anchor[axis] = rounded(pull->anchor[axis], precision);
+  taken.stiffness = rounded(pull->stiffness, precision);
+  taken.damping = rounded(pull->damping, precision);
+  for (const double value :
+       {taken.anchor.x, taken.anchor.y, taken.anchor.z, taken.stiffness, taken.damping}) {
+    if (std::isfinite(value)) continue;
+    return Error{ErrorCode::usage,
+                 fmt::format("the pull on particle {} has a number that is not finite in {} precision: "
+                             "anchor ({}, {}, {}) m, stiffness {} N/m, damping {} N·s/m",
+                             pull->particle, name_of(precision), pull->anchor.x, pull->anchor.y,
+                             pull->anchor.z, pull->stiffness, pull->damping)};
+  }
+  if (taken.stiffness < 0.0 || taken.damping < 0.0) {
+    return Error{ErrorCode::usage, fmt::format("the pull on particle {} has stiffness {} N/m and damping {} "
+                                               "N·s/m: neither may be negative",
+                                               pull->particle, pull->stiffness, pull->damping)};
+  }
+  return std::optional<Pull>(taken);
+}
+
+}  // namespace aspic

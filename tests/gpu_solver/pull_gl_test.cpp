@@ -1,0 +1,167 @@
+// Pulling a particle ends with the same bits on the device as on the reference.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "cpu_reference/reference_solver.h"
+#include "gpu_solver/gpu_solver.h"
+#include "support/gl_fixture.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+/// From this step on.
+struct Input {
+  std::uint64_t step;
+  std::optional<Pull> pull;
+};
+
+class PullOnTheDevice : public aspic::testing::GlTest {
+ protected:
+  static std::unique_ptr<GpuSolver> solver_for(const Model& model, ForcePath path = ForcePath::gather) {
+    GpuOptions options;
+    options.force_path = path;
+    auto made = make_gpu_solver(context(), model, options);
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
+    return std::move(made).value();
+  }
+
+  /// The state at `steps`, with every input given at its step.
+  static State run(Solver& solver, const std::vector<Input>& inputs, std::uint64_t steps) {
+    std::uint64_t at = solver.state()->step;
+    for (const Input& input : inputs) {
+      EXPECT_FALSE((*solver.advance(input.step - at)).has_value());
+      EXPECT_TRUE(solver.set_pull(input.pull).ok());
+      at = input.step;
+    }
+    EXPECT_FALSE((*solver.advance(steps - at)).has_value());
+    return *solver.state();
+  }
+
+  /// A tilted cube at the ground, with a corner of it pinned.
+  static ModelSettings low_cube(Integrator integrator, ContactModel contact) {
+    ModelSettings settings = test::cube_on_plane(4, 1.9);
+    settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
+    settings.cubes[0].velocity = {1.0, -1.0, 0.5};
+    settings.cubes[0].pinned.names = {"left-top-back"};
+    settings.simulation.integrator = integrator;
+    if (integrator == Integrator::implicit_euler) settings.simulation.timestep = 0.005;
+    settings.contact.model = contact;
+    return settings;
+  }
+};
+
+TEST_F(PullOnTheDevice, EveryIntegratorContactModelAndForcePath) {
+  for (const Integrator integrator : all_integrators) {
+    const std::uint64_t s = integrator == Integrator::implicit_euler ? 10 : 50;
+    const std::vector<Input> inputs = {
+        {0, Pull{63, {3.0, 4.0, 2.0}, 900.0, 20.0}},                // a corner
+        {2 * s, Pull{63, {3.1, 4.5, -2.0}, 900.0, 20.0}},           // the hand moves
+        {3 * s, Pull{21, {-0.0, 0.7, 1.0 / 3.0}, 1e4 / 3.0, 0.0}},  // another particle, inside
+        {4 * s, std::nullopt},                                      // let go
+        {5 * s, Pull{0, {9.0, 9.0, 9.0}, 500.0, 5.0}},              // the lowest index
+        {6 * s + 1, Pull{3, {0.0, -5.0, 0.0}, 200.0, 50.0}}};       // down, on the ground
+    for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
+      const Model model = test::build(low_cube(integrator, contact));
+      auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+      const State expected = run(*reference, inputs, 8 * s);
+      auto untouched = std::move(make_reference_solver(model, Precision::single)).value();
+      ASSERT_FALSE((*untouched->advance(8 * s)).has_value());
+      double moved = 0.0;
+      for (std::size_t i = 0; i < expected.position.size(); ++i)
+        moved = std::max(moved, length(expected.position[i] - untouched->state()->position[i]));
+      ASSERT_GT(moved, 0.1);
+      for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+        if (integrator == Integrator::implicit_euler && path == ForcePath::per_spring) continue;  // refused
+        auto solver = solver_for(model, path);
+        const State state = run(*solver, inputs, 8 * s);
+        EXPECT_EQ(state_hash_text(state), state_hash_text(expected))
+            << name_of(integrator) << ", " << name_of(contact) << ", " << name_of(path);
+        EXPECT_EQ(state, expected);
+      }
+    }
+  }
+}
+
+// How the steps between two inputs are queued changes nothing, nor does a load in between.
+TEST_F(PullOnTheDevice, HoldsOverBatchesAndLoad) {
+  for (const Integrator integrator : {Integrator::runge_kutta_4, Integrator::implicit_euler}) {
+    const Model model = test::build(low_cube(integrator, ContactModel::coulomb));
+    const Pull pull{63, {3.0, 4.0, 2.0}, 900.0, 20.0};
+    auto whole = solver_for(model), split = solver_for(model);
+    ASSERT_TRUE(whole->set_pull(pull).ok());
+    ASSERT_TRUE(split->set_pull(pull).ok());
+    ASSERT_FALSE((*whole->advance(60)).has_value());
+    for (const std::uint64_t steps : {1u, 7u, 22u}) ASSERT_FALSE((*split->advance(steps)).has_value());
+    ASSERT_TRUE(split->load(*split->state()).ok());
+    ASSERT_FALSE((*split->advance(30)).has_value());
+    EXPECT_EQ(*split->state(), *whole->state());
+  }
+}
+
+// A pull that throws its particle out of the range of sane speeds.
+TEST_F(PullOnTheDevice, DivergesWhereTheReferenceDoes) {
+  for (const Integrator integrator :
+       {Integrator::explicit_euler, Integrator::runge_kutta_4, Integrator::implicit_euler}) {
+    Model model = test::build(low_cube(integrator, ContactModel::coulomb));
+    const Pull pull{42, {1e6, 0.0, 0.0}, 500.0, 0.0};
+    auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+    auto solver = solver_for(model);
+    for (Solver* each : {static_cast<Solver*>(reference.get()), static_cast<Solver*>(solver.get())}) {
+      ASSERT_FALSE((*each->advance(5)).has_value());
+      ASSERT_TRUE(each->set_pull(pull).ok());
+    }
+    const auto expected = *reference->advance(100), found = *solver->advance(100);
+    ASSERT_TRUE(expected && found) << name_of(integrator);
+    EXPECT_EQ(found->step, expected->step);
+    EXPECT_EQ(found->particle, expected->particle);
+    // Methods that see the whole step drag its neighbours along within it.
+    if (integrator == Integrator::explicit_euler) {
+      EXPECT_EQ(found->particle, 42u);
+    }
+    EXPECT_EQ(*solver->state(), *reference->state());
+  }
+}
+
+TEST_F(PullOnTheDevice, AtItsAnchorAndOnAPinnedParticleItDoesNothing) {
+  for (const Integrator integrator : {Integrator::explicit_euler, Integrator::implicit_euler}) {
+    ModelSettings settings = low_cube(integrator, ContactModel::coulomb);
+    settings.cubes[0].velocity = {};
+    const Model model = test::build(settings);
+    std::uint32_t pinned = 0;
+    while (model.inverse_mass[pinned] != 0.0) ++pinned;
+    const State start = initial_state(model, Precision::single);
+    auto free = solver_for(model), held = solver_for(model);
+    ASSERT_TRUE(held->set_pull(Pull{pinned, {50.0, 3.0, 0.0}, 1000.0, 10.0}).ok());
+    ASSERT_FALSE((*free->advance(20)).has_value());
+    ASSERT_FALSE((*held->advance(20)).has_value());
+    EXPECT_EQ(held->state()->position[pinned], start.position[pinned]);
+    EXPECT_EQ(*held->state(), *free->state());
+
+    Model still = test::particles({{1.0, 2.0, 3.0}}, {{0.0, 0.0, 0.0}});
+    still.simulation.gravity = {};
+    still.simulation.integrator = integrator;
+    auto alone = solver_for(still);
+    ASSERT_TRUE(alone->set_pull(Pull{0, {1.0, 2.0, 3.0}, 1e6, 1e3}).ok());
+    ASSERT_FALSE((*alone->advance(10)).has_value());
+    EXPECT_EQ(alone->state()->position, initial_state(still, Precision::single).position);
+  }
+}
+
+TEST_F(PullOnTheDevice, RefusedPullLeavesTheOneBefore) {
+  const Model model = test::build(low_cube(Integrator::explicit_euler, ContactModel::coulomb));
+  const Pull pull{63, {3.0, 4.0, 2.0}, 900.0, 20.0};
+  auto solver = solver_for(model), other = solver_for(model);
+  ASSERT_TRUE(solver->set_pull(pull).ok());
+  ASSERT_TRUE(other->set_pull(pull).ok());
+  EXPECT_EQ(solver->set_pull(Pull{64, {}, 1.0, 1.0}).error().code, ErrorCode::usage);
+  EXPECT_EQ(solver->set_pull(Pull{1, {}, -1.0, 1.0}).error().code, ErrorCode::usage);
+  ASSERT_FALSE((*solver->advance(30)).has_value());
+  ASSERT_FALSE((*other->advance(30)).has_value());
+  EXPECT_EQ(*solver->state(), *other->state());
+}
+
+}  // namespace
+}  // namespace aspic
