@@ -96,10 +96,18 @@ void App::mouse_button(int button, int action, int modifiers) {
   gui_->mouse_button(button, action);
   if (action == GLFW_RELEASE) {
     if (button == drag_button_) drag_button_ = -1;
+    if (button == GLFW_MOUSE_BUTTON_LEFT) end_pull();
     if (button == GLFW_MOUSE_BUTTON_LEFT) editor_.end_gesture();
     return;
   }
   if (drag_button_ >= 0 || gui_->takes_mouse() || !viewport_.contains(mouse_x_, mouse_y_)) return;
+  const bool hand = (modifiers & GLFW_MOD_CONTROL) != 0;
+  if (hand && hovered_) {
+    if (button == GLFW_MOUSE_BUTTON_LEFT) begin_pull();
+    if (button == GLFW_MOUSE_BUTTON_RIGHT) toggle_pin(hovered_->particle);
+    return;
+  }
+  if (hand) return;
   drag_button_ = button;
   drag_pans_ = button != GLFW_MOUSE_BUTTON_LEFT || (modifiers & GLFW_MOD_SHIFT) != 0;
 }
@@ -110,6 +118,7 @@ void App::cursor(double x, double y) {
   if (drag_button_ >= 0) drag(x - mouse_x_, y - mouse_y_);
   mouse_x_ = x;
   mouse_y_ = y;
+  move_pull();
 }
 
 void App::drag(double dx, double dy) {
@@ -160,6 +169,7 @@ void App::change_speed(double factor) {
 void App::toggle_backend() {
   const bool to_gpu = simulation_->backend() == BackendName::reference;
   const Status changed = simulation_->set_backend(to_gpu ? BackendName::gpu : BackendName::reference);
+  follow_history();
   if (changed)
     tell(fmt::format("Now on {}.", simulation_->solver().description()));
   else
@@ -237,23 +247,6 @@ void App::redo() {
   const std::string name = editor_.redo_name();
   take_effect(editor_.redo());
   tell(fmt::format("Done again: {}.", name));
-}
-
-void App::step_back() {
-  if (!simulation_->can_step_back()) return;
-  stable_.reset();
-  tell(simulation_->step_back());
-  if (!simulation_->divergence() && notice_ && notice_->is_error) notice_.reset();
-}
-
-void App::take_stable_step() {
-  if (!stable_ || !stable_->step || !std::isfinite(*stable_->step)) return;
-  // Two digits below: an estimate is not trusted to its last one.
-  const double limit = 0.95 * *stable_->step;
-  const double unit = std::pow(10.0, std::floor(std::log10(limit)) - 1.0);
-  const double step = std::floor(limit / unit) * unit;
-  if (simulation_->can_step_back()) step_back();
-  set_value(*find_parameter("simulation.timestep"), 0, Value(step), "");
 }
 
 void App::toggle_full_screen() {
@@ -345,8 +338,9 @@ Status App::frame(const WindowSize& size, double dt) {
   // A picture of a software rasteriser takes longer anyway, so steps may too.
   const double budget = context_.info().is_software ? 0.040 : 0.012;
   if (const Status moved = simulation_->update(dt, budget); !moved) return moved;
+  if (auto message = simulation_->take_message()) tell(std::move(*message), true);
   watch_divergence();
-  still_ = camera_moves || simulation_->running() ? 0.0 : still_ + dt;
+  still_ = camera_moves || simulation_->running() || simulation_->seeking() ? 0.0 : still_ + dt;
   rate_time_ += dt;
   ++rate_pictures_;
   if (rate_time_ > 0.5) {

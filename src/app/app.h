@@ -14,6 +14,7 @@
 #include "app/scene_editor.h"
 #include "app/simulation.h"
 #include "app/window.h"
+#include "render/camera.h"
 #include "render/renderer.h"
 
 namespace aspic::app {
@@ -35,6 +36,14 @@ struct Notice {
 struct Hovered {
   std::uint32_t particle = 0;
   Vec3 position, velocity;  ///< [m], [m/s] at the snapshot's step
+};
+
+/// How hands throw and pull.
+struct HandSettings {
+  double radius = 0.3;    ///< of a thrown ball [m], > 0
+  double mass = 20.0;     ///< of a thrown ball [kg], > 0
+  double speed = 15.0;    ///< of a thrown ball [m/s], ≥ 0
+  double strength = 1.0;  ///< factor on the stiffness of a pull, > 0
 };
 
 class App final : public EventReceiver {
@@ -79,8 +88,21 @@ class App final : public EventReceiver {
   void start_recording(const std::string& path);
   void stop_recording();
   const Recording* recording() const { return recording_.get(); }
+  // ---- time: the scene's values go back and forth with it, for they are part of the run ----
   void step_back();
+  /// Half a second of simulated time.
+  void jump_back();
+  /// To the moment nearest to a time of the history [s]; paused.
+  void go_to(double time);
+  void back_before_trouble();
   void take_stable_step();
+  // ---- hands ----
+  /// Throws balls from the camera at what is under the mouse, or in the middle of the picture.
+  void throw_ball();
+  void throw_many();
+  void clear_balls();
+  void toggle_pin(std::uint32_t particle);
+  void toggle_shadow();
   void toggle_panels() { panels_visible_ = !panels_visible_; }
   void toggle_help() { help_visible_ = !help_visible_; }
   void toggle_full_screen();
@@ -98,6 +120,8 @@ class App final : public EventReceiver {
   bool help_visible() const { return help_visible_; }
   const std::optional<Notice>& notice() const { return notice_; }
   const std::optional<Hovered>& hovered() const { return hovered_; }
+  /// Ball, speed and stiffness of hands, as the panels set them.
+  HandSettings& hands() { return hands_; }
   /// The largest stable step, while a divergence stands.
   const std::optional<StabilityLimit>& stable_step() const { return stable_; }
   /// Where the scene is drawn [window units].
@@ -125,6 +149,12 @@ class App final : public EventReceiver {
   void find_hovered();
   void save_screenshot(const WindowSize& size);
   void drag(double dx, double dy);
+  void follow_history();
+  void begin_pull();
+  void move_pull();
+  void end_pull();
+  BallSettings thrown_ball(double x, double y) const;
+  Camera view_camera() const;
 
   gl::Context& context_;
   SceneEditor editor_;
@@ -146,6 +176,9 @@ class App final : public EventReceiver {
   int drag_button_ = -1;
   bool drag_pans_ = false;
   std::optional<Hovered> hovered_;
+  HandSettings hands_;
+  std::uint32_t thrown_ = 0;  // balls so far: each of many flies its own way
+  Vec3 pull_plane_;           // a point of the plane, square to the view, in which the anchor moves [m]
 
   std::uint64_t drawn_model_ = ~std::uint64_t{0}, drawn_state_ = ~std::uint64_t{0};
   std::string drawn_terrain_;

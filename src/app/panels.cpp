@@ -13,7 +13,7 @@
 namespace aspic::app {
 namespace {
 
-constexpr double side_width = 322.0, status_height = 30.0;
+constexpr double side_width = 322.0, status_height = 30.0, timeline_height = 34.0;
 /// Below this width both sides would leave the scene too little.
 constexpr double narrow = 1020.0;
 constexpr ImGuiWindowFlags fixed_panel =
@@ -26,14 +26,14 @@ struct Heading {
   Section section;
   bool open;
 };
-constexpr Heading left_sections[] = {{"Scene", scene_section, true},
-                                     {"Simulation", simulation_section, true},
-                                     {"Bodies", bodies_section, false},
-                                     {"Springs", springs_section, false},
-                                     {"Contact", contact_section, false}};
+constexpr Heading left_sections[] = {
+    {"Scene", scene_section, true},      {"Simulation", simulation_section, true},
+    {"Bodies", bodies_section, false},   {"Springs", springs_section, false},
+    {"Contact", contact_section, false}, {"Balls", balls_section, false}};
 constexpr Heading right_sections[] = {{"View", view_section, true},
                                       {"Performance", performance_section, true},
-                                      {"Energy", energy_section, true}};
+                                      {"Energy", energy_section, true},
+                                      {"Shadow", shadow_section, false}};
 
 ImVec2 at(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};
@@ -96,11 +96,13 @@ void notice_panel(App& app, const Box& view) {
       if (pressed) app.take_stable_step();
       ImGui::SameLine();
     }
-    if (app.simulation().can_step_back()) {
-      const std::string back = fmt::format("Back to t = {:.3f} s", app.simulation().step_back_time());
-      if (button(gui, "diverged/back", back.c_str(), "The last state remembered before.",
-                 "step back in time"))
-        app.step_back();
+    const Simulation& simulation = app.simulation();
+    if (simulation.can_step_back()) {
+      const std::string back =
+          fmt::format("Back to t = {:.3f} s", simulation.history().time(simulation.before_trouble()));
+      if (button(gui, "diverged/back", back.c_str(),
+                 "A while before it happened, with the values the scene had then."))
+        app.back_before_trouble();
       ImGui::SameLine();
     }
     if (button(gui, "diverged/reset", "Reset", "Back to the scene's start.", "reset to the start")) {
@@ -182,7 +184,8 @@ Box draw_panels(App& app, double width, double height) {
     status_line(app);
     ImGui::End();
     ImGui::PopStyleVar();
-    view = {column, 0.0, two ? width - column : width, bottom};
+    view = {column, 0.0, two ? width - column : width, bottom - timeline_height * scale};
+    draw_timeline(app, {view.left, view.bottom, view.right, bottom});
   }
   notice_panel(app, view);
   help_panel(app, width, height);

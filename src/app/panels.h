@@ -19,5 +19,9 @@ void contact_section(App& app);
 void view_section(App& app);
 void performance_section(App& app);
 void energy_section(App& app);
+void balls_section(App& app);
+void shadow_section(App& app);
+/// The bar of the history, into that box.
+void draw_timeline(App& app, const Box& box);
 
 }  // namespace aspic::app

@@ -135,8 +135,9 @@ void simulation_section(App& app) {
     app.toggle_backend();
   ImGui::SameLine();
   const bool back = s.can_step_back();
-  if (button(gui, "simulation/back", "Step back", "To the state of about half a second ago, paused.",
-             "step back in time", back, half))
+  if (button(gui, "simulation/back", "Step back",
+             "One time step back; the bar below the picture goes to any step since the start.", "step back",
+             back, half))
     app.step_back();
   edit(app, "simulation.integrator");
   edit(app, "simulation.timestep", 0, "Time step");

@@ -1,0 +1,222 @@
+#include "app/history.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace aspic::app {
+namespace {
+
+void put(std::vector<float>& numbers, const std::vector<Vec3>& vectors) {
+  for (const Vec3& v : vectors) {
+    for (int axis = 0; axis < 3; ++axis) numbers.push_back(static_cast<float>(v[axis]));
+  }
+}
+
+std::vector<Vec3> take(const float*& numbers, std::uint32_t count) {
+  std::vector<Vec3> vectors(count);
+  for (Vec3& v : vectors) {
+    for (int axis = 0; axis < 3; ++axis) v[axis] = static_cast<double>(*numbers++);
+  }
+  return vectors;
+}
+
+}  // namespace
+
+Keyframe pack(const State& state) {
+  assert(state.precision == Precision::single);
+  Keyframe k;
+  k.step = state.step;
+  k.particles = static_cast<std::uint32_t>(state.position.size());
+  k.balls = static_cast<std::uint32_t>(state.ball_position.size());
+  k.numbers.reserve(std::size_t{6} * k.particles + std::size_t{9} * k.balls);
+  for (const auto* vectors : {&state.position, &state.velocity, &state.ball_position, &state.ball_velocity,
+                              &state.ball_angular_velocity})
+    put(k.numbers, *vectors);
+  return k;
+}
+
+State unpack(const Keyframe& keyframe) {
+  State s;
+  s.precision = Precision::single;
+  s.step = keyframe.step;
+  const float* numbers = keyframe.numbers.data();
+  s.position = take(numbers, keyframe.particles);
+  s.velocity = take(numbers, keyframe.particles);
+  s.ball_position = take(numbers, keyframe.balls);
+  s.ball_velocity = take(numbers, keyframe.balls);
+  s.ball_angular_velocity = take(numbers, keyframe.balls);
+  return s;
+}
+
+void History::clear() {
+  // Numbers go on, so that no moment of the old run passes for one of the new.
+  first_number_ += stretches_.size();
+  stretches_.clear();
+  bytes_ = 0;
+}
+
+void History::begin(const Setup& setup, const State& state) {
+  if (!empty() && last().first == last().last && last().keyframes.size() == 1) drop_last_stretch();
+  Stretch stretch;
+  stretch.setup = setup;
+  stretch.first = stretch.last = state.step;
+  stretches_.push_back(std::move(stretch));
+  add_keyframe(state);
+}
+
+void History::reach(std::uint64_t step) {
+  last().last = std::max(last().last, step);
+}
+
+void History::add_keyframe(const State& state) {
+  Stretch& stretch = last();
+  if (!stretch.keyframes.empty() && stretch.keyframes.back().step >= state.step) return;
+  reach(state.step);
+  stretch.keyframes.push_back(pack(state));
+  bytes_ += stretch.keyframes.back().bytes();
+  while (bytes_ > most_bytes_ && keyframe_count() > 1) drop_oldest();
+}
+
+void History::set_pull(std::uint64_t step, const std::optional<Pull>& pull) {
+  std::vector<PullChange>& pulls = last().pulls;
+  assert(pulls.empty() || pulls.back().step <= step);
+  if (!pulls.empty() && pulls.back().step == step) {
+    pulls.back().pull = pull;
+    return;
+  }
+  pulls.push_back({step, pull});
+  bytes_ += sizeof(PullChange);
+}
+
+void History::drop_last_stretch() {
+  for (const Keyframe& k : last().keyframes) bytes_ -= k.bytes();
+  bytes_ -= sizeof(PullChange) * last().pulls.size();
+  stretches_.pop_back();
+}
+
+void History::drop_oldest() {
+  Stretch& oldest = stretches_.front();
+  bytes_ -= oldest.keyframes.front().bytes();
+  oldest.keyframes.pop_front();
+  if (!oldest.keyframes.empty()) {
+    oldest.first = oldest.keyframes.front().step;
+    return;
+  }
+  bytes_ -= sizeof(PullChange) * oldest.pulls.size();
+  stretches_.pop_front();
+  ++first_number_;
+}
+
+void History::truncate(const Moment& moment) {
+  while (end_moment().stretch > moment.stretch) drop_last_stretch();
+  Stretch& stretch = last();
+  stretch.last = std::min(stretch.last, moment.step);
+  while (stretch.keyframes.size() > 1 && stretch.keyframes.back().step > moment.step) {
+    bytes_ -= stretch.keyframes.back().bytes();
+    stretch.keyframes.pop_back();
+  }
+  // A pull that begins with the step from `moment` on belongs to what is forgotten.
+  while (!stretch.pulls.empty() && stretch.pulls.back().step >= moment.step) {
+    bytes_ -= sizeof(PullChange);
+    stretch.pulls.pop_back();
+  }
+}
+
+Moment History::begin_moment() const {
+  return {first_number_, stretches_.front().first};
+}
+
+Moment History::end_moment() const {
+  return {first_number_ + stretches_.size() - 1, stretches_.back().last};
+}
+
+const Stretch& History::stretch(std::uint64_t number) const {
+  assert(number >= first_number_ && number - first_number_ < stretches_.size());
+  return stretches_[static_cast<std::size_t>(number - first_number_)];
+}
+
+Moment History::canonical(Moment moment) const {
+  while (moment.stretch < end_moment().stretch && moment.step >= stretch(moment.stretch).last) {
+    ++moment.stretch;
+    moment.step = stretch(moment.stretch).first;
+  }
+  return moment;
+}
+
+std::optional<Moment> History::before(const Moment& moment) const {
+  Moment m = moment;
+  while (m.step <= stretch(m.stretch).first) {
+    if (m.stretch == first_number_) return std::nullopt;
+    --m.stretch;
+    m.step = stretch(m.stretch).last;
+  }
+  --m.step;
+  return m;
+}
+
+std::optional<Moment> History::after(const Moment& moment) const {
+  Moment m = canonical(moment);
+  if (m == end_moment()) return std::nullopt;
+  ++m.step;
+  return canonical(m);
+}
+
+Moment History::nearest(double time) const {
+  Moment m = begin_moment();
+  while (m.stretch < end_moment().stretch && time > stretch(m.stretch).time(stretch(m.stretch).last)) {
+    ++m.stretch;
+    m.step = stretch(m.stretch).first;
+  }
+  const Stretch& s = stretch(m.stretch);
+  const double steps = std::round(time / s.timestep());
+  m.step = steps <= static_cast<double>(s.first)  ? s.first
+           : steps >= static_cast<double>(s.last) ? s.last
+                                                  : static_cast<std::uint64_t>(steps);
+  return canonical(m);
+}
+
+const Keyframe& History::keyframe(const Moment& moment) const {
+  const Stretch& s = stretch(moment.stretch);
+  const auto later = std::ranges::upper_bound(s.keyframes, moment.step, {}, &Keyframe::step);
+  assert(later != s.keyframes.begin());
+  return *(later - 1);
+}
+
+Moment History::keyframes_before(const Moment& moment, std::size_t count) const {
+  Moment m = moment;
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto earlier = before(m);
+    if (!earlier) break;
+    m = {earlier->stretch, keyframe(*earlier).step};
+  }
+  return m;
+}
+
+std::optional<Pull> History::pull_at(const Moment& moment) const {
+  const std::vector<PullChange>& pulls = stretch(moment.stretch).pulls;
+  const auto later = std::ranges::upper_bound(pulls, moment.step, {}, &PullChange::step);
+  return later == pulls.begin() ? std::nullopt : (later - 1)->pull;
+}
+
+std::optional<std::uint64_t> History::next_pull_change(const Moment& moment) const {
+  const std::vector<PullChange>& pulls = stretch(moment.stretch).pulls;
+  const auto later = std::ranges::upper_bound(pulls, moment.step, {}, &PullChange::step);
+  if (later == pulls.end()) return std::nullopt;
+  return later->step;
+}
+
+std::vector<double> History::changes() const {
+  std::vector<double> times;
+  for (std::size_t i = 1; i < stretches_.size(); ++i)
+    times.push_back(stretches_[i].time(stretches_[i].first));
+  return times;
+}
+
+std::size_t History::keyframe_count() const {
+  std::size_t count = 0;
+  for (const Stretch& s : stretches_) count += s.keyframes.size();
+  return count;
+}
+
+}  // namespace aspic::app

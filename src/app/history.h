@@ -1,0 +1,104 @@
+#pragma once
+// The run so far, so that any of its steps can be had again: keyframes, and the inputs between them. Steps
+// between two keyframes are simulated once more, which gives the same bits (spec §2.9).
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "app/setup.h"
+#include "model/pull.h"
+#include "model/state.h"
+
+namespace aspic::app {
+
+/// A step of the history. Stretches are numbered from the run's start and keep their numbers.
+struct Moment {
+  std::uint64_t stretch = 0;
+  std::uint64_t step = 0;
+  friend bool operator==(const Moment&, const Moment&) = default;
+};
+
+/// A pull that began, moved or (nothing) ended with the step that starts at `step`.
+struct PullChange {
+  std::uint64_t step = 0;
+  std::optional<Pull> pull;
+};
+
+/// A single-precision state, packed.
+struct Keyframe {
+  std::uint64_t step = 0;
+  std::uint32_t particles = 0, balls = 0;
+  std::vector<float> numbers;  ///< x, v of the particles; x, v, ω of the balls
+  std::uint64_t bytes() const { return sizeof(Keyframe) + sizeof(float) * numbers.size(); }
+};
+
+Keyframe pack(const State& state);
+State unpack(const Keyframe& keyframe);
+
+/// A part of the run with the same setup throughout.
+struct Stretch {
+  Setup setup;
+  std::uint64_t first = 0, last = 0;  ///< steps that can be had
+  std::deque<Keyframe> keyframes;     ///< ascending; the first one is of step `first`
+  std::vector<PullChange> pulls;      ///< ascending, at most one a step
+  double timestep() const { return setup.settings.simulation.timestep; }
+  double time(std::uint64_t step) const { return static_cast<double>(step) * timestep(); }
+};
+
+class History {
+ public:
+  /// The oldest steps are dropped once more than `most_bytes` are held.
+  explicit History(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
+  void clear();
+  bool empty() const { return stretches_.empty(); }
+
+  /// The run goes on from this state with another setup. A stretch without a step is replaced.
+  void begin(const Setup& setup, const State& state);
+  /// The last stretch has come to this step.
+  void reach(std::uint64_t step);
+  /// A state of the last stretch, later than the last keyframe; one of the same step is not taken again.
+  void add_keyframe(const State& state);
+  /// From this step on the last stretch has this pull.
+  void set_pull(std::uint64_t step, const std::optional<Pull>& pull);
+  /// Forgets whatever came after `moment`, which becomes the end.
+  void truncate(const Moment& moment);
+
+  /// All of the following need a history that is not empty.
+  Moment begin_moment() const;
+  Moment end_moment() const;
+  const Stretch& stretch(std::uint64_t number) const;
+  double time(const Moment& moment) const { return stretch(moment.stretch).time(moment.step); }
+  /// One step earlier or later; nothing at the ends. Where one stretch ends and the next begins is one
+  /// moment, that of the next.
+  std::optional<Moment> before(const Moment& moment) const;
+  std::optional<Moment> after(const Moment& moment) const;
+  /// The moment nearest to a time [s].
+  Moment nearest(double time) const;
+  /// The newest keyframe at or before `moment`, within its stretch.
+  const Keyframe& keyframe(const Moment& moment) const;
+  /// The newest keyframe's moment that is at least `count` keyframes before `moment`; else the beginning.
+  Moment keyframes_before(const Moment& moment, std::size_t count) const;
+  /// The pull in the step that starts at `moment`.
+  std::optional<Pull> pull_at(const Moment& moment) const;
+  /// The first step after `moment`'s, within its stretch, that starts with another pull; nothing if none.
+  std::optional<std::uint64_t> next_pull_change(const Moment& moment) const;
+  /// Times at which the setup changed, oldest first [s].
+  std::vector<double> changes() const;
+
+  std::uint64_t bytes() const { return bytes_; }
+  std::size_t keyframe_count() const;
+
+ private:
+  Stretch& last() { return stretches_.back(); }
+  void drop_oldest();
+  void drop_last_stretch();
+  Moment canonical(Moment moment) const;
+
+  std::uint64_t most_bytes_, bytes_ = 0;
+  std::uint64_t first_number_ = 0;  // of stretches_.front()
+  std::deque<Stretch> stretches_;
+};
+
+}  // namespace aspic::app

@@ -1,0 +1,51 @@
+// The bar of the history, under the picture: any step since the start.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/app.h"
+#include "app/panels.h"
+#include "app/parameter_widget.h"
+
+namespace aspic::app {
+
+void draw_timeline(App& app, const Box& box) {
+  const Simulation& s = app.simulation();
+  const History& history = s.history();
+  const double scale = app.gui().scale();
+  const auto at = [](double x, double y) { return ImVec2(static_cast<float>(x), static_cast<float>(y)); };
+  ImGui::SetNextWindowPos(at(box.left, box.top));
+  ImGui::SetNextWindowSize(at(box.right - box.left, box.bottom - box.top));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, at(12.0 * scale, 4.0 * scale));
+  ImGui::Begin("##timeline", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  const double first = history.time(history.begin_moment()), last = history.time(history.end_moment());
+  double now = std::clamp(s.time(), first, last);
+  const std::string text = fmt::format("{:.3f} / {:.3f} s{}", s.time(), last, s.seeking() ? "  …" : "");
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool moved = ImGui::SliderScalar("##history", ImGuiDataType_Double, &now, &first, &last, text.c_str(),
+                                         ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp);
+  app.gui().mark("timeline");
+  const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
+  tooltip(fmt::format(
+              "The run so far, {} of at most 512 MiB: drag to go to any step, paused. Steps between the "
+              "{} states that are kept are simulated again and give the same bits, pulls and pins included. "
+              "Marks are changes of the scene, which go back and forth as well. Going on from the past drops "
+              "what came after.",
+              gl::human_bytes(history.bytes()), history.keyframe_count()),
+          "step back");
+  if (last > first) {
+    for (const double t : history.changes()) {
+      const float x = corner.x + static_cast<float>((t - first) / (last - first)) * (end.x - corner.x);
+      ImGui::GetWindowDrawList()->AddLine({x, end.y - static_cast<float>(5.0 * scale)}, {x, end.y},
+                                          IM_COL32(242, 176, 92, 255), static_cast<float>(1.5 * scale));
+    }
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+  if (moved && last > first) app.go_to(now);
+}
+
+}  // namespace aspic::app
