@@ -183,10 +183,12 @@ Status Simulation::update(double dt, double budget) {
     rate_start_ = Clock::now();
     rate_steps_ = 0;
   }
-  const auto steps = static_cast<std::uint64_t>(due_);
+  auto steps = static_cast<std::uint64_t>(due_);
+  if (pause_step_) steps = std::min(steps, *pause_step_ > step_ ? *pause_step_ - step_ : 0);
   if (steps == 0) return {};
   if (gpu_) return advance_gpu(steps, budget);
-  if (!worker_.busy()) start_job(steps, std::max(budget, shortest_job));
+  // A job that came to its end since the look above still has its outcome to hand over.
+  if (!worker_.busy() && !has_outcome_) start_job(steps, std::max(budget, shortest_job));
   return {};
 }
 

@@ -61,6 +61,10 @@ class Simulation {
   /// Waits for the work under way, so that snapshot() is the state to the step.
   Status settle();
 
+  /// A step that update() does not pass, however far the pace has come: a film wants its picture first.
+  void pause_at(std::optional<std::uint64_t> step) { pause_step_ = step; }
+  bool at_pause_step() const { return pause_step_ && step_ >= *pause_step_; }
+
   BackendName backend() const { return gpu_ ? BackendName::gpu : BackendName::reference; }
   const Solver& solver() const { return *solver_; }
   const Model& model() const { return *model_; }
@@ -135,6 +139,7 @@ class Simulation {
   std::uint64_t model_number_ = 0, picture_number_ = 0, step_ = 0;
   State snapshot_;
   bool running_ = false, behind_ = false, has_outcome_ = false;
+  std::optional<std::uint64_t> pause_step_;
   double due_ = 0.0;  // steps the pace has asked for and nobody has done
   std::uint64_t batch_ = 1;
   double batch_time_ = 0.0;
