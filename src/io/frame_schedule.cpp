@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace aspic {
 
@@ -18,11 +19,23 @@ FrameSchedule::FrameSchedule(double timestep, std::uint64_t first_step, std::uin
   count_ = static_cast<std::uint64_t>(whole) + 1;
 }
 
+FrameSchedule::FrameSchedule(std::uint64_t first_step, double steps_per_frame)
+    : first_(first_step),
+      last_(std::numeric_limits<std::uint64_t>::max()),
+      count_(last_),
+      steps_per_frame_(steps_per_frame) {}
+
+FrameSchedule FrameSchedule::open_ended(double timestep, std::uint64_t first_step, double fps, double speed) {
+  assert(timestep > 0.0 && fps > 0.0 && speed > 0.0);
+  return {first_step, speed / fps / timestep};
+}
+
 std::uint64_t FrameSchedule::step_of(std::uint64_t frame) const {
   assert(frame < count_);
   if (frame + 1 == count_) return last_;
   const double offset = std::round(static_cast<double>(frame) * steps_per_frame_);
-  return std::min(first_ + static_cast<std::uint64_t>(offset), last_);
+  if (offset >= static_cast<double>(last_ - first_)) return last_;
+  return first_ + static_cast<std::uint64_t>(offset);
 }
 
 }  // namespace aspic

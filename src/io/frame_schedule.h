@@ -12,12 +12,16 @@ class FrameSchedule {
   /// seconds per second shown, > 0.
   FrameSchedule(double timestep, std::uint64_t first_step, std::uint64_t last_step, double fps, double speed);
 
-  /// Pictures in all, ≥ 1.
+  /// The same for a run whose end nobody knows: every picture shows its nearest step.
+  static FrameSchedule open_ended(double timestep, std::uint64_t first_step, double fps, double speed);
+
+  /// Pictures in all, ≥ 1; the largest number there is if the end is open.
   std::uint64_t count() const { return count_; }
   /// The step that picture `frame` < count() shows; never decreases.
   std::uint64_t step_of(std::uint64_t frame) const;
 
  private:
+  FrameSchedule(std::uint64_t first_step, double steps_per_frame);
   std::uint64_t first_, last_, count_;
   double steps_per_frame_;
 };
