@@ -1,0 +1,293 @@
+// History, hands and shadow mode in the real window.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "app/stage.h"
+#include "cpu_reference/reference_solver.h"
+
+namespace aspic::test {
+namespace {
+
+using app::BackendName;
+using app::Moment;
+
+class Time : public Stage {
+ protected:
+  std::string hash() { return state_hash_text(simulation().snapshot()); }
+  void run_to(std::uint64_t step) {
+    simulation().set_running(true);
+    frames_to_step(step);
+    simulation().set_running(false);
+    ASSERT_TRUE(simulation().settle().ok());
+  }
+  void go_to(const Moment& moment) {
+    ASSERT_TRUE(simulation().seek(moment).ok());
+    for (int i = 0; simulation().seeking(); ++i) {
+      ASSERT_LT(i, 10000);
+      frames(1);
+    }
+  }
+  void settle() { ASSERT_TRUE(simulation().settle().ok()); }
+};
+
+class TimeOnBackend : public Time, public testing::WithParamInterface<BackendName> {};
+
+TEST_P(TimeOnBackend, EveryStepOfTheRunComesBackWithItsBits) {
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, GetParam());
+  run_to(150);
+  const std::uint64_t end = simulation().step();
+  const std::string last = hash();
+  for (const std::uint64_t step : {end - 1, end / 2, std::uint64_t{1}, std::uint64_t{0}, end - 3}) {
+    go_to({simulation().here().stretch, step});
+    EXPECT_EQ(simulation().step(), step);
+    EXPECT_EQ(hash(), reference_hash(app().editor().scene(), step));
+    EXPECT_FALSE(simulation().running());
+  }
+  go_to(simulation().history().end_moment());
+  EXPECT_EQ(hash(), last);
+}
+
+TEST_P(TimeOnBackend, CommaStepsBackAndFullStopForthAgain) {
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, GetParam());
+  for (int i = 0; i < 6; ++i) type(U'.');
+  const std::string sixth = hash();
+  for (int i = 0; i < 4; ++i) type(U',');
+  settle();
+  EXPECT_EQ(simulation().step(), 2u);
+  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 2));
+  for (int i = 0; i < 4; ++i) type(U'.');
+  EXPECT_EQ(simulation().step(), 6u);
+  EXPECT_EQ(hash(), sixth);
+  for (int i = 0; i < 10; ++i) type(U',');
+  settle();
+  EXPECT_EQ(simulation().step(), 0u) << "not beyond the beginning";
+}
+
+TEST_P(TimeOnBackend, APullIsAnInputThatComesBack) {
+  open("cube-plane", {"simulation.gravity=[0,0,0]"}, GetParam());
+  run_to(20);
+  const State before = simulation().snapshot();
+  const Pull pull = {999, before.position[999] + Vec3{1.0, 1.0, 0.0}, 2000.0, 40.0};
+  simulation().set_hand(pull);
+  run_to(simulation().step() + 60);
+  const std::uint64_t moved_at = simulation().step();
+  EXPECT_GT(length(simulation().snapshot().position[999] - before.position[999]), 0.01);
+  Pull further = pull;
+  further.anchor = pull.anchor + Vec3{0.0, 1.0, 0.0};
+  simulation().set_hand(further);
+  run_to(moved_at + 40);
+  simulation().set_hand(std::nullopt);
+  run_to(simulation().step() + 30);
+  const std::uint64_t end = simulation().step();
+  const std::string last = hash();
+  go_to({simulation().here().stretch, 5});
+  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 5));
+  go_to({simulation().here().stretch, end});
+  EXPECT_EQ(hash(), last) << "the same hand did the same";
+  // A run from the past without a hand is another one.
+  go_to({simulation().here().stretch, 5});
+  run_to(end);
+  go_to({simulation().here().stretch, end});
+  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), end));
+  EXPECT_NE(hash(), last);
+}
+
+TEST_P(TimeOnBackend, PinsAndThrownBallsComeAndGoWithTime) {
+  open("cube-plane", {"cube[0].position=[0,4,0]"}, GetParam());
+  run_to(30);
+  const Vec3 held = simulation().snapshot().position[0];
+  ASSERT_TRUE(simulation().toggle_pin(0).ok());
+  run_to(simulation().step() + 30);
+  EXPECT_EQ(simulation().snapshot().position[0], held) << "a pinned particle stays where it was";
+  app().throw_many();
+  EXPECT_EQ(simulation().model().ball_count(), 12u);
+  const Vec3 thrown = simulation().snapshot().ball_position[0];
+  run_to(simulation().step() + 30);
+  EXPECT_GT(length(simulation().snapshot().ball_position[0] - thrown), 0.1);
+  ASSERT_TRUE(simulation().toggle_pin(0).ok());
+  run_to(simulation().step() + 30);
+  EXPECT_NE(simulation().snapshot().position[0], held) << "freed again";
+  const Moment end = simulation().history().end_moment();
+  const std::string last = hash();
+  ASSERT_EQ(end.stretch - simulation().history().begin_moment().stretch, 3u);
+
+  go_to({end.stretch - 2, simulation().history().stretch(end.stretch - 2).first + 3});
+  EXPECT_EQ(simulation().snapshot().position[0], held);
+  EXPECT_EQ(simulation().model().ball_count(), 0u);
+  go_to({end.stretch - 3, 10});
+  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 10));
+  go_to(end);
+  EXPECT_EQ(hash(), last);
+  app().clear_balls();
+  EXPECT_EQ(simulation().model().ball_count(), 0u);
+  press(GLFW_KEY_R);
+  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 0));
+  EXPECT_GT(simulation().model().inverse_mass[0], 0.0) << "a reset takes back what hands did";
+}
+
+TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, GetParam());
+  run_to(10);
+  click("section/View");  // which leaves the others no room
+  click("section/Shadow");
+  click("shadow/on");
+  ASSERT_TRUE(simulation().shadowed());
+  run_to(120);
+  for (int i = 0; i < 3; ++i) type(U'.');
+  simulation().set_hand(Pull{5, {0.0, 5.0, 0.0}, 2000.0, 10.0});
+  run_to(simulation().step() + 40);
+  simulation().set_hand(std::nullopt);
+  app().throw_ball();
+  press(GLFW_KEY_G);
+  run_to(simulation().step() + 40);
+  EXPECT_NE(simulation().backend(), GetParam());
+  ASSERT_GT(simulation().differences().size(), 5u);
+  for (const app::DifferenceSample& d : simulation().differences()) {
+    EXPECT_TRUE(d.identical) << d.time;
+    EXPECT_EQ(d.ulp, 0u);
+    EXPECT_EQ(d.metres, 0.0);
+  }
+  EXPECT_FALSE(simulation().ever_differed());
+  EXPECT_EQ(simulation().shadow()->model().ball_count(), 1u);
+  click("shadow/on");
+  EXPECT_FALSE(simulation().shadowed());
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, TimeOnBackend, testing::Values(BackendName::reference, BackendName::gpu),
+                         [](const auto& backend) {
+                           return backend.param == BackendName::gpu ? "gpu" : "reference";
+                         });
+
+TEST_F(Time, ADifferenceIsShown) {
+  open("cube-plane", {}, BackendName::reference);
+  ASSERT_TRUE(simulation().set_shadow(true).ok());
+  for (int i = 0; i < 3; ++i) type(U'.');
+  EXPECT_FALSE(simulation().ever_differed());
+  // The second solver is led astray behind the window's back.
+  State other = simulation().snapshot();
+  other.position[7].y = static_cast<double>(std::nextafter(static_cast<float>(other.position[7].y), 0.0f));
+  ASSERT_TRUE(const_cast<Solver*>(simulation().shadow())->load(other).ok());
+  type(U'.');
+  EXPECT_TRUE(simulation().ever_differed());
+  EXPECT_FALSE(simulation().differences().back().identical);
+  EXPECT_GE(simulation().differences().back().ulp, 1u);
+  EXPECT_GT(simulation().differences().back().metres, 0.0);
+}
+
+TEST_F(Time, ValuesOfTheSceneGoBackAndForthWithTime) {
+  open("cube-plane", {}, BackendName::reference);
+  run_to(40);
+  const std::uint64_t changed_at = simulation().step();
+  app().set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, 3.0, 0.0}), "");
+  frames(2);
+  run_to(changed_at + 40);
+  const std::string last = hash();
+  app().go_to(0.010);
+  settle();
+  EXPECT_EQ(simulation().step(), 10u);
+  EXPECT_EQ(app().editor().scene().model.simulation.gravity, (Vec3{0.0, -9.8, 0.0}));
+  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 10));
+  app().go_to(1e9);
+  settle();
+  EXPECT_EQ(app().editor().scene().model.simulation.gravity, (Vec3{0.0, 3.0, 0.0}));
+  EXPECT_EQ(hash(), last);
+  frames(3);
+  EXPECT_EQ(hash(), last) << "following the history changes nothing anew";
+}
+
+TEST_F(Time, AChangeOfTheTimeStepKeepsTheTime) {
+  open("cube-plane", {}, BackendName::reference);
+  run_to(50);
+  const double t = simulation().time();
+  app().set_value(*find_parameter("simulation.timestep"), 0, Value(0.0005), "");
+  frames(2);
+  EXPECT_NEAR(simulation().time(), t, 0.00026);
+  type(U',');
+  settle();
+  EXPECT_EQ(app().editor().scene().model.simulation.timestep, 0.001);
+  EXPECT_NEAR(simulation().time(), t - 0.001, 1e-9);
+}
+
+TEST_F(Time, TheBarGoesToAnyTime) {
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, BackendName::reference);
+  run_to(200);
+  const double last = simulation().time();
+  frames(2);
+  const app::Box bar = app().gui().widgets().at("timeline");
+  app().cursor(bar.right - 8.0, bar.centre_y());
+  frames(1);
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
+  for (const double share : {0.9, 0.3, 0.5}) {
+    app().cursor(bar.left + share * (bar.right - bar.left), bar.centre_y());
+    frames(2);
+  }
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+  frames(1);
+  settle();
+  EXPECT_NEAR(simulation().time(), 0.5 * last, 0.05 * last);
+  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), simulation().step()));
+  EXPECT_FALSE(simulation().running());
+}
+
+TEST_F(Time, BThrowsABallAtWhatIsUnderTheMouse) {
+  open("cube-plane", {"simulation.gravity=[0,0,0]", "cube[0].position=[0,2,0]"}, BackendName::reference);
+  app().camera().jump_to({{0.0, 2.0, 14.0}, {0.0, 2.0, 0.0}, 45.0});
+  frames(2);
+  app().cursor(middle_x(), middle_y());
+  frames(1);
+  press(GLFW_KEY_B);
+  ASSERT_EQ(simulation().model().ball_count(), 1u);
+  const Vec3 v = simulation().snapshot().ball_velocity[0];
+  EXPECT_LT(v.z, -14.0);
+  EXPECT_NEAR(v.x, 0.0, 0.1);
+  const double momentum = -v.z * simulation().model().balls[0].mass;
+  run_to(1200);
+  double cube = 0.0;
+  for (const Vec3& u : simulation().snapshot().velocity) cube -= u.z;
+  EXPECT_GT(cube, 0.5 * momentum) << "it hit the cube";
+}
+
+TEST_F(Time, CtrlDragPullsAndCtrlRightClickPins) {
+  open("cube-plane", {"simulation.gravity=[0,0,0]", "cube[0].position=[0,3,0]", "view.draw=[\"particles\"]"},
+       BackendName::reference);
+  frames(3);
+  const auto& view = app().viewport();
+  const Camera camera(app().camera().shown(), static_cast<int>(view.right - view.left),
+                      static_cast<int>(view.bottom - view.top));
+  const Vec3 corner = simulation().snapshot().position[999];
+  const auto seen = camera.project(corner);
+  ASSERT_TRUE(seen.has_value());
+  const double x = view.left + seen->x, y = view.top + seen->y;
+  app().cursor(x, y);
+  frames(4);
+  ASSERT_TRUE(app().hovered().has_value());
+  ASSERT_EQ(app().hovered()->particle, 999u);
+  const CameraSettings still = app().camera().goal();
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
+  app().cursor(x + 80.0, y - 40.0);
+  ASSERT_TRUE(simulation().hand().has_value());
+  EXPECT_EQ(simulation().hand()->particle, 999u);
+  const auto anchor = camera.project(simulation().hand()->anchor);
+  ASSERT_TRUE(anchor.has_value());
+  EXPECT_NEAR(anchor->x, seen->x + 80.0, 0.5) << "the anchor is under the mouse";
+  EXPECT_NEAR(anchor->y, seen->y - 40.0, 0.5);
+  run_to(200);
+  EXPECT_GT(length(simulation().snapshot().position[999] - corner), 0.05);
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
+  EXPECT_FALSE(simulation().hand().has_value());
+  EXPECT_EQ(app().camera().goal(), still) << "pulling does not turn the camera";
+
+  press(GLFW_KEY_R);
+  frames(2);
+  app().cursor(x, y);
+  frames(4);
+  ASSERT_TRUE(app().hovered().has_value());
+  const std::uint32_t particle = app().hovered()->particle;
+  app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_PRESS, GLFW_MOD_CONTROL);
+  app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_RELEASE, GLFW_MOD_CONTROL);
+  EXPECT_EQ(simulation().model().inverse_mass[particle], 0.0);
+}
+
+}  // namespace
+}  // namespace aspic::test
