@@ -196,15 +196,17 @@ void Simulation::start_job(std::uint64_t steps, double budget) {
 Status Simulation::take_outcome() {
   if (!has_outcome_) return {};
   has_outcome_ = false;
-  const Outcome outcome = std::move(outcome_);
+  Outcome outcome = std::move(outcome_);
   if (outcome.error) return *outcome.error;
   const bool stepped = outcome.steps > 0 || outcome.divergence;
   if (shadowed() && stepped && !seek_) {
     if (const Status followed = follow_with_gpu(outcome); !followed) return followed;
   } else if (!engine_.gpu) {
-    snapshot_ = outcome.state;
+    snapshot_ = std::move(outcome.state);
     snapshot_time_ = Clock::now();
     note(outcome.steps, outcome.divergence);
+    if (!seek_) add_sample(snapshot_, outcome.measures);
+    return {};
   }
   if (!seek_) add_sample(outcome.state, outcome.measures);
   return {};
