@@ -55,6 +55,20 @@ TEST_F(Layout, UniformBlockMatchesTheDriver) {
   EXPECT_UNIFORM_AT(terrains[63].shape);
 }
 
+TEST_F(Layout, PullBlockMatchesTheDriver) {
+  for (const char* path : {"compute/gather.comp", "compute/sum_springs.comp", "compute/implicit_begin.comp",
+                           "compute/implicit_evaluate.comp", "compute/implicit_apply.comp"}) {
+    const gl::Program p = program(path);
+    EXPECT_EQ(p.uniform_block_binding("PullBlock"), BINDING_PULL) << path;
+    EXPECT_EQ(p.uniform_block_data_size("PullBlock"), static_cast<int>(sizeof(layout::Pull))) << path;
+    EXPECT_EQ(p.uniform_offset("pull.anchor"), 0) << path;
+    EXPECT_EQ(p.uniform_offset("pull.stiffness"), static_cast<int>(offsetof(layout::Pull, stiffness)))
+        << path;
+    EXPECT_EQ(p.uniform_offset("pull.damping"), static_cast<int>(offsetof(layout::Pull, damping))) << path;
+    EXPECT_EQ(p.uniform_offset("pull.particle"), static_cast<int>(offsetof(layout::Pull, particle))) << path;
+  }
+}
+
 TEST_F(Layout, StorageBlocksMatchTheDriver) {
   const gl::Program gather = program("compute/gather.comp");
   EXPECT_EQ(gather.storage_block_binding("StartState"), BINDING_START_STATE);

@@ -1,0 +1,234 @@
+// Pulling a particle: against closed forms, against the spring it stands for, and against its own definition.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cpu_reference/implicit_euler.h"
+#include "cpu_reference/phase.h"
+#include "cpu_reference/reference_solver.h"
+#include "model/integrator.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+std::unique_ptr<Solver> solver_for(const Model& model, Precision precision) {
+  auto solver = make_reference_solver(model, precision);
+  EXPECT_TRUE(solver.ok());
+  return std::move(solver).value();
+}
+
+/// What one step makes of (position, velocity) of a linear oscillator: the method's stability function of
+/// h·A, as its textbook has it.
+Eigen::Matrix2d amplification(Integrator integrator, double h, double k, double c, double m) {
+  Eigen::Matrix2d Z;
+  Z << 0.0, h, -h * k / m, -h * c / m;
+  const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+  switch (integrator) {
+    case Integrator::explicit_euler:
+      return I + Z;
+    case Integrator::midpoint:
+      return I + Z + Z * Z / 2;
+    case Integrator::runge_kutta_4:
+      return I + Z + Z * Z / 2 + Z * Z * Z / 6 + Z * Z * Z * Z / 24;
+    case Integrator::implicit_euler_one_pass:
+      return I + Z + Z * Z;
+    case Integrator::implicit_euler:
+      return (I - Z).inverse();
+    case Integrator::symplectic_euler:
+      break;
+  }
+  Eigen::Matrix2d kick = I, drift = I;
+  kick.row(1) += Z.row(1);
+  drift(0, 1) = h;
+  return drift * kick;
+}
+
+class PullClosedForm : public testing::TestWithParam<Integrator> {
+ protected:
+  /// A particle of 2 kg without gravity, tugged at `c`; the largest difference from the amplification matrix
+  /// over 500 steps.
+  static double deviation(const Vec3& from_anchor, const Vec3& velocity, double c) {
+    const Vec3 anchor{1.0, -2.0, 0.5};
+    const double k = 30.0, m = 2.0, h = 0.002;
+    Model model = test::particles({anchor + from_anchor}, {velocity}, m);
+    model.simulation.gravity = {};
+    model.simulation.timestep = h;
+    model.simulation.integrator = GetParam();
+    model.simulation.implicit.tolerance = 1e-15;
+    auto solver = solver_for(model, Precision::double_);
+    EXPECT_TRUE(solver->set_pull(Pull{0, anchor, k, c}).ok());
+    const Eigen::Matrix2d R = amplification(GetParam(), h, k, c, m);
+    Eigen::Matrix<double, 2, 3> y;
+    y << from_anchor.x, from_anchor.y, from_anchor.z, velocity.x, velocity.y, velocity.z;
+    double largest = 0.0;
+    for (int n = 0; n < 500; ++n) {
+      EXPECT_FALSE((*solver->advance(1)).has_value());
+      y = R * y;
+      const State state = *solver->state();
+      for (int axis = 0; axis < 3; ++axis) {
+        largest = std::max(largest, std::abs(state.position[0][axis] - anchor[axis] - y(0, axis)));
+        largest = std::max(largest, std::abs(state.velocity[0][axis] - y(1, axis)));
+      }
+    }
+    return largest;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Every, PullClosedForm, testing::ValuesIn(all_integrators), [](const auto& instance) {
+  std::string name(name_of(instance.param));
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+// Positions up to 3 m are rounded in each of 500 steps and feed a force of 30 N/m over h; an implicit solve
+// ends at a residual of 1e-15 m/s or where rounding ends it.
+constexpr double bound = 500 * 16 * eps * 3.0;
+
+TEST_P(PullClosedForm, UndampedIsTheIsotropicOscillator) {
+  EXPECT_LE(deviation({0.7, 0.2, -0.4}, {0.3, -1.1, 0.6}, 0.0), bound);
+}
+
+TEST_P(PullClosedForm, DampedAlongALineIsTheDampedOscillator) {
+  // Through the anchor and out on the other side: with rest length 0 the force is linear on the whole line.
+  EXPECT_LE(deviation({0.6, 0.3, -0.2}, {-6.0, -3.0, 2.0}, 4.0), bound);
+}
+
+TEST(Pull, HangsWhereWeightAndPullBalance) {
+  const double k = 100.0, c = 20.0, h = 0.001, g = 9.8;
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::runge_kutta_4}) {
+    Model model = test::particles({{0.0, 1.0, 0.0}}, {{0.0, 2.0, 0.0}});  // below: damping acts along e
+    model.simulation.integrator = integrator;
+    model.simulation.timestep = h;
+    auto solver = solver_for(model, Precision::double_);
+    ASSERT_TRUE(solver->set_pull(Pull{0, {0.0, 4.0, 0.0}, k, c}).ok());
+    ASSERT_FALSE((*solver->advance(30000)).has_value());
+    // It comes to rest where h·v, with c·v = k·(distance to the balance), no longer changes a position of 4
+    // m.
+    EXPECT_NEAR(solver->state()->position[0].y, 4.0 - g / k, 4.0 * eps * (2.0 + c / (h * k)));
+  }
+}
+
+/// The model with one more particle, pinned at `anchor`, and a spring of rest length 0 to it.
+Model with_spring_instead(Model model, const Pull& pull) {
+  const std::uint32_t last = model.particle_count();
+  model.mass.push_back(1.0);
+  model.inverse_mass.push_back(0.0);
+  model.initial_position.push_back(pull.anchor);
+  model.initial_velocity.push_back({});
+  const auto spring_class = static_cast<std::uint32_t>(model.spring_classes.size());
+  model.spring_classes.push_back({SpringType::structural, pull.stiffness, pull.damping, 0.0, false});
+  // Springs stay sorted; the partner's index is the highest, so its spring is the last of the particle's sum.
+  const auto after = std::find_if(model.springs.begin(), model.springs.end(),
+                                  [&](const Spring& s) { return s.a > pull.particle; });
+  model.springs.insert(after, Spring{pull.particle, last, spring_class});
+  return model;
+}
+
+TEST(Pull, IsASpringToAPinnedParticleToTheBit) {
+  for (const Integrator integrator : all_integrators) {
+    for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
+      for (const Precision precision : {Precision::single, Precision::double_}) {
+        ModelSettings settings = test::cube_on_plane(4, 1.9);
+        settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
+        settings.cubes[0].velocity = {1.0, -1.0, 0.5};
+        settings.simulation.integrator = integrator;
+        if (integrator == Integrator::implicit_euler) settings.simulation.timestep = 0.005;
+        settings.contact.model = contact;
+        const Model model = test::build(settings);
+        const Pull pull{42, {2.0, 3.0, -1.0}, 700.0, 15.0};
+        const Model other = with_spring_instead(model, pull);
+        auto pulled = solver_for(model, precision), sprung = solver_for(other, precision);
+        ASSERT_TRUE(pulled->set_pull(pull).ok());
+        const std::uint64_t steps = integrator == Integrator::implicit_euler ? 40 : 200;
+        ASSERT_FALSE((*pulled->advance(steps)).has_value());
+        ASSERT_FALSE((*sprung->advance(steps)).has_value());
+        State expected = *sprung->state();
+        expected.position.pop_back();
+        expected.velocity.pop_back();
+        EXPECT_EQ(*pulled->state(), expected) << name_of(integrator) << ", " << name_of(contact);
+      }
+    }
+  }
+}
+
+// Before contact: what the ground gives back is the weight less the pull.
+TEST(Pull, LightensWhatPressesOnTheGround) {
+  Model model = test::particles({{0, -1, 0}}, {{2, 0, 0}}, 3.0);
+  model.contact.model = ContactModel::course;
+  model.terrain.emplace_back();
+  model.terrain[0].point = {0, -1, 0};
+  model.terrain[0].friction = 0.5;
+  reference::Dynamics<double> dynamics(model);
+  const reference::Phase<double> s = reference::start_of(model);
+  dynamics.set_pull(Pull{0, {0, 1, 0}, 4.0, 9.0});
+  const double N = 3.0 * 9.8 - 2.0 * 4.0;
+  const reference::Field<double> f = dynamics.force(s.x, s.v);
+  EXPECT_NEAR(f(0, 0), -0.5 * N * 2.0, 8 * eps * N);
+  EXPECT_NEAR(f(1, 0), 0.0, 8 * eps * N);
+  const reference::Field<double> held = dynamics.held_contact_force(s.x, s.v);
+  EXPECT_NEAR(held(1, 0), N, 8 * eps * N);
+  dynamics.set_pull(std::nullopt);
+  EXPECT_NEAR(dynamics.force(s.x, s.v)(0, 0), -0.5 * (3.0 * 9.8) * 2.0, 8 * eps * 30.0);
+}
+
+TEST(Pull, IsPartOfTheEquationThatImplicitEulerSolves) {
+  ModelSettings settings = test::cube_on_plane(4, 1.5);
+  settings.simulation.timestep = 1.0 / 60.0;
+  const Model model = test::build(settings);
+  reference::Dynamics<double> dynamics(model);
+  reference::ImplicitEuler<double> method(dynamics, model);
+  dynamics.set_pull(Pull{21, {3.0, 4.0, 0.0}, 5000.0, 40.0});
+  const double h = model.simulation.timestep;
+  reference::Phase<double> s = reference::start_of(model);
+  for (int n = 0; n < 10; ++n) {
+    SolveReport report;
+    const reference::Phase<double> next = method.step(s, report);
+    ASSERT_EQ(report.end, SolveEnd::converged);
+    const reference::Field<double> R = next.v - s.v - h * dynamics.acceleration(next.x, next.v);
+    // Tolerance 1e-9, and x' rounded to the ulp of 8 m feeds the pull and 26 springs of 2,000 N/m.
+    EXPECT_LE(R.cwiseAbs().maxCoeff(), 1e-9 + h * 60000.0 * 8.0 * eps);
+    s = next;
+  }
+  EXPECT_GT(s.x(0, 21), reference::start_of(model).x(0, 21) + 0.01);
+}
+
+TEST(Pull, HoldsUntilChangedAndSurvivesALoad) {
+  const Model model = test::build(test::cube_on_plane(3, 5.0));
+  const Pull pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0};
+  auto whole = solver_for(model, Precision::single), split = solver_for(model, Precision::single);
+  ASSERT_TRUE(whole->set_pull(pull).ok());
+  ASSERT_TRUE(split->set_pull(pull).ok());
+  ASSERT_FALSE((*whole->advance(40)).has_value());
+  ASSERT_FALSE((*split->advance(15)).has_value());
+  ASSERT_TRUE(split->load(*split->state()).ok());
+  ASSERT_FALSE((*split->advance(25)).has_value());
+  EXPECT_EQ(*split->state(), *whole->state());
+
+  // Let go: from here on as a new solver, which pulls nobody.
+  ASSERT_TRUE(whole->set_pull(std::nullopt).ok());
+  auto fresh = solver_for(model, Precision::single);
+  ASSERT_TRUE(fresh->load(*whole->state()).ok());
+  ASSERT_FALSE((*whole->advance(20)).has_value());
+  ASSERT_FALSE((*fresh->advance(20)).has_value());
+  EXPECT_EQ(*whole->state(), *fresh->state());
+}
+
+TEST(Pull, RefusedLeavesTheOneBefore) {
+  const Model model = test::build(test::cube_on_plane(3, 5.0));
+  auto one = solver_for(model, Precision::single), other = solver_for(model, Precision::single);
+  ASSERT_TRUE(one->set_pull(Pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0}).ok());
+  ASSERT_TRUE(other->set_pull(Pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0}).ok());
+  EXPECT_EQ(one->set_pull(Pull{27, {}, 1.0, 0.0}).error().code, ErrorCode::usage);
+  EXPECT_EQ(one->set_pull(Pull{0, {0.0, 1e39, 0.0}, 1.0, 0.0}).error().code, ErrorCode::usage);
+  ASSERT_FALSE((*one->advance(20)).has_value());
+  ASSERT_FALSE((*other->advance(20)).has_value());
+  EXPECT_EQ(*one->state(), *other->state());
+}
+
+}  // namespace
+}  // namespace aspic
