@@ -34,6 +34,7 @@ void main() {
     turn = vertex_turn[0];
     own_colour = vertex_colour[0];
     shown = vertex_shown[0];
+    gl_PrimitiveID = gl_PrimitiveIDIn;
     gl_Position = projection * vec4(on_square, 1.0);
     EmitVertex();
   }

@@ -49,13 +49,19 @@
 #define LOCATION_PLANE_NORMAL 5
 #define LOCATION_SPHERE 6         // centre, radius
 #define LOCATION_SIDE 7
-#define LOCATION_FIRST 8          // item of the first ball
+#define LOCATION_FIRST 8          // of balls, particles or terrains: the first
 #define LOCATION_ELAPSED 9        // since the picture before [s]
 
 // Lights that the bodies keep off: the sun, and the sky straight above.
 #define LIGHT_SUN 0
 #define LIGHT_SKY 1
 #define LIGHTS 2
+
+// What the ID image shows: kinds, in the bits above the index.
+#define PICK_PARTICLE 1u
+#define PICK_BALL 2u
+#define PICK_TERRAIN 3u
+#define PICK_KIND_SHIFT 30
 
 // What colours mean.
 #define COLOUR_MATERIAL 0u

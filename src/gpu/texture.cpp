@@ -27,6 +27,8 @@ Storage storage_of(TexelFormat format) {
       return {GL_R16F, 0, 0};
     case TexelFormat::rg16f:
       return {GL_RG16F, 0, 0};
+    case TexelFormat::rg32ui:
+      return {GL_RG32UI, 0, 0};
     case TexelFormat::depth32f:
       return {GL_DEPTH_COMPONENT32F, 0, 0};
   }

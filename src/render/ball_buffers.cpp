@@ -86,13 +86,17 @@ void BallBuffers::prepare(const RenderPrograms& programs, const DeviceState& sta
 }
 
 void BallBuffers::draw(const RenderPrograms& programs, const DeviceState& state) const {
+  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  draw_with(programs.balls, state);
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+}
+
+void BallBuffers::draw_with(const gl::Program& program, const DeviceState& state) const {
   if (!shows(state)) return;
-  glUseProgram(programs.balls.id());
+  glUseProgram(program.id());
   const gl::VertexArray points = array(state);
   points.bind();
-  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count_));
-  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
 void BallBuffers::draw_into_light(const RenderPrograms& programs, const DeviceState& state, int light) const {

@@ -34,6 +34,8 @@ class BallBuffers {
 
   /// Draws what has been launched, lit; light maps must be in their places.
   void draw(const RenderPrograms& programs, const DeviceState& state) const;
+  /// Draws what has been launched with another program over the same vertex and geometry shaders.
+  void draw_with(const gl::Program& program, const DeviceState& state) const;
   /// Draws what has been launched into the map of a light.
   void draw_into_light(const RenderPrograms& programs, const DeviceState& state, int light) const;
 

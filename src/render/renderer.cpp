@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "gpu/pass.h"
+#include "render/frame_block.h"
 #include "render/light_maps.h"
 #include "render/model_buffers.h"
 #include "render/programs.h"
@@ -16,21 +15,6 @@
 
 namespace aspic {
 namespace {
-
-/// Towards the sun: from behind on the left of the default camera, so that light shines through bodies; from
-/// the right where that would leave a slope in the dark.
-glm::vec3 sun_over(const std::vector<Terrain>& terrain) {
-  const auto least_slant = [&](const glm::vec3& sun) {
-    float least = 1.0f;
-    for (const Terrain& t : terrain)
-      if (t.shape == TerrainShape::plane || t.shape == TerrainShape::tilted_plane)
-        least = std::min(least, glm::dot(sun, glm::vec3(t.normal.x, t.normal.y, t.normal.z)));
-    return least;
-  };
-  const glm::vec3 left = glm::normalize(glm::vec3(-0.60f, 0.78f, -0.12f));
-  const glm::vec3 right = glm::normalize(glm::vec3(0.35f, 0.85f, -0.38f));
-  return least_slant(left) >= 0.5f || least_slant(left) >= least_slant(right) ? left : right;
-}
 
 /// The walls of a translucent body that face away from the eye, or towards it.
 enum class JellySide { far, near };
@@ -41,21 +25,8 @@ constexpr Colour net_colour = {0.98f, 0.98f, 0.98f};
 /// How deep light reaches into a body [m], as a share of its size.
 constexpr double reach_share = 0.30;
 
-/// A rotation that looks along `direction`: z of the result grows away from the light.
-glm::mat4 light_rotation(const glm::vec3& towards_light) {
-  const glm::vec3 up = std::abs(towards_light.y) > 0.999f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-  const glm::vec3 z = -towards_light;
-  const glm::vec3 x = glm::normalize(glm::cross(up, z));
-  const glm::vec3 y = glm::cross(z, x);
-  return glm::transpose(glm::mat4(glm::mat3(x, y, z)));
-}
-
 std::array<float, 4> with(const Colour& c, double w) {
   return {c[0], c[1], c[2], static_cast<float>(w)};
-}
-
-bool shows_springs(const DrawSettings& draw) {
-  return draw.structural || draw.shear || draw.bending;
 }
 
 void draw_elements(GLenum mode, std::uint32_t first, std::uint32_t count) {
@@ -86,10 +57,16 @@ struct Renderer::Parts {
   const Model* model = nullptr;
   std::optional<ModelBuffers> buffers;
   gl::Buffer uploaded, uploaded_balls;
+  gl::ShaderLibrary shaders;
+  // Of the picture last drawn, for what is asked about it afterwards.
+  std::optional<DeviceState> drawn_state;
+  render_layout::Frame drawn_frame = {};
+  DrawSettings drawn_settings;
+  std::unique_ptr<Picker> picker;
+  std::uint64_t picks = 0;
 
   Status prepare_targets(int width, int height);
-  void write_frame(const PictureOptions& options, const Camera& camera, int width, int height,
-                   const QuantityRange& range);
+  void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
   void draw_thickness(const gl::Buffer& particles) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
@@ -111,6 +88,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
   if (!lights) return lights.error();
   auto parts = std::make_unique<Parts>(context, std::move(*programs), std::move(*overlay),
                                        std::move(*terrain), std::move(*lights));
+  parts->shaders = options.shaders;
   auto map = gl::Texture::create(context, "colour map", {.width = 256, .height = 1});
   if (!map) return map.error();
   map->upload(colour_map_texels());
@@ -131,6 +109,8 @@ Status Renderer::set_model(const Model& model) {
   parts_->buffers.reset();
   parts_->buffers.emplace(std::move(*buffers));
   parts_->model = &model;
+  parts_->drawn_state.reset();
+  if (parts_->picker) parts_->picker->forget();
   return {};
 }
 
@@ -153,56 +133,7 @@ Status Renderer::Parts::prepare_targets(int width, int height) {
   return {};
 }
 
-void Renderer::Parts::write_frame(const PictureOptions& options, const Camera& camera, int width, int height,
-                                  const QuantityRange& range) {
-  render_layout::Frame block = {};
-  block.view = camera.view();
-  block.projection = camera.projection();
-  block.view_projection = camera.projection() * camera.view();
-  block.clip_to_world = glm::inverse(block.view_projection);
-  const glm::vec3 to_sun = sun_over(model->terrain);
-  block.lights[LIGHT_SUN] = light_rotation(to_sun);
-  // The sky's light falls on a slope squarely, as far as shadow goes: contact darkens there, not downhill.
-  glm::vec3 above(0, 1, 0);
-  for (const Terrain& t : model->terrain) {
-    if (t.shape != TerrainShape::plane && t.shape != TerrainShape::tilted_plane) continue;
-    above = glm::vec3(t.normal.x, t.normal.y, t.normal.z);
-    break;
-  }
-  block.lights[LIGHT_SKY] = light_rotation(above);
-  block.eye = glm::vec4(camera.eye(), camera.target_distance());
-  block.sun = glm::vec4(to_sun, 0);
-  const auto w = static_cast<float>(width), h = static_cast<float>(height);
-  block.viewport = glm::vec4(w, h, 1.0f / w, 1.0f / h);
-  const Colour tint = options.view.colour == ViewColour::material ? body_colour(0) : neutral_body_colour();
-  const bool solid = options.view.draw.solid && buffers->has_skin();
-  for (std::size_t i = 0; i < 3; ++i)
-    block.shadow_tint[static_cast<int>(i)] = solid ? 0.10f + 0.22f * tint[i] : 0.15f;
-  const double width_of_range = range[1] - range[0];
-  block.quantity_range = glm::vec4(range[0], width_of_range > 0.0 ? 1.0 / width_of_range : 0.0, 0, 0);
-  for (const Terrain& t : model->terrain) {
-    if (t.shape != TerrainShape::sphere || block.shadow_sphere_count == MAX_SHADOW_SPHERES) continue;
-    block.shadow_spheres[block.shadow_sphere_count++] = glm::vec4(t.point.x, t.point.y, t.point.z, t.radius);
-  }
-  switch (options.view.colour) {
-    case ViewColour::material:
-      block.colour_mode = COLOUR_MATERIAL;
-      break;
-    case ViewColour::type:
-      block.colour_mode = COLOUR_TYPE;
-      break;
-    case ViewColour::strain:
-      block.colour_mode = COLOUR_STRAIN;
-      break;
-    case ViewColour::force:
-      block.colour_mode = COLOUR_FORCE;
-      break;
-    case ViewColour::speed:
-      block.colour_mode = COLOUR_SPEED;
-      break;
-  }
-  block.particle_count = buffers->particle_count();
-  block.see_through = options.view.draw.particles || shows_springs(options.view.draw) ? 1.0f : 0.0f;
+void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   frame.upload_items(std::span<const render_layout::Frame>(&block, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
 }
@@ -307,7 +238,10 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
 
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::Reader::compute_pass | gl::Reader::vertex_draw);
-  p.write_frame(options, camera, width, height, range);
+  p.drawn_frame = frame_block(*p.model, camera, width, height, {view, range, p.buffers->has_skin()});
+  p.drawn_state = state;
+  p.drawn_settings = view.draw;
+  p.bind_frame(p.drawn_frame);
   p.prepare_light(state, options);
   glEnable(GL_FRAMEBUFFER_SRGB);
   if (solid) p.draw_thickness(particles);
@@ -345,6 +279,22 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   glUseProgram(0);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   return written;
+}
+
+Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
+  Parts& p = *parts_;
+  assert(p.drawn_state);
+  if (!p.picker) {
+    auto made = Picker::create(*p.context, p.shaders);
+    if (!made) return made.error();
+    p.picker = std::move(*made);
+  }
+  p.picker->submit(++p.picks, *p.model, *p.buffers, *p.drawn_state, p.drawn_settings, p.drawn_frame, place);
+  return p.picks;
+}
+
+PickAnswer Renderer::picked() const {
+  return parts_->picker ? parts_->picker->answer() : PickAnswer{};
 }
 
 const gl::Framebuffer& Renderer::picture() const {

@@ -14,6 +14,7 @@
 #include "render/camera.h"
 #include "render/device_state.h"
 #include "render/overlay.h"
+#include "render/picker.h"
 #include "render/quantity.h"
 #include "scene/view_settings.h"
 
@@ -57,10 +58,18 @@ class Renderer {
   /// scene_rejected or no_device, a picture of this size cannot be made.
   Status draw(int width, int height, const DeviceState& state, const PictureOptions& options);
 
+  /// Asks what lies under a place of the picture last drawn, as it is shown in a view of place.width ×
+  /// place.height pixels; its state must still lie where it was. Legal after draw() of the model. Returns the
+  /// request's number, counted from 1. Errors: no_device (a shader is refused), io, scene_rejected.
+  Result<std::uint64_t> request_pick(const PickPlace& place);
+  /// The newest answer that has come back, as a rule that of the picture before; never waits for the device.
+  PickAnswer picked() const;
+
   /// The picture last drawn: one sample, sRGB encoded values. Legal after draw().
   const gl::Framebuffer& picture() const;
   /// Puts the picture last drawn into a window's framebuffer (0: the default one), stretched to
-  /// width × height pixels whose lower left corner is (left, bottom). The framebuffer takes encoded values as they are.
+  /// width × height pixels whose lower left corner is (left, bottom). The framebuffer takes encoded values as
+  /// they are.
   void present(std::uint32_t framebuffer, int width, int height, int left = 0, int bottom = 0) const;
 
   /// For tests and probes: normals as of the last draw of solid bodies, one by particle (zero inside bodies).

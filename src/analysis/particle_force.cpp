@@ -1,0 +1,80 @@
+#include "analysis/particle_force.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "model/terrain.h"
+
+namespace aspic {
+namespace {
+
+/// Force of a spring on its end at xa.
+Vec3 spring_force(const SpringClass& spring, const Vec3& xa, const Vec3& va, const Vec3& xb, const Vec3& vb) {
+  const Vec3 e = xa - xb;
+  const double length_now = length(e);
+  if (length_now == 0.0 || (spring.cord && length_now < spring.rest_length)) return {};
+  const double q = 1.0 / length_now;
+  const double s =
+      spring.stiffness * (length_now - spring.rest_length) + spring.damping * (dot(va - vb, e) * q);
+  return -(s * q) * e;
+}
+
+/// The unit normal towards the free side.
+Vec3 normal_at(const Terrain& terrain, const Vec3& x) {
+  if (terrain.shape == TerrainShape::plane || terrain.shape == TerrainShape::tilted_plane)
+    return terrain.normal;
+  const Vec3 e = x - terrain.point;
+  const double away = length(e);
+  if (away == 0.0) return {0.0, 1.0, 0.0};
+  return (terrain.shape == TerrainShape::bowl ? -1.0 / away : 1.0 / away) * e;
+}
+
+/// What is left of f after the course model's contact with one terrain.
+Vec3 after_contact(const Terrain& terrain, double epsilon, const Vec3& x, const Vec3& v, const Vec3& f) {
+  const Vec3 n = normal_at(terrain, x);
+  const double u = dot(v, n), along = dot(f, n);
+  if (!(signed_distance(terrain, x) < epsilon && std::abs(u) < epsilon && along < 0.0)) return f;
+  const Vec3 slip = v - u * n;
+  return (f - along * n) + (terrain.friction * along) * slip;
+}
+
+}  // namespace
+
+IncidentSprings::IncidentSprings(const Model& model) {
+  for (const Spring& spring : model.springs) widest_ = std::max(widest_, spring.b - spring.a);
+}
+
+std::vector<std::uint32_t> IncidentSprings::of(const Model& model, std::uint32_t particle) const {
+  const std::uint32_t first_end = particle - std::min(particle, widest_);
+  const auto first = std::ranges::lower_bound(model.springs, first_end, {}, &Spring::a);
+  std::vector<std::uint32_t> found;
+  for (auto s = first; s != model.springs.end() && s->a <= particle; ++s)
+    if (s->a == particle || s->b == particle)
+      found.push_back(static_cast<std::uint32_t>(s - model.springs.begin()));
+  return found;
+}
+
+ParticleForce particle_force(const Model& model, const IncidentSprings& incident, const State& state,
+                             std::uint32_t particle) {
+  assert(check_sizes(model, state) && particle < model.particle_count());
+  const Vec3 &x = state.position[particle], &v = state.velocity[particle];
+  ParticleForce force;
+  force.gravity = force.net = model.mass[particle] * model.simulation.gravity;
+  for (const std::uint32_t index : incident.of(model, particle)) {
+    const Spring& spring = model.springs[index];
+    const std::uint32_t other = spring.a == particle ? spring.b : spring.a;
+    const Vec3 f = spring_force(model.spring_classes[spring.spring_class], x, v, state.position[other],
+                                state.velocity[other]);
+    force.springs = force.springs + f;
+    force.net = force.net + f;
+  }
+  if (model.contact.model != ContactModel::course || model.inverse_mass[particle] == 0.0) return force;
+  const Vec3 before = force.net;
+  for (const Terrain& terrain : model.terrain)
+    force.net = after_contact(terrain, model.contact.epsilon, x, v, force.net);
+  force.contact = force.net - before;
+  return force;
+}
+
+}  // namespace aspic

@@ -1,0 +1,37 @@
+#pragma once
+// What pulls at one particle, in double precision whatever the state's own: for those who look at a few.
+#include <cstdint>
+#include <vector>
+
+#include "model/model.h"
+#include "model/state.h"
+
+namespace aspic {
+
+/// Finds the springs of a particle without a list of them: springs are sorted by (a, b), and no spring of a
+/// lattice joins particles farther apart than a few of its layers. Costs one look at each spring when made,
+/// and 8 bytes.
+class IncidentSprings {
+ public:
+  explicit IncidentSprings(const Model& model);
+  /// Indices into Model::springs of those that end at `particle`, ascending, which is also the order of
+  /// their other ends. `model` is that of the constructor.
+  std::vector<std::uint32_t> of(const Model& model, std::uint32_t particle) const;
+
+ private:
+  std::uint32_t widest_ = 0;  // largest b − a
+};
+
+/// Forces on one particle at a state [N], spec §2.3 to §2.5.
+struct ParticleForce {
+  Vec3 gravity;  ///< m·g
+  Vec3 springs;  ///< sum over its springs
+  Vec3 contact;  ///< the course model's contact force; the Coulomb model has none, it acts on velocities
+  Vec3 net;  ///< f: the three summed in the solvers' order; of a pinned particle too, which it does not move
+};
+
+/// The state must have the model's numbers of particles; `particle` is one of them.
+ParticleForce particle_force(const Model& model, const IncidentSprings& incident, const State& state,
+                             std::uint32_t particle);
+
+}  // namespace aspic

@@ -1,0 +1,28 @@
+#pragma once
+// The block that every drawing shader reads, of one picture.
+#include "model/model.h"
+#include "render/camera.h"
+#include "render/layout.h"
+#include "render/quantity.h"
+#include "scene/view_settings.h"
+
+namespace aspic {
+
+/// What the block tells beside model and camera.
+struct FrameContent {
+  ViewSettings view;
+  QuantityRange range = {};  ///< ends of the colour scale
+  bool has_skin = false;     ///< the model has bodies with a surface
+  bool shadows = true;
+};
+
+/// The block of a picture of width × height pixels.
+render_layout::Frame frame_block(const Model& model, const Camera& camera, int width, int height,
+                                 const FrameContent& content);
+
+/// The same for the `side` × `side` pixels around the middle of pixel (x, y) [pixels from left and top] of a
+/// view of width × height pixels, alone: what lies elsewhere is clipped.
+render_layout::Frame frame_around(const render_layout::Frame& whole, double x, double y, double width,
+                                  double height, int side);
+
+}  // namespace aspic

@@ -1,0 +1,208 @@
+#include "render/picker.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <bit>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <utility>
+
+#include "render/frame_block.h"
+#include "render/light_maps.h"
+
+namespace aspic {
+namespace {
+
+/// A pixel of the image.
+struct Word {
+  std::uint32_t identity = 0, distance = 0;
+};
+
+std::array<float, 4> four(const Vec3& v, double w) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+bool shows_particles(const DrawSettings& draw) {
+  return draw.solid || draw.particles || draw.structural || draw.shear || draw.bending;
+}
+
+/// The point at a distance along the axis, seen in the middle of a pixel of the image [pixels from left and
+/// bottom].
+Vec3 point_at(const render_layout::Frame& frame, int column, int row, int side, double distance) {
+  const glm::dmat4 projection(frame.projection);
+  const double x = 2.0 * (column + 0.5) / side - 1.0, y = 2.0 * (row + 0.5) / side - 1.0;
+  const glm::dvec4 in_view((x + projection[2][0]) * distance / projection[0][0],
+                           (y + projection[2][1]) * distance / projection[1][1], -distance, 1.0);
+  const glm::dvec4 world = glm::inverse(glm::dmat4(frame.view)) * in_view;
+  return {world.x, world.y, world.z};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Picker>> Picker::create(gl::Context& context, const gl::ShaderLibrary& library) {
+  std::unique_ptr<Picker> p(new Picker(context));
+  Status status;
+  const auto program = [&](gl::Program& into, const gl::GraphicsStages& stages) {
+    if (!status) return;
+    auto made = gl::Program::graphics(context, library, stages);
+    if (made)
+      into = std::move(*made);
+    else
+      status = made.error();
+  };
+  program(p->surface_, {"render/pick_surface.vert", "render/pick_surface.frag", "render/pick_surface.geom"});
+  program(p->particles_,
+          {"render/particles.vert", "render/pick_particles.frag", "render/pick_particles.geom"});
+  program(p->balls_, {"render/balls.vert", "render/pick_balls.frag", "render/balls.geom"});
+  program(p->terrain_, {"render/screen.vert", "render/pick_terrain.frag"});
+  if (!status) return status.error();
+  auto frame =
+      gl::Buffer::create(context, "pick frame", sizeof(render_layout::Frame), gl::BufferKind::uniform);
+  if (!frame) return frame.error();
+  p->frame_ = std::move(*frame);
+  auto image = DrawableImage::create(
+      context, "identities", {.format = gl::TexelFormat::rg32ui, .width = side, .height = side}, true);
+  if (!image) return image.error();
+  p->image_ = std::move(*image);
+  p->nothing_ = gl::VertexArray::create({});
+  for (Slot& slot : p->slots_) {
+    glGenBuffers(1, &slot.buffer);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
+    glBufferData(GL_PIXEL_PACK_BUFFER, GLsizeiptr{side} * side * GLsizeiptr{sizeof(Word)}, nullptr,
+                 GL_STREAM_READ);
+  }
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  return p;
+}
+
+Picker::~Picker() {
+  forget();
+  for (Slot& slot : slots_) glDeleteBuffers(1, &slot.buffer);
+}
+
+void Picker::forget() {
+  for (Slot& slot : slots_)
+    if (slot.fence) glDeleteSync(static_cast<GLsync>(std::exchange(slot.fence, nullptr)));
+  pending_ = 0;
+  answer_ = {};
+}
+
+void Picker::draw_terrain(const Model& model) const {
+  nothing_.bind();
+  glUseProgram(terrain_.id());
+  for (std::size_t i = 0; i < model.terrain.size(); ++i) {
+    const Terrain& t = model.terrain[i];
+    const int shape = t.shape == TerrainShape::bowl ? 2 : t.shape == TerrainShape::sphere ? 1 : 0;
+    terrain_.set(LOCATION_FIRST, static_cast<std::uint32_t>(i));
+    terrain_.set(LOCATION_SIDE, shape);
+    terrain_.set(LOCATION_PLANE_NORMAL, four(t.normal, 0.0));
+    terrain_.set(LOCATION_SPHERE, four(t.point, t.radius));
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+}
+
+void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const DeviceState& state,
+                        const DrawSettings& draw) const {
+  draw_terrain(model);
+  if (draws_balls(draw)) buffers.balls().draw_with(balls_, state);
+  if (!shows_particles(draw)) return;
+  const float radius =
+      static_cast<float>(draw.particles ? particle_radius(buffers.spacing())
+                                        : spring_radius(buffers.spacing(), SpringType::structural));
+  particles_.set(LOCATION_RADIUS, radius);
+  const gl::VertexArray skin = buffers.skin_array(*state.particles);
+  const gl::VertexArray points = buffers.particle_array(*state.particles);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Surface::Part& part = buffers.parts()[i];
+    const Body& body = model.bodies[i];
+    if (draw.solid && part.index_count > 0) {
+      glUseProgram(surface_.id());
+      skin.bind();
+      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{part.first_index}));
+    } else {
+      particles_.set(LOCATION_FIRST, body.first_particle);
+      glUseProgram(particles_.id());
+      points.bind();
+      glDrawArrays(GL_POINTS, static_cast<GLint>(body.first_particle),
+                   static_cast<GLsizei>(body.particle_count));
+    }
+  }
+}
+
+void Picker::submit(std::uint64_t request, const Model& model, const ModelBuffers& buffers,
+                    const DeviceState& state, const DrawSettings& draw, const render_layout::Frame& frame,
+                    const PickPlace& place) {
+  // With all of them under way the newest gives way: only the last place of the cursor counts.
+  if (pending_ == capacity) --pending_;
+  Slot& slot = slots_[(first_ + pending_) % capacity];
+  slot.request = request;
+  slot.frame = frame_around(frame, place.x, place.y, place.width, place.height, side);
+  frame_.upload_items(std::span<const render_layout::Frame>(&slot.frame, 1));
+  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_.id());
+
+  image_.framebuffer.bind();
+  const GLuint none[4] = {0, 0, 0, 0};
+  const GLfloat far = 1.0f;
+  glDepthMask(GL_TRUE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_BLEND);
+  glClearBufferuiv(GL_COLOR, 0, none);
+  glClearBufferfv(GL_DEPTH, 0, &far);
+  draw_image(model, buffers, state, draw);
+  glDisable(GL_DEPTH_TEST);
+  glBindVertexArray(0);
+  glUseProgram(0);
+
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
+  glReadPixels(0, 0, side, side, GL_RG_INTEGER, GL_UNSIGNED_INT, nullptr);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  if (slot.fence) glDeleteSync(static_cast<GLsync>(slot.fence));
+  slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+  ++pending_;
+}
+
+const PickAnswer& Picker::answer() {
+  while (pending_ > 0) {
+    Slot& slot = slots_[first_];
+    const GLenum state = glClientWaitSync(static_cast<GLsync>(slot.fence), 0, 0);
+    if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED) break;
+    glDeleteSync(static_cast<GLsync>(std::exchange(slot.fence, nullptr)));
+    first_ = (first_ + 1) % capacity;
+    --pending_;
+    read(slot);
+  }
+  return answer_;
+}
+
+void Picker::read(Slot& slot) {
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
+  std::array<Word, std::size_t{side} * side> words;
+  glGetBufferSubData(GL_PIXEL_PACK_BUFFER, 0, GLsizeiptr{sizeof(words)}, words.data());
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  answer_ = {slot.request, std::nullopt};
+  int nearest = pick_reach * pick_reach;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const Word& word = words[static_cast<std::size_t>(row * side + column)];
+      const std::uint32_t kind = word.identity >> PICK_KIND_SHIFT;
+      const int right = column - pick_reach, up = row - pick_reach;
+      const int off = right * right + up * up;
+      // Terrain fills what it fills: only the very place counts, and only if nothing else is near.
+      const bool counts = kind == PICK_TERRAIN ? off == 0 && !answer_.what : kind != 0u;
+      if (!counts || off > nearest) continue;
+      const auto distance = static_cast<double>(std::bit_cast<float>(word.distance));
+      const bool over_terrain = answer_.what && answer_.what->kind == PickKind::terrain;
+      if (off == nearest && answer_.what && !over_terrain && distance >= answer_.what->distance) continue;
+      if (kind != PICK_TERRAIN) nearest = off;
+      answer_.what = Picked{static_cast<PickKind>(kind), word.identity & ((1u << PICK_KIND_SHIFT) - 1u),
+                            point_at(slot.frame, column, row, side, distance), distance};
+    }
+  }
+}
+
+}  // namespace aspic

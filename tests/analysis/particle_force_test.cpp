@@ -1,0 +1,113 @@
+#include "analysis/particle_force.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "cpu_reference/dynamics.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+using reference::Field;
+
+/// A cube with a pinned face, a net with all types of springs whose own are cords, and a ball of ground.
+ModelSettings cube_and_net() {
+  ModelSettings settings = test::cube_on_plane(6, 1.0);
+  settings.cubes[0].pinned.names = {"top"};
+  GoalNetSettings net;
+  net.particles = {4, 5, 6};
+  net.cord = true;
+  net.shear = {300.0, 20.0};
+  net.bending = {200.0, 10.0};
+  settings.goal_nets.push_back(net);
+  TerrainSettings globe;
+  globe.shape = TerrainShape::sphere;
+  globe.centre = Vec3{0.0, -1.0, 0.0};
+  settings.terrain.push_back(globe);
+  return settings;
+}
+
+/// The initial state, every particle moved a little and in slow motion.
+State shaken(const Model& model, double distance, double speed) {
+  State state = initial_state(model, Precision::double_);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const auto off = [&](double size) { return size * Vec3{any(random), any(random), any(random)}; };
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    state.position[i] = state.position[i] + off(distance);
+    state.velocity[i] = state.velocity[i] + off(speed);
+  }
+  return state;
+}
+
+void expect_references_force(const Model& model, const State& state) {
+  const auto count = static_cast<Eigen::Index>(model.particle_count());
+  Field<double> x(3, count), v(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    x.col(i) = reference::rounded<double>(state.position[static_cast<std::size_t>(i)]);
+    v.col(i) = reference::rounded<double>(state.velocity[static_cast<std::size_t>(i)]);
+  }
+  const Field<double> f = reference::Dynamics<double>(model).force(x, v);
+  const IncidentSprings incident(model);
+  for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
+    const ParticleForce force = particle_force(model, incident, state, i);
+    // The same operations in the same order.
+    const Vec3 expected = {f(0, i), f(1, i), f(2, i)};
+    EXPECT_EQ(force.net, expected) << "particle " << i;
+  }
+}
+
+TEST(ParticleForceTest, IsTheReferencesInTheCoulombModel) {
+  const Model model = test::build(cube_and_net());
+  expect_references_force(model, shaken(model, 0.2, 3.0));
+}
+
+TEST(ParticleForceTest, IsTheReferencesInTheCourseModel) {
+  ModelSettings settings = cube_and_net();
+  settings.contact.model = ContactModel::course;
+  // Slow, and down to the ground: contact forces act.
+  settings.cubes[0].position = {0.0, 0.9, 0.0};
+  settings.cubes[0].edge_length = 3.8;
+  const Model model = test::build(settings);
+  const State state = shaken(model, 0.02, 0.004);
+  expect_references_force(model, state);
+  const IncidentSprings incident(model);
+  int touching = 0;
+  for (std::uint32_t i = 0; i < model.particle_count(); ++i)
+    touching += particle_force(model, incident, state, i).contact != Vec3{};
+  EXPECT_GT(touching, 10) << "else nothing was compared";
+}
+
+TEST(ParticleForceTest, PartsByHand) {
+  Model model = test::particles({{0, 0, 0}, {3, 0, 0}, {3, 4, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}, 2.0);
+  model.simulation.gravity = {0.0, -10.0, 0.0};
+  model.spring_classes = {{SpringType::structural, 8.0, 2.0, 2.0, false},
+                          {SpringType::bending, 8.0, 2.0, 5.0, true}};
+  model.springs = {{0, 1, 0}, {1, 2, 1}};
+  const State state = initial_state(model, Precision::double_);
+  const IncidentSprings incident(model);
+  const ParticleForce force = particle_force(model, incident, state, 1);
+  EXPECT_EQ(force.gravity, (Vec3{0.0, -20.0, 0.0}));
+  // Stretched by 1 m and growing by 1 m/s; the cord to particle 2 hangs slack.
+  EXPECT_EQ(force.springs, (Vec3{-10.0, 0.0, 0.0}));
+  EXPECT_EQ(force.contact, Vec3{});
+  EXPECT_EQ(force.net, (Vec3{-10.0, -20.0, 0.0}));
+}
+
+TEST(IncidentSpringsTest, AreAllThatEndAtAParticle) {
+  const Model model = test::build(cube_and_net());
+  const IncidentSprings incident(model);
+  std::vector<std::vector<std::uint32_t>> expected(model.particle_count());
+  for (std::uint32_t s = 0; s < model.springs.size(); ++s) {
+    expected[model.springs[s].a].push_back(s);
+    expected[model.springs[s].b].push_back(s);
+  }
+  for (std::uint32_t i = 0; i < model.particle_count(); ++i) EXPECT_EQ(incident.of(model, i), expected[i]);
+  const Model loose = test::particles({{0, 0, 0}}, {{0, 0, 0}});
+  EXPECT_TRUE(IncidentSprings(loose).of(loose, 0).empty());
+}
+
+}  // namespace
+}  // namespace aspic
