@@ -53,7 +53,10 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   return app;
 }
 
-App::~App() = default;
+App::~App() {
+  // Whatever ends the window, the film is completed.
+  stop_recording();
+}
 
 std::string App::title() const {
   return fmt::format("{}{} - Aspic", editor_.scene().name, editor_.changed() ? " (changed)" : "");
@@ -154,7 +157,9 @@ void App::toggle_running() {
 
 void App::single_step() {
   if (simulation_->running()) simulation_->set_running(false);
+  film();
   tell(simulation_->single_step());
+  film();
 }
 
 void App::reset() {
@@ -337,8 +342,10 @@ Status App::frame(const WindowSize& size, double dt) {
   if (const Status changed = carry_out_changes(); !changed) return changed;
   // A picture of a software rasteriser takes longer anyway, so steps may too.
   const double budget = context_.info().is_software ? 0.040 : 0.012;
+  film();
   if (const Status moved = simulation_->update(dt, budget); !moved) return moved;
   if (auto message = simulation_->take_message()) tell(std::move(*message), true);
+  film();
   watch_divergence();
   still_ = camera_moves || simulation_->running() || simulation_->seeking() ? 0.0 : still_ + dt;
   rate_time_ += dt;

@@ -9,6 +9,7 @@
 
 #include "analysis/stability.h"
 #include "app/camera_control.h"
+#include "app/film_pace.h"
 #include "app/gui.h"
 #include "app/recording.h"
 #include "app/scene_editor.h"
@@ -84,10 +85,18 @@ class App final : public EventReceiver {
   void copy_camera();
   void paste_camera();
   void take_screenshot() { screenshot_wanted_ = true; }
-  /// Films every picture of the scene from now on; a notice says what went wrong. See Recording.
-  void start_recording(const std::string& path);
+  /// Films the scene from now on, in step with simulated time, as film_settings() say: see FilmPace. A notice
+  /// says what went wrong.
+  void start_recording();
+  /// The film is completed in the background; a notice tells when.
   void stop_recording();
+  void toggle_recording();
   const Recording* recording() const { return recording_.get(); }
+  FilmSettings& film_settings() { return film_settings_; }
+  /// Films that have ended and are not complete yet.
+  std::size_t films_completing() const { return completing_.size(); }
+  /// Ends the film under way and waits for all; what there is to say of each.
+  std::vector<std::string> finish_films();
   // ---- time: the scene's values go back and forth with it, for they are part of the run ----
   void step_back();
   /// Half a second of simulated time.
@@ -144,7 +153,9 @@ class App final : public EventReceiver {
   void watch_divergence();
   Status draw_scene(const WindowSize& size);
   Status draw_picture(int width, int height);
-  void film_picture();
+  void film();
+  void watch_films();
+  void end_film();
   void adapt_scale(double seconds);
   void find_hovered();
   void save_screenshot(const WindowSize& size);
@@ -162,7 +173,11 @@ class App final : public EventReceiver {
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<Gui> gui_;
+  FilmSettings film_settings_;
   std::unique_ptr<Recording> recording_;
+  std::optional<FilmPace> film_pace_;
+  std::string filmed_scene_;
+  std::vector<std::unique_ptr<Recording>> completing_;
 
   std::optional<Notice> notice_;
   std::optional<StabilityLimit> stable_;
@@ -184,6 +199,7 @@ class App final : public EventReceiver {
   std::string drawn_terrain_;
   ViewSettings drawn_view_;
   int drawn_width_ = 0, drawn_height_ = 0;
+  double pixels_per_unit_ = 1.0;
   double draw_scale_ = 1.0, draw_seconds_ = 0.0, still_ = 0.0;
   double since_file_look_ = 0.0, rate_time_ = 0.0, pictures_per_second_ = 0.0;
   int rate_pictures_ = 0;

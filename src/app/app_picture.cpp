@@ -11,6 +11,7 @@
 #include "io/atomic_file.h"
 #include "io/frame_directory.h"
 #include "render/camera.h"
+#include "render/overlay_text.h"
 
 namespace aspic::app {
 namespace {
@@ -25,6 +26,7 @@ constexpr double reach = 12.0;
 
 Status App::draw_scene(const WindowSize& size) {
   const double ratio = static_cast<double>(size.pixel_width) / size.width;
+  pixels_per_unit_ = ratio;
   const int left = static_cast<int>(std::lround(viewport_.left * ratio));
   const int width = std::max(static_cast<int>(std::lround(viewport_.right * ratio)) - left, 1);
   const int bottom = size.pixel_height - static_cast<int>(std::lround(viewport_.bottom * ratio));
@@ -36,13 +38,20 @@ Status App::draw_scene(const WindowSize& size) {
     return std::max(static_cast<int>(std::lround(scale * length)), 1);
   };
   // A film keeps its size, whatever becomes of the window.
-  const PictureSize picture = recording_ ? recording_->size() : PictureSize{scaled(width), scaled(height)};
+  const PictureSize picture =
+      recording_ ? recording_->options().size : PictureSize{scaled(width), scaled(height)};
   if (const Status drawn = draw_picture(picture.width, picture.height); !drawn) return drawn;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, size.pixel_width, size.pixel_height);
   glClearColor(0.105f, 0.107f, 0.112f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
-  renderer_->present(0, width, height, left, bottom);
+  // A film of another shape than the view is shown whole, between margins.
+  const double fit =
+      std::min(static_cast<double>(width) / picture.width, static_cast<double>(height) / picture.height);
+  const int shown_width = recording_ ? static_cast<int>(std::lround(fit * picture.width)) : width;
+  const int shown_height = recording_ ? static_cast<int>(std::lround(fit * picture.height)) : height;
+  renderer_->present(0, shown_width, shown_height, left + (width - shown_width) / 2,
+                     bottom + (height - shown_height) / 2);
   return {};
 }
 
@@ -50,6 +59,10 @@ Status App::draw_picture(int width, int height) {
   PictureOptions options;
   options.view = editor_.scene().view;
   options.view.camera = camera_.shown();
+  if (recording_) {
+    options.legend = film_settings_.text;
+    if (film_settings_.text) options.text = overlay_lines(editor_.scene().model, simulation_->time());
+  }
   const bool new_model = drawn_model_ != simulation_->model_number();
   const bool same = !new_model && drawn_state_ == simulation_->picture_number() &&
                     drawn_view_ == options.view && drawn_width_ == width && drawn_height_ == height;
@@ -71,38 +84,9 @@ Status App::draw_picture(int width, int height) {
   drawn_view_ = options.view;
   drawn_width_ = width;
   drawn_height_ = height;
-  if (recording_) film_picture();
   draw_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (context_.info().is_software && !new_model) adapt_scale(draw_seconds_);
   return {};
-}
-
-void App::start_recording(const std::string& path) {
-  stop_recording();
-  const double width = viewport_.right - viewport_.left, height = viewport_.bottom - viewport_.top;
-  auto started = Recording::start(
-      context_, path, {std::max(static_cast<int>(width), 16), std::max(static_cast<int>(height), 16)});
-  if (!started) return tell(started.error());
-  recording_ = std::move(*started);
-  drawn_width_ = 0;
-  tell(fmt::format("Recording to {}. Only what moves is filmed.", path));
-}
-
-void App::stop_recording() {
-  if (!recording_) return;
-  const Status finished = recording_->finish();
-  if (finished)
-    tell(fmt::format("{} holds {} pictures.", recording_->path(), recording_->pictures()));
-  else
-    tell(finished);
-  recording_.reset();
-}
-
-void App::film_picture() {
-  const Status added = recording_->add(renderer_->picture());
-  if (added) return;
-  recording_.reset();
-  tell(added);
 }
 
 void App::adapt_scale(double seconds) {

@@ -94,32 +94,6 @@ void plot(const std::deque<EnergySample>& samples, double scale) {
                IM_COL32(140, 145, 152, 255), end.c_str());
 }
 
-/// Start and end of a film.
-void record_row(App& app) {
-  static std::array<char, 512> path = {"aspic.mp4"};
-  Gui& gui = app.gui();
-  if (app.recording()) {
-    const std::string label = fmt::format("Stop recording ({} pictures)", app.recording()->pictures());
-    if (button(gui, "record/stop", label.c_str(), "Completes " + app.recording()->path() + ".", "", true,
-               -1.0f))
-      app.stop_recording();
-    return;
-  }
-  if (button(gui, "record/start", "Record",
-             "Films the scene without the panels, every picture that differs from the one before, to be "
-             "shown at 60 a "
-             "second. The film's size is that of the view now. A file that exists is not overwritten."))
-    app.start_recording(path.data());
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(-1.0f);
-  ImGui::InputText("##film", path.data(), path.size());
-  gui.mark("record/path");
-  tooltip(
-      "Where the film goes: FILE.mp4, .webm or .gif (needs ffmpeg), or a name without an ending for a "
-      "directory "
-      "of PNG pictures.");
-}
-
 }  // namespace
 
 void view_section(App& app) {
@@ -145,7 +119,6 @@ void view_section(App& app) {
   if (button(gui, "camera/paste", "Paste", "Takes a camera from the clipboard.", "paste a camera", true,
              half))
     app.paste_camera();
-  record_row(app);
 }
 
 void performance_section(App& app) {

@@ -1,5 +1,6 @@
 // aspic-view: the window, started by `aspic view`.
 #include <chrono>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "app/window.h"
 #include "cli/arguments.h"
 #include "cli/console.h"
+#include "io/interrupt.h"
 
 namespace aspic::app {
 namespace {
@@ -38,19 +40,22 @@ int show(const cli::ViewOptions& view) {
   using Clock = std::chrono::steady_clock;
   auto last = Clock::now();
   std::string title;
-  while (!(*window)->should_close()) {
+  const InterruptGuard guard;
+  std::optional<Error> error;
+  while (!error && !(*window)->should_close() && !guard.interrupted()) {
     (*window)->poll((*app)->idle() ? 0.25 : 0.0);
     const auto now = Clock::now();
     // After a pause of the whole program time goes on, it does not catch up.
     const double dt = std::min(std::chrono::duration<double>(now - last).count(), 0.25);
     last = now;
-    if (const Status drawn = (*app)->frame((*window)->size(), dt); !drawn) return fail(drawn.error());
+    if (const Status drawn = (*app)->frame((*window)->size(), dt); !drawn) error = drawn.error();
     (*window)->show_picture();
     if ((*app)->title() != title) (*window)->set_title(title = (*app)->title());
   }
-  (*app)->stop_recording();
+  for (const std::string& line : (*app)->finish_films()) cli::print_message(line);
   (*window)->set_receiver(nullptr);
-  return 0;
+  if (error) return fail(*error);
+  return guard.interrupted() ? static_cast<int>(ErrorCode::interrupted) : 0;
 }
 
 }  // namespace

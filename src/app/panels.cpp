@@ -31,6 +31,7 @@ constexpr Heading left_sections[] = {
     {"Bodies", bodies_section, false},   {"Springs", springs_section, false},
     {"Contact", contact_section, false}, {"Balls", balls_section, false}};
 constexpr Heading right_sections[] = {{"View", view_section, true},
+                                      {"Recording", recording_section, false},
                                       {"Performance", performance_section, true},
                                       {"Energy", energy_section, true},
                                       {"Shadow", shadow_section, false}};

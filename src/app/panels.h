@@ -17,6 +17,7 @@ void bodies_section(App& app);
 void springs_section(App& app);
 void contact_section(App& app);
 void view_section(App& app);
+void recording_section(App& app);
 void performance_section(App& app);
 void energy_section(App& app);
 void balls_section(App& app);

@@ -29,6 +29,7 @@ const std::array table = {
     Row{"Ctrl+right click", "pin or free the particle", -1, 0, 0, nullptr},
     Row{"[", "previous scene", -1, 0, U'[', [](App& a) { a.open_neighbour(-1); }},
     Row{"]", "next scene", -1, 0, U']', [](App& a) { a.open_neighbour(1); }},
+    Row{"Ctrl+L", "reload the scene", GLFW_KEY_L, ctrl, 0, [](App& a) { a.reload(); }},
     Row{"F5", "reload the scene", GLFW_KEY_F5, 0, 0, [](App& a) { a.reload(); }},
     Row{"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, [](App& a) { a.undo(); }},
     Row{"Ctrl+Shift+Z", "redo", GLFW_KEY_Z, ctrl | shift, 0, [](App& a) { a.redo(); }},
@@ -43,6 +44,7 @@ const std::array table = {
     Row{"Tab", "hide or show the panels", GLFW_KEY_TAB, 0, 0, [](App& a) { a.toggle_panels(); }},
     Row{"F1", "all keys", GLFW_KEY_F1, 0, 0, [](App& a) { a.toggle_help(); }},
     Row{"F11", "full screen", GLFW_KEY_F11, 0, 0, [](App& a) { a.toggle_full_screen(); }},
+    Row{"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [](App& a) { a.toggle_recording(); }},
     Row{"F12", "save a screenshot", GLFW_KEY_F12, 0, 0, [](App& a) { a.take_screenshot(); }},
 };
 

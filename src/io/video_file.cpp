@@ -76,7 +76,7 @@ class VideoFile : public FrameSink {
       path_ = file_->path();
       reason_ = fmt::format(
           "the video {} could not be made: ffmpeg {}{}{}Check the disk and that ffmpeg has the encoder "
-          "(the Debian package ffmpeg has it), or write pictures with --frames.",
+          "(the Debian package ffmpeg has it), or write numbered pictures instead (--frames).",
           path_, how, said.empty() ? " without a word." : fmt::format(" and said\n{}", said),
           said.empty() ? " " : "");
       ffmpeg_.reset();
@@ -159,7 +159,7 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Pic
     return Error{
         ErrorCode::io,
         fmt::format("the video {} cannot be made: {} Videos need the program ffmpeg on PATH: install it with "
-                    "apt install ffmpeg, or write pictures with --frames.",
+                    "apt install ffmpeg, or write numbered pictures instead (--frames).",
                     path, ffmpeg.error().message)};
   return std::unique_ptr<FrameSink>(std::make_unique<VideoFile>(std::move(*file), std::move(*ffmpeg)));
 }

@@ -175,35 +175,6 @@ TEST_F(AppWindow, ScreenshotsAreNeverOverwritten) {
   EXPECT_GT(first->size(), 50000u) << "a picture with content does not compress to nothing";
 }
 
-TEST_F(AppWindow, RecordsWhatMovesAndNothingTwice) {
-  open("cube-plane", {}, BackendName::reference);
-  app().start_recording("film");
-  ASSERT_TRUE(app().recording()) << app().notice()->text;
-  frames(3);
-  for (int i = 0; i < 4; ++i) {
-    type(U'.');
-    frames(3);
-  }
-  // The start, and one picture for each step.
-  EXPECT_EQ(app().recording()->pictures(), 5u);
-  app().stop_recording();
-  EXPECT_FALSE(app().recording());
-  for (int i = 0; i < 5; ++i)
-    EXPECT_TRUE(std::filesystem::exists(directory() / "film" / fmt::format("frame-{:06}.png", i))) << i;
-  EXPECT_FALSE(std::filesystem::exists(directory() / "film" / "frame-000005.png"));
-  app().start_recording("film.mp4");
-  ASSERT_TRUE(app().recording()) << app().notice()->text;
-  press(GLFW_KEY_SPACE);
-  frames_to_step(40);
-  app().stop_recording();
-  const auto film = read_whole_file((directory() / "film.mp4").string());
-  ASSERT_TRUE(film.ok());
-  EXPECT_EQ(film->substr(4, 4), "ftyp");
-  app().start_recording("film.mp4");
-  EXPECT_FALSE(app().recording()) << "nothing is overwritten";
-  EXPECT_TRUE(app().notice()->is_error);
-}
-
 TEST_F(AppWindow, CameraTravelsAsText) {
   open("cube-plane");
   drag(GLFW_MOUSE_BUTTON_LEFT, middle_x(), middle_y(), 90, -30);

@@ -25,6 +25,9 @@ class Stage : public ::testing::Test {
   void open(const std::string& scene, std::vector<std::string> overrides = {},
             std::optional<app::BackendName> backend = std::nullopt);
 
+  /// Ends the app as closing the window does when nothing else is left to do.
+  void close() { app_.reset(); }
+
   app::App& app() { return *app_; }
   app::Simulation& simulation() { return app_->simulation(); }
   /// Pictures, a sixtieth of a second apart.

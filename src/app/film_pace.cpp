@@ -1,0 +1,44 @@
+#include "app/film_pace.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace aspic::app {
+
+void FilmPace::count_from(std::uint64_t step) {
+  schedule_ = FrameSchedule::open_ended(timestep_, step, fps_, speed_);
+  frame_ = 0;
+}
+
+std::uint64_t FilmPace::take(std::uint64_t step, double timestep, double speed) {
+  assert(timestep > 0.0 && speed > 0.0);
+  const bool other_pace = timestep != timestep_ || speed != speed_;
+  if (schedule_ && timestep != timestep_) {
+    // The same times, told in steps of the new length. Rounded down: however the run rounds its own step, it
+    // has not gone back.
+    const double ratio = timestep_ / timestep;
+    last_taken_ = static_cast<std::uint64_t>(std::llround(static_cast<double>(last_taken_) * ratio));
+    last_seen_ = static_cast<std::uint64_t>(std::max(static_cast<double>(last_seen_) * ratio - 1.0, 0.0));
+  }
+  timestep_ = timestep;
+  speed_ = speed;
+  if (!schedule_ || step < last_seen_) {
+    count_from(step);
+  } else if (other_pace) {
+    count_from(last_taken_);
+    frame_ = 1;
+  }
+  if (next_step() < step) count_from(step);
+  last_seen_ = step;
+  std::uint64_t pictures = 0;
+  for (; next_step() == step; ++frame_) ++pictures;
+  if (pictures > 0) last_taken_ = step;
+  return pictures;
+}
+
+std::uint64_t FilmPace::next_step() const {
+  return schedule_ ? schedule_->step_of(frame_) : 0;
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,36 @@
+#pragma once
+// Which steps of a run that people play with belong into a film.
+#include <cstdint>
+#include <optional>
+
+#include "io/frame_schedule.h"
+
+namespace aspic::app {
+
+/// Pictures of a film come speed/fps seconds of simulated time after one another, each at the nearest step,
+/// counted from where the film began: nothing adds up. Steps, speed and time step may change under way.
+class FilmPace {
+ public:
+  /// Pictures per second shown, > 0.
+  explicit FilmPace(double fps) : fps_(fps) {}
+
+  /// How many pictures of the state at `step` the film still wants; those count as taken. Several where one
+  /// step is shown for longer than one picture. Counting begins anew, with a picture at once, at the first
+  /// call and wherever the run did not get to by itself: back in time, at another start, or beyond
+  /// next_step(). Another speed or time step [s] counts from the last picture on. All > 0.
+  std::uint64_t take(std::uint64_t step, double timestep, double speed);
+  /// The step of the next picture, which the run must not pass before take().
+  std::uint64_t next_step() const;
+  /// The speed that take() was last told; 0 before.
+  double speed() const { return speed_; }
+  /// The next take() begins anew, wherever it is.
+  void begin_anew() { schedule_.reset(); }
+
+ private:
+  void count_from(std::uint64_t step);
+  double fps_, timestep_ = 0.0, speed_ = 0.0;
+  std::optional<FrameSchedule> schedule_;
+  std::uint64_t frame_ = 0, last_taken_ = 0, last_seen_ = 0;
+};
+
+}  // namespace aspic::app

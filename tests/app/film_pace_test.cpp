@@ -1,0 +1,89 @@
+#include "app/film_pace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace aspic::app {
+namespace {
+
+constexpr double h = 0.001;
+
+TEST(FilmPace, TakesThePicturesOfAFilmMadeHeadless) {
+  const FrameSchedule headless(h, 0, 2000, 60.0, 1.0);
+  FilmPace pace(60.0);
+  std::vector<std::uint64_t> steps;
+  // A run that goes as far as it may at once.
+  for (std::uint64_t step = 0; step <= 2000; step = pace.next_step()) {
+    ASSERT_EQ(pace.take(step, h, 1.0), 1u);
+    EXPECT_EQ(pace.take(step, h, 1.0), 0u) << "none twice";
+    steps.push_back(step);
+  }
+  ASSERT_EQ(steps.size(), headless.count());
+  for (std::uint64_t f = 0; f < headless.count(); ++f) EXPECT_EQ(steps[f], headless.step_of(f));
+}
+
+TEST(FilmPace, StepsBetweenPicturesChangeNothing) {
+  FilmPace pace(60.0);
+  std::uint64_t pictures = 0;
+  for (std::uint64_t step = 0; step <= 2000; ++step) pictures += pace.take(step, h, 1.0);
+  EXPECT_EQ(pictures, 121u);
+}
+
+TEST(FilmPace, SlowMotionShowsAStepForSeveralPictures) {
+  FilmPace pace(50.0);
+  // 0.02 s of a film show 0.25 ms: four pictures for each step, up to where the nearest step changes.
+  EXPECT_EQ(pace.take(7, h, 0.0125), 2u);
+  std::uint64_t pictures = 0;
+  for (std::uint64_t step = 8; step < 108; ++step) pictures += pace.take(step, h, 0.0125);
+  EXPECT_EQ(pictures, 400u);
+}
+
+TEST(FilmPace, BackInTimeBeginsAnewAtOnce) {
+  FilmPace pace(50.0);
+  EXPECT_EQ(pace.take(0, h, 1.0), 1u);
+  EXPECT_EQ(pace.take(20, h, 1.0), 1u);
+  EXPECT_EQ(pace.take(33, h, 1.0), 0u);
+  EXPECT_EQ(pace.take(11, h, 1.0), 1u);
+  EXPECT_EQ(pace.next_step(), 31u);
+  EXPECT_EQ(pace.take(0, h, 1.0), 1u) << "reset";
+  EXPECT_EQ(pace.next_step(), 20u);
+}
+
+TEST(FilmPace, AJumpAheadBeginsAnewAtOnce) {
+  FilmPace pace(50.0);
+  EXPECT_EQ(pace.take(0, h, 1.0), 1u);
+  EXPECT_EQ(pace.take(500, h, 1.0), 1u);
+  EXPECT_EQ(pace.next_step(), 520u);
+}
+
+TEST(FilmPace, AnotherSpeedCountsFromTheLastPicture) {
+  FilmPace pace(50.0);
+  EXPECT_EQ(pace.take(40, h, 1.0), 1u);
+  EXPECT_EQ(pace.take(45, h, 2.0), 0u);
+  EXPECT_EQ(pace.next_step(), 80u);
+  // Slower than what has passed already: the next picture is due now.
+  EXPECT_EQ(pace.take(60, h, 0.5), 1u);
+  EXPECT_EQ(pace.next_step(), 70u);
+}
+
+TEST(FilmPace, AnotherTimeStepKeepsTheTimes) {
+  FilmPace pace(50.0);
+  EXPECT_EQ(pace.take(0, h, 1.0), 1u);
+  EXPECT_EQ(pace.take(20, h, 1.0), 1u);
+  EXPECT_EQ(pace.take(30, h, 1.0), 0u);
+  // 30 ms are 15 steps of 2 ms; the next picture is due at 40 ms.
+  EXPECT_EQ(pace.take(15, 2.0 * h, 1.0), 0u);
+  EXPECT_EQ(pace.next_step(), 20u);
+}
+
+TEST(FilmPace, BeginsAnewWhenTold) {
+  FilmPace pace(50.0);
+  EXPECT_EQ(pace.take(0, h, 1.0), 1u);
+  pace.begin_anew();
+  EXPECT_EQ(pace.take(0, h, 1.0), 1u);
+}
+
+}  // namespace
+}  // namespace aspic::app
