@@ -86,25 +86,53 @@ Result<Finding> course_depth(const Subject& subject) {
   return Finding{true, text + " mm"};
 }
 
-Result<Finding> rests(const Subject& subject, Integrator integrator) {
+/// A fall and ten seconds of rest. The time step of a row is the scene's default of 1 ms unless the method
+/// needs another one to rest at all (docs/physics.md, "A limit of the resting threshold"):
+/// - explicit Euler: a ground particle that leaves the contact for one step is sped up by h·N/m, N/m = n·g
+///   under a column of n particles and about twice that under the edges; it comes to rest if that is no more
+///   than ε, so h = ε/(2·n·g) = 0.05 ms;
+/// - one-pass: a mode of the dampers is damped by 1 + z + z² a step, z = −h·αc/m, which is 1 at the limit of
+///   stability, z = −1, and least at z = −½: half the stable step, 0.5 ms;
+/// - implicit Euler: 1/60 s, what it is there for.
+struct Rest {
+  Integrator integrator;
+  double timestep;  ///< [s]
+  bool bounded = true;
+};
+constexpr Rest rests[] = {{Integrator::explicit_euler, 0.05e-3},
+                          {Integrator::symplectic_euler, 1e-3},
+                          {Integrator::midpoint, 1e-3},
+                          {Integrator::runge_kutta_4, 1e-3},
+                          {Integrator::implicit_euler_one_pass, 0.5e-3},
+                          {Integrator::implicit_euler, 1.0 / 60},
+                          {Integrator::explicit_euler, 1e-3, false},
+                          {Integrator::implicit_euler_one_pass, 1e-3, false}};
+
+Result<Finding> comes_to_rest(const Subject& subject, const Rest& rest) {
   ModelSettings settings = cube_settings(10);
   settings.terrain.push_back({});
-  settings.simulation.integrator = integrator;
-  if (integrator == Integrator::implicit_euler) settings.simulation.timestep = 1.0 / 60;
+  settings.simulation.integrator = rest.integrator;
+  settings.simulation.timestep = rest.timestep;
   ASPIC_VERIFY_LET(model, build_model(settings));
-  const auto steps = static_cast<std::uint64_t>(std::lround(10.0 / model.simulation.timestep));
+  const auto steps = static_cast<std::uint64_t>(std::lround(10.0 / rest.timestep));
   ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::single, steps));
-  return at_most(max_speed(end), resting_bound, "m/s");
+  Finding finding = at_most(max_speed(end), resting_bound, "m/s");
+  finding.measured += fmt::format(" at h = {:.3g} ms", 1e3 * rest.timestep);
+  if (!rest.bounded) finding.passed = true;
+  return finding;
 }
 
 }  // namespace
 
 void add_scene_checks(std::vector<Check>& checks) {
-  for (const Integrator integrator : all_integrators) {
-    checks.push_back({fmt::format("rest/{}", name_of(integrator)),
-                      "the default cube, dropped on the plane (Coulomb), 10 s later: fastest particle",
-                      at_most_text(resting_bound, "m/s"), integrator == Integrator::symplectic_euler, false,
-                      [=](const Subject& subject) { return rests(subject, integrator); }});
+  for (const Rest& rest : rests) {
+    const char* const claim =
+        rest.bounded ? "the default cube, dropped on the plane (Coulomb), 10 s later: fastest particle"
+                     : "the same at 1 ms, where these two do not come to rest";
+    checks.push_back({fmt::format("rest/{}{}", name_of(rest.integrator), rest.bounded ? "" : "-at-1-ms"),
+                      claim, rest.bounded ? at_most_text(resting_bound, "m/s") : "none",
+                      rest.integrator == Integrator::symplectic_euler, false,
+                      [=](const Subject& subject) { return comes_to_rest(subject, rest); }});
   }
   // Scenes without balls: a ball may push a particle further than it flies.
   for (const std::string name :
