@@ -51,6 +51,7 @@ Result<Simulation::Made> Simulation::make_solver(const Model& model, BackendName
     options.shader_directory = std::move(*directory);
     // The device does not change: what the canary found once holds.
     if (gpu_) options.arithmetic = gpu_->arithmetic();
+    options.like = gpu_;
     auto solver = make_gpu_solver(context_, model, options);
     if (!solver) return solver.error();
     made.gpu = solver->get();

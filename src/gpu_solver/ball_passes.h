@@ -3,10 +3,11 @@
 // explicit and the implicit solver alike.
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <memory>
+#include <optional>
 
 #include "gpu/pass.h"
-#include "gpu/program.h"
+#include "gpu/program_cache.h"
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/layout.h"
 #include "gpu_solver/support.h"
@@ -66,8 +67,9 @@ class BallPasses {
   std::uint32_t count_ = 0, particle_count_ = 0, buckets_ = 0;
   bool grid_ = false, implicit_ = false;
   gl::Buffer balls_, bodies_, counts_, lists_;
-  std::array<gl::Program, kernel_count> programs_;
-  std::vector<gl::Pass> passes_;  // by Kernel
+  // By kernel; nothing where the scene needs none.
+  std::array<std::shared_ptr<const gl::Program>, kernel_count> programs_;
+  std::array<std::optional<gl::Pass>, kernel_count> passes_;
 };
 
 }  // namespace aspic

@@ -30,6 +30,9 @@ enum class BallSearch {
   grid        ///< a uniform grid, hashed
 };
 
+class GpuSolver;
+struct SpringBuffers;
+
 struct GpuOptions {
   ForcePath force_path = ForcePath::automatic;
   std::uint32_t group_size = 64;  ///< invocations per work group, 1…1024; never affects the bits
@@ -38,6 +41,9 @@ struct GpuOptions {
   std::filesystem::path shader_directory;
   /// How to compile for this device's arithmetic; absent: the canary is asked first.
   std::optional<gl::Arithmetic> arithmetic;
+  /// A solver to share with: where both models have the same springs, its buffers of them serve both. It and
+  /// its model need to live no longer than the call; null: none.
+  const GpuSolver* like = nullptr;
 };
 
 /// A gpu solver with a look at its buffers, for drawing without a copy.
@@ -54,6 +60,8 @@ class GpuSolver : public Solver {
   virtual ForcePath force_path() const = 0;
   /// What the canary found on this device, and how the kernels were compiled for it.
   virtual const gl::Arithmetic& arithmetic() const = 0;
+  /// What another solver may share (GpuOptions::like).
+  virtual const std::shared_ptr<const SpringBuffers>& spring_buffers() const = 0;
 };
 
 /// A gpu solver at the model's initial state. Model and context must outlive it; the context must be current

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "gpu/pass.h"
-#include "gpu/program.h"
+#include "gpu/program_cache.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/pull_buffer.h"
 #include "gpu_solver/simulation_block.h"
+#include "gpu_solver/spring_buffers.h"
 #include "gpu_solver/support.h"
-#include "gpu_solver/topology.h"
 
 namespace aspic {
 namespace {
@@ -52,6 +52,7 @@ class ImplicitSolver final : public GpuSolver {
   std::uint32_t first_ball() const override { return solve_.parity * model_.ball_count(); }
   ForcePath force_path() const override { return ForcePath::gather; }
   const gl::Arithmetic& arithmetic() const override { return arithmetic_; }
+  const std::shared_ptr<const SpringBuffers>& spring_buffers() const override { return springs_; }
 
   Status load(const State& state) override;
   Status set_pull(const std::optional<Pull>& pull) override { return pull_.set(model_, pull); }
@@ -60,7 +61,7 @@ class ImplicitSolver final : public GpuSolver {
   Result<State> state() override;
 
  private:
-  Status build_buffers();
+  Status build_buffers(const GpuOptions& options);
   void dispatch(Kernel kernel, Reader readers = Reader::compute_pass) const {
     passes_[kernel].dispatch_for(model_.particle_count(), {}, readers);
   }
@@ -73,10 +74,11 @@ class ImplicitSolver final : public GpuSolver {
   const Model& model_;
   std::uint64_t bytes_ = 0;
   std::array<Buffer, 2> states_;
-  Buffer trial_, search_, own_, simulation_, incident_start_, incident_, solve_buffer_;
+  Buffer trial_, search_, own_, simulation_, solve_buffer_;
+  std::shared_ptr<const SpringBuffers> springs_;
   PullBuffer pull_;
   gl::Arithmetic arithmetic_;
-  std::array<gl::Program, kernel_count> programs_;
+  std::array<std::shared_ptr<const gl::Program>, kernel_count> programs_;
   std::vector<gl::Pass> passes_;  // by Kernel
   BallPasses balls_;
 
@@ -86,7 +88,7 @@ class ImplicitSolver final : public GpuSolver {
   std::optional<Divergence> divergence_;
 };
 
-Status ImplicitSolver::build_buffers() {
+Status ImplicitSolver::build_buffers(const GpuOptions& options) {
   std::vector<layout::Simulation> block(1);
   ASPIC_ASSIGN_OR_RETURN(block[0], simulation_block(model_));
   const std::uint64_t particles = model_.particle_count(), vectors = particles * sizeof(layout::vec4);
@@ -105,18 +107,13 @@ Status ImplicitSolver::build_buffers() {
       simulation_, Buffer::of(context_, "simulation constants", std::span<const layout::Simulation>(block),
                               gl::BufferKind::uniform));
   if (const Status made = pull_.build(context_); !made) return made;
-  IncidentSprings rows;
-  ASPIC_ASSIGN_OR_RETURN(rows, neighbours_of(model_));
-  ASPIC_ASSIGN_OR_RETURN(incident_start_, Buffer::of(context_, "incident spring rows",
-                                                     std::span<const std::uint32_t>(rows.start)));
-  ASPIC_ASSIGN_OR_RETURN(
-      incident_, Buffer::of(context_, "incident springs", std::span<const std::uint32_t>(rows.words)));
+  ASPIC_ASSIGN_OR_RETURN(springs_, aspic::spring_buffers(context_, model_, ForcePath::gather, options.like));
   return {};
 }
 
 Status ImplicitSolver::build(const GpuOptions& options) {
   const std::uint64_t held_before = context_.bytes_held();
-  if (const Status made = build_buffers(); !made) return made;
+  if (const Status made = build_buffers(options); !made) return made;
 
   const gl::ShaderLibrary library(options.shader_directory);
   KernelOptions kernels;
@@ -128,14 +125,14 @@ Status ImplicitSolver::build(const GpuOptions& options) {
                                          {BINDING_STATE_B, &states_[1]},
                                          {BINDING_TRIAL, &trial_},
                                          {BINDING_SEARCH, &search_},
-                                         {BINDING_INCIDENT_START, &incident_start_},
-                                         {BINDING_INCIDENT, &incident_},
+                                         {BINDING_INCIDENT_START, &springs_->incident_start},
+                                         {BINDING_INCIDENT, &springs_->incident},
                                          {BINDING_SOLVE, &solve_buffer_},
                                          {BINDING_OWN, &own_}};
   for (std::size_t k = 0; k < kernel_count; ++k) {
     ASPIC_ASSIGN_OR_RETURN(programs_[k],
-                           gl::Program::compute(context_, library, kernel_paths[k], kernels.defines));
-    passes_.emplace_back(programs_[k], bindings, Reader::compute_pass);
+                           context_.programs().compute(library, kernel_paths[k], kernels.defines));
+    passes_.emplace_back(*programs_[k], bindings, Reader::compute_pass);
   }
   if (const Status made = balls_.build(context_, model_, library, kernels,
                                        {&simulation_, &solve_buffer_, true}, options.ball_search);
@@ -143,6 +140,7 @@ Status ImplicitSolver::build(const GpuOptions& options) {
     return made;
   }
   bytes_ = context_.bytes_held() - held_before;
+  if (springs_.use_count() > 1) bytes_ += springs_->bytes();  // held before, by the solver it shares with
   return load(initial_state(model_, Precision::single));
 }
 
