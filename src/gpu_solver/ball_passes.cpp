@@ -57,6 +57,12 @@ std::uint64_t ball_bytes(const ModelCounts& counts) {
          4 * (counts.balls + counts.particles + grid);
 }
 
+std::vector<std::string> BallPasses::pass_names() {
+  return {"balls: flight and terrain", "balls: empty the grid",    "balls: fill the grid",
+          "balls: count contacts",     "balls: impulses on balls", "balls: impulses on particles",
+          "balls: end of the step"};
+}
+
 Status BallPasses::build(gl::Context& context, const Model& model, const gl::ShaderLibrary& library,
                          const KernelOptions& kernels, const Surroundings& surroundings, BallSearch search) {
   model_ = &model;
@@ -127,6 +133,7 @@ void BallPasses::dispatch(Kernel kernel, std::uint32_t items, std::span<const Bi
     programs_[kernel]->set(LOCATION_BALL_PHASE, phase);
   }
   passes_[kernel]->dispatch_for(items, states, readers);
+  if (profiler_ && items > 0) profiler_->mark(first_kind_ + kernel);
 }
 
 void BallPasses::queue(const Buffer& start, const Buffer& end, std::uint32_t step, std::uint32_t parity,

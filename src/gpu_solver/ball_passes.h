@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "gpu/pass.h"
+#include "gpu/pass_profiler.h"
 #include "gpu/program_cache.h"
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/layout.h"
@@ -58,6 +61,14 @@ class BallPasses {
 
   const gl::Buffer& buffer() const { return balls_; }
 
+  /// What a reader calls the passes, in their order.
+  static std::vector<std::string> pass_names();
+  /// Tells `profiler` of each dispatch, counting kinds from `first` on; null ends that.
+  void set_profiler(gl::PassProfiler* profiler, std::size_t first) {
+    profiler_ = profiler;
+    first_kind_ = first;
+  }
+
  private:
   enum Kernel : std::size_t { fly, clear, insert, tally, exchange, particles, end_implicit, kernel_count };
   void dispatch(Kernel kernel, std::uint32_t items, std::span<const gl::Binding> states, std::uint32_t phase,
@@ -70,6 +81,8 @@ class BallPasses {
   // By kernel; nothing where the scene needs none.
   std::array<std::shared_ptr<const gl::Program>, kernel_count> programs_;
   std::array<std::optional<gl::Pass>, kernel_count> passes_;
+  gl::PassProfiler* profiler_ = nullptr;
+  std::size_t first_kind_ = 0;
 };
 
 }  // namespace aspic

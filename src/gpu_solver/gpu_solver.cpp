@@ -64,11 +64,20 @@ class ComputeSolver final : public GpuSolver {
   Status set_pull(const std::optional<Pull>& pull) override { return pull_.set(model_, pull); }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   Result<State> state() override;
+  void set_profiling(bool on) override;
+  std::vector<gl::PassTime> pass_times() override {
+    return profiler_ ? profiler_->times() : std::vector<gl::PassTime>();
+  }
 
  private:
+  /// Kinds of passes, for the profiler; the balls' follow.
+  enum Kind : std::size_t { springs_kind, particles_kind, ball_kinds };
   Status build_buffers(const GpuOptions& options);
   Status build_passes(const GpuOptions& options);
   void queue_step(std::uint32_t step_index, bool last_of_queue);
+  void mark(Kind kind) {
+    if (profiler_) profiler_->mark(kind);
+  }
   Result<layout::Control> read_control();
 
   gl::Context& context_;
@@ -88,6 +97,7 @@ class ComputeSolver final : public GpuSolver {
   BallPasses balls_;
   std::uint32_t ball_parity_ = 0;  // slot of the balls' current state
   std::vector<gl::Pass> passes_;   // one per stage: particles, preceded on the per-spring path by springs
+  std::unique_ptr<gl::PassProfiler> profiler_;
 
   std::uint64_t base_step_ = 0;    // step number of the loaded state
   std::uint32_t steps_since_ = 0;  // steps since: what the kernels count in
@@ -189,9 +199,11 @@ void ComputeSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
     if (path_ == ForcePath::per_spring) {
       passes_.front().dispatch_for(static_cast<std::uint32_t>(model_.springs.size()),
                                    std::span(states).first(1));
+      mark(springs_kind);
     }
     const bool leaves = last_of_queue && s + 1 == stages_ && !balls_.any();
     passes_.back().dispatch_for(model_.particle_count(), states, leaves ? anyone : Reader::compute_pass);
+    mark(particles_kind);
     stage_state = out;
   }
   balls_.queue(states_[current_], states_[end], step_index, ball_parity_,
@@ -211,7 +223,11 @@ Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
     const auto queue = static_cast<std::uint32_t>(std::min(steps, steps_per_look));
     const std::size_t first_state = current_;
     const std::uint32_t first_parity = ball_parity_;
-    for (std::uint32_t n = 0; n < queue; ++n) queue_step(steps_since_ + n, n + 1 == queue);
+    for (std::uint32_t n = 0; n < queue; ++n) {
+      if (profiler_ && n == 0) profiler_->begin_step();
+      queue_step(steps_since_ + n, n + 1 == queue);
+      if (profiler_ && n == 0) profiler_->end_step();
+    }
     const auto control = read_control();
     if (!control) return control.error();
     std::uint32_t good = queue;
@@ -225,6 +241,19 @@ Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
     steps -= good;
   }
   return divergence_;
+}
+
+void ComputeSolver::set_profiling(bool on) {
+  if (on == (profiler_ != nullptr)) return;
+  balls_.set_profiler(nullptr, 0);
+  profiler_.reset();
+  if (!on) return;
+  const bool fused = path_ == ForcePath::gather;
+  std::vector<std::string> names = {"spring forces",
+                                    fused ? "springs, integration, contact" : "sums, integration, contact"};
+  for (std::string& name : BallPasses::pass_names()) names.push_back(std::move(name));
+  profiler_ = std::make_unique<gl::PassProfiler>(context_, std::move(names));
+  balls_.set_profiler(profiler_.get(), ball_kinds);
 }
 
 Result<layout::Control> ComputeSolver::read_control() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "gpu/pass.h"
@@ -59,11 +60,16 @@ class ImplicitSolver final : public GpuSolver {
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   std::optional<SolveStatistics> solve_statistics() override { return statistics_; }
   Result<State> state() override;
+  void set_profiling(bool on) override;
+  std::vector<gl::PassTime> pass_times() override {
+    return profiler_ ? profiler_->times() : std::vector<gl::PassTime>();
+  }
 
  private:
   Status build_buffers(const GpuOptions& options);
   void dispatch(Kernel kernel, Reader readers = Reader::compute_pass) const {
     passes_[kernel].dispatch_for(model_.particle_count(), {}, readers);
+    if (profiler_) profiler_->mark(kernel);
   }
   void queue_rounds(std::uint32_t rounds) const;
   void write_solve();
@@ -86,6 +92,7 @@ class ImplicitSolver final : public GpuSolver {
   std::uint64_t base_step_ = 0;
   SolveStatistics statistics_;
   std::optional<Divergence> divergence_;
+  std::unique_ptr<gl::PassProfiler> profiler_;
 };
 
 Status ImplicitSolver::build_buffers(const GpuOptions& options) {
@@ -190,7 +197,21 @@ void ImplicitSolver::queue_rounds(std::uint32_t rounds) const {
   balls_.queue(states_[0], states_[1], 0, 0, anyone);
 }
 
+void ImplicitSolver::set_profiling(bool on) {
+  if (on == (profiler_ != nullptr)) return;
+  balls_.set_profiler(nullptr, 0);
+  profiler_.reset();
+  if (!on) return;
+  std::vector<std::string> names = {"start of the step", "residual",         "Jacobian times direction",
+                                    "solution update",   "search direction", "end of the step, contact"};
+  for (std::string& name : BallPasses::pass_names()) names.push_back(std::move(name));
+  profiler_ = std::make_unique<gl::PassProfiler>(context_, std::move(names));
+  balls_.set_profiler(profiler_.get(), kernel_count);
+}
+
 Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
+  // A step that is measured is queued alone: what is queued behind it may turn out to belong to it.
+  bool measure = profiler_ != nullptr;
   while (steps > 0 && !divergence_) {
     if (solve_.step >
         0x7fffffffu) {  // the device counts steps in 32 bits: begin anew, no step is under way here
@@ -198,7 +219,8 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
       solve_.step = 0;
       balls_.set_base_step(base_step_);
     }
-    const auto queue = static_cast<std::uint32_t>(std::min(steps, steps_per_look));
+    const bool measured = std::exchange(measure, false) && profiler_->begin_step();
+    const auto queue = measured ? 1u : static_cast<std::uint32_t>(std::min(steps, steps_per_look));
     const std::uint32_t first = solve_.step;
     solve_.target_step = first + queue;
     solve_.phase = PHASE_BEGIN;
@@ -216,6 +238,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
       if (const Status ok = read_solve(); !ok) return ok.error();
       rounds = std::max(more_rounds, solve_.last_ticks + solve_.last_ticks / 4 + 1);
     }
+    if (measured) profiler_->end_step();
     if (solve_.phase == PHASE_HALTED) {
       divergence_ = divergence_from(solve_.bad_particle, base_step_ + solve_.step + 1, model_);
     }
