@@ -50,6 +50,7 @@ Result<Simulation::Engine> Simulation::make_engine(const Model& model, BackendNa
   GpuOptions options;
   options.shader_directory = std::move(*directory);
   options.arithmetic = arithmetic_;
+  options.like = engine_.gpu ? engine_.gpu : shadow_.gpu;
   auto solver = make_gpu_solver(context_, model, options);
   if (!solver) return solver.error();
   engine.gpu = solver->get();

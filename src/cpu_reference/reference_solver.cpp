@@ -33,6 +33,14 @@ std::optional<Divergence> find_divergence(const Phase<T>& phase, const BallPhase
   return std::nullopt;
 }
 
+/// Particles and balls alone: counting springs by type takes a walk over all of them.
+ModelCounts bodies(const Model& model) {
+  ModelCounts counts;
+  counts.particles = model.particle_count();
+  counts.balls = model.ball_count();
+  return counts;
+}
+
 template <class T>
 class ReferenceSolver final : public Solver {
  public:
@@ -48,7 +56,7 @@ class ReferenceSolver final : public Solver {
   }
   Precision precision() const override { return sizeof(T) == 4 ? Precision::single : Precision::double_; }
   const Model& model() const override { return model_; }
-  std::uint64_t bytes() const override { return reference_bytes(count(model_), precision()); }
+  std::uint64_t bytes() const override { return reference_bytes(bodies(model_), precision()); }
 
   Status load(const State& state) override {
     if (const Status fits = check_sizes(model_, state); !fits) return fits;
@@ -146,7 +154,7 @@ Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precis
     return Error{ErrorCode::scene_rejected,
                  fmt::format("no memory left for the reference solver of {} particles ({} bytes): use fewer "
                              "particles-per-edge",
-                             model.particle_count(), reference_bytes(count(model), precision))};
+                             model.particle_count(), reference_bytes(reference::bodies(model), precision))};
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "gpu/canary_operands.h"
 #include "gpu/pass.h"
+#include "gpu/program_cache.h"
 
 namespace aspic::gl {
 namespace {
@@ -96,16 +97,17 @@ Result<ArithmeticReport> measure_arithmetic(Context& context, const ShaderLibrar
   for (const CanaryOperands& o : operands)
     words.push_back({std::bit_cast<std::uint32_t>(o.a), std::bit_cast<std::uint32_t>(o.b),
                      std::bit_cast<std::uint32_t>(o.c), 0});
-  const auto program = Program::compute(context, library, "compute/canary.comp", defines);
-  if (!program) return program.error();
+  const auto found = context.programs().compute(library, "compute/canary.comp", defines);
+  if (!found) return found.error();
+  const Program& program = **found;
   const auto input =
       Buffer::of(context, "canary operands", std::span<const std::array<std::uint32_t, 4>>(words));
   if (!input) return input.error();
   const auto output = Buffer::create(context, "canary outcomes", operands.size() * sizeof(Outcome));
   if (!output) return output.error();
   const auto count = static_cast<std::uint32_t>(operands.size());
-  program->set(0, count);
-  Pass(*program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &*output}}, Reader::read_back)
+  program.set(0, count);
+  Pass(program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &*output}}, Reader::read_back)
       .dispatch_for(count);
   return compare(operands, output->download_items<Outcome>(count));
 }

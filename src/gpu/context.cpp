@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "gpu/program_cache.h"
+
 namespace aspic::gl {
 namespace {
 
@@ -24,6 +26,8 @@ Severity severity_of(GLenum severity) {
 }
 
 }  // namespace
+
+Context::Context() : programs_(std::make_unique<ProgramCache>(*this)) {}
 
 Result<std::unique_ptr<Context>> Context::adopt_current(Loader loader) {
   const int version = gladLoadGL(loader);

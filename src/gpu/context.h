@@ -55,6 +55,8 @@ struct DebugMessage {
   std::string text;
 };
 
+class ProgramCache;
+
 /// The address of a GL function, or null: eglGetProcAddress, glfwGetProcAddress.
 using Loader = void (*(*)(const char* name))();
 
@@ -94,13 +96,16 @@ class Context {
   /// Called with every message as it comes; an empty function ends that.
   void set_message_sink(std::function<void(const DebugMessage&)> sink) { sink_ = std::move(sink); }
 
+  /// Compute programs that were linked in this context, to be used again.
+  ProgramCache& programs() { return *programs_; }
+
   /// Bytes that this context's buffers hold at present.
   std::uint64_t bytes_held() const { return bytes_held_; }
 
  private:
   friend class Buffer;
   friend class EglContextMaker;
-  Context() = default;
+  Context();
   void start(std::string platform);
   void receive(DebugMessage message);
 
@@ -108,6 +113,7 @@ class Context {
   void* context_ = nullptr;
   DeviceInfo info_;
   bool lost_ = false;
+  std::unique_ptr<ProgramCache> programs_;
   std::uint64_t bytes_held_ = 0;
   std::uint64_t high_severity_count_ = 0;
   std::vector<DebugMessage> messages_;

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "gpu/context.h"
+#include "gpu/program_cache.h"
 
 namespace aspic::gl {
 namespace {
@@ -279,10 +280,19 @@ Status Context::make_current() {
 
 Context::~Context() {
   if (!context_) {
+    programs_.reset();
     if (info_.debug) glDebugMessageCallback(nullptr, nullptr);
     return;
   }
-  if (eglGetCurrentContext() == context_)
+  // Programs are deleted where they live, whoever is current.
+  const EGLContext current = eglGetCurrentContext();
+  const EGLDisplay display = eglGetCurrentDisplay();
+  const EGLSurface draw = eglGetCurrentSurface(EGL_DRAW), read = eglGetCurrentSurface(EGL_READ);
+  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+  programs_.reset();
+  if (current != EGL_NO_CONTEXT && current != context_)
+    eglMakeCurrent(display, draw, read, current);
+  else
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
 }

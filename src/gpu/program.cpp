@@ -42,15 +42,14 @@ std::string block_names(GLuint program, int count) {
   return names;
 }
 
-/// One shader file with its kind.
-struct StageFile {
+/// One stage's source with its kind.
+struct StageSource {
   GLenum kind;
-  std::string_view path;
+  FlatShader source;
 };
 
-/// Compiles the files and links them into `program`.
-Status build(GLuint program, Context& context, const ShaderLibrary& library, std::span<const StageFile> files,
-             std::span<const Define> defines) {
+/// Compiles the stages and links them into `program`.
+Status build(GLuint program, Context& context, std::span<const StageSource> stages) {
   std::vector<GLuint> shaders;
   const auto detach_all = [&] {
     for (const GLuint shader : shaders) {
@@ -58,17 +57,12 @@ Status build(GLuint program, Context& context, const ShaderLibrary& library, std
       glDeleteShader(shader);
     }
   };
-  std::optional<FlatShader> first;
   std::string names;
-  for (const StageFile& file : files) {
-    Result<FlatShader> source = library.flatten(file.path, defines);
-    if (!source) {
-      detach_all();
-      return source.error();
-    }
-    const GLuint shader = glCreateShader(file.kind);
-    const GLchar* text = source->text().data();
-    const auto length = static_cast<GLint>(source->text().size());
+  for (const StageSource& stage : stages) {
+    const FlatShader& source = stage.source;
+    const GLuint shader = glCreateShader(stage.kind);
+    const GLchar* text = source.text().data();
+    const auto length = static_cast<GLint>(source.text().size());
     glShaderSource(shader, 1, &text, &length);
     glCompileShader(shader);
     glAttachShader(program, shader);
@@ -76,13 +70,12 @@ Status build(GLuint program, Context& context, const ShaderLibrary& library, std
     GLint ok = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
     if (!ok) {
-      const std::string log = source->rewrite_log(shader_log(shader));
+      const std::string log = source.rewrite_log(shader_log(shader));
       detach_all();
       return Error{ErrorCode::no_device, fmt::format("{} does not compile the shader {}:\n{}",
-                                                     context.info().renderer, file.path, log)};
+                                                     context.info().renderer, source.path(), log)};
     }
-    names += fmt::format("{}{}", names.empty() ? "" : " with ", file.path);
-    if (!first) first = std::move(*source);
+    names += fmt::format("{}{}", names.empty() ? "" : " with ", source.path());
   }
   glLinkProgram(program);
   detach_all();
@@ -93,7 +86,7 @@ Status build(GLuint program, Context& context, const ShaderLibrary& library, std
   const std::string log = program_log(program);
   return Error{ErrorCode::no_device,
                fmt::format("{} does not link the shader {}:\n{}", context.info().renderer, names,
-                           files.size() == 1 ? first->rewrite_log(log) : log)};
+                           stages.size() == 1 ? stages[0].source.rewrite_log(log) : log)};
 }
 
 void label(const Context& context, GLuint program, std::string_view path) {
@@ -105,11 +98,18 @@ void label(const Context& context, GLuint program, std::string_view path) {
 
 Result<Program> Program::compute(Context& context, const ShaderLibrary& library, std::string_view path,
                                  std::span<const Define> defines) {
+  const auto source = library.flatten(path, defines);
+  if (!source) return source.error();
+  return compute(context, *source);
+}
+
+Result<Program> Program::compute(Context& context, const FlatShader& source) {
+  const std::string& path = source.path();
   Program program;
   program.path_ = path;
   program.id_ = glCreateProgram();
-  const StageFile files[] = {{GL_COMPUTE_SHADER, path}};
-  const Status built = build(program.id_, context, library, files, defines);
+  const StageSource stage = {GL_COMPUTE_SHADER, source};
+  const Status built = build(program.id_, context, std::span(&stage, 1));
   if (!built) return built.error();
 
   glGetProgramInterfaceiv(program.id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES,
@@ -130,12 +130,19 @@ Result<Program> Program::compute(Context& context, const ShaderLibrary& library,
 
 Result<Program> Program::graphics(Context& context, const ShaderLibrary& library,
                                   const GraphicsStages& stages, std::span<const Define> defines) {
+  std::vector<StageSource> sources;
+  for (const auto& [kind, path] :
+       {std::pair{GL_VERTEX_SHADER, stages.vertex}, std::pair{GL_FRAGMENT_SHADER, stages.fragment},
+        std::pair{GL_GEOMETRY_SHADER, stages.geometry}}) {
+    if (path.empty()) continue;
+    auto source = library.flatten(path, defines);
+    if (!source) return source.error();
+    sources.push_back({static_cast<GLenum>(kind), std::move(*source)});
+  }
   Program program;
   program.path_ = stages.fragment;
   program.id_ = glCreateProgram();
-  std::vector<StageFile> files = {{GL_VERTEX_SHADER, stages.vertex}, {GL_FRAGMENT_SHADER, stages.fragment}};
-  if (!stages.geometry.empty()) files.push_back({GL_GEOMETRY_SHADER, stages.geometry});
-  const Status built = build(program.id_, context, library, files, defines);
+  const Status built = build(program.id_, context, sources);
   if (!built) return built.error();
   glGetProgramInterfaceiv(program.id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES,
                           &program.storage_blocks_);

@@ -35,6 +35,9 @@ class Program {
   static Result<Program> compute(Context& context, const ShaderLibrary& library, std::string_view path,
                                  std::span<const Define> defines = {});
 
+  /// The same of a source that has been put together already.
+  static Result<Program> compute(Context& context, const FlatShader& source);
+
   /// Compiles and links a vertex and a fragment shader, and a geometry shader where one is named; all get the
   /// same defines. Errors: io (file or include missing), no_device (the driver refuses one of them: the log
   /// in our files and lines; or the vertex shader has storage blocks, which OpenGL 4.3 does not guarantee).

@@ -57,6 +57,12 @@ std::uint64_t ball_bytes(const ModelCounts& counts) {
          4 * (counts.balls + counts.particles + grid);
 }
 
+std::vector<std::string> BallPasses::pass_names() {
+  return {"balls: flight and terrain", "balls: empty the grid",    "balls: fill the grid",
+          "balls: count contacts",     "balls: impulses on balls", "balls: impulses on particles",
+          "balls: end of the step"};
+}
+
 Status BallPasses::build(gl::Context& context, const Model& model, const gl::ShaderLibrary& library,
                          const KernelOptions& kernels, const Surroundings& surroundings, BallSearch search) {
   model_ = &model;
@@ -87,10 +93,9 @@ Status BallPasses::build(gl::Context& context, const Model& model, const gl::Sha
       {implicit_ ? std::uint32_t{BINDING_SOLVE} : std::uint32_t{BINDING_CONTROL}, surroundings.control}};
   for (std::size_t k = 0; k < kernel_count; ++k) {
     const bool wanted = k == end_implicit ? implicit_ : (k != clear && k != insert) || grid_;
-    if (wanted) {
-      ASPIC_ASSIGN_OR_RETURN(programs_[k], gl::Program::compute(context, library, kernel_paths[k], defines));
-    }
-    passes_.emplace_back(programs_[k], bindings, Reader::compute_pass);
+    if (!wanted) continue;
+    ASPIC_ASSIGN_OR_RETURN(programs_[k], context.programs().compute(library, kernel_paths[k], defines));
+    passes_[k].emplace(*programs_[k], bindings, Reader::compute_pass);
   }
   return {};
 }
@@ -125,9 +130,10 @@ void BallPasses::set_base_step(std::uint64_t base_step) {
 void BallPasses::dispatch(Kernel kernel, std::uint32_t items, std::span<const Binding> states,
                           std::uint32_t phase, Reader readers) const {
   if (kernel == tally || kernel == exchange || kernel == particles) {
-    programs_[kernel].set(LOCATION_BALL_PHASE, phase);
+    programs_[kernel]->set(LOCATION_BALL_PHASE, phase);
   }
-  passes_[kernel].dispatch_for(items, states, readers);
+  passes_[kernel]->dispatch_for(items, states, readers);
+  if (profiler_ && items > 0) profiler_->mark(first_kind_ + kernel);
 }
 
 void BallPasses::queue(const Buffer& start, const Buffer& end, std::uint32_t step, std::uint32_t parity,
@@ -135,10 +141,10 @@ void BallPasses::queue(const Buffer& start, const Buffer& end, std::uint32_t ste
   if (!any()) return;
   const std::array<Binding, 2> states = {{{BINDING_STATE_A, &start}, {BINDING_STATE_B, &end}}};
   if (!implicit_) {
-    for (std::size_t k = 0; k < end_implicit; ++k) {
-      if (programs_[k].id() == 0) continue;
-      programs_[k].set(LOCATION_STEP, step);
-      programs_[k].set(LOCATION_BALL_PARITY, parity);
+    for (const auto& program : programs_) {
+      if (!program) continue;
+      program->set(LOCATION_STEP, step);
+      program->set(LOCATION_BALL_PARITY, parity);
     }
   }
   const Reader next = Reader::compute_pass;

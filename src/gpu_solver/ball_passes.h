@@ -3,10 +3,14 @@
 // explicit and the implicit solver alike.
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "gpu/pass.h"
-#include "gpu/program.h"
+#include "gpu/pass_profiler.h"
+#include "gpu/program_cache.h"
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/layout.h"
 #include "gpu_solver/support.h"
@@ -57,6 +61,14 @@ class BallPasses {
 
   const gl::Buffer& buffer() const { return balls_; }
 
+  /// What a reader calls the passes, in their order.
+  static std::vector<std::string> pass_names();
+  /// Tells `profiler` of each dispatch, counting kinds from `first` on; null ends that.
+  void set_profiler(gl::PassProfiler* profiler, std::size_t first) {
+    profiler_ = profiler;
+    first_kind_ = first;
+  }
+
  private:
   enum Kernel : std::size_t { fly, clear, insert, tally, exchange, particles, end_implicit, kernel_count };
   void dispatch(Kernel kernel, std::uint32_t items, std::span<const gl::Binding> states, std::uint32_t phase,
@@ -66,8 +78,11 @@ class BallPasses {
   std::uint32_t count_ = 0, particle_count_ = 0, buckets_ = 0;
   bool grid_ = false, implicit_ = false;
   gl::Buffer balls_, bodies_, counts_, lists_;
-  std::array<gl::Program, kernel_count> programs_;
-  std::vector<gl::Pass> passes_;  // by Kernel
+  // By kernel; nothing where the scene needs none.
+  std::array<std::shared_ptr<const gl::Program>, kernel_count> programs_;
+  std::array<std::optional<gl::Pass>, kernel_count> passes_;
+  gl::PassProfiler* profiler_ = nullptr;
+  std::size_t first_kind_ = 0;
 };
 
 }  // namespace aspic

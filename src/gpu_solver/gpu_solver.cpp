@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "gpu/pass.h"
-#include "gpu/program.h"
+#include "gpu/program_cache.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/implicit_solver.h"
 #include "gpu_solver/pull_buffer.h"
 #include "gpu_solver/simulation_block.h"
+#include "gpu_solver/spring_buffers.h"
 #include "gpu_solver/support.h"
-#include "gpu_solver/topology.h"
 #include "model/integrator.h"
 
 namespace aspic {
@@ -58,16 +58,26 @@ class ComputeSolver final : public GpuSolver {
   std::uint32_t first_ball() const override { return ball_parity_ * model_.ball_count(); }
   ForcePath force_path() const override { return path_; }
   const gl::Arithmetic& arithmetic() const override { return arithmetic_; }
+  const std::shared_ptr<const SpringBuffers>& spring_buffers() const override { return springs_; }
 
   Status load(const State& state) override;
   Status set_pull(const std::optional<Pull>& pull) override { return pull_.set(model_, pull); }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   Result<State> state() override;
+  void set_profiling(bool on) override;
+  std::vector<gl::PassTime> pass_times() override {
+    return profiler_ ? profiler_->times() : std::vector<gl::PassTime>();
+  }
 
  private:
-  Status build_buffers();
+  /// Kinds of passes, for the profiler; the balls' follow.
+  enum Kind : std::size_t { springs_kind, particles_kind, ball_kinds };
+  Status build_buffers(const GpuOptions& options);
   Status build_passes(const GpuOptions& options);
   void queue_step(std::uint32_t step_index, bool last_of_queue);
+  void mark(Kind kind) {
+    if (profiler_) profiler_->mark(kind);
+  }
   Result<layout::Control> read_control();
 
   gl::Context& context_;
@@ -79,13 +89,15 @@ class ComputeSolver final : public GpuSolver {
   // The step's start, its end, and a place for stages in between; the roles rotate with every step.
   std::array<Buffer, 3> states_;
   std::size_t current_ = 0;
-  Buffer sums_, simulation_, incident_start_, incident_, control_, springs_, forces_;
+  Buffer sums_, simulation_, control_, forces_;
+  std::shared_ptr<const SpringBuffers> springs_;
   PullBuffer pull_;
   gl::Arithmetic arithmetic_;
-  gl::Program force_program_, particle_program_;
+  std::shared_ptr<const gl::Program> force_program_, particle_program_;
   BallPasses balls_;
   std::uint32_t ball_parity_ = 0;  // slot of the balls' current state
   std::vector<gl::Pass> passes_;   // one per stage: particles, preceded on the per-spring path by springs
+  std::unique_ptr<gl::PassProfiler> profiler_;
 
   std::uint64_t base_step_ = 0;    // step number of the loaded state
   std::uint32_t steps_since_ = 0;  // steps since: what the kernels count in
@@ -94,13 +106,14 @@ class ComputeSolver final : public GpuSolver {
 
 Status ComputeSolver::build(const GpuOptions& options) {
   const std::uint64_t held_before = context_.bytes_held();
-  if (const Status made = build_buffers(); !made) return made;
+  if (const Status made = build_buffers(options); !made) return made;
   if (const Status made = build_passes(options); !made) return made;
   bytes_ = context_.bytes_held() - held_before;
+  if (springs_.use_count() > 1) bytes_ += springs_->bytes();  // held before, by the solver it shares with
   return load(initial_state(model_, Precision::single));
 }
 
-Status ComputeSolver::build_buffers() {
+Status ComputeSolver::build_buffers(const GpuOptions& options) {
   const StagedMethod* method = method_of(model_.simulation.integrator);
   auto block = simulation_block(model_);
   if (!block) return block.error();
@@ -117,22 +130,11 @@ Status ComputeSolver::build_buffers() {
   ASPIC_ASSIGN_OR_RETURN(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
   if (const Status made = pull_.build(context_); !made) return made;
 
-  IncidentSprings rows;
-  if (path_ == ForcePath::gather) {
-    ASPIC_ASSIGN_OR_RETURN(rows, neighbours_of(model_));
-  } else {
-    rows = springs_of(model_);
-    std::vector<layout::uvec2> springs;
-    ASPIC_ASSIGN_OR_RETURN(springs, packed_springs(model_));
-    ASPIC_ASSIGN_OR_RETURN(springs_,
-                           Buffer::of(context_, "springs", std::span<const layout::uvec2>(springs)));
-    ASPIC_ASSIGN_OR_RETURN(forces_,
-                           Buffer::create(context_, "spring forces", springs.size() * sizeof(layout::vec4)));
+  ASPIC_ASSIGN_OR_RETURN(springs_, aspic::spring_buffers(context_, model_, path_, options.like));
+  if (path_ == ForcePath::per_spring) {
+    ASPIC_ASSIGN_OR_RETURN(
+        forces_, Buffer::create(context_, "spring forces", model_.springs.size() * sizeof(layout::vec4)));
   }
-  ASPIC_ASSIGN_OR_RETURN(incident_start_, Buffer::of(context_, "incident spring rows",
-                                                     std::span<const std::uint32_t>(rows.start)));
-  ASPIC_ASSIGN_OR_RETURN(
-      incident_, Buffer::of(context_, "incident springs", std::span<const std::uint32_t>(rows.words)));
   return {};
 }
 
@@ -146,23 +148,23 @@ Status ComputeSolver::build_passes(const GpuOptions& options) {
   const Binding control = {BINDING_CONTROL, &control_};
   if (path_ == ForcePath::per_spring) {
     ASPIC_ASSIGN_OR_RETURN(force_program_,
-                           gl::Program::compute(context_, library, "compute/spring_forces.comp", defines));
+                           context_.programs().compute(library, "compute/spring_forces.comp", defines));
     passes_.emplace_back(
-        force_program_,
+        *force_program_,
         std::vector<Binding>{
-            constants, control, {BINDING_SPRINGS, &springs_}, {BINDING_SPRING_FORCES, &forces_}},
+            constants, control, {BINDING_SPRINGS, &springs_->springs}, {BINDING_SPRING_FORCES, &forces_}},
         Reader::compute_pass);
   }
   const char* kernel = path_ == ForcePath::gather ? "compute/gather.comp" : "compute/sum_springs.comp";
-  ASPIC_ASSIGN_OR_RETURN(particle_program_, gl::Program::compute(context_, library, kernel, defines));
+  ASPIC_ASSIGN_OR_RETURN(particle_program_, context_.programs().compute(library, kernel, defines));
   std::vector<Binding> bindings = {constants,
                                    control,
                                    pull_.binding(),
                                    {BINDING_STAGE_SUMS, &sums_},
-                                   {BINDING_INCIDENT_START, &incident_start_},
-                                   {BINDING_INCIDENT, &incident_}};
+                                   {BINDING_INCIDENT_START, &springs_->incident_start},
+                                   {BINDING_INCIDENT, &springs_->incident}};
   if (path_ == ForcePath::per_spring) bindings.push_back({BINDING_SPRING_FORCES, &forces_});
-  passes_.emplace_back(particle_program_, std::move(bindings), Reader::compute_pass);
+  passes_.emplace_back(*particle_program_, std::move(bindings), Reader::compute_pass);
   return balls_.build(context_, model_, library, kernels, {&simulation_, &control_, false},
                       options.ball_search);
 }
@@ -184,22 +186,24 @@ Status ComputeSolver::load(const State& state) {
 
 void ComputeSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
   const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
-  if (path_ == ForcePath::per_spring) force_program_.set(LOCATION_STEP, step_index);
-  particle_program_.set(LOCATION_STEP, step_index);
+  if (path_ == ForcePath::per_spring) force_program_->set(LOCATION_STEP, step_index);
+  particle_program_->set(LOCATION_STEP, step_index);
   std::size_t stage_state = current_;
   for (std::uint32_t s = 0; s < stages_; ++s) {
     // Stages alternate between the two free buffers so that the last one lands in `end`.
     const std::size_t out = (stages_ - 1 - s) % 2 == 0 ? end : between;
-    particle_program_.set(LOCATION_STAGE, s);
+    particle_program_->set(LOCATION_STAGE, s);
     const std::array<Binding, 3> states = {{{BINDING_STAGE_STATE, &states_[stage_state]},
                                             {BINDING_START_STATE, &states_[current_]},
                                             {BINDING_OUT_STATE, &states_[out]}}};
     if (path_ == ForcePath::per_spring) {
       passes_.front().dispatch_for(static_cast<std::uint32_t>(model_.springs.size()),
                                    std::span(states).first(1));
+      mark(springs_kind);
     }
     const bool leaves = last_of_queue && s + 1 == stages_ && !balls_.any();
     passes_.back().dispatch_for(model_.particle_count(), states, leaves ? anyone : Reader::compute_pass);
+    mark(particles_kind);
     stage_state = out;
   }
   balls_.queue(states_[current_], states_[end], step_index, ball_parity_,
@@ -219,7 +223,11 @@ Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
     const auto queue = static_cast<std::uint32_t>(std::min(steps, steps_per_look));
     const std::size_t first_state = current_;
     const std::uint32_t first_parity = ball_parity_;
-    for (std::uint32_t n = 0; n < queue; ++n) queue_step(steps_since_ + n, n + 1 == queue);
+    for (std::uint32_t n = 0; n < queue; ++n) {
+      if (profiler_ && n == 0) profiler_->begin_step();
+      queue_step(steps_since_ + n, n + 1 == queue);
+      if (profiler_ && n == 0) profiler_->end_step();
+    }
     const auto control = read_control();
     if (!control) return control.error();
     std::uint32_t good = queue;
@@ -233,6 +241,19 @@ Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
     steps -= good;
   }
   return divergence_;
+}
+
+void ComputeSolver::set_profiling(bool on) {
+  if (on == (profiler_ != nullptr)) return;
+  balls_.set_profiler(nullptr, 0);
+  profiler_.reset();
+  if (!on) return;
+  const bool fused = path_ == ForcePath::gather;
+  std::vector<std::string> names = {"spring forces",
+                                    fused ? "springs, integration, contact" : "sums, integration, contact"};
+  for (std::string& name : BallPasses::pass_names()) names.push_back(std::move(name));
+  profiler_ = std::make_unique<gl::PassProfiler>(context_, std::move(names));
+  balls_.set_profiler(profiler_.get(), ball_kinds);
 }
 
 Result<layout::Control> ComputeSolver::read_control() {
@@ -290,13 +311,13 @@ std::uint64_t gpu_bytes(const ModelCounts& counts, Integrator integrator, ForceP
     const std::uint64_t blocks = (counts.particles + REDUCTION_BLOCK - 1) / REDUCTION_BLOCK;
     return ball_bytes(counts) +
            counts.particles * (2 * sizeof(layout::Particle) + (2 + OWN_VECTORS) * sizeof(layout::vec4)) +
-           sizeof(layout::Simulation) + sizeof(layout::Pull) + sizeof(layout::Solve) + blocks * sizeof(layout::vec4) +
-           4 * (counts.particles + 1) + 8 * counts.springs();
+           sizeof(layout::Simulation) + sizeof(layout::Pull) + sizeof(layout::Solve) +
+           blocks * sizeof(layout::vec4) + 4 * (counts.particles + 1) + 8 * counts.springs();
   }
   const std::uint64_t states = keeps_sums(*method_of(integrator)) ? 4 : 3;
   std::uint64_t bytes = ball_bytes(counts) + states * counts.particles * sizeof(layout::Particle) +
-                        sizeof(layout::Simulation) + sizeof(layout::Pull) + sizeof(layout::Control) + 4 * (counts.particles + 1) +
-                        8 * counts.springs();
+                        sizeof(layout::Simulation) + sizeof(layout::Pull) + sizeof(layout::Control) +
+                        4 * (counts.particles + 1) + 8 * counts.springs();
   if (path == ForcePath::per_spring)
     bytes += counts.springs() * (sizeof(layout::uvec2) + sizeof(layout::vec4));
   return bytes;

@@ -5,10 +5,12 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "gpu/buffer.h"
 #include "gpu/canary.h"
 #include "gpu/context.h"
+#include "gpu/pass_profiler.h"
 #include "model/solver.h"
 
 namespace aspic {
@@ -30,6 +32,9 @@ enum class BallSearch {
   grid        ///< a uniform grid, hashed
 };
 
+class GpuSolver;
+struct SpringBuffers;
+
 struct GpuOptions {
   ForcePath force_path = ForcePath::automatic;
   std::uint32_t group_size = 64;  ///< invocations per work group, 1…1024; never affects the bits
@@ -38,6 +43,9 @@ struct GpuOptions {
   std::filesystem::path shader_directory;
   /// How to compile for this device's arithmetic; absent: the canary is asked first.
   std::optional<gl::Arithmetic> arithmetic;
+  /// A solver to share with: where both models have the same springs, its buffers of them serve both. It and
+  /// its model need to live no longer than the call; null: none.
+  const GpuSolver* like = nullptr;
 };
 
 /// A gpu solver with a look at its buffers, for drawing without a copy.
@@ -54,6 +62,15 @@ class GpuSolver : public Solver {
   virtual ForcePath force_path() const = 0;
   /// What the canary found on this device, and how the kernels were compiled for it.
   virtual const gl::Arithmetic& arithmetic() const = 0;
+  /// Measures device time by pass from now on, or no longer. Off at first; never affects the bits. One step
+  /// in each advance() is measured, one in 256 of a long one; implicit-euler waits for the device once more
+  /// then.
+  virtual void set_profiling(bool on) = 0;
+  /// The passes of a step in their order, means over the last 64 steps that were measured: their sum is the
+  /// device time of a step. Empty while nothing is measured yet. Never waits for the device.
+  virtual std::vector<gl::PassTime> pass_times() = 0;
+  /// What another solver may share (GpuOptions::like).
+  virtual const std::shared_ptr<const SpringBuffers>& spring_buffers() const = 0;
 };
 
 /// A gpu solver at the model's initial state. Model and context must outlive it; the context must be current

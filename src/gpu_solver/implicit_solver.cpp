@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "gpu/pass.h"
-#include "gpu/program.h"
+#include "gpu/program_cache.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/pull_buffer.h"
 #include "gpu_solver/simulation_block.h"
+#include "gpu_solver/spring_buffers.h"
 #include "gpu_solver/support.h"
-#include "gpu_solver/topology.h"
 
 namespace aspic {
 namespace {
@@ -52,17 +53,23 @@ class ImplicitSolver final : public GpuSolver {
   std::uint32_t first_ball() const override { return solve_.parity * model_.ball_count(); }
   ForcePath force_path() const override { return ForcePath::gather; }
   const gl::Arithmetic& arithmetic() const override { return arithmetic_; }
+  const std::shared_ptr<const SpringBuffers>& spring_buffers() const override { return springs_; }
 
   Status load(const State& state) override;
   Status set_pull(const std::optional<Pull>& pull) override { return pull_.set(model_, pull); }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   std::optional<SolveStatistics> solve_statistics() override { return statistics_; }
   Result<State> state() override;
+  void set_profiling(bool on) override;
+  std::vector<gl::PassTime> pass_times() override {
+    return profiler_ ? profiler_->times() : std::vector<gl::PassTime>();
+  }
 
  private:
-  Status build_buffers();
+  Status build_buffers(const GpuOptions& options);
   void dispatch(Kernel kernel, Reader readers = Reader::compute_pass) const {
     passes_[kernel].dispatch_for(model_.particle_count(), {}, readers);
+    if (profiler_) profiler_->mark(kernel);
   }
   void queue_rounds(std::uint32_t rounds) const;
   void write_solve();
@@ -73,10 +80,11 @@ class ImplicitSolver final : public GpuSolver {
   const Model& model_;
   std::uint64_t bytes_ = 0;
   std::array<Buffer, 2> states_;
-  Buffer trial_, search_, own_, simulation_, incident_start_, incident_, solve_buffer_;
+  Buffer trial_, search_, own_, simulation_, solve_buffer_;
+  std::shared_ptr<const SpringBuffers> springs_;
   PullBuffer pull_;
   gl::Arithmetic arithmetic_;
-  std::array<gl::Program, kernel_count> programs_;
+  std::array<std::shared_ptr<const gl::Program>, kernel_count> programs_;
   std::vector<gl::Pass> passes_;  // by Kernel
   BallPasses balls_;
 
@@ -84,9 +92,10 @@ class ImplicitSolver final : public GpuSolver {
   std::uint64_t base_step_ = 0;
   SolveStatistics statistics_;
   std::optional<Divergence> divergence_;
+  std::unique_ptr<gl::PassProfiler> profiler_;
 };
 
-Status ImplicitSolver::build_buffers() {
+Status ImplicitSolver::build_buffers(const GpuOptions& options) {
   std::vector<layout::Simulation> block(1);
   ASPIC_ASSIGN_OR_RETURN(block[0], simulation_block(model_));
   const std::uint64_t particles = model_.particle_count(), vectors = particles * sizeof(layout::vec4);
@@ -105,18 +114,13 @@ Status ImplicitSolver::build_buffers() {
       simulation_, Buffer::of(context_, "simulation constants", std::span<const layout::Simulation>(block),
                               gl::BufferKind::uniform));
   if (const Status made = pull_.build(context_); !made) return made;
-  IncidentSprings rows;
-  ASPIC_ASSIGN_OR_RETURN(rows, neighbours_of(model_));
-  ASPIC_ASSIGN_OR_RETURN(incident_start_, Buffer::of(context_, "incident spring rows",
-                                                     std::span<const std::uint32_t>(rows.start)));
-  ASPIC_ASSIGN_OR_RETURN(
-      incident_, Buffer::of(context_, "incident springs", std::span<const std::uint32_t>(rows.words)));
+  ASPIC_ASSIGN_OR_RETURN(springs_, aspic::spring_buffers(context_, model_, ForcePath::gather, options.like));
   return {};
 }
 
 Status ImplicitSolver::build(const GpuOptions& options) {
   const std::uint64_t held_before = context_.bytes_held();
-  if (const Status made = build_buffers(); !made) return made;
+  if (const Status made = build_buffers(options); !made) return made;
 
   const gl::ShaderLibrary library(options.shader_directory);
   KernelOptions kernels;
@@ -128,14 +132,14 @@ Status ImplicitSolver::build(const GpuOptions& options) {
                                          {BINDING_STATE_B, &states_[1]},
                                          {BINDING_TRIAL, &trial_},
                                          {BINDING_SEARCH, &search_},
-                                         {BINDING_INCIDENT_START, &incident_start_},
-                                         {BINDING_INCIDENT, &incident_},
+                                         {BINDING_INCIDENT_START, &springs_->incident_start},
+                                         {BINDING_INCIDENT, &springs_->incident},
                                          {BINDING_SOLVE, &solve_buffer_},
                                          {BINDING_OWN, &own_}};
   for (std::size_t k = 0; k < kernel_count; ++k) {
     ASPIC_ASSIGN_OR_RETURN(programs_[k],
-                           gl::Program::compute(context_, library, kernel_paths[k], kernels.defines));
-    passes_.emplace_back(programs_[k], bindings, Reader::compute_pass);
+                           context_.programs().compute(library, kernel_paths[k], kernels.defines));
+    passes_.emplace_back(*programs_[k], bindings, Reader::compute_pass);
   }
   if (const Status made = balls_.build(context_, model_, library, kernels,
                                        {&simulation_, &solve_buffer_, true}, options.ball_search);
@@ -143,6 +147,7 @@ Status ImplicitSolver::build(const GpuOptions& options) {
     return made;
   }
   bytes_ = context_.bytes_held() - held_before;
+  if (springs_.use_count() > 1) bytes_ += springs_->bytes();  // held before, by the solver it shares with
   return load(initial_state(model_, Precision::single));
 }
 
@@ -192,7 +197,21 @@ void ImplicitSolver::queue_rounds(std::uint32_t rounds) const {
   balls_.queue(states_[0], states_[1], 0, 0, anyone);
 }
 
+void ImplicitSolver::set_profiling(bool on) {
+  if (on == (profiler_ != nullptr)) return;
+  balls_.set_profiler(nullptr, 0);
+  profiler_.reset();
+  if (!on) return;
+  std::vector<std::string> names = {"start of the step", "residual",         "Jacobian times direction",
+                                    "solution update",   "search direction", "end of the step, contact"};
+  for (std::string& name : BallPasses::pass_names()) names.push_back(std::move(name));
+  profiler_ = std::make_unique<gl::PassProfiler>(context_, std::move(names));
+  balls_.set_profiler(profiler_.get(), kernel_count);
+}
+
 Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
+  // A step that is measured is queued alone: what is queued behind it may turn out to belong to it.
+  bool measure = profiler_ != nullptr;
   while (steps > 0 && !divergence_) {
     if (solve_.step >
         0x7fffffffu) {  // the device counts steps in 32 bits: begin anew, no step is under way here
@@ -200,7 +219,8 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
       solve_.step = 0;
       balls_.set_base_step(base_step_);
     }
-    const auto queue = static_cast<std::uint32_t>(std::min(steps, steps_per_look));
+    const bool measured = std::exchange(measure, false) && profiler_->begin_step();
+    const auto queue = measured ? 1u : static_cast<std::uint32_t>(std::min(steps, steps_per_look));
     const std::uint32_t first = solve_.step;
     solve_.target_step = first + queue;
     solve_.phase = PHASE_BEGIN;
@@ -218,6 +238,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
       if (const Status ok = read_solve(); !ok) return ok.error();
       rounds = std::max(more_rounds, solve_.last_ticks + solve_.last_ticks / 4 + 1);
     }
+    if (measured) profiler_->end_step();
     if (solve_.phase == PHASE_HALTED) {
       divergence_ = divergence_from(solve_.bad_particle, base_step_ + solve_.step + 1, model_);
     }

@@ -49,9 +49,12 @@ std::vector<Offset> upward_offsets() {
   return offsets;
 }
 
-/// Whether lattice point p (each 0…n−1) lies on every face a name speaks of; nothing for a name that is
-/// unknown.
-std::optional<bool> lies_on(const std::string& name, const std::array<int, 3>& p, int n) {
+/// Where along each axis a name's faces are: at the first or the last lattice point, or anywhere.
+enum class Place { anywhere, first, last };
+using Places = std::array<Place, 3>;
+
+/// The places a name of a face or a corner speaks of; nothing for a name that is unknown.
+std::optional<Places> places_of(const std::string& name) {
   struct Face {
     const char* name;
     int axis;
@@ -63,43 +66,43 @@ std::optional<bool> lies_on(const std::string& name, const std::array<int, 3>& p
                                                  {"top", 1, true},
                                                  {"back", 2, false},
                                                  {"front", 2, true}}};
-  std::array<bool, 3> axis_named = {false, false, false};
+  Places places = {Place::anywhere, Place::anywhere, Place::anywhere};
   int parts = 0;
-  bool inside = true;
   for (std::size_t start = 0; start <= name.size();) {
     const std::size_t end = std::min(name.find('-', start), name.size());
     const std::string part = name.substr(start, end - start);
     const auto face = std::find_if(faces.begin(), faces.end(), [&](const Face& f) { return part == f.name; });
     if (face == faces.end()) return std::nullopt;
-    auto& named = axis_named[static_cast<std::size_t>(face->axis)];
-    if (named) return std::nullopt;
-    named = true;
+    Place& place = places[static_cast<std::size_t>(face->axis)];
+    if (place != Place::anywhere) return std::nullopt;
+    place = face->high ? Place::last : Place::first;
     ++parts;
-    inside = inside && p[static_cast<std::size_t>(face->axis)] == (face->high ? n - 1 : 0);
     start = end + 1;
   }
   if (parts != 1 && parts != 3) return std::nullopt;  // a face or a corner
-  return inside;
+  return places;
 }
 
 Result<std::vector<bool>> pinned_particles(const CubeSettings& cube) {
   const int n = cube.particles_per_edge;
   std::vector<bool> pinned(static_cast<std::size_t>(n) * n * n, false);
   for (const std::string& name : cube.pinned.names) {
+    const auto places = places_of(name);
+    if (!places) {
+      return Error{
+          ErrorCode::scene_rejected,
+          fmt::format("pinned: \"{}\" is neither a face (top, bottom, left, right, front, back) nor a corner "
+                      "(three faces joined by hyphens, such as left-top-front)",
+                      name)};
+    }
+    const auto along = [&](std::size_t axis, int at) {
+      return (*places)[axis] == Place::anywhere || at == ((*places)[axis] == Place::last ? n - 1 : 0);
+    };
     std::size_t local = 0;
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < n; ++j) {
         for (int k = 0; k < n; ++k, ++local) {
-          const auto inside = lies_on(name, {i, j, k}, n);
-          if (!inside) {
-            return Error{
-                ErrorCode::scene_rejected,
-                fmt::format(
-                    "pinned: \"{}\" is neither a face (top, bottom, left, right, front, back) nor a corner "
-                    "(three faces joined by hyphens, such as left-top-front)",
-                    name)};
-          }
-          if (*inside) pinned[local] = true;
+          if (along(0, i) && along(1, j) && along(2, k)) pinned[local] = true;
         }
       }
     }
@@ -175,13 +178,13 @@ Status add_cube(Model& model, const CubeSettings& cube) {
 
   const std::vector<Offset> offsets = upward_offsets();
   const double half = cube.edge_length / 2.0;
+  const Rotation turned(cube.rotation.axis, cube.rotation.angle);
   std::size_t local = 0;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       for (int k = 0; k < n; ++k, ++local) {
         const Vec3 from_centre = {i * s - half, j * s - half, k * s - half};
-        model.initial_position.push_back(cube.position +
-                                         rotated(from_centre, cube.rotation.axis, cube.rotation.angle));
+        model.initial_position.push_back(cube.position + turned(from_centre));
         model.initial_velocity.push_back((*pinned)[local] ? Vec3{} : cube.velocity);
         model.mass.push_back(mass);
         model.inverse_mass.push_back((*pinned)[local] ? 0.0 : 1.0 / mass);

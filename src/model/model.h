@@ -27,6 +27,8 @@ struct SpringClass {
 struct Spring {
   std::uint32_t a = 0, b = 0;
   std::uint32_t spring_class = 0;  ///< index into Model::spring_classes
+
+  friend bool operator==(const Spring&, const Spring&) = default;
 };
 
 /// A resting surface, spec §2.4. Planes use point and normal, spheres and bowls use point (the centre) and

@@ -36,13 +36,30 @@ inline double length(const Vec3& a) {
   return std::sqrt(dot(a, a));
 }
 
-/// Rotates v about `axis` (any length but zero) by `angle_degrees`, right-handed (Rodrigues, 1840).
+/// Turns vectors about `axis` (any length but zero) by `angle_degrees`, right-handed (Rodrigues, 1840).
+class Rotation {
+ public:
+  Rotation(const Vec3& axis, double angle_degrees) : none_(angle_degrees == 0.0) {
+    if (none_) return;
+    n_ = axis / length(axis);
+    const double angle = angle_degrees * (3.14159265358979323846 / 180.0);
+    c_ = std::cos(angle);
+    s_ = std::sin(angle);
+  }
+  Vec3 operator()(const Vec3& v) const {
+    if (none_) return v;
+    return c_ * v + s_ * cross(n_, v) + ((1.0 - c_) * dot(n_, v)) * n_;
+  }
+
+ private:
+  bool none_;
+  Vec3 n_;
+  double c_ = 1.0, s_ = 0.0;
+};
+
+/// One vector turned so.
 inline Vec3 rotated(const Vec3& v, const Vec3& axis, double angle_degrees) {
-  if (angle_degrees == 0.0) return v;
-  const Vec3 n = axis / length(axis);
-  const double angle = angle_degrees * (3.14159265358979323846 / 180.0);
-  const double c = std::cos(angle), s = std::sin(angle);
-  return c * v + s * cross(n, v) + ((1.0 - c) * dot(n, v)) * n;
+  return Rotation(axis, angle_degrees)(v);
 }
 
 }  // namespace aspic

@@ -1,8 +1,9 @@
 #include <gmock/gmock.h>
 
 #include "gpu/pass.h"
-#include "gpu/program.h"
+#include "gpu/program_cache.h"
 #include "support/gl_fixture.h"
+#include "support/temporary_directory.h"
 
 namespace aspic::gl {
 namespace {
@@ -99,6 +100,59 @@ TEST_F(ProgramGl, SetsUniformsOfEachKind) {
   const auto words = items->download_items<std::uint32_t>(24);
   EXPECT_EQ(words[8 + 5], 40u);
   EXPECT_EQ(words[16 + 5], 41u);
+}
+
+class ProgramCacheGl : public testing::GlTest {};
+
+TEST_F(ProgramCacheGl, GivesTheSameProgramForTheSameSource) {
+  ProgramCache cache(context());
+  const ShaderLibrary library(ASPIC_TEST_SHADERS);
+  const std::vector<Define> small = {{"ASPIC_GROUP_SIZE", "32"}}, large = {{"ASPIC_GROUP_SIZE", "64"}};
+  const auto first = cache.compute(library, "count.comp", small);
+  ASSERT_TRUE(first.ok()) << first.error().message;
+  EXPECT_EQ(*cache.compute(library, "count.comp", small), *first);
+  EXPECT_EQ(*cache.compute(ShaderLibrary(ASPIC_TEST_SHADERS), "count.comp", small), *first);
+  const auto other = cache.compute(library, "count.comp", large);
+  ASSERT_TRUE(other.ok());
+  EXPECT_NE(*other, *first);
+  EXPECT_EQ((*other)->group_size()[0], 64u);
+  EXPECT_NE(*cache.compute(library, "double_items.comp", small), *first);
+  EXPECT_EQ(cache.size(), 3u);
+  EXPECT_EQ(cache.compiled(), 3u);
+}
+
+TEST_F(ProgramCacheGl, AnEditedFileIsCompiledAnewAndTheOldTextForgotten) {
+  const test::TemporaryDirectory directory;
+  const auto kernel = [](const char* value) {
+    return std::string("layout(local_size_x = ") + value + ") in;\n#include \"part.glsl\"\nvoid main() {}\n";
+  };
+  directory.write("kernel.comp", kernel("8"));
+  directory.write("part.glsl", "");
+  ProgramCache cache(context());
+  const ShaderLibrary library(directory.path());
+  const auto first = cache.compute(library, "kernel.comp");
+  ASSERT_TRUE(first.ok()) << first.error().message;
+  directory.write("part.glsl", "const float gravity = 9.8;\n");
+  const auto second = cache.compute(library, "kernel.comp");
+  ASSERT_TRUE(second.ok()) << second.error().message;
+  EXPECT_NE(*second, *first);
+  EXPECT_EQ(cache.size(), 1u);
+
+  // A text that does not compile leaves the last one that did.
+  directory.write("part.glsl", "nonsense\n");
+  EXPECT_EQ(cache.compute(library, "kernel.comp").error().code, ErrorCode::no_device);
+  EXPECT_GE(forgive_errors(), 1);
+  directory.write("part.glsl", "const float gravity = 9.8;\n");
+  EXPECT_EQ(*cache.compute(library, "kernel.comp"), *second);
+  EXPECT_EQ(cache.compiled(), 2u);
+}
+
+TEST_F(ProgramCacheGl, ErrorsAreThoseOfTheProgram) {
+  ProgramCache cache(context());
+  const ShaderLibrary library(ASPIC_TEST_SHADERS);
+  EXPECT_EQ(cache.compute(library, "no/such.comp").error().code, ErrorCode::io);
+  EXPECT_THAT(cache.compute(library, "nine_blocks.comp").error().message, HasSubstr("9 storage blocks"));
+  EXPECT_EQ(cache.size(), 0u);
 }
 
 }  // namespace

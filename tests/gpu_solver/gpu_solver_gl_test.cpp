@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "cpu_reference/reference_solver.h"
+#include "gpu/program_cache.h"
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/layout.h"
 #include "support/gl_fixture.h"
@@ -145,6 +146,76 @@ TEST_F(GpuSolverTest, HoldsAsManyBytesAsItSaid) {
   implicit.simulation.integrator = Integrator::implicit_euler;
   EXPECT_EQ(solver_for(implicit)->bytes(),
             gpu_bytes(count(model), Integrator::implicit_euler, ForcePath::gather));
+}
+
+// As the window does it: each change of a constant is a new solver that shares the springs of the old one.
+TEST_F(GpuSolverTest, SharesSpringsWithOneLikeIt) {
+  ModelSettings settings = test::cube_on_plane(4, 1.2);
+  settings.cubes[0].velocity = {1.0, -3.0, 0.5};
+  const Model model = test::build(settings);
+  settings.cubes[0].shear.stiffness = 900.0;
+  settings.simulation.timestep = 0.0005;
+  Model stiffer = test::build(settings);
+  for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+    auto old = solver_for(model, path);
+    const std::uint64_t held = context().bytes_held();
+    GpuOptions options;
+    options.force_path = path;
+    options.like = old.get();
+    auto shared = std::move(make_gpu_solver(context(), stiffer, options)).value();
+    EXPECT_EQ(shared->spring_buffers(), old->spring_buffers());
+    EXPECT_EQ(shared->bytes(), old->bytes());
+    EXPECT_LT(context().bytes_held() - held, shared->bytes());
+    old.reset();
+    auto own = solver_for(stiffer, path);
+    EXPECT_NE(shared->spring_buffers(), own->spring_buffers());
+    ASSERT_FALSE((*shared->advance(300)).has_value());
+    ASSERT_FALSE((*own->advance(300)).has_value());
+    EXPECT_EQ(*shared->state(), *own->state());
+  }
+
+  // Another method may share them, another path or other springs may not.
+  auto old = solver_for(model);
+  GpuOptions options;
+  options.like = old.get();
+  Model implicit = model;
+  implicit.simulation.integrator = Integrator::implicit_euler;
+  auto solved = std::move(make_gpu_solver(context(), implicit, options)).value();
+  EXPECT_EQ(solved->spring_buffers(), old->spring_buffers());
+  options.force_path = ForcePath::per_spring;
+  auto other_path = std::move(make_gpu_solver(context(), model, options)).value();
+  EXPECT_NE(other_path->spring_buffers(), old->spring_buffers());
+  options.force_path = ForcePath::gather;
+  stiffer.springs[5].spring_class = 1 - stiffer.springs[5].spring_class;
+  auto other_springs = std::move(make_gpu_solver(context(), stiffer, options)).value();
+  EXPECT_NE(other_springs->spring_buffers(), old->spring_buffers());
+}
+
+// Two solvers that share kernels, and with them the kernels' uniforms, step in turns.
+TEST_F(GpuSolverTest, SharedKernelsKeepSolversApart) {
+  ModelSettings settings = test::cube_on_plane(4, 1.2);
+  settings.cubes[0].velocity = {1.0, -3.0, 0.5};
+  settings.balls.push_back({0.5, 2.0, {0.2, 6.0, 0.1}, {0.0, -9.0, 0.0}, {}});
+  for (const Integrator integrator :
+       {Integrator::runge_kutta_4, Integrator::symplectic_euler, Integrator::implicit_euler}) {
+    for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+      if (integrator == Integrator::implicit_euler && path == ForcePath::per_spring) continue;  // refused
+      settings.simulation.integrator = integrator;
+      const Model model = test::build(settings);
+      auto alone = solver_for(model, path);
+      ASSERT_FALSE((*alone->advance(60)).has_value());
+      const std::uint64_t compiled = context().programs().compiled();
+      auto first = solver_for(model, path), second = solver_for(model, path);
+      EXPECT_EQ(context().programs().compiled(), compiled);
+      for (const std::uint64_t steps : {1u, 20u, 3u, 36u}) {
+        ASSERT_FALSE((*first->advance(steps)).has_value());
+        ASSERT_FALSE((*second->advance(steps == 36u ? 7u : 1u)).has_value());
+      }
+      EXPECT_EQ(*first->state(), *alone->state());
+      ASSERT_FALSE((*second->advance(50)).has_value());
+      EXPECT_EQ(*second->state(), *alone->state());
+    }
+  }
 }
 
 TEST_F(GpuSolverTest, RefusesWhatIsNotBuilt) {

@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "gpu/pass.h"
+#include "gpu/pass_profiler.h"
+#include "support/gl_fixture.h"
+
+namespace aspic::gl {
+namespace {
+
+class PassProfilerGl : public testing::GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    auto program = Program::compute(context(), ShaderLibrary(ASPIC_TEST_SHADERS), "count.comp");
+    ASSERT_TRUE(program.ok()) << program.error().message;
+    program_ = std::move(*program);
+    auto visits = Buffer::create(context(), "visits", most * 4);
+    ASSERT_TRUE(visits.ok());
+    visits_ = std::move(*visits);
+    visits_.clear();
+    program_.set(0, most);
+  }
+  void dispatch(std::uint32_t count) {
+    Pass(program_, {{.binding = 2, .buffer = &visits_}}, Reader::compute_pass).dispatch_for(count);
+  }
+  /// Waits until so many steps' results have been taken in, as the dispatches of kind 0 show: one in each.
+  static std::vector<PassTime> wait(PassProfiler& profiler) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    std::vector<PassTime> times;
+    while (times.empty() && std::chrono::steady_clock::now() < deadline) times = profiler.times();
+    return times;
+  }
+
+  static constexpr std::uint32_t most = 1 << 20;
+  Program program_;
+  Buffer visits_;
+};
+
+TEST_F(PassProfilerGl, GivesEachDispatchItsTime) {
+  PassProfiler profiler(context(), {"small", "never", "large"});
+  EXPECT_TRUE(profiler.times().empty());
+  dispatch(most);  // the driver finishes compiling
+  ASSERT_TRUE(profiler.begin_step());
+  dispatch(64);
+  profiler.mark(0);
+  dispatch(most);
+  profiler.mark(2);
+  dispatch(64);
+  profiler.mark(0);
+  profiler.end_step();
+  const auto times = wait(profiler);
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_EQ(times[0].name, "small");
+  EXPECT_EQ(times[0].dispatches, 2.0);
+  EXPECT_EQ(times[1].name, "large");
+  EXPECT_EQ(times[1].dispatches, 1.0);
+  EXPECT_GT(times[1].milliseconds, times[0].milliseconds);
+}
+
+TEST_F(PassProfilerGl, TakesMeansOverTheLastSteps) {
+  PassProfiler profiler(context(), {"one", "other"});
+  for (std::size_t n = 0; n < 3 * PassProfiler::window; ++n) {
+    while (!profiler.begin_step()) {
+    }
+    dispatch(64);
+    profiler.mark(0);
+    // Only the steps of the first third know the other kind: the window has left them behind at the end.
+    if (n < PassProfiler::window) {
+      dispatch(64);
+      profiler.mark(1);
+    }
+    profiler.end_step();
+    if (n == 9) {
+      ASSERT_EQ(wait(profiler).size(), 2u);
+    }
+  }
+  const auto times = wait(profiler);
+  ASSERT_EQ(times.size(), 1u);
+  EXPECT_EQ(times[0].dispatches, 1.0);
+}
+
+TEST_F(PassProfilerGl, MarksOutsideAStepAndUnfinishedStepsCountForNothing) {
+  PassProfiler profiler(context(), {"one", "other"});
+  profiler.mark(1);
+  profiler.end_step();
+  ASSERT_TRUE(profiler.begin_step());
+  profiler.mark(1);
+  ASSERT_TRUE(profiler.begin_step());
+  profiler.mark(0);
+  profiler.end_step();
+  profiler.mark(1);
+  const auto times = wait(profiler);
+  ASSERT_EQ(times.size(), 1u);
+  EXPECT_EQ(times[0].name, "one");
+}
+
+TEST_F(PassProfilerGl, LeavesOutAStepThatIsTooLong) {
+  PassProfiler profiler(context(), {"one", "other"});
+  ASSERT_TRUE(profiler.begin_step());
+  for (std::size_t n = 0; n <= PassProfiler::most_dispatches; ++n) profiler.mark(1);
+  profiler.end_step();
+  ASSERT_TRUE(profiler.begin_step());
+  profiler.mark(0);
+  profiler.end_step();
+  const auto times = wait(profiler);
+  ASSERT_EQ(times.size(), 1u);
+  EXPECT_EQ(times[0].name, "one");
+}
+
+}  // namespace
+}  // namespace aspic::gl
