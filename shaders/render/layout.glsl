@@ -51,11 +51,20 @@
 #define LOCATION_SIDE 7
 #define LOCATION_FIRST 8          // of balls, particles or terrains: the first
 #define LOCATION_ELAPSED 9        // since the picture before [s]
+#define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it stands for the particle
+#define LOCATION_MARK 11          // MARK_…, least radius [pixels], opacity, whether to encode as sRGB
 
 // Lights that the bodies keep off: the sun, and the sky straight above.
 #define LIGHT_SUN 0
 #define LIGHT_SKY 1
 #define LIGHTS 2
+
+// Marks on particles.
+#define MARK_RING 0.0
+#define MARK_PINNED 1.0   // only where a particle is pinned
+#define MARK_DIAMOND 2.0
+#define MARK_ANCHOR 3.0
+#define MARK_LINE 4.0
 
 // What the ID image shows: kinds, in the bits above the index.
 #define PICK_PARTICLE 1u

@@ -48,7 +48,20 @@ Result<LightMaps> LightMaps::create(gl::Context& context) {
     if (!map) return map.error();
     result.maps_[static_cast<std::size_t>(light)] = std::move(*map);
   }
+  auto empty = DrawableImage::create(context, "empty light map", {.format = gl::TexelFormat::rg16f}, false);
+  if (!empty) return empty.error();
+  result.empty_ = std::move(*empty);
+  result.empty_.framebuffer.bind();
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
   return result;
+}
+
+void LightMaps::leave_out(const ModelBuffers& model) {
+  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_LIGHT_BOXES, model.light_boxes().id());
+  empty_.colour.bind(UNIT_SUN_MAP);
+  empty_.colour.bind(UNIT_SKY_MAP);
 }
 
 void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model, const DeviceState& state,

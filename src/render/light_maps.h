@@ -29,9 +29,12 @@ class LightMaps {
   /// block and both maps to their places.
   void render(const RenderPrograms& programs, const ModelBuffers& model, const DeviceState& state,
               const DrawSettings& draw);
+  /// Puts empty maps in their places: nothing keeps any light off.
+  void leave_out(const ModelBuffers& model);
 
  private:
   std::array<DrawableImage, LIGHTS> maps_;
+  DrawableImage empty_;
 };
 
 }  // namespace aspic

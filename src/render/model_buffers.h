@@ -49,6 +49,10 @@ class ModelBuffers {
   /// Inputs of the skin's, the particles' and the springs' shaders.
   gl::VertexArray skin_array(const gl::Buffer& particles) const { return array(particles, &skin_indices_); }
   gl::VertexArray particle_array(const gl::Buffer& particles) const { return array(particles, nullptr); }
+  /// The particles that a buffer of 32-bit indices names.
+  gl::VertexArray listed_array(const gl::Buffer& particles, const gl::Buffer& indices) const {
+    return array(particles, &indices);
+  }
   gl::VertexArray spring_array(const gl::Buffer& particles) const {
     return array(particles, &spring_indices_);
   }

@@ -63,9 +63,11 @@ struct Renderer::Parts {
   render_layout::Frame drawn_frame = {};
   DrawSettings drawn_settings;
   std::unique_ptr<Picker> picker;
+  std::unique_ptr<HighlightPainter> highlight;
   std::uint64_t picks = 0;
 
   Status prepare_targets(int width, int height);
+  Status prepare_highlight();
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
   void draw_thickness(const gl::Buffer& particles) const;
@@ -133,6 +135,14 @@ Status Renderer::Parts::prepare_targets(int width, int height) {
   return {};
 }
 
+Status Renderer::Parts::prepare_highlight() {
+  if (highlight) return {};
+  auto made = HighlightPainter::create(*context, shaders);
+  if (!made) return made.error();
+  highlight = std::move(*made);
+  return {};
+}
+
 void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   frame.upload_items(std::span<const render_layout::Frame>(&block, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
@@ -143,7 +153,10 @@ void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptio
   buffers->compute_light_boxes(programs, state);
   if (options.view.draw.solid && buffers->has_skin()) buffers->compute_normals(programs, particles);
   if (options.view.colour >= ViewColour::strain) buffers->compute_quantity(programs, particles);
-  lights.render(programs, *buffers, state, options.view.draw);
+  if (options.shadows)
+    lights.render(programs, *buffers, state, options.view.draw);
+  else
+    lights.leave_out(*buffers);
 }
 
 void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
@@ -229,7 +242,8 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   assert(p.model && state.particles);
   const gl::Buffer& particles = *state.particles;
   assert(particles.bytes() >= std::uint64_t{particle_stride} * p.model->particle_count());
-  const Status ready = p.prepare_targets(width, height);
+  Status ready = p.prepare_targets(width, height);
+  if (ready && options.highlight) ready = p.prepare_highlight();
   if (!ready) return ready;
   const ViewSettings& view = options.view;
   const Camera camera(view.camera, width, height);
@@ -238,7 +252,8 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
 
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::Reader::compute_pass | gl::Reader::vertex_draw);
-  p.drawn_frame = frame_block(*p.model, camera, width, height, {view, range, p.buffers->has_skin()});
+  p.drawn_frame =
+      frame_block(*p.model, camera, width, height, {view, range, p.buffers->has_skin(), options.shadows});
   p.drawn_state = state;
   p.drawn_settings = view.draw;
   p.bind_frame(p.drawn_frame);
@@ -251,7 +266,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
-  p.terrain.draw_solid(p.programs, p.model->terrain, view.camera, camera);
+  p.terrain.draw_solid(p.programs, p.model->terrain, view.camera, camera, options.shadows);
   if (view.draw.solid) p.buffers->posts().draw(p.programs);
   if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
   p.draw_springs(particles, view.draw, view.colour);
@@ -269,9 +284,13 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
     p.draw_jelly(particles, view, JellySide::near);
   }
   p.terrain.draw_before_bodies(p.programs, p.model->terrain, view.camera, camera);
+  Status written;
+  if (options.highlight)
+    written = p.highlight->draw_within(*p.buffers, particles, view.draw, *options.highlight);
   p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
-  const Status written = p.overlay.draw(p.targets->picture.framebuffer, options.text,
-                                        options.legend ? legend_for(view, range) : Legend{});
+  if (written)
+    written = p.overlay.draw(p.targets->picture.framebuffer, options.text,
+                             options.legend ? legend_for(view, range) : Legend{});
   glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_FRAMEBUFFER_SRGB);
@@ -312,6 +331,27 @@ void Renderer::present(std::uint32_t framebuffer, int width, int height, int lef
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glUseProgram(0);
   glBindVertexArray(0);
+}
+
+Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_t framebuffer, int width,
+                                   int height, int left, int bottom) {
+  Parts& p = *parts_;
+  assert(p.drawn_state && width > 0 && height > 0);
+  if (const Status ready = p.prepare_highlight(); !ready) return ready;
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(left, bottom, width, height);
+  // Marks end where the picture does.
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(left, bottom, width, height);
+  render_layout::Frame frame = p.drawn_frame;
+  const auto w = static_cast<float>(width), h = static_cast<float>(height);
+  frame.viewport = glm::vec4(w, h, 1.0f / w, 1.0f / h);
+  const Status drawn =
+      p.highlight->draw_over(*p.buffers, *p.drawn_state->particles, p.drawn_settings, options, frame);
+  glDisable(GL_SCISSOR_TEST);
+  glUseProgram(0);
+  glBindVertexArray(0);
+  return drawn;
 }
 
 std::vector<Vec3> Renderer::normals() const {

@@ -13,6 +13,7 @@
 #include "model/state.h"
 #include "render/camera.h"
 #include "render/device_state.h"
+#include "render/highlight.h"
 #include "render/overlay.h"
 #include "render/picker.h"
 #include "render/quantity.h"
@@ -31,6 +32,8 @@ struct PictureOptions {
   std::optional<QuantityRange> range;  ///< of strain, force [N] or speed [m/s]; absent: default_range()
   std::vector<OverlayLine> text;       ///< empty: no panel
   bool legend = true;                  ///< of colours, where they mean something
+  bool shadows = true;                 ///< on terrain; without them light maps are left out
+  std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
 };
 
 /// Everything of OpenGL that pictures need. The context must outlive it and be current in every call. The
@@ -71,6 +74,11 @@ class Renderer {
   /// width × height pixels whose lower left corner is (left, bottom). The framebuffer takes encoded values as
   /// they are.
   void present(std::uint32_t framebuffer, int width, int height, int left = 0, int bottom = 0) const;
+
+  /// Marks particles on top of the picture last drawn where it was presented, without drawing it anew; its
+  /// state must still lie where it was. Error: scene_rejected, no_device or io.
+  Status present_highlight(const HighlightOptions& options, std::uint32_t framebuffer, int width, int height,
+                           int left = 0, int bottom = 0);
 
   /// For tests and probes: normals as of the last draw of solid bodies, one by particle (zero inside bodies).
   std::vector<Vec3> normals() const;

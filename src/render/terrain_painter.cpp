@@ -52,7 +52,7 @@ Result<TerrainPainter> TerrainPainter::create(gl::Context& context) {
 }
 
 void TerrainPainter::draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
-                                const CameraSettings& camera, const Camera& lens) const {
+                                const CameraSettings& camera, const Camera& lens, bool shadows) const {
   ground_.bind(UNIT_GROUND);
   glEnable(GL_CULL_FACE);
   glUseProgram(programs.sphere.id());
@@ -63,11 +63,12 @@ void TerrainPainter::draw_solid(const RenderPrograms& programs, const std::vecto
     glDrawElements(GL_TRIANGLES, sphere_index_count_, GL_UNSIGNED_INT, nullptr);
   }
   glDisable(GL_CULL_FACE);
-  draw_planes(programs, terrain, camera, lens, false);
+  draw_planes(programs, terrain, camera, lens, shadows ? Planes::shadowed : Planes::solid);
 }
 
 void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
-                                 const CameraSettings& camera, const Camera& lens, bool from_behind) const {
+                                 const CameraSettings& camera, const Camera& lens, Planes planes) const {
+  const bool from_behind = planes == Planes::from_behind;
   square_.bind();
   for (const Terrain& t : terrain) {
     if (!is_plane(t) || (signed_distance(t, camera.position) < 0.0) != from_behind) continue;
@@ -85,7 +86,7 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
     glUseProgram(programs.plane.id());
     glDrawElements(GL_TRIANGLES, 6, GL_UNSIGNED_INT, nullptr);
     glDisable(GL_BLEND);
-    if (from_behind) continue;
+    if (planes != Planes::shadowed) continue;
     // Shadows cost several times the plain ground, and cover little of it.
     glUseProgram(programs.shadowed_plane.id());
     glEnable(GL_POLYGON_OFFSET_FILL);
@@ -128,7 +129,7 @@ void TerrainPainter::draw_far_glass(const RenderPrograms& programs,
 void TerrainPainter::draw_before_bodies(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                                         const CameraSettings& camera, const Camera& lens) const {
   draw_bowls(programs, terrain, false);
-  draw_planes(programs, terrain, camera, lens, true);
+  draw_planes(programs, terrain, camera, lens, Planes::from_behind);
 }
 
 }  // namespace aspic
