@@ -88,9 +88,9 @@ Result<Finding> course_depth(const Subject& subject) {
 
 /// A fall and ten seconds of rest. The time step of a row is the scene's default of 1 ms unless the method
 /// needs another one to rest at all (docs/physics.md, "A limit of the resting threshold"):
-/// - explicit Euler: a ground particle that leaves the contact for one step is sped up by h·N/m, N/m = n·g
-///   under a column of n particles and about twice that under the edges; it comes to rest if that is no more
-///   than ε, so h = ε/(2·n·g) = 0.05 ms;
+/// - explicit Euler: a ground particle that leaves the contact is sped up by h·n·g under a column of n
+///   particles, twice before its position follows; it comes to rest if that is no more than ε, so
+///   h = ε/(2·n·g) = 0.05 ms;
 /// - one-pass: a mode of the dampers is damped by 1 + z + z² a step, z = −h·αc/m, which is 1 at the limit of
 ///   stability, z = −1, and least at z = −½: half the stable step, 0.5 ms;
 /// - implicit Euler: 1/60 s, what it is there for.
