@@ -111,6 +111,7 @@ void App::mouse_button(int button, int action, int modifiers) {
     return;
   }
   if (hand) return;
+  if (button == GLFW_MOUSE_BUTTON_LEFT && modifiers == 0) centre_wanted_ = is_double_click();
   drag_button_ = button;
   drag_pans_ = button != GLFW_MOUSE_BUTTON_LEFT || (modifiers & GLFW_MOD_SHIFT) != 0;
 }
