@@ -231,7 +231,7 @@ class App final : public EventReceiver {
   int shown_pixels_[4] = {};  // and in pixels: left, bottom, width, height
   int drawn_width_ = 0, drawn_height_ = 0;
   double pixels_per_unit_ = 1.0;
-  double draw_scale_ = 1.0, draw_seconds_ = 0.0, still_ = 0.0;
+  double draw_scale_ = 1.0, draw_seconds_ = 0.0, still_ = 0.0, awake_ = 0.0;
   double since_file_look_ = 0.0, rate_time_ = 0.0, pictures_per_second_ = 0.0;
   int rate_pictures_ = 0;
 };
