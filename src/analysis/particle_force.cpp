@@ -56,7 +56,7 @@ std::vector<std::uint32_t> IncidentSprings::of(const Model& model, std::uint32_t
 }
 
 ParticleForce particle_force(const Model& model, const IncidentSprings& incident, const State& state,
-                             std::uint32_t particle) {
+                             std::uint32_t particle, const std::optional<Pull>& pull) {
   assert(check_sizes(model, state) && particle < model.particle_count());
   const Vec3 &x = state.position[particle], &v = state.velocity[particle];
   ParticleForce force;
@@ -68,6 +68,11 @@ ParticleForce particle_force(const Model& model, const IncidentSprings& incident
                                 state.velocity[other]);
     force.springs = force.springs + f;
     force.net = force.net + f;
+  }
+  if (pull && pull->particle == particle) {
+    const SpringClass band = {SpringType::structural, pull->stiffness, pull->damping, 0.0, false};
+    force.pull = spring_force(band, x, v, pull->anchor, {});
+    force.net = force.net + force.pull;
   }
   if (model.contact.model != ContactModel::course || model.inverse_mass[particle] == 0.0) return force;
   const Vec3 before = force.net;

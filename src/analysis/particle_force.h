@@ -1,9 +1,11 @@
 #pragma once
 // What pulls at one particle, in double precision whatever the state's own: for those who look at a few.
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "model/model.h"
+#include "model/pull.h"
 #include "model/state.h"
 
 namespace aspic {
@@ -26,12 +28,14 @@ class IncidentSprings {
 struct ParticleForce {
   Vec3 gravity;  ///< m·g
   Vec3 springs;  ///< sum over its springs
+  Vec3 pull;     ///< a hand's, where it pulls this particle
   Vec3 contact;  ///< the course model's contact force; the Coulomb model has none, it acts on velocities
-  Vec3 net;  ///< f: the three summed in the solvers' order; of a pinned particle too, which it does not move
+  Vec3 net;      ///< f: all summed in the solvers' order; of a pinned particle too, which it does not move
 };
 
-/// The state must have the model's numbers of particles; `particle` is one of them.
+/// The state must have the model's numbers of particles; `particle` is one of them; `pull` is that of the
+/// solver, on whatever particle.
 ParticleForce particle_force(const Model& model, const IncidentSprings& incident, const State& state,
-                             std::uint32_t particle);
+                             std::uint32_t particle, const std::optional<Pull>& pull = {});
 
 }  // namespace aspic

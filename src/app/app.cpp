@@ -63,7 +63,8 @@ std::string App::title() const {
 }
 
 bool App::idle() const {
-  return !simulation_->running() && still_ > 0.5 && !screenshot_wanted_ && pending_ == Effect::none;
+  return !simulation_->running() && std::min(still_, awake_) > 0.5 && !screenshot_wanted_ &&
+         pending_ == Effect::none;
 }
 
 void App::tell(const Status& status) {
@@ -111,12 +112,15 @@ void App::mouse_button(int button, int action, int modifiers) {
     return;
   }
   if (hand) return;
+  if (button == GLFW_MOUSE_BUTTON_LEFT && modifiers == 0) centre_wanted_ = is_double_click();
   drag_button_ = button;
   drag_pans_ = button != GLFW_MOUSE_BUTTON_LEFT || (modifiers & GLFW_MOD_SHIFT) != 0;
 }
 
 void App::cursor(double x, double y) {
-  still_ = 0.0;
+  awake_ = 0.0;
+  // A mouse that only passes over leaves the picture as it is, in full resolution.
+  if (drag_button_ >= 0 || simulation_->hand()) still_ = 0.0;
   gui_->cursor(x, y);
   if (drag_button_ >= 0) drag(x - mouse_x_, y - mouse_y_);
   mouse_x_ = x;
@@ -348,6 +352,7 @@ Status App::frame(const WindowSize& size, double dt) {
   film();
   watch_divergence();
   still_ = camera_moves || simulation_->running() || simulation_->seeking() ? 0.0 : still_ + dt;
+  awake_ += dt;
   rate_time_ += dt;
   ++rate_pictures_;
   if (rate_time_ > 0.5) {

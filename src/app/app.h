@@ -2,11 +2,13 @@
 // The window's inside: scene, simulation, camera, panels and what keys and mouse do to them. Knows no window:
 // events come through EventReceiver, pictures go to the current context's framebuffer 0.
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/particle_force.h"
 #include "analysis/stability.h"
 #include "app/camera_control.h"
 #include "app/film_pace.h"
@@ -33,10 +35,13 @@ struct Notice {
   double age = 0.0;  ///< [s]; what is no error goes by itself after a while
 };
 
-/// A particle under the mouse.
+/// A particle under the mouse, or one that a hand pulls.
 struct Hovered {
   std::uint32_t particle = 0;
   Vec3 position, velocity;  ///< [m], [m/s] at the snapshot's step
+  ParticleForce force;      ///< [N] then
+  double mass = 0.0;        ///< [kg]
+  bool pinned = false;
 };
 
 /// How hands throw and pull.
@@ -112,6 +117,8 @@ class App final : public EventReceiver {
   void clear_balls();
   void toggle_pin(std::uint32_t particle);
   void toggle_shadow();
+  /// Shadows on terrain, in the window alone.
+  bool& shadows() { return shadows_; }
   void toggle_panels() { panels_visible_ = !panels_visible_; }
   void toggle_help() { help_visible_ = !help_visible_; }
   void toggle_full_screen();
@@ -129,6 +136,8 @@ class App final : public EventReceiver {
   bool help_visible() const { return help_visible_; }
   const std::optional<Notice>& notice() const { return notice_; }
   const std::optional<Hovered>& hovered() const { return hovered_; }
+  /// What tells the time between clicks [s]; for tests, which do not wait.
+  void set_clock(std::function<double()> clock) { clock_ = std::move(clock); }
   /// Ball, speed and stiffness of hands, as the panels set them.
   HandSettings& hands() { return hands_; }
   /// The largest stable step, while a divergence stands.
@@ -158,6 +167,12 @@ class App final : public EventReceiver {
   void end_film();
   void adapt_scale(double seconds);
   void find_hovered();
+  void describe(std::uint32_t particle);
+  Status ask_what_is_under_mouse();
+  Status present_ring();
+  bool is_double_click();
+  void centre_on(const Picked& picked);
+  HighlightOptions marks(int width) const;
   void save_screenshot(const WindowSize& size);
   void drag(double dx, double dy);
   void follow_history();
@@ -191,6 +206,17 @@ class App final : public EventReceiver {
   int drag_button_ = -1;
   bool drag_pans_ = false;
   std::optional<Hovered> hovered_;
+  std::optional<IncidentSprings> incident_;  // of the model with that number
+  std::uint64_t incident_model_ = 0;
+  /// What was asked about a place of a picture.
+  struct Question {
+    double x = 0.0, y = 0.0;
+    std::uint64_t picture = 0, first = 0, last = 0;  // requests since the mouse came here
+  };
+  std::optional<Question> asked_;
+  bool centre_wanted_ = false;
+  std::function<double()> clock_;
+  double pressed_time_ = -1e9, pressed_x_ = 0.0, pressed_y_ = 0.0;  // the last press that was no double one
   HandSettings hands_;
   std::uint32_t thrown_ = 0;  // balls so far: each of many flies its own way
   Vec3 pull_plane_;           // a point of the plane, square to the view, in which the anchor moves [m]
@@ -198,9 +224,14 @@ class App final : public EventReceiver {
   std::uint64_t drawn_model_ = ~std::uint64_t{0}, drawn_state_ = ~std::uint64_t{0};
   std::string drawn_terrain_;
   ViewSettings drawn_view_;
+  HighlightOptions drawn_marks_;
+  bool shadows_ = true, drawn_shadows_ = true;
+  std::uint64_t pictures_drawn_ = 0;
+  Box shown_;                 // where the picture is shown [window units]
+  int shown_pixels_[4] = {};  // and in pixels: left, bottom, width, height
   int drawn_width_ = 0, drawn_height_ = 0;
   double pixels_per_unit_ = 1.0;
-  double draw_scale_ = 1.0, draw_seconds_ = 0.0, still_ = 0.0;
+  double draw_scale_ = 1.0, draw_seconds_ = 0.0, still_ = 0.0, awake_ = 0.0;
   double since_file_look_ = 0.0, rate_time_ = 0.0, pictures_per_second_ = 0.0;
   int rate_pictures_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -19,8 +20,6 @@ namespace {
 /// Shares of the full resolution that a software rasteriser falls back to.
 constexpr double scales[] = {1.0, 0.75, 0.55, 0.4, 0.3};
 constexpr double slow_picture = 0.070, quick_picture = 0.030;  // s
-/// How near the mouse has to be to a particle to mean it [window units].
-constexpr double reach = 12.0;
 
 }  // namespace
 
@@ -50,9 +49,14 @@ Status App::draw_scene(const WindowSize& size) {
       std::min(static_cast<double>(width) / picture.width, static_cast<double>(height) / picture.height);
   const int shown_width = recording_ ? static_cast<int>(std::lround(fit * picture.width)) : width;
   const int shown_height = recording_ ? static_cast<int>(std::lround(fit * picture.height)) : height;
-  renderer_->present(0, shown_width, shown_height, left + (width - shown_width) / 2,
-                     bottom + (height - shown_height) / 2);
-  return {};
+  const int shown_left = left + (width - shown_width) / 2,
+            shown_bottom = bottom + (height - shown_height) / 2;
+  renderer_->present(0, shown_width, shown_height, shown_left, shown_bottom);
+  std::ranges::copy(std::array{shown_left, shown_bottom, shown_width, shown_height}, shown_pixels_);
+  shown_ = {shown_left / ratio, (size.pixel_height - shown_bottom - shown_height) / ratio,
+            (shown_left + shown_width) / ratio, (size.pixel_height - shown_bottom) / ratio};
+  if (const Status marked = present_ring(); !marked) return marked;
+  return ask_what_is_under_mouse();
 }
 
 Status App::draw_picture(int width, int height) {
@@ -63,9 +67,12 @@ Status App::draw_picture(int width, int height) {
     options.legend = film_settings_.text;
     if (film_settings_.text) options.text = overlay_lines(editor_.scene().model, simulation_->time());
   }
+  options.shadows = shadows_;
+  options.highlight = marks(width);
   const bool new_model = drawn_model_ != simulation_->model_number();
   const bool same = !new_model && drawn_state_ == simulation_->picture_number() &&
-                    drawn_view_ == options.view && drawn_width_ == width && drawn_height_ == height;
+                    drawn_view_ == options.view && drawn_marks_ == *options.highlight &&
+                    drawn_shadows_ == options.shadows && drawn_width_ == width && drawn_height_ == height;
   if (same) return {};
   const auto start = std::chrono::steady_clock::now();
   if (new_model) {
@@ -82,6 +89,9 @@ Status App::draw_picture(int width, int height) {
   drawn_model_ = simulation_->model_number();
   drawn_state_ = simulation_->picture_number();
   drawn_view_ = options.view;
+  drawn_marks_ = *options.highlight;
+  drawn_shadows_ = options.shadows;
+  ++pictures_drawn_;
   drawn_width_ = width;
   drawn_height_ = height;
   draw_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -95,32 +105,6 @@ void App::adapt_scale(double seconds) {
   const auto current = std::ranges::find(scales, draw_scale_);
   if (seconds > slow_picture && current + 1 != std::end(scales)) draw_scale_ = current[1];
   if (seconds < quick_picture && current != std::begin(scales)) draw_scale_ = current[-1];
-}
-
-void App::find_hovered() {
-  hovered_.reset();
-  if (drag_button_ >= 0 || gui_->takes_mouse() || !viewport_.contains(mouse_x_, mouse_y_)) return;
-  const State& state = simulation_->snapshot();
-  const double width = viewport_.right - viewport_.left, height = viewport_.bottom - viewport_.top;
-  const Camera camera(camera_.shown(), std::max(static_cast<int>(width), 1),
-                      std::max(static_cast<int>(height), 1));
-  const double x = mouse_x_ - viewport_.left, y = mouse_y_ - viewport_.top;
-  double best = reach * reach;
-  double nearest = 0.0;
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
-    const auto seen = camera.project(state.position[i]);
-    if (!seen) continue;
-    const double dx = seen->x - x, dy = seen->y - y;
-    const double distance = dx * dx + dy * dy;
-    if (distance > reach * reach) continue;
-    // Among particles that the mouse touches, the one in front.
-    const bool better =
-        !hovered_ || seen->distance < nearest - 1e-9 || (seen->distance <= nearest + 1e-9 && distance < best);
-    if (!better) continue;
-    best = distance;
-    nearest = seen->distance;
-    hovered_ = Hovered{static_cast<std::uint32_t>(i), state.position[i], state.velocity[i]};
-  }
 }
 
 void App::save_screenshot(const WindowSize& size) {

@@ -84,6 +84,11 @@ void CameraControl::frame(const Vec3& centre, double radius, double aspect) {
   goal_.distance = std::clamp(1.1 * std::max(radius, 10.0 * nearest) / std::sin(narrow), nearest, farthest);
 }
 
+void CameraControl::centre(const Vec3& point) {
+  start_moving();
+  goal_.target = point;
+}
+
 void CameraControl::jump_to(const CameraSettings& settings) {
   goal_ = shown_ = orbit_of(settings);
   exact_goal_ = exact_shown_ = settings;

@@ -23,6 +23,8 @@ class CameraControl {
   /// Turns to a sphere and backs off until it fits; direction and field of view stay. `aspect` is
   /// width/height of the view, > 0; a radius of 0 [m] is taken as a small one.
   void frame(const Vec3& centre, double radius, double aspect);
+  /// Turns to a point: the target comes to lie there, and the camera moves along with it.
+  void centre(const Vec3& point);
   /// Takes on a camera at once, without easing.
   void jump_to(const CameraSettings& settings);
   /// A new home, which the camera does not go to by itself.

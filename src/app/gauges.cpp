@@ -99,6 +99,11 @@ void plot(const std::deque<EnergySample>& samples, double scale) {
 void view_section(App& app) {
   edit(app, "view.draw");
   edit(app, "view.colour", 0, "Colour by");
+  ImGui::Checkbox("shadows", &app.shadows());
+  app.gui().mark("view/shadows");
+  tooltip(
+      "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Only of this "
+      "window: files and films of aspic run have them.");
   edit_camera(app, "view.camera.position", "Camera");
   edit_camera(app, "view.camera.target", "Looks at");
   edit_camera(app, "view.camera.fov", "Field of view");

@@ -145,17 +145,6 @@ void help_panel(App& app, double width, double height) {
   ImGui::PopStyleVar();
 }
 
-void hover_tooltip(App& app) {
-  const auto& h = app.hovered();
-  if (!h) return;
-  ImGui::BeginTooltip();
-  ImGui::Text("particle %u", h->particle);
-  ImGui::TextDisabled("x = (%.4g, %.4g, %.4g) m", h->position.x, h->position.y, h->position.z);
-  ImGui::TextDisabled("v = (%.4g, %.4g, %.4g) m/s", h->velocity.x, h->velocity.y, h->velocity.z);
-  ImGui::TextDisabled("step %llu", static_cast<unsigned long long>(app.simulation().snapshot().step));
-  ImGui::EndTooltip();
-}
-
 void side(App& app, const char* name, double left, double width, double height,
           std::span<const Heading> first, std::span<const Heading> second) {
   ImGui::SetNextWindowPos(at(left, 0.0));

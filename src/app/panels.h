@@ -22,6 +22,8 @@ void performance_section(App& app);
 void energy_section(App& app);
 void balls_section(App& app);
 void shadow_section(App& app);
+/// What is known of the particle under the mouse, beside it.
+void hover_tooltip(App& app);
 /// The bar of the history, into that box.
 void draw_timeline(App& app, const Box& box);
 

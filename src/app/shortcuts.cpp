@@ -37,6 +37,7 @@ const std::array table = {
     Row{"left drag", "turn the camera", -1, 0, 0, nullptr},
     Row{"right or Shift drag", "move the camera", -1, 0, 0, nullptr},
     Row{"wheel", "nearer or farther", -1, 0, 0, nullptr},
+    Row{"double click", "turn to what is there", -1, 0, 0, nullptr},
     Row{"Home", "reset the camera", GLFW_KEY_HOME, 0, 0, [](App& a) { a.camera().reset(); }},
     Row{"F", "frame the bodies", GLFW_KEY_F, 0, 0, [](App& a) { a.frame_bodies(); }},
     Row{"Ctrl+C", "copy the camera as text", GLFW_KEY_C, ctrl, 0, [](App& a) { a.copy_camera(); }},

@@ -42,17 +42,19 @@ State shaken(const Model& model, double distance, double speed) {
   return state;
 }
 
-void expect_references_force(const Model& model, const State& state) {
+void expect_references_force(const Model& model, const State& state, const std::optional<Pull>& pull = {}) {
   const auto count = static_cast<Eigen::Index>(model.particle_count());
   Field<double> x(3, count), v(3, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     x.col(i) = reference::rounded<double>(state.position[static_cast<std::size_t>(i)]);
     v.col(i) = reference::rounded<double>(state.velocity[static_cast<std::size_t>(i)]);
   }
-  const Field<double> f = reference::Dynamics<double>(model).force(x, v);
+  reference::Dynamics<double> dynamics(model);
+  dynamics.set_pull(pull);
+  const Field<double> f = dynamics.force(x, v);
   const IncidentSprings incident(model);
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
-    const ParticleForce force = particle_force(model, incident, state, i);
+    const ParticleForce force = particle_force(model, incident, state, i, pull);
     // The same operations in the same order.
     const Vec3 expected = {f(0, i), f(1, i), f(2, i)};
     EXPECT_EQ(force.net, expected) << "particle " << i;
@@ -78,6 +80,16 @@ TEST(ParticleForceTest, IsTheReferencesInTheCourseModel) {
   for (std::uint32_t i = 0; i < model.particle_count(); ++i)
     touching += particle_force(model, incident, state, i).contact != Vec3{};
   EXPECT_GT(touching, 10) << "else nothing was compared";
+}
+
+TEST(ParticleForceTest, CountsThePullOfAHand) {
+  const Model model = test::build(cube_and_net());
+  const State state = shaken(model, 0.2, 3.0);
+  const Pull pull = {123, {1.0, 5.0, -2.0}, 700.0, 30.0};
+  expect_references_force(model, state, pull);
+  const IncidentSprings incident(model);
+  EXPECT_NE(particle_force(model, incident, state, 123, pull).pull, Vec3{});
+  EXPECT_EQ(particle_force(model, incident, state, 124, pull).pull, Vec3{});
 }
 
 TEST(ParticleForceTest, PartsByHand) {

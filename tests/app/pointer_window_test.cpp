@@ -1,0 +1,251 @@
+// What the mouse points at: told, marked, centred.
+#include <cmath>
+#include <fstream>
+
+#include "analysis/particle_force.h"
+#include "app/stage.h"
+#include "model/terrain.h"
+#include "render/camera.h"
+
+namespace aspic::test {
+namespace {
+
+using app::BackendName;
+
+class Pointer : public Stage {
+ protected:
+  Camera camera() {
+    const app::Box& view = app().viewport();
+    return {app().camera().shown(), static_cast<int>(view.right - view.left),
+            static_cast<int>(view.bottom - view.top)};
+  }
+  /// Where a point is seen in the window.
+  Projected place(const Vec3& point) {
+    auto seen = camera().project(point);
+    EXPECT_TRUE(seen.has_value());
+    seen->x += app().viewport().left;
+    seen->y += app().viewport().top;
+    return *seen;
+  }
+  void point_at(const Vec3& point) {
+    const Projected p = place(point);
+    app().cursor(p.x, p.y);
+    frames(3);
+  }
+  /// Differences of the pixels within `radius` of a place of the window, summed.
+  static int change(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b, double x,
+                    double y, double radius, double without = 0.0) {
+    constexpr int width = 1280, height = 720;
+    int sum = 0;
+    for (int row = 0; row < height; ++row) {
+      for (int column = 0; column < width; ++column) {
+        const double off = std::hypot(column + 0.5 - x, height - row - 0.5 - y);
+        if (off > radius || off < without) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::size_t at = 3 * static_cast<std::size_t>(row * width + column) + c;
+          sum += std::abs(static_cast<int>(a[at]) - static_cast<int>(b[at]));
+        }
+      }
+    }
+    return sum;
+  }
+  void click(double x, double y, double at_time) {
+    time_ = at_time;
+    app().cursor(x, y);
+    app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
+    app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+  }
+  void double_click(double x, double y, double pause = 0.2) {
+    app().set_clock([this] { return time_; });
+    const double start = time_ + 10.0;
+    click(x, y, start);
+    frames(1);
+    click(x, y, start + pause);
+    frames(3);
+    frames_to_rest();
+  }
+  using Stage::click;
+
+ private:
+  double time_ = 0.0;
+};
+
+class PointerOn : public Pointer, public ::testing::WithParamInterface<BackendName> {};
+
+TEST_P(PointerOn, TellsForceMassAndPins) {
+  open("cube-plane",
+       {"cube[0].pinned=[\"top\"]", "cube[0].position=[0,3,0]", "view.draw=[\"solid\", \"particles\"]"},
+       GetParam());
+  for (int i = 0; i < 40; ++i) type(U'.');
+  frames(2);
+  const Model& model = simulation().model();
+  const State& state = simulation().snapshot();
+  const IncidentSprings incident(model);
+  for (const std::uint32_t particle : {999u, 909u}) {  // two corners of the face towards the eye
+    point_at(state.position[particle]);
+    const auto& h = app().hovered();
+    ASSERT_TRUE(h.has_value());
+    EXPECT_EQ(h->particle, particle);
+    EXPECT_EQ(h->position, state.position[particle]);
+    EXPECT_EQ(h->velocity, state.velocity[particle]);
+    EXPECT_EQ(h->force.net, particle_force(model, incident, state, particle).net);
+    EXPECT_NE(h->force.net, h->force.gravity) << "springs have something to say after 40 steps";
+    EXPECT_EQ(h->mass, 1.0);
+    EXPECT_EQ(h->pinned, model.inverse_mass[particle] == 0.0);
+  }
+  EXPECT_NE(model.inverse_mass[999], model.inverse_mass[909]) << "one of each";
+}
+INSTANTIATE_TEST_SUITE_P(Pointer, PointerOn, ::testing::Values(BackendName::reference, BackendName::gpu));
+
+TEST_F(Pointer, SolidBodiesHideTheirInside) {
+  open("cube-plane", {"cube[0].position=[0,3,0]"});
+  // The very middle of the body lies behind its skin.
+  point_at({0.0, 3.0, 0.0});
+  ASSERT_TRUE(app().hovered().has_value());
+  const std::uint32_t i = app().hovered()->particle / 100, j = app().hovered()->particle / 10 % 10,
+                      k = app().hovered()->particle % 10;
+  EXPECT_TRUE(i == 9 || j == 9 || k == 9) << "on a face towards the eye, not " << app().hovered()->particle;
+  point_at({0.0, -1.0, 6.0});
+  EXPECT_FALSE(app().hovered().has_value()) << "the ground";
+  app().cursor(5.0, 300.0);
+  frames(3);
+  EXPECT_FALSE(app().hovered().has_value()) << "a panel";
+}
+
+TEST_F(Pointer, RingFollowsTheMouseWithoutANewPicture) {
+  open("cube-plane", {"cube[0].position=[0,3,0]"});
+  frames_to_rest();
+  frames(60);
+  const auto before = pixels();
+  const Vec3 corner = simulation().snapshot().position[999];
+  const Projected p = place(corner);
+  point_at(corner);
+  const auto with = pixels();
+  ASSERT_TRUE(app().hovered().has_value());
+  // The tooltip begins to the right of and below the mouse.
+  EXPECT_GT(change(before, with, p.x - 7.2, p.y, 2.0), 200);
+  EXPECT_GT(change(before, with, p.x, p.y - 7.2, 2.0), 200);
+  EXPECT_EQ(change(before, with, p.x - 30.0, p.y - 30.0, 20.0), 0) << "nothing else changes";
+  app().cursor(5.0, 300.0);
+  frames(3);
+  EXPECT_EQ(change(before, pixels(), p.x, p.y, 40.0), 0) << "gone with the mouse";
+}
+
+TEST_F(Pointer, PullsAndPinsAreMarked) {
+  open("cube-plane", {"simulation.gravity=[0,0,0]", "cube[0].position=[0,3,0]"}, BackendName::reference);
+  const Vec3 corner = simulation().snapshot().position[999];
+  const Projected p = place(corner);
+  point_at(corner);
+  ASSERT_TRUE(app().hovered().has_value());
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
+  frames(30);
+  const auto before = pixels();
+  app().cursor(p.x - 60.0, p.y - 90.0);
+  frames(30);
+  ASSERT_TRUE(simulation().hand().has_value());
+  ASSERT_TRUE(app().hovered().has_value());
+  EXPECT_EQ(app().hovered()->particle, 999u) << "who is pulled is told of, wherever the mouse is";
+  EXPECT_NE(app().hovered()->force.pull, Vec3{});
+  EXPECT_GT(change(before, pixels(), p.x - 30.0, p.y - 45.0, 4.0), 500) << "the band";
+  EXPECT_GT(change(before, pixels(), p.x - 60.0, p.y - 90.0, 8.0), 5000) << "the anchor";
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
+  app().cursor(5.0, 300.0);
+  frames(30);
+  const auto after = pixels();
+  EXPECT_EQ(change(after, before, p.x - 60.0, p.y - 90.0, 8.0), 0);
+  point_at(corner);
+  app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_PRESS, GLFW_MOD_CONTROL);
+  app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_RELEASE, GLFW_MOD_CONTROL);
+  app().cursor(5.0, 300.0);
+  frames(30);
+  EXPECT_GT(change(after, pixels(), p.x, p.y, 5.0), 2000) << "a diamond";
+}
+
+TEST_F(Pointer, DoubleClickCentresWhatIsThere) {
+  std::ofstream("scene.toml")
+      << "schema = 1\n[[terrain]]\nshape = \"plane\"\n[[cube]]\nposition = [0, 3, 0]\n"
+         "[[ball]]\nposition = [-4, 1, 2]\nradius = 0.8\nvelocity = [0, 0, 0]\n";
+  open("scene.toml");
+  const auto distance = [](const CameraSettings& c) { return length(c.position - c.target); };
+  const CameraSettings home = app().camera().goal();
+  const Vec3 corner = simulation().snapshot().position[999];
+  Projected p = place(corner);
+  double_click(p.x, p.y);
+  EXPECT_NEAR(length(app().camera().shown().target - corner), 0.0, 1e-12);
+  EXPECT_NEAR(distance(app().camera().shown()), distance(home), 1e-9) << "as far away as before";
+  const Projected now = place(corner);
+  EXPECT_NEAR(now.x, middle_x(), 1.0);
+  EXPECT_NEAR(now.y, middle_y(), 1.0);
+
+  press(GLFW_KEY_HOME);
+  frames_to_rest();
+  const Vec3 ball = simulation().snapshot().ball_position[0];
+  p = place(ball);
+  double_click(p.x, p.y);
+  EXPECT_NEAR(length(app().camera().shown().target - ball), 0.0, 1e-12);
+
+  press(GLFW_KEY_HOME);
+  frames_to_rest();
+  const Vec3 ground = {3.0, -1.0, 5.0};
+  p = place(ground);
+  double_click(p.x, p.y);
+  const Vec3 target = app().camera().shown().target;
+  EXPECT_NEAR(signed_distance(simulation().model().terrain[0], target), 0.0, 1e-3);
+  // The middle of a pixel of the window, seen from 18 m away at a slant.
+  EXPECT_NEAR(length(target - ground), 0.0, 0.1);
+
+  press(GLFW_KEY_HOME);
+  frames_to_rest();
+  double_click(middle_x(), app().viewport().top + 3.0);
+  EXPECT_EQ(app().camera().goal(), home) << "the sky is nothing to turn to";
+}
+
+TEST_F(Pointer, OnlyTwoQuickPressesOnOnePlaceAreADoubleClick) {
+  open("cube-plane", {"cube[0].position=[0,3,0]"});
+  const CameraSettings home = app().camera().goal();
+  const Projected p = place(simulation().snapshot().position[999]);
+  double_click(p.x, p.y, 0.41);
+  EXPECT_EQ(app().camera().goal(), home) << "too slow";
+  double time = 1000.0;
+  app().set_clock([&] { return time; });
+  const auto press_at = [&](double x, double y) {
+    app().cursor(x, y);
+    app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
+    app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+    frames(3);
+    time += 0.1;
+  };
+  press_at(p.x, p.y);
+  press_at(p.x - 5.0, p.y);
+  EXPECT_EQ(app().camera().goal(), home) << "too far apart";
+  time += 1.0;
+  press_at(p.x, p.y);
+  press_at(p.x - 3.0, p.y);
+  EXPECT_NE(app().camera().goal(), home);
+  frames_to_rest();
+  const CameraSettings there = app().camera().goal();
+  press_at(p.x - 3.0, p.y);
+  EXPECT_EQ(app().camera().goal(), there) << "a third press begins anew";
+}
+
+TEST_F(Pointer, ShadowsCanBeSwitchedOff) {
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"});
+  frames(60);
+  const auto shadowed = pixels();
+  const Projected beside = place({3.0, -1.0, 0.5});
+  const auto far_off = place({-5.0, -1.0, 5.0});
+  click("view/shadows");
+  EXPECT_FALSE(app().shadows());
+  app().cursor(5.0, 300.0);
+  frames(60);
+  const auto bare = pixels();
+  EXPECT_GT(change(shadowed, bare, beside.x, beside.y, 4.0), 1000);
+  EXPECT_LE(change(shadowed, bare, far_off.x, far_off.y, 4.0), 150) << "a unit for each channel";
+  click("view/shadows");
+  app().cursor(5.0, 300.0);
+  frames(60);
+  EXPECT_EQ(change(shadowed, pixels(), beside.x, beside.y, 30.0), 0);
+}
+
+}  // namespace
+}  // namespace aspic::test
