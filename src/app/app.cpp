@@ -34,23 +34,48 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   auto editor = SceneEditor::open(options.scene, options.overrides);
   if (!editor) return editor.error();
   std::unique_ptr<App> app(new App(context, std::move(*editor)));
-  const bool software = context.info().is_software;
+  const BackendName unasked = context.info().is_software ? BackendName::reference : BackendName::gpu;
+  auto simulation = Simulation::create(context, app->editor_.scene(), options.backend.value_or(unasked));
+  if (!simulation) return simulation.error();
+  app->simulation_ = std::move(*simulation);
+  if (const Status ready = app->make_pictures(scale, std::move(services)); !ready) return ready.error();
+  return app;
+}
+
+/// Renderer and panels, in the context.
+Status App::make_pictures(double scale, WindowServices services) {
   const auto directory = cli::shader_directory();
   if (!directory) return directory.error();
   RendererOptions look;
-  look.samples = software ? 1 : 4;
+  look.samples = context_->info().is_software ? 1 : 4;
   look.shaders = gl::ShaderLibrary(*directory);
-  auto renderer = Renderer::create(context, look);
+  auto renderer = Renderer::create(*context_, look);
   if (!renderer) return renderer.error();
-  app->renderer_ = std::move(*renderer);
-  const BackendName backend = options.backend.value_or(software ? BackendName::reference : BackendName::gpu);
-  auto simulation = Simulation::create(context, app->editor_.scene(), backend);
-  if (!simulation) return simulation.error();
-  app->simulation_ = std::move(*simulation);
   auto gui = Gui::create(scale, std::move(services));
   if (!gui) return gui.error();
-  app->gui_ = std::move(*gui);
-  return app;
+  renderer_ = std::move(*renderer);
+  gui_ = std::move(*gui);
+  return {};
+}
+
+Status App::release_context(const Error& why) {
+  for (const std::string& line : finish_films()) tell(line, true);
+  if (const Status left = simulation_->leave_gpu(why); !left) return left;
+  end_pull();
+  asked_.reset();
+  hovered_.reset();
+  drag_button_ = -1;
+  renderer_.reset();
+  gui_.reset();
+  context_ = nullptr;
+  return {};
+}
+
+Status App::adopt_context(gl::Context& context, double scale, WindowServices services) {
+  context_ = &context;
+  simulation_->set_context(context);
+  drawn_model_ = drawn_state_ = ~std::uint64_t{0};
+  return make_pictures(scale, std::move(services));
 }
 
 App::~App() {
@@ -338,6 +363,7 @@ void App::watch_divergence() {
 }
 
 Status App::frame(const WindowSize& size, double dt) {
+  if (context_->lost()) return context_->lost_error();
   if (size.pixel_width < 1 || size.pixel_height < 1 || size.width < 1 || size.height < 1) return {};
   watch_file(dt);
   if (notice_ && !notice_->is_error && (notice_->age += dt) > notice_seconds) notice_.reset();
@@ -345,7 +371,7 @@ Status App::frame(const WindowSize& size, double dt) {
   const bool camera_moves = camera_.update(dt);
   if (const Status changed = carry_out_changes(); !changed) return changed;
   // A picture of a software rasteriser takes longer anyway, so steps may too.
-  const double budget = context_.info().is_software ? 0.040 : 0.012;
+  const double budget = context_->info().is_software ? 0.040 : 0.012;
   film();
   if (const Status moved = simulation_->update(dt, budget); !moved) return moved;
   if (auto message = simulation_->take_message()) tell(std::move(*message), true);

@@ -67,8 +67,14 @@ class App final : public EventReceiver {
   void scroll(double dx, double dy) override;
   void drop(const std::vector<std::string>& paths) override;
 
-  /// One picture, `dt` ≥ 0 after the last [s]. Error (no_device): the device was lost.
+  /// One picture, `dt` ≥ 0 after the last [s]. Error (no_device): the context was lost; another window can
+  /// take the app on then (replace_window).
   Status frame(const WindowSize& size, double dt);
+  /// Lets go of all that the context holds, while it is still current: films are completed as far as they
+  /// came, a run on the gpu goes on on the reference from the last copy, and a notice will say so.
+  Status release_context(const Error& why);
+  /// Takes on another context, current from now on, after release_context(). Errors as create().
+  Status adopt_context(gl::Context& context, double scale, WindowServices services);
   /// Nothing moves: the next picture would be the same but for events.
   bool idle() const;
   std::string title() const;
@@ -131,7 +137,7 @@ class App final : public EventReceiver {
   const SceneEditor& editor() const { return editor_; }
   CameraControl& camera() { return camera_; }
   Gui& gui() { return *gui_; }
-  const gl::DeviceInfo& device() const { return context_.info(); }
+  const gl::DeviceInfo& device() const { return context_->info(); }
   bool panels_visible() const { return panels_visible_; }
   bool help_visible() const { return help_visible_; }
   const std::optional<Notice>& notice() const { return notice_; }
@@ -151,7 +157,8 @@ class App final : public EventReceiver {
 
  private:
   App(gl::Context& context, SceneEditor editor)
-      : context_(context), editor_(std::move(editor)), camera_(editor_.scene().view.camera) {}
+      : context_(&context), editor_(std::move(editor)), camera_(editor_.scene().view.camera) {}
+  Status make_pictures(double scale, WindowServices services);
   void take_effect(Effect effect);
   Status carry_out_changes();
   void tell(std::string text, bool is_error = false) { notice_ = Notice{std::move(text), is_error}; }
@@ -182,7 +189,7 @@ class App final : public EventReceiver {
   BallSettings thrown_ball(double x, double y) const;
   Camera view_camera() const;
 
-  gl::Context& context_;
+  gl::Context* context_;  // null between release_context() and adopt_context()
   SceneEditor editor_;
   CameraControl camera_;
   std::unique_ptr<Simulation> simulation_;

@@ -29,7 +29,7 @@ void App::start_recording() {
   options.path = film_settings_.path.empty() ? free_film_name(editor_.source(), options.format)
                                              : film_path(film_settings_.path, options.format);
   options.size = {pixels(viewport_.right - viewport_.left), pixels(viewport_.bottom - viewport_.top)};
-  auto started = Recording::start(context_, std::move(options));
+  auto started = Recording::start(*context_, std::move(options));
   if (!started) return tell(started.error());
   recording_ = std::move(*started);
   film_pace_.emplace(recording_->options().fps);

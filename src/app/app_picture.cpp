@@ -85,7 +85,7 @@ Status App::draw_picture(int width, int height) {
     state = *uploaded;
   }
   if (const Status drawn = renderer_->draw(width, height, *state, options); !drawn) return drawn;
-  if (context_.info().is_software) glFinish();
+  if (context_->info().is_software) glFinish();
   drawn_model_ = simulation_->model_number();
   drawn_state_ = simulation_->picture_number();
   drawn_view_ = options.view;
@@ -95,7 +95,7 @@ Status App::draw_picture(int width, int height) {
   drawn_width_ = width;
   drawn_height_ = height;
   draw_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (context_.info().is_software && !new_model) adapt_scale(draw_seconds_);
+  if (context_->info().is_software && !new_model) adapt_scale(draw_seconds_);
   return {};
 }
 

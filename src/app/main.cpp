@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/app.h"
+#include "app/revival.h"
 #include "app/window.h"
 #include "cli/arguments.h"
 #include "cli/console.h"
@@ -48,7 +49,14 @@ int show(const cli::ViewOptions& view) {
     // After a pause of the whole program time goes on, it does not catch up.
     const double dt = std::min(std::chrono::duration<double>(now - last).count(), 0.25);
     last = now;
-    if (const Status drawn = (*app)->frame((*window)->size(), dt); !drawn) error = drawn.error();
+    if (const Status drawn = (*app)->frame((*window)->size(), dt); !drawn) {
+      error = drawn.error();
+      if (!(*window)->context().lost()) continue;
+      window = replace_window(**app, std::move(*window), *error);
+      if (!window) return fail(window.error());
+      error.reset();
+      continue;
+    }
     (*window)->show_picture();
     if ((*app)->title() != title) (*window)->set_title(title = (*app)->title());
   }

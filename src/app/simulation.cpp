@@ -31,7 +31,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(gl::Context& context, con
   return s;
 }
 
-Simulation::Simulation(gl::Context& context) : context_(context), history_(most_history_bytes) {}
+Simulation::Simulation(gl::Context& context) : context_(&context), history_(most_history_bytes) {}
 
 Simulation::~Simulation() {
   worker_.finish();
@@ -51,7 +51,7 @@ Result<Simulation::Engine> Simulation::make_engine(const Model& model, BackendNa
   options.shader_directory = std::move(*directory);
   options.arithmetic = arithmetic_;
   options.like = engine_.gpu ? engine_.gpu : shadow_.gpu;
-  auto solver = make_gpu_solver(context_, model, options);
+  auto solver = make_gpu_solver(*context_, model, options);
   if (!solver) return solver.error();
   engine.gpu = solver->get();
   engine.solver = std::move(*solver);
@@ -245,6 +245,19 @@ Status Simulation::fall_back(const Error& error) {
       "{} The reference goes on from the last copy, {:.2f} s old (t = {:.6g} s; {} steps are done again).",
       error.message, age, static_cast<double>(snapshot_.step) * model_->simulation.timestep, lost);
   return load(State(snapshot_));
+}
+
+Status Simulation::leave_gpu(const Error& why) {
+  if (!engine_.gpu && !shadow_.gpu) {
+    message_ = why.message;
+    return {};
+  }
+  return fall_back(why);
+}
+
+void Simulation::set_context(gl::Context& context) {
+  context_ = &context;
+  arithmetic_.reset();
 }
 
 // ---- hands ----

@@ -66,6 +66,11 @@ class Simulation {
   /// window was lost, say. Errors: those of check_sizes and of the device.
   Status start_from(const Setup& setup, const State& state);
   const Setup& setup() const { return setup_; }
+  /// Before the context goes: whatever is on the gpu goes on on the reference, from the last copy;
+  /// take_message() tells `why`.
+  Status leave_gpu(const Error& why);
+  /// The context of solvers to come, after leave_gpu().
+  void set_context(gl::Context& context);
   BackendName backend() const { return engine_.gpu ? BackendName::gpu : BackendName::reference; }
   const Solver& solver() const { return *engine_.solver; }
   GpuSolver* gpu() { return engine_.gpu; }
@@ -192,7 +197,7 @@ class Simulation {
   void forget_past();
   void forget_future();
 
-  gl::Context& context_;
+  gl::Context* context_;
   Setup setup_;
   std::unique_ptr<Model> model_;
   Engine engine_, shadow_;
