@@ -42,9 +42,15 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, gl::debug_by_default ? GLFW_TRUE : GLFW_FALSE);
+  // To be told when the device is lost; where a driver refuses that, without.
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   w->window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  if (!w->window_) {
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
+    w->window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  }
   if (!w->window_)
     return Error{ErrorCode::no_device,
                  fmt::format("No window with OpenGL 4.3 core can be opened: {}. Install a newer driver "

@@ -33,15 +33,15 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
                     human_bytes(limit), limit)};
 
   // An error from before would be taken for this allocation's; on debug contexts the message was kept.
-  while (glGetError() != GL_NO_ERROR) {
-  }
+  context.forget_errors();
   Buffer buffer;
   buffer.context_ = &context;
   glGenBuffers(1, &buffer.id_);
   glBindBuffer(target, buffer.id_);
   glBufferData(target, static_cast<GLsizeiptr>(std::max(bytes, token_bytes)), nullptr,
                storage ? GL_DYNAMIC_COPY : GL_DYNAMIC_DRAW);
-  const GLenum error = glGetError();
+  const GLenum error = context.strikes(Fault::out_of_memory) ? GL_OUT_OF_MEMORY : glGetError();
+  if (error != GL_NO_ERROR && context.lost()) return context.lost_error();
   if (error != GL_NO_ERROR)
     return Error{
         ErrorCode::scene_rejected,

@@ -28,7 +28,7 @@ class Buffer {
   /// Allocates `bytes` of undefined content; 0 is legal (a token allocation is made, so that it can be
   /// bound). `name` appears in errors and, on debug contexts, in the driver's messages. Error
   /// (scene_rejected): more than the device's block size, or the device has no memory left; the sentence
-  /// gives the figures. No GL error is left behind.
+  /// gives the figures. Error (no_device): the context is lost. No GL error is left behind.
   static Result<Buffer> create(Context& context, std::string name, std::uint64_t bytes,
                                BufferKind kind = BufferKind::storage);
 
@@ -86,7 +86,8 @@ class Buffer {
   std::uint64_t bytes_ = 0;
 };
 
-/// Makes and fills one buffer after another, and stops at the first that cannot be made: status() has its error.
+/// Makes and fills one buffer after another, and stops at the first that cannot be made: status() has its
+/// error.
 class BufferFiller {
  public:
   /// The context must be current and outlive the buffers.

@@ -11,6 +11,8 @@ namespace aspic::gl {
 namespace {
 
 constexpr std::size_t max_messages = 256;
+/// A lost context may have an error for every call.
+constexpr int most_errors = 64;
 
 Severity severity_of(GLenum severity) {
   switch (severity) {
@@ -92,8 +94,51 @@ void Context::clear_messages() {
 }
 
 bool Context::lost() {
-  if (!lost_ && info_.robust) lost_ = glGetGraphicsResetStatus() != GL_NO_ERROR;
+  if (lost_) return true;
+  lost_ = strikes(Fault::lost_context) || (info_.robust && glGetGraphicsResetStatus() != GL_NO_ERROR);
   return lost_;
+}
+
+bool Context::ran_out_of_memory() {
+  bool found = strikes(Fault::out_of_memory);
+  for (int n = 0; n < most_errors; ++n) {
+    const GLenum error = glGetError();
+    if (error == GL_NO_ERROR) break;
+    if (error == GL_OUT_OF_MEMORY) {
+      found = true;
+    } else if (error != GL_CONTEXT_LOST) {
+      receive({Severity::high, error, fmt::format("GL error 0x{:04x}", error)});
+    }
+  }
+  return found;
+}
+
+void Context::forget_errors() {
+  for (int n = 0; n < most_errors && glGetError() != GL_NO_ERROR; ++n) {
+  }
+}
+
+Error Context::lost_error() const {
+  return {
+      ErrorCode::no_device,
+      fmt::format("The device {} was reset or lost, and all that it held with it. Run again from the last "
+                  "checkpoint, or choose --backend reference.",
+                  info_.renderer)};
+}
+
+void Context::inject_fault(Fault fault, std::uint64_t after) {
+  faults_[static_cast<std::size_t>(fault)] = after;
+}
+
+bool Context::strikes(Fault fault) {
+  std::optional<std::uint64_t>& left = faults_[static_cast<std::size_t>(fault)];
+  if (!left) return false;
+  if (*left > 0) {
+    --*left;
+    return false;
+  }
+  left.reset();
+  return true;
 }
 
 }  // namespace aspic::gl

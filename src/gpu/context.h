@@ -1,8 +1,10 @@
 #pragma once
 // An OpenGL 4.3 core context: its own through EGL, without a display, or a window's.
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +57,12 @@ struct DebugMessage {
   std::string text;
 };
 
+/// What a driver does on a bad day; see Context::inject_fault.
+enum class Fault {
+  lost_context,  ///< the device was reset, and all that this context held is gone
+  out_of_memory  ///< an allocation failed
+};
+
 class ProgramCache;
 
 /// The address of a GL function, or null: eglGetProcAddress, glfwGetProcAddress.
@@ -84,8 +92,22 @@ class Context {
 
   const DeviceInfo& info() const { return info_; }
 
-  /// Polls glGetGraphicsResetStatus; once true it stays true. Always false where the context is not robust.
+  /// Polls glGetGraphicsResetStatus; once true it stays true. Always false where the context is not robust,
+  /// injected faults excepted.
   bool lost();
+  /// Whether the driver has failed to allocate (GL_OUT_OF_MEMORY) since this was last asked: drivers may put
+  /// an allocation off until the memory is used. Other GL errors found on the way become messages of high
+  /// severity.
+  bool ran_out_of_memory();
+  /// Takes pending GL errors off the record.
+  void forget_errors();
+  /// Error (no_device): the sentence about a lost context.
+  Error lost_error() const;
+
+  /// For tests: the driver's fault strikes at its next chance, or after so many chances have passed. Chances
+  /// of lost_context are calls of lost(); those of out_of_memory are the making of a buffer or a texture and
+  /// calls of ran_out_of_memory(). No GL call is made for it, so that the context itself goes on working.
+  void inject_fault(Fault fault, std::uint64_t after = 0);
 
   /// The last KHR_debug messages, oldest first: at most 256, high severity kept in preference. Empty without
   /// debug.
@@ -104,15 +126,19 @@ class Context {
 
  private:
   friend class Buffer;
+  friend class Texture;
   friend class EglContextMaker;
   Context();
   void start(std::string platform);
   void receive(DebugMessage message);
+  /// Whether an injected fault's time has come; it has only one.
+  bool strikes(Fault fault);
 
   void* display_ = nullptr;  // EGLDisplay and EGLContext; null for an adopted context
   void* context_ = nullptr;
   DeviceInfo info_;
   bool lost_ = false;
+  std::array<std::optional<std::uint64_t>, 2> faults_;  // by Fault: chances left to let pass
   std::unique_ptr<ProgramCache> programs_;
   std::uint64_t bytes_held_ = 0;
   std::uint64_t high_severity_count_ = 0;

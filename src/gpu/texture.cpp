@@ -56,8 +56,7 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
       return Error{ErrorCode::no_device, fmt::format("{} takes at most {} samples per pixel, not {}.",
                                                      context.info().renderer, most, settings.samples)};
   }
-  while (glGetError() != GL_NO_ERROR) {
-  }
+  context.forget_errors();
   Texture texture;
   texture.settings_ = settings;
   glGenTextures(1, &texture.id_);
@@ -77,7 +76,8 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
     glTexParameteri(target, GL_TEXTURE_MIN_FILTER, settings.mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
     glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   }
-  const GLenum error = glGetError();
+  const GLenum error = context.strikes(Fault::out_of_memory) ? GL_OUT_OF_MEMORY : glGetError();
+  if (error != GL_NO_ERROR && context.lost()) return context.lost_error();
   if (error != GL_NO_ERROR)
     return Error{ErrorCode::scene_rejected,
                  fmt::format("{} has no memory for the image \"{}\" of {} x {} pixels with {} sample{} (GL "

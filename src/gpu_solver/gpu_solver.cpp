@@ -60,7 +60,10 @@ class ComputeSolver final : public GpuSolver {
   const gl::Arithmetic& arithmetic() const override { return arithmetic_; }
   const std::shared_ptr<const SpringBuffers>& spring_buffers() const override { return springs_; }
 
-  Status load(const State& state) override;
+  Status load(const State& state) override {
+    const Status taken = take(state);
+    return taken ? check_device(context_) : taken;
+  }
   Status set_pull(const std::optional<Pull>& pull) override { return pull_.set(model_, pull); }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   Result<State> state() override;
@@ -72,6 +75,7 @@ class ComputeSolver final : public GpuSolver {
  private:
   /// Kinds of passes, for the profiler; the balls' follow.
   enum Kind : std::size_t { springs_kind, particles_kind, ball_kinds };
+  Status take(const State& state);
   Status build_buffers(const GpuOptions& options);
   Status build_passes(const GpuOptions& options);
   void queue_step(std::uint32_t step_index, bool last_of_queue);
@@ -110,7 +114,8 @@ Status ComputeSolver::build(const GpuOptions& options) {
   if (const Status made = build_passes(options); !made) return made;
   bytes_ = context_.bytes_held() - held_before;
   if (springs_.use_count() > 1) bytes_ += springs_->bytes();  // held before, by the solver it shares with
-  return load(initial_state(model_, Precision::single));
+  if (const Status loaded = take(initial_state(model_, Precision::single)); !loaded) return loaded;
+  return check_device(context_, ErrorCode::scene_rejected);
 }
 
 Status ComputeSolver::build_buffers(const GpuOptions& options) {
@@ -169,7 +174,7 @@ Status ComputeSolver::build_passes(const GpuOptions& options) {
                       options.ball_search);
 }
 
-Status ComputeSolver::load(const State& state) {
+Status ComputeSolver::take(const State& state) {
   std::vector<layout::Particle> particles;
   ASPIC_ASSIGN_OR_RETURN(particles, to_device(state, model_));
   current_ = 0;
@@ -181,7 +186,7 @@ Status ComputeSolver::load(const State& state) {
   base_step_ = state.step;
   steps_since_ = 0;
   divergence_.reset();
-  return check_device(context_);
+  return {};
 }
 
 void ComputeSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
@@ -264,9 +269,9 @@ Result<layout::Control> ComputeSolver::read_control() {
 
 Result<State> ComputeSolver::state() {
   const auto particles = states_[current_].download_items<layout::Particle>(model_.particle_count());
-  if (const Status ok = check_device(context_); !ok) return ok.error();
   State state = from_device(particles, base_step_ + steps_since_);
   balls_.read(state, ball_parity_);
+  if (const Status ok = check_device(context_); !ok) return ok.error();
   return state;
 }
 
@@ -292,6 +297,7 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
     return Error{ErrorCode::scene_rejected,
                  "the force path lattice is not built yet in this version: use gather or per-spring"};
   }
+  if (context.lost()) return context.lost_error();
   // Without particles there is nothing to solve: balls fly by the formula.
   if (model.simulation.integrator == Integrator::implicit_euler && model.particle_count() > 0) {
     if (options.force_path == ForcePath::per_spring) {

@@ -75,7 +75,8 @@ class GpuSolver : public Solver {
 
 /// A gpu solver at the model's initial state. Model and context must outlive it; the context must be current
 /// here and in every call. Errors: scene_rejected (not built yet, or larger than the device's buffers or
-/// index words), no_device (the driver refuses a kernel), io (a shader file cannot be read).
+/// index words, or the device has no memory left: the sentence gives the figures), no_device (the driver
+/// refuses a kernel, or the context is lost), io (a shader file cannot be read).
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
                                                    const GpuOptions& options = {});
 

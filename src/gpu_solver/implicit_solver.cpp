@@ -55,7 +55,10 @@ class ImplicitSolver final : public GpuSolver {
   const gl::Arithmetic& arithmetic() const override { return arithmetic_; }
   const std::shared_ptr<const SpringBuffers>& spring_buffers() const override { return springs_; }
 
-  Status load(const State& state) override;
+  Status load(const State& state) override {
+    const Status taken = take(state);
+    return taken ? check_device(context_) : taken;
+  }
   Status set_pull(const std::optional<Pull>& pull) override { return pull_.set(model_, pull); }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   std::optional<SolveStatistics> solve_statistics() override { return statistics_; }
@@ -66,6 +69,7 @@ class ImplicitSolver final : public GpuSolver {
   }
 
  private:
+  Status take(const State& state);
   Status build_buffers(const GpuOptions& options);
   void dispatch(Kernel kernel, Reader readers = Reader::compute_pass) const {
     passes_[kernel].dispatch_for(model_.particle_count(), {}, readers);
@@ -148,10 +152,11 @@ Status ImplicitSolver::build(const GpuOptions& options) {
   }
   bytes_ = context_.bytes_held() - held_before;
   if (springs_.use_count() > 1) bytes_ += springs_->bytes();  // held before, by the solver it shares with
-  return load(initial_state(model_, Precision::single));
+  if (const Status loaded = take(initial_state(model_, Precision::single)); !loaded) return loaded;
+  return check_device(context_, ErrorCode::scene_rejected);
 }
 
-Status ImplicitSolver::load(const State& state) {
+Status ImplicitSolver::take(const State& state) {
   std::vector<layout::Particle> particles;
   ASPIC_ASSIGN_OR_RETURN(particles, to_device(state, model_));
   states_[0].upload_items(std::span<const layout::Particle>(particles));
@@ -162,7 +167,7 @@ Status ImplicitSolver::load(const State& state) {
   base_step_ = state.step;
   statistics_ = {};
   divergence_.reset();
-  return check_device(context_);
+  return {};
 }
 
 void ImplicitSolver::write_solve() {
@@ -170,10 +175,12 @@ void ImplicitSolver::write_solve() {
 }
 
 Status ImplicitSolver::read_solve() {
-  const layout::Solve before = solve_;
-  solve_ = solve_buffer_.download_items<layout::Solve>(1).front();
+  // A lost device answers with anything, also with a parity that names no state.
+  const layout::Solve read = solve_buffer_.download_items<layout::Solve>(1).front();
+  if (const Status ok = check_device(context_); !ok) return ok;
+  const layout::Solve before = std::exchange(solve_, read);
   take_statistics(before);
-  return check_device(context_);
+  return {};
 }
 
 /// The device's counters are 32-bit and wrap; their differences between two looks are right all the same.
@@ -249,9 +256,9 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
 
 Result<State> ImplicitSolver::state() {
   const auto particles = states_[solve_.parity].download_items<layout::Particle>(model_.particle_count());
-  if (const Status ok = check_device(context_); !ok) return ok.error();
   State state = from_device(particles, base_step_ + solve_.step);
   balls_.read(state, solve_.parity);
+  if (const Status ok = check_device(context_); !ok) return ok.error();
   return state;
 }
 

@@ -30,14 +30,14 @@ State from_device(std::span<const layout::Particle> particles, std::uint64_t ste
   return state;
 }
 
-Status check_device(gl::Context& context) {
-  if (!context.lost()) return {};
+Status check_device(gl::Context& context, ErrorCode memory_code) {
+  if (context.lost()) return context.lost_error();
+  if (!context.ran_out_of_memory()) return {};
   return Error{
-      ErrorCode::no_device,
-      fmt::format(
-          "{} was reset or lost, and with it the state since the last checkpoint: run again from there, or "
-          "choose --backend reference",
-          context.info().renderer)};
+      memory_code,
+      fmt::format("The device {} ran out of memory at work, with {} ({} bytes) held in buffers. Make the "
+                  "scene smaller, close other programs that use the device, or choose --backend reference.",
+                  context.info().renderer, gl::human_bytes(context.bytes_held()), context.bytes_held())};
 }
 
 Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model) {

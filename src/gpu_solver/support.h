@@ -28,8 +28,9 @@ Result<std::vector<layout::Particle>> to_device(const State& state, const Model&
 /// The other way, exactly; without balls.
 State from_device(std::span<const layout::Particle> particles, std::uint64_t step);
 
-/// Error (no_device) if the context was reset or lost.
-Status check_device(gl::Context& context);
+/// Error (no_device): the context was reset or lost. Error (`memory_code`): the driver ran out of memory
+/// while at work, so that what it computed is not to be trusted.
+Status check_device(gl::Context& context, ErrorCode memory_code = ErrorCode::no_device);
 
 /// The divergence a kernel's word for it means (layout.glsl, Control and Solve).
 Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model);

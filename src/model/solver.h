@@ -46,14 +46,15 @@ class Solver {
   /// divergence. Error (usage): the state has another number of particles or balls.
   virtual Status load(const State& state) = 0;
   /// Pulls a particle from the next step on, until it is called again; nothing: lets go. A new solver pulls
-  /// nobody; load() leaves the pull as it is. Cheap enough for every picture, and ordered after the steps that
-  /// advance() did. Errors as rounded_pull (usage): then the pull stays what it was.
+  /// nobody; load() leaves the pull as it is. Cheap enough for every picture, and ordered after the steps
+  /// that advance() did. Errors as rounded_pull (usage): then the pull stays what it was.
   virtual Status set_pull(const std::optional<Pull>& pull) = 0;
-  /// Advances by `steps`, fewer only after a divergence, which is returned. Error: the device was lost.
+  /// Advances by `steps`, fewer only after a divergence, which is returned. Error
+  /// (no_device): the device was lost or ran out of memory; the solver is of no use from then on.
   virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;
   /// What implicit Euler's solves came to since the last load(); nothing with other integrators.
   virtual std::optional<SolveStatistics> solve_statistics() { return std::nullopt; }
-  /// A copy of the current state.
+  /// A copy of the current state. Error (no_device): as advance().
   virtual Result<State> state() = 0;
 };
 

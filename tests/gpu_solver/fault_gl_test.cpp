@@ -1,0 +1,153 @@
+// What a gpu solver says when the device is lost or out of memory, and that nothing is left behind. Each test
+// has a context of its own.
+#include <glad/gl.h>
+#include <gmock/gmock.h>
+
+#include "cpu_reference/reference_solver.h"
+#include "gpu_solver/gpu_solver.h"
+#include "support/gl_fixture.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+using gl::Fault;
+using ::testing::HasSubstr;
+
+struct Case {
+  Integrator integrator;
+  ForcePath path;
+};
+constexpr Case cases[] = {{Integrator::runge_kutta_4, ForcePath::gather},
+                          {Integrator::runge_kutta_4, ForcePath::per_spring},
+                          {Integrator::implicit_euler, ForcePath::gather}};
+
+class FaultySolverGl : public aspic::testing::GlTest {
+ protected:
+  void TearDown() override {
+    own_.reset();
+    ASSERT_TRUE(context().make_current().ok());
+    GlTest::TearDown();
+  }
+
+  /// A fresh context, in which no fault has struck yet.
+  gl::Context& own() {
+    auto made = gl::Context::create_headless({.debug = true, .device = gl::DeviceChoice::software});
+    EXPECT_TRUE(made.ok());
+    own_ = std::move(made).value();
+    return *own_;
+  }
+
+  static Result<std::unique_ptr<GpuSolver>> make(gl::Context& context, const Model& model, const Case& c) {
+    GpuOptions options;
+    options.force_path = c.path;
+    options.ball_search = BallSearch::grid;
+    return make_gpu_solver(context, model, options);
+  }
+
+  static Model scene(Integrator integrator) {
+    ModelSettings settings = test::cube_on_plane(4, 1.9);
+    settings.simulation.integrator = integrator;
+    settings.balls.push_back({0.5, 2.0, {0.2, 6.0, 0.1}, {0.0, -9.0, 0.0}, {}});
+    return test::build(settings);
+  }
+
+  /// GL buffers that exist in the current context.
+  static int live_buffers() {
+    int count = 0;
+    for (GLuint name = 1; name < 4096; ++name) count += glIsBuffer(name) == GL_TRUE;
+    return count;
+  }
+
+  std::unique_ptr<gl::Context> own_;
+};
+
+TEST_F(FaultySolverGl, ALostDeviceEndsEveryCallWithASentence) {
+  for (const Case& c : cases) {
+    gl::Context& device = own();
+    const Model model = scene(c.integrator);
+    auto solver = std::move(make(device, model, c)).value();
+    ASSERT_TRUE(solver->advance(5).ok());
+    const State last = *solver->state();
+    device.inject_fault(Fault::lost_context);
+    const auto advanced = solver->advance(5);
+    ASSERT_FALSE(advanced.ok());
+    EXPECT_EQ(advanced.error().code, ErrorCode::no_device);
+    EXPECT_THAT(advanced.error().message, HasSubstr("was reset or lost"));
+    EXPECT_THAT(advanced.error().message, HasSubstr(device.info().renderer));
+    EXPECT_EQ(solver->advance(1).error().code, ErrorCode::no_device);
+    EXPECT_EQ(solver->state().error().code, ErrorCode::no_device);
+    EXPECT_EQ(solver->load(last).error().code, ErrorCode::no_device);
+    EXPECT_EQ(make(device, model, c).error().code, ErrorCode::no_device);
+    EXPECT_NE(solver->particles().id(), 0u);
+
+    // The run goes on elsewhere from the last copy, with the bits it would have had.
+    auto whole = std::move(make_reference_solver(model, Precision::single)).value();
+    auto rescue = std::move(make_reference_solver(model, Precision::single)).value();
+    ASSERT_TRUE(rescue->load(last).ok());
+    ASSERT_TRUE(rescue->advance(20).ok());
+    ASSERT_TRUE(whole->advance(25).ok());
+    EXPECT_EQ(*rescue->state(), *whole->state());
+  }
+}
+
+TEST_F(FaultySolverGl, ALossFoundByStateIsReportedThere) {
+  for (const Case& c : cases) {
+    gl::Context& device = own();
+    const Model model = scene(c.integrator);
+    auto solver = std::move(make(device, model, c)).value();
+    device.inject_fault(Fault::lost_context);
+    EXPECT_EQ(solver->state().error().code, ErrorCode::no_device);
+  }
+}
+
+// Wherever among the allocations memory runs out, also after the last of them: the scene is refused with
+// figures, nothing stays behind, and the next attempt succeeds.
+TEST_F(FaultySolverGl, RunningOutOfMemoryRefusesTheSceneAndLeaksNothing) {
+  for (const Case& c : cases) {
+    gl::Context& device = own();
+    const Model model = scene(c.integrator);
+    { ASSERT_TRUE(make(device, model, c).ok()); }  // kernels that stay with the context
+    ASSERT_EQ(device.bytes_held(), 0u);
+    const int buffers = live_buffers();
+    std::uint64_t chance = 0;
+    for (;; ++chance) {
+      ASSERT_LT(chance, 100u);
+      device.inject_fault(Fault::out_of_memory, chance);
+      const auto made = make(device, model, c);
+      if (made.ok()) break;
+      EXPECT_EQ(made.error().code, ErrorCode::scene_rejected) << chance;
+      EXPECT_THAT(made.error().message, HasSubstr("memory"));
+      EXPECT_THAT(made.error().message, HasSubstr("held"));
+      EXPECT_THAT(made.error().message, HasSubstr("bytes"));
+      EXPECT_EQ(device.bytes_held(), 0u) << chance;
+      EXPECT_EQ(live_buffers(), buffers) << chance;
+    }
+    EXPECT_GE(chance, 10u) << "each buffer is a chance";
+    EXPECT_EQ(device.bytes_held(), 0u);
+    EXPECT_EQ(live_buffers(), buffers);
+  }
+}
+
+TEST_F(FaultySolverGl, RunningOutOfMemoryAtWorkIsNoticed) {
+  for (const Case& c : cases) {
+    gl::Context& device = own();
+    const Model model = scene(c.integrator);
+    auto solver = std::move(make(device, model, c)).value();
+    ASSERT_TRUE(solver->advance(2).ok());
+    device.inject_fault(Fault::out_of_memory);
+    const auto advanced = solver->advance(2);
+    ASSERT_FALSE(advanced.ok());
+    EXPECT_EQ(advanced.error().code, ErrorCode::no_device);
+    EXPECT_THAT(advanced.error().message, HasSubstr("ran out of memory"));
+    device.inject_fault(Fault::out_of_memory);
+    EXPECT_EQ(solver->state().error().code, ErrorCode::no_device);
+    // The memory is there again: so is the solver, from a state that is known to be good.
+    ASSERT_TRUE(solver->load(initial_state(model, Precision::single)).ok());
+    ASSERT_TRUE(solver->advance(2).ok());
+    EXPECT_EQ(solver->state()->step, 2u);
+  }
+}
+
+}  // namespace
+}  // namespace aspic
