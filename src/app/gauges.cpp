@@ -146,6 +146,7 @@ void performance_section(App& app) {
     figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * app.draw_scale()),
            "A software rasteriser draws: pictures are coarser while something moves.");
   }
+  pass_times(app);
   const Model& model = s.model();
   figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
   figure("Springs", fmt::format("{}", model.springs.size()), "Springs of all types.");

@@ -24,6 +24,8 @@ void balls_section(App& app);
 void shadow_section(App& app);
 /// What is known of the particle under the mouse, beside it.
 void hover_tooltip(App& app);
+/// Of the gpu, by kind of pass; part of the performance section.
+void pass_times(App& app);
 /// The bar of the history, into that box.
 void draw_timeline(App& app, const Box& box);
 

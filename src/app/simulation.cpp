@@ -248,11 +248,7 @@ Status Simulation::fall_back(const Error& error) {
 }
 
 Status Simulation::leave_gpu(const Error& why) {
-  if (!engine_.gpu && !shadow_.gpu) {
-    message_ = why.message;
-    return {};
-  }
-  return fall_back(why);
+  return engine_.gpu || shadow_.gpu ? fall_back(why) : Status();
 }
 
 void Simulation::set_context(gl::Context& context) {

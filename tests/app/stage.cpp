@@ -2,6 +2,7 @@
 
 #include <glad/gl.h>
 
+#include "app/revival.h"
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic::test {
@@ -48,6 +49,20 @@ void Stage::frames(int count) {
     const Status drawn = app_->frame(window_->size(), 1.0 / 60.0);
     ASSERT_TRUE(drawn.ok()) << drawn.error().message;
     window_->show_picture();
+  }
+}
+
+void Stage::lose_device(std::uint64_t chance) {
+  context().inject_fault(gl::Fault::lost_context, chance);
+  for (int i = 0;; ++i) {
+    ASSERT_LT(i, 1000) << "the device was never missed";
+    const Status drawn = app_->frame(window_->size(), 1.0 / 60.0);
+    if (drawn) continue;
+    ASSERT_TRUE(context().lost());
+    auto other = app::replace_window(*app_, std::move(window_), drawn.error());
+    ASSERT_TRUE(other.ok()) << other.error().message;
+    window_ = std::move(*other);
+    return;
   }
 }
 

@@ -37,6 +37,11 @@ class Stage : public ::testing::Test {
   /// Pictures until the camera stands still.
   void frames_to_rest();
 
+  /// The device is lost, as the `chance`-th look for it from now on finds (0: the next); pictures go on until
+  /// the window is replaced.
+  void lose_device(std::uint64_t chance);
+  gl::Context& context() { return window_->context(); }
+
   void press(int key, int modifiers = 0);
   void type(char32_t character);
   void drag(int button, double x, double y, double dx, double dy, int modifiers = 0);
