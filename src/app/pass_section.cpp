@@ -27,7 +27,11 @@ void pass_times(App& app) {
   const float column = ImGui::GetWindowContentRegionMax().x * 0.52f;
   for (const gl::PassTime& pass : passes) {
     ImGui::TextDisabled("   %s", pass.name.c_str());
-    ImGui::SameLine(column);
+    // A long name has a line of its own.
+    if (ImGui::GetItemRectSize().x + 4.0f < column)
+      ImGui::SameLine(column);
+    else
+      ImGui::SetCursorPosX(column);
     ImGui::Text("%.3f ms  ×%.3g", pass.milliseconds, pass.dispatches);
     sum += pass.milliseconds;
   }
