@@ -39,6 +39,7 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   if (!simulation) return simulation.error();
   app->simulation_ = std::move(*simulation);
   if (const Status ready = app->make_pictures(scale, std::move(services)); !ready) return ready.error();
+  app->take_on(options.kept, options.overrides);
   return app;
 }
 
@@ -55,6 +56,7 @@ Status App::make_pictures(double scale, WindowServices services) {
   if (!gui) return gui.error();
   renderer_ = std::move(*renderer);
   gui_ = std::move(*gui);
+  gui_->set_text_size(layout_.text_size);
   return {};
 }
 
@@ -213,6 +215,7 @@ void App::toggle_backend() {
 }
 
 void App::open(const std::string& source) {
+  keep_camera();
   const SceneEditor before = editor_;
   if (const Status opened = editor_.replace(source); !opened) return tell(opened);
   const Status changed = simulation_->change(editor_.scene(), false);
@@ -229,6 +232,7 @@ void App::scene_replaced() {
   notice_.reset();
   tell(simulation_->reset());
   camera_ = CameraControl(editor_.scene().view.camera);
+  recall_camera();
 }
 
 void App::open_neighbour(int offset) {

@@ -13,6 +13,7 @@
 #include "app/camera_control.h"
 #include "app/film_pace.h"
 #include "app/gui.h"
+#include "app/kept_state.h"
 #include "app/recording.h"
 #include "app/scene_editor.h"
 #include "app/simulation.h"
@@ -26,6 +27,7 @@ struct AppOptions {
   std::string scene = "cube-plane";    ///< file or built-in name
   std::vector<std::string> overrides;  ///< KEY=VALUE
   std::optional<BackendName> backend;  ///< absent: the gpu where it is hardware, else the reference
+  KeptState kept = {};                 ///< how the window was last left
 };
 
 /// A line to the user, on top of the picture until dismissed or replaced.
@@ -125,7 +127,7 @@ class App final : public EventReceiver {
   void toggle_shadow();
   /// Shadows on terrain, in the window alone.
   bool& shadows() { return shadows_; }
-  void toggle_panels() { panels_visible_ = !panels_visible_; }
+  void toggle_panels() { layout_.panels = !layout_.panels; }
   void toggle_help() { help_visible_ = !help_visible_; }
   void toggle_full_screen();
   void set_value(const Parameter& parameter, std::size_t index, const Value& value,
@@ -138,7 +140,10 @@ class App final : public EventReceiver {
   CameraControl& camera() { return camera_; }
   Gui& gui() { return *gui_; }
   const gl::DeviceInfo& device() const { return context_->info(); }
-  bool panels_visible() const { return panels_visible_; }
+  bool panels_visible() const { return layout_.panels; }
+  Layout& layout() { return layout_; }
+  /// How things stand, for the next time; the window's own place is not known here.
+  KeptState kept_state() const;
   bool help_visible() const { return help_visible_; }
   const std::optional<Notice>& notice() const { return notice_; }
   const std::optional<Hovered>& hovered() const { return hovered_; }
@@ -167,6 +172,9 @@ class App final : public EventReceiver {
   void read_again();
   void watch_file(double dt);
   void watch_divergence();
+  void take_on(const KeptState& kept, const std::vector<std::string>& overrides);
+  void keep_camera();
+  void recall_camera();
   Status draw_scene(const WindowSize& size);
   Status draw_picture(int width, int height);
   void film();
@@ -195,6 +203,8 @@ class App final : public EventReceiver {
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<Gui> gui_;
+  Layout layout_;
+  std::vector<KeptCamera> cameras_;
   FilmSettings film_settings_;
   std::unique_ptr<Recording> recording_;
   std::optional<FilmPace> film_pace_;
@@ -206,7 +216,7 @@ class App final : public EventReceiver {
   bool divergence_told_ = false;
   Effect pending_ = Effect::none;
   double rebuild_seconds_ = 0.0, since_rebuild_ = 0.0;
-  bool panels_visible_ = true, help_visible_ = false, screenshot_wanted_ = false;
+  bool help_visible_ = false, screenshot_wanted_ = false;
 
   Box viewport_;
   double mouse_x_ = -1.0, mouse_y_ = -1.0;

@@ -10,6 +10,41 @@
 
 namespace aspic::app {
 
+void App::take_on(const KeptState& kept, const std::vector<std::string>& overrides) {
+  layout_ = kept.layout;
+  gui_->set_text_size(layout_.text_size);
+  simulation_->pace = kept.pace;
+  simulation_->speed = kept.speed;
+  film_settings_ = {kept.film_format, kept.film_fps, kept.film_text, ""};
+  cameras_ = kept.cameras;
+  const auto sets_camera = [](const std::string& set) { return set.starts_with("view.camera"); };
+  if (std::ranges::none_of(overrides, sets_camera)) recall_camera();
+}
+
+KeptState App::kept_state() const {
+  KeptState kept;
+  kept.layout = layout_;
+  kept.pace = simulation_->pace;
+  kept.speed = simulation_->speed;
+  kept.film_format = film_settings_.format;
+  kept.film_fps = film_settings_.fps;
+  kept.film_text = film_settings_.text;
+  kept.cameras = cameras_;
+  const CameraSettings camera = camera_.goal();
+  app::keep_camera(kept.cameras, camera_key(editor_.source()),
+                   camera == camera_.home() ? std::nullopt : std::optional(camera));
+  return kept;
+}
+
+void App::keep_camera() {
+  cameras_ = kept_state().cameras;
+}
+
+void App::recall_camera() {
+  const auto kept = std::ranges::find(cameras_, camera_key(editor_.source()), &KeptCamera::scene);
+  if (kept != cameras_.end()) camera_.jump_to(kept->camera);
+}
+
 void App::frame_bodies() {
   if (const Status read = simulation_->refresh_snapshot(); !read) return tell(read);
   const State& state = simulation_->snapshot();

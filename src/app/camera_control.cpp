@@ -65,15 +65,25 @@ void CameraControl::zoom(double notches) {
   goal_.distance = std::clamp(goal_.distance * std::pow(0.9, notches), nearest, farthest);
 }
 
-void CameraControl::reset() {
-  // The short way round, however often the camera was turned.
+void CameraControl::come_round(double azimuth) {
   const double turn = 2.0 * std::numbers::pi;
-  const Orbit home = orbit_of(home_);
-  const double turns = std::round((shown_.azimuth - home.azimuth) / turn);
-  shown_.azimuth -= turns * turn;
-  goal_ = home;
+  shown_.azimuth -= turn * std::round((shown_.azimuth - azimuth) / turn);
   exact_shown_.reset();
+}
+
+void CameraControl::reset() {
+  const Orbit home = orbit_of(home_);
+  come_round(home.azimuth);
+  goal_ = home;
   exact_goal_ = home_;
+}
+
+void CameraControl::look_from(const Vec3& direction) {
+  const Orbit seen = orbit_of({goal_.target + direction, goal_.target, goal_.fov});
+  start_moving();
+  come_round(seen.azimuth);
+  goal_.azimuth = seen.azimuth;
+  goal_.elevation = seen.elevation;
 }
 
 void CameraControl::frame(const Vec3& centre, double radius, double aspect) {

@@ -25,6 +25,9 @@ class CameraControl {
   void frame(const Vec3& centre, double radius, double aspect);
   /// Turns to a point: the target comes to lie there, and the camera moves along with it.
   void centre(const Vec3& point);
+  /// Turns to where the eye sees the target along −direction, by the short way; target and distance stay. The
+  /// length of `direction` does not matter; straight above is 89° up, with −z away from the eye.
+  void look_from(const Vec3& direction);
   /// Takes on a camera at once, without easing.
   void jump_to(const CameraSettings& settings);
   /// A new home, which the camera does not go to by itself.
@@ -49,6 +52,8 @@ class CameraControl {
   static Orbit orbit_of(const CameraSettings& settings);
   static CameraSettings settings_of(const Orbit& orbit);
   void start_moving();
+  /// The shown camera as many whole turns away as brings it nearest to an azimuth [radians].
+  void come_round(double azimuth);
 
   CameraSettings home_;
   Orbit goal_, shown_;

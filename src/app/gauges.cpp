@@ -1,4 +1,4 @@
-// The sections that show: view, performance, energy.
+// The sections that show: performance and energy.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "app/app.h"
 #include "app/panels.h"
@@ -35,29 +36,26 @@ struct Curve {
   ImU32 colour;
   double (*value)(const Measures&);
 };
-constexpr std::array<Curve, 4> curves = {
+constexpr std::array<Curve, 4> energy_curves = {
     {{"kinetic", IM_COL32(242, 176, 92, 255), [](const Measures& m) { return m.kinetic; }},
      {"elastic", IM_COL32(120, 205, 140, 255), [](const Measures& m) { return m.elastic; }},
      {"gravitational", IM_COL32(110, 165, 240, 255), [](const Measures& m) { return m.gravitational; }},
      {"total", IM_COL32(230, 232, 236, 255), [](const Measures& m) { return m.total(); }}}};
 
-/// A camera value, which lives in the window and not in the scene until it is saved.
-void edit_camera(App& app, std::string_view path, std::string_view label) {
-  Scene scene;
-  scene.view.camera = app.camera().goal();
-  const Parameter& p = *find_parameter(path);
-  const auto change = parameter_widget(app.gui(), p, scene, 0, label);
-  if (!change || check_value(p, change->value)) return;
-  p.set(scene, 0, change->value);
-  if (length(scene.view.camera.position - scene.view.camera.target) > 1e-3)
-    app.camera().jump_to(scene.view.camera);
-}
+constexpr std::array<Curve, 4> momentum_curves = {
+    {{"p, along x", IM_COL32(238, 120, 110, 255), [](const Measures& m) { return m.momentum.x; }},
+     {"p, along y", IM_COL32(120, 205, 140, 255), [](const Measures& m) { return m.momentum.y; }},
+     {"p, along z", IM_COL32(110, 165, 240, 255), [](const Measures& m) { return m.momentum.z; }},
+     {"|p|", IM_COL32(230, 232, 236, 255), [](const Measures& m) { return length(m.momentum); }}}};
 
-void plot(const std::deque<EnergySample>& samples, double scale) {
-  const ImVec2 size = {ImGui::GetContentRegionAvail().x, static_cast<float>(150.0 * scale)};
+void plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples, std::span<const Curve> curves,
+          const char* unit, std::string_view help) {
+  const double scale = gui.scale();
+  const ImVec2 size = {ImGui::GetContentRegionAvail().x, static_cast<float>(130.0 * scale)};
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::Dummy(size);
-  tooltip("Energies over time [J]. Gravitational energy is zero at the origin.");
+  gui.mark(name);
+  tooltip(help);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 21, 23, 255), 4.0f);
   if (samples.size() < 2) return;
@@ -87,7 +85,7 @@ void plot(const std::deque<EnergySample>& samples, double scale) {
     draw.PathLineTo(place(samples.back().time, c.value(samples.back().measures)));
     draw.PathStroke(c.colour, 0, static_cast<float>(1.5 * scale));
   }
-  const std::string top = fmt::format("{:.4g} J", high), end = fmt::format("{:.3g} s", start + span);
+  const std::string top = fmt::format("{:.4g} {}", high, unit), end = fmt::format("{:.3g} s", start + span);
   draw.AddText({corner.x + pad, corner.y + 2.0f}, IM_COL32(140, 145, 152, 255), top.c_str());
   const ImVec2 text = ImGui::CalcTextSize(end.c_str());
   draw.AddText({corner.x + size.x - pad - text.x, corner.y + size.y - text.y - 2.0f},
@@ -95,36 +93,6 @@ void plot(const std::deque<EnergySample>& samples, double scale) {
 }
 
 }  // namespace
-
-void view_section(App& app) {
-  edit(app, "view.draw");
-  edit(app, "view.colour", 0, "Colour by");
-  ImGui::Checkbox("shadows", &app.shadows());
-  app.gui().mark("view/shadows");
-  tooltip(
-      "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Only of this "
-      "window: files and films of aspic run have them.");
-  edit_camera(app, "view.camera.position", "Camera");
-  edit_camera(app, "view.camera.target", "Looks at");
-  edit_camera(app, "view.camera.fov", "Field of view");
-  Gui& gui = app.gui();
-  const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float half = 0.5f * (ImGui::GetContentRegionAvail().x - gap);
-  if (button(gui, "camera/home", "Reset camera", "To the scene's own camera.", "reset the camera", true,
-             half))
-    app.camera().reset();
-  ImGui::SameLine();
-  if (button(gui, "camera/frame", "Frame bodies", "Turns to the bodies and takes all of them in.",
-             "frame the bodies", true, half))
-    app.frame_bodies();
-  if (button(gui, "camera/copy", "Copy", "The camera as text, a line for [view] of a scene file.",
-             "copy the camera as text", true, half))
-    app.copy_camera();
-  ImGui::SameLine();
-  if (button(gui, "camera/paste", "Paste", "Takes a camera from the clipboard.", "paste a camera", true,
-             half))
-    app.paste_camera();
-}
 
 void performance_section(App& app) {
   Simulation& s = app.simulation();
@@ -160,13 +128,21 @@ void performance_section(App& app) {
 
 void energy_section(App& app) {
   const auto& samples = app.simulation().energies();
-  plot(samples, app.gui().scale());
-  if (samples.empty()) return;
-  for (const Curve& c : curves) {
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(c.colour), "%s", c.name);
-    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
-    ImGui::Text("%.5g J", c.value(samples.back().measures));
-  }
+  const auto show = [&](const char* name, std::span<const Curve> curves, const char* unit,
+                        std::string_view help) {
+    plot(app.gui(), name, samples, curves, unit, help);
+    if (samples.empty()) return;
+    for (const Curve& c : curves) {
+      ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(c.colour), "%s", c.name);
+      tooltip(help);
+      ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
+      ImGui::Text("%.5g %s", c.value(samples.back().measures), unit);
+    }
+  };
+  show("energy/plot", energy_curves, "J",
+       "Energies of the run over time [J]. The gravitational one is zero at the origin.");
+  show("energy/momentum", momentum_curves, "N·s",
+       "Momentum Σ m·v of all that moves over time [N·s], by axis and as a whole.");
 }
 
 }  // namespace aspic::app

@@ -20,6 +20,8 @@ namespace app {
 namespace {
 
 constexpr float font_height = 15.0f;
+/// What a texture has room for.
+constexpr float largest_font = 96.0f;
 
 /// What labels, units and tooltips are written with.
 constexpr ImWchar characters[] = {0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027, 0x2070, 0x209f,
@@ -47,6 +49,13 @@ constexpr std::pair<ImGuiKey_, int> keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
                                               {ImGuiKey_X, GLFW_KEY_X},
                                               {ImGuiKey_Y, GLFW_KEY_Y},
                                               {ImGuiKey_Z, GLFW_KEY_Z}};
+
+/// Where the widget just made stands.
+Box last_item() {
+  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+  return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(b.x),
+          static_cast<double>(b.y)};
+}
 
 ImVec4 grey(float value, float alpha = 1.0f) {
   return {value, value * 1.02f, value * 1.07f, alpha};
@@ -108,17 +117,26 @@ Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services) 
     const Gui& self = *static_cast<Gui*>(user);
     if (self.services_.set_clipboard) self.services_.set_clipboard(text);
   };
-  set_theme(static_cast<float>(scale));
-  const std::span<const std::byte> font = embedded_font();
-  ImFontConfig config;
-  config.FontDataOwnedByAtlas = false;
-  io.Fonts->AddFontFromMemoryTTF(const_cast<std::byte*>(font.data()), static_cast<int>(font.size()),
-                                 std::round(font_height * static_cast<float>(scale)), &config, characters);
+  io.UserData = gui.get();
+  gui->set_look();
   if (!ImGui_ImplOpenGL3_Init("#version 430 core"))
     return Error{ErrorCode::no_device,
                  "The panels cannot be drawn: their OpenGL functions could not be loaded. "
                  "Install libgl1, or use aspic run, which needs no window."};
   return gui;
+}
+
+void Gui::set_look() {
+  text_size_ = wanted_text_size_;
+  set_theme(static_cast<float>(scale()));
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  fonts.Clear();
+  const std::span<const std::byte> font = embedded_font();
+  ImFontConfig config;
+  config.FontDataOwnedByAtlas = false;
+  const float height = std::min(std::round(font_height * static_cast<float>(scale())), largest_font);
+  fonts.AddFontFromMemoryTTF(const_cast<std::byte*>(font.data()), static_cast<int>(font.size()), height,
+                             &config, characters);
 }
 
 Gui::~Gui() {
@@ -173,6 +191,12 @@ void Gui::begin(double width, double height, double pixels_per_unit, double dt) 
     pressed_[i] = false;
   }
   marking_.clear();
+  explaining_.clear();
+  if (wanted_text_size_ != text_size_) {
+    set_look();
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
 }
@@ -182,12 +206,23 @@ void Gui::end() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   widgets_ = std::move(marking_);
   marking_ = {};
+  explanations_.clear();
+  for (const auto& [name, box] : widgets_) {
+    const auto said = std::ranges::find(explaining_, box, &std::pair<Box, std::string>::first);
+    explanations_[name] = said == explaining_.end() ? std::string() : said->second;
+  }
 }
 
 void Gui::mark(const std::string& name) {
-  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
-  marking_[name] = {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(b.x),
-                    static_cast<double>(b.y)};
+  marking_[name] = last_item();
+}
+
+void Gui::explain(std::string text) {
+  explaining_.emplace_back(last_item(), std::move(text));
+}
+
+Gui& Gui::current() {
+  return *static_cast<Gui*>(ImGui::GetIO().UserData);
 }
 
 }  // namespace app

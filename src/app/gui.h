@@ -4,6 +4,8 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/result.h"
 
@@ -21,6 +23,7 @@ struct Box {
   double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
   double centre_x() const { return 0.5 * (left + right); }
   double centre_y() const { return 0.5 * (top + bottom); }
+  friend bool operator==(const Box&, const Box&) = default;
   bool contains(double x, double y) const { return x >= left && x < right && y >= top && y < bottom; }
 };
 
@@ -49,21 +52,33 @@ class Gui {
   /// Draws them into the current framebuffer.
   void end();
 
-  double scale() const { return scale_; }
+  /// Of everything in the panels: the display's, times the text size.
+  double scale() const { return display_scale_ * text_size_; }
+  /// Another size of text and panels, a factor > 0 on the display's; takes effect with the next begin().
+  void set_text_size(double size) { wanted_text_size_ = size; }
   const WindowServices& services() const { return services_; }
 
   /// Remembers where the widget just made stands, under a name; of the picture under way.
   void mark(const std::string& name);
   /// Where widgets stood in the last picture, by name: for tests and tools.
   const std::map<std::string, Box>& widgets() const { return widgets_; }
+  /// Remembers what the tooltip of the widget just made says, shown or not.
+  void explain(std::string text);
+  /// What the tooltips of the last picture's marked widgets say, by name; empty for one without any.
+  const std::map<std::string, std::string>& explanations() const { return explanations_; }
+  /// The one whose panels are being made, between begin() and end().
+  static Gui& current();
 
  private:
-  Gui(double scale, WindowServices services) : scale_(scale), services_(std::move(services)) {}
-  double scale_;
+  Gui(double scale, WindowServices services) : display_scale_(scale), services_(std::move(services)) {}
+  void set_look();
+  double display_scale_, text_size_ = 1.0, wanted_text_size_ = 1.0;
   WindowServices services_;
   std::string clipboard_;
   bool pressed_[5] = {}, held_[5] = {};
   std::map<std::string, Box> widgets_, marking_;
+  std::map<std::string, std::string> explanations_;
+  std::vector<std::pair<Box, std::string>> explaining_;
 };
 
 }  // namespace aspic::app

@@ -1,4 +1,5 @@
 // aspic-view: the window, started by `aspic view`.
+#include <array>
 #include <chrono>
 #include <optional>
 #include <variant>
@@ -32,10 +33,16 @@ AppOptions options_from(const cli::ViewOptions& view) {
 int show(const cli::ViewOptions& view) {
   // A scene that is refused needs no window to say so.
   if (const auto editor = SceneEditor::open(view.scene, view.overrides); !editor) return fail(editor.error());
-  auto window = Window::create(view.size.width, view.size.height, "Aspic");
+  const std::string kept_path = kept_state_path();
+  const auto kept = load_kept_state(kept_path);
+  if (!kept) cli::print_message(kept.error().message);
+  AppOptions options = options_from(view);
+  if (kept) options.kept = *kept;
+  const WindowPlace place = options.kept.window.value_or(WindowPlace{1280, 720, std::nullopt});
+  const PictureSize size = view.size.value_or(PictureSize{place.width, place.height});
+  auto window = Window::create(size.width, size.height, "Aspic", place.position);
   if (!window) return fail(window.error());
-  auto app = App::create((*window)->context(), options_from(view), (*window)->content_scale(),
-                         (*window)->services());
+  auto app = App::create((*window)->context(), options, (*window)->content_scale(), (*window)->services());
   if (!app) return fail(app.error());
   (*window)->set_receiver(app->get());
   using Clock = std::chrono::steady_clock;
@@ -62,6 +69,14 @@ int show(const cli::ViewOptions& view) {
   }
   for (const std::string& line : (*app)->finish_films()) cli::print_message(line);
   (*window)->set_receiver(nullptr);
+  if (!error) {
+    KeptState left = (*app)->kept_state();
+    const std::array<int, 4> stood = (*window)->place();
+    left.window = WindowPlace{stood[2], stood[3], std::array<int, 2>{stood[0], stood[1]}};
+    // What cannot be kept is no reason to fail: nothing of the user's is lost.
+    if (const Status saved = save_kept_state(left, kept_path); !saved)
+      cli::print_message(saved.error().message);
+  }
   if (error) return fail(*error);
   return guard.interrupted() ? static_cast<int>(ErrorCode::interrupted) : 0;
 }

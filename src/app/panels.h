@@ -13,6 +13,8 @@ Box draw_panels(App& app, double width, double height);
 // ---- sections of the panels; each a heading with its widgets ----
 void scene_section(App& app);
 void simulation_section(App& app);
+/// Size, place and turn of a cube.
+void placed_cube(App& app, std::size_t cube);
 void bodies_section(App& app);
 void springs_section(App& app);
 void contact_section(App& app);

@@ -14,7 +14,7 @@ namespace aspic::app {
 namespace {
 
 /// Share of a panel's width that labels take.
-constexpr float label_share = 0.40f;
+constexpr float label_share = 0.40f, longest_label = 0.6f;
 constexpr ImGuiSliderFlags as_typed = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
 
 std::string words_of(std::string_view path) {
@@ -92,7 +92,7 @@ std::optional<Value> counts_widget(const Parameter& p, std::array<int, 3> value)
 }
 
 std::optional<Value> word_widget(Gui& gui, const Parameter& p, const std::string& value,
-                                 const std::string& mark) {
+                                 const std::string& mark, std::string_view help) {
   std::optional<Value> chosen;
   const bool open = ImGui::BeginCombo("##value", value.c_str());
   if (!open) return chosen;
@@ -100,47 +100,60 @@ std::optional<Value> word_widget(Gui& gui, const Parameter& p, const std::string
     const std::string text(word);
     if (ImGui::Selectable(text.c_str(), text == value)) chosen = Value(text);
     gui.mark(mark + "/" + text);
+    tooltip(help);
   }
   ImGui::EndCombo();
   return chosen;
 }
 
-std::optional<Value> words_widget(Gui& gui, const Parameter& p, std::vector<std::string> value,
-                                  const std::string& mark) {
-  std::optional<Value> chosen;
+/// Boxes, in two columns where they fit, one for each word; those ticked stay in the order of the list.
+template <class Words>
+bool check_boxes(Gui& gui, const Words& all, std::vector<std::string>& ticked, const std::string& mark,
+                 std::string_view help) {
+  const auto width_of = [](std::string_view word) {
+    return ImGui::CalcTextSize(word.data(), word.data() + word.size()).x + ImGui::GetFrameHeight() +
+           2.0f * ImGui::GetStyle().ItemInnerSpacing.x;
+  };
+  float widest = 0.0f;
+  for (const std::string_view word : all) widest = std::max(widest, width_of(word));
+  const float middle = ImGui::GetWindowContentRegionMax().x * 0.52f;
+  const bool two = ImGui::GetCursorPosX() + widest < middle;
+  bool changed = false;
   int column = 0;
-  for (const std::string_view word : p.words) {
-    if (column++ % 2 != 0) ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
-    bool on = std::ranges::find(value, word) != value.end();
+  for (const std::string_view word : all) {
+    if (two && column++ % 2 != 0) ImGui::SameLine(middle);
+    bool on = std::ranges::find(ticked, word) != ticked.end();
     const bool toggled = ImGui::Checkbox(std::string(word).c_str(), &on);
-    gui.mark(mark + "/" + std::string(word));
+    gui.mark(fmt::format("{}/{}", mark, word));
+    tooltip(help);
     if (!toggled) continue;
+    changed = true;
     if (on)
-      value.emplace_back(word);
+      ticked.emplace_back(word);
     else
-      std::erase(value, word);
-    chosen = Value(value);
+      std::erase(ticked, word);
   }
-  return chosen;
+  return changed;
+}
+
+std::optional<Value> words_widget(Gui& gui, const Parameter& p, std::vector<std::string> value,
+                                  const std::string& mark, std::string_view help) {
+  return check_boxes(gui, p.words, value, mark, help) ? std::optional<Value>(value) : std::nullopt;
 }
 
 /// Faces by name; corners and indices that the file gives stay as they are.
-std::optional<Value> pinned_widget(Gui& gui, PinnedSettings value, const std::string& mark) {
-  std::optional<Value> chosen;
-  int column = 0;
-  for (const char* face : {"top", "bottom", "left", "right", "front", "back"}) {
-    if (column++ % 2 != 0) ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
-    bool on = std::ranges::find(value.names, face) != value.names.end();
-    const bool toggled = ImGui::Checkbox(face, &on);
-    gui.mark(mark + "/" + face);
-    if (!toggled) continue;
-    if (on)
-      value.names.emplace_back(face);
-    else
-      std::erase(value.names, face);
-    chosen = Value(value);
-  }
-  return chosen;
+std::optional<Value> pinned_widget(Gui& gui, PinnedSettings value, const std::string& mark,
+                                   std::string_view help) {
+  static constexpr std::string_view faces[] = {"top", "bottom", "left", "right", "front", "back"};
+  return check_boxes(gui, faces, value.names, mark, help) ? std::optional<Value>(value) : std::nullopt;
+}
+
+/// What a key starts with when it is set: the value that its absence stood for, where that is a number.
+Value first_value(const Parameter& p, const Scene& scene) {
+  if (p.path == "terrain[].restitution") return scene.model.contact.restitution;
+  if (p.path == "terrain[].friction") return scene.model.contact.friction;
+  if (p.path == "terrain[].mass") return 10.0;  // the assignments' sphere and bowl
+  return std::clamp(1e-4, p.range.min, p.range.max);
 }
 
 }  // namespace
@@ -172,18 +185,28 @@ void wrapped_text(std::string_view text, float width) {
 }
 
 void tooltip(std::string_view text, std::string_view shortcut_meaning) {
+  const std::string keys(keys_of(shortcut_meaning));
+  Gui::current().explain(keys.empty() ? std::string(text) : fmt::format("{}\nKey: {}", text, keys));
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   wrapped_text(text, ImGui::GetFontSize() * 26.0f);
-  if (const std::string keys(keys_of(shortcut_meaning)); !keys.empty())
-    ImGui::TextDisabled("Key: %s", keys.c_str());
+  if (!keys.empty()) ImGui::TextDisabled("Key: %s", keys.c_str());
   ImGui::EndTooltip();
+}
+
+float share_of_line(int count) {
+  const float gaps = static_cast<float>(count - 1) * ImGui::GetStyle().ItemSpacing.x;
+  return (ImGui::GetContentRegionAvail().x - gaps) / static_cast<float>(count);
 }
 
 void label_column(std::string_view label) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label.data(), label.data() + label.size());
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * label_share);
+  const float width = ImGui::GetWindowContentRegionMax().x;
+  const float end =
+      ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemInnerSpacing.x;
+  // A long label pushes its widget aside, one that leaves too little of the line goes above it.
+  if (end < longest_label * width) ImGui::SameLine(std::max(label_share * width, end));
   ImGui::SetNextItemWidth(-1.0f);
 }
 
@@ -199,65 +222,108 @@ bool button(Gui& gui, const char* name, const char* label, std::string_view help
   return pressed;
 }
 
+namespace {
+
+std::optional<Value> value_widget(Gui& gui, const Parameter& p, const Value& value, const std::string& key,
+                                  std::string_view help) {
+  switch (p.type) {
+    case ParameterType::boolean: {
+      bool on = std::get<bool>(value);
+      return ImGui::Checkbox("##value", &on) ? std::optional<Value>(on) : std::nullopt;
+    }
+    case ParameterType::integer:
+      return integer_widget(p, std::get<std::int64_t>(value));
+    case ParameterType::number:
+      return number_widget(p, std::get<double>(value));
+    case ParameterType::vector:
+      return vector_widget(p, std::get<Vec3>(value));
+    case ParameterType::counts:
+      return counts_widget(p, std::get<std::array<int, 3>>(value));
+    case ParameterType::word:
+      return word_widget(gui, p, std::get<std::string>(value), key, help);
+    case ParameterType::words:
+      return words_widget(gui, p, std::get<std::vector<std::string>>(value), key, help);
+    case ParameterType::pinned:
+      return pinned_widget(gui, std::get<PinnedSettings>(value), key, help);
+    case ParameterType::text:
+      ImGui::TextUnformatted(std::get<std::string>(value).c_str());
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Where a value would stand: what its absence means, if there is room for that.
+void absent_text(std::string_view meaning) {
+  const float width = ImGui::CalcTextSize(meaning.data(), meaning.data() + meaning.size()).x;
+  if (width > ImGui::GetContentRegionAvail().x) meaning = "unset";
+  ImGui::TextDisabled("%.*s", static_cast<int>(meaning.size()), meaning.data());
+}
+
+/// The box before a key that may be absent; true if it was toggled.
+bool presence_box(Gui& gui, bool& present, const Parameter& p, const std::string& key,
+                  std::string_view help) {
+  const bool toggled = ImGui::Checkbox("##set", &present);
+  gui.mark(key + "/set");
+  tooltip(fmt::format("Ticked: the key has a value of its own. Not: {}.\n\n{}", p.when_absent, help));
+  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::SetNextItemWidth(-1.0f);
+  return toggled;
+}
+
+}  // namespace
+
 std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const Scene& scene,
-                                             std::size_t index, std::string_view label) {
+                                             std::size_t index, const WidgetWords& words) {
+  // Geometry of terrain always has a value, if only its shape's.
+  const bool optional = p.can_be_absent() && p.belonging == Belonging::always;
   const auto value = p.get(scene, index);
-  if (!value) return std::nullopt;
+  if (!value && !optional) return std::nullopt;
   const std::string key = key_with_index(p, index);
-  const std::string words = label.empty() ? words_of(p.path) : std::string(label);
+  const std::string label = words.label.empty() ? words_of(p.path) : std::string(words.label);
+  std::string help = tooltip_of(p, index);
+  if (!words.note.empty()) help += fmt::format("\n\n{}", words.note);
   ImGui::PushID(key.c_str());
   const bool many = p.type == ParameterType::words || p.type == ParameterType::pinned;
   if (many) {
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(words.c_str());
+    ImGui::TextUnformatted(label.c_str());
+    tooltip(help);
   } else {
-    label_column(words);
+    label_column(label);
   }
-  if (many) tooltip(tooltip_of(p, index));
+  std::optional<WidgetChange> change;
+  bool present = value.has_value();
+  if (optional && presence_box(gui, present, p, key, help)) {
+    change.emplace();
+    if (present) change->value = first_value(p, scene);
+  }
   std::optional<Value> changed;
-  switch (p.type) {
-    case ParameterType::boolean: {
-      bool on = std::get<bool>(*value);
-      if (ImGui::Checkbox("##value", &on)) changed = Value(on);
-      break;
-    }
-    case ParameterType::integer:
-      changed = integer_widget(p, std::get<std::int64_t>(*value));
-      break;
-    case ParameterType::number:
-      changed = number_widget(p, std::get<double>(*value));
-      break;
-    case ParameterType::vector:
-      changed = vector_widget(p, std::get<Vec3>(*value));
-      break;
-    case ParameterType::counts:
-      changed = counts_widget(p, std::get<std::array<int, 3>>(*value));
-      break;
-    case ParameterType::word:
-      changed = word_widget(gui, p, std::get<std::string>(*value), key);
-      break;
-    case ParameterType::words:
-      changed = words_widget(gui, p, std::get<std::vector<std::string>>(*value), key);
-      break;
-    case ParameterType::pinned:
-      changed = pinned_widget(gui, std::get<PinnedSettings>(*value), key);
-      break;
-    case ParameterType::text:
-      ImGui::TextUnformatted(std::get<std::string>(*value).c_str());
-      break;
+  if (value)
+    changed = value_widget(gui, p, *value, key, help);
+  else
+    absent_text(p.when_absent);
+  if (!many && !(p.type == ParameterType::word && changed)) {
+    gui.mark(key);
+    tooltip(help);
   }
-  if (!many && !(p.type == ParameterType::word && changed)) gui.mark(key);
-  if (!many) tooltip(tooltip_of(p, index));
   ImGui::PopID();
-  if (!changed) return std::nullopt;
-  const bool continuous = p.type == ParameterType::number || p.type == ParameterType::vector;
-  return WidgetChange{std::move(*changed), continuous ? key : ""};
+  if (changed) {
+    const bool continuous = p.type == ParameterType::number || p.type == ParameterType::vector;
+    change.emplace();
+    change->value = std::move(changed);
+    if (continuous) change->gesture = key;
+  }
+  return change;
 }
 
-void edit(App& app, std::string_view path, std::size_t index, std::string_view label) {
+void edit(App& app, std::string_view path, std::size_t index, const WidgetWords& words) {
   const Parameter& p = *find_parameter(path);
-  if (const auto change = parameter_widget(app.gui(), p, app.editor().scene(), index, label))
-    app.set_value(p, index, change->value, change->gesture);
+  const auto change = parameter_widget(app.gui(), p, app.editor().scene(), index, words);
+  if (!change) return;
+  if (change->value) return app.set_value(p, index, *change->value, change->gesture);
+  Scene scene = app.editor().scene();
+  p.clear(scene, index);
+  app.apply(std::move(scene), key_text(p), "");
 }
 
 }  // namespace aspic::app

@@ -11,19 +11,24 @@ namespace aspic::app {
 
 class App;
 
-/// A value that a widget changed, with what makes successive changes one for undo.
+/// What a widget did to a value, with what makes successive changes one for undo.
 struct WidgetChange {
-  Value value;
+  std::optional<Value> value;  ///< absent: the key is taken away
   std::string gesture;
 };
 
-/// The widget of a parameter of a scene; an empty label becomes the key's own words. Nothing if it was not
-/// changed, or the key has no value there.
-std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& parameter, const Scene& scene,
-                                             std::size_t index, std::string_view label = "");
+/// How a widget differs from the plain one of its parameter.
+struct WidgetWords {
+  std::string_view label = {};  ///< empty: the key's own words
+  std::string_view note = {};   ///< a paragraph more in the tooltip
+};
 
+/// The widget of a parameter of a scene. One that may be absent has a box before it that sets and clears it.
+/// Nothing if it was not changed, or the key has no meaning there.
+std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& parameter, const Scene& scene,
+                                             std::size_t index, const WidgetWords& words = {});
 /// The widget of a scene value by path, its changes carried out.
-void edit(App& app, std::string_view path, std::size_t index = 0, std::string_view label = "");
+void edit(App& app, std::string_view path, std::size_t index = 0, const WidgetWords& words = {});
 
 /// The words of a tooltip: meaning, what is allowed, default, scene key.
 std::string tooltip_of(const Parameter& parameter, std::size_t index);
@@ -32,6 +37,8 @@ std::string tooltip_of(const Parameter& parameter, std::size_t index);
 void tooltip(std::string_view text, std::string_view shortcut_meaning = "");
 /// Text broken at blanks alone, so that numbers stay whole, into lines of at most `width` [window units].
 void wrapped_text(std::string_view text, float width);
+/// Width of one of `count` equal widgets on a line [window units].
+float share_of_line(int count);
 /// A label on the left; the next widget fills the rest of the line.
 void label_column(std::string_view label);
 /// A button that is marked by name and explains itself.

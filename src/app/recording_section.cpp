@@ -89,7 +89,8 @@ void recording_section(App& app) {
   format_widget(gui, film);
   rate_widget(gui, film);
   name_widget(app, film);
-  ImGui::Checkbox("Parameters in the picture", &film.text);
+  label_column("Parameters");
+  ImGui::Checkbox("shown", &film.text);
   gui.mark("record/text");
   tooltip(
       "Terrain, integrator, time step, springs and time stand in the picture, as in aspic run --video, and "

@@ -1,13 +1,15 @@
 #include "app/revival.h"
 
+#include <array>
+
 namespace aspic::app {
 
 Result<std::unique_ptr<Window>> replace_window(App& app, std::unique_ptr<Window> window, const Error& why) {
-  const WindowSize size = window->size();
+  const std::array<int, 4> place = window->place();
   window->set_receiver(nullptr);
   if (const Status released = app.release_context(why); !released) return released.error();
   window.reset();
-  auto other = Window::create(size.width, size.height, app.title());
+  auto other = Window::create(place[2], place[3], app.title(), std::array<int, 2>{place[0], place[1]});
   if (!other) return other;
   const Status adopted =
       app.adopt_context((*other)->context(), (*other)->content_scale(), (*other)->services());

@@ -14,14 +14,6 @@
 namespace aspic::app {
 namespace {
 
-constexpr std::string_view spring_types[] = {"structural", "shear", "bending"};
-
-/// Width of one of `count` equal buttons on a line.
-float share_of_line(int count) {
-  const float gaps = static_cast<float>(count - 1) * ImGui::GetStyle().ItemSpacing.x;
-  return (ImGui::GetContentRegionAvail().x - gaps) / static_cast<float>(count);
-}
-
 bool holds(std::string_view text, std::string_view word) {
   const auto same = [](char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
@@ -140,7 +132,7 @@ void simulation_section(App& app) {
              back, half))
     app.step_back();
   edit(app, "simulation.integrator");
-  edit(app, "simulation.timestep", 0, "Time step");
+  edit(app, "simulation.timestep", 0, {"Time step"});
   label_column("Pace");
   static constexpr const char* paces[] = {"steps per frame", "real time"};
   int pace = static_cast<int>(s.pace);
@@ -158,133 +150,12 @@ void simulation_section(App& app) {
   gui.mark("simulation/speed");
   tooltip("Factor on the pace, from 1/1024 to 1024. Keys + and - double and halve it.");
   edit(app, "simulation.gravity");
+  // The cube that the assignments speak of; all else of it, and other bodies, stand under Bodies.
+  if (!app.editor().scene().model.cubes.empty()) placed_cube(app, 0);
   if (app.editor().scene().model.simulation.integrator == Integrator::implicit_euler) {
     edit(app, "simulation.implicit.newton-iterations");
     edit(app, "simulation.implicit.cg-iterations");
     edit(app, "simulation.implicit.tolerance");
-  }
-}
-
-namespace {
-
-/// Every key of one list of bodies, straight from the table.
-void all_keys_of(App& app, std::string_view list) {
-  const std::string prefix = fmt::format("{}[].", list);
-  const Parameter* first = nullptr;
-  for (const Parameter& p : parameters()) {
-    if (p.path.starts_with(prefix)) first = first ? first : &p;
-  }
-  const std::size_t count = first ? index_count(*first, app.editor().scene()) : 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    ImGui::TextDisabled("%.*s %zu", static_cast<int>(list.size()), list.data(), i);
-    for (const Parameter& p : parameters()) {
-      if (!p.path.starts_with(prefix) || !applies(p, app.editor().scene(), i)) continue;
-      std::string label(p.path.substr(prefix.size()));
-      std::ranges::replace(label, '.', ' ');
-      std::ranges::replace(label, '-', ' ');
-      edit(app, p.path, i, label);
-    }
-  }
-}
-
-}  // namespace
-
-void bodies_section(App& app) {
-  const std::size_t count = app.editor().scene().model.cubes.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (count > 1) ImGui::TextDisabled("cube %zu", i);
-    edit(app, "cube[].particles-per-edge", i);
-    edit(app, "cube[].edge-length", i, "Edge");
-    edit(app, "cube[].position", i);
-    edit(app, "cube[].rotation.axis", i, "Turn axis");
-    edit(app, "cube[].rotation.angle", i, "Turn angle");
-    edit(app, "cube[].velocity", i);
-    edit(app, "cube[].particle-mass", i);
-    edit(app, "cube[].pinned", i);
-  }
-  for (const std::string_view list : {"goal-net", "ball", "launcher"}) all_keys_of(app, list);
-}
-
-namespace {
-
-/// Springs as they are described: by type, or as a material.
-void kind_of_springs(App& app, std::size_t cube) {
-  const CubeSettings& settings = app.editor().scene().model.cubes[cube];
-  static constexpr const char* kinds[] = {"stiffness, damping", "material"};
-  int kind = settings.material ? 1 : 0;
-  label_column("Given by");
-  const bool chosen = ImGui::Combo("##kind", &kind, kinds, 2);
-  app.gui().mark("springs/kind");
-  tooltip(
-      "Stiffness and damping of each type of spring and the mass of a particle; or a material, which means "
-      "the "
-      "same jelly at every resolution.\n\nScene key: cube[].material");
-  if (!chosen || (kind == 1) == settings.material.has_value()) return;
-  Scene scene = app.editor().scene();
-  CubeSettings& c = scene.model.cubes[cube];
-  if (kind == 1)
-    c.material.emplace();
-  else
-    c.material.reset();
-  app.apply(std::move(scene), "material", "");
-}
-
-void same_for_all(App& app, std::size_t cube, std::string_view what) {
-  const Parameter& first = *find_parameter(fmt::format("cube[].structural.{}", what));
-  const auto change =
-      parameter_widget(app.gui(), first, app.editor().scene(), cube, "All " + std::string(what));
-  if (!change) return;
-  Scene scene = app.editor().scene();
-  for (const std::string_view type : spring_types)
-    find_parameter(fmt::format("cube[].{}.{}", type, what))->set(scene, cube, change->value);
-  app.apply(std::move(scene), "springs", fmt::format("all {}", change->gesture));
-}
-
-}  // namespace
-
-void springs_section(App& app) {
-  static bool together = false;
-  const std::size_t count = app.editor().scene().model.cubes.size();
-  if (count == 0) ImGui::TextDisabled("No cube; springs of nets stand under Bodies.");
-  for (std::size_t i = 0; i < count; ++i) {
-    ImGui::PushID(static_cast<int>(i));
-    if (count > 1) ImGui::TextDisabled("cube %zu", i);
-    kind_of_springs(app, i);
-    if (app.editor().scene().model.cubes[i].material) {
-      edit(app, "cube[].material.density", i);
-      edit(app, "cube[].material.youngs-modulus", i, "Young's modulus");
-      edit(app, "cube[].material.damping-ratio", i);
-    } else {
-      ImGui::Checkbox("all types together", &together);
-      app.gui().mark("springs/together");
-      tooltip("One stiffness and one damping for structural, shear and bending springs.");
-      if (together) {
-        same_for_all(app, i, "stiffness");
-        same_for_all(app, i, "damping");
-      } else {
-        for (const std::string_view type : spring_types) {
-          std::string label(type);
-          label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-          edit(app, fmt::format("cube[].{}.stiffness", type), i, label + " k");
-          edit(app, fmt::format("cube[].{}.damping", type), i, label + " c");
-        }
-      }
-    }
-    ImGui::PopID();
-  }
-}
-
-void contact_section(App& app) {
-  edit(app, "contact.model");
-  edit(app, "contact.restitution");
-  edit(app, "contact.friction");
-  edit(app, "contact.epsilon");
-  const std::size_t count = app.editor().scene().model.terrain.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    ImGui::TextDisabled("terrain %zu", i);
-    for (const Parameter& p : parameters()) {
-      if (p.path.starts_with("terrain[].") && applies(p, app.editor().scene(), i)) edit(app, p.path, i);
-    }
   }
 }
 

@@ -51,7 +51,7 @@ void plot(const std::deque<DifferenceSample>& samples, double scale) {
 void shadow_section(App& app) {
   const Simulation& s = app.simulation();
   bool on = s.shadowed();
-  if (ImGui::Checkbox("second backend alongside", &on)) app.toggle_shadow();
+  if (ImGui::Checkbox("second backend", &on)) app.toggle_shadow();
   app.gui().mark("shadow/on");
   tooltip(
       "The other backend does the same steps, and after each job of steps the two states are compared. Shown "

@@ -25,9 +25,24 @@ EventReceiver* receiver_of(GLFWwindow* window) {
   return *static_cast<EventReceiver**>(glfwGetWindowUserPointer(window));
 }
 
+/// Whether enough of a window there can be seen to take hold of it.
+bool on_a_monitor(const std::array<int, 2>& position) {
+  int count = 0;
+  GLFWmonitor** const monitors = glfwGetMonitors(&count);
+  for (int i = 0; i < count; ++i) {
+    int x = 0, y = 0, width = 0, height = 0;
+    glfwGetMonitorWorkarea(monitors[i], &x, &y, &width, &height);
+    if (position[0] >= x - 8 && position[0] < x + width - 100 && position[1] >= y &&
+        position[1] < y + height - 50)
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-Result<std::unique_ptr<Window>> Window::create(int width, int height, const std::string& title) {
+Result<std::unique_ptr<Window>> Window::create(int width, int height, const std::string& title,
+                                               const std::optional<std::array<int, 2>>& position) {
   std::unique_ptr<Window> w(new Window);
   if (!glfwInit()) {
     const bool named = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
@@ -46,6 +61,7 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until it stands where it belongs
   w->window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (!w->window_) {
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
@@ -56,6 +72,8 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
                  fmt::format("No window with OpenGL 4.3 core can be opened: {}. Install a newer driver "
                              "(libgl1-mesa-dri has a software one). {}",
                              last_error(), instead)};
+  if (position && on_a_monitor(*position)) glfwSetWindowPos(w->window_, (*position)[0], (*position)[1]);
+  glfwShowWindow(w->window_);
   glfwMakeContextCurrent(w->window_);
   glfwSwapInterval(1);
   auto context = gl::Context::adopt_current(glfwGetProcAddress);
@@ -111,6 +129,14 @@ WindowSize Window::size() const {
   return size;
 }
 
+std::array<int, 4> Window::place() const {
+  if (full_screen_) return place_;
+  std::array<int, 4> place = {};
+  glfwGetWindowPos(window_, &place[0], &place[1]);
+  glfwGetWindowSize(window_, &place[2], &place[3]);
+  return place;
+}
+
 double Window::content_scale() const {
   float x = 1.0f, y = 1.0f;
   glfwGetWindowContentScale(window_, &x, &y);
@@ -148,8 +174,7 @@ void Window::toggle_full_screen() {
   GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
   const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
   if (!mode) return;
-  glfwGetWindowPos(window_, &place_[0], &place_[1]);
-  glfwGetWindowSize(window_, &place_[2], &place_[3]);
+  place_ = place();
   glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
   full_screen_ = true;
 }

@@ -1,6 +1,8 @@
 #pragma once
 // A GLFW window with an OpenGL 4.3 core context, its events handed to a receiver.
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +37,10 @@ class Window {
  public:
   /// Opens a window of that size [window units] and makes its context current. Error (no_device): no display,
   /// or no OpenGL 4.3; says what to do instead.
-  static Result<std::unique_ptr<Window>> create(int width, int height, const std::string& title);
+  /// It stands at `position` [screen units] where that is on a monitor still; the system chooses a place
+  /// else.
+  static Result<std::unique_ptr<Window>> create(int width, int height, const std::string& title,
+                                                const std::optional<std::array<int, 2>>& position = {});
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -45,6 +50,8 @@ class Window {
   void set_receiver(EventReceiver* receiver) { receiver_ = receiver; }
   WindowServices services();
   WindowSize size() const;
+  /// Left, top, width and height [screen units], of a full screen those to come back to.
+  std::array<int, 4> place() const;
   double content_scale() const;
   bool should_close() const;
   void set_title(const std::string& title);
@@ -59,7 +66,7 @@ class Window {
   void connect();
   GLFWwindow* window_ = nullptr;
   bool initialised_ = false, full_screen_ = false;
-  int place_[4] = {};  // x, y, width, height to come back to from full screen
+  std::array<int, 4> place_ = {};  // to come back to from full screen
   std::unique_ptr<gl::Context> context_;
   EventReceiver* receiver_ = nullptr;
 };

@@ -200,7 +200,8 @@ CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
       ->capture_default_str()
       ->type_name("NAME");
   add_overrides(*c, view.overrides);
-  c->add_option("--size", raw.size, "size of the window")->capture_default_str()->type_name("WxH");
+  c->add_option("--size", raw.window_size, "size of the window; as it was last left, if absent")
+      ->type_name("WxH");
   c->footer(view_examples);
   return c;
 }

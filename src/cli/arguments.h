@@ -83,7 +83,8 @@ struct ViewOptions {
   std::string scene = "cube-plane";
   std::vector<std::string> overrides;
   BackendChoice backend;
-  PictureSize size;                ///< of the window, in the display's units
+  std::optional<PictureSize>
+      size;  ///< of the window, in the display's units; absent: as it was last, or 1280 × 720
   std::vector<std::string> words;  ///< the arguments after `view` as they were given
 };
 

@@ -140,9 +140,11 @@ Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
   if (!kind) return kind.error();
   view.backend.kind = *kind;
   if (const Status possible = check_choice(view.backend); !possible) return possible.error();
-  const auto size = parse_size(raw.size);
-  if (!size) return size.error();
-  view.size = *size;
+  if (!raw.window_size.empty()) {
+    const auto size = parse_size(raw.window_size);
+    if (!size) return size.error();
+    view.size = *size;
+  }
   return Command(std::move(view));
 }
 

@@ -2,6 +2,7 @@
 // How rows of the parameter table are written: a field of the scene, its type and range, one sentence.
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "model/model.h"
@@ -85,6 +86,11 @@ std::vector<std::string_view> words_of(Enum last) {
   return words;
 }
 
+template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
+
 // ---- rows ----
 
 /// A row whose field `Access` finds in a scene: a stateless generic lambda (scene, index) -> field&.
@@ -100,6 +106,9 @@ Parameter row(std::string_view path, ParameterType type, Access, std::string_vie
   p.write = [](const Parameter& self, Scene& scene, std::size_t index, const Value& value) {
     from_value(self, Access{}(scene, index), value);
   };
+  using Field = std::remove_cvref_t<decltype(Access{}(std::declval<Scene&>(), std::size_t{}))>;
+  if constexpr (is_optional<Field>)
+    p.erase = [](Scene& scene, std::size_t index) { Access{}(scene, index).reset(); };
   return p;
 }
 

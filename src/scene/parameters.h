@@ -64,8 +64,13 @@ struct Parameter {
   /// Stores a value that check_value passed.
   void set(Scene& scene, std::size_t index, const Value& value) const { write(*this, scene, index, value); }
 
+  /// Whether the key may be absent, and clear() makes it so; for the other keys clear() is illegal.
+  bool can_be_absent() const { return erase != nullptr; }
+  void clear(Scene& scene, std::size_t index) const { erase(scene, index); }
+
   std::optional<Value> (*read)(const Parameter&, const Scene&, std::size_t) = nullptr;  ///< for get()
   void (*write)(const Parameter&, Scene&, std::size_t, const Value&) = nullptr;         ///< for set()
+  void (*erase)(Scene&, std::size_t) = nullptr;                                         ///< for clear()
 };
 
 /// The table, in the order in which files are written.

@@ -93,5 +93,30 @@ TEST(CameraControl, ComesHomeToTheBitAfterManyTurns) {
   EXPECT_LT(longest, 2.0 * std::numbers::pi * length(home.position - home.target)) << "the short way round";
 }
 
+TEST(CameraControl, LooksFromADirectionTheShortWayRound) {
+  CameraControl camera(home);
+  camera.orbit(3.9, 0.0);  // nearly two turns
+  settle(camera);
+  const double distance = length(home.position - home.target);
+  const std::pair<Vec3, Vec3> cases[] = {
+      {{0, 0, 5}, {0, 0, 1}}, {{3, 0, 0}, {1, 0, 0}}, {{1, 1, 1}, (1.0 / std::sqrt(3.0)) * Vec3{1, 1, 1}}};
+  for (const auto& [direction, seen_from] : cases) {
+    camera.look_from(direction);
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3 before = camera.shown().position;
+      if (!camera.update(1.0 / 60.0)) break;
+      // Half a turn at most, so an easing's first picture goes less than this part of the circle.
+      EXPECT_LT(length(camera.shown().position - before), distance);
+    }
+    const CameraSettings shown = camera.shown();
+    EXPECT_EQ(shown.target, home.target);
+    EXPECT_NEAR(length(shown.position - (home.target + distance * seen_from)), 0.0, 1e-9 * distance);
+  }
+  camera.look_from({0, 1, 0});
+  settle(camera);
+  const Vec3 d = camera.shown().position - camera.shown().target;
+  EXPECT_NEAR(std::asin(d.y / length(d)) * 180.0 / std::numbers::pi, 89.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace aspic::app

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "app/stage.h"
@@ -16,6 +17,14 @@ class Panels : public Stage {
   void set(std::string_view path, const Value& value, std::size_t index = 0) {
     app().set_value(*find_parameter(path), index, value, "");
     frames(1);
+  }
+  /// One section open, the others closed.
+  static app::KeptState only(const std::string& section) {
+    app::KeptState kept;
+    for (const char* name : {"Scene", "Simulation", "View", "Performance", "Energy"})
+      kept.layout.sections[name] = false;
+    kept.layout.sections[section] = true;
+    return kept;
   }
   const ModelSettings& settings() { return app().editor().scene().model; }
 };
@@ -126,7 +135,7 @@ TEST_F(Panels, EverySectionOpensAndShowsItsKeys) {
   EXPECT_EQ(simulation().model().contact.model, ContactModel::course);
   click("section/Contact");
   click("section/Bodies");
-  EXPECT_TRUE(has("cube[0].rotation.angle"));
+  EXPECT_TRUE(has("cube[0].edge-length"));
   click("cube[0].pinned/top");
   EXPECT_EQ(count(simulation().model()).pinned, 100u);
 }
@@ -167,6 +176,102 @@ TEST_F(Panels, StepBackTakesOneStepBack) {
   EXPECT_EQ(state_hash_text(simulation().snapshot()), reference_hash(app().editor().scene(), 4));
 }
 
+TEST_F(Panels, KeysThatMayBeAbsentAreSetAndTakenAway) {
+  open("cube-plane", {"simulation.integrator=implicit-euler"}, BackendName::reference, only("Contact"));
+  EXPECT_FALSE(settings().terrain[0].friction.has_value());
+  EXPECT_TRUE(has("terrain[0].friction")) << "what its absence means stands there";
+  click("terrain[0].friction/set");
+  EXPECT_EQ(settings().terrain[0].friction, settings().contact.friction) << "begins as it was";
+  EXPECT_EQ(simulation().model().terrain[0].friction, settings().contact.friction);
+  set("terrain[].friction", 0.75);
+  click("terrain[0].friction/set");
+  EXPECT_FALSE(settings().terrain[0].friction.has_value());
+  app().undo();
+  EXPECT_EQ(settings().terrain[0].friction, 0.75) << "undone like any change";
+  click("terrain[0].mass/set");
+  EXPECT_EQ(settings().terrain[0].mass, 10.0);
+  click("section/Contact");
+  click("section/Simulation");
+  click("simulation.implicit.tolerance/set");
+  EXPECT_EQ(settings().simulation.implicit.tolerance, 1e-4);
+  click("simulation.implicit.tolerance/set");
+  EXPECT_FALSE(settings().simulation.implicit.tolerance.has_value());
+}
+
+TEST_F(Panels, TerrainsAndCubesComeAndGo) {
+  open("cube-plane", {}, BackendName::reference, only("Contact"));
+  for (int i = 0; i < 5; ++i) type(U'.');
+  click("terrain/add");
+  ASSERT_EQ(simulation().model().terrain.size(), 2u);
+  EXPECT_EQ(simulation().step(), 5u) << "the motion goes on";
+  click("terrain[1].shape");
+  click("terrain[1].shape/bowl");
+  EXPECT_EQ(simulation().model().terrain[1].shape, TerrainShape::bowl);
+  click("terrain/0/remove");
+  ASSERT_EQ(simulation().model().terrain.size(), 1u);
+  EXPECT_EQ(simulation().model().terrain[0].shape, TerrainShape::bowl);
+  click("section/Contact");
+  click("section/Bodies");
+  click("cube/0/remove");
+  EXPECT_EQ(settings().cubes.size(), 1u) << "a scene without bodies is no scene";
+  click("cube/add");
+  ASSERT_EQ(settings().cubes.size(), 2u);
+  EXPECT_EQ(simulation().model().particle_count(), 2000u);
+  EXPECT_GE(settings().cubes[1].position.y - settings().cubes[0].position.y, settings().cubes[0].edge_length);
+  click("cube/0/remove");
+  ASSERT_EQ(settings().cubes.size(), 1u);
+  EXPECT_EQ(settings().cubes[0].position.y, 15.0) << "the other one stays";
+}
+
+TEST_F(Panels, SpringsAreShownAndHiddenByType) {
+  open("cube-plane", {}, BackendName::reference, only("Springs"));
+  click("springs/show/shear");
+  EXPECT_TRUE(app().editor().scene().view.draw.shear);
+  EXPECT_TRUE(app().editor().scene().view.draw.solid);
+  click("springs/show/structural");
+  EXPECT_TRUE(app().editor().scene().view.draw.structural);
+  click("springs/show/shear");
+  EXPECT_FALSE(app().editor().scene().view.draw.shear);
+}
+
+TEST_F(Panels, ACubeBeyondMemoryIsRefusedWithTheFigures) {
+  open("cube-plane", {}, BackendName::reference, only("Simulation"));
+  EXPECT_THAT(app().gui().explanations().at("cube[0].particles-per-edge"),
+              testing::HasSubstr("1000 particles and 12876 springs"));
+  EXPECT_THAT(app().gui().explanations().at("cube[0].particles-per-edge"), testing::HasSubstr("are free"));
+  for (int i = 0; i < 3; ++i) type(U'.');
+  // The largest cube there is; where that fits, two of them, more than 32 bits can name.
+  Scene large = app().editor().scene();
+  large.model.cubes[0].particles_per_edge = 512;
+  const bool fits = available_memory().value_or(0) > model_bytes(predict_counts(large.model));
+  if (fits) {
+    large.model.cubes.push_back(large.model.cubes[0]);
+    app().apply(large, "two large cubes", "");
+  } else {
+    set("cube[].particles-per-edge", std::int64_t{512});
+  }
+  ASSERT_TRUE(app().notice() && app().notice()->is_error);
+  EXPECT_THAT(app().notice()->text, testing::HasSubstr("particles and"));
+  EXPECT_THAT(app().notice()->text, testing::HasSubstr(fits ? "32-bit" : "of memory and"));
+  EXPECT_EQ(settings().cubes.size(), 1u);
+  EXPECT_EQ(settings().cubes[0].particles_per_edge, 10);
+  EXPECT_EQ(simulation().model().particle_count(), 1000u);
+  EXPECT_EQ(simulation().step(), 3u) << "the old scene goes on where it was";
+  type(U'.');
+  EXPECT_EQ(simulation().step(), 4u);
+}
+
+TEST_F(Panels, MomentumStandsBesideEnergy) {
+  open("cube-plane", {}, BackendName::reference, only("Energy"));
+  for (int i = 0; i < 5; ++i) type(U'.');
+  frames(2);
+  EXPECT_TRUE(has("energy/plot"));
+  EXPECT_TRUE(has("energy/momentum"));
+  const Measures& last = simulation().energies().back().measures;
+  // Free fall: p = m·g·t for 1000 particles of 1 kg and 5 ms.
+  EXPECT_NEAR(last.momentum.y, -1000.0 * 9.8 * 0.005, 1e-3);
+}
+
 class Files : public Panels {
  protected:
   std::string write(const std::string& name, const std::string& text) {
@@ -205,9 +310,49 @@ TEST_F(Files, ReloadsWhenTheFileChangesAndKeepsTheOldSceneWhileItIsBroken) {
   EXPECT_EQ(simulation().model().particle_count(), 27u);
   ASSERT_TRUE(app().notice().has_value());
   EXPECT_THAT(app().notice()->text, testing::HasSubstr("mine.toml:3"));
+  EXPECT_THAT(app().notice()->text, testing::HasSubstr("particles-per-edge = 1")) << "the line itself";
   write("mine.toml", scene_text(5));
   frames(40);
   EXPECT_EQ(simulation().model().particle_count(), 125u);
+}
+
+TEST_F(Files, BrokenAndMendedWhileItRuns) {
+  open(write("mine.toml", scene_text(4)), {}, BackendName::reference);
+  press(GLFW_KEY_SPACE);
+  frames_to_step(20);
+  write("mine.toml", scene_text(4) + "[contact]\nfriction = much\n");
+  for (int i = 0; !(app().notice() && app().notice()->is_error); ++i) {
+    ASSERT_LT(i, 1000);
+    frames(1);
+  }
+  EXPECT_THAT(app().notice()->text, testing::HasSubstr("mine.toml:5"));
+  EXPECT_THAT(app().notice()->text, testing::HasSubstr("friction = much"));
+  EXPECT_TRUE(simulation().running()) << "the old scene keeps running";
+  frames_to_step(simulation().step() + 20);
+  EXPECT_TRUE(app().notice() && app().notice()->is_error)
+      << "the message stays as long as the file is broken";
+  const std::uint64_t before = simulation().step();
+  write("mine.toml", scene_text(4) + "[contact]\nfriction = 0.9\n");
+  for (int i = 0; simulation().model().contact.friction != 0.9; ++i) {
+    ASSERT_LT(i, 1000);
+    frames(1);
+  }
+  EXPECT_FALSE(app().notice() && app().notice()->is_error) << "mended";
+  EXPECT_TRUE(simulation().running());
+  EXPECT_GE(simulation().step(), before) << "constants alone: the motion goes on";
+  frames_to_step(before + 20);
+  // Broken and mended to the very same content: the message goes too.
+  write("mine.toml", "[");
+  for (int i = 0; !(app().notice() && app().notice()->is_error); ++i) {
+    ASSERT_LT(i, 1000);
+    frames(1);
+  }
+  write("mine.toml", scene_text(4) + "[contact]\nfriction = 0.9\n");
+  for (int i = 0; app().notice() && app().notice()->is_error; ++i) {
+    ASSERT_LT(i, 1000);
+    frames(1);
+  }
+  EXPECT_TRUE(simulation().running());
 }
 
 TEST_F(Files, AFileWithOtherConstantsLetsTheMotionGoOn) {

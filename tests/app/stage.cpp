@@ -32,12 +32,13 @@ void Stage::TearDown() {
 }
 
 void Stage::open(const std::string& scene, std::vector<std::string> overrides,
-                 std::optional<app::BackendName> backend) {
+                 std::optional<app::BackendName> backend, const app::KeptState& kept) {
   app::WindowServices services;
   services.clipboard = [this] { return clipboard; };
   services.set_clipboard = [this](const std::string& text) { clipboard = text; };
   services.toggle_full_screen = [this] { ++full_screen_toggles; };
-  auto made = app::App::create(window_->context(), {scene, std::move(overrides), backend}, 1.0, services);
+  auto made =
+      app::App::create(window_->context(), {scene, std::move(overrides), backend, kept}, 1.0, services);
   ASSERT_TRUE(made.ok()) << made.error().message;
   app_ = std::move(*made);
   window_->set_receiver(app_.get());
@@ -109,6 +110,15 @@ void Stage::click(const std::string& widget) {
   app_->mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
   frames(1);
   app_->mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+  frames(2);
+}
+
+void Stage::resize(int wide, int high) {
+  glfwSetWindowSize(glfwGetCurrentContext(), wide, high);
+  for (int i = 0; window_->size().width != wide || window_->size().height != high; ++i) {
+    ASSERT_LT(i, 1000);
+    window_->poll(0.01);
+  }
   frames(2);
 }
 

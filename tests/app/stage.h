@@ -23,7 +23,7 @@ class Stage : public ::testing::Test {
 
   /// Opens the app on a scene; before any other call.
   void open(const std::string& scene, std::vector<std::string> overrides = {},
-            std::optional<app::BackendName> backend = std::nullopt);
+            std::optional<app::BackendName> backend = std::nullopt, const app::KeptState& kept = {});
 
   /// Ends the app as closing the window does when nothing else is left to do.
   void close() { app_.reset(); }
@@ -51,6 +51,8 @@ class Stage : public ::testing::Test {
   double middle_x() { return app_->viewport().centre_x(); }
   double middle_y() { return app_->viewport().centre_y(); }
 
+  /// Another size of the window; takes two pictures.
+  void resize(int width, int height);
   /// Pixels of the window, RGB, rows from the bottom.
   std::vector<unsigned char> pixels() const;
   /// The clipboard, which tests keep to themselves.

@@ -1,0 +1,243 @@
+#include "app/kept_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <variant>
+
+#include "io/atomic_file.h"
+#include "scene/document.h"
+#include "scene/load.h"
+#include "scene/write.h"
+
+namespace aspic::app {
+namespace {
+
+namespace fs = std::filesystem;
+using document::Kind;
+using document::Node;
+
+constexpr std::int64_t version = 1;
+constexpr double slowest = 1.0 / 1024.0, fastest = 1024.0;
+constexpr const char* paces[] = {"steps-per-frame", "real-time"};
+
+/// Takes values out of a parsed file; the first that is not as expected is remembered.
+class Taker {
+ public:
+  const Node* table(const Node& parent, std::string_view key) { return find(parent, key, Kind::table); }
+
+  void take(const Node* table, std::string_view key, double& into, double low, double high) {
+    const Node* const node = table ? any(*table, key) : nullptr;
+    if (!node) return;
+    const bool whole = node->kind == Kind::integer;
+    const double value = whole ? static_cast<double>(node->integer) : node->number;
+    if ((!whole && node->kind != Kind::floating) || !(value >= low && value <= high))
+      return blame(key, *node);
+    into = value;
+  }
+  void take(const Node* table, std::string_view key, bool& into) {
+    if (const Node* const node = table ? find(*table, key, Kind::boolean) : nullptr) into = node->boolean;
+  }
+  /// An index into some words.
+  template <class Words>
+  void take(const Node* table, std::string_view key, const Words& words, std::size_t& into) {
+    const Node* const node = table ? find(*table, key, Kind::string) : nullptr;
+    if (!node) return;
+    const auto word = std::ranges::find(words, node->text);
+    if (word == std::end(words)) return blame(key, *node);
+    into = static_cast<std::size_t>(word - std::begin(words));
+  }
+  /// `count` numbers within ±1e6; false if they are not there.
+  template <class Numbers>
+  bool take_numbers(const Node* table, std::string_view key, Numbers& into) {
+    const Node* const node = table ? find(*table, key, Kind::array) : nullptr;
+    if (!node) return false;
+    if (node->elements.size() != into.size()) return blame(key, *node), false;
+    for (std::size_t i = 0; i < into.size(); ++i) {
+      const Node& e = node->elements[i];
+      const double value = e.kind == Kind::integer ? static_cast<double>(e.integer) : e.number;
+      if ((e.kind != Kind::integer && e.kind != Kind::floating) || !(std::abs(value) <= 1e6))
+        return blame(key, e), false;
+      into[i] = static_cast<typename Numbers::value_type>(value);
+    }
+    return true;
+  }
+  const Node* find(const Node& parent, std::string_view key, Kind kind) {
+    const Node* const node = any(parent, key);
+    if (!node || node->kind == kind) return node;
+    blame(key, *node);
+    return nullptr;
+  }
+  void blame(std::string_view key, const Node& node) {
+    if (complaint.empty()) complaint = fmt::format("line {}, '{}'", node.position.line, key);
+  }
+
+  std::string complaint;
+
+ private:
+  static const Node* any(const Node& parent, std::string_view key) {
+    const document::Member* const member = document::find(parent, key);
+    return member ? &member->value : nullptr;
+  }
+};
+
+void take_window(Taker& taker, const Node& root, KeptState& state) {
+  const Node* const window = taker.table(root, "window");
+  std::array<int, 2> size = {}, position = {};
+  if (!taker.take_numbers(window, "size", size)) return;
+  if (std::min(size[0], size[1]) < 16 || std::max(size[0], size[1]) > 16384)
+    return taker.blame("size", *window);
+  state.window = WindowPlace{size[0], size[1], std::nullopt};
+  if (taker.take_numbers(window, "position", position)) state.window->position = position;
+}
+
+void take_sections(Taker& taker, const Node* panels, std::string_view key, bool open, Layout& layout) {
+  const Node* const names = panels ? taker.find(*panels, key, Kind::array) : nullptr;
+  if (!names) return;
+  for (const Node& name : names->elements) {
+    if (name.kind != Kind::string) return taker.blame(key, name);
+    layout.sections[name.text] = open;
+  }
+}
+
+void take_cameras(Taker& taker, const Node& root, KeptState& state) {
+  const Node* const cameras = taker.find(root, "camera", Kind::array);
+  if (!cameras) return;
+  for (const Node& node : cameras->elements) {
+    const Node* const scene = node.kind == Kind::table ? taker.find(node, "scene", Kind::string) : nullptr;
+    std::array<double, 3> position = {}, target = {};
+    double fov = 0.0;
+    if (!scene || !taker.take_numbers(&node, "position", position) ||
+        !taker.take_numbers(&node, "target", target))
+      return taker.blame("camera", node);
+    taker.take(&node, "fov", fov, 1.0, 179.0);
+    const CameraSettings camera = {
+        {position[0], position[1], position[2]}, {target[0], target[1], target[2]}, fov};
+    if (fov == 0.0 || !(length(camera.position - camera.target) > 0.0)) return taker.blame("camera", node);
+    keep_camera(state.cameras, scene->text, camera);
+  }
+}
+
+std::string list_of(const Layout& layout, bool open) {
+  std::vector<std::string> names;
+  for (const auto& [name, is_open] : layout.sections) {
+    if (is_open == open) names.push_back(name);
+  }
+  return toml_value(Value(names));
+}
+
+}  // namespace
+
+void keep_camera(std::vector<KeptCamera>& cameras, const std::string& scene,
+                 const std::optional<CameraSettings>& camera) {
+  std::erase_if(cameras, [&](const KeptCamera& kept) { return kept.scene == scene; });
+  if (!camera) return;
+  cameras.push_back({scene, *camera});
+  if (cameras.size() > most_kept_cameras) cameras.erase(cameras.begin());
+}
+
+std::string camera_key(const std::string& source) {
+  if (builtin_scene_text(source)) return source;
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(source, error);
+  return error ? source : path.string();
+}
+
+std::string to_text(const KeptState& s) {
+  std::string text =
+      "# How Aspic's window was last left. Written anew whenever it is closed; may be deleted.\n"
+      "version = 1\n";
+  if (s.window) {
+    text += fmt::format("\n[window]\nsize = [{}, {}]\n", s.window->width, s.window->height);
+    if (const auto& position = s.window->position)
+      text += fmt::format("position = [{}, {}]\n", (*position)[0], (*position)[1]);
+  }
+  const Layout& l = s.layout;
+  text += fmt::format(
+      "\n[panels]\nvisible = {}\nleft-width = {}\nright-width = {}\ntext-size = {}\nopen = {}\nclosed = {}\n",
+      l.panels, toml_value(l.left_width), toml_value(l.right_width), toml_value(l.text_size),
+      list_of(l, true), list_of(l, false));
+  text += fmt::format("\n[simulation]\npace = \"{}\"\nspeed = {}\n", paces[static_cast<std::size_t>(s.pace)],
+                      toml_value(s.speed));
+  text += fmt::format("\n[recording]\nformat = \"{}\"\nfps = {}\nparameters = {}\n", name_of(s.film_format),
+                      toml_value(s.film_fps), s.film_text);
+  for (const KeptCamera& c : s.cameras) {
+    text +=
+        fmt::format("\n[[camera]]\nscene = {}\nposition = {}\ntarget = {}\nfov = {}\n", toml_value(c.scene),
+                    toml_value(c.camera.position), toml_value(c.camera.target), toml_value(c.camera.fov));
+  }
+  return text;
+}
+
+Result<KeptState> read_kept_state(const std::string& text) {
+  const auto parsed = document::parse(text, 0);
+  if (const auto* problem = std::get_if<document::Problem>(&parsed))
+    return Error{ErrorCode::io, fmt::format("line {}: {}", problem->at.line, problem->message)};
+  const Node& root = std::get<Node>(parsed);
+  const document::Member* const written = document::find(root, "version");
+  if (!written || written->value.kind != Kind::integer || written->value.integer != version)
+    return Error{ErrorCode::io, fmt::format("it does not say version = {}", version)};
+  KeptState state;
+  Taker taker;
+  take_window(taker, root, state);
+  const Node* const panels = taker.table(root, "panels");
+  Layout& layout = state.layout;
+  taker.take(panels, "visible", layout.panels);
+  taker.take(panels, "left-width", layout.left_width, Layout::narrowest, Layout::widest);
+  taker.take(panels, "right-width", layout.right_width, Layout::narrowest, Layout::widest);
+  taker.take(panels, "text-size", layout.text_size, Layout::smallest_text, Layout::largest_text);
+  take_sections(taker, panels, "open", true, layout);
+  take_sections(taker, panels, "closed", false, layout);
+  const Node* const simulation = taker.table(root, "simulation");
+  std::size_t pace = 0, format = 0;
+  taker.take(simulation, "pace", paces, pace);
+  state.pace = static_cast<Pace>(pace);
+  taker.take(simulation, "speed", state.speed, slowest, fastest);
+  const Node* const recording = taker.table(root, "recording");
+  std::vector<std::string> formats;
+  for (const FilmFormat f : film_formats) formats.emplace_back(name_of(f));
+  taker.take(recording, "format", formats, format);
+  state.film_format = film_formats[format];
+  taker.take(recording, "fps", state.film_fps, 1.0, most_fps(state.film_format));
+  taker.take(recording, "parameters", state.film_text);
+  take_cameras(taker, root, state);
+  if (!taker.complaint.empty())
+    return Error{ErrorCode::io, taker.complaint + ": this is nothing that the window writes"};
+  return state;
+}
+
+std::string kept_state_path() {
+  // The base directory specification takes absolute paths alone.
+  const char* const state = std::getenv("XDG_STATE_HOME");
+  if (state && state[0] == '/') return fmt::format("{}/aspic/window.toml", state);
+  const char* const home = std::getenv("HOME");
+  return home && home[0] == '/' ? fmt::format("{}/.local/state/aspic/window.toml", home) : "";
+}
+
+Result<KeptState> load_kept_state(const std::string& path) {
+  std::error_code error;
+  if (path.empty() || !fs::exists(path, error)) return KeptState();
+  const auto text = read_text_file(path);
+  if (!text) return text.error();
+  auto state = read_kept_state(*text);
+  if (state) return state;
+  return Error{ErrorCode::io,
+               fmt::format("{} does not hold how the window was left ({}), so it begins as at the "
+                           "first time. The file is written anew when the window is closed.",
+                           path, state.error().message)};
+}
+
+Status save_kept_state(const KeptState& state, const std::string& path) {
+  if (path.empty()) return {};
+  std::error_code error;
+  fs::create_directories(fs::path(path).parent_path(), error);
+  auto file = AtomicFile::create(path, Overwrite::allow);
+  if (!file) return file.error();
+  if (const Status written = file->write(to_text(state)); !written) return written;
+  return file->commit();
+}
+
+}  // namespace aspic::app

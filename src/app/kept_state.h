@@ -1,0 +1,75 @@
+#pragma once
+// What the window remembers from one time to the next: docs/files.md, "The window's own file".
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/recording.h"
+#include "app/simulation.h"
+#include "base/result.h"
+#include "scene/view_settings.h"
+
+namespace aspic::app {
+
+/// Where things stand in the window.
+struct Layout {
+  static constexpr double side_width = 322.0, narrowest = 240.0, widest = 800.0;
+  static constexpr double smallest_text = 0.75, largest_text = 2.5;
+
+  bool panels = true;                                        ///< visible
+  double left_width = side_width, right_width = side_width;  ///< of the panels at text size 1 [window units]
+  double text_size = 1.0;                                    ///< factor on the display's own scale
+  std::map<std::string, bool> sections;                      ///< open or not, by heading; absent: as at first
+  friend bool operator==(const Layout&, const Layout&) = default;
+};
+
+/// Place of the window on the desktop [screen units].
+struct WindowPlace {
+  int width = 0, height = 0;
+  std::optional<std::array<int, 2>> position;
+  friend bool operator==(const WindowPlace&, const WindowPlace&) = default;
+};
+
+/// Where a scene was last seen from.
+struct KeptCamera {
+  std::string scene;  ///< built-in name or absolute path
+  CameraSettings camera;
+  friend bool operator==(const KeptCamera&, const KeptCamera&) = default;
+};
+
+struct KeptState {
+  std::optional<WindowPlace> window;
+  Layout layout;
+  Pace pace = Pace::steps_per_frame;
+  double speed = 1.0;
+  FilmFormat film_format = FilmFormat::mp4;
+  double film_fps = 60.0;
+  bool film_text = true;
+  std::vector<KeptCamera> cameras;  ///< the one last used at the end
+  friend bool operator==(const KeptState&, const KeptState&) = default;
+};
+
+/// Scenes whose cameras are kept; the one longest unused goes first.
+inline constexpr std::size_t most_kept_cameras = 12;
+/// Puts a scene's camera at the end; nothing takes it away.
+void keep_camera(std::vector<KeptCamera>& cameras, const std::string& scene,
+                 const std::optional<CameraSettings>& camera);
+/// The name that a scene's camera is kept under: built-in scenes by name, files by absolute path.
+std::string camera_key(const std::string& source);
+
+/// As the file holds it, and back. Error (io): the text is broken, of another version, or holds what the
+/// window would not have written; the sentence names the first such thing.
+std::string to_text(const KeptState& state);
+Result<KeptState> read_kept_state(const std::string& text);
+
+/// $XDG_STATE_HOME/aspic/window.toml, or below ~/.local/state; empty where neither is known.
+std::string kept_state_path();
+/// Reads the file. One that is not there is no error and gives what a first time gives.
+Result<KeptState> load_kept_state(const std::string& path);
+/// Writes it whole, with the directories above. Error (io).
+Status save_kept_state(const KeptState& state, const std::string& path);
+
+}  // namespace aspic::app

@@ -1,0 +1,128 @@
+#include "app/kept_state.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "support/temporary_directory.h"
+
+namespace aspic::app {
+namespace {
+
+KeptState unusual() {
+  KeptState s;
+  s.window = WindowPlace{1600, 901, std::array<int, 2>{-7, 42}};
+  s.layout.panels = false;
+  s.layout.left_width = 300.5;
+  s.layout.right_width = 411.25;
+  s.layout.text_size = 1.35;
+  s.layout.sections = {{"Scene", false}, {"Recording", true}};
+  s.pace = Pace::real_time;
+  s.speed = 0.125;
+  s.film_format = FilmFormat::gif;
+  s.film_fps = 24.5;
+  s.film_text = false;
+  s.cameras = {{"cube-plane", {{1.1, 2.2, 3.3}, {0.0, 0.5, 0.0}, 30.0}},
+               {"/a \"quoted\"\\path/scene.toml", {{-1e5, 2, 3}, {0, 0, 0}, 60.0}}};
+  return s;
+}
+
+TEST(KeptState, ComesBackAsItWasWritten) {
+  const auto read = read_kept_state(to_text(unusual()));
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(*read, unusual());
+  const auto first = read_kept_state(to_text(KeptState()));
+  ASSERT_TRUE(first.ok()) << first.error().message;
+  EXPECT_EQ(*first, KeptState());
+}
+
+TEST(KeptState, WhatTheWindowWouldNotWriteIsNamed) {
+  const std::pair<std::string, std::string> cases[] = {
+      {"", "version"},
+      {"version = 2\n", "version"},
+      {"version = 1\n[panels\n", "line 2"},
+      {"version = 1\n[panels]\ntext-size = 99.0\n", "text-size"},
+      {"version = 1\n[panels]\nleft-width = \"wide\"\n", "left-width"},
+      {"version = 1\n[panels]\nopen = [1]\n", "open"},
+      {"version = 1\n[simulation]\npace = \"sideways\"\n", "pace"},
+      {"version = 1\n[simulation]\nspeed = nan\n", "speed"},
+      {"version = 1\n[window]\nsize = [1e300, 5]\n", "size"},
+      {"version = 1\n[window]\nsize = [800]\n", "size"},
+      {"version = 1\n[window]\nsize = [-800, 600]\n", "size"},
+      {"version = 1\nwindow = 3\n", "window"},
+      {"version = 1\n[recording]\nformat = \"gif\"\nfps = 200\n", "fps"},
+      {"version = 1\n[[camera]]\nscene = \"a\"\n", "camera"},
+      {"version = 1\n[[camera]]\nscene = \"a\"\nposition = [1,1,1]\ntarget = [1,1,1]\nfov = 45\n", "camera"},
+  };
+  for (const auto& [text, word] : cases) {
+    const auto read = read_kept_state(text);
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_THAT(read.error().message, testing::HasSubstr(word)) << text;
+  }
+}
+
+TEST(KeptState, ADozenCamerasAreKeptAndTheOneLongestUnusedGoes) {
+  std::vector<KeptCamera> cameras;
+  CameraSettings camera;
+  for (int i = 0; i < 14; ++i) {
+    camera.fov = 20.0 + i;
+    keep_camera(cameras, fmt::format("scene-{}", i), camera);
+  }
+  ASSERT_EQ(cameras.size(), 12u);
+  EXPECT_EQ(cameras.front().scene, "scene-2");
+  keep_camera(cameras, "scene-2", camera);
+  EXPECT_EQ(cameras.back().scene, "scene-2");
+  EXPECT_EQ(cameras.front().scene, "scene-3");
+  keep_camera(cameras, "scene-3", std::nullopt);
+  EXPECT_EQ(cameras.size(), 11u);
+  EXPECT_EQ(cameras.front().scene, "scene-4");
+}
+
+class KeptFile : public testing::Test {
+ protected:
+  void SetUp() override { ::setenv("XDG_STATE_HOME", directory_.path().c_str(), 1); }
+  void TearDown() override { ::unsetenv("XDG_STATE_HOME"); }
+  test::TemporaryDirectory directory_;
+};
+
+TEST_F(KeptFile, StandsWhereTheBaseDirectorySpecificationSays) {
+  EXPECT_EQ(kept_state_path(), (directory_.path() / "aspic" / "window.toml").string());
+  ::setenv("XDG_STATE_HOME", "relative/paths/do/not/count", 1);
+  const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
+  ::setenv("HOME", "/home/somebody", 1);
+  EXPECT_EQ(kept_state_path(), "/home/somebody/.local/state/aspic/window.toml");
+  ::unsetenv("HOME");
+  EXPECT_EQ(kept_state_path(), "");
+  ::setenv("HOME", home.c_str(), 1);
+}
+
+TEST_F(KeptFile, IsMissingAtFirstThenWrittenAndRead) {
+  const std::string path = kept_state_path();
+  auto read = load_kept_state(path);
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(*read, KeptState());
+  ASSERT_TRUE(save_kept_state(unusual(), path).ok());
+  read = load_kept_state(path);
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(*read, unusual());
+  ASSERT_TRUE(save_kept_state(KeptState(), path).ok()) << "written over";
+  EXPECT_EQ(*load_kept_state(path), KeptState());
+}
+
+TEST_F(KeptFile, ABrokenOneIsToldOfByName) {
+  const std::string path = kept_state_path();
+  std::filesystem::create_directories(directory_.path() / "aspic");
+  std::ofstream(path) << "\x7f\x45LF is no layout";
+  const auto read = load_kept_state(path);
+  ASSERT_FALSE(read.ok());
+  EXPECT_THAT(read.error().message, testing::HasSubstr(path));
+  EXPECT_TRUE(save_kept_state(unusual(), path).ok());
+  EXPECT_TRUE(load_kept_state(path).ok());
+  EXPECT_TRUE(save_kept_state(unusual(), "").ok()) << "nowhere to keep it is no error";
+}
+
+}  // namespace
+}  // namespace aspic::app

@@ -1,0 +1,198 @@
+// How the window is laid out: text, widths, what is remembered, and that every control explains itself.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "app/stage.h"
+#include "scene/load.h"
+
+namespace aspic::test {
+namespace {
+
+using app::Box;
+
+class Layout : public Stage {
+ protected:
+  /// As after a first start, with every section open or none.
+  static app::KeptState with_sections(bool open) {
+    app::KeptState kept;
+    for (const char* name : {"Scene", "Simulation", "Bodies", "Springs", "Contact", "Balls", "View",
+                             "Recording", "Performance", "Energy", "Shadow"})
+      kept.layout.sections[name] = open;
+    return kept;
+  }
+  /// Lets the camera come to rest without a picture of all its way.
+  void rest() {
+    for (int i = 0; i < 100 && app().camera().update(1.0); ++i) {
+    }
+    frames(1);
+  }
+  Box box(const std::string& name) { return app().gui().widgets().at(name); }
+};
+
+TEST_F(Layout, EveryControlExplainsItself) {
+  open("cube-plane", {}, app::BackendName::reference, with_sections(true));
+  std::size_t keys = 0;
+  for (const BuiltinScene& scene : list_builtin_scenes()) {
+    app().open(std::string(scene.name));
+    frames(2);
+    for (const auto& [name, text] : app().gui().explanations()) {
+      EXPECT_FALSE(text.empty()) << name << " in " << scene.name << " has no tooltip";
+      std::string path = name.substr(0, name.find('/'));
+      if (const std::size_t bracket = path.find('['); bracket != std::string::npos)
+        path.replace(bracket, path.find(']') - bracket + 1, "[]");
+      const Parameter* const p = find_parameter(path);
+      if (!p) continue;
+      ++keys;
+      EXPECT_THAT(text, testing::HasSubstr(std::string(p->meaning))) << name;
+      EXPECT_THAT(text, testing::HasSubstr("Scene key: " + path.substr(0, path.find('[')))) << name;
+      if (!p->unit.empty()) {
+        EXPECT_THAT(text, testing::HasSubstr(std::string(p->unit))) << name;
+      }
+    }
+  }
+  EXPECT_GT(keys, 200u) << "the sections are open";
+  for (const auto& [name, key] : {std::pair("simulation/run", "Space"), std::pair("scene/reload", "Ctrl+L"),
+                                  std::pair("camera/home", "Home"), std::pair("simulation/step", ".")})
+    EXPECT_THAT(app().gui().explanations().at(name), testing::HasSubstr(std::string("Key: ") + key)) << name;
+}
+
+TEST_F(Layout, NothingIsCutOffAndNothingOverlaps) {
+  open("cube-and-balls", {}, app::BackendName::reference, with_sections(true));
+  for (const auto& [width, height] : {std::pair(1280, 720), std::pair(1920, 1080), std::pair(800, 600)}) {
+    resize(width, height);
+    for (const double size : {1.0, 1.5, 2.0}) {
+      app().gui().set_text_size(size);
+      frames(3);
+      const std::string at = fmt::format("{} x {}, text {}", width, height, size);
+      const Box view = app().viewport();
+      EXPECT_GE(view.right - view.left, 0.29 * width) << at;
+      const bool two = view.right < width;
+      std::vector<std::pair<std::string, Box>> boxes;
+      for (const auto& [name, box] : app().gui().widgets()) {
+        if (!name.starts_with("layout/l") && !name.starts_with("layout/right")) boxes.emplace_back(name, box);
+      }
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const auto& [name, b] = boxes[i];
+        if (name == "timeline") continue;
+        const bool left = b.left < view.left;
+        EXPECT_GE(b.left, left ? 0.0 : view.right) << name << " at " << at;
+        EXPECT_LE(b.right, left ? view.left : two ? width : 0.0) << name << " at " << at;
+        EXPECT_GT(b.right - b.left, 8.0 * size) << name << " at " << at;
+        for (std::size_t j = i + 1; j < boxes.size(); ++j) {
+          const Box& o = boxes[j].second;
+          const double wide = std::min(b.right, o.right) - std::max(b.left, o.left);
+          const double high = std::min(b.bottom, o.bottom) - std::max(b.top, o.top);
+          EXPECT_FALSE(wide > 0.5 && high > 0.5) << name << " and " << boxes[j].first << " at " << at;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
+  open("cube-plane");
+  click("section/Performance");
+  click("section/Scene");
+  click("section/Simulation");
+  click("section/Contact");
+  const Box edge = box("layout/left");
+  drag(GLFW_MOUSE_BUTTON_LEFT, edge.centre_x(), edge.centre_y(), 55, 0);
+  frames(2);
+  const double left = app().viewport().left;
+  EXPECT_GT(left, 322 + 20);
+  app().camera().orbit(0.1, 0.05);
+  rest();
+  const CameraSettings plane = app().camera().goal();
+  app().open("cube-sphere");
+  app().camera().zoom(3);
+  rest();
+  const CameraSettings sphere = app().camera().goal();
+  app().simulation().pace = app::Pace::real_time;
+  app().simulation().speed = 0.5;
+  app().film_settings().format = app::FilmFormat::webm;
+  const app::KeptState kept = app().kept_state();
+  close();
+
+  const auto read = app::read_kept_state(app::to_text(kept));
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  open("cube-sphere", {}, std::nullopt, *read);
+  EXPECT_EQ(app().camera().shown(), sphere) << "to the bit";
+  EXPECT_NEAR(app().viewport().left, left, 1e-9);
+  EXPECT_TRUE(has("contact.model"));
+  EXPECT_TRUE(has("section/Performance"));
+  EXPECT_EQ(app().simulation().pace, app::Pace::real_time);
+  EXPECT_EQ(app().simulation().speed, 0.5);
+  EXPECT_EQ(app().film_settings().format, app::FilmFormat::webm);
+  app().open("cube-plane");
+  EXPECT_EQ(app().camera().shown(), plane);
+  press(GLFW_KEY_HOME);
+  rest();
+  EXPECT_EQ(app().camera().shown(), app().editor().scene().view.camera) << "the scene's own";
+  EXPECT_EQ(app().kept_state().cameras.size(), 1u) << "what is as the scene says needs no keeping";
+  click("layout/reset");
+  EXPECT_EQ(app().viewport().left, 322.0);
+  EXPECT_FALSE(has("contact.model"));
+  EXPECT_EQ(app().kept_state().layout, app::Layout());
+}
+
+TEST_F(Layout, ACameraOfTheCommandLineGoesFirst) {
+  app::KeptState kept;
+  kept.cameras = {{"cube-plane", {{1, 2, 3}, {0, 0, 0}, 30}}};
+  open("cube-plane", {"view.camera.fov=20"}, std::nullopt, kept);
+  EXPECT_EQ(app().camera().shown().fov, 20.0);
+}
+
+TEST_F(Layout, TextAndPanelsGrowTogether) {
+  open("cube-plane");
+  const Box before = box("simulation/run");
+  app().layout().text_size = 1.5;
+  app().gui().set_text_size(1.5);
+  frames(2);
+  const Box after = box("simulation/run");
+  EXPECT_NEAR(after.bottom - after.top, 1.5 * (before.bottom - before.top), 2.0);
+  EXPECT_NEAR(app().viewport().left, 1.5 * 322, 1.0);
+  EXPECT_EQ(app().kept_state().layout.text_size, 1.5);
+  app().gui().set_text_size(1.0);
+  frames(2);
+  const Box back = box("simulation/run");
+  EXPECT_EQ(back, before);
+}
+
+TEST_F(Layout, TheSliderChangesTextOnceItIsLetGo) {
+  open("cube-plane", {}, std::nullopt, with_sections(false));
+  click("section/View");
+  const Box slider = box("layout/text-size");
+  drag(GLFW_MOUSE_BUTTON_LEFT, slider.centre_x(), slider.centre_y(), 20, 0);
+  frames(3);
+  EXPECT_GT(app().gui().scale(), 1.2);
+  EXPECT_EQ(app().gui().scale(), app().layout().text_size);
+}
+
+TEST_F(Layout, CameraPresetsTurnAboutTheTarget) {
+  open("cube-plane", {}, std::nullopt, with_sections(false));
+  click("section/View");
+  const CameraSettings home = app().camera().goal();
+  const double distance = length(home.position - home.target);
+  const std::pair<const char*, Vec3> cases[] = {{"camera/front", {0, 0, distance}},
+                                                {"camera/side", {distance, 0, 0}}};
+  for (const auto& [name, offset] : cases) {
+    click(name);
+    rest();
+    const CameraSettings shown = app().camera().shown();
+    EXPECT_NEAR(length(shown.position - (home.target + offset)), 0.0, 1e-9) << name;
+  }
+  click("camera/top");
+  rest();
+  EXPECT_NEAR(app().camera().shown().position.y - home.target.y, distance, 1e-3 * distance);
+  click("camera/isometric");
+  rest();
+  const Vec3 d = app().camera().shown().position - home.target;
+  EXPECT_NEAR(d.x, d.y, 1e-9);
+  EXPECT_NEAR(d.y, d.z, 1e-9);
+  click("camera/home");
+  rest();
+  EXPECT_EQ(app().camera().shown(), home);
+}
+
+}  // namespace
+}  // namespace aspic::test
