@@ -9,11 +9,14 @@ out float depth;
 out vec2 on_disc;
 
 void main() {
+  // w: 1 for particles, its own radius for a ball, 0 while that waits.
+  float r = radius * gl_in[0].gl_Position.w;
+  if (r == 0.0) return;
   vec3 p = in_light(light, gl_in[0].gl_Position.xyz);
   for (int corner = 0; corner < 4; ++corner) {
     on_disc = vec2((corner & 1) * 2 - 1, (corner >> 1) * 2 - 1);
     depth = p.z;
-    gl_Position = vec4(p.xy + on_disc * (radius * light_boxes[light].depth.y), p.z / light_boxes[light].depth.x, 1.0);
+    gl_Position = vec4(p.xy + on_disc * (r * light_boxes[light].depth.y), p.z / light_boxes[light].depth.x, 1.0);
     EmitVertex();
   }
   EndPrimitive();

@@ -85,6 +85,46 @@ TEST_F(Balls, AreDiscsWhereTheStateSays) {
   }
 }
 
+TEST_F(Balls, CastShadowsAsWideAsTheyAre) {
+  ModelSettings settings;
+  settings.terrain.push_back({});
+  BallSettings ball;
+  ball.radius = 0.5;
+  ball.position = {0.0, -0.4, 0.0};  // a tenth above the ground
+  settings.balls.push_back(ball);
+  Model model = test::build(settings);
+  PictureOptions options = plain();
+  options.view.camera.position = {0.0, 7.0, 4.0};
+  options.view.camera.target = {0.0, -1.0, 0.0};
+  const State state = initial_state(model, Precision::single);
+  const test::Image with = draw(model, state, options, width, height);
+  options.shadows = false;
+  const test::Image without = draw(model, state, options, width, height);
+  const Camera camera(options.view.camera, width, height);
+  // Half the sun's shadow lies on one side, for it stands in the left; beyond a ball's width and the sun's
+  // blur there is none.
+  double widest = 0.0;
+  int darker = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (with.channel(x, y, 1) >= without.channel(x, y, 1) - 25) continue;
+      ++darker;
+      const Ray ray = camera.ray_through(x + 0.5, y + 0.5);
+      const double t = (-1.0 - ray.origin.y) / ray.direction.y;
+      const Vec3 ground = ray.origin + t * ray.direction;
+      widest = std::max(widest, std::hypot(ground.x, ground.z));
+    }
+  }
+  EXPECT_GT(darker, 50);
+  // The sun stands 52° high: the top's shadow falls 1.1/tan 52° aside, the blur is a tenth of the height.
+  EXPECT_LT(widest, 0.5 + 1.1 / std::tan(52.0 * pi / 180.0));
+  model.balls[0].launch_step = 5;
+  options.shadows = true;
+  const test::Image waiting = draw(model, state, options, width, height);
+  options.shadows = false;
+  EXPECT_EQ(draw(model, state, options, width, height).rgb, waiting.rgb) << "no shadow of what is not there";
+}
+
 TEST_F(Balls, WaitUnseenForTheirLaunch) {
   Model model = test::build(spinning_ball());
   State state = initial_state(model, Precision::single);
