@@ -15,6 +15,7 @@
 #include "app/gui.h"
 #include "app/kept_state.h"
 #include "app/recording.h"
+#include "app/resolution.h"
 #include "app/scene_editor.h"
 #include "app/simulation.h"
 #include "app/window.h"
@@ -156,7 +157,7 @@ class App final : public EventReceiver {
   /// Where the scene is drawn [window units].
   const Box& viewport() const { return viewport_; }
   /// The scene's part of the picture's pixels, 0…1: below 1 where a software rasteriser would be too slow.
-  double draw_scale() const { return draw_scale_; }
+  double draw_scale() const { return draws_in_full() ? 1.0 : resolution_.moving(); }
   double draw_seconds() const { return draw_seconds_; }
   double pictures_per_second() const { return pictures_per_second_; }
 
@@ -180,7 +181,8 @@ class App final : public EventReceiver {
   void film();
   void watch_films();
   void end_film();
-  void adapt_scale(double seconds);
+  bool draws_in_full() const { return !context_->info().is_software; }
+  bool is_still() const { return !simulation_->running() && !simulation_->seeking() && still_ > 0.25; }
   void find_hovered();
   void describe(std::uint32_t particle);
   Status ask_what_is_under_mouse();
@@ -248,7 +250,9 @@ class App final : public EventReceiver {
   int shown_pixels_[4] = {};  // and in pixels: left, bottom, width, height
   int drawn_width_ = 0, drawn_height_ = 0;
   double pixels_per_unit_ = 1.0;
-  double draw_scale_ = 1.0, draw_seconds_ = 0.0, still_ = 0.0, awake_ = 0.0;
+  Resolution resolution_;
+  std::uint32_t drawn_particles_ = 0;
+  double draw_seconds_ = 0.0, still_ = 0.0, awake_ = 0.0;
   double since_file_look_ = 0.0, rate_time_ = 0.0, pictures_per_second_ = 0.0;
   int rate_pictures_ = 0;
 };

@@ -17,9 +17,8 @@
 namespace aspic::app {
 namespace {
 
-/// Shares of the full resolution that a software rasteriser falls back to.
-constexpr double scales[] = {1.0, 0.75, 0.55, 0.4, 0.3};
-constexpr double slow_picture = 0.070, quick_picture = 0.030;  // s
+/// Particles from which on a first picture may take too long.
+constexpr std::uint32_t many_particles = 8000;
 
 }  // namespace
 
@@ -31,8 +30,8 @@ Status App::draw_scene(const WindowSize& size) {
   const int bottom = size.pixel_height - static_cast<int>(std::lround(viewport_.bottom * ratio));
   const int height = std::max(static_cast<int>(std::lround((viewport_.bottom - viewport_.top) * ratio)), 1);
   // Once all stands still there is time for every pixel.
-  const bool still = !simulation_->running() && still_ > 0.25;
-  const double scale = still ? 1.0 : draw_scale_;
+  const bool still = is_still();
+  const double scale = draws_in_full() ? 1.0 : resolution_.share(still);
   const auto scaled = [scale](int length) {
     return std::max(static_cast<int>(std::lround(scale * length)), 1);
   };
@@ -69,6 +68,7 @@ Status App::draw_picture(int width, int height) {
   }
   options.shadows = shadows_;
   options.highlight = marks(width);
+  options.coarse_skin = !draws_in_full() && !recording_ && resolution_.share(is_still()) < 1.0;
   const bool new_model = drawn_model_ != simulation_->model_number();
   const bool same = !new_model && drawn_state_ == simulation_->picture_number() &&
                     drawn_view_ == options.view && drawn_marks_ == *options.highlight &&
@@ -77,6 +77,9 @@ Status App::draw_picture(int width, int height) {
   const auto start = std::chrono::steady_clock::now();
   if (new_model) {
     if (const Status taken = renderer_->set_model(simulation_->model()); !taken) return taken;
+    if (drawn_particles_ != simulation_->model().particle_count())
+      resolution_.reset(simulation_->model().particle_count() > many_particles);
+    drawn_particles_ = simulation_->model().particle_count();
   }
   std::optional<DeviceState> state = simulation_->device_state();
   if (!state) {
@@ -95,16 +98,9 @@ Status App::draw_picture(int width, int height) {
   drawn_width_ = width;
   drawn_height_ = height;
   draw_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (context_->info().is_software && !new_model) adapt_scale(draw_seconds_);
+  if (!draws_in_full() && !new_model && !recording_)
+    resolution_.took(resolution_.share(is_still()), draw_seconds_);
   return {};
-}
-
-void App::adapt_scale(double seconds) {
-  if (recording_) return;
-  if (!simulation_->running() && still_ > 0.25) return;
-  const auto current = std::ranges::find(scales, draw_scale_);
-  if (seconds > slow_picture && current + 1 != std::end(scales)) draw_scale_ = current[1];
-  if (seconds < quick_picture && current != std::begin(scales)) draw_scale_ = current[-1];
 }
 
 void App::save_screenshot(const WindowSize& size) {

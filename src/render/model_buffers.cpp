@@ -68,24 +68,17 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   gl::BufferFiller fill(context);
   const Surface surface = make_surface(model);
   b.parts_ = surface.parts;
+  b.coarse_parts_ = surface.coarse_parts;
   b.skin_vertices_ = static_cast<std::uint32_t>(surface.fan_vertex.size());
   fill(b.skin_indices_, "skin indices", surface.indices);
   fill(b.fan_vertex_, "skin vertices", surface.fan_vertex);
   fill(b.fan_start_, "skin fan starts", surface.fan_start);
   fill(b.fan_, "skin fans", surface.fan);
 
-  fill(b.spring_indices_, "spring indices", spring_pairs(model, b.springs_));
-  const Incident incident = incident_springs(model);
-  fill(b.spring_start_, "incident spring starts", incident.start);
-  fill(b.spring_ends_, "incident springs", incident.ends);
-  std::vector<std::array<float, 4>> classes;
   double least = 0.0;
   for (const SpringClass& c : model.spring_classes) {
-    classes.push_back({static_cast<float>(c.stiffness), static_cast<float>(c.damping),
-                       static_cast<float>(c.rest_length), c.cord ? 1.0f : 0.0f});
     if (c.rest_length > 0.0 && (least == 0.0 || c.rest_length < least)) least = c.rest_length;
   }
-  fill(b.spring_classes_, "spring classes", classes);
   if (least > 0.0) b.spacing_ = least;
 
   fill(b.normals_, "normals", std::vector<std::array<float, 4>>(b.particle_count_));
@@ -100,6 +93,26 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   if (!posts) return posts.error();
   b.posts_ = std::move(*posts);
   return b;
+}
+
+Status ModelBuffers::prepare_springs(gl::Context& context, const Model& model) {
+  if (springs_ready_) return {};
+  gl::BufferFiller fill(context);
+  std::vector<SpringRun> runs;
+  fill(spring_indices_, "spring indices", spring_pairs(model, runs));
+  const Incident incident = incident_springs(model);
+  fill(spring_start_, "incident spring starts", incident.start);
+  fill(spring_ends_, "incident springs", incident.ends);
+  std::vector<std::array<float, 4>> classes;
+  for (const SpringClass& c : model.spring_classes) {
+    classes.push_back({static_cast<float>(c.stiffness), static_cast<float>(c.damping),
+                       static_cast<float>(c.rest_length), c.cord ? 1.0f : 0.0f});
+  }
+  fill(spring_classes_, "spring classes", classes);
+  if (!fill.status()) return fill.status();
+  springs_ = std::move(runs);
+  springs_ready_ = true;
+  return {};
 }
 
 Status ModelBuffers::upload(gl::Context& context, const Model& model, const State& state,

@@ -38,6 +38,10 @@ class ModelBuffers {
   /// Fills `particles` (made or made larger as needed) with a state, as a solver would hold it.
   static Status upload(gl::Context& context, const Model& model, const State& state, gl::Buffer& particles);
 
+  /// What drawing springs and colouring by a quantity need; many pictures do without. Does nothing the second
+  /// time. `model` as in create(). Error (scene_rejected): no device memory.
+  Status prepare_springs(gl::Context& context, const Model& model);
+
   /// Normals of the skin at these particles' positions, readable as vertices afterwards.
   void compute_normals(const RenderPrograms& programs, const gl::Buffer& particles);
   /// The coloured quantity of each particle; the frame block must be bound.
@@ -58,10 +62,14 @@ class ModelBuffers {
   }
 
   std::uint32_t particle_count() const { return particle_count_; }
-  const std::vector<Surface::Part>& parts() const { return parts_; }
+  /// The skin of each body, as use_coarse_skin() says.
+  const std::vector<Surface::Part>& parts() const { return coarse_ ? coarse_parts_ : parts_; }
+  /// From now on skins of fewer triangles, where a body has many.
+  void use_coarse_skin(bool coarse) { coarse_ = coarse; }
   bool has_skin() const { return skin_vertices_ > 0; }
   const BallBuffers& balls() const { return *balls_; }
   const GoalPosts& posts() const { return *posts_; }
+  /// Empty before prepare_springs().
   const std::vector<SpringRun>& springs() const { return springs_; }
   /// Typical distance between neighbours [m]; 1 without springs.
   double spacing() const { return spacing_; }
@@ -75,7 +83,8 @@ class ModelBuffers {
 
   std::uint32_t particle_count_ = 0, skin_vertices_ = 0;
   double spacing_ = 1.0;
-  std::vector<Surface::Part> parts_;
+  std::vector<Surface::Part> parts_, coarse_parts_;
+  bool coarse_ = false, springs_ready_ = false;
   std::optional<BallBuffers> balls_;
   std::optional<GoalPosts> posts_;
   std::vector<SpringRun> springs_;

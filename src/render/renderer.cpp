@@ -70,6 +70,7 @@ struct Renderer::Parts {
   Status prepare_highlight();
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
+  bool needs_springs(const ViewSettings& view) const;
   void draw_thickness(const gl::Buffer& particles) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
   void draw_springs(const gl::Buffer& particles, const DrawSettings& draw, ViewColour mode) const;
@@ -146,6 +147,13 @@ Status Renderer::Parts::prepare_highlight() {
 void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   frame.upload_items(std::span<const render_layout::Frame>(&block, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
+}
+
+bool Renderer::Parts::needs_springs(const ViewSettings& view) const {
+  const bool net =
+      std::ranges::any_of(model->bodies, [](const Body& b) { return b.kind == BodyKind::goal_net; });
+  return net || view.draw.structural || view.draw.shear || view.draw.bending ||
+         view.colour >= ViewColour::strain;
 }
 
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
@@ -244,8 +252,10 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   assert(particles.bytes() >= std::uint64_t{particle_stride} * p.model->particle_count());
   Status ready = p.prepare_targets(width, height);
   if (ready && options.highlight) ready = p.prepare_highlight();
-  if (!ready) return ready;
   const ViewSettings& view = options.view;
+  if (ready && p.needs_springs(view)) ready = p.buffers->prepare_springs(*p.context, *p.model);
+  if (!ready) return ready;
+  p.buffers->use_coarse_skin(options.coarse_skin);
   const Camera camera(view.camera, width, height);
   const QuantityRange range = options.range.value_or(default_range(*p.model, view.colour));
   const bool solid = view.draw.solid && p.buffers->has_skin();

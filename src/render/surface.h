@@ -12,8 +12,12 @@ struct Surface {
   struct Part {
     std::uint32_t first_index = 0, index_count = 0;  ///< of one body, into `indices`
   };
+  /// Quads along an edge of a coarse skin at most.
+  static constexpr int coarse_quads = 16;
+
   std::vector<std::uint32_t> indices;  ///< three per triangle
   std::vector<Part> parts;             ///< by body, in the order of Model::bodies
+  std::vector<Part> coarse_parts;  ///< the same skins with fewer triangles, over some of the same vertices
 
   /// The fans: vertex i of the skin is particle fan_vertex[i]; at it meet the quads
   /// fan_start[i] … fan_start[i + 1] − 1, of each of which `fan` holds the vertex's next and previous

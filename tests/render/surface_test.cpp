@@ -47,6 +47,38 @@ TEST(Surface, FansHoldThreeQuadsAtCornersFourElsewhere) {
   EXPECT_EQ(three, 8);
 }
 
+TEST(Surface, ACoarseSkinIsClosedAndKeepsTheCorners) {
+  const Model model = test::build(test::cube_on_plane(30));
+  const Surface surface = make_surface(model);
+  ASSERT_EQ(surface.coarse_parts.size(), 1u);
+  const Surface::Part part = surface.coarse_parts[0];
+  EXPECT_EQ(part.index_count, 6u * 6 * Surface::coarse_quads * Surface::coarse_quads);
+  EXPECT_EQ(part.first_index, surface.parts[0].index_count);
+  const std::set<std::uint32_t> skin(surface.fan_vertex.begin(), surface.fan_vertex.end());
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  double volume = 0.0;
+  for (std::uint32_t t = part.first_index; t < part.first_index + part.index_count; t += 3) {
+    const std::uint32_t* const corner = &surface.indices[t];
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_TRUE(skin.contains(corner[i])) << "a vertex without a normal";
+      ++edges[{corner[i], corner[(i + 1) % 3]}];
+    }
+    const auto& x = model.initial_position;
+    volume += dot(x[corner[0]], cross(x[corner[1]], x[corner[2]])) / 6.0;
+  }
+  for (const auto& [edge, times] : edges) {
+    EXPECT_EQ(times, 1);
+    EXPECT_EQ(edges.count({edge.second, edge.first}), 1u) << "an edge borders on nothing";
+  }
+  EXPECT_NEAR(volume, 64.0, 1e-9);
+}
+
+TEST(Surface, ASmallBodyHasOneSkin) {
+  const Surface surface = make_surface(test::build(test::cube_on_plane(17)));
+  EXPECT_EQ(surface.coarse_parts[0].first_index, surface.parts[0].first_index);
+  EXPECT_EQ(surface.coarse_parts[0].index_count, surface.indices.size());
+}
+
 TEST(TerrainMesh, SphereIsClosedAndFacesOutwards) {
   const Mesh mesh = sphere_mesh(32, 64);
   double volume = 0.0;
