@@ -157,7 +157,7 @@ class App final : public EventReceiver {
   /// Where the scene is drawn [window units].
   const Box& viewport() const { return viewport_; }
   /// The scene's part of the picture's pixels, 0…1: below 1 where a software rasteriser would be too slow.
-  double draw_scale() const { return draws_in_full() ? 1.0 : resolution_.moving(); }
+  double draw_scale() const { return draws_in_full() ? 1.0 : resolution_.share(false); }
   double draw_seconds() const { return draw_seconds_; }
   double pictures_per_second() const { return pictures_per_second_; }
 

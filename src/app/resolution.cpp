@@ -1,38 +1,62 @@
 #include "app/resolution.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace aspic::app {
 namespace {
 
-/// Few shares, so that pictures do not swim; each has about half the pixels of the one before.
-constexpr double shares[] = {1.0, 0.75, 0.55, 0.4, Resolution::coarsest};
 /// A finer share is taken up only with room to spare, so that it is not left again at once.
-constexpr double room = 0.8;
+constexpr double room = 0.85;
+
+double pixels(std::size_t i) {
+  return Resolution::shares[i] * Resolution::shares[i];
+}
 
 }  // namespace
 
 void Resolution::took(double share, double seconds) {
-  const double cost = seconds / (share * share);
-  // One slow picture among many may have been the machine's fault.
-  cost_ = cost_ && share == last_ ? 0.6 * *cost_ + 0.4 * cost : cost;
-  last_ = share;
+  const auto found = std::ranges::find(shares, share);
+  assert(found != shares.end());
+  const auto at = static_cast<std::size_t>(found - shares.begin());
+  if (std::optional<double>& known = times_[at]) {
+    // One slow picture among many may have been the machine's fault. If it was not, the others are slower
+    // too.
+    const double ratio = 0.6 + 0.4 * seconds / *known;
+    for (auto& time : times_) {
+      if (time) *time *= ratio;
+    }
+  } else {
+    known = seconds;
+  }
   moving_ = choose(in_motion, moving_);
-  still_ = std::max(choose(at_rest, still_), moving_);
+  still_ = std::min(choose(at_rest, still_), moving_);
 }
 
 void Resolution::reset(bool large) {
-  cost_.reset();
-  last_ = 0.0;
-  moving_ = still_ = large ? coarsest : 1.0;
+  times_ = {};
+  moving_ = still_ = large ? shares.size() - 1 : 0;
 }
 
-double Resolution::choose(double time, double now) const {
-  for (const double share : shares) {
-    const double guess = *cost_ * share * share;
-    if (guess <= (share > now ? room * time : time)) return share;
+/// Time of a picture at shares[i]; at least one share is known.
+double Resolution::guess(std::size_t i) const {
+  if (times_[i]) return *times_[i];
+  std::optional<std::size_t> finest, next;
+  for (std::size_t j = 0; j < shares.size() && !next; ++j) {
+    if (times_[j]) (finest ? next : finest) = j;
   }
-  return coarsest;
+  // Coarser than a known one: no longer than that.
+  if (i > *finest) return *times_[*finest];
+  if (!next) return *times_[*finest] * pixels(i) / pixels(*finest);
+  const double slope = (*times_[*finest] - *times_[*next]) / (pixels(*finest) - pixels(*next));
+  return *times_[*finest] + std::max(slope, 0.0) * (pixels(i) - pixels(*finest));
+}
+
+std::size_t Resolution::choose(double time, std::size_t now) const {
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (guess(i) <= (i < now ? room * time : time)) return i;
+  }
+  return shares.size() - 1;
 }
 
 }  // namespace aspic::app

@@ -1,32 +1,35 @@
 #pragma once
 // How finely a software rasteriser draws: as finely as leaves time for events.
+#include <array>
+#include <cstddef>
 #include <optional>
 
 namespace aspic::app {
 
-/// Chooses the share of the full resolution, in each direction, from what pictures took. A finer picture is
-/// taken to take longer by the ratio of the pixels, whatever part of its time does not depend on them: no
-/// guess of a finer one is too short, and each finer picture makes the next guess better.
+/// Chooses the share of the full resolution, in each direction, from what pictures took: a time that does not
+/// depend on the pixels and one that grows with them. Of a share not tried yet the two finest ones that were
+/// tell; one alone is taken as if all its time grew with the pixels.
 class Resolution {
  public:
   /// Times that a picture may take in motion, and once all stands still [s].
   static constexpr double in_motion = 0.045, at_rest = 0.085;
-  static constexpr double coarsest = 0.3;
+  /// Few shares, so that pictures do not swim; each has about half the pixels of the one before.
+  static constexpr std::array shares = {1.0, 0.75, 0.55, 0.4, 0.3};
+  static constexpr double coarsest = shares.back();
 
-  /// The share for the next picture, coarsest … 1.
-  double share(bool still) const { return still ? still_ : moving_; }
-  /// Share in motion.
-  double moving() const { return moving_; }
-  /// A picture at this share took so long [s], > 0. The first after a change of what is drawn is not told.
+  /// The share for the next picture, one of `shares`.
+  double share(bool still) const { return shares[still ? still_ : moving_]; }
+  /// A picture at this share, one of `shares`, took so long [s], > 0. The first after a change of what is
+  /// drawn is not told.
   void took(double share, double seconds);
-  /// Other things are drawn: begins coarsely again. `large` where pictures may take long.
+  /// Other things are drawn: begins coarsely again, where pictures may take long.
   void reset(bool large);
 
  private:
-  double choose(double time, double now) const;
-  std::optional<double> cost_;  // of a picture in full, at most [s]
-  double last_ = 0.0;           // share it was estimated from
-  double moving_ = 1.0, still_ = 1.0;
+  double guess(std::size_t i) const;
+  std::size_t choose(double time, std::size_t now) const;
+  std::array<std::optional<double>, shares.size()> times_;  // of pictures at each share [s]
+  std::size_t moving_ = 0, still_ = 0;                      // indices of shares
 };
 
 }  // namespace aspic::app
