@@ -67,6 +67,50 @@ Result<Finding> same_bits(const Subject& subject, Integrator integrator) {
                  fmt::format("{}, {:.3g} in metres and m/s.{}", text, worst.absolute, worst.arithmetic)};
 }
 
+/// A hand that takes a corner, moves, changes to a particle inside and lets go, each for a quarter of the
+/// run.
+Result<State> run_with_hand(Solver& solver, std::uint64_t steps) {
+  const std::uint32_t last = solver.model().particle_count() - 1;
+  const std::optional<Pull> inputs[] = {Pull{last, {4.0, 5.0, 2.0}, 900.0, 20.0},
+                                        Pull{last, {4.0, 2.0, -3.0}, 900.0, 20.0},
+                                        Pull{last / 2, {-2.0, 4.0, 1.0 / 3.0}, 1e4 / 3.0, 0.0}, std::nullopt};
+  for (const std::optional<Pull>& pull : inputs) {
+    if (const Status set = solver.set_pull(pull); !set) return set.error();
+    if (const Status good = require_good(solver.advance(steps / 4)); !good) return good.error();
+  }
+  return solver.state();
+}
+
+Result<Finding> same_bits_with_hand(const Subject& subject) {
+  std::uint64_t worst = 0;
+  int runs = 0;
+  bool exact = true;
+  for (const Integrator integrator : all_integrators) {
+    const bool solved = integrator == Integrator::implicit_euler;
+    for (const ContactModel contact : both_contact_models) {
+      ModelSettings settings = cube_on_terrain(4, TerrainShape::plane, integrator, contact);
+      if (solved) settings.simulation.timestep = 0.01;
+      const std::uint64_t steps = solved ? implicit_steps : repeat_steps;
+      ASPIC_VERIFY_LET(model, build_model(settings));
+      ASPIC_VERIFY_LET(reference, subject.reference(model, Precision::single));
+      ASPIC_VERIFY_LET(expected, run_with_hand(*reference, steps));
+      for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+        if (solved && path == ForcePath::per_spring) continue;
+        GpuOptions options;
+        options.force_path = path;
+        ASPIC_VERIFY_LET(solver, subject.gpu(model, options));
+        ASPIC_VERIFY_LET(end, run_with_hand(*solver, steps));
+        ASPIC_VERIFY_LET(difference, compare_states(end, expected));
+        worst = std::max({worst, difference.position.ulp, difference.velocity.ulp});
+        exact = exact && solver->arithmetic().exact();
+        ++runs;
+      }
+    }
+  }
+  return Finding{worst == 0 || (!subject.software_device && !exact),
+                 fmt::format("{} ULP in {} runs", worst, runs)};
+}
+
 /// Two particles, one spring: after one step of explicit Euler from known velocities the force is (v' −
 /// v)·m/h, and with h a power of two and v = 0 but along the spring nothing is lost in reading it back.
 Result<Finding> spring_force(const Subject& subject) {
@@ -190,6 +234,11 @@ void add_equality_checks(std::vector<Check>& checks) {
          "0 ULP, or the canary's finding on hardware", integrator == Integrator::explicit_euler, true,
          [=](const Subject& subject) { return same_bits(subject, integrator); }});
   }
+  checks.push_back(
+      {"equality/pull",
+       "gpu and reference while a hand pulls, moves and lets go: every integrator, 2 contact models, "
+       "2 force paths",
+       "0 ULP, or the canary's finding on hardware", true, true, same_bits_with_hand});
   checks.push_back({"equality/force",
                     "spring force of the gpu against double precision, over k(L + r) + c|v|, 1,000 springs",
                     at_most_text(4e-7), true, true, spring_force});

@@ -26,6 +26,7 @@ void Stage::TearDown() {
   app_.reset();
   if (window_) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    EXPECT_EQ(window_->context().high_severity_count(), 0u);  // among them errors that a solver came across
   }
   window_.reset();
   std::filesystem::current_path(home_);
