@@ -74,13 +74,16 @@ void App::film() {
   filmed_scene_ = editor_.source();
   const std::uint64_t pictures =
       film_pace_->take(simulation_->step(), simulation_->model().simulation.timestep, simulation_->speed);
+  Status taken;
   if (pictures > 0) {
-    Status taken = draw_picture(recording_->options().size.width, recording_->options().size.height);
+    taken = draw_picture(recording_->options().size.width, recording_->options().size.height);
     if (taken) taken = recording_->add(renderer_->picture(), pictures);
-    if (!taken) {
-      tell(taken);
-      return end_film();
-    }
+  } else {
+    taken = recording_->progress();
+  }
+  if (!taken) {
+    tell(taken);
+    return end_film();
   }
   // While the encoder is behind, the motion waits and the window does not.
   simulation_->pause_at(recording_->ready() ? film_pace_->next_step() : simulation_->step());

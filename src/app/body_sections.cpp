@@ -125,13 +125,13 @@ void shown_springs(App& app) {
   auto words = std::get<std::vector<std::string>>(*p.get(app.editor().scene(), 0));
   ImGui::TextUnformatted("Shown");
   tooltip("Types of springs in the picture. Their colours are chosen under View.\n\nScene key: view.draw");
-  float place = ImGui::CalcTextSize("Shown").x + 2.0f * ImGui::GetStyle().ItemSpacing.x;
+  float end = ImGui::GetWindowContentRegionMax().x;
   for (const std::string_view type : spring_types) {
     const float width = ImGui::CalcTextSize(type.data()).x + ImGui::GetFrameHeight() +
-                        2.0f * ImGui::GetStyle().ItemInnerSpacing.x;
+                        ImGui::GetStyle().ItemInnerSpacing.x + ImGui::GetStyle().ItemSpacing.x;
     // Large text needs more lines.
-    if (place + width < ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
-    place = ImGui::GetCursorPosX() + width;
+    if (end + width < ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
+    end = ImGui::GetCursorPosX() + width;
     bool on = std::ranges::find(words, type) != words.end();
     const bool toggled = ImGui::Checkbox(std::string(type).c_str(), &on);
     app.gui().mark(fmt::format("springs/show/{}", type));

@@ -144,6 +144,10 @@ Status Recording::add(const gl::Framebuffer& picture, std::uint64_t copies) {
   return {};
 }
 
+Status Recording::progress() {
+  return ring_.pending() > 0 ? hand_on() : Status();
+}
+
 void Recording::end() {
   if (ended_) return;
   ended_ = true;

@@ -70,6 +70,9 @@ class Recording {
   /// Adds a picture of the options' size, `copies` ≥ 1 times; legal until end(). Error (no_device): the
   /// device was lost.
   Status add(const gl::Framebuffer& picture, std::uint64_t copies);
+  /// Hands the oldest picture on the device to the encoder, if there is one: once for each of the window's
+  /// pictures that is none of the film's. Error as add().
+  Status progress();
   /// No more pictures: the film is completed by the thread. Pictures that a lost device still held are
   /// missing.
   void end();

@@ -27,6 +27,8 @@ class Stage : public ::testing::Test {
 
   /// Ends the app as closing the window does when nothing else is left to do.
   void close() { app_.reset(); }
+  /// Closes the window too, so that another program's has the screen to itself.
+  void close_window() { window_.reset(); }
 
   app::App& app() { return *app_; }
   app::Simulation& simulation() { return app_->simulation(); }

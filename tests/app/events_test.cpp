@@ -1,0 +1,306 @@
+// The program itself with events of the X server: aspic-view in a process of its own, keys and mouse by
+// xdotool, judged by the title and the files that it leaves. Every wait is for a condition.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+#include "app/close_window.h"
+#include "app/stage.h"
+#include "io/atomic_file.h"
+
+namespace aspic::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Far more than anything takes on a slow machine.
+constexpr auto patience = std::chrono::seconds(60);
+constexpr const char* window_title = "cube-plane";
+
+std::string output_of(const std::string& command) {
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  if (!pipe) return "";
+  std::string text;
+  std::array<char, 4096> part;
+  for (std::size_t got; (got = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
+    text.append(part.data(), got);
+  ::pclose(pipe);
+  return text;
+}
+
+/// Waits until a condition holds; false if it never does.
+template <class Condition>
+bool waited_for(Condition condition) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
+/// A film's pictures come one for each step: 0.24 simulated seconds a second, shown at 240 pictures.
+app::KeptState one_picture_a_step(app::FilmFormat format) {
+  app::KeptState kept;
+  kept.window = app::WindowPlace{1280, 720, std::array<int, 2>{0, 0}};
+  for (const char* name : {"Simulation", "View", "Performance", "Energy"}) kept.layout.sections[name] = false;
+  kept.speed = 0.24;
+  kept.film_fps = 240.0;
+  kept.film_format = format;
+  return kept;
+}
+
+class Events : public Stage {
+ protected:
+  void SetUp() override {
+    Stage::SetUp();
+    ::setenv("XDG_STATE_HOME", (directory() / "state").c_str(), 1);
+  }
+  void TearDown() override {
+    if (process_ > 0) {
+      ::kill(process_, SIGKILL);
+      ::waitpid(process_, nullptr, 0);
+    }
+    ::unsetenv("XDG_STATE_HOME");
+    Stage::TearDown();
+  }
+
+  /// Where widgets stand in a window left like that, found out in a window of our own.
+  std::map<std::string, app::Box> widgets(const app::KeptState& kept) {
+    open("cube-plane", {}, app::BackendName::reference, kept);
+    auto found = app().gui().widgets();
+    view_ = app().viewport();
+    close();
+    close_window();
+    return found;
+  }
+  void keep(const app::KeptState& kept) {
+    const Status saved = app::save_kept_state(kept, app::kept_state_path());
+    ASSERT_TRUE(saved.ok()) << saved.error().message;
+  }
+  /// Starts aspic-view on cube-plane and waits for its window, which gets the keyboard.
+  void start(std::vector<std::string> words = {}) {
+    close_window();
+    words.insert(words.begin(), {ASPIC_VIEW, "cube-plane", "--backend", "reference"});
+    process_ = ::fork();
+    if (process_ == 0) {
+      std::vector<char*> arguments;
+      for (std::string& word : words) arguments.push_back(word.data());
+      arguments.push_back(nullptr);
+      if (!std::freopen("view.log", "w", stderr)) ::_exit(126);
+      ::execv(ASPIC_VIEW, arguments.data());
+      ::_exit(127);
+    }
+    ASSERT_GT(process_, 0);
+    const std::string search =
+        fmt::format("timeout 20 xdotool search --onlyvisible --name '^{}' 2>/dev/null", window_title);
+    require([&] { return !(id_ = output_of(search)).empty(); }, "a window");
+    id_ = id_.substr(0, id_.find('\n'));
+    xdotool("windowfocus --sync " + id_);
+  }
+  void xdotool(const std::string& what) {
+    ASSERT_EQ(std::system(("timeout 30 xdotool " + what + " >/dev/null").c_str()), 0) << what << '\n'
+                                                                                      << log();
+  }
+  void key(const std::string& name) { xdotool("key " + name); }
+  void click_at(const app::Box& box) {
+    xdotool(fmt::format("mousemove --window {} {:.0f} {:.0f} click 1", id_, box.centre_x(), box.centre_y()));
+  }
+  /// All events so far are dealt with, and a picture was drawn after them.
+  void catch_up() {
+    const std::string name = fmt::format("aspic-cube-plane-{:04}.png", ++screenshots_);
+    key("F12");
+    require([&] { return exists(name); }, name);
+    newest_ = name;
+  }
+  void ask_to_close() { ASSERT_TRUE(ask_window_to_close(std::stoul(id_))); }
+  /// Waits for what the test cannot go on without.
+  template <class Condition>
+  void require(Condition condition, const std::string& what) {
+    const bool came = waited_for([&] { return condition() || ended(); }) && condition();
+    if (!came) throw std::runtime_error("In vain: " + what + ". " + log());
+  }
+  bool ended() {
+    if (process_ > 0 && ::waitpid(process_, &status_, WNOHANG) == process_) process_ = 0;
+    return process_ == 0;
+  }
+  int exit_code() {
+    EXPECT_TRUE(waited_for([&] { return ended(); })) << log();
+    return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
+  }
+  std::string title() { return output_of("timeout 20 xdotool getwindowname " + id_); }
+  std::string log() { return file("view.log"); }
+  std::string file(const std::string& name) {
+    const auto content = read_whole_file((directory() / name).string());
+    return content.ok() ? *content : "";
+  }
+  bool exists(const std::string& name) const { return fs::exists(directory() / name); }
+  static std::string picture(int film, int number) {
+    return fmt::format("aspic-cube-plane-{:04}/frame-{:06}.png", film, number);
+  }
+  void wait_for_picture(int film, int number) {
+    require([&] { return exists(picture(film, number)); }, picture(film, number));
+  }
+  /// A film of one picture, of what is seen now.
+  std::string still(int film) {
+    key("ctrl+r");
+    wait_for_picture(film, 0);
+    key("ctrl+r");
+    return file(picture(film, 0));
+  }
+  /// Width and height as a PNG's header says.
+  static std::pair<int, int> size_of(const std::string& png) {
+    const auto number = [&](std::size_t at) {
+      int value = 0;
+      for (std::size_t i = at; i < at + 4 && i < png.size(); ++i)
+        value = 256 * value + static_cast<unsigned char>(png[i]);
+      return value;
+    };
+    return {number(16), number(20)};
+  }
+  static int frames_of(const std::string& film) {
+    const std::string count =
+        output_of("ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 " + film);
+    return count.empty() ? 0 : std::stoi(count);
+  }
+
+  pid_t process_ = 0;
+  int status_ = -1, screenshots_ = 0;
+  std::string id_, newest_;
+  app::Box view_;
+};
+
+TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
+  const app::KeptState kept = one_picture_a_step(app::FilmFormat::png);
+  const auto boxes = widgets(kept);
+  keep(kept);
+  start();
+  catch_up();
+  EXPECT_EQ(size_of(file(newest_)), std::pair(1280, 720));
+
+  key("ctrl+r");
+  wait_for_picture(1, 0);
+  key("period");
+  wait_for_picture(1, 1);
+  EXPECT_FALSE(exists(picture(1, 2))) << "one step, one picture";
+  key("period");
+  wait_for_picture(1, 2);
+  EXPECT_NE(file(picture(1, 2)), file(picture(1, 1)));
+  key("space");
+  wait_for_picture(1, 12);
+  key("space");
+  key("ctrl+r");
+
+  key("ctrl+r");
+  key("period");
+  wait_for_picture(2, 1);
+  key("ctrl+r");
+  key("Tab");
+  catch_up();
+  EXPECT_EQ(size_of(still(3)).first, 1280) << "without panels the picture is as wide as the window";
+  key("Tab");
+  catch_up();
+  const std::string before = still(4);
+  EXPECT_EQ(size_of(before).first, static_cast<int>(view_.right - view_.left));
+
+  xdotool(fmt::format("mousemove --window {} {:.0f} {:.0f}", id_, view_.centre_x(), view_.centre_y()));
+  xdotool("mousedown 1 mousemove_relative 60 10 mousemove_relative 60 10 mouseup 1");
+  catch_up();
+  EXPECT_NE(still(5), before) << "a drag turns the camera";
+  key("Home");
+  int film = 6;
+  EXPECT_TRUE(waited_for([&] { return still(film++) == before; })) << "Home comes back to the bit";
+  EXPECT_THAT(title(), testing::StartsWith("cube-plane - "));
+  click_at(boxes.at("terrain/sphere"));
+  EXPECT_TRUE(waited_for([&] { return title().starts_with("cube-plane (changed)"); })) << title();
+  ask_to_close();
+  EXPECT_EQ(exit_code(), 0) << log();
+  EXPECT_TRUE(exists(picture(2, 1)));
+  EXPECT_FALSE(exists(picture(2, 2))) << "Space had paused the motion";
+}
+
+TEST_F(Events, ClosingWhileAFilmRunsLeavesItWhole) {
+  keep(one_picture_a_step(app::FilmFormat::mp4));
+  start();
+  key("ctrl+r");
+  key("period period period period period");
+  ask_to_close();
+  EXPECT_EQ(exit_code(), 0) << log();
+  EXPECT_EQ(frames_of("aspic-cube-plane-0001.mp4"), 6) << "the start and five steps";
+  EXPECT_THAT(log(), testing::HasSubstr("aspic-cube-plane-0001.mp4 holds 6 pictures"));
+}
+
+TEST_F(Events, ASignalWhileAFilmRunsLeavesItWhole) {
+  int sent = 0;
+  for (const int signal : {SIGTERM, SIGINT}) {
+    keep(one_picture_a_step(app::FilmFormat::webm));
+    start();
+    key("ctrl+r");
+    key("period period period");
+    catch_up();
+    ASSERT_EQ(::kill(process_, signal), 0);
+    EXPECT_EQ(exit_code(), 130) << log();
+    EXPECT_EQ(frames_of(fmt::format("aspic-cube-plane-{:04}.webm", ++sent)), 4);
+  }
+}
+
+TEST_F(Events, AnEncoderThatFailsLeavesTheWindowAtWork) {
+  keep(one_picture_a_step(app::FilmFormat::mp4));
+  const std::string path = std::getenv("PATH");
+  fs::create_directory(directory() / "bin");
+  std::ofstream(directory() / "bin" / "ffmpeg")
+      << "#!/bin/sh\nhead -c 1000 >/dev/null\necho no space >&2\nexit 1\n";
+  fs::permissions(directory() / "bin" / "ffmpeg", fs::perms::owner_all);
+  ::setenv("PATH", ((directory() / "bin").string() + ":" + path).c_str(), 1);
+  start();
+  ::setenv("PATH", path.c_str(), 1);
+  key("ctrl+r");
+  key("space");
+  catch_up();
+  catch_up();
+  ask_to_close();
+  EXPECT_EQ(exit_code(), 0) << log();
+  EXPECT_FALSE(exists("aspic-cube-plane-0001.mp4"));
+}
+
+TEST_F(Events, SizeAndLayoutAreKeptAndABrokenFileIsToldOfOnce) {
+  fs::create_directories(directory() / "state" / "aspic");
+  std::ofstream(app::kept_state_path()) << "this is = no [ layout\n";
+  start({"--size", "900x650"});
+  catch_up();
+  EXPECT_EQ(size_of(file(newest_)), std::pair(900, 650));
+  key("Tab");
+  catch_up();
+  ask_to_close();
+  EXPECT_EQ(exit_code(), 0) << log();
+  const std::string said = log();
+  const std::size_t first = said.find("window.toml");
+  EXPECT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(said.find("window.toml", first + 1), std::string::npos) << said;
+  const auto left = app::load_kept_state(app::kept_state_path());
+  ASSERT_TRUE(left.ok()) << left.error().message;
+  EXPECT_FALSE(left->layout.panels);
+  start();
+  catch_up();
+  EXPECT_EQ(size_of(file(newest_)), std::pair(900, 650)) << "as it was left";
+  ask_to_close();
+  EXPECT_EQ(exit_code(), 0);
+  EXPECT_EQ(log(), "") << "nothing to complain about";
+  start({"--size", "700x500"});
+  catch_up();
+  EXPECT_EQ(size_of(file(newest_)), std::pair(700, 500)) << "the command line goes first";
+  ask_to_close();
+  EXPECT_EQ(exit_code(), 0);
+}
+
+}  // namespace
+}  // namespace aspic::test
