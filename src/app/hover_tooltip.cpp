@@ -1,5 +1,8 @@
 // What is known of the particle under the mouse.
+#include <fmt/format.h>
 #include <imgui.h>
+
+#include <string>
 
 #include "app/app.h"
 #include "app/panels.h"
@@ -14,25 +17,31 @@ void row(const char* name, const Vec3& v, const char* unit, bool with_norm = tru
   ImGui::TextDisabled("%s", name);
   for (int axis = 0; axis < 3; ++axis) {
     ImGui::TableNextColumn();
-    ImGui::Text("%9.4g", v[axis]);
+    const std::string number = fmt::format("{:.4g}", v[axis]);
+    // Flush right, in columns as wide as the longest number.
+    const float width = ImGui::CalcTextSize("-0.000e-00").x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(number.c_str()).x);
+    ImGui::TextUnformatted(number.c_str());
   }
   ImGui::TableNextColumn();
   ImGui::TextDisabled("%s", unit);
   ImGui::TableNextColumn();
-  if (with_norm) ImGui::TextDisabled("norm %.4g", length(v));
+  if (with_norm) ImGui::TextDisabled("| %.4g |", length(v));
 }
 
-/// Beside the mouse, on the side where the view has room; while a hand pulls in the view's corner, out of the
-/// way.
+/// Beside the mouse, on the side where the view has room; while a hand pulls in a corner of the view,
+/// away from the mouse and from the colours' legend.
 void place(App& app) {
   const Box& view = app.viewport();
   const auto gap = static_cast<float>(16.0 * app.gui().scale());
-  if (app.simulation().hand()) {
-    const ImVec2 corner = {static_cast<float>(view.left) + gap, static_cast<float>(view.bottom) - gap};
-    return ImGui::SetNextWindowPos(corner, ImGuiCond_Always, {0.0f, 1.0f});
-  }
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool right = mouse.x > view.centre_x(), low = mouse.y > view.centre_y();
+  if (app.simulation().hand()) {
+    const double x = low ? view.right : view.left, y = low ? view.top : view.bottom;
+    const ImVec2 corner = {static_cast<float>(x) + (low ? -gap : gap),
+                           static_cast<float>(y) + (low ? gap : -gap)};
+    return ImGui::SetNextWindowPos(corner, ImGuiCond_Always, {low ? 1.0f : 0.0f, low ? 0.0f : 1.0f});
+  }
   ImGui::SetNextWindowPos({mouse.x + (right ? -gap : gap), mouse.y + (low ? -gap : gap)}, ImGuiCond_Always,
                           {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
 }

@@ -45,7 +45,7 @@ class Gallery : public Stage {
 };
 
 TEST_F(Gallery, CubeInABowlRuns) {
-  open("cube-bowl", {}, app::BackendName::reference);
+  open("cube-bowl", {"simulation.steps-per-frame=32"}, app::BackendName::reference);
   run_to(1450);
   EXPECT_TRUE(simulation().running());
   EXPECT_GT(simulation().energies().size(), 2u) << "the plot has curves";
@@ -62,15 +62,17 @@ TEST_F(Gallery, GoalNetCatchesAShot) {
 }
 
 TEST_F(Gallery, StrainOfACubeThatAHandPulls) {
-  open("cube-plane", {"cube[0].position=[0,1.05,0]", "view.colour=strain"}, app::BackendName::reference);
-  run_to(400);
-  const Vec3 corner = simulation().snapshot().position[990];
+  open("cube-plane",
+       {"cube[0].position=[0,1.05,0]", "view.colour=strain", "simulation.steps-per-frame=20",
+        "view.camera={position=[8,5,13], target=[0.4,2.0,0]}"},
+       app::BackendName::reference);
+  const Vec3 corner = simulation().snapshot().position[999];
   point_at(corner);
   frames(4);
   ASSERT_TRUE(app().hovered().has_value());
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
-  point_at(corner + Vec3{1.6, 1.8, 0.0});
-  frames_to_step(1400);
+  point_at(corner + Vec3{0.8, 2.4, 0.0});
+  run_to(180);
   press(GLFW_KEY_SPACE);
   frames(30);
   ASSERT_TRUE(app().hovered().has_value());
