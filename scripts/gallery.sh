@@ -29,7 +29,7 @@ draw springs 1.42 cube-plane --view 'draw=["structural","shear","bending"]'
 draw penalty 1.4 penalty
 draw cube-and-balls 0.7 cube-and-balls
 
-ASPIC_WINDOW_PICTURES=$work xvfb-run -a -s "-screen 0 1600x1000x24 -noreset" \
+ASPIC_WINDOW_PICTURES=$work xvfb-run -a -s "-screen 0 1920x1080x24 -noreset" \
   "$aspic_build_dir/tests/app/app_window_tests" --gtest_filter='Gallery.*' >&2
 for picture in "$work"/window-*.jpg; do
   cp "$picture" "$images/"

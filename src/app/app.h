@@ -149,6 +149,8 @@ class App final : public EventReceiver {
   bool help_visible() const { return help_visible_; }
   const std::optional<Notice>& notice() const { return notice_; }
   const std::optional<Hovered>& hovered() const { return hovered_; }
+  /// Whether pictures keep their full resolution on a software rasteriser too; samples stay as they are.
+  void set_full_quality(bool on) { full_quality_ = on; }
   /// What tells the time between clicks [s]; for tests, which do not wait.
   void set_clock(std::function<double()> clock) { clock_ = std::move(clock); }
   /// Ball, speed and stiffness of hands, as the panels set them.

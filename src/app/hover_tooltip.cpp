@@ -19,7 +19,7 @@ void row(const char* name, const Vec3& v, const char* unit, bool with_norm = tru
     ImGui::TableNextColumn();
     const std::string number = fmt::format("{:.4g}", v[axis]);
     // Flush right, in columns as wide as the longest number.
-    const float width = ImGui::CalcTextSize("-0.000e-00").x;
+    const float width = ImGui::CalcTextSize("-0.0000e-00").x;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(number.c_str()).x);
     ImGui::TextUnformatted(number.c_str());
   }

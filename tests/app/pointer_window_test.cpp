@@ -14,6 +14,7 @@ using app::BackendName;
 
 class Pointer : public Stage {
  protected:
+  bool full_quality() const override { return true; }  // pictures are compared, whatever time they take
   Camera camera() {
     const app::Box& view = app().viewport();
     return {app().camera().shown(), static_cast<int>(view.right - view.left),

@@ -6,6 +6,7 @@
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic::test {
+
 void Stage::SetUp() {
   temporary_ = std::make_unique<TemporaryDirectory>();
   home_ = std::filesystem::current_path();

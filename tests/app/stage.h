@@ -23,7 +23,7 @@ class Stage : public ::testing::Test {
   void SetUp() override;
   void TearDown() override;
 
-  /// Width and height of the window; the display has 1600 × 1000.
+  /// Width and height of the window; the display has 1920 × 1080.
   virtual std::array<int, 2> window_size() const { return {1280, 720}; }
   /// Whether pictures are drawn as on hardware.
   virtual bool full_quality() const { return false; }

@@ -22,6 +22,7 @@ void PrintTo(const View& view, std::ostream* out) {
 class Views : public Stage, public ::testing::WithParamInterface<View> {
  protected:
   std::array<int, 2> window_size() const override { return {640, 360}; }
+  bool full_quality() const override { return true; }  // whatever the time pictures take
 };
 
 TEST_P(Views, AreAsTheyWere) {
