@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Draws the pictures of the README anew into docs/images: the last frame of a short run of each scene.
+# Draws the pictures of the README anew into docs/images: the last frame of a short run of each scene, and the window as
+# its tests see it.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
-aspic_install run
-aspic_build OFF aspic
+aspic_install all
+aspic_build ON aspic app_window_tests
 
 images=$aspic_root/docs/images
 mkdir -p "$images"
@@ -27,3 +28,10 @@ draw strain 1.42 cube-plane --view colour=strain
 draw springs 1.42 cube-plane --view 'draw=["structural","shear","bending"]'
 draw penalty 1.4 penalty
 draw cube-and-balls 0.7 cube-and-balls
+
+ASPIC_WINDOW_PICTURES=$work xvfb-run -a -s "-screen 0 1920x1080x24 -noreset" \
+  "$aspic_build_dir/tests/app/app_window_tests" --gtest_filter='Gallery.*' >&2
+for picture in "$work"/window-*.jpg; do
+  cp "$picture" "$images/"
+  echo "docs/images/${picture##*/}" >&2
+done

@@ -34,6 +34,7 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   auto editor = SceneEditor::open(options.scene, options.overrides);
   if (!editor) return editor.error();
   std::unique_ptr<App> app(new App(context, std::move(*editor)));
+  app->full_quality_ = options.full_quality;
   const BackendName unasked = context.info().is_software ? BackendName::reference : BackendName::gpu;
   auto simulation = Simulation::create(context, app->editor_.scene(), options.backend.value_or(unasked));
   if (!simulation) return simulation.error();
@@ -48,7 +49,7 @@ Status App::make_pictures(double scale, WindowServices services) {
   const auto directory = cli::shader_directory();
   if (!directory) return directory.error();
   RendererOptions look;
-  look.samples = context_->info().is_software ? 1 : 4;
+  look.samples = draws_in_full() ? 4 : 1;
   look.shaders = gl::ShaderLibrary(*directory);
   auto renderer = Renderer::create(*context_, look);
   if (!renderer) return renderer.error();

@@ -29,6 +29,7 @@ struct AppOptions {
   std::vector<std::string> overrides;  ///< KEY=VALUE
   std::optional<BackendName> backend;  ///< absent: the gpu where it is hardware, else the reference
   KeptState kept = {};                 ///< how the window was last left
+  bool full_quality = false;           ///< on a software rasteriser too, however long pictures take
 };
 
 /// A line to the user, on top of the picture until dismissed or replaced.
@@ -148,6 +149,8 @@ class App final : public EventReceiver {
   bool help_visible() const { return help_visible_; }
   const std::optional<Notice>& notice() const { return notice_; }
   const std::optional<Hovered>& hovered() const { return hovered_; }
+  /// Whether pictures keep their full resolution on a software rasteriser too; samples stay as they are.
+  void set_full_quality(bool on) { full_quality_ = on; }
   /// What tells the time between clicks [s]; for tests, which do not wait.
   void set_clock(std::function<double()> clock) { clock_ = std::move(clock); }
   /// Ball, speed and stiffness of hands, as the panels set them.
@@ -181,13 +184,13 @@ class App final : public EventReceiver {
   void film();
   void watch_films();
   void end_film();
-  bool draws_in_full() const { return !context_->info().is_software; }
   bool is_still() const { return !simulation_->running() && !simulation_->seeking() && still_ > 0.25; }
   void find_hovered();
   void describe(std::uint32_t particle);
   Status ask_what_is_under_mouse();
   Status present_ring();
   bool is_double_click();
+  bool draws_in_full() const { return full_quality_ || !context_->info().is_software; }
   void centre_on(const Picked& picked);
   HighlightOptions marks(int width) const;
   void save_screenshot(const WindowSize& size);
@@ -250,6 +253,7 @@ class App final : public EventReceiver {
   int shown_pixels_[4] = {};  // and in pixels: left, bottom, width, height
   int drawn_width_ = 0, drawn_height_ = 0;
   double pixels_per_unit_ = 1.0;
+  bool full_quality_ = false;
   Resolution resolution_;
   std::uint32_t drawn_particles_ = 0;
   double draw_seconds_ = 0.0, still_ = 0.0, awake_ = 0.0;

@@ -1,5 +1,8 @@
 // What is known of the particle under the mouse.
+#include <fmt/format.h>
 #include <imgui.h>
+
+#include <string>
 
 #include "app/app.h"
 #include "app/panels.h"
@@ -14,12 +17,33 @@ void row(const char* name, const Vec3& v, const char* unit, bool with_norm = tru
   ImGui::TextDisabled("%s", name);
   for (int axis = 0; axis < 3; ++axis) {
     ImGui::TableNextColumn();
-    ImGui::Text("%9.4g", v[axis]);
+    const std::string number = fmt::format("{:.4g}", v[axis]);
+    // Flush right, in columns as wide as the longest number.
+    const float width = ImGui::CalcTextSize("-0.0000e-00").x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(number.c_str()).x);
+    ImGui::TextUnformatted(number.c_str());
   }
   ImGui::TableNextColumn();
   ImGui::TextDisabled("%s", unit);
   ImGui::TableNextColumn();
-  if (with_norm) ImGui::TextDisabled("%.4g %s in all", length(v), unit);
+  if (with_norm) ImGui::TextDisabled("| %.4g |", length(v));
+}
+
+/// Beside the mouse, on the side where the view has room; while a hand pulls in a corner of the view,
+/// away from the mouse and from the colours' legend.
+void place(App& app) {
+  const Box& view = app.viewport();
+  const auto gap = static_cast<float>(16.0 * app.gui().scale());
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const bool right = mouse.x > view.centre_x(), low = mouse.y > view.centre_y();
+  if (app.simulation().hand()) {
+    const double x = low ? view.right : view.left, y = low ? view.top : view.bottom;
+    const ImVec2 corner = {static_cast<float>(x) + (low ? -gap : gap),
+                           static_cast<float>(y) + (low ? gap : -gap)};
+    return ImGui::SetNextWindowPos(corner, ImGuiCond_Always, {low ? 1.0f : 0.0f, low ? 0.0f : 1.0f});
+  }
+  ImGui::SetNextWindowPos({mouse.x + (right ? -gap : gap), mouse.y + (low ? -gap : gap)}, ImGuiCond_Always,
+                          {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
 }
 
 }  // namespace
@@ -28,23 +52,25 @@ void hover_tooltip(App& app) {
   const auto& h = app.hovered();
   if (!h) return;
   const ParticleForce& f = h->force;
+  place(app);
   ImGui::BeginTooltip();
   ImGui::Text("particle %u", h->particle);
   ImGui::SameLine();
-  ImGui::TextDisabled("m = %.4g kg%s", h->mass, h->pinned ? ", pinned" : "");
+  ImGui::TextDisabled("%s%.4g kg, step %llu", h->pinned ? "pinned, " : "", h->mass,
+                      static_cast<unsigned long long>(app.simulation().snapshot().step));
   if (ImGui::BeginTable("particle", 6, ImGuiTableFlags_SizingFixedFit)) {
     row("x", h->position, "m", false);
     row("v", h->velocity, "m/s");
     row("f", f.net, "N");
-    if (f.springs != Vec3{}) row("  of springs", f.springs, "N");
-    if (f.pull != Vec3{}) row("  of the hand", f.pull, "N");
-    if (f.contact != Vec3{}) row("  of contact", f.contact, "N");
+    row("  gravity", f.gravity, "N");
+    row("  springs", f.springs, "N");
+    if (f.pull != Vec3{}) row("  hand", f.pull, "N");
+    if (f.contact != Vec3{}) row("  contact", f.contact, "N");
     ImGui::EndTable();
   }
-  // The Coulomb model's contacts act on velocities at the end of a step, not as a force.
-  ImGui::TextDisabled("step %llu; f = gravity and springs%s",
-                      static_cast<unsigned long long>(app.simulation().snapshot().step),
-                      f.contact != Vec3{} ? " and contact" : ", without impulses of contact");
+  // The Coulomb model's contacts act on velocities at the end of a step.
+  if (app.simulation().model().contact.model == ContactModel::coulomb)
+    ImGui::TextDisabled("Contacts are impulses and no part of f.");
   ImGui::EndTooltip();
 }
 

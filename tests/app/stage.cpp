@@ -6,17 +6,13 @@
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic::test {
-namespace {
-
-constexpr int width = 1280, height = 720;
-
-}  // namespace
 
 void Stage::SetUp() {
   temporary_ = std::make_unique<TemporaryDirectory>();
   home_ = std::filesystem::current_path();
   // Screenshots land where the program was started.
   std::filesystem::current_path(directory());
+  const auto [width, height] = window_size();
   auto window = app::Window::create(width, height, "test");
   ASSERT_TRUE(window.ok()) << window.error().message;
   window_ = std::move(*window);
@@ -38,8 +34,8 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides,
   services.clipboard = [this] { return clipboard; };
   services.set_clipboard = [this](const std::string& text) { clipboard = text; };
   services.toggle_full_screen = [this] { ++full_screen_toggles; };
-  auto made =
-      app::App::create(window_->context(), {scene, std::move(overrides), backend, kept}, 1.0, services);
+  auto made = app::App::create(window_->context(),
+                               {scene, std::move(overrides), backend, kept, full_quality()}, 1.0, services);
   ASSERT_TRUE(made.ok()) << made.error().message;
   app_ = std::move(*made);
   window_->set_receiver(app_.get());
@@ -131,6 +127,16 @@ std::vector<unsigned char> Stage::pixels() const {
   glReadPixels(0, 0, size.pixel_width, size.pixel_height, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   return rgb;
+}
+
+Image Stage::image() const {
+  const app::WindowSize size = window_->size();
+  const auto below = pixels();
+  Image image{size.pixel_width, size.pixel_height, std::vector<std::byte>(below.size())};
+  const std::size_t row = 3 * static_cast<std::size_t>(size.pixel_width);
+  for (std::size_t at = 0; at < below.size(); ++at)
+    image.rgb[below.size() - row - at / row * row + at % row] = static_cast<std::byte>(below[at]);
+  return image;
 }
 
 std::string reference_hash(const Scene& scene, std::uint64_t steps) {

@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "app/app.h"
 #include "app/window.h"
+#include "render/image_comparison.h"
 #include "support/temporary_directory.h"
 
 namespace aspic::test {
@@ -21,6 +23,10 @@ class Stage : public ::testing::Test {
   void SetUp() override;
   void TearDown() override;
 
+  /// Width and height of the window; the display has 1920 × 1080.
+  virtual std::array<int, 2> window_size() const { return {1280, 720}; }
+  /// Whether pictures are drawn as on hardware.
+  virtual bool full_quality() const { return false; }
   /// Opens the app on a scene; before any other call.
   void open(const std::string& scene, std::vector<std::string> overrides = {},
             std::optional<app::BackendName> backend = std::nullopt, const app::KeptState& kept = {});
@@ -57,6 +63,8 @@ class Stage : public ::testing::Test {
   void resize(int width, int height);
   /// Pixels of the window, RGB, rows from the bottom.
   std::vector<unsigned char> pixels() const;
+  /// The same as a picture, rows from the top.
+  Image image() const;
   /// The clipboard, which tests keep to themselves.
   std::string clipboard;
   int full_screen_toggles = 0;

@@ -1,0 +1,89 @@
+// The window as README shows it. With the environment variable ASPIC_WINDOW_PICTURES the pictures go to that
+// directory; scripts/gallery.sh does so.
+#include <cmath>
+#include <cstdlib>
+
+#include "app/stage.h"
+#include "io/frame_directory.h"
+#include "render/camera.h"
+
+namespace aspic::test {
+namespace {
+
+class Gallery : public Stage {
+ protected:
+  std::array<int, 2> window_size() const override { return {1600, 1000}; }
+  bool full_quality() const override { return true; }
+
+  /// Coarsely on the way, so that the figures shown are those of a window that keeps up.
+  void run_to(std::uint64_t step) {
+    app().set_full_quality(false);
+    press(GLFW_KEY_SPACE);
+    frames_to_step(step);
+    app().set_full_quality(true);
+  }
+  void point_at(const Vec3& point) {
+    const app::Box& view = app().viewport();
+    const Camera camera(app().camera().shown(), static_cast<int>(view.right - view.left),
+                        static_cast<int>(view.bottom - view.top));
+    const auto seen = camera.project(point);
+    ASSERT_TRUE(seen.has_value());
+    app().cursor(view.left + seen->x, view.top + seen->y);
+  }
+  /// Writes what the window shows. A window with nothing in it compresses to less than this.
+  void take(const std::string& name) {
+    EXPECT_FALSE(app().notice() && app().notice()->is_error) << app().notice()->text;
+    const Image picture = image();
+    const auto file = encode_image(ImageFormat::jpg, {picture.width, picture.height}, picture.rgb);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_GT(file->size(), 60000u);
+    const char* const wanted = std::getenv("ASPIC_WINDOW_PICTURES");
+    const std::filesystem::path path =
+        (wanted ? std::filesystem::path(wanted) : directory()) / (name + ".jpg");
+    auto out = AtomicFile::create(path.string(), Overwrite::allow);
+    ASSERT_TRUE(out.ok()) << out.error().message;
+    ASSERT_TRUE(out->write(*file).ok());
+    ASSERT_TRUE(out->commit().ok());
+  }
+};
+
+TEST_F(Gallery, CubeInABowlRuns) {
+  open("cube-bowl", {"simulation.steps-per-frame=32"}, app::BackendName::reference);
+  run_to(1450);
+  frames(1);
+  EXPECT_TRUE(simulation().running());
+  EXPECT_GT(simulation().energies().size(), 2u) << "the plot has curves";
+  EXPECT_TRUE(has("simulation/run"));
+  take("window-cube-bowl");
+}
+
+TEST_F(Gallery, GoalNetCatchesAShot) {
+  open("goal-net", {}, app::BackendName::reference);
+  run_to(320);
+  press(GLFW_KEY_SPACE);
+  frames(30);
+  take("window-goal-net");
+}
+
+TEST_F(Gallery, StrainOfACubeThatAHandPulls) {
+  open("cube-plane",
+       {"cube[0].position=[0,1.05,0]", "view.colour=strain", "simulation.steps-per-frame=20",
+        "view.camera={position=[8,5,13], target=[0.4,2.0,0]}"},
+       app::BackendName::reference);
+  const Vec3 corner = simulation().snapshot().position[999];
+  point_at(corner);
+  frames(4);
+  ASSERT_TRUE(app().hovered().has_value());
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
+  point_at(corner + Vec3{0.8, 2.4, 0.0});
+  run_to(180);
+  press(GLFW_KEY_SPACE);
+  frames(30);
+  ASSERT_TRUE(app().hovered().has_value());
+  EXPECT_NE(app().hovered()->force.pull, Vec3{});
+  take("window-strain");
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
+}
+
+}  // namespace
+}  // namespace aspic::test
