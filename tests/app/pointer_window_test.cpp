@@ -57,6 +57,7 @@ class Pointer : public Stage {
     app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
   }
   void double_click(double x, double y, double pause = 0.2) {
+    app().set_full_quality(false);  // nobody looks
     app().set_clock([this] { return time_; });
     const double start = time_ + 10.0;
     click(x, y, start);
