@@ -17,16 +17,22 @@ void main() {
     group_upper[gl_LocalInvocationIndex] = uvec3(0u);
   }
   barrier();
-  if (i < particle_count) {
-    for (int light = 0; light < LIGHTS; ++light) {
-      vec3 p = mat3(lights[light]) * particles[i].position.xyz;
-      atomicMin(group_lower[light].x, ordered(p.x));
-      atomicMin(group_lower[light].y, ordered(p.y));
-      atomicMin(group_lower[light].z, ordered(p.z));
-      atomicMax(group_upper[light].x, ordered(p.x));
-      atomicMax(group_upper[light].y, ordered(p.y));
-      atomicMax(group_upper[light].z, ordered(p.z));
+  // Each invocation takes many particles: atomics are dear.
+  uint stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+  for (int light = 0; light < LIGHTS; ++light) {
+    uvec3 lower = uvec3(0xffffffffu), upper = uvec3(0u);
+    for (uint particle = i; particle < particle_count; particle += stride) {
+      vec3 p = mat3(lights[light]) * particles[particle].position.xyz;
+      uvec3 place = uvec3(ordered(p.x), ordered(p.y), ordered(p.z));
+      lower = min(lower, place);
+      upper = max(upper, place);
     }
+    atomicMin(group_lower[light].x, lower.x);
+    atomicMin(group_lower[light].y, lower.y);
+    atomicMin(group_lower[light].z, lower.z);
+    atomicMax(group_upper[light].x, upper.x);
+    atomicMax(group_upper[light].y, upper.y);
+    atomicMax(group_upper[light].z, upper.z);
   }
   barrier();
   if (gl_LocalInvocationIndex < uint(LIGHTS)) {

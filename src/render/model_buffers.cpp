@@ -11,6 +11,9 @@ namespace {
 
 using gl::Reader;
 
+/// Invocations that find the particles' bounds; more particles are shared out among them.
+constexpr std::uint32_t most_bounding_invocations = 4096;
+
 /// Incident springs of every particle: where each list begins, and (neighbour, class) pairs.
 struct Incident {
   std::vector<std::uint32_t> start, ends;
@@ -165,7 +168,7 @@ void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const Dev
   bounds_.upload_items(std::span<const render_layout::Bounds>(empty));
   gl::Pass(programs.bounds, {{BINDING_PARTICLES, state.particles}, {BINDING_BOUNDS, &bounds_}},
            Reader::compute_pass | Reader::copy)
-      .dispatch_for(particle_count_);
+      .dispatch_for(std::min(particle_count_, most_bounding_invocations));
   balls_->prepare(programs, state, bounds_);
   gl::Pass(programs.light_boxes, {{BINDING_BOUNDS, &bounds_}, {BINDING_LIGHT_BOXES_OUT, &light_boxes_}},
            Reader::uniform)

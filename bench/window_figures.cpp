@@ -1,0 +1,175 @@
+// What the window manages on this machine: real-time factor, pictures a second, longest gap between handled
+// events; and the largest cube that keeps up with time. To be run on a display, or under xvfb-run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/app.h"
+#include "app/window.h"
+
+namespace {
+
+using namespace aspic;
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point a, Clock::time_point b) {
+  return std::chrono::duration<double>(b - a).count();
+}
+
+struct Figures {
+  double real_time_factor = 0.0, pictures_per_second = 0.0;
+  double longest_gap = 0.0;  ///< between two looks at the events [s]
+  double resolution = 0.0;   ///< share of the full one, at the end
+};
+
+struct Case {
+  std::string scene;
+  std::vector<std::string> overrides;
+  app::BackendName backend = app::BackendName::reference;
+  bool edits = false;  ///< a value is changed ten times a second, as a slider under the mouse does
+};
+
+[[noreturn]] void fail(const std::string& message) {
+  fmt::print(stderr, "{}\n", message);
+  std::exit(1);
+}
+
+/// Runs a scene in real time for so long, in a window of its own, as aspic-view would.
+Figures measure(const Case& c, double seconds) {
+  auto window = app::Window::create(1280, 720, "Aspic figures");
+  if (!window) fail(window.error().message);
+  app::AppOptions options;
+  options.scene = c.scene;
+  options.overrides = c.overrides;
+  options.backend = c.backend;
+  auto app = app::App::create((*window)->context(), options, 1.0, (*window)->services());
+  if (!app) fail(app.error().message);
+  (*window)->set_receiver(app->get());
+  app::Simulation& simulation = (*app)->simulation();
+  simulation.pace = app::Pace::real_time;
+  simulation.set_running(true);
+  Figures figures;
+  // The first second compiles shaders and finds the resolution.
+  const double warm_up = 1.0;
+  const auto start = Clock::now();
+  auto last = start, measured_from = start, edited = start;
+  double time_from = 0.0;
+  bool warm = false;
+  int pictures = 0;
+  double pull = 9.8;  // of gravity [m/s²]
+  for (;;) {
+    (*window)->poll(0.0);
+    const auto now = Clock::now();
+    const double dt = seconds_between(last, now);
+    last = now;
+    if (!warm && seconds_between(start, now) > warm_up) {
+      warm = true;
+      measured_from = now;
+      time_from = simulation.time();
+    } else if (warm) {
+      ++pictures;
+      figures.longest_gap = std::max(figures.longest_gap, dt);
+      if (seconds_between(measured_from, now) > seconds) break;
+    }
+    if (c.edits && seconds_between(edited, now) > 0.1) {
+      edited = now;
+      pull = pull > 9.8 ? 9.8 : 9.9;
+      (*app)->set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -pull, 0.0}), "slider");
+    }
+    if (const Status drawn = (*app)->frame((*window)->size(), std::min(dt, 0.25)); !drawn)
+      fail(drawn.error().message);
+    (*window)->show_picture();
+    if (simulation.divergence()) fail("diverged");
+  }
+  const double wall = seconds_between(measured_from, last);
+  figures.real_time_factor = (simulation.time() - time_from) / wall;
+  figures.pictures_per_second = pictures / wall;
+  figures.resolution = (*app)->draw_scale();
+  (*window)->set_receiver(nullptr);
+  return figures;
+}
+
+std::string_view name_of(app::BackendName backend) {
+  return backend == app::BackendName::gpu ? "gpu" : "reference";
+}
+
+void report(std::string_view what, const Case& c, const Figures& f) {
+  std::string overrides;
+  for (const std::string& o : c.overrides)
+    overrides += fmt::format("{}\"{}\"", overrides.empty() ? "" : ", ", o);
+  fmt::print(
+      "{{\"case\": \"{}\", \"scene\": \"{}\", \"overrides\": [{}], \"backend\": \"{}\", "
+      "\"real_time_factor\": {:.3f}, \"pictures_per_second\": {:.1f}, \"longest_gap_seconds\": {:.3f}, "
+      "\"resolution\": {}}}\n",
+      what, c.scene, overrides, name_of(c.backend), f.real_time_factor, f.pictures_per_second, f.longest_gap,
+      f.resolution);
+  std::fflush(stdout);
+}
+
+Figures median_of(const Case& c, double seconds, int repeats) {
+  std::vector<Figures> runs;
+  for (int i = 0; i < repeats; ++i) runs.push_back(measure(c, seconds));
+  std::ranges::sort(runs, {}, &Figures::real_time_factor);
+  Figures figures = runs[runs.size() / 2];
+  for (const Figures& f : runs) figures.longest_gap = std::max(figures.longest_gap, f.longest_gap);
+  return figures;
+}
+
+/// The largest cube whose median factor is 0.98 or more (0: none from 6 on); sizes grow by about a tenth.
+void largest(app::BackendName backend, Integrator integrator, double timestep) {
+  int found = 0;
+  for (int n = 6; n <= 64; n = std::max(n + 1, n * 11 / 10)) {
+    const Case c = {"cube-plane",
+                    {fmt::format("cube[0].particles-per-edge={}", n),
+                     fmt::format("simulation.integrator={}", name_of(integrator)),
+                     fmt::format("simulation.timestep={}", timestep)},
+                    backend};
+    const Figures f = median_of(c, 2.0, 3);
+    report("size", c, f);
+    if (f.real_time_factor < 0.98) break;
+    found = n;
+  }
+  fmt::print(
+      "{{\"case\": \"largest\", \"backend\": \"{}\", \"integrator\": \"{}\", \"timestep\": {}, "
+      "\"particles_per_edge\": {}}}\n",
+      name_of(backend), name_of(integrator), timestep, found);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string_view what = argc == 2 ? argv[1] : "";
+  const bool all = what == "all";
+  if (!all && what != "default" && what != "large" && what != "sizes")
+    fail(
+        "usage: window_figures default | large | sizes | all\nPrints a JSON object a line; needs a display "
+        "(xvfb-run).");
+  constexpr app::BackendName backends[] = {app::BackendName::reference, app::BackendName::gpu};
+  if (all || what == "default") {
+    for (const auto backend : backends) {
+      const Case c = {"cube-plane", {}, backend};
+      report("default", c, median_of(c, 4.0, 5));
+    }
+  }
+  if (all || what == "large") {
+    for (const bool edits : {false, true}) {
+      const Case c = {"large-cube", {}, app::BackendName::reference, edits};
+      report(edits ? "large, edited" : "large", c, median_of(c, 6.0, 3));
+    }
+  }
+  if (all || what == "sizes") {
+    for (const auto backend : backends) {
+      for (const Integrator integrator : all_integrators) {
+        // One-pass is stable up to 1.024 ms; implicit Euler is for steps of a picture's length.
+        largest(backend, integrator, integrator == Integrator::implicit_euler ? 1.0 / 60 : 0.001);
+      }
+    }
+  }
+  return 0;
+}
