@@ -98,7 +98,27 @@ void Stage::drag(int button, double x, double y, double dx, double dy, int modif
   app_->mouse_button(button, GLFW_RELEASE, modifiers);
 }
 
+void Stage::bring_into_sight(const std::string& widget) {
+  constexpr double margin = 12.0;
+  for (int i = 0; i < 200; ++i) {
+    const auto& widgets = app_->gui().widgets();
+    const auto found = widgets.find(widget);
+    ASSERT_NE(found, widgets.end()) << "no widget " << widget;
+    const app::Box box = found->second, view = app_->viewport();
+    // What floats over the picture, and the line below all, never needs to be scrolled.
+    if (box.centre_x() > view.left && box.centre_x() < view.right) return;
+    // The panels reach down as far as the bar of the history under the picture.
+    if (box.centre_y() > margin && box.centre_y() < widgets.at("timeline").bottom) return;
+    app_->cursor(box.centre_x(), view.centre_y());
+    frames(1);
+    app_->scroll(0, box.centre_y() < margin ? 1 : -1);
+    frames(1);
+  }
+  FAIL() << widget << " cannot be scrolled to";
+}
+
 void Stage::click(const std::string& widget) {
+  bring_into_sight(widget);
   const auto& widgets = app_->gui().widgets();
   const auto found = widgets.find(widget);
   ASSERT_NE(found, widgets.end()) << "no widget " << widget;

@@ -53,7 +53,9 @@ class Stage : public ::testing::Test {
   void press(int key, int modifiers = 0);
   void type(char32_t character);
   void drag(int button, double x, double y, double dx, double dy, int modifiers = 0);
-  /// Clicks the middle of a widget by name; a failure if it is not there.
+  /// Scrolls the panels until a widget can be seen; a failure if it is not there.
+  void bring_into_sight(const std::string& widget);
+  /// Clicks the middle of a widget by name, scrolled into sight; a failure if it is not there.
   void click(const std::string& widget);
   bool has(const std::string& widget) const { return app_->gui().widgets().contains(widget); }
   double middle_x() { return app_->viewport().centre_x(); }
