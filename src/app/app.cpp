@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "app/panels.h"
 #include "app/shortcuts.h"
@@ -16,12 +17,6 @@
 
 namespace aspic::app {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// How long a line that is no error stays [s].
 constexpr double notice_seconds = 5.0;
@@ -44,45 +39,6 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   return app;
 }
 
-/// Renderer and panels, in the context.
-Status App::make_pictures(double scale, WindowServices services) {
-  const auto directory = cli::shader_directory();
-  if (!directory) return directory.error();
-  RendererOptions look;
-  look.samples = draws_in_full() ? 4 : 1;
-  look.shaders = gl::ShaderLibrary(*directory);
-  auto renderer = Renderer::create(*context_, look);
-  if (!renderer) return renderer.error();
-  auto gui = Gui::create(scale, std::move(services));
-  if (!gui) return gui.error();
-  renderer_ = std::move(*renderer);
-  gui_ = std::move(*gui);
-  gui_->set_text_size(layout_.text_size);
-  return {};
-}
-
-Status App::release_context(const Error& why) {
-  for (const std::string& line : finish_films()) tell(line, true);
-  if (const Status left = simulation_->leave_gpu(why); !left) return left;
-  // What the solver said when it noticed first says more.
-  if (!notice_ || !notice_->is_error) tell(why.message, true);
-  end_pull();
-  asked_.reset();
-  hovered_.reset();
-  drag_button_ = -1;
-  renderer_.reset();
-  gui_.reset();
-  context_ = nullptr;
-  return {};
-}
-
-Status App::adopt_context(gl::Context& context, double scale, WindowServices services) {
-  context_ = &context;
-  simulation_->set_context(context);
-  drawn_model_ = drawn_state_ = ~std::uint64_t{0};
-  return make_pictures(scale, std::move(services));
-}
-
 App::~App() {
   // Whatever ends the window, the film is completed.
   stop_recording();
@@ -94,7 +50,7 @@ std::string App::title() const {
 
 bool App::idle() const {
   return !simulation_->running() && std::min(still_, awake_) > 0.5 && !screenshot_wanted_ &&
-         pending_ == Effect::none;
+         pending_ == Effect::none && !simulation_->changing();
 }
 
 void App::tell(const Status& status) {
@@ -315,30 +271,30 @@ void App::take_effect(Effect effect) {
   if (editor_.scene().view.camera != camera_.home()) camera_.set_home(editor_.scene().view.camera);
 }
 
-Status App::carry_out_changes() {
-  if (pending_ == Effect::none) return {};
+void App::request_changes() {
+  if (pending_ == Effect::none || simulation_->changing()) return;
   // A solver that takes long to build does not follow every twitch of a slider.
-  if (since_rebuild_ < 4.0 * rebuild_seconds_) return {};
-  const auto start = Clock::now();
-  const Effect effect = pending_;
-  pending_ = Effect::none;
-  const Status changed = simulation_->change(editor_.scene(), effect == Effect::constants);
-  rebuild_seconds_ = seconds_since(start);
+  if (since_rebuild_ < 4.0 * rebuild_seconds_) return;
+  requested_ = std::exchange(pending_, Effect::none);
+  requested_at_ = std::chrono::steady_clock::now();
+  simulation_->request_change(editor_.scene(), requested_ == Effect::constants);
+}
+
+void App::end_change() {
+  const auto changed = simulation_->take_change();
+  if (!changed) return;
+  rebuild_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - requested_at_).count();
   since_rebuild_ = 0.0;
-  if (!changed) {
-    const Error error = changed.error();
+  if (!*changed) {
+    const Error error = changed->error();
     if (editor_.can_undo()) editor_.undo();
-    tell(error.message, true);
-    return {};
+    return tell(error.message, true);
   }
   stable_.reset();
-  if (effect == Effect::restart) {
-    if (const Status started = simulation_->reset(); !started) return started;
+  if (requested_ == Effect::restart)
     tell("The bodies changed: the simulation starts anew.");
-  } else if (notice_ && notice_->is_error) {
+  else if (notice_ && notice_->is_error)
     notice_.reset();
-  }
-  return {};
 }
 
 void App::watch_file(double dt) {
@@ -376,11 +332,12 @@ Status App::frame(const WindowSize& size, double dt) {
   if (notice_ && !notice_->is_error && (notice_->age += dt) > notice_seconds) notice_.reset();
   since_rebuild_ += dt;
   const bool camera_moves = camera_.update(dt);
-  if (const Status changed = carry_out_changes(); !changed) return changed;
+  request_changes();
   // A picture of a software rasteriser takes longer anyway, so steps may too.
   const double budget = context_->info().is_software ? 0.040 : 0.012;
   film();
   if (const Status moved = simulation_->update(dt, budget); !moved) return moved;
+  end_change();
   if (auto message = simulation_->take_message()) tell(std::move(*message), true);
   film();
   watch_divergence();

@@ -1,6 +1,7 @@
 #pragma once
 // The window's inside: scene, simulation, camera, panels and what keys and mouse do to them. Knows no window:
 // events come through EventReceiver, pictures go to the current context's framebuffer 0.
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -169,7 +170,8 @@ class App final : public EventReceiver {
       : context_(&context), editor_(std::move(editor)), camera_(editor_.scene().view.camera) {}
   Status make_pictures(double scale, WindowServices services);
   void take_effect(Effect effect);
-  Status carry_out_changes();
+  void request_changes();
+  void end_change();
   void tell(std::string text, bool is_error = false) { notice_ = Notice{std::move(text), is_error}; }
   void tell(const Status& status);
   void scene_replaced();
@@ -219,8 +221,9 @@ class App final : public EventReceiver {
   std::optional<Notice> notice_;
   std::optional<StabilityLimit> stable_;
   bool divergence_told_ = false;
-  Effect pending_ = Effect::none;
+  Effect pending_ = Effect::none, requested_ = Effect::none;
   double rebuild_seconds_ = 0.0, since_rebuild_ = 0.0;
+  std::chrono::steady_clock::time_point requested_at_ = {};
   bool help_visible_ = false, screenshot_wanted_ = false;
 
   Box viewport_;

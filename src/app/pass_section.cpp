@@ -16,7 +16,8 @@ void pass_times(App& app) {
   ImGui::TextDisabled("Passes of a step");
   app.gui().mark("performance/passes");
   tooltip(
-      "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the last "
+      "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
+      "last "
       "steps measured, from time stamps.");
   const std::vector<gl::PassTime> passes = gpu->pass_times();
   if (passes.empty()) {

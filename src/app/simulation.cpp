@@ -13,6 +13,12 @@ namespace aspic::app {
 namespace {
 
 constexpr std::uint64_t most_history_bytes = std::uint64_t{512} << 20;
+/// Models of so many particles are built on another thread.
+constexpr std::uint64_t many_particles = 20000;
+
+std::uint64_t predict_particles(const Setup& setup) {
+  return predict_counts(setup.settings).particles;
+}
 
 }  // namespace
 
@@ -59,35 +65,44 @@ Result<Simulation::Engine> Simulation::make_engine(const Model& model, BackendNa
   return engine;
 }
 
-/// Another model with solvers of the same kinds. Where the gpu refuses it the reference takes over. On an
-/// error nothing changes.
-Status Simulation::rebuild(Setup setup) {
-  auto built = build_model(setup);
-  if (!built) return built.error();
-  auto model = std::make_unique<Model>(std::move(*built));
-  auto engine = make_engine(*model, backend());
-  if (!engine) {
-    if (!engine_.gpu) return engine.error();
-    const Error refused = engine.error();
-    engine = make_engine(*model, BackendName::reference);
-    if (!engine) return refused;
-    message_ = fmt::format("{} The reference goes on.", refused.message);
-    shadow_ = {};
-  }
-  Engine shadow;
-  if (shadow_.solver) {
-    auto other = make_engine(*model, shadow_.gpu ? BackendName::gpu : BackendName::reference);
+/// Another model with solvers of the same kinds as now. Where the gpu refuses it the reference takes over.
+/// Without solvers of the gpu it may run on another thread.
+Result<Simulation::Built> Simulation::build(const Setup& setup) {
+  auto model = build_model(setup);
+  if (!model) return model.error();
+  Built built;
+  built.model = std::make_unique<Model>(std::move(*model));
+  auto engine = make_engine(*built.model, backend());
+  if (!engine && engine_.gpu) {
+    built.message = fmt::format("{} The reference goes on.", engine.error().message);
+    engine = make_engine(*built.model, BackendName::reference);
+  } else if (engine && shadow_.solver) {
+    auto other = make_engine(*built.model, shadow_.gpu ? BackendName::gpu : BackendName::reference);
     if (!other) return other.error();
-    shadow = std::move(*other);
+    built.shadow = std::move(*other);
   }
+  if (!engine) return engine.error();
+  built.engine = std::move(*engine);
+  return built;
+}
+
+void Simulation::install(Setup setup, Built built) {
   // Solvers first: they refer to their model.
-  engine_ = std::move(*engine);
-  shadow_ = std::move(shadow);
-  model_ = std::move(model);
+  engine_ = std::move(built.engine);
+  shadow_ = std::move(built.shadow);
+  model_ = std::move(built.model);
+  if (built.message) message_ = std::move(built.message);
   setup_ = std::move(setup);
   given_.reset();
   batch_ = 1;
   ++model_number_;
+}
+
+/// On an error nothing changes.
+Status Simulation::rebuild(Setup setup) {
+  auto built = build(setup);
+  if (!built) return built.error();
+  install(std::move(setup), std::move(*built));
   return {};
 }
 
@@ -111,33 +126,64 @@ Status Simulation::change(const Scene& scene, bool keep_state) {
   return change_setup(std::move(setup), keep_state);
 }
 
+void Simulation::request_change(const Scene& scene, bool keep_state) {
+  Setup setup = setup_;
+  setup.settings = scene.model;
+  wanted_change_ = {std::move(setup), keep_state};
+}
+
+/// Begins the change that was asked for; the worker is idle.
+void Simulation::start_change() {
+  auto [setup, keep_state] = std::move(*wanted_change_);
+  wanted_change_.reset();
+  const bool small =
+      std::max<std::uint64_t>(model_->particle_count(), predict_particles(setup)) < many_particles;
+  if (small || engine_.gpu || shadowed() || seek_) {
+    change_result_ = change_setup(std::move(setup), keep_state);
+    return;
+  }
+  change_ = begin_change(std::move(setup), keep_state);
+  has_outcome_ = true;
+  outcome_ = Outcome{};
+  worker_.start([this](const std::atomic<bool>&) {
+    outcome_.built = std::make_unique<Result<Built>>(build(change_->setup));
+  });
+}
+
 Status Simulation::change_setup(Setup setup, bool keep_state) {
   if (const Status settled = settle(); !settled) return settled;
-  State state = snapshot_;
-  const double h = setup_.settings.simulation.timestep, other = setup.settings.simulation.timestep;
+  Change change = begin_change(std::move(setup), keep_state);
+  auto built = build(change.setup);
+  return finish_change(std::move(change), std::move(built));
+}
+
+/// What is to be built, and the state it goes on from: snapshot_ is that of the step, and stays so.
+Simulation::Change Simulation::begin_change(Setup setup, bool keep_state) const {
+  Change change{std::move(setup), keep_state, snapshot_, model_->balls.size() - setup_.thrown.size()};
+  if (!keep_state) {
+    change.setup.thrown.clear();
+    change.setup.pinned.clear();
+  }
+  const double h = setup_.settings.simulation.timestep, other = change.setup.settings.simulation.timestep;
   // Time goes on from where it was, in steps of the new length.
   if (const double t = time() / other; h != other && t < 0x1p62)
-    state.step = static_cast<std::uint64_t>(std::llround(t));
-  for (Ball& ball : setup.thrown) ball.launch_step = std::min(ball.launch_step, state.step);
-  const std::size_t scene_balls = model_->balls.size() - setup_.thrown.size();
-  const std::size_t kept_balls = std::min(setup.thrown.size(), setup_.thrown.size());
-  state.ball_position.resize(scene_balls + kept_balls);
-  state.ball_velocity.resize(scene_balls + kept_balls);
-  state.ball_angular_velocity.resize(scene_balls + kept_balls);
-  const std::size_t thrown = setup.thrown.size();
-  if (!keep_state) setup.thrown.clear(), setup.pinned.clear();
-  const ModelSettings settings = setup.settings;
-  if (const Status rebuilt = rebuild(std::move(setup)); !rebuilt) return rebuilt;
-  const bool fits = keep_state && model_->particle_count() == state.position.size() &&
-                    model_->ball_count() - thrown == scene_balls;
-  if (!fits) {
-    if (!setup_.thrown.empty() || !setup_.pinned.empty()) {
-      if (const Status rebuilt = rebuild({settings, {}, {}}); !rebuilt) return rebuilt;
-    }
-    return reset();
-  }
+    change.state.step = static_cast<std::uint64_t>(std::llround(t));
+  for (Ball& ball : change.setup.thrown) ball.launch_step = std::min(ball.launch_step, change.state.step);
+  const std::size_t balls = change.scene_balls + std::min(change.setup.thrown.size(), setup_.thrown.size());
+  change.state.ball_position.resize(balls);
+  change.state.ball_velocity.resize(balls);
+  change.state.ball_angular_velocity.resize(balls);
+  return change;
+}
+
+Status Simulation::finish_change(Change change, Result<Built> built) {
+  if (!built) return built.error();
+  const bool fits = change.keep_state && built->model->particle_count() == change.state.position.size() &&
+                    built->model->ball_count() - change.setup.thrown.size() == change.scene_balls;
+  install(std::move(change.setup), std::move(*built));
+  if (!fits) return reset();
   if (!at_end()) forget_future();
-  state = grown_state(*model_, std::move(state));
+  const State state = grown_state(*model_, std::move(change.state));
   if (const Status loaded = load(state); !loaded) return loaded;
   history_.begin(setup_, state);
   stretch_ = history_.end_moment().stretch;
@@ -145,20 +191,11 @@ Status Simulation::change_setup(Setup setup, bool keep_state) {
   return {};
 }
 
-Status Simulation::start_from(const Setup& setup, const State& state) {
-  if (const Status settled = settle(); !settled) return settled;
-  if (const Status rebuilt = rebuild(setup); !rebuilt) return rebuilt;
-  if (const Status fits = check_sizes(*model_, state); !fits) return fits;
-  forget_past();
-  if (const Status loaded = load(state); !loaded) return loaded;
-  history_.begin(setup_, state);
-  stretch_ = history_.end_moment().stretch;
-  add_sample(state, measure(*model_, state));
-  return {};
-}
-
 Status Simulation::reset() {
   worker_.finish();
+  if (change_) {
+    if (const Status taken = take_outcome(); !taken) return taken;
+  }
   has_outcome_ = false;
   seek_.reset();
   if (!setup_.thrown.empty() || !setup_.pinned.empty()) {

@@ -57,14 +57,17 @@ class Simulation {
   /// Takes on a changed scene. With `keep_state` the motion goes on with other constants, where the bodies
   /// have the same particles. Errors leave everything as it was: scene_rejected, no_device.
   Status change(const Scene& scene, bool keep_state);
+  /// The same without waiting: where building takes long a thread does it while nothing moves, and update()
+  /// takes it on once it is done. take_change() tells how a change ended, once for each; a request before
+  /// that replaces one that has not begun.
+  void request_change(const Scene& scene, bool keep_state);
+  std::optional<Status> take_change() { return std::exchange(change_result_, std::nullopt); }
+  bool changing() const { return wanted_change_.has_value() || change_.has_value(); }
   /// Carries the state over to another backend, to the bit. On an error nothing changes.
   Status set_backend(BackendName backend);
   /// Back to the scene's start, which also forgets a divergence and all that hands did. Paused or running
   /// stays.
   Status reset();
-  /// Starts from a state instead of the model's initial one, with nothing before it: that of a run whose
-  /// window was lost, say. Errors: those of check_sizes and of the device.
-  Status start_from(const Setup& setup, const State& state);
   const Setup& setup() const { return setup_; }
   /// Before the context goes: whatever is on the gpu goes on on the reference, from the last copy;
   /// take_message() tells `why`.
@@ -163,6 +166,19 @@ class Simulation {
     std::unique_ptr<Solver> solver;
     GpuSolver* gpu = nullptr;
   };
+  /// A model with its solvers, ready to take the place of those in use.
+  struct Built {
+    std::unique_ptr<Model> model;
+    Engine engine, shadow;
+    std::optional<std::string> message;
+  };
+  /// A change on its way: the setup to be built, and the state that will go on in it.
+  struct Change {
+    Setup setup;
+    bool keep_state = false;
+    State state;
+    std::size_t scene_balls = 0;
+  };
   /// What a worker's job leaves.
   struct Outcome {
     std::optional<Error> error;
@@ -170,11 +186,17 @@ class Simulation {
     std::uint64_t steps = 0;
     State state;
     Measures measures;
+    std::unique_ptr<Result<Built>> built;
   };
   explicit Simulation(gl::Context& context);
 
   Result<Engine> make_engine(const Model& model, BackendName backend);
+  Result<Built> build(const Setup& setup);
+  void install(Setup setup, Built built);
   Status rebuild(Setup setup);
+  Change begin_change(Setup setup, bool keep_state) const;
+  Status finish_change(Change change, Result<Built> built);
+  void start_change();
   Status load(const State& state);
   Status change_setup(Setup setup, bool keep_state);
   Status fall_back(const Error& error);
@@ -223,6 +245,9 @@ class Simulation {
   std::deque<EnergySample> energies_;
   std::deque<DifferenceSample> differences_;
   bool ever_differed_ = false;
+  std::optional<std::pair<Setup, bool>> wanted_change_;  // not begun; true: keeps the state
+  std::optional<Change> change_;                         // the worker builds for it
+  std::optional<Status> change_result_;
   Outcome outcome_;
   Worker worker_;  // last: its job uses all of the above
 };

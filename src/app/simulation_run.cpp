@@ -96,6 +96,8 @@ void Simulation::note(std::uint64_t steps, const std::optional<Divergence>& dive
 Status Simulation::update(double dt, double budget) {
   Status moved;
   if (!worker_.busy()) moved = take_outcome();
+  if (moved && wanted_change_ && !worker_.busy() && !has_outcome_) start_change();
+  if (moved && change_) return {};
   if (moved && seek_)
     moved = seek_on(budget);
   else if (moved && running_)
@@ -198,6 +200,12 @@ Status Simulation::take_outcome() {
   has_outcome_ = false;
   Outcome outcome = std::move(outcome_);
   if (outcome.error) return *outcome.error;
+  if (outcome.built) {
+    Change change = std::move(*change_);
+    change_.reset();
+    change_result_ = finish_change(std::move(change), std::move(*outcome.built));
+    return {};
+  }
   const bool stepped = outcome.steps > 0 || outcome.divergence;
   if (shadowed() && stepped && !seek_) {
     if (const Status followed = follow_with_gpu(outcome); !followed) return followed;
@@ -279,6 +287,7 @@ Status Simulation::refresh_snapshot() {
 
 Status Simulation::seek(const Moment& moment) {
   set_running(false);
+  wanted_change_.reset();
   worker_.finish();
   if (const Status taken = take_outcome(); !taken) return fall_back(taken.error());
   const std::optional<std::uint64_t> underway = std::exchange(seek_, std::nullopt);
