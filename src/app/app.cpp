@@ -285,6 +285,7 @@ void App::end_change() {
   if (!changed) return;
   rebuild_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - requested_at_).count();
   since_rebuild_ = 0.0;
+  rest_a_picture_ = rebuild_seconds_ > 0.05;
   if (!*changed) {
     const Error error = changed->error();
     if (editor_.can_undo()) editor_.undo();

@@ -224,7 +224,7 @@ class App final : public EventReceiver {
   Effect pending_ = Effect::none, requested_ = Effect::none;
   double rebuild_seconds_ = 0.0, since_rebuild_ = 0.0;
   std::chrono::steady_clock::time_point requested_at_ = {};
-  bool help_visible_ = false, screenshot_wanted_ = false;
+  bool help_visible_ = false, screenshot_wanted_ = false, rest_a_picture_ = false;
 
   Box viewport_;
   double mouse_x_ = -1.0, mouse_y_ = -1.0;

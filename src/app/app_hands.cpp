@@ -131,8 +131,9 @@ void App::toggle_pin(std::uint32_t particle) {
   tell(fmt::format("Particle {} is {}.", particle, pinned ? "free" : "pinned"));
 }
 
-/// Stiff against the springs of the body. Explicit methods bear no more than the time step lets them: k h²/m
-/// and c h/m stay well below their limits (spec §2.6), whatever else pulls at the particle.
+/// Stiff against the springs of the body. A pull damps along its own direction alone; across it a particle
+/// swings freely, and explicit Euler lets a swing grow at the rate h·k/2m, 5 a second at the cap on k, which
+/// the body's own dampers hold down.
 void App::begin_pull() {
   const Model& model = simulation_->model();
   const std::uint32_t particle = hovered_->particle;
@@ -142,9 +143,9 @@ void App::begin_pull() {
   Pull pull;
   pull.particle = particle;
   pull.anchor = pull_plane_ = hovered_->position;
-  pull.stiffness = 10.0 * hands_.strength * (stiffest > 0.0 ? stiffest : 100.0 * m);
+  pull.stiffness = 2.0 * hands_.strength * (stiffest > 0.0 ? stiffest : 100.0 * m);
   const bool explicit_method = staged_method(model.simulation.integrator) != nullptr;
-  if (explicit_method) pull.stiffness = std::min(pull.stiffness, 0.1 * m / (h * h));
+  if (explicit_method) pull.stiffness = std::min(pull.stiffness, 0.01 * m / (h * h));
   pull.damping = 2.0 * std::sqrt(pull.stiffness * m);
   if (explicit_method) pull.damping = std::min(pull.damping, 0.1 * m / h);
   simulation_->set_hand(pull);

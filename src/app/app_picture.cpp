@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "app/app.h"
 #include "io/atomic_file.h"
@@ -38,7 +39,12 @@ Status App::draw_scene(const WindowSize& size) {
   // A film keeps its size, whatever becomes of the window.
   const PictureSize picture =
       recording_ ? recording_->options().size : PictureSize{scaled(width), scaled(height)};
-  if (const Status drawn = draw_picture(picture.width, picture.height); !drawn) return drawn;
+  // The first picture of a large model takes longer: after it was built events come first, and the old
+  // picture stays. Nothing but the picture may be used of the renderer then, whose model is gone.
+  const bool rest = std::exchange(rest_a_picture_, false) && drawn_width_ > 0 && !recording_;
+  if (!rest) {
+    if (const Status drawn = draw_picture(picture.width, picture.height); !drawn) return drawn;
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, size.pixel_width, size.pixel_height);
   glClearColor(0.105f, 0.107f, 0.112f, 1.0f);
@@ -54,6 +60,7 @@ Status App::draw_scene(const WindowSize& size) {
   std::ranges::copy(std::array{shown_left, shown_bottom, shown_width, shown_height}, shown_pixels_);
   shown_ = {shown_left / ratio, (size.pixel_height - shown_bottom - shown_height) / ratio,
             (shown_left + shown_width) / ratio, (size.pixel_height - shown_bottom) / ratio};
+  if (rest) return {};
   if (const Status marked = present_ring(); !marked) return marked;
   return ask_what_is_under_mouse();
 }

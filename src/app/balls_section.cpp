@@ -49,10 +49,9 @@ void balls_section(App& app) {
               "Mass of the next ball to be thrown [kg], 0.01 to 1000.");
   hand_slider(app, "Speed", "speed", hands.speed, 0.5, 200.0, "%.3g m/s",
               "Speed of the next ball to be thrown [m/s], 0.5 to 200.");
-  hand_slider(
-      app, "Pull", "strength", hands.strength, 0.01, 100.0, "×%.3g",
-      "How hard Ctrl+drag pulls a particle: a factor on ten times the stiffness of the stiffest spring, "
-      "0.01 to 100, as far as the time step bears it.");
+  hand_slider(app, "Pull", "strength", hands.strength, 0.01, 100.0, "×%.3g",
+              "How hard Ctrl+drag pulls a particle: a factor on twice the stiffness of the stiffest spring, "
+              "0.01 to 100, as far as the time step bears it.");
   ImGui::TextDisabled("%zu of the scene, %zu thrown",
                       static_cast<std::size_t>(app.simulation().model().ball_count()) - thrown, thrown);
 }

@@ -121,20 +121,21 @@ Status Simulation::load(const State& state) {
 }
 
 Status Simulation::change(const Scene& scene, bool keep_state) {
+  wanted_change_.reset();
   Setup setup = setup_;
   setup.settings = scene.model;
   return change_setup(std::move(setup), keep_state);
 }
 
 void Simulation::request_change(const Scene& scene, bool keep_state) {
-  Setup setup = setup_;
-  setup.settings = scene.model;
-  wanted_change_ = {std::move(setup), keep_state};
+  wanted_change_ = {scene.model, keep_state};
 }
 
 /// Begins the change that was asked for; the worker is idle.
 void Simulation::start_change() {
-  auto [setup, keep_state] = std::move(*wanted_change_);
+  Setup setup = setup_;
+  const bool keep_state = wanted_change_->second;
+  setup.settings = std::move(wanted_change_->first);
   wanted_change_.reset();
   const bool small =
       std::max<std::uint64_t>(model_->particle_count(), predict_particles(setup)) < many_particles;

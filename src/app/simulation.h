@@ -245,8 +245,8 @@ class Simulation {
   std::deque<EnergySample> energies_;
   std::deque<DifferenceSample> differences_;
   bool ever_differed_ = false;
-  std::optional<std::pair<Setup, bool>> wanted_change_;  // not begun; true: keeps the state
-  std::optional<Change> change_;                         // the worker builds for it
+  std::optional<std::pair<ModelSettings, bool>> wanted_change_;  // not begun; true: keeps the state
+  std::optional<Change> change_;                                 // the worker builds for it
   std::optional<Status> change_result_;
   Outcome outcome_;
   Worker worker_;  // last: its job uses all of the above

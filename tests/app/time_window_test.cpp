@@ -210,6 +210,35 @@ TEST_F(Time, AChangeOfTheTimeStepKeepsTheTime) {
   EXPECT_NEAR(simulation().time(), t - 0.001, 1e-9);
 }
 
+TEST_F(Time, ALargeModelIsBuiltAsideAndNothingThatHandsDoIsLost) {
+  open("cube-plane", {"cube[0].particles-per-edge=30", "cube[0].position=[0,2,0]"}, BackendName::reference);
+  simulation().set_running(true);
+  frames_to_step(5);
+  app().set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}), "");
+  frames(1);
+  // In the midst of it: a ball, a pin, another value.
+  app().throw_ball();
+  ASSERT_TRUE(simulation().toggle_pin(7).ok());
+  app().set_value(*find_parameter("contact.friction"), 0, Value(0.7), "");
+  for (int i = 0; simulation().changing() || simulation().model().contact.friction != 0.7; ++i) {
+    ASSERT_LT(i, 10000);
+    frames(1);
+  }
+  EXPECT_EQ(simulation().model().simulation.gravity, (Vec3{0.0, -3.0, 0.0}));
+  EXPECT_EQ(simulation().model().ball_count(), 1u);
+  EXPECT_EQ(simulation().model().inverse_mass[7], 0.0);
+  EXPECT_GE(simulation().step(), 5u);
+  EXPECT_TRUE(simulation().running());
+  // A scene opened meanwhile is not overtaken by an older value.
+  app().set_value(*find_parameter("contact.friction"), 0, Value(0.1), "");
+  frames(1);
+  app().open("cube-bowl");
+  frames(20);
+  EXPECT_EQ(simulation().model().particle_count(), 1000u);
+  EXPECT_EQ(simulation().model().terrain[0].friction, app().editor().scene().model.contact.friction);
+  EXPECT_EQ(simulation().model().terrain[0].shape, TerrainShape::bowl);
+}
+
 TEST_F(Time, TheBarGoesToAnyTime) {
   open("cube-plane", {"cube[0].position=[0,1.2,0]"}, BackendName::reference);
   run_to(200);
