@@ -145,11 +145,12 @@ void largest(app::BackendName backend, Integrator integrator, double timestep) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string_view what = argc == 2 ? argv[1] : "";
+  const std::string_view what = argc > 1 ? argv[1] : "", only = argc > 2 ? argv[2] : "";
   const bool all = what == "all";
   if (!all && what != "default" && what != "large" && what != "sizes")
     fail(
-        "usage: window_figures default | large | sizes | all\nPrints a JSON object a line; needs a display "
+        "usage: window_figures default | large | sizes [BACKEND/INTEGRATOR] | all\nPrints a JSON object a "
+        "line; needs a display "
         "(xvfb-run).");
   constexpr app::BackendName backends[] = {app::BackendName::reference, app::BackendName::gpu};
   if (all || what == "default") {
@@ -167,6 +168,8 @@ int main(int argc, char** argv) {
   if (all || what == "sizes") {
     for (const auto backend : backends) {
       for (const Integrator integrator : all_integrators) {
+        const std::string name = fmt::format("{}/{}", name_of(backend), name_of(integrator));
+        if (!only.empty() && only != name && only != name_of(backend)) continue;
         // One-pass is stable up to 1.024 ms; implicit Euler is for steps of a picture's length.
         largest(backend, integrator, integrator == Integrator::implicit_euler ? 1.0 / 60 : 0.001);
       }

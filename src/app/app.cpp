@@ -335,7 +335,7 @@ Status App::frame(const WindowSize& size, double dt) {
   const bool camera_moves = camera_.update(dt);
   request_changes();
   // A picture of a software rasteriser takes longer anyway, so steps may too.
-  const double budget = context_->info().is_software ? 0.040 : 0.012;
+  const double budget = context_->info().is_software ? 0.030 : 0.012;
   film();
   if (const Status moved = simulation_->update(dt, budget); !moved) return moved;
   end_change();

@@ -1,5 +1,9 @@
 #include "app/worker.h"
 
+#ifdef __linux__
+#include <sys/resource.h>
+#endif
+
 #include <cassert>
 #include <utility>
 
@@ -44,6 +48,10 @@ void Worker::wait() {
 }
 
 void Worker::loop() {
+  // Pictures and events go first. Where there is no such call all threads are equal, as they are by default.
+#ifdef __linux__
+  setpriority(PRIO_PROCESS, 0, 5);  // of this thread: POSIX says process, Linux means thread
+#endif
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return busy_ || end_; });
