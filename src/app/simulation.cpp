@@ -216,6 +216,7 @@ void Simulation::forget_past() {
   energies_.clear();
   differences_.clear();
   ever_differed_ = false;
+  hand_.reset();  // its particle may be no more
   last_remembered_ = {};
   rate_steps_ = 0;
   steps_per_second_ = 0.0;
@@ -275,7 +276,7 @@ Status Simulation::fall_back(const Error& error) {
   seek_.reset();
   if (!gpu_led) {
     message_ = fmt::format("{} Shadow mode has ended.", error.message);
-    return {};
+    return load(State(snapshot_));  // the reference may be steps ahead of what was taken from it
   }
   if (snapshot_.step >= history_.stretch(stretch_).first && snapshot_.step < step_)
     history_.truncate({stretch_, snapshot_.step});
@@ -297,6 +298,7 @@ void Simulation::set_context(gl::Context& context) {
 // ---- hands ----
 
 Status Simulation::toggle_pin(std::uint32_t particle) {
+  if (const Status settled = settle(); !settled) return settled;
   if (particle >= model_->particle_count()) return {};
   Setup setup = setup_;
   setup.pinned[particle] = model_->inverse_mass[particle] != 0.0;
@@ -312,6 +314,7 @@ Status Simulation::throw_balls(const std::vector<BallSettings>& balls) {
 }
 
 Status Simulation::clear_balls() {
+  if (const Status settled = settle(); !settled) return settled;
   if (setup_.thrown.empty()) return {};
   Setup setup = setup_;
   setup.thrown.clear();

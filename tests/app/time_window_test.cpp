@@ -121,7 +121,9 @@ TEST_P(TimeOnBackend, PinsAndThrownBallsComeAndGoWithTime) {
   EXPECT_EQ(hash(), last);
   app().clear_balls();
   EXPECT_EQ(simulation().model().ball_count(), 0u);
+  simulation().set_hand(Pull{0, {}, 10.0, 1.0});
   press(GLFW_KEY_R);
+  EXPECT_FALSE(simulation().hand().has_value());
   EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 0));
   EXPECT_GT(simulation().model().inverse_mass[0], 0.0) << "a reset takes back what hands did";
 }
@@ -216,9 +218,9 @@ TEST_F(Time, ALargeModelIsBuiltAsideAndNothingThatHandsDoIsLost) {
   frames_to_step(5);
   app().set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}), "");
   frames(1);
-  // In the midst of it: a ball, a pin, another value.
-  app().throw_ball();
+  // In the midst of it: a pin, a ball, another value.
   ASSERT_TRUE(simulation().toggle_pin(7).ok());
+  app().throw_ball();
   app().set_value(*find_parameter("contact.friction"), 0, Value(0.7), "");
   for (int i = 0; simulation().changing() || simulation().model().contact.friction != 0.7; ++i) {
     ASSERT_LT(i, 10000);
