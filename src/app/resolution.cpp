@@ -8,6 +8,9 @@ namespace {
 
 /// A finer share is taken up only with room to spare, so that it is not left again at once.
 constexpr double room = 0.85;
+/// Pictures after which a share's time is forgotten: what was slow once, as shaders were compiled or the
+/// machine was busy, is tried again where the others leave hope.
+constexpr int oldest = 60;
 
 double pixels(std::size_t i) {
   return Resolution::shares[i] * Resolution::shares[i];
@@ -19,6 +22,10 @@ void Resolution::took(double share, double seconds) {
   const auto found = std::ranges::find(shares, share);
   assert(found != shares.end());
   const auto at = static_cast<std::size_t>(found - shares.begin());
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (++ages_[i] > oldest) times_[i].reset();
+  }
+  ages_[at] = 0;
   if (std::optional<double>& known = times_[at]) {
     // One slow picture among many may have been the machine's fault. If it was not, the others are slower
     // too.

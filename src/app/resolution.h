@@ -29,6 +29,7 @@ class Resolution {
   double guess(std::size_t i) const;
   std::size_t choose(double time, std::size_t now) const;
   std::array<std::optional<double>, shares.size()> times_;  // of pictures at each share [s]
+  std::array<int, shares.size()> ages_ = {};                // pictures since
   std::size_t moving_ = 0, still_ = 0;                      // indices of shares
 };
 

@@ -72,6 +72,17 @@ TEST(Resolution, DoesNotSwing) {
   }
 }
 
+TEST(Resolution, ABusyMomentIsForgotten) {
+  Resolution r;
+  r.reset(false);
+  const Machine quick = {0.004, 0.03};
+  for (int i = 0; i < 12; ++i) r.took(r.share(false), 10.0 * quick.time(r.share(false)));
+  EXPECT_LT(r.share(false), 0.5);
+  const double longest = draw(r, quick, false, 400);
+  EXPECT_EQ(r.share(false), 1.0);
+  EXPECT_LE(longest, Resolution::in_motion);
+}
+
 TEST(Resolution, BecomesCoarserWhenTheMachineGetsBusy) {
   Resolution r;
   r.reset(false);
