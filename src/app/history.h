@@ -88,6 +88,7 @@ class History {
   std::vector<double> changes() const;
 
   std::uint64_t bytes() const { return bytes_; }
+  std::uint64_t most_bytes() const { return most_bytes_; }
   std::size_t keyframe_count() const;
 
  private:

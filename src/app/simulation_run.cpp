@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t most_samples = 2000;
 /// Keyframes stand this far apart in running time, farther where memory would not hold the last half minute.
 constexpr double keyframe_interval = 0.1, history_seconds = 30.0;  // s
-constexpr double most_history = 512.0 * 1024 * 1024;               // bytes
 constexpr auto sample_every = std::chrono::milliseconds(100);
 /// Nobody waits for a job, so it may take longer than a picture [s].
 constexpr double shortest_job = 0.030;
@@ -340,7 +339,8 @@ Status Simulation::step_back() {
 void Simulation::remember(const State& state) {
   if (divergence_ || !at_end()) return;
   const double bytes = 24.0 * static_cast<double>(state.position.size());
-  const double interval = std::max(keyframe_interval, history_seconds * bytes / most_history);
+  const double interval =
+      std::max(keyframe_interval, history_seconds * bytes / static_cast<double>(history_.most_bytes()));
   if (seconds_since(last_remembered_) < interval) return;
   last_remembered_ = Clock::now();
   history_.add_keyframe(state);
