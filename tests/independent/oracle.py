@@ -13,6 +13,7 @@ import tomllib
 
 import numpy as np
 
+from oracle_contact import CoulombStep, dot
 from oracle_implicit import backward_euler
 from oracle_scene import TERRAIN, Readings, SceneError, build_cube, filled, normalised, read_scene
 
@@ -22,10 +23,6 @@ SPEED_LIMIT = 1000.0  # m/s; faster is divergence
 
 class Diverged(Exception):
     """A step left a number that is not finite, or a speed beyond the limit."""
-
-
-def dot(a, b):
-    return np.einsum("ij,ij->i", a, b)
 
 
 class Terrain:
@@ -101,8 +98,7 @@ class World:
 
     def acceleration(self, x, v):
         f = self.m[:, None] * self.gravity + self.spring_force(x, v)
-        if self.model == "course":
-            f = self.course_contact_force(x, v, f)
+        f = self.course_contact_force(x, v, f) if self.model == "course" else self.ground.reaction(f)
         return self.w[:, None] * f
 
     def course_contact_force(self, x, v, f):
@@ -124,41 +120,19 @@ class World:
             v = np.where(acts[:, None], bounced, v)
         return x, v
 
-    def coulomb_response(self, x0, v0, x, v):
-        threshold = max(self.epsilon, 2 * np.linalg.norm(self.gravity) * self.h)
-        for terrain in self.terrains:
-            d, n = terrain.distance_and_normal(x)
-            u = dot(v, n)
-            v_t = v - u[:, None] * n
-            acts = self.free & (d < self.epsilon) & (u < 0)
-            u_after = np.where(-dot(n, v0) > threshold, terrain.bounce_speed(u, self.m), 0.0)
-            slip = np.sqrt(dot(v_t, v_t))
-            kept = np.maximum(0.0, 1.0 - terrain.friction * (u_after - u) / np.where(slip == 0, 1.0, slip))
-            kept = np.where(slip == 0, 0.0, kept)
-            v_after = kept[:, None] * v_t + u_after[:, None] * n
-            stays = acts & (u_after == 0) & (kept == 0)
-            v = np.where(acts[:, None], v_after, v)
-            x = np.where(stays[:, None], x0, x)
-
-            if self.readings.projection == "held":
-                d, n = terrain.distance_and_normal(x)
-            below = self.free & (d < 0)
-            if self.readings.projection == "skip":
-                below &= ~stays
-            x = np.where(below[:, None], x - d[:, None] * n, x)
-        return x, v
-
     def step(self):
         """Advances by h; on divergence the last good state is kept and Diverged is raised."""
         with np.errstate(over="ignore", invalid="ignore"):
+            self.ground = CoulombStep(self) if self.model == "coulomb" else None
+            stopped = None
             if self.integrate:
                 x, v = self.integrate(self.acceleration, self.x, self.v, self.h)
             else:
-                x, v = backward_euler(self)
+                x, v, stopped = backward_euler(self)
             if self.model == "course":
                 x, v = self.course_response(x, v)
             else:
-                x, v = self.coulomb_response(self.x, self.v, x, v)
+                x, v = self.ground.respond(x, v, stopped)
             good = np.all(np.isfinite(x) & np.isfinite(v), axis=1) & (np.sqrt(dot(v, v)) <= SPEED_LIMIT)
         if not good.all():
             raise Diverged(f"particle {np.flatnonzero(~good)[0]} diverged with a time step of {self.h} s")
@@ -237,7 +211,6 @@ def main():
     parser.add_argument("scene", nargs="?", metavar="SCENE.toml")
     parser.add_argument("--steps", type=int, help="default: the scene's duration")
     parser.add_argument("--state", metavar="OUT.csv", help="write the final state")
-    parser.add_argument("--projection", choices=["end", "held", "skip"], default=Readings.projection)
     parser.add_argument("--pinned-velocity", choices=["zero", "cube"], default=Readings.pinned_velocity)
     parser.add_argument("--front", choices=["+z", "-z"], default=Readings.front)
     parser.add_argument("--compare", nargs=2, metavar=("A.csv", "B.csv"))
@@ -248,7 +221,7 @@ def main():
     if not options.scene or not options.state:
         parser.error("either SCENE.toml with --state, or --compare, is needed")
     try:
-        readings = Readings(options.projection, options.pinned_velocity, options.front)
+        readings = Readings(options.pinned_velocity, options.front)
         world = World(read_scene(options.scene), readings)
     except (SceneError, tomllib.TOMLDecodeError) as error:
         print(f"{options.scene}: {error}", file=sys.stderr)

@@ -45,10 +45,6 @@ class SceneError(Exception):
 class Readings:
     """Where the specification can be read in two ways; the defaults are the project's."""
 
-    # What Coulomb's "if d < 0: x -= d n" uses for a particle that was just put back to x0. "held": d and n anew at
-    # x0, the position the particle is held at; this is how Aspic reads it, since "stays put" means that the particle
-    # does not move. "end": the d and n of the end of the step. "skip": no projection for it at all.
-    projection: str = "held"
     pinned_velocity: str = "zero"  # or "cube": pinned particles drift with the cube's initial velocity
     front: str = "+z"  # the cube's face called "front"; or "-z"
 

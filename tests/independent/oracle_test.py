@@ -19,9 +19,41 @@ import numpy as np
 from oracle import INTEGRATORS, World
 from oracle_scene import Readings, read_scene
 
-POSITIONS = {
-    "cube-plane": "[0.0, 1.9, 0.0]", "cube-tilted-plane": "[1.0, 3.2, 0.0]",
-    "cube-sphere": "[0.4, 4.9, 0.2]", "cube-bowl": "[2.3, 5.5, 1.2]",
+FALLING = {
+    "cube[0].rotation.axis": "[1.0, 0.3, 0.7]", "cube[0].rotation.angle": 25.0, "cube[0].velocity": "[1.0, -1.0, 0.5]",
+}
+SECOND_PLANE = """
+[[terrain]]
+shape = "plane"
+point = [0.0, -1.0, 0.0]
+normal = {normal}
+restitution = 0.5
+friction = 0.1
+mass = {mass}
+"""
+# Name: built-in scene, settings, text appended to the scene file, how many times the usual number of steps.
+SCENES = {
+    "plane": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 1.9, 0.0]"}, "", 1),
+    "tilted plane": ("cube-tilted-plane", FALLING | {"cube[0].position": "[1.0, 3.2, 0.0]"}, "", 1),
+    "sphere": ("cube-sphere", FALLING | {"cube[0].position": "[0.4, 4.9, 0.2]"}, "", 1),
+    "bowl": ("cube-bowl", FALLING | {"cube[0].position": "[2.3, 5.5, 1.2]"}, "", 1),
+    "light ground": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 2.1, 0.0]", "terrain[0].mass": 10.0}, "", 1),
+    "pinned corner": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 1.8, 0.0]",
+                                               "cube[0].pinned": '["top-left-front"]'}, "", 1),
+    # Two planes: what the first leaves is what the second acts on, in the forces and at the step's end.
+    "groove": ("cube-plane", FALLING | {"cube[0].position": "[0.2, 2.2, 0.0]", "terrain[0].normal": "[1.0, 1.0, 0.0]"},
+               SECOND_PLANE.format(normal="[-1.0, 1.2, 0.0]", mass=50.0), 1),
+    "corner": ("cube-plane", {"cube[0].position": "[0.0, 1.13, 0.0]", "cube[0].velocity": "[1.0, 0.0, 0.3]",
+                              "cube[0].rotation.axis": "[1.0, 0.3, 0.7]", "cube[0].rotation.angle": 2.0},
+               SECOND_PLANE.format(normal="[-1.0, 0.0, 0.0]", mass=1e9).replace("[0.0, -1.0, 0.0]", "[2.2, 0.0, 0.0]"), 1),
+    # Resting contact from the first step on: sliding, sticking, on curved ground.
+    "slide": ("cube-tilted-plane", {"cube[0].position": "[0.519, 1.937, 0.0]", "cube[0].rotation.axis": "[0.0, 0.0, 1.0]",
+                                    "cube[0].rotation.angle": -15.0, "terrain[0].normal": "[0.2679491924, 1.0, 0.0]",
+                                    "contact.friction": 0.2}, "", 2),
+    "stick": ("cube-tilted-plane", {"cube[0].position": "[0.519, 1.937, 0.0]", "cube[0].rotation.axis": "[0.0, 0.0, 1.0]",
+                                    "cube[0].rotation.angle": -15.0, "terrain[0].normal": "[0.2679491924, 1.0, 0.0]",
+                                    "contact.friction": 0.5}, "", 2),
+    "cradle": ("cube-bowl", {"cube[0].position": "[2.1, 3.3, 1.2]", "terrain[0].friction": 0.6}, "", 1),
 }
 # Both programs work in double precision; what sets them apart is the order of sums and, for implicit-euler, where
 # iterations end: the product at a residual of 1e-12 m/s, which 120 steps may add up.
@@ -31,13 +63,13 @@ CASES = {
 }
 
 
-def compare(aspic, scene, model, integrator, case):
+def compare(aspic, name, model, integrator, case):
     """Returns the case's name, its largest difference over all columns, and whether the terrain acted."""
-    settings = {
+    scene, placed, appended, longer = SCENES[name]
+    steps = case["steps"] * longer
+    settings = placed | {
         "simulation.integrator": integrator, "simulation.timestep": case["timestep"], "contact.model": model,
-        "cube[0].particles-per-edge": case["edge"], "cube[0].position": POSITIONS[scene],
-        "cube[0].rotation.axis": "[1.0, 0.3, 0.7]", "cube[0].rotation.angle": 25.0,
-        "cube[0].velocity": "[1.0, -1.0, 0.5]",
+        "cube[0].particles-per-edge": case["edge"],
     }
     if integrator == "implicit-euler":
         settings["simulation.implicit.tolerance"] = 1e-12
@@ -46,23 +78,25 @@ def compare(aspic, scene, model, integrator, case):
         file, state = os.path.join(directory, "scene.toml"), os.path.join(directory, "state.csv")
         with open(file, "w") as out:
             subprocess.run([aspic, "scene", "show", scene, *words], stdout=out, check=True)
+        with open(file, "a") as out:
+            out.write(appended)
         subprocess.run([aspic, "run", file, "--backend", "reference", "--precision", "double", "--steps",
-                        str(case["steps"]), "--state", state], stdout=subprocess.DEVNULL, check=True)
+                        str(steps), "--state", state], stdout=subprocess.DEVNULL, check=True)
         with open(state, newline="") as rows:
             product = np.array([row[2:8] for row in list(csv.reader(rows))[1:]], dtype=float)
         world = World(read_scene(file), Readings())
-    for _ in range(case["steps"]):
+    for _ in range(steps):
         world.step()
     ours = np.hstack([world.x, world.v])
     # In free fall all particles of the undeformed cube keep one velocity.
     touched = np.abs(world.v - world.v.mean(axis=0)).max() > 1e-3
-    return f"{integrator}, {scene}, {model}", np.abs(ours - product).max(), touched and ours.shape == product.shape
+    return f"{integrator}, {name}, {model}", np.abs(ours - product).max(), touched and ours.shape == product.shape
 
 
 def main():
     aspic, kind = sys.argv[1:]
     case = CASES[kind]
-    cells = list(itertools.product(POSITIONS, ("coulomb", "course"), case["integrators"]))
+    cells = list(itertools.product(SCENES, ("coulomb", "course"), case["integrators"]))
     bad = 0
     with ProcessPoolExecutor() as pool:
         for name, difference, touched in pool.map(compare, *zip(*[(aspic, *cell, case) for cell in cells])):
