@@ -190,7 +190,7 @@ struct Simulation {
 #else
 layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
 #endif
-  vec4 gravity;               // g [m/s²]; w: unused
+  vec4 gravity;               // g [m/s²]; w: |g|h, what a step of free fall gains [m/s]
   float epsilon;              // ε: m for distances, m/s for speeds
   float resting_speed;        // max(ε, 2|g|h) [m/s]
   float step_scale;           // h / divisor of the method [s]

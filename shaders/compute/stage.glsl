@@ -1,6 +1,6 @@
-// What follows the springs, the same for every force path: pull, contact force, acceleration, the stage of the
-// explicit method (src/model/integrator.h has the formulas), and after the last stage the terrain's response and the
-// watch for divergence. Expects the state blocks below to be bound.
+// What follows the springs, the same for every force path: pull, contact force or the ground's reaction, acceleration,
+// the stage of the explicit method (src/model/integrator.h has the formulas), and after the last stage the terrain's
+// response and the watch for divergence. Expects the state blocks below to be bound.
 #include "compute/pull.glsl"
 #include "compute/terrain.glsl"
 
@@ -25,10 +25,16 @@ void end_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
 // p: the particle in this stage; f_springs: gravity and springs [N].
 void finish_stage(uint i, Particle p, vec3 f_springs) {
   precise vec3 f = with_pull(i, p.position.xyz, p.velocity.xyz, f_springs);
-  if (contact_model == CONTACT_COURSE && p.position.w != 0.0) f = with_contact_force(p.position.xyz, p.velocity.xyz, f);
+  Particle start = start_state[i];
+  if (p.position.w != 0.0) {
+    if (contact_model == CONTACT_COURSE) {
+      f = with_contact_force(p.position.xyz, p.velocity.xyz, f);
+    } else {
+      f = with_ground_reaction(start, f);
+    }
+  }
   precise vec3 a = p.position.w * f;
 
-  Particle start = start_state[i];
   Stage stage = stages[stage_index];
   precise vec3 slope_x = stage.weight * p.velocity.xyz;
   precise vec3 slope_v = stage.weight * a;

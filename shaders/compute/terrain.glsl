@@ -27,6 +27,8 @@ float bounce_speed(uint t, float m, float u) {
   return bounced > 0.0 ? bounced : 0.0;
 }
 
+#include "compute/coulomb.glsl"
+
 // The course model's contact force: f [N] on a body with gap g and velocity v, resisted and rubbed by one terrain.
 vec3 resisted(uint t, vec4 g, vec3 v, vec3 f_in) {
   precise vec3 f = f_in;
@@ -56,28 +58,16 @@ void respond_course(uint t, float m, vec3 x, inout precise vec3 v) {
   }
 }
 
-// Impact with restitution, friction bounded by the normal impulse, no particle left below the surface; a particle
-// stopped by it stays where the step began (x_0, v_0 are the state there).
-void respond_coulomb(uint t, float m, vec3 x_0, vec3 v_0, inout precise vec3 x, inout precise vec3 v) {
-  precise vec4 g = gap(t, x);
-  precise float u = dot3(v, g.xyz);
-  if (g.w < epsilon && u < 0.0) {
-    precise float approach = -dot3(v_0, g.xyz);
-    precise float u_after = approach > resting_speed ? bounce_speed(t, m, u) : 0.0;
-    precise float du = u_after - u;
-    precise vec3 v_t = v - u * g.xyz;
-    precise float slip = norm3(v_t);
-    if (slip > 0.0) {
-      precise float kept = 1.0 - exact_div(terrains[t].friction * du, slip);
-      v_t = kept > 0.0 ? kept * v_t : vec3(0.0);
-    }
-    v = v_t + u_after * g.xyz;
-    if (u_after == 0.0 && v_t.x == 0.0 && v_t.y == 0.0 && v_t.z == 0.0) {
-      x = x_0;
-      g = gap(t, x);
-    }
+// The ground's reaction on a particle that rests on it at the start of the step, after all other forces.
+vec3 with_ground_reaction(Particle start, vec3 f_in) {
+  precise vec3 f = f_in;
+  precise float hw = time_step * start.position.w;
+  for (uint t = 0u; t < terrain_count; ++t) {
+    precise vec4 g_0 = gap(t, start.position.xyz);
+    if (!(g_0.w < epsilon) || !rests(g_0.w, dot3(start.velocity.xyz, g_0.xyz))) continue;
+    f = with_reaction(terrains[t].friction, g_0.xyz, least_normal_speed(g_0.w), hw, start.velocity.xyz, f);
   }
-  if (g.w < 0.0) x = x - g.w * g.xyz;
+  return f;
 }
 
 // The response of all terrains, in file order, at the end of a step from `start` to x, v.

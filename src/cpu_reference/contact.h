@@ -59,11 +59,19 @@ T bounce_speed(const Ground<T>& ground, T m, T u) {
   return bounced > T(0) ? bounced : T(0);
 }
 
-/// What the contact model needs beside the terrain.
+/// What the contact models need in addition to the terrain.
 template <class T>
 struct ContactConstants {
   T epsilon;        ///< ε: m for distances, m/s for speeds
-  T resting_speed;  ///< max(ε, 2|g|h) [m/s]
+  T resting_speed;  ///< v_rest = max(ε, 2|g|h) [m/s]
+  T step;           ///< h [s]
+  T fall;           ///< |g|h: what a step of free fall gains [m/s]
+
+  explicit ContactConstants(const Model& model)
+      : epsilon(static_cast<T>(model.contact.epsilon)),
+        resting_speed(static_cast<T>(aspic::resting_speed(model))),
+        step(static_cast<T>(model.simulation.timestep)),
+        fall(static_cast<T>(fall_speed(model))) {}
 };
 
 /// The course model's contact force: f [N] on a body with this gap and velocity after gravity and springs,
@@ -95,33 +103,6 @@ void respond_course(const Ground<T>& ground, T epsilon, T m, const Vector<T>& x,
   if (!(d < epsilon && u < T(0))) return;
   const Vector<T> v_t = v - u * n;
   v = v_t + bounce_speed<T>(ground, m, u) * n;
-}
-
-/// The Coulomb model at the end of a step that began at x0, v0: impact with restitution, friction bounded by
-/// the normal impulse, and no particle left below the surface. A particle stopped by it stays where the step
-/// began.
-template <class T>
-void respond_coulomb(const Ground<T>& ground, const ContactConstants<T>& contact, T m, const Vector<T>& x0,
-                     const Vector<T>& v0, Vector<T>& x, Vector<T>& v) {
-  Gap<T> g = gap<T>(ground, x);
-  const T u = dot3<T>(v, g.n);
-  if (g.d < contact.epsilon && u < T(0)) {
-    const T approach = -dot3<T>(v0, g.n);
-    const T u_after = approach > contact.resting_speed ? bounce_speed<T>(ground, m, u) : T(0);
-    const T du = u_after - u;
-    Vector<T> v_t = v - u * g.n;
-    const T slip = norm3<T>(v_t);
-    if (slip > T(0)) {
-      const T kept = T(1) - (ground.friction * du) / slip;
-      v_t = kept > T(0) ? Vector<T>(kept * v_t) : Vector<T>(Vector<T>::Zero());
-    }
-    v = v_t + u_after * g.n;
-    if (u_after == T(0) && v_t.x() == T(0) && v_t.y() == T(0) && v_t.z() == T(0)) {
-      x = x0;
-      g = gap<T>(ground, x);
-    }
-  }
-  if (g.d < T(0)) x = x - g.d * g.n;
 }
 
 }  // namespace aspic::reference

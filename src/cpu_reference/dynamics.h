@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "cpu_reference/contact.h"
+#include "cpu_reference/coulomb.h"
 #include "cpu_reference/spring.h"
 #include "model/model.h"
 #include "model/pull.h"
@@ -23,13 +23,23 @@ struct PullConstants {
         spring(SpringClass{SpringType::structural, pull.stiffness, pull.damping, 0.0, false}) {}
 };
 
+/// A particle on the ground at the start of a step.
+template <class T>
+struct RestingContact {
+  Eigen::Index particle;
+  T friction;       ///< μ of the ground
+  T least_speed;    ///< c: normal speed it may not fall below [m/s]
+  T hw;             ///< h·w [s/kg]
+  Vector<T> n, v0;  ///< the ground's normal and the velocity [m/s] at the start of the step
+};
+
 template <class T>
 class Dynamics {
  public:
   explicit Dynamics(const Model& model)
       : model_(model),
         gravity_(rounded<T>(model.simulation.gravity)),
-        contact_{static_cast<T>(model.contact.epsilon), static_cast<T>(resting_speed(model))},
+        contact_(model),
         mass_(model.particle_count()),
         inverse_mass_(model.particle_count()) {
     for (const SpringClass& spring : model.spring_classes) classes_.emplace_back(spring);
@@ -70,9 +80,27 @@ class Dynamics {
   T inverse_mass(Eigen::Index i) const { return inverse_mass_[i]; }
   const SpringConstants<T>& spring_class(const Spring& spring) const { return classes_[spring.spring_class]; }
 
-  /// a(x, v) = w·f(x, v) [m/s²]
-  Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
-    return force(x, v) * inverse_mass_.matrix().asDiagonal();
+  /// a(x, v) = w·f(x, v) [m/s²], without the ground's reaction in the Coulomb model, which belongs to a step.
+  Field<T> acceleration(const Field<T>& x, const Field<T>& v) const { return weighed(force(x, v)); }
+
+  /// w·f [m/s²]
+  Field<T> weighed(const Field<T>& f) const { return f * inverse_mass_.matrix().asDiagonal(); }
+
+  /// The Coulomb model: every contact of a particle with ground on which it rests at the state (x0, v0),
+  /// terrains of a particle in file order. None in the course model.
+  std::vector<RestingContact<T>> resting_contacts(const Field<T>& x0, const Field<T>& v0) const {
+    std::vector<RestingContact<T>> contacts;
+    if (model_.contact.model == ContactModel::course) return contacts;
+    for (const Ground<T>& ground : grounds_) {
+      for (Eigen::Index i = 0; i < x0.cols(); ++i) {
+        const Gap<T> g = gap<T>(ground, x0.col(i));
+        if (!(g.d < contact_.epsilon) || inverse_mass_[i] == T(0)) continue;
+        if (!rests<T>(contact_, g.d, dot3<T>(v0.col(i), g.n))) continue;
+        contacts.push_back({i, ground.friction, least_normal_speed<T>(contact_, g.d),
+                            contact_.step * inverse_mass_[i], g.n, v0.col(i)});
+      }
+    }
+    return contacts;
   }
 
   /// Terrain response at the end of a step from (x0, v0) to (x, v); terrains act in file order.
@@ -127,6 +155,29 @@ class Dynamics {
   std::vector<Ground<T>> grounds_;
   std::optional<PullConstants<T>> pull_;
   Eigen::Array<T, Eigen::Dynamic, 1> mass_, inverse_mass_;
+};
+
+/// The forces of one step from (x0, v0): those of `dynamics`, then the ground's reaction on the particles
+/// that rest on it. An explicit method evaluates these.
+template <class T>
+class StepDynamics {
+ public:
+  StepDynamics(const Dynamics<T>& dynamics, const Field<T>& x0, const Field<T>& v0)
+      : dynamics_(dynamics), resting_(dynamics.resting_contacts(x0, v0)) {}
+
+  /// a(x, v) [m/s²] at any stage of the step.
+  Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
+    Field<T> f = dynamics_.force(x, v);
+    for (const RestingContact<T>& at : resting_) {
+      f.col(at.particle) =
+          with_reaction<T>(at.friction, at.n, at.least_speed, at.hw, at.v0, f.col(at.particle));
+    }
+    return dynamics_.weighed(f);
+  }
+
+ private:
+  const Dynamics<T>& dynamics_;
+  std::vector<RestingContact<T>> resting_;
 };
 
 }  // namespace aspic::reference

@@ -77,7 +77,8 @@ class ReferenceSolver final : public Solver {
     for (std::uint64_t n = 0; n < steps && !divergence_; ++n) {
       SolveReport report;
       Phase<T> next = solved ? implicit_.step(phase_, report)
-                             : explicit_step(model_.simulation.integrator, dynamics_, phase_, h);
+                             : explicit_step(model_.simulation.integrator,
+                                             StepDynamics<T>(dynamics_, phase_.x, phase_.v), phase_, h);
       dynamics_.respond(phase_.x, phase_.v, next.x, next.v);
       BallPhase<T> next_balls;
       if (model_.ball_count() > 0) next_balls = balls_.step(step_, ball_phase_, phase_, next);

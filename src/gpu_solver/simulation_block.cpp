@@ -70,7 +70,7 @@ Result<layout::Simulation> simulation_block(const Model& model) {
                     model.spring_classes.size(), model.terrain.size(), MAX_SPRING_CLASSES, MAX_TERRAINS)};
   }
   layout::Simulation block{};
-  block.gravity = rounded(model.simulation.gravity, 0.0);
+  block.gravity = rounded(model.simulation.gravity, fall_speed(model));
   block.epsilon = static_cast<float>(model.contact.epsilon);
   block.resting_speed = static_cast<float>(resting_speed(model));
   block.divergence_speed_squared = static_cast<float>(divergence_speed * divergence_speed);

@@ -99,6 +99,10 @@ double resting_speed(const Model& model) {
   return std::max(model.contact.epsilon, 2.0 * length(model.simulation.gravity) * model.simulation.timestep);
 }
 
+double fall_speed(const Model& model) {
+  return length(model.simulation.gravity) * model.simulation.timestep;
+}
+
 ModelCounts count(const Model& model) {
   ModelCounts counts;
   counts.particles = model.particle_count();

@@ -97,6 +97,9 @@ State initial_state(const Model& model, Precision precision);
 /// Approach speed below which a contact is at rest: max(ε, 2|g|h) [m/s], spec §2.5.
 double resting_speed(const Model& model);
 
+/// |g|h: what a step of free fall gains [m/s].
+double fall_speed(const Model& model);
+
 /// Error (usage): the state has another number of particles or balls than the model.
 Status check_sizes(const Model& model, const State& state);
 

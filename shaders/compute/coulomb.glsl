@@ -1,0 +1,98 @@
+// The Coulomb contact rule: src/cpu_reference/coulomb.h in GLSL. Expects terrain.glsl's gap and bounce_speed.
+
+// |g|h: what a step of free fall gains [m/s].
+float fall_speed() {
+  return gravity.w;
+}
+
+// Whether a body at distance d_0 with normal speed u_0 at the start of a step rests on the ground.
+bool rests(float d_0, float u_0) {
+  return d_0 < epsilon && abs(u_0) <= resting_speed;
+}
+
+// c = −min(max(d_0, 0)/h, most)
+float sinking_speed(float d_0, float most) {
+  if (!(d_0 > 0.0)) return 0.0;
+  precise float needed = exact_div(d_0, time_step);
+  precise float c = -(needed < most ? needed : most);
+  return c;
+}
+
+// Least normal speed a resting body may end a step with.
+float least_normal_speed(float d_0) {
+  precise float c = sinking_speed(d_0, fall_speed());
+  return c;
+}
+
+// Tangential velocity after friction has taken up to `loss` [m/s] off it.
+vec3 rubbed(vec3 v_t, float loss) {
+  precise float slip = norm3(v_t);
+  if (!(slip > 0.0)) return v_t;
+  precise float kept = 1.0 - exact_div(loss, slip);
+  precise vec3 left = kept > 0.0 ? kept * v_t : vec3(0.0);
+  return left;
+}
+
+// P: the velocity that ground of normal n leaves of v_1, whose normal speed may not be less than c.
+vec3 projected(float friction, vec3 n, float c, vec3 v_1) {
+  precise float u = dot3(v_1, n);
+  if (!(u < c)) return v_1;
+  precise vec3 v_t = v_1 - u * n;
+  precise vec3 left = rubbed(v_t, friction * (c - u)) + c * n;
+  return left;
+}
+
+// The force f [N] with the ground's reaction: kept for a whole step it turns v_0 into P(v_0 + hw·f). hw = h·w.
+vec3 with_reaction(float friction, vec3 n, float c, float hw, vec3 v_0, vec3 f) {
+  precise vec3 v_1 = v_0 + hw * f;
+  if (!(dot3(v_1, n) < c)) return f;
+  precise float q = exact_div(1.0, hw);
+  precise vec3 sum = q * (projected(friction, n, c, v_1) - v_0);
+  return sum;
+}
+
+// Normal speed after the bounce of a body that fell by `drop` from distance d_0 during the step.
+float bounced_speed(uint t, float m, float d_0, float drop, float u_0, float du, float mean) {
+  precise float s = 0.0;
+  if (drop > 0.0 && d_0 > 0.0) {
+    s = exact_div(d_0, drop);
+    s = s < 1.0 ? s : 1.0;
+  }
+  precise float arrival = mean + (s - 0.5) * du;
+  precise float lag = (u_0 + 0.5 * du) - mean;
+  precise float u = bounce_speed(t, m, arrival < 0.0 ? arrival : 0.0) + lag;
+  precise float most = bounce_speed(t, m, u_0) + 2.0 * fall_speed();
+  if (!(u > 0.0)) return 0.0;
+  return u < most ? u : most;
+}
+
+// Normal speed at the end of a step from distance d_0 with normal speed u_0 to d, u: u unless the ground acts.
+float speed_after_contact(uint t, float m, float d_0, float u_0, float d, float u) {
+  bool resting = rests(d_0, u_0);
+  if (!(d < 0.0 || resting)) return u;
+  precise float c = least_normal_speed(d_0);
+  if (!(u < c)) return u;
+  if (resting) return c;
+  if (!(-u_0 > resting_speed)) return 0.0;
+  precise float u_after = bounced_speed(t, m, d_0, d_0 - d, u_0, u - u_0, exact_div(d - d_0, time_step));
+  return u_after;
+}
+
+// The end of a step that began at x_0, v_0.
+void respond_coulomb(uint t, float m, vec3 x_0, vec3 v_0, inout precise vec3 x, inout precise vec3 v) {
+  precise vec4 g = gap(t, x);
+  precise float u = dot3(v, g.xyz);
+  if (g.w < epsilon && u < 0.0) {
+    precise vec4 g_0 = gap(t, x_0);
+    precise float u_after = speed_after_contact(t, m, g_0.w, dot3(v_0, g_0.xyz), g.w, u);
+    if (u_after > u) {
+      precise vec3 v_t = v - u * g.xyz;
+      v = rubbed(v_t, terrains[t].friction * (u_after - u)) + u_after * g.xyz;
+      if (u_after == 0.0 && g.w > g_0.w) {
+        x = x - (g.w - g_0.w) * g.xyz;
+        g = gap(t, x);
+      }
+    }
+  }
+  if (g.w < 0.0) x = x - g.w * g.xyz;
+}

@@ -1,0 +1,119 @@
+#pragma once
+// The Coulomb contact rule, for one body and one terrain (docs/physics.md derives it).
+//
+// A particle that rests on the ground when a step begins feels a reaction inside every force evaluation: with
+// it, the step would end without approach and within the friction cone. Particles that arrive bounce at the
+// step's end. Every expression has one order of operations, which the kernels follow
+// (shaders/compute/coulomb.glsl).
+#include "cpu_reference/contact.h"
+
+namespace aspic::reference {
+
+/// Whether a body at distance d0 [m] with normal speed u0 [m/s] at the start of a step rests on the ground.
+template <class T>
+bool rests(const ContactConstants<T>& contact, T d0, T u0) {
+  return d0 < contact.epsilon && std::abs(u0) <= contact.resting_speed;
+}
+
+/// Normal speed c ≤ 0 [m/s] that brings a body at distance d0 [m] to the surface within a step, but no faster
+/// than `most` [m/s] lets it sink: c = −min(max(d0, 0)/h, most).
+template <class T>
+T sinking_speed(T d0, T h, T most) {
+  if (!(d0 > T(0))) return T(0);
+  const T needed = d0 / h;
+  return -(needed < most ? needed : most);
+}
+
+/// Least normal speed c [m/s] a resting body may end a step with: −min(max(d0, 0)/h, |g|h).
+template <class T>
+T least_normal_speed(const ContactConstants<T>& contact, T d0) {
+  return sinking_speed<T>(d0, contact.step, contact.fall);
+}
+
+/// Tangential velocity after friction has taken up to `loss` [m/s] off it. It never turns around.
+template <class T>
+Vector<T> rubbed(const Vector<T>& v_t, T loss) {
+  const T slip = norm3<T>(v_t);
+  if (!(slip > T(0))) return v_t;
+  const T kept = T(1) - loss / slip;
+  return kept > T(0) ? Vector<T>(kept * v_t) : Vector<T>(Vector<T>::Zero());
+}
+
+/// P: the velocity that ground of normal n leaves of v1, whose normal speed may not be less than c: v1 itself
+/// where it is not, else the normal part is c and friction μ takes μ·(c − u) off the rest.
+template <class T>
+Vector<T> projected(T friction, const Vector<T>& n, T c, const Vector<T>& v1) {
+  const T u = dot3<T>(v1, n);
+  if (!(u < c)) return v1;
+  const Vector<T> v_t = v1 - u * n;
+  return rubbed<T>(v_t, friction * (c - u)) + c * n;
+}
+
+/// The force f [N] with the ground's reaction: kept for a whole step it turns v0 into P(v0 + (h·w)·f).
+/// hw = h·w.
+template <class T>
+Vector<T> with_reaction(T friction, const Vector<T>& n, T c, T hw, const Vector<T>& v0, const Vector<T>& f) {
+  const Vector<T> v1 = v0 + hw * f;
+  if (!(dot3<T>(v1, n) < c)) return f;
+  const T q = T(1) / hw;
+  return q * (projected<T>(friction, n, c, v1) - v0);
+}
+
+/// Normal speed after the bounce of a body that came with normal speed u0 and fell by `drop` from distance d0
+/// during the step: B of its speed when it met the surface, and the change of speed after that. `du` is how
+/// much the step changed the normal speed, `mean` its mean over the step as the position shows it. How far an
+/// integrator's position lags behind its velocity, (u0 + du/2) − mean, is taken off before B and added after
+/// it.
+template <class T>
+T bounced_speed(const Ground<T>& ground, const ContactConstants<T>& contact, T m, T d0, T drop, T u0, T du,
+                T mean) {
+  T s = T(0);  // fraction of the step before the impact
+  if (drop > T(0) && d0 > T(0)) {
+    s = d0 / drop;
+    s = s < T(1) ? s : T(1);
+  }
+  const T arrival = mean + (s - T(0.5)) * du;
+  const T lag = (u0 + T(0.5) * du) - mean;
+  const T u = bounce_speed<T>(ground, m, arrival < T(0) ? arrival : T(0)) + lag;
+  const T most = bounce_speed<T>(ground, m, u0) + T(2) * contact.fall;
+  if (!(u > T(0))) return T(0);
+  return u < most ? u : most;
+}
+
+/// Normal speed at the end of a step from distance d0 with normal speed u0 to distance d with normal speed u:
+/// u itself unless the ground acts, which only ever raises it.
+template <class T>
+T speed_after_contact(const Ground<T>& ground, const ContactConstants<T>& contact, T m, T d0, T u0, T d,
+                      T u) {
+  const bool resting = rests<T>(contact, d0, u0);
+  if (!(d < T(0) || resting)) return u;
+  const T c = least_normal_speed<T>(contact, d0);
+  if (!(u < c)) return u;
+  if (resting) return c;
+  if (!(-u0 > contact.resting_speed)) return T(0);
+  return bounced_speed<T>(ground, contact, m, d0, d0 - d, u0, u - u0, (d - d0) / contact.step);
+}
+
+/// The end of a step that began at x0, v0: what rests or arrives gets the speed above, friction is bounded by
+/// the normal impulse, a stopped particle does not rise, and none stays below the surface.
+template <class T>
+void respond_coulomb(const Ground<T>& ground, const ContactConstants<T>& contact, T m, const Vector<T>& x0,
+                     const Vector<T>& v0, Vector<T>& x, Vector<T>& v) {
+  Gap<T> g = gap<T>(ground, x);
+  const T u = dot3<T>(v, g.n);
+  if (g.d < contact.epsilon && u < T(0)) {
+    const Gap<T> g0 = gap<T>(ground, x0);
+    const T u_after = speed_after_contact<T>(ground, contact, m, g0.d, dot3<T>(v0, g0.n), g.d, u);
+    if (u_after > u) {
+      const Vector<T> v_t = v - u * g.n;
+      v = rubbed<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n;
+      if (u_after == T(0) && g.d > g0.d) {
+        x = x - (g.d - g0.d) * g.n;
+        g = gap<T>(ground, x);
+      }
+    }
+  }
+  if (g.d < T(0)) x = x - g.d * g.n;
+}
+
+}  // namespace aspic::reference
