@@ -31,12 +31,6 @@ struct BallRules {
   bool spin;
 };
 
-/// (a_y b_z − a_z b_y, a_z b_x − a_x b_z, a_x b_y − a_y b_x)
-template <class T>
-Vector<T> cross3(const Vector<T>& a, const Vector<T>& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
-}
-
 /// Gap and normal of a ball and a terrain.
 template <class T>
 Gap<T> ball_gap(const Ground<T>& ground, T radius, const Vector<T>& x) {

@@ -75,6 +75,9 @@ class Dynamics {
   }
   const std::optional<PullConstants<T>>& pull() const { return pull_; }
 
+  /// Terrains in file order.
+  const std::vector<Ground<T>>& grounds() const { return grounds_; }
+  const ContactConstants<T>& contact() const { return contact_; }
   Vector<T> gravity() const { return gravity_; }
   T mass(Eigen::Index i) const { return mass_[i]; }
   T inverse_mass(Eigen::Index i) const { return inverse_mass_[i]; }

@@ -1,6 +1,6 @@
 #pragma once
-// Backward Euler, solved: v' = v + h·a(x + h·v', v'), x' = x + h·v' (spec §2.6; derivation in
-// docs/physics.md).
+// Backward Euler, solved: v' = v + h·a(x + h·v', v'), x' = x + h·v', in the Coulomb model with the ground in
+// the equation: v' = P(v + h·a(x + h·v', v')) (derivation in docs/physics.md).
 //
 // Newton's method on v' with a line search; its linear systems by conjugate gradients with a block-Jacobi
 // preconditioner, the spring Jacobian applied spring by spring and never stored as a matrix (Baraff and
@@ -10,6 +10,7 @@
 // the method converges to the true solution, linearly where springs are compressed.
 #include <utility>
 
+#include "cpu_reference/implicit_ground.h"
 #include "cpu_reference/integrators.h"
 #include "cpu_reference/reductions.h"
 #include "model/implicit.h"
@@ -82,20 +83,31 @@ struct DiagonalBlock {
   }
 };
 
-/// One step of backward Euler from `s`, before the terrain's response.
+/// Friction across the slip: it turns with the slip, so it resists whatever turns that.
+template <class T>
+SpringJacobian<T> turning(const GroundReaction<T>& ground) {
+  return {ground.stiffness, T(0), ground.across};
+}
+
+/// Steps of backward Euler, one after another.
 template <class T>
 class ImplicitEuler {
  public:
   ImplicitEuler(const Dynamics<T>& dynamics, const Model& model)
       : dynamics_(dynamics),
         springs_(model.springs),
+        ahead_(dynamics.grounds(), dynamics.contact().step, model.contact.model == ContactModel::coulomb),
         h_(static_cast<T>(model.simulation.timestep)),
         tolerance_(static_cast<T>(implicit_tolerance(
             model.simulation.implicit, sizeof(T) == 4 ? Precision::single : Precision::double_))),
         max_newton_(static_cast<std::uint32_t>(model.simulation.implicit.newton_iterations)),
         max_cg_(static_cast<std::uint32_t>(model.simulation.implicit.cg_iterations)) {}
 
+  /// The equation's solution from `s`, before the terrain's response.
   Phase<T> step(const Phase<T>& s, SolveReport& report);
+
+  /// The terrain's response at the end of the step from `s` that step() was last asked for.
+  void respond(const Phase<T>& s, Phase<T>& end) const;
 
  private:
   /// Everything about one trial velocity.
@@ -104,17 +116,24 @@ class ImplicitEuler {
     std::vector<SpringJacobian<T>> jacobian;  ///< of every spring
     SpringJacobian<T> pull_jacobian;          ///< of the pull, where there is one
     std::vector<DiagonalBlock<T>> preconditioner;
-    T residual;  ///< largest component of |(v' − v) − h·a| [m/s]
-    T merit;     ///< Σ |(v' − v) − h·a|² [m²/s²]
+    std::vector<GroundReaction<T>> ground;  ///< on every particle
+    Field<T> prescribed;                    ///< the part of δ that the ground leaves no choice in [m/s]
+    bool holds = false;                     ///< whether the ground holds any particle
+    bool prescribes = false;                ///< whether any prescribed part is not zero
+    T residual;  ///< largest component of |R|, R = (v' − v) − h·a, or v' − P(v + h·a) on the ground [m/s]
+    T merit;  ///< Σ |R|² [m²/s²]
   };
 
   Evaluation evaluate(const Phase<T>& s, const Field<T>& held, const Field<T>& trial) const;
   Field<T> solve(const Evaluation& at, T forcing, std::uint32_t& iterations) const;
   Field<T> apply(const Evaluation& at, const Field<T>& p) const;
+  Field<T> precondition(const Evaluation& at, const Field<T>& r) const;
   T dot(const Field<T>& a, const Field<T>& b) const;
 
   const Dynamics<T>& dynamics_;
   const std::vector<Spring>& springs_;
+  GroundAhead<T> ahead_;
+  std::vector<GroundReaction<T>> ground_;  ///< of the solution
   T h_, tolerance_;
   std::uint32_t max_newton_, max_cg_;
 };
@@ -150,15 +169,34 @@ typename ImplicitEuler<T>::Evaluation ImplicitEuler<T>::evaluate(const Phase<T>&
     blocks[static_cast<std::size_t>(pull->particle)].add(H);
     at.pull_jacobian = H;
   }
-  at.r = Field<T>::Zero(3, count);
+  at.r = at.prescribed = Field<T>::Zero(3, count);
+  at.ground.resize(static_cast<std::size_t>(count));
   std::vector<T> largest(static_cast<std::size_t>(count), T(0)),
       squared(static_cast<std::size_t>(count), T(0));
   for (Eigen::Index i = 0; i < count; ++i) {
-    at.preconditioner.push_back(blocks[static_cast<std::size_t>(i)].inverse());
-    if (dynamics_.inverse_mass(i) == T(0)) continue;
+    DiagonalBlock<T>& block = blocks[static_cast<std::size_t>(i)];
+    if (dynamics_.inverse_mass(i) == T(0)) {
+      at.preconditioner.push_back(block.inverse());
+      continue;
+    }
     const Vector<T> total = f.col(i) + held.col(i), change = trial.col(i) - s.v.col(i);
+    const Vector<T> gained = h_ * (dynamics_.inverse_mass(i) * total);
     at.r.col(i) = h_ * total - dynamics_.mass(i) * change;
-    const Vector<T> R = change - h_ * (dynamics_.inverse_mass(i) * total);
+    Vector<T> R = change - gained;
+    if (ahead_.acts()) {
+      const Vector<T> free = s.v.col(i) + gained;
+      const GroundReaction<T> reaction = ahead_.react(i, dynamics_.mass(i), free);
+      if (reaction.freedom != Freedom::all) {
+        R = trial.col(i) - reaction.v;
+        at.prescribed.col(i) = -reaction.held_part(R);
+        at.r.col(i) = reaction.right_hand_side(dynamics_.mass(i), R);
+        at.ground[static_cast<std::size_t>(i)] = reaction;
+        block.add(turning(reaction));
+        at.holds = true;
+        at.prescribes = at.prescribes || (at.prescribed.col(i).array() != T(0)).any();
+      }
+    }
+    at.preconditioner.push_back(block.inverse());
     const T x = std::abs(R.x()), y = std::abs(R.y()), z = std::abs(R.z());
     const T xy = y > x ? y : x;
     largest[static_cast<std::size_t>(i)] = z > xy ? z : xy;
@@ -191,22 +229,34 @@ Field<T> ImplicitEuler<T>::apply(const Evaluation& at, const Field<T>& p) const 
     product.col(pull->particle) += at.pull_jacobian * Vector<T>(p.col(pull->particle));
   }
   for (Eigen::Index i = 0; i < p.cols(); ++i) {
+    const GroundReaction<T>& ground = at.ground[static_cast<std::size_t>(i)];
+    if (ground.freedom != Freedom::all)
+      product.col(i) = ground.free_part(product.col(i) + turning(ground) * Vector<T>(p.col(i)));
     if (dynamics_.inverse_mass(i) == T(0)) product.col(i).setZero();
   }
   return product;
 }
 
-/// A·δ = r by preconditioned conjugate gradients (Hestenes and Stiefel, 1952).
+/// B⁻¹·r in the directions that the ground leaves free.
+template <class T>
+Field<T> ImplicitEuler<T>::precondition(const Evaluation& at, const Field<T>& r) const {
+  Field<T> z(3, r.cols());
+  for (Eigen::Index i = 0; i < r.cols(); ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    z.col(i) = at.ground[n].free_part(at.preconditioner[n] * Vector<T>(r.col(i)));
+  }
+  return z;
+}
+
+/// A·δ = r by preconditioned conjugate gradients (Hestenes and Stiefel, 1952), from the prescribed part of δ
+/// on.
 template <class T>
 Field<T> ImplicitEuler<T>::solve(const Evaluation& at, T forcing, std::uint32_t& iterations) const {
-  const auto precondition = [&](const Field<T>& r) {
-    Field<T> z(3, r.cols());
-    for (Eigen::Index i = 0; i < r.cols(); ++i)
-      z.col(i) = at.preconditioner[static_cast<std::size_t>(i)] * Vector<T>(r.col(i));
-    return z;
-  };
-  Field<T> delta = Field<T>::Zero(3, at.r.cols()), r = at.r, z = precondition(r), p = z;
+  Field<T> delta = at.prescribed, r = at.r;
+  if (at.prescribes) r -= apply(at, delta);
+  Field<T> z = precondition(at, r), p = z;
   T rz = dot(r, z);
+  if (at.prescribes && !(rz > T(0))) return delta;
   const T enough = (forcing * forcing) * rz;
   for (std::uint32_t n = 0; n < max_cg_; ++n) {
     const Field<T> q = apply(at, p);
@@ -214,9 +264,9 @@ Field<T> ImplicitEuler<T>::solve(const Evaluation& at, T forcing, std::uint32_t&
     ++iterations;
     if (!(pq > T(0))) break;
     const T alpha = rz / pq;
-    delta = n == 0 ? Field<T>(alpha * p) : Field<T>(delta + alpha * p);
+    delta = n == 0 && !at.prescribes ? Field<T>(alpha * p) : Field<T>(delta + alpha * p);
     r -= alpha * q;
-    z = precondition(r);
+    z = precondition(at, r);
     const T rz_next = dot(r, z);
     if (!(rz_next > enough)) break;
     const T beta = rz_next / rz;
@@ -238,6 +288,7 @@ template <class T>
 Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
   report = SolveReport{};
   const Field<T> held = dynamics_.held_contact_force(s.x, s.v);
+  ahead_.start(s.x);
   Field<T> v = s.v;
   Evaluation at = evaluate(s, held, v);
   T best = at.residual, forcing = static_cast<T>(first_forcing);
@@ -255,18 +306,20 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
     if (report.newton_iterations == max_newton_) break;
     const Field<T> delta = solve(at, forcing, report.cg_iterations);
     ++report.newton_iterations;
-    // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down.
+    // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down. With the ground in the equation
+    // it is δ: R bends where a particle meets or leaves it, so the way may lead over a larger residual.
     T lambda = 1;
     Field<T> trial = v + lambda * delta;
     Evaluation next = evaluate(s, held, trial);
     int halvings = 0;
-    while (!(next.merit < at.merit) && halvings < max_halvings) {
+    const auto accepted = [&] { return next.merit < at.merit || next.holds || at.holds; };
+    while (!accepted() && halvings < max_halvings) {
       ++halvings;
       lambda = lambda / 2;
       trial = v + lambda * delta;
       next = evaluate(s, held, trial);
     }
-    if (!(next.merit < at.merit)) {  // any further iteration would only repeat this one
+    if (!accepted()) {  // any further iteration would only repeat this one
       report.end = SolveEnd::stagnated;
       break;
     }
@@ -277,7 +330,27 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
     best = at.residual < best ? at.residual : best;
   }
   report.residual = static_cast<double>(at.residual);
+  for (Eigen::Index i = 0; i < v.cols(); ++i) {  // the ground gives way by no tolerance
+    if (at.ground[static_cast<std::size_t>(i)].freedom != Freedom::all) v.col(i) += at.prescribed.col(i);
+  }
+  ground_ = std::move(at.ground);
   return {s.x + h_ * v, v};
+}
+
+template <class T>
+void ImplicitEuler<T>::respond(const Phase<T>& s, Phase<T>& end) const {
+  if (!ahead_.acts()) return dynamics_.respond(s.x, s.v, end.x, end.v);
+  for (Eigen::Index i = 0; i < end.x.cols(); ++i) {
+    if (dynamics_.inverse_mass(i) == T(0)) continue;
+    Vector<T> x = end.x.col(i), v = end.v.col(i);
+    for (std::size_t t = 0; t < dynamics_.grounds().size(); ++t) {
+      const bool held = ground_[static_cast<std::size_t>(i)].holds(t);
+      respond_solved<T>(dynamics_.grounds()[t], dynamics_.contact(), dynamics_.gravity(), dynamics_.mass(i),
+                        held, s.x.col(i), s.v.col(i), x, v);
+    }
+    end.x.col(i) = x;
+    end.v.col(i) = v;
+  }
 }
 
 }  // namespace aspic::reference

@@ -79,7 +79,11 @@ class ReferenceSolver final : public Solver {
       Phase<T> next = solved ? implicit_.step(phase_, report)
                              : explicit_step(model_.simulation.integrator,
                                              StepDynamics<T>(dynamics_, phase_.x, phase_.v), phase_, h);
-      dynamics_.respond(phase_.x, phase_.v, next.x, next.v);
+      if (solved) {
+        implicit_.respond(phase_, next);
+      } else {
+        dynamics_.respond(phase_.x, phase_.v, next.x, next.v);
+      }
       BallPhase<T> next_balls;
       if (model_.ball_count() > 0) next_balls = balls_.step(step_, ball_phase_, phase_, next);
       divergence_ = find_divergence(next, next_balls, step_ + 1);

@@ -31,6 +31,12 @@ T norm3(const Vector<T>& a) {
   return std::sqrt(dot3<T>(a, a));
 }
 
+/// a × b
+template <class T>
+Vector<T> cross3(const Vector<T>& a, const Vector<T>& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
+}
+
 template <class T>
 Vector<T> rounded(const Vec3& v) {
   return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
