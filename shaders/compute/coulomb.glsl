@@ -10,6 +10,11 @@ bool rests(float d_0, float u_0) {
   return d_0 < epsilon && abs(u_0) <= resting_speed;
 }
 
+// Whether such a body, should it end the step in approach, is set down: it began near the ground, not arriving fast.
+bool set_down(float d_0, float u_0) {
+  return d_0 < epsilon && !(-u_0 > resting_speed);
+}
+
 // c = −min(max(d_0, 0)/h, most)
 float sinking_speed(float d_0, float most) {
   if (!(d_0 > 0.0)) return 0.0;
@@ -68,11 +73,11 @@ float bounced_speed(uint t, float m, float d_0, float drop, float u_0, float du,
 
 // Normal speed at the end of a step from distance d_0 with normal speed u_0 to d, u: u unless the ground acts.
 float speed_after_contact(uint t, float m, float d_0, float u_0, float d, float u) {
-  bool resting = rests(d_0, u_0);
-  if (!(u < 0.0 && (d < 0.0 || resting))) return u;
+  bool down = set_down(d_0, u_0);
+  if (!(u < 0.0 && (d < 0.0 || down))) return u;
   precise float c = least_normal_speed(d_0);
   if (!(u < c)) return u;
-  if (resting) return c;
+  if (down) return c;
   if (!(-u_0 > resting_speed)) return 0.0;
   precise float u_after = bounced_speed(t, m, d_0, d_0 - d, u_0, u - u_0, exact_div(d - d_0, time_step));
   return u_after;

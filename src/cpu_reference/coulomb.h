@@ -15,6 +15,14 @@ bool rests(const ContactConstants<T>& contact, T d0, T u0) {
   return d0 < contact.epsilon && std::abs(u0) <= contact.resting_speed;
 }
 
+/// Whether such a body, should it end the step in approach, is set down: it began near the ground and did not
+/// arrive fast. Also one that rose faster than what rests, which the load above it turned around within the
+/// step; left to its approach it would come back fast, and bounce for ever.
+template <class T>
+bool set_down(const ContactConstants<T>& contact, T d0, T u0) {
+  return d0 < contact.epsilon && !(-u0 > contact.resting_speed);
+}
+
 /// Normal speed c ≤ 0 [m/s] that brings a body at distance d0 [m] to the surface within a step, but no faster
 /// than `most` [m/s] lets it sink: c = −min(max(d0, 0)/h, most).
 template <class T>
@@ -85,11 +93,11 @@ T bounced_speed(const Ground<T>& ground, const ContactConstants<T>& contact, T m
 template <class T>
 T speed_after_contact(const Ground<T>& ground, const ContactConstants<T>& contact, T m, T d0, T u0, T d,
                       T u) {
-  const bool resting = rests<T>(contact, d0, u0);
-  if (!(u < T(0) && (d < T(0) || resting))) return u;
+  const bool down = set_down<T>(contact, d0, u0);
+  if (!(u < T(0) && (d < T(0) || down))) return u;
   const T c = least_normal_speed<T>(contact, d0);
   if (!(u < c)) return u;
-  if (resting) return c;
+  if (down) return c;
   if (!(-u0 > contact.resting_speed)) return T(0);
   return bounced_speed<T>(ground, contact, m, d0, d0 - d, u0, u - u0, (d - d0) / contact.step);
 }
