@@ -124,15 +124,15 @@ class World:
         """Advances by h; on divergence the last good state is kept and Diverged is raised."""
         with np.errstate(over="ignore", invalid="ignore"):
             self.ground = CoulombStep(self) if self.model == "coulomb" else None
-            stopped = None
+            held = None
             if self.integrate:
                 x, v = self.integrate(self.acceleration, self.x, self.v, self.h)
             else:
-                x, v, stopped = backward_euler(self)
+                x, v, held = backward_euler(self)
             if self.model == "course":
                 x, v = self.course_response(x, v)
             else:
-                x, v = self.ground.respond(x, v, stopped)
+                x, v = self.ground.respond(x, v, held)
             good = np.all(np.isfinite(x) & np.isfinite(v), axis=1) & (np.sqrt(dot(v, v)) <= SPEED_LIMIT)
         if not good.all():
             raise Diverged(f"particle {np.flatnonzero(~good)[0]} diverged with a time step of {self.h} s")

@@ -3,6 +3,7 @@
 Shapes as in oracle.py. Terrains act in file order, each on what the one before left.
 """
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,16 +14,13 @@ def dot(a, b):
 
 
 def pushed(v, n, target, friction):
-    """Velocities whose normal part the ground brings to `target`, with friction of at most `friction` times that push.
-
-    Returns the new velocities, the slip before, its length, and the share of the slip that friction leaves.
-    """
+    """Velocities whose normal part the ground brings to `target`; friction takes at most `friction` times that push."""
     u = dot(v, n)
     slip = v - u[:, None] * n
     speed = np.sqrt(dot(slip, slip))
     share = np.maximum(0.0, 1.0 - friction * (target - u) / np.where(speed == 0, 1.0, speed))
     share = np.where(speed == 0, 1.0, share)
-    return share[:, None] * slip + target[:, None] * n, slip, speed, share
+    return share[:, None] * slip + target[:, None] * n
 
 
 @dataclass
@@ -32,8 +30,9 @@ class Start:
     d: np.ndarray
     n: np.ndarray
     u: np.ndarray
-    resting: np.ndarray
-    fast: np.ndarray
+    resting: np.ndarray  # near and slow: the ground answers within the forces
+    near: np.ndarray
+    fast: np.ndarray  # arrives: bounces
     least: np.ndarray  # normal speed a resting particle may end with at least: down to the surface, gently
     reach: np.ndarray  # the same without "gently", for implicit-euler
 
@@ -52,7 +51,7 @@ class CoulombStep:
             reach = np.maximum(d, 0.0) / world.h
             self.starts.append(Start(
                 d, n, u, resting=world.free & (d < world.epsilon) & (np.abs(u) <= threshold),
-                fast=world.free & (u < -threshold), least=-np.minimum(reach, fall), reach=-reach))
+                near=world.free & (d < world.epsilon), fast=world.free & (u < -threshold), least=-np.minimum(reach, fall), reach=-reach))
 
     def reaction(self, f):
         """Forces with the ground's answer to particles at rest: over the complete step they end with no approach."""
@@ -60,7 +59,7 @@ class CoulombStep:
         per_step = np.where(world.free, world.h * world.w, 1.0)[:, None]  # h w; pinned particles never rest
         for terrain, start in zip(world.terrains, self.starts):
             ahead = self.v0 + per_step * f
-            held = pushed(ahead, start.n, start.least, terrain.friction)[0]
+            held = pushed(ahead, start.n, start.least, terrain.friction)
             acts = start.resting & (dot(ahead, start.n) < start.least)
             f = np.where(acts[:, None], (held - self.v0) / per_step, f)
         return f
@@ -77,49 +76,82 @@ class CoulombStep:
         falls = d0 > d1
         return np.where(falls, np.clip(d0 / np.where(falls, d0 - d1, 1.0), 0.0, 1.0), 0.0)
 
-    def respond(self, x, v, stopped=None):
-        """The end of the step. `stopped`, with implicit-euler: those whom the ground within the equation stopped."""
+    def respond(self, x, v, held=None):
+        """The end of the step. `held`, with implicit-euler: by terrain, those whom the ground in the equation held."""
         world = self.world
-        for terrain, start in zip(world.terrains, self.starts):
+        for index, (terrain, start) in enumerate(zip(world.terrains, self.starts)):
             d, n = terrain.distance_and_normal(x)
             u = dot(v, n)
-            if stopped is None:
-                acts = world.free & (d < world.epsilon) & (u < start.least) & ((d < 0) | start.resting)
+            set_down = start.near & ~start.fast
+            if held is None:
+                acts = world.free & (d < world.epsilon) & (u < start.least) & ((d < 0) | set_down)
                 mean, change = (d - start.d) / world.h, u - start.u
                 crossing = self.crossing(start.d, d)
             else:
-                acts = stopped & start.fast & (d < world.epsilon)
+                acts = held[index] & start.fast
                 change = world.h * (n @ world.gravity)
                 mean = start.u + change
                 crossing = self.crossing(start.d, start.d + world.h * mean)
             target = np.where(start.fast, self.bounce(terrain, start, mean, change, crossing),
-                              np.where(start.resting, start.least, 0.0))
-            v = np.where(acts[:, None], pushed(v, n, target, terrain.friction)[0], v)
-            risen = acts & (target == 0) & (d > start.d)
-            x = np.where(risen[:, None], x - (d - start.d)[:, None] * n, x)
-            d, n = terrain.distance_and_normal(x)
+                              np.where(set_down, start.least, 0.0))
+            v = np.where(acts[:, None], pushed(v, n, target, terrain.friction), v)
+            if held is None:  # what rests rises no faster than it moves, wherever the method's own lag puts it
+                speed = np.maximum(np.where(acts, target, u), 0.0)
+                undue = np.maximum((d - start.d) - world.h * speed, 0.0)
+                rising = start.resting & (d < world.epsilon) & (undue > 0)
+                x = np.where(rising[:, None], x - undue[:, None] * n, x)
+                d, n = terrain.distance_and_normal(x)
             x = np.where((world.free & (d < 0))[:, None], x - d[:, None] * n, x)
         return x, v
 
-    def project(self, v):
+    def project(self, free):
         """implicit-euler's end velocity from the one that forces alone would give: also its derivative, a 3 x 3 block
-        per particle, and the particles on which any ground acted."""
-        world = self.world
-        slope = np.broadcast_to(np.eye(3), (len(v), 3, 3))
-        touched = np.zeros(len(v), dtype=bool)
-        for terrain, start in zip(world.terrains, self.starts):
-            n = start.n
-            u = dot(v, n)
-            acts = world.free & (u < start.reach)
-            held, slip, speed, share = pushed(v, n, start.reach, terrain.friction)
-            # v_t - mu (c - u) v_t/|v_t| + c n: the normal part is prescribed, the slip loses mu (c - u) along itself,
-            # and that loss turns with the slip. Where nothing of the slip is left, nothing depends on v.
-            along = slip / np.where(speed == 0, 1.0, speed)[:, None]
-            nn, tt = n[:, :, None] * n[:, None, :], along[:, :, None] * along[:, None, :]
-            turning = share[:, None, None] * (np.eye(3) - nn - tt)
-            sliding = turning + tt + terrain.friction * along[:, :, None] * n[:, None, :]
-            local = np.where(((share > 0) & (speed > 0))[:, None, None], sliding, 0.0)
-            slope = np.where(acts[:, None, None], local @ slope, slope)
-            v = np.where(acts[:, None], held, v)
-            touched |= acts
-        return v, slope, touched
+        per particle, and by terrain the particles it holds.
+
+        A terrain that would be crossed joins the fewest of those that hold a particle already with which none of them
+        is crossed; a second round looks whether a later one pushed it through an earlier one."""
+        v, slope = free.copy(), np.tile(np.eye(3), (len(free), 1, 1))
+        held = np.zeros((len(self.starts), len(free)), dtype=bool)
+        crossed = np.array([dot(free, start.n) < start.reach for start in self.starts]).reshape(held.shape)
+        for i in np.flatnonzero(crossed.any(axis=0) & self.world.free):
+            by = ()
+            for _ in range(2):
+                for terrain in range(len(self.starts)):
+                    if terrain not in by and self.crosses(i, terrain, v[i]):
+                        by, v[i], slope[i] = self.joined(i, by, terrain, free[i]) or (by, v[i], slope[i])
+            held[list(by), i] = True
+        return v, slope, held
+
+    def crosses(self, i, terrain, v):
+        return v @ self.starts[terrain].n[i] < self.starts[terrain].reach[i]
+
+    def joined(self, i, by, terrain, free):
+        for count in range(min(len(by), 2) + 1):
+            for companions in itertools.combinations(by, count):
+                end = self.on_surfaces(i, (*companions, terrain), free)
+                if end and not any(self.crosses(i, other, end[0]) for other in by if other not in companions):
+                    return (*companions, terrain), *end
+        return None
+
+    def on_surfaces(self, i, by, v):
+        """The velocity with the normal speeds that bring particle i to the surfaces `by`, and its derivative. Friction
+        of the sum of mu times the pushes takes from what motion they leave."""
+        N = np.array([self.starts[t].n[i] for t in by])
+        gram = N @ N.T
+        if np.linalg.det(gram) <= 1e-6:
+            return None  # two surfaces that are one
+        target = np.array([self.starts[t].reach[i] for t in by])
+        push_per_speed = -np.linalg.solve(gram, N)
+        push = np.linalg.solve(gram, target) + push_per_speed @ v
+        friction = np.where(push > 0, [self.world.terrains[t].friction for t in by], 0.0)
+        tangential = np.eye(3) + N.T @ push_per_speed
+        arrived = N.T @ np.linalg.solve(gram, target)
+        slip = tangential @ v
+        speed = np.linalg.norm(slip)
+        loss = friction @ push
+        if len(by) == 3 or speed == 0 or loss >= speed:
+            return arrived, np.zeros((3, 3))
+        along = slip / speed
+        keep = 1 - loss / speed
+        turning = keep * (tangential - np.outer(along, along))
+        return arrived + keep * slip, turning + np.outer(along, along) - np.outer(along, friction @ push_per_speed)

@@ -42,7 +42,7 @@ def force_jacobian(world, x0, v):
 
 
 def backward_euler(world):
-    """The step's end (x', v') before the terrain's response, and the particles that the ground acted on."""
+    """The step's end (x', v') before the terrain's response, and by terrain the particles that the ground held."""
     x0, v0, h, count = world.x, world.v, world.h, len(world.x)
     held = 0.0
     if world.model == "course":
@@ -52,17 +52,17 @@ def backward_euler(world):
     def evaluate(v):
         f = world.m[:, None] * world.gravity + world.spring_force(x0 + h * v, v) + held
         free = v0 + (h * world.w)[:, None] * f
-        end, slope, touched = (world.ground.project(free) if world.ground else
+        end, slope, held_by = (world.ground.project(free) if world.ground else
                                (free, np.broadcast_to(np.eye(3), (count, 3, 3)), None))
-        return v - end, slope, touched
+        return v - end, slope, held_by
 
     v = v0
-    residual, slope, touched = evaluate(v)
-    best = np.inf, v, touched
+    residual, slope, held_by = evaluate(v)
+    best = np.inf, v, held_by
     for _ in range(ITERATIONS):
         size = np.abs(residual).max()
         if size < best[0]:
-            best = size, v, touched
+            best = size, v, held_by
         if size < ROUNDING:
             break
         # d(residual)/dv = I - P' d(free)/dv; a pinned particle has w = 0 and keeps its velocity.
@@ -80,8 +80,8 @@ def backward_euler(world):
                 break  # rounding is all that is left
             length, trial = 1.0, evaluate(v + step)  # across a kink the way down may lead uphill
         v = v + length * step
-        residual, slope, touched = trial
-    size, v, touched = best
+        residual, slope, held_by = trial
+    size, v, held_by = best
     if size > 100 * ROUNDING:
         raise NotSolved(f"a residual of {size:.1e} m/s is left after {ITERATIONS} iterations")
-    return x0 + h * v, v, touched
+    return x0 + h * v, v, held_by
