@@ -35,6 +35,8 @@ std::vector<Check> battery() {
   add_conservation_checks(checks);
   add_force_checks(checks);
   add_contact_checks(checks);
+  add_coulomb_checks(checks);
+  add_rest_checks(checks);
   add_scene_checks(checks);
   add_implicit_checks(checks);
   add_ball_checks(checks);

@@ -85,6 +85,8 @@ void add_stability_checks(std::vector<Check>& checks);
 void add_conservation_checks(std::vector<Check>& checks);
 void add_force_checks(std::vector<Check>& checks);
 void add_contact_checks(std::vector<Check>& checks);
+void add_coulomb_checks(std::vector<Check>& checks);
+void add_rest_checks(std::vector<Check>& checks);
 void add_scene_checks(std::vector<Check>& checks);
 void add_implicit_checks(std::vector<Check>& checks);
 void add_ball_checks(std::vector<Check>& checks);

@@ -93,16 +93,6 @@ Result<Finding> dense(const Subject& subject) {
   return at_most(worst, 1e-8, "m/s");
 }
 
-Result<Finding> rests(const Subject& subject) {
-  ModelSettings settings = cube_settings(10);
-  settings.terrain.push_back({});
-  settings.simulation.integrator = Integrator::implicit_euler;
-  settings.simulation.timestep = 1.0 / 60;
-  ASPIC_VERIFY_LET(model, build_model(settings));
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::single, 900));
-  return at_most(measure(model, end).max_speed, 1e-3, "m/s");
-}
-
 }  // namespace
 
 void add_implicit_checks(std::vector<Check>& checks) {
@@ -114,8 +104,6 @@ void add_implicit_checks(std::vector<Check>& checks) {
   checks.push_back({"implicit/dense",
                     "one step equals a dense Newton solve in double precision (shaken 4³ cube, h = 1/60 s)",
                     at_most_text(1e-8, "m/s"), true, false, dense});
-  checks.push_back({"implicit/rest", "the default cube at h = 1/60 s, 15 s after its drop: fastest particle",
-                    at_most_text(1e-3, "m/s"), false, false, rests});
   for (const std::string scene : scenes) {
     checks.push_back({"implicit/residual/course/" + scene, "course model, h = 1/60 s: residual in every step",
                       at_most_text(1e-4, "m/s"), false, false, [=](const Subject& subject) {

@@ -1,4 +1,4 @@
-// The built-in scenes: how deep particles get, and whether the default cube comes to rest.
+// The built-in scenes: how deep particles get in a step.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +11,6 @@
 
 namespace aspic::verify {
 namespace {
-
-constexpr double resting_bound = 0.02;
 
 double max_speed(const State& state) {
   double fastest = 0.0;
@@ -28,15 +26,14 @@ double deepest(const Model& model, const State& state) {
   return depth;
 }
 
-/// Largest depth before the projection as a share of h·max|v|, and in metres; and whether anything came near.
+/// Largest depth without the ground as a share of h·max|v|, and in metres; and whether anything came near.
 struct Depth {
   double share = 0.0, metres = 0.0;
   bool touched = false;
 };
 
-/// In the Coulomb model the ground acts at the end of a step alone: what a step was before that is the step
-/// of the same model without terrain.
-Result<Depth> depth_before_projection(const Subject& subject, const Model& model, std::uint64_t steps) {
+/// How far a step would go without the ground: the step of the same model without terrain.
+Result<Depth> depth_without_ground(const Subject& subject, const Model& model, std::uint64_t steps) {
   Model airborne = model;
   airborne.terrain.clear();
   ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
@@ -67,7 +64,7 @@ Result<Finding> depth(const Subject& subject, const std::string& scene, std::vec
                       std::uint64_t steps) {
   ASPIC_VERIFY_LET(loaded, load_scene(scene, overrides));
   ASPIC_VERIFY_LET(model, build_model(loaded.model));
-  ASPIC_VERIFY_LET(worst, depth_before_projection(subject, model, steps));
+  ASPIC_VERIFY_LET(worst, depth_without_ground(subject, model, steps));
   if (!worst.touched) return Finding{false, "nothing touched the ground"};
   return Finding{worst.share <= 1.0, fmt::format("{:.4f} ({:.3g} mm)", worst.share, 1000 * worst.metres)};
 }
@@ -86,54 +83,9 @@ Result<Finding> course_depth(const Subject& subject) {
   return Finding{true, text + " mm"};
 }
 
-/// A fall and ten seconds of rest. The time step of a row is the scene's default of 1 ms unless the method
-/// needs another one to rest at all (docs/physics.md, "A limit of the resting threshold"):
-/// - explicit Euler: a ground particle that leaves the contact is sped up by h·n·g under a column of n
-///   particles, twice before its position follows; it comes to rest if that is no more than ε, so
-///   h = ε/(2·n·g) = 0.05 ms;
-/// - one-pass: a mode of the dampers is damped by 1 + z + z² a step, z = −h·αc/m, which is 1 at the limit of
-///   stability, z = −1, and least at z = −½: half the stable step, 0.5 ms;
-/// - implicit Euler: 1/60 s, what it is there for.
-struct Rest {
-  Integrator integrator;
-  double timestep;  ///< [s]
-  bool bounded = true;
-};
-constexpr Rest rests[] = {{Integrator::explicit_euler, 0.05e-3},
-                          {Integrator::symplectic_euler, 1e-3},
-                          {Integrator::midpoint, 1e-3},
-                          {Integrator::runge_kutta_4, 1e-3},
-                          {Integrator::implicit_euler_one_pass, 0.5e-3},
-                          {Integrator::implicit_euler, 1.0 / 60},
-                          {Integrator::explicit_euler, 1e-3, false},
-                          {Integrator::implicit_euler_one_pass, 1e-3, false}};
-
-Result<Finding> comes_to_rest(const Subject& subject, const Rest& rest) {
-  ModelSettings settings = cube_settings(10);
-  settings.terrain.push_back({});
-  settings.simulation.integrator = rest.integrator;
-  settings.simulation.timestep = rest.timestep;
-  ASPIC_VERIFY_LET(model, build_model(settings));
-  const auto steps = static_cast<std::uint64_t>(std::lround(10.0 / rest.timestep));
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::single, steps));
-  Finding finding = at_most(max_speed(end), resting_bound, "m/s");
-  finding.measured += fmt::format(" at h = {:.3g} ms", 1e3 * rest.timestep);
-  if (!rest.bounded) finding.passed = true;
-  return finding;
-}
-
 }  // namespace
 
 void add_scene_checks(std::vector<Check>& checks) {
-  for (const Rest& rest : rests) {
-    const char* const claim =
-        rest.bounded ? "the default cube, dropped on the plane (Coulomb), 10 s later: fastest particle"
-                     : "the same at 1 ms, where these two do not come to rest";
-    checks.push_back({fmt::format("rest/{}{}", name_of(rest.integrator), rest.bounded ? "" : "-at-1-ms"),
-                      claim, rest.bounded ? at_most_text(resting_bound, "m/s") : "none",
-                      rest.integrator == Integrator::symplectic_euler, false,
-                      [=](const Subject& subject) { return comes_to_rest(subject, rest); }});
-  }
   // Scenes without balls: a ball may push a particle further than it flies.
   for (const std::string name :
        {"cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "large-cube"}) {
@@ -143,7 +95,8 @@ void add_scene_checks(std::vector<Check>& checks) {
     if (large) overrides.push_back("cube[0].particles-per-edge=10");
     checks.push_back(
         {"depth/" + name,
-         fmt::format("depth before projection over h·max|v|, 10,000 steps{}", large ? ", 10 per edge" : ""),
+         fmt::format("depth that a step without the ground would reach, over h·max|v|, 10,000 steps{}",
+                     large ? ", 10 per edge" : ""),
          "≤ 1", false, false,
          [=](const Subject& subject) { return depth(subject, name, overrides, 10000); }});
   }

@@ -1,0 +1,192 @@
+// Coulomb contact against closed forms: restitution, the friction cone under a body, and no adhesion.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/pull.h"
+#include "model/terrain.h"
+#include "verify/experiments.h"
+
+namespace aspic::verify {
+namespace {
+
+constexpr double g = 9.8;
+
+double usual_step(Integrator integrator) {
+  return integrator == Integrator::implicit_euler ? 1.0 / 60 : 1e-3;
+}
+
+Terrain plane_through_origin(const Model& model, const Vec3& normal) {
+  TerrainSettings settings;
+  settings.point = Vec3{0, 0, 0};
+  settings.normal = normal;
+  return make_terrain(settings, model.contact);
+}
+
+constexpr int phases = 16;
+constexpr double drop_height = 1.0;  // [m], and up to 3 cm more, more than a step's way
+
+/// Sixteen particles that meet the ground at different points of a step. Largest error of the first apex
+/// after the bounce against e²·height [m], and, for e = 1, by how much any later one is above the start [m].
+struct Apexes {
+  double error = 0.0, above = -1.0;
+};
+
+Result<Apexes> apexes(const Subject& subject, Integrator integrator, double e) {
+  std::vector<Vec3> positions;
+  for (int i = 0; i < phases; ++i)
+    positions.push_back({static_cast<double>(i), drop_height + 0.03 * i / phases, 0});
+  Model model = loose_particles(positions, std::vector<Vec3>(phases));
+  model.simulation.integrator = integrator;
+  model.simulation.timestep = usual_step(integrator);
+  model.simulation.implicit.tolerance = 1e-14;
+  model.terrain.push_back(plane_through_origin(model, {0, 1, 0}));
+  model.terrain[0].restitution = e;
+  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
+  // Past the first apex of all, and with e = 1 some twenty bounces.
+  const double fall = std::sqrt(2 * drop_height / g);
+  const double duration = fall * (e < 1.0 ? 1 + 2.2 * e : 41.0) + 0.05;
+  const auto steps = static_cast<int>(std::lround(duration / model.simulation.timestep));
+  std::vector<int> bounces(phases, 0);
+  std::vector<double> first(phases, 0.0), later(phases, 0.0);
+  State before = initial_state(model, Precision::double_);
+  for (int step = 0; step < steps; ++step) {
+    ASPIC_VERIFY_LET(now, run(*solver, 1));
+    for (std::size_t i = 0; i < phases; ++i) {
+      if (before.velocity[i].y < -0.05 && now.velocity[i].y > 0) ++bounces[i];
+      if (bounces[i] == 1) first[i] = std::max(first[i], now.position[i].y);
+      if (bounces[i] > 0) later[i] = std::max(later[i], now.position[i].y);
+    }
+    before = std::move(now);
+  }
+  Apexes result;
+  for (std::size_t i = 0; i < phases; ++i) {
+    if (bounces[i] == 0) return Error{ErrorCode::check_failed, "a particle never bounced"};
+    result.error = std::max(result.error, std::abs(first[i] - e * e * positions[i].y));
+    result.above = std::max(result.above, later[i] - positions[i].y);
+  }
+  return result;
+}
+
+Result<Finding> restitution(const Subject& subject, Integrator integrator) {
+  const double h = usual_step(integrator), bound = 0.5 * g * h * h;
+  Finding finding{true, ""};
+  double above = -1.0;
+  for (const double e : {0.2, 0.5, 0.8, 1.0}) {
+    ASPIC_VERIFY_LET(found, apexes(subject, integrator, e));
+    finding.passed = finding.passed && found.error <= bound;
+    finding.measured += fmt::format("{}{:.2g}", e > 0.2 ? ", " : "", found.error);
+    above = std::max(above, found.above);
+  }
+  finding.measured += fmt::format(" m; highest apex {:+.1g} m from the start", above);
+  finding.passed = finding.passed && above <= bound;
+  return finding;
+}
+
+/// Mean acceleration down a slope from 1 s to 3 s, or the mean speed in the tenth second.
+struct Slide {
+  double acceleration = 0.0;  ///< [m/s²]
+  double creep = 0.0;         ///< [m/s]
+};
+
+Result<Slide> slide(const Subject& subject, Integrator integrator, double degrees, double friction,
+                    double seconds) {
+  const double angle = degrees * std::numbers::pi / 180;
+  const Vec3 normal = {std::sin(angle), std::cos(angle), 0}, down = {std::cos(angle), -std::sin(angle), 0};
+  ModelSettings settings = cube_settings(5, 2.02 * normal);
+  settings.cubes[0].rotation = {{0, 0, 1}, -degrees};
+  settings.simulation.integrator = integrator;
+  settings.simulation.timestep = usual_step(integrator);
+  ASPIC_VERIFY_LET(model, build_model(settings));
+  model.terrain.push_back(plane_through_origin(model, normal));
+  model.terrain[0].friction = friction;
+  const auto mean = [&](const std::vector<Vec3>& values) {
+    double sum = 0.0;
+    for (const Vec3& value : values) sum += dot(value, down);
+    return sum / static_cast<double>(values.size());
+  };
+  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
+  const auto steps = [&](double time) {
+    return static_cast<std::uint64_t>(std::lround(time / model.simulation.timestep));
+  };
+  ASPIC_VERIFY_LET(early, run(*solver, steps(seconds - 2)));
+  ASPIC_VERIFY_LET(end, run(*solver, steps(2)));
+  return Slide{(mean(end.velocity) - mean(early.velocity)) / 2,
+               (mean(end.position) - mean(early.position)) / 2};
+}
+
+Result<Finding> cone(const Subject& subject, Integrator integrator) {
+  double worst = 0.0;
+  for (const double degrees : {15.0, 25.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const double expected = g * (std::sin(angle) - 0.2 * std::cos(angle));
+    ASPIC_VERIFY_LET(found, slide(subject, integrator, degrees, 0.2, 3.0));
+    worst = std::max(worst, std::abs(found.acceleration / expected - 1));
+  }
+  ASPIC_VERIFY_LET(stuck, slide(subject, integrator, 15.0, 0.3, 12.0));
+  return Finding{worst <= 1e-5 && std::abs(stuck.creep) <= 1e-6,
+                 fmt::format("{:.2g}, creep {:.2g} m/s", worst, stuck.creep)};
+}
+
+/// A particle at rest is pulled up by a hand. It flies as it would without ground, or stays where it is.
+Result<Finding> no_adhesion(const Subject& subject) {
+  double flight = 0.0, held = 0.0;
+  for (const Integrator integrator : all_integrators) {
+    Model model = loose_particles({{0, 0, 0}}, {{0, 0, 0}});
+    model.simulation.integrator = integrator;
+    model.simulation.implicit.tolerance = 1e-15;
+    const Model airborne = model;
+    model.terrain.push_back(plane_through_origin(model, {0, 1, 0}));
+    const auto pulled = [&](const Model& of, double force, std::uint64_t steps) -> Result<State> {
+      ASPIC_VERIFY_LET(solver, subject.reference(of, Precision::double_));
+      if (!of.terrain.empty()) {
+        if (const Status rested = require_good(solver->advance(100)); !rested) return rested.error();
+      }
+      Pull pull;
+      pull.particle = 0;
+      pull.stiffness = force;
+      pull.damping = 0.0;
+      pull.anchor = {0, 1, 0};
+      if (const Status set = solver->set_pull(pull); !set) return set.error();
+      return run(*solver, steps);
+    };
+    ASPIC_VERIFY_LET(free, pulled(airborne, 1.01 * g, 200));
+    ASPIC_VERIFY_LET(lifted, pulled(model, 1.01 * g, 200));
+    ASPIC_VERIFY_LET(weak, pulled(model, 0.99 * g, 200));
+    flight = std::max({flight, length(lifted.position[0] - free.position[0]),
+                       length(lifted.velocity[0] - free.velocity[0])});
+    held = std::max({held, length(weak.position[0]), length(weak.velocity[0])});
+  }
+  return Finding{flight <= 1e-12 && held <= 1e-12,
+                 fmt::format("{:.2g} from free flight, {:.2g} from rest", flight, held)};
+}
+
+}  // namespace
+
+void add_coulomb_checks(std::vector<Check>& checks) {
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back(
+        {fmt::format("contact/restitution/{}", name_of(integrator)),
+         "16 phases of a drop from 1 m: first apex − e²·height for e = 0.2, 0.5, 0.8, 1; twenty bounces at "
+         "e = 1 never higher than the start",
+         at_most_text(0.5 * g * usual_step(integrator) * usual_step(integrator), "m = ½gh²"), true, false,
+         [=](const Subject& subject) { return restitution(subject, integrator); }});
+  }
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back({fmt::format("contact/cone/{}", name_of(integrator)),
+                      "5³ cube on 15° and 25°, μ = 0.2: acceleration over g(sin θ − μ cos θ), less 1; μ = "
+                      "0.3 on 15° holds: "
+                      "creep from 10 to 12 s",
+                      "≤ 1e-05, 1e-06 m/s", integrator == Integrator::symplectic_euler, false,
+                      [=](const Subject& subject) { return cone(subject, integrator); }});
+  }
+  checks.push_back(
+      {"contact/pull",
+       "a hand with 1.01 of its weight lifts a particle off the ground as off nothing, with 0.99 not at "
+       "all; every integrator",
+       at_most_text(1e-12, "m, m/s"), true, false, no_adhesion});
+}
+
+}  // namespace aspic::verify

@@ -1,0 +1,187 @@
+// Coming to rest under Coulomb contact, and what the total energy does on the way.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/energy.h"
+#include "model/terrain.h"
+#include "verify/experiments.h"
+
+namespace aspic::verify {
+namespace {
+
+constexpr double bound_single = 1e-3, bound_double = 1e-6;  // [m/s]
+constexpr double bottom_bound = 1e-5;                       // [m]
+
+/// The step of a row: the scene's default, or what implicit Euler is there for [s].
+double usual_step(Integrator integrator) {
+  return integrator == Integrator::implicit_euler ? 1.0 / 60 : 1e-3;
+}
+
+std::uint64_t steps_of(const Model& model, double duration) {
+  return static_cast<std::uint64_t>(std::lround(duration / model.simulation.timestep));
+}
+
+Result<Model> dropped_cube(int particles_per_edge, const Vec3& centre, Integrator integrator,
+                           double angle = 0.0) {
+  ModelSettings settings = cube_settings(particles_per_edge, centre);
+  settings.cubes[0].rotation = {{1.0, 0.0, 1.0}, angle};
+  settings.terrain.push_back({});
+  settings.simulation.integrator = integrator;
+  settings.simulation.timestep = usual_step(integrator);
+  return build_model(settings);
+}
+
+Result<Finding> comes_to_rest(const Subject& subject, Integrator integrator) {
+  ASPIC_VERIFY_LET(model, dropped_cube(10, {0, 9, 0}, integrator));
+  const std::uint64_t steps = steps_of(model, 10.0);
+  ASPIC_VERIFY_LET(single, run_reference(subject, model, Precision::single, steps));
+  ASPIC_VERIFY_LET(fine, run_reference(subject, model, Precision::double_, steps));
+  const double v_single = measure(model, single).max_speed, v_double = measure(model, fine).max_speed;
+  return Finding{v_single <= bound_single && v_double <= bound_double,
+                 fmt::format("{:.2g} and {:.2g} m/s at h = {:.3g} ms", v_single, v_double,
+                             1e3 * model.simulation.timestep)};
+}
+
+/// Largest distance from the ground [m] in the layer of particles that began lowest.
+double bottom_layer(const Model& model, const State& end) {
+  double lowest = std::numeric_limits<double>::infinity(), worst = 0.0;
+  for (const Vec3& x : model.initial_position) lowest = std::min(lowest, x.y);
+  for (std::size_t i = 0; i < end.position.size(); ++i) {
+    if (model.initial_position[i].y > lowest + 1e-6) continue;
+    worst = std::max(worst, std::abs(signed_distance(model.terrain[0], end.position[i])));
+  }
+  return worst;
+}
+
+Result<Finding> bottom(const Subject& subject) {
+  double worst = 0.0;
+  for (const Integrator integrator : all_integrators) {
+    for (const Precision precision : {Precision::single, Precision::double_}) {
+      ASPIC_VERIFY_LET(model, dropped_cube(5, {0, 2, 0}, integrator));
+      ASPIC_VERIFY_LET(end, run_reference(subject, model, precision, steps_of(model, 4.0)));
+      worst = std::max(worst, bottom_layer(model, end));
+    }
+  }
+  return at_most(worst, bottom_bound, "m");
+}
+
+/// Planes that meet: a groove along z, or the corner of a room that leans so that all three carry.
+Result<Finding> rests_between(const Subject& subject, Integrator integrator, std::vector<Vec3> normals) {
+  ModelSettings settings = cube_settings(5, {0.1, 4.5, 0.05});
+  settings.cubes[0].rotation = {{1.0, 0.3, 0.2}, 20.0};
+  for (const Vec3& normal : normals) {
+    TerrainSettings plane;
+    plane.point = Vec3{0, 0, 0};
+    plane.normal = normal;
+    settings.terrain.push_back(plane);
+  }
+  settings.simulation.integrator = integrator;
+  settings.simulation.timestep = usual_step(integrator);
+  ASPIC_VERIFY_LET(model, build_model(settings));
+  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, steps_of(model, 20.0)));
+  double depth = 0.0;
+  for (const Vec3& x : end.position) {
+    for (const Terrain& terrain : model.terrain) depth = std::max(depth, -signed_distance(terrain, x));
+  }
+  const double speed = measure(model, end).max_speed;
+  return Finding{speed <= bound_double && depth <= bottom_bound,
+                 fmt::format("{:.2g} m/s, {:.2g} m deep", speed, depth)};
+}
+
+/// How the total energy goes from the first contact on [J].
+struct Rise {
+  double whole = 0.0;          ///< largest rise above the least so far
+  double flight = 0.0;         ///< Σ of what it gained in steps that no contact preceded or ended
+  double start = 0.0;          ///< at the first contact
+  double highest = 0.0;        ///< largest afterwards
+  std::uint64_t airborne = 0;  ///< steps in flight
+};
+
+Result<Rise> energy_rise(const Subject& subject, const Model& model, double duration) {
+  const auto touching = [&](const State& state) {
+    return std::any_of(state.position.begin(), state.position.end(), [&](const Vec3& x) {
+      return signed_distance(model.terrain[0], x) < model.contact.epsilon;
+    });
+  };
+  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
+  Rise rise;
+  bool touched = false, contact = false;
+  double least = 0.0, before = 0.0;
+  for (std::uint64_t step = 0; step < steps_of(model, duration); ++step) {
+    ASPIC_VERIFY_LET(now, run(*solver, 1));
+    const double energy = measure(model, now).total();
+    const bool was_contact = std::exchange(contact, touching(now));
+    if (!touched && contact) {
+      touched = true;
+      least = rise.start = rise.highest = energy;
+    } else if (touched) {
+      if (!was_contact && !contact) {
+        rise.flight += energy - before;
+        ++rise.airborne;
+      }
+      rise.whole = std::max(rise.whole, energy - least);
+      least = std::min(least, energy);
+      rise.highest = std::max(rise.highest, energy);
+    }
+    before = energy;
+  }
+  if (!touched) return Error{ErrorCode::check_failed, "nothing touched the ground"};
+  return rise;
+}
+
+Result<Finding> gains_nothing(const Subject& subject, Integrator integrator) {
+  ASPIC_VERIFY_LET(model, dropped_cube(10, {0, 9, 0}, integrator));
+  ASPIC_VERIFY_LET(level, energy_rise(subject, model, 5.0));
+  ASPIC_VERIFY_LET(turned_model, dropped_cube(10, {0, 4, 0}, integrator, 30.0));
+  ASPIC_VERIFY_LET(turned, energy_rise(subject, turned_model, 5.0));
+  return Finding{
+      true,
+      fmt::format("level: rise {:.4g}, flight {:.4g} in {}, start {:.6g}, highest +{:.3g}; turned: "
+                  "rise {:.4g}, flight {:.4g} in {}, start {:.6g} highest +{:.3g}",
+                  level.whole, level.flight, level.airborne, level.start, level.highest - level.start,
+                  turned.whole, turned.flight, turned.airborne, turned.start, turned.highest - turned.start)};
+}
+
+}  // namespace
+
+void add_rest_checks(std::vector<Check>& checks) {
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back(
+        {fmt::format("rest/{}", name_of(integrator)),
+         "the default cube, dropped on the plane (Coulomb), 10 s later: fastest particle in single "
+         "and double precision",
+         fmt::format("≤ {:.0g} and {:.0g} m/s", bound_single, bound_double),
+         integrator == Integrator::symplectic_euler, false,
+         [=](const Subject& subject) { return comes_to_rest(subject, integrator); }});
+  }
+  checks.push_back(
+      {"rest/bottom",
+       "bottom layer of a 5³ cube at rest: distance from the ground; every integrator, both precisions",
+       at_most_text(bottom_bound, "m"), false, false, bottom});
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back(
+        {fmt::format("rest/groove/{}", name_of(integrator)),
+         "a turned 5³ cube, dropped into a groove of two planes, 20 s later: fastest particle, depth",
+         fmt::format("≤ {:.0g} m/s, {:.0g} m", bound_double, bottom_bound), false, false,
+         [=](const Subject& subject) {
+           return rests_between(subject, integrator, {{1.0, 1.0, 0.0}, {-1.0, 1.2, 0.0}});
+         }});
+  }
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back(
+        {fmt::format("rest/corner/{}", name_of(integrator)), "the same in a corner of three planes",
+         fmt::format("≤ {:.0g} m/s, {:.0g} m", bound_double, bottom_bound), false, false,
+         [=](const Subject& subject) {
+           return rests_between(subject, integrator, {{1.0, 1.0, 0.2}, {-1.0, 1.2, 0.0}, {0.0, 1.0, -1.0}});
+         }});
+  }
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back({fmt::format("energy/{}", name_of(integrator)), "x", "y", false, false,
+                      [=](const Subject& subject) { return gains_nothing(subject, integrator); }});
+  }
+}
+
+}  // namespace aspic::verify
