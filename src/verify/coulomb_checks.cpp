@@ -13,6 +13,8 @@ namespace aspic::verify {
 namespace {
 
 constexpr double g = 9.8;
+constexpr double strong = 1.01 * g;                  // [N/m] of a pull 1 m long on 1 kg
+constexpr double pull_bound = 1e-3 * 1e-3 * strong;  // h²·k/m
 
 double usual_step(Integrator integrator) {
   return integrator == Integrator::implicit_euler ? 1.0 / 60 : 1e-3;
@@ -130,37 +132,37 @@ Result<Finding> cone(const Subject& subject, Integrator integrator) {
                  fmt::format("{:.2g}, creep {:.2g} m/s", worst, stuck.creep)};
 }
 
-/// A particle at rest is pulled up by a hand. It flies as it would without ground, or stays where it is.
+/// A particle at rest is pulled up by a hand. It flies as it would without ground, or stays where it is. What
+/// rests rises no faster than its velocity at a step's end, which takes off what a method's position is ahead
+/// of it: under the one-pass method h²·k/m of the way, its own order of error.
 Result<Finding> no_adhesion(const Subject& subject) {
-  double flight = 0.0, held = 0.0;
+  double lag = 0.0, held = 0.0;
   for (const Integrator integrator : all_integrators) {
     Model model = loose_particles({{0, 0, 0}}, {{0, 0, 0}});
     model.simulation.integrator = integrator;
     model.simulation.implicit.tolerance = 1e-15;
     const Model airborne = model;
     model.terrain.push_back(plane_through_origin(model, {0, 1, 0}));
-    const auto pulled = [&](const Model& of, double force, std::uint64_t steps) -> Result<State> {
+    const auto pulled = [&](const Model& of, double force) -> Result<State> {
       ASPIC_VERIFY_LET(solver, subject.reference(of, Precision::double_));
       if (!of.terrain.empty()) {
         if (const Status rested = require_good(solver->advance(100)); !rested) return rested.error();
       }
       Pull pull;
-      pull.particle = 0;
-      pull.stiffness = force;
-      pull.damping = 0.0;
+      pull.stiffness = force;  // the anchor is 1 m above
       pull.anchor = {0, 1, 0};
       if (const Status set = solver->set_pull(pull); !set) return set.error();
-      return run(*solver, steps);
+      return run(*solver, 200);
     };
-    ASPIC_VERIFY_LET(free, pulled(airborne, 1.01 * g, 200));
-    ASPIC_VERIFY_LET(lifted, pulled(model, 1.01 * g, 200));
-    ASPIC_VERIFY_LET(weak, pulled(model, 0.99 * g, 200));
-    flight = std::max({flight, length(lifted.position[0] - free.position[0]),
-                       length(lifted.velocity[0] - free.velocity[0])});
+    ASPIC_VERIFY_LET(free, pulled(airborne, strong));
+    ASPIC_VERIFY_LET(lifted, pulled(model, strong));
+    ASPIC_VERIFY_LET(weak, pulled(model, 0.99 * g));
+    lag = std::max({lag, length(lifted.position[0] - free.position[0]) / length(free.position[0]),
+                    length(lifted.velocity[0] - free.velocity[0]) / length(free.velocity[0])});
     held = std::max({held, length(weak.position[0]), length(weak.velocity[0])});
   }
-  return Finding{flight <= 1e-12 && held <= 1e-12,
-                 fmt::format("{:.2g} from free flight, {:.2g} from rest", flight, held)};
+  return Finding{lag <= pull_bound && held <= 1e-12,
+                 fmt::format("{:.2g} of the way, {:.2g} m from rest", lag, held)};
 }
 
 }  // namespace
@@ -186,7 +188,7 @@ void add_coulomb_checks(std::vector<Check>& checks) {
       {"contact/pull",
        "a hand with 1.01 of its weight lifts a particle off the ground as off nothing, with 0.99 not at "
        "all; every integrator",
-       at_most_text(1e-12, "m, m/s"), true, false, no_adhesion});
+       fmt::format("≤ {:.3g}, 1e-12 m", pull_bound), true, false, no_adhesion});
 }
 
 }  // namespace aspic::verify

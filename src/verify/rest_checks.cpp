@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "analysis/energy.h"
 #include "model/terrain.h"
@@ -70,7 +71,7 @@ Result<Finding> bottom(const Subject& subject) {
 
 /// Planes that meet: a groove along z, or the corner of a room that leans so that all three carry.
 Result<Finding> rests_between(const Subject& subject, Integrator integrator, std::vector<Vec3> normals) {
-  ModelSettings settings = cube_settings(5, {0.1, 4.5, 0.05});
+  ModelSettings settings = cube_settings(4, {0.1, 4.5, 0.05});
   settings.cubes[0].rotation = {{1.0, 0.3, 0.2}, 20.0};
   for (const Vec3& normal : normals) {
     TerrainSettings plane;
@@ -81,7 +82,7 @@ Result<Finding> rests_between(const Subject& subject, Integrator integrator, std
   settings.simulation.integrator = integrator;
   settings.simulation.timestep = usual_step(integrator);
   ASPIC_VERIFY_LET(model, build_model(settings));
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, steps_of(model, 20.0)));
+  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, steps_of(model, 30.0)));
   double depth = 0.0;
   for (const Vec3& x : end.position) {
     for (const Terrain& terrain : model.terrain) depth = std::max(depth, -signed_distance(terrain, x));
@@ -91,13 +92,11 @@ Result<Finding> rests_between(const Subject& subject, Integrator integrator, std
                  fmt::format("{:.2g} m/s, {:.2g} m deep", speed, depth)};
 }
 
-/// How the total energy goes from the first contact on [J].
+/// How the total energy [J] goes from the first contact on, in double precision.
 struct Rise {
-  double whole = 0.0;          ///< largest rise above the least so far
-  double flight = 0.0;         ///< Σ of what it gained in steps that no contact preceded or ended
+  double above_least = 0.0;    ///< largest rise above the least so far
   double start = 0.0;          ///< at the first contact
-  double highest = 0.0;        ///< largest afterwards
-  std::uint64_t airborne = 0;  ///< steps in flight
+  std::uint64_t airborne = 0;  ///< steps that began and ended without contact
 };
 
 Result<Rise> energy_rise(const Subject& subject, const Model& model, double duration) {
@@ -109,40 +108,63 @@ Result<Rise> energy_rise(const Subject& subject, const Model& model, double dura
   ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
   Rise rise;
   bool touched = false, contact = false;
-  double least = 0.0, before = 0.0;
+  double least = 0.0;
   for (std::uint64_t step = 0; step < steps_of(model, duration); ++step) {
     ASPIC_VERIFY_LET(now, run(*solver, 1));
     const double energy = measure(model, now).total();
     const bool was_contact = std::exchange(contact, touching(now));
     if (!touched && contact) {
       touched = true;
-      least = rise.start = rise.highest = energy;
-    } else if (touched) {
-      if (!was_contact && !contact) {
-        rise.flight += energy - before;
-        ++rise.airborne;
-      }
-      rise.whole = std::max(rise.whole, energy - least);
-      least = std::min(least, energy);
-      rise.highest = std::max(rise.highest, energy);
+      least = rise.start = energy;
     }
-    before = energy;
+    if (touched && !was_contact && !contact) ++rise.airborne;
+    if (touched) rise.above_least = std::max(rise.above_least, energy - least);
+    least = std::min(least, energy);
   }
   if (!touched) return Error{ErrorCode::check_failed, "nothing touched the ground"};
   return rise;
 }
 
+/// What a method may add to the energy [J]: sums of 13,000 terms in double precision, and explicit Euler's
+/// own gain in free fall, ½·m·g²·h² a particle and step, for x' = x + h·v and v' = v + h·g take
+/// m·g·h·v from the height and give m·(g·h·v + ½g²h²) to the motion.
+double allowed(const Model& model, const Rise& rise) {
+  double mass = 0.0;
+  for (const double m : model.mass) mass += m;
+  const double gh = length(model.simulation.gravity) * model.simulation.timestep;
+  const bool gains = model.simulation.integrator == Integrator::explicit_euler;
+  return 4096 * epsilon_double * rise.start +
+         (gains ? 0.5 * mass * gh * gh * static_cast<double>(rise.airborne) : 0.0);
+}
+
+/// The default cube and one turned by 30°, which arrives edge first. The one-pass method runs the turned one
+/// at 0.9 ms: 1 ms is 0.98 of the largest stable step of the cube at rest, and springs that an impact has
+/// turned and shortened have less. What it gains at 1 ms is printed.
 Result<Finding> gains_nothing(const Subject& subject, Integrator integrator) {
-  ASPIC_VERIFY_LET(model, dropped_cube(10, {0, 9, 0}, integrator));
-  ASPIC_VERIFY_LET(level, energy_rise(subject, model, 5.0));
-  ASPIC_VERIFY_LET(turned_model, dropped_cube(10, {0, 4, 0}, integrator, 30.0));
-  ASPIC_VERIFY_LET(turned, energy_rise(subject, turned_model, 5.0));
-  return Finding{
-      true,
-      fmt::format("level: rise {:.4g}, flight {:.4g} in {}, start {:.6g}, highest +{:.3g}; turned: "
-                  "rise {:.4g}, flight {:.4g} in {}, start {:.6g} highest +{:.3g}",
-                  level.whole, level.flight, level.airborne, level.start, level.highest - level.start,
-                  turned.whole, turned.flight, turned.airborne, turned.start, turned.highest - turned.start)};
+  Finding finding{true, ""};
+  const auto drop = [&](double height, double angle, double timestep, bool bounded) -> Status {
+    auto model = dropped_cube(10, {0, height, 0}, integrator, angle);
+    if (!model) return model.error();
+    model->simulation.timestep = timestep;
+    const auto rise = energy_rise(subject, *model, 5.0);
+    if (!rise) return rise.error();
+    const double most = allowed(*model, *rise);
+    finding.passed = finding.passed && (!bounded || rise->above_least <= most);
+    finding.measured += fmt::format("{}{:.3g}", finding.measured.empty() ? "" : ", ", rise->above_least);
+    if (integrator == Integrator::explicit_euler) finding.measured += fmt::format(" of {:.3g}", most);
+    return {};
+  };
+  const double h = usual_step(integrator);
+  const bool near_limit = integrator == Integrator::implicit_euler_one_pass;
+  if (const Status run = drop(9, 0, h, true); !run) return run.error();
+  if (const Status run = drop(4, 30, near_limit ? 0.9e-3 : h, true); !run) return run.error();
+  finding.measured += " J";
+  if (near_limit) {
+    finding.measured += "; turned at 1 ms";
+    if (const Status run = drop(4, 30, h, false); !run) return run.error();
+    finding.measured += " J";
+  }
+  return finding;
 }
 
 }  // namespace
@@ -164,7 +186,7 @@ void add_rest_checks(std::vector<Check>& checks) {
   for (const Integrator integrator : all_integrators) {
     checks.push_back(
         {fmt::format("rest/groove/{}", name_of(integrator)),
-         "a turned 5³ cube, dropped into a groove of two planes, 20 s later: fastest particle, depth",
+         "a turned 4³ cube, dropped into a groove of two planes, 30 s later: fastest particle, depth",
          fmt::format("≤ {:.0g} m/s, {:.0g} m", bound_double, bottom_bound), false, false,
          [=](const Subject& subject) {
            return rests_between(subject, integrator, {{1.0, 1.0, 0.0}, {-1.0, 1.2, 0.0}});
@@ -179,8 +201,12 @@ void add_rest_checks(std::vector<Check>& checks) {
          }});
   }
   for (const Integrator integrator : all_integrators) {
-    checks.push_back({fmt::format("energy/{}", name_of(integrator)), "x", "y", false, false,
-                      [=](const Subject& subject) { return gains_nothing(subject, integrator); }});
+    const bool gains = integrator == Integrator::explicit_euler;
+    checks.push_back(
+        {fmt::format("energy/{}", name_of(integrator)),
+         "from the first contact on the total energy never rises: default cube, cube turned by 30°",
+         gains ? "≤ ½Mg²h² a step of flight" : "≤ 4096 ε of the energy", false, false,
+         [=](const Subject& subject) { return gains_nothing(subject, integrator); }});
   }
 }
 
