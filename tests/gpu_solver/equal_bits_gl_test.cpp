@@ -139,7 +139,7 @@ TEST_F(EqualBits, FourInACornerOfThreeTerrains) {
       settings.cubes[0].velocity = {0.2, -1.0, -1.5};
       if (pinned) settings.cubes[0].pinned.names = {"left-top-front"};
       settings.terrain.clear();
-      for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, 0.1}, Vec3{0.0, 0.1, 1.0}}) {
+      for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, -0.1}, Vec3{0.0, 0.1, 1.0}}) {
         TerrainSettings side;
         side.point = Vec3{};
         side.normal = normal;
