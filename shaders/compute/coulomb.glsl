@@ -1,4 +1,4 @@
-// The Coulomb contact rule: src/cpu_reference/coulomb.h in GLSL. Expects terrain.glsl's gap and bounce_speed.
+// The Coulomb contact rule: src/cpu_reference/coulomb.h in GLSL. Expects what terrain.glsl has before it.
 
 // |g|h: what a step of free fall gains [m/s].
 float fall_speed() {
@@ -87,8 +87,8 @@ float undue_rise(float d_0, float u_0, float d, float u) {
 
 // The end of a step that began at x_0, v_0.
 void respond_coulomb(uint t, float m, vec3 x_0, vec3 v_0, inout precise vec3 x, inout precise vec3 v) {
+  if (!(distance_to(t, x) < epsilon)) return;
   precise vec4 g = gap(t, x);
-  if (!(g.w < epsilon)) return;
   precise vec4 g_0 = gap(t, x_0);
   precise float u = dot3(v, g.xyz);
   precise float u_0 = dot3(v_0, g_0.xyz);

@@ -109,8 +109,8 @@ T undue_rise(const ContactConstants<T>& contact, T d0, T u0, T d, T u) {
 template <class T>
 void respond_coulomb(const Ground<T>& ground, const ContactConstants<T>& contact, T m, const Vector<T>& x0,
                      const Vector<T>& v0, Vector<T>& x, Vector<T>& v) {
+  if (!(distance<T>(ground, x) < contact.epsilon)) return;
   Gap<T> g = gap<T>(ground, x);
-  if (!(g.d < contact.epsilon)) return;
   const Gap<T> g0 = gap<T>(ground, x0);
   const T u = dot3<T>(v, g.n), u0 = dot3<T>(v0, g0.n);
   const T u_after = speed_after_contact<T>(ground, contact, m, g0.d, u0, g.d, u);

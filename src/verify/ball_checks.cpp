@@ -127,7 +127,7 @@ Result<Finding> spin_turns_a_bounce(const Subject& subject) {
     settings.terrain[0].friction = mu;
     settings.terrain[0].restitution = 0.5;
     const double R = 0.3, omega = 20.0, fall = 4.0;
-    settings.balls.push_back({R, 2.0, {0.0, -1.0 + R + 0.006, 0.0}, {0.0, -fall, 0.0}, {0.0, 0.0, omega}});
+    settings.balls.push_back({R, 2.0, {0.0, -1.0 + R + 0.002, 0.0}, {0.0, -fall, 0.0}, {0.0, 0.0, omega}});
     ASPIC_VERIFY_LET(model, build_model(settings));
     ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1));
     const double taken = std::min(2.0 / 7.0 * R * omega, mu * 1.5 * fall);

@@ -38,6 +38,13 @@ TEST(Gap, PlaneSphereAndBowl) {
   EXPECT_EQ(bowl.n, V(0, 1, 0));
 }
 
+TEST(Gap, DistanceAloneHasTheSameBits) {
+  const V x(0.3, -1.7, 2.9);
+  EXPECT_EQ(distance<double>(plane(), x), gap<double>(plane(), x).d);
+  for (const TerrainShape shape : {TerrainShape::sphere, TerrainShape::bowl})
+    EXPECT_EQ(distance<double>(round(shape), x), gap<double>(round(shape), x).d);
+}
+
 TEST(Gap, AtACentreTheNormalPointsUp) {
   for (const TerrainShape shape : {TerrainShape::sphere, TerrainShape::bowl}) {
     const auto centre = gap<double>(round(shape), {1, 2, 3});
@@ -52,49 +59,6 @@ TEST(BounceSpeed, FixedAndMovableTerrain) {
   EXPECT_DOUBLE_EQ(bounce_speed<double>(plane(1.0, 0.0, 10.0), 1.0, -11.0), 9.0);
   // A heavy particle on a light terrain would go on downwards: B is never negative.
   EXPECT_EQ(bounce_speed<double>(plane(0.1, 0.0, 1.0), 5.0, -3.0), 0.0);
-}
-
-struct Particle {
-  V x, v;
-};
-Particle coulomb(const Ground<double>& ground, const V& x0, const V& v0, V x, V v) {
-  respond_coulomb<double>(ground, {0.01, 0.02}, 1.0, x0, v0, x, v);
-  return {x, v};
-}
-
-TEST(Coulomb, ImpactBouncesAndRubs) {
-  const auto [x, v] = coulomb(plane(), {0, 0.1, 0}, {3, -4, 0}, {0, -0.05, 0}, {3, -4, 0});
-  EXPECT_EQ(x, V(0, 0, 0));                   // projected
-  EXPECT_EQ(v, V(3 - 0.25 * (2 + 4), 2, 0));  // Δu = 6, friction takes μΔu off the tangential speed
-}
-
-TEST(Coulomb, FrictionNeverTurnsTheSlipAround) {
-  const auto [x, v] = coulomb(plane(), {0, 0.1, 0}, {1, -4, 0}, {0, 0, 0}, {1, -4, 0});
-  EXPECT_EQ(v, V(0, 2, 0));
-}
-
-TEST(Coulomb, SlowApproachComesToRestWhereItWas) {
-  const V start(0.5, 0.001, 0);
-  const auto [x, v] = coulomb(plane(), start, {0, -0.015, 0}, {0.5, -0.002, 0}, {1e-4, -0.03, 0});
-  EXPECT_EQ(x, start);
-  EXPECT_EQ(v, V(0, 0, 0));
-}
-
-TEST(Coulomb, OneHeldBelowTheSurfaceIsLifted) {
-  const auto [x, v] = coulomb(plane(), {0, -0.5, 0}, {0, 0, 0}, {0, -0.6, 0}, {0, -0.01, 0});
-  EXPECT_EQ(x, V(0, 0, 0));
-}
-
-TEST(Coulomb, LeavingParticleIsOnlyProjected) {
-  const auto [x, v] = coulomb(plane(), {0, -1, 0}, {2, 5, 0}, {0, -0.5, 0}, {2, 5, 0});
-  EXPECT_EQ(x, V(0, 0, 0));
-  EXPECT_EQ(v, V(2, 5, 0));
-}
-
-TEST(Coulomb, NothingTunnels) {
-  const auto [x, v] = coulomb(plane(), {0, 10, 0}, {0, -900, 0}, {0, -50, 0}, {0, -900, 0});
-  EXPECT_EQ(x, V(0, 0, 0));
-  EXPECT_EQ(v, V(0, 450, 0));
 }
 
 TEST(Course, ResponseIsTheAssignmentsFormula) {

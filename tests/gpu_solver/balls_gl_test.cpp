@@ -98,6 +98,30 @@ TEST_F(BallsOnTheDevice, ACubeBetweenTerrains) {
   }
 }
 
+// Balls that bounce, roll and rest where three terrains meet, long enough for reactions in every stage.
+TEST_F(BallsOnTheDevice, AtRestInACornerUnderEveryIntegrator) {
+  for (const Integrator integrator :
+       {Integrator::explicit_euler, Integrator::symplectic_euler, Integrator::midpoint,
+        Integrator::runge_kutta_4, Integrator::implicit_euler_one_pass, Integrator::implicit_euler}) {
+    for (const bool spin : {true, false}) {
+      ModelSettings settings;
+      settings.simulation.integrator = integrator;
+      settings.contact.spin = spin;
+      for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, 0.1}, Vec3{0.0, 0.1, 1.0}}) {
+        TerrainSettings side;
+        side.point = Vec3{};
+        side.normal = normal;
+        side.restitution = 0.3;
+        settings.terrain.push_back(side);
+      }
+      settings.terrain[0].mass = 20.0;
+      settings.balls.push_back({0.3, 2.0, {0.2, 1.0, 0.6}, {0.2, 0.0, -0.5}, {3.0, 1.0, -2.0}});
+      settings.balls.push_back({0.2, 1.0, {0.3, 2.0, 0.9}, {0.0, 0.0, -0.5}, {0.0, 1.0, 5.0}});
+      expect_equal(test::build(settings), 2500);
+    }
+  }
+}
+
 TEST_F(BallsOnTheDevice, APitWithMorePartnersThanOneList) {
   ModelSettings settings;
   settings.terrain.emplace_back();

@@ -20,7 +20,8 @@ class EqualBits : public aspic::testing::GlTest {
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();
     ASSERT_FALSE((*reference->advance(steps)).has_value());
     const State expected = *reference->state();
-    // The run means nothing unless it went through contact: an undeformed cube that touches nothing falls as one.
+    // The run means nothing unless it went through contact: an undeformed cube that touches nothing falls as
+    // one.
     const double time = static_cast<double>(steps) * settings.simulation.timestep;
     double contact = 0.0;
     for (std::size_t i = 0; i < expected.velocity.size(); ++i) {
@@ -102,6 +103,52 @@ TEST_F(EqualBits, FiveWithSeveralTerrainsMaterialAndPinnedCorner) {
     settings.terrain[2].normal = Vec3{1.0, 0.2, 0.0};
     settings.terrain[2].friction = 0.9;
     expect_equal(settings, 2000, {64});
+  }
+}
+
+constexpr Integrator explicit_integrators[] = {Integrator::explicit_euler, Integrator::symplectic_euler,
+                                               Integrator::midpoint, Integrator::runge_kutta_4,
+                                               Integrator::implicit_euler_one_pass};
+
+// Long enough to rest: reactions act in every stage, on ground, slope, top of a sphere and bottom of a bowl.
+TEST_F(EqualBits, FourAtRestUnderEveryIntegratorOnEveryTerrain) {
+  for (const Integrator integrator : explicit_integrators) {
+    for (const TerrainShape shape :
+         {TerrainShape::plane, TerrainShape::tilted_plane, TerrainShape::sphere, TerrainShape::bowl}) {
+      ModelSettings settings = low_cube(4, integrator, ContactModel::coulomb);
+      settings.cubes[0].velocity = {0.0, -1.0, 0.1};
+      settings.terrain[0].shape = shape;
+      settings.terrain[0].restitution = 0.1;
+      settings.terrain[0].friction = 1.2;
+      settings.cubes[0].position = shape == TerrainShape::bowl     ? Vec3{2.0, 4.0, 1.0}
+                                   : shape == TerrainShape::sphere ? Vec3{0.1, 5.2, 0.0}
+                                   : shape == TerrainShape::plane  ? Vec3{0.0, 1.9, 0.0}
+                                                                   : Vec3{1.6, 2.8, 0.0};
+      expect_equal(settings, 2500, {64});
+    }
+  }
+}
+
+// A groove of slopes, a wall across it, one of them movable, and a pinned corner: each acts on what the one
+// before left, in every stage and at the step's end.
+TEST_F(EqualBits, FourInACornerOfThreeTerrains) {
+  for (const Integrator integrator : explicit_integrators) {
+    for (const bool pinned : {false, true}) {
+      ModelSettings settings = low_cube(4, integrator, ContactModel::coulomb);
+      settings.cubes[0].position = {0.3, 4.5, 2.9};
+      settings.cubes[0].velocity = {0.2, -1.0, -1.5};
+      if (pinned) settings.cubes[0].pinned.names = {"left-top-front"};
+      settings.terrain.clear();
+      for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, 0.1}, Vec3{0.0, 0.1, 1.0}}) {
+        TerrainSettings side;
+        side.point = Vec3{};
+        side.normal = normal;
+        side.restitution = 0.2;
+        settings.terrain.push_back(side);
+      }
+      settings.terrain[1].mass = 30.0;
+      expect_equal(settings, 2500, {64});
+    }
   }
 }
 

@@ -1,0 +1,296 @@
+// Bodies in Coulomb contact come to rest, under every explicit method: cubes, slopes, several terrains at
+// once, pulls, pinned particles, bounces before.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analysis/energy.h"
+#include "cpu_reference/reference_solver.h"
+#include "model/pull.h"
+#include "model/terrain.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double h = 0.001, g = 9.8;
+
+std::unique_ptr<Solver> solver_for(const Model& model, Precision precision = Precision::double_) {
+  auto solver = make_reference_solver(model, precision);
+  EXPECT_TRUE(solver.ok());
+  return std::move(solver).value();
+}
+
+State advanced(Solver& solver, std::uint64_t steps) {
+  EXPECT_FALSE((*solver.advance(steps)).has_value());
+  return *solver.state();
+}
+
+State after(const Model& model, std::uint64_t steps, Precision precision = Precision::double_) {
+  return advanced(*solver_for(model, precision), steps);
+}
+
+Terrain plane(const Vec3& point, const Vec3& normal, double e, double mu) {
+  TerrainSettings settings;
+  settings.point = point;
+  settings.normal = normal;
+  settings.restitution = e;
+  settings.friction = mu;
+  return make_terrain(settings, ContactSettings{});
+}
+
+double fastest(const State& state) {
+  double most = 0.0;
+  for (const Vec3& v : state.velocity) most = std::max(most, length(v));
+  return most;
+}
+
+/// How far the lowest `count` particles are from the terrain, at most [m].
+double layer(const Terrain& terrain, const State& state, std::size_t count) {
+  std::vector<double> gaps;
+  for (const Vec3& x : state.position) gaps.push_back(signed_distance(terrain, x));
+  std::sort(gaps.begin(), gaps.end());
+  return std::max(-gaps.front(), gaps[count - 1]);
+}
+
+class Rest : public testing::TestWithParam<Integrator> {
+ protected:
+  static Model loose(std::vector<Vec3> positions, std::vector<Vec3> velocities,
+                     std::vector<Terrain> terrain) {
+    Model model = test::particles(std::move(positions), std::move(velocities));
+    model.simulation.integrator = GetParam();
+    model.terrain = std::move(terrain);
+    return model;
+  }
+  static ModelSettings cube(const Vec3& position) {
+    ModelSettings settings = test::cube_on_plane(5);
+    settings.simulation.integrator = GetParam();
+    settings.cubes[0].position = position;
+    return settings;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Explicit, Rest,
+                         testing::Values(Integrator::explicit_euler, Integrator::symplectic_euler,
+                                         Integrator::midpoint, Integrator::runge_kutta_4,
+                                         Integrator::implicit_euler_one_pass),
+                         [](const auto& instance) {
+                           std::string name(name_of(instance.param));
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(Rest, ACubeOnTheGround) {
+  for (const Precision precision : {Precision::single, Precision::double_}) {
+    const Model model = test::build(cube({0.0, 2.0, 0.0}));
+    const State end = after(model, 6000, precision);
+    EXPECT_LT(fastest(end), precision == Precision::single ? 1e-3 : 1e-6);
+    EXPECT_LT(layer(model.terrain[0], end, 25), 1e-5);
+  }
+}
+
+// The cone holds it: μ = 0.5 > tan 15° = 0.268.
+TEST_P(Rest, ACubeOnASlopeItSticksTo) {
+  const double angle = 15.0 * std::numbers::pi / 180.0;
+  const Vec3 n = {std::sin(angle), std::cos(angle), 0.0};
+  ModelSettings settings = cube(2.5 * n);
+  settings.cubes[0].rotation = {{0.0, 0.0, 1.0}, -15.0};
+  settings.terrain[0].point = Vec3{};
+  settings.terrain[0].normal = n;
+  settings.terrain[0].friction = 0.5;
+  const Model model = test::build(settings);
+  const auto solver = solver_for(model);
+  const State early = advanced(*solver, 6000), late = advanced(*solver, 1000);
+  EXPECT_LT(fastest(late), 1e-6);
+  EXPECT_LT(layer(model.terrain[0], late, 25), 1e-5);
+  double drift = 0.0;
+  for (std::size_t i = 0; i < late.position.size(); ++i)
+    drift = std::max(drift, length(late.position[i] - early.position[i]));
+  EXPECT_LT(drift, 1e-6);
+}
+
+// Cubes whose faces lie on both sides of a groove, and on the three sides of a corner.
+TEST_P(Rest, ACubeInAGrooveAndInACorner) {
+  for (const bool corner : {false, true}) {
+    ModelSettings settings = cube({2.3, 2.3, corner ? 2.3 : 0.0});
+    const double along = g / std::sqrt(corner ? 3.0 : 2.0);
+    settings.simulation.gravity = {-along, -along, corner ? -along : 0.0};
+    settings.terrain.clear();
+    for (int side = 0; side < (corner ? 3 : 2); ++side) {
+      TerrainSettings wall;
+      wall.point = Vec3{};
+      wall.normal = Vec3{side == 0 ? 1.0 : 0.0, side == 1 ? 1.0 : 0.0, side == 2 ? 1.0 : 0.0};
+      settings.terrain.push_back(wall);
+    }
+    const Model model = test::build(settings);
+    const State end = after(model, 8000);
+    EXPECT_LT(fastest(end), 1e-6) << (corner ? "corner" : "groove");
+    for (const Terrain& wall : model.terrain) EXPECT_LT(layer(wall, end, 25), 1e-5);
+  }
+}
+
+TEST_P(Rest, ParticlesInANarrowGroove) {
+  const Model model = loose({{0.1, 1.0, 0.0}, {-0.4, 0.7, 1.0}}, {{0, 0, 0}, {0.3, 0, 0.1}},
+                            {plane({}, {0.8, 0.6, 0.0}, 0.3, 0.2), plane({}, {-0.8, 0.6, 0.0}, 0.3, 0.2)});
+  const State end = after(model, 5000);
+  EXPECT_LT(fastest(end), 1e-6);
+  for (const Vec3& x : end.position) EXPECT_LT(std::hypot(x.x, x.y), 1e-5);
+}
+
+TEST_P(Rest, ACubeInABowl) {
+  ModelSettings settings = cube({3.0, 7.5, 0.5});
+  settings.terrain[0].shape = TerrainShape::bowl;
+  const Model model = test::build(settings);
+  const State end = after(model, 9000);
+  EXPECT_LT(fastest(end), 1e-3);
+  EXPECT_LT(layer(model.terrain[0], end, 4), 1e-5);
+}
+
+// On a sphere's top a particle stays, if friction holds it; without friction it slides off and leaves the
+// surface where cos θ = 2/3·cos θ₀, a textbook result.
+TEST_P(Rest, OnASphereAndOffIt) {
+  TerrainSettings settings;
+  settings.shape = TerrainShape::sphere;
+  settings.friction = 0.3;
+  const Terrain rough = make_terrain(settings, ContactSettings{});
+  const double R = rough.radius, tilt = 0.1;
+  const Vec3 start = rough.point + R * Vec3{std::sin(tilt), std::cos(tilt), 0.0};
+  const State held = after(loose({start}, {{}}, {rough}), 1000);
+  EXPECT_LE(length(held.position[0] - start), 1000 * 8 * eps * R);
+
+  settings.friction = 0.0;
+  const Terrain smooth = make_terrain(settings, ContactSettings{});
+  const auto solver = solver_for(loose({start}, {{}}, {smooth}));
+  double left_at = 0.0;
+  for (int n = 0; n < 3000 && left_at == 0.0; ++n) {
+    const State now = advanced(*solver, 1);
+    // The band ε = 0.01 m is left 0.04 m of height after the surface: the limit is that of the surface.
+    if (signed_distance(smooth, now.position[0]) > 1e-4)
+      left_at = (now.position[0].y - smooth.point.y) / length(now.position[0] - smooth.point);
+  }
+  EXPECT_NEAR(left_at, 2.0 / 3.0 * std::cos(tilt), 0.03);
+}
+
+// v = t·g(sin θ − μ cos θ) while it slides, 0 while it sticks: the reaction alone, without a bounce.
+TEST_P(Rest, AParticleOnASlopeKeepsToCoulombsCone) {
+  const double angle = 25.0 * std::numbers::pi / 180.0, tangent = std::tan(angle);
+  const Vec3 n = {std::sin(angle), std::cos(angle), 0.0};
+  const std::uint64_t steps = 1000;
+  const double t = static_cast<double>(steps) * h, rounding = static_cast<double>(steps) * 16 * eps * 4.0;
+  for (const double share : {0.0, 0.5, 0.99, 1.01, 2.0}) {
+    const double mu = share * tangent;
+    const State end = after(loose({{0, 0, 0}}, {{}}, {plane({}, n, 0.8, mu)}), steps);
+    const double expected = share < 1.0 ? t * g * (std::sin(angle) - mu * std::cos(angle)) : 0.0;
+    EXPECT_NEAR(length(end.velocity[0]), expected, rounding) << share;
+    EXPECT_NEAR(dot(end.velocity[0], n), 0.0, rounding);
+  }
+}
+
+// The cube as a body slides with Coulomb's acceleration.
+TEST_P(Rest, ACubeSlidesWithCoulombsAcceleration) {
+  const double degrees = 25.0, mu = 0.2, angle = degrees * std::numbers::pi / 180.0;
+  const Vec3 n = {std::sin(angle), std::cos(angle), 0.0}, along = {std::cos(angle), -std::sin(angle), 0.0};
+  ModelSettings settings = cube(2.02 * n);
+  settings.cubes[0].rotation = {{0.0, 0.0, 1.0}, -degrees};
+  settings.terrain[0].point = Vec3{};
+  settings.terrain[0].normal = n;
+  settings.terrain[0].friction = mu;
+  const Model model = test::build(settings);
+  const auto solver = solver_for(model);
+  const auto speed = [&](const State& state) {
+    return dot(measure(model, state).momentum, along) / static_cast<double>(model.particle_count());
+  };
+  const double early = speed(advanced(*solver, 3000)), late = speed(advanced(*solver, 2000));
+  EXPECT_NEAR((late - early) / 2.0, g * (std::sin(angle) - mu * std::cos(angle)), 1e-4);
+}
+
+// Sixteen phases of the step at which a particle meets the ground. The first apex is e² of the height, but
+// for what a method's own free fall is off, at most g·h² each way, and the apex between two steps.
+TEST_P(Rest, ABounceKeepsRestitutionSquared) {
+  for (const double e : {0.2, 0.5, 0.8, 1.0}) {
+    std::vector<Vec3> positions, velocities(16);
+    for (int i = 0; i < 16; ++i) positions.push_back({1.0 * i, 1.0 + 0.03 * i / 16.0, 0.0});
+    const Model model = loose(positions, velocities, {plane({}, {0, 1, 0}, e, 0.3)});
+    const auto solver = solver_for(model);
+    std::vector<double> apex(16, 0.0);
+    std::vector<int> bounces(16, 0);
+    State before = *solver->state();
+    for (int n = 0; n < (e < 1.0 ? 1000 : 9000); ++n) {
+      const State now = advanced(*solver, 1);
+      for (std::size_t i = 0; i < 16; ++i) {
+        bounces[i] += before.velocity[i].y < 0.0 && now.velocity[i].y > 0.0;
+        if (bounces[i] == 1 || (bounces[i] > 1 && e == 1.0)) apex[i] = std::max(apex[i], now.position[i].y);
+      }
+      before = now;
+    }
+    for (std::size_t i = 0; i < 16; ++i) {
+      ASSERT_GE(bounces[i], e < 1.0 ? 1 : 9);
+      const double start = positions[i].y;
+      EXPECT_NEAR(apex[i] / (e * e * start), 1.0, 1e-4) << "e = " << e << ", phase " << i;
+      if (e < 1.0) continue;
+      EXPECT_LE(apex[i], start + g * h * h) << "phase " << i;
+    }
+  }
+}
+
+TEST_P(Rest, ABounceKnowsTheTerrainsMass) {
+  Terrain movable = plane({}, {0, 1, 0}, 1.0, 0.0);
+  movable.mass = 10.0;
+  const auto solver = solver_for(loose({{0, 1, 0}}, {{}}, {movable}));
+  advanced(*solver, 470);  // the fall takes 452 steps
+  double apex = 0.0;
+  for (int n = 0; n < 500; ++n) apex = std::max(apex, advanced(*solver, 1).position[0].y);
+  EXPECT_NEAR(apex, 81.0 / 121.0, 1e-4);
+}
+
+// A hand above pulls with hardly more, or hardly less, than the weight: nothing keeps the particle down.
+TEST_P(Rest, APulledParticleLeavesWithoutAdhesion) {
+  const double stiffness = 0.001;
+  for (const double share : {0.999, 1.001}) {
+    Model model = loose({{0, 0, 0}}, {{}}, {plane({}, {0, 1, 0}, 0.8, 0.3)});
+    const auto solver = solver_for(model);
+    ASSERT_TRUE(solver->set_pull(Pull{0, {0, share * g / stiffness, 0}, stiffness, 0.0}).ok());
+    const State end = advanced(*solver, 200);
+    if (share < 1.0) {
+      EXPECT_EQ(end.position[0], Vec3{});
+      EXPECT_EQ(end.velocity[0], Vec3{});
+    } else {
+      const double t = 200 * h, a = (share - 1.0) * g;
+      // The pull weakens by stiffness·y; a method's position differs from a·t²/2 by up to a·h·t/2.
+      EXPECT_NEAR(end.velocity[0].y, a * t, stiffness * a * t * t * t / 6 + 200 * 8 * eps * h * g);
+      EXPECT_NEAR(end.position[0].y, a * t * t / 2, a * h * t);
+    }
+  }
+}
+
+TEST_P(Rest, PinnedParticlesTakeNoPart) {
+  Model model = loose({{0, 0.005, 0}, {1, -0.5, 0}, {2, 0, 0}}, {{1, -2, 0}, {0, 0, 0}, {0, 0, 0}},
+                      {plane({}, {0, 1, 0}, 0.8, 0.3)});
+  model.inverse_mass[1] = model.inverse_mass[2] = 0.0;
+  const State start = initial_state(model, Precision::double_), end = after(model, 100);
+  for (const std::size_t i : {1u, 2u}) {
+    EXPECT_EQ(end.position[i], start.position[i]);
+    EXPECT_EQ(end.velocity[i], start.velocity[i]);
+  }
+  EXPECT_NE(end.position[0], start.position[0]);
+}
+
+// Contact takes energy and never makes any: methods of higher order make none in flight either.
+TEST(RestEnergy, NeverRises) {
+  for (const Integrator integrator : {Integrator::midpoint, Integrator::runge_kutta_4}) {
+    ModelSettings settings = test::cube_on_plane(5, 4.0);
+    settings.simulation.integrator = integrator;
+    settings.cubes[0].rotation = {{1.0, 0.0, 1.0}, 30.0};
+    const Model model = test::build(settings);
+    const auto solver = solver_for(model);
+    const double start = measure(model, *solver->state()).total();
+    for (int n = 0; n < 300; ++n)
+      EXPECT_LE(measure(model, advanced(*solver, 20)).total(), start * (1.0 + 1e-9)) << name_of(integrator);
+  }
+}
+
+}  // namespace
+}  // namespace aspic
