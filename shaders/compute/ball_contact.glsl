@@ -1,11 +1,5 @@
 // Contact of balls, spec §2.7: src/cpu_reference/ball_contact.h in GLSL.
 
-// (a_y b_z − a_z b_y, a_z b_x − a_x b_z, a_x b_y − a_y b_x)
-vec3 cross3(vec3 a, vec3 b) {
-  precise vec3 product = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-  return product;
-}
-
 // xyz: t = s/|s|; w: the friction impulse along it that a normal impulse allows, for bodies that give way by
 // `compliance`. Zero without slip.
 vec4 friction_impulse(vec3 s, float normal_impulse, float friction, float compliance) {

@@ -8,6 +8,12 @@ float dot3(vec3 a, vec3 b) {
   return sum;
 }
 
+// (a_y b_z − a_z b_y, a_z b_x − a_x b_z, a_x b_y − a_y b_x)
+vec3 cross3(vec3 a, vec3 b) {
+  precise vec3 product = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+  return product;
+}
+
 // √((aₓ² + a_y²) + a_z²)
 float norm3(vec3 a) {
   precise float root = exact_sqrt(dot3(a, a));

@@ -1,6 +1,7 @@
 // Implicit Euler on the device: a small state machine in the Solve block decides what each dispatch does, so that any
 // number of rounds can be queued and none needs a read-back. A round is evaluate, apply, update, direction; a step is
-// begin, as many rounds as it takes, finish. Kernels whose phase it is not return at once.
+// begin, as many rounds as it takes, finish. Kernels whose phase it is not return at once. Where the ground prescribes a
+// part of δ, a linear system begins with a round that takes A times it to the right-hand side (Solve.prescribing).
 // The method and its source stand in src/cpu_reference/implicit_euler.h, which this follows operation by operation.
 layout(std430, binding = BINDING_STATE_A) restrict buffer StateA { Particle state_a[]; };
 layout(std430, binding = BINDING_STATE_B) restrict buffer StateB { Particle state_b[]; };
@@ -18,4 +19,21 @@ Particle state(uint i) {
 }
 
 vec3 own(uint which, uint i) { return own_vectors[which * particle_count + i].xyz; }
+vec4 own4(uint which, uint i) { return own_vectors[which * particle_count + i]; }
 void set_own(uint which, uint i, vec3 value) { own_vectors[which * particle_count + i] = vec4(value, 0.0); }
+void set_own4(uint which, uint i, vec4 value) { own_vectors[which * particle_count + i] = value; }
+
+// The part of y that the ground leaves free; ground: OWN_GROUND of the particle.
+vec3 free_part(vec4 ground, vec3 y) {
+  precise vec3 part = y;
+  if (ground.w == FREE_PLANE) part = y - dot3(y, ground.xyz) * ground.xyz;
+  if (ground.w == FREE_LINE) part = dot3(y, ground.xyz) * ground.xyz;
+  if (ground.w == FREE_NONE) part = vec3(0.0);
+  return part;
+}
+
+// Friction's part of the matrix times p; across: OWN_ACROSS of a particle that the ground leaves a plane.
+vec3 turning(vec4 across, vec3 p) {
+  precise vec3 product = (across.w * dot3(across.xyz, p)) * across.xyz;
+  return product;
+}

@@ -1,4 +1,5 @@
-// Implicit Euler, conjugate gradients: A·p with A = m − h·∂f/∂v' at the trial, spring by spring, and p·A·p.
+// Implicit Euler, conjugate gradients: A·p with A = m − h·∂f/∂v' at the trial, spring by spring, and p·A·p. On the ground
+// that is the part of it which the ground leaves free, with friction's resistance to turning.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit.glsl"
@@ -6,10 +7,12 @@
 #include "compute/implicit_spring.glsl"
 #include "compute/reduction.glsl"
 
+vec3 direction(uint j) { return solve.prescribing != 0u ? own(OWN_PRESCRIBED, j) : search[j].xyz; }
+
 // Returns 0, p·A·p, 0, 0.
 vec4 apply(uint i) {
   Particle particle = state(i);
-  precise vec3 p = search[i].xyz;
+  precise vec3 p = direction(i);
   precise vec3 v = trial[i].xyz;
   precise vec3 product = particle.velocity.w * p;
   uint end = incident_start[i + 1u];
@@ -19,7 +22,7 @@ vec4 apply(uint i) {
     precise vec3 e = (particle.position.xyz - state(j).position.xyz) + time_step * dv;
     SpringJacobian H;
     linearised(class_of(word), e, dv, H);
-    precise vec3 d = p - search[j].xyz;
+    precise vec3 d = p - direction(j);
     product += times(H, d);
   }
   if (i == pull.particle) {
@@ -27,6 +30,9 @@ vec4 apply(uint i) {
     linearised_pull(particle.position.xyz, v, H);
     product += times(H, p);
   }
+  precise vec4 ground = own4(OWN_GROUND, i);
+  if (ground.w == FREE_PLANE) product += turning(own4(OWN_ACROSS, i), p);
+  product = free_part(ground, product);
   if (particle.position.w == 0.0) product = vec3(0.0);
   set_own(OWN_PRODUCT, i, product);
   return vec4(0.0, dot3(p, product), 0.0, 0.0);
@@ -39,6 +45,7 @@ void main() {
   if (i < particle_count) element = apply(i);
   precise vec4 total;
   if (!reduce(element, total) || gl_LocalInvocationIndex != 0u) return;
+  if (solve.prescribing != 0u) return;
   ++solve.cg;
   ++solve.cg_total;
   if (total.y > 0.0) {

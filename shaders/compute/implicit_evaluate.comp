@@ -7,8 +7,39 @@
 #include "compute/implicit_spring.glsl"
 #include "compute/implicit_block.glsl"
 #include "compute/reduction.glsl"
+#include "compute/terrain.glsl"
+#include "compute/implicit_ground.glsl"
+#include "compute/implicit_judge.glsl"
 
-// Returns largest |residual| component, its square sum, r·z, and 0.
+// What the ground makes of particle p with free velocity v at the trial: its reaction, and the residual R,
+// right-hand side r and preconditioner of a particle it holds.
+Reaction meet_ground(Particle p, vec3 free, vec3 v, inout precise vec3 R, inout precise vec3 r, inout DiagonalBlock b) {
+  float m = p.velocity.w;
+  Reaction reaction = react(p.position.xyz, m, free);
+  if (reaction.freedom == FREE_ALL) return reaction;
+  R = v - reaction.v;
+  r = vec3(0.0);
+  if (reaction.freedom != FREE_NONE) r = -(m * free_part(vec4(reaction.axis, reaction.freedom), R));
+  if (reaction.freedom == FREE_PLANE) r = r - turning(vec4(reaction.across, reaction.stiffness), R);
+  b = with_spring(b, SpringJacobian(reaction.stiffness, 0.0, reaction.across));
+  return reaction;
+}
+
+// Keeps what the linear system needs of a reaction. Returns its share in what the last group is told: more than 0 if any
+// particle is held, 1 or more if any part of δ is prescribed.
+float keep_reaction(uint i, Reaction reaction, vec3 R) {
+  set_own4(OWN_GROUND, i, vec4(reaction.axis, reaction.freedom));
+  set_own4(OWN_ACROSS, i, vec4(reaction.across, reaction.stiffness));
+  precise vec3 prescribed = -R;
+  if (reaction.freedom == FREE_ALL) prescribed = vec3(0.0);
+  if (reaction.freedom == FREE_PLANE) prescribed = -(dot3(R, reaction.axis) * reaction.axis);
+  if (reaction.freedom == FREE_LINE) prescribed = -(R - dot3(R, reaction.axis) * reaction.axis);
+  set_own4(OWN_PRESCRIBED, i, vec4(prescribed, held_word(reaction)));
+  if (reaction.freedom == FREE_ALL) return 0.0;
+  return prescribed == vec3(0.0) ? HOLDS_ONLY : 1.0;
+}
+
+// Returns largest |residual| component, its square sum, r·z, and what keep_reaction says.
 vec4 evaluate(uint i) {
   Particle p = state(i);
   precise vec3 v = trial[i].xyz;
@@ -28,86 +59,38 @@ vec4 evaluate(uint i) {
     f += linearised_pull(p.position.xyz, v, H);
     block = with_spring(block, H);
   }
-  DiagonalBlock inverted = inverse_of(block);
   precise vec3 r = vec3(0.0);
   precise vec3 R = vec3(0.0);
+  Reaction reaction = no_reaction(v);
   if (p.position.w != 0.0) {
     precise vec3 all_forces = f + own(OWN_HELD, i);
     precise vec3 change = v - p.velocity.xyz;
+    precise vec3 gained = time_step * (p.position.w * all_forces);
     r = time_step * all_forces - p.velocity.w * change;
-    R = change - time_step * (p.position.w * all_forces);
+    R = change - gained;
+    precise vec3 free = p.velocity.xyz + gained;
+    if (contact_model == CONTACT_COULOMB) reaction = meet_ground(p, free, v, R, r, block);
   }
-  precise vec3 z = times(inverted, r);
+  precise float told = keep_reaction(i, reaction, R);
+  DiagonalBlock inverted = inverse_of(block);
+  precise vec3 z = free_part(vec4(reaction.axis, reaction.freedom), times(inverted, r));
   set_own(OWN_RESIDUAL, i, r);
   set_own(OWN_Z, i, z);
   set_own(OWN_INVERSE_A, i, inverted.diagonal);
   set_own(OWN_INVERSE_B, i, inverted.mixed);
   search[i] = vec4(z, 0.0);
   precise float xy = abs(R.y) > abs(R.x) ? abs(R.y) : abs(R.x);
-  return vec4(abs(R.z) > xy ? abs(R.z) : xy, dot3(R, R), dot3(r, z), 0.0);
-}
-
-void end_solve(uint how, uint use_trial) {
-  solve.end = how;
-  solve.use_trial = use_trial;
-  solve.phase = PHASE_DONE;
-}
-
-// Eisenstat and Walker's forcing term from the ratio of two successive square sums of residuals.
-float next_forcing(float ratio) {
-  precise float wanted = forcing_factor * ratio;
-  if (wanted < least_forcing) return least_forcing;
-  return wanted > most_forcing ? most_forcing : wanted;
-}
-
-void judge(float residual, float merit, float rz) {
-  if (solve.first == 0u && !(merit < solve.merit)) {
-    if (solve.halvings == max_halvings) {
-      end_solve(SOLVE_STAGNATED, 0u);
-    } else {
-      ++solve.halvings;
-      solve.lambda = solve.lambda * 0.5;
-    }
-    return;
-  }
-  precise float enough_progress = progress_share * solve.best;
-  precise float forcing = first_forcing;
-  if (solve.first == 0u) {
-    solve.without_progress = residual < enough_progress ? 0u : solve.without_progress + 1u;
-    precise float ratio = exact_div(merit, solve.merit);
-    forcing = next_forcing(ratio);
-  }
-  if (solve.first != 0u || residual < solve.best) solve.best = residual;
-  solve.first = 0u;
-  solve.forcing = forcing;
-  solve.merit = merit;
-  solve.residual = residual;
-  if (residual <= tolerance) {
-    end_solve(SOLVE_CONVERGED, 1u);
-  } else if (solve.without_progress == max_without_progress) {
-    end_solve(SOLVE_STAGNATED, 1u);
-  } else if (solve.newton == max_newton) {
-    end_solve(SOLVE_NOT_CONVERGED, 1u);
-  } else {
-    ++solve.newton;
-    solve.cg = 0u;
-    solve.updates = 0u;
-    solve.halvings = 0u;
-    solve.lambda = 1.0;
-    solve.rz = rz;
-    precise float enough = (forcing * forcing) * rz;
-    solve.enough = enough;
-    solve.phase = PHASE_CG;
-  }
+  return vec4(abs(R.z) > xy ? abs(R.z) : xy, dot3(R, R), dot3(r, z), told);
 }
 
 void main() {
   uint phase = solve.phase;
   uint i = item_index();
   if (i == 0u && (phase == PHASE_EVALUATE || phase == PHASE_CG)) ++solve.ticks;
+  if (i == 0u && phase == PHASE_CG) solve.prescribing = 0u;  // it took the round before
   if (phase != PHASE_EVALUATE) return;
   precise vec4 element = vec4(0.0);
   if (i < particle_count) element = evaluate(i);
   precise vec4 total;
-  if (reduce(element, total) && gl_LocalInvocationIndex == 0u) judge(total.x, total.y, total.z);
+  if (reduce(element, total) && gl_LocalInvocationIndex == 0u) judge(total);
 }

@@ -6,12 +6,21 @@
 #include "compute/implicit_end.glsl"
 #include "compute/reduction.glsl"
 #include "compute/terrain.glsl"
+#include "compute/implicit_ground.glsl"
 
 void finish(uint i) {
   Particle start = state(i);
   precise vec3 v = solve.use_trial != 0u ? trial[i].xyz : own(OWN_BASE, i);
+  if (own4(OWN_GROUND, i).w != FREE_ALL) v = v + own(OWN_PRESCRIBED, i);  // the ground gives way by no tolerance
   precise vec3 x = start.position.xyz + time_step * v;
-  respond(start, x, v);
+  if (contact_model == CONTACT_COULOMB) {
+    float word = own4(OWN_PRESCRIBED, i).w;
+    for (uint t = 0u; t < terrain_count && start.position.w != 0.0; ++t) {
+      respond_solved(t, start.velocity.w, word_holds(word, t), start.position.xyz, start.velocity.xyz, x, v);
+    }
+  } else {
+    respond(start, x, v);
+  }
   uint bad = ball_count == 0u ? divergence_word(i, x, v) : NO_STEP;
   if (bad != NO_STEP) atomicMin(solve.bad_particle, bad);
   Particle end = Particle(vec4(x, start.position.w), vec4(v, start.velocity.w));

@@ -1,4 +1,5 @@
-// Implicit Euler, conjugate gradients: δ += α·p, r −= α·A·p, z = B⁻¹·r, and r·z.
+// Implicit Euler, conjugate gradients: δ += α·p, r −= α·A·p, z = B⁻¹·r in the free directions, and r·z; before the
+// first iteration the same with the prescribed part of δ, if there is one.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit.glsl"
@@ -8,11 +9,14 @@
 
 // Returns 0, r·z, 0, 0.
 vec4 update(uint i) {
-  precise vec3 along_p = solve.alpha * search[i].xyz;
+  bool prescribing = solve.prescribing != 0u;
+  precise float alpha = prescribing ? 1.0 : solve.alpha;
+  precise vec3 along_p = alpha * search[i].xyz;
   precise vec3 delta = own(OWN_DELTA, i) + along_p;
-  if (solve.updates == 0u) delta = along_p;
-  precise vec3 r = own(OWN_RESIDUAL, i) - solve.alpha * own(OWN_PRODUCT, i);
+  if (solve.updates == 0u) delta = prescribing ? own(OWN_PRESCRIBED, i) : along_p;
+  precise vec3 r = own(OWN_RESIDUAL, i) - alpha * own(OWN_PRODUCT, i);
   precise vec3 z = times(DiagonalBlock(own(OWN_INVERSE_A, i), own(OWN_INVERSE_B, i)), r);
+  z = free_part(own4(OWN_GROUND, i), z);
   set_own(OWN_DELTA, i, delta);
   set_own(OWN_RESIDUAL, i, r);
   set_own(OWN_Z, i, z);
@@ -27,7 +31,12 @@ void main() {
   precise vec4 total;
   if (!reduce(element, total) || gl_LocalInvocationIndex != 0u) return;
   ++solve.updates;
-  if (!(total.y > solve.enough) || solve.cg == max_cg) {
+  if (solve.prescribing != 0u) {
+    precise float enough = (solve.forcing * solve.forcing) * total.y;
+    solve.enough = enough;
+    solve.rz = total.y;
+    if (!(total.y > 0.0)) solve.phase = PHASE_EVALUATE;
+  } else if (!(total.y > solve.enough) || solve.cg == max_cg) {
     solve.phase = PHASE_EVALUATE;
   } else {
     precise float beta = exact_div(total.y, solve.rz);

@@ -21,7 +21,7 @@
 #define BINDING_TRIAL 2         // vec4[particles]: v' at which the residual is evaluated [m/s]
 #define BINDING_SEARCH 3        // vec4[particles]: conjugate gradients' search direction p [m/s]
 #define BINDING_SOLVE 6         // Solve, then vec4[blocks]: the reductions' partial results
-#define BINDING_OWN 7           // vec4[OWN_VECTORS · particles]: what only its own invocation touches
+#define BINDING_OWN 7           // vec4[OWN_VECTORS · particles]: what only its own invocation writes
 // Storage blocks of the ball kernels; particles are STATE_A and STATE_B: the step's start and its end.
 #define BINDING_BALLS 2         // Ball[BALL_SLOTS · balls]
 #define BINDING_BALL_BODIES 3   // BallBody[balls]
@@ -40,7 +40,16 @@
 #define OWN_HELD 5u       // contact force held during the step [N]
 #define OWN_INVERSE_A 6u  // inverse diagonal block: xx, yy, zz [1/kg]
 #define OWN_INVERSE_B 7u  // xy, xz, yz [1/kg]
-#define OWN_VECTORS 8u
+#define OWN_GROUND 8u     // ground: normal of the plane or direction of the line it leaves; w: FREE_…
+#define OWN_ACROSS 9u     // ground: direction across the slip; w: stiffness there [kg]
+#define OWN_PRESCRIBED 10u  // ground: part of δ that it leaves no choice in [m/s]; w: terrains that hold, see held_word
+#define OWN_VECTORS 11u
+
+// What the ground leaves a particle: Freedom in src/cpu_reference/implicit_ground.h.
+#define FREE_ALL 0.0
+#define FREE_PLANE 1.0
+#define FREE_LINE 2.0
+#define FREE_NONE 3.0
 
 // Elements of one block of a reduction, and the group size of every kernel that takes part in one (spec §2.9).
 #define REDUCTION_BLOCK 256
@@ -183,6 +192,9 @@ struct Solve {
   uint newton_sum;
   uint cg_sum;
   float forcing;      // η of the linear system under way
+  uint on_ground;     // 1: the ground held a particle at the accepted iterate or at a trial since
+  uint prescribing;   // 1: the round under way takes the prescribed part of δ to the right-hand side
+  uint solve_padding0, solve_padding1;
 };
 
 #ifdef __cplusplus
@@ -212,6 +224,10 @@ layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
   float progress_share;
   uint max_halvings;
   uint max_without_progress;
+  float progress_share_on_ground;
+  uint max_without_progress_on_ground;
+  float least_turn;
+  float least_wedge;
   uint ball_count;
   uint ball_spin;             // 1: friction makes balls rotate
   uint bucket_mask;           // buckets of the grid − 1

@@ -83,12 +83,6 @@ struct DiagonalBlock {
   }
 };
 
-/// Friction across the slip: it turns with the slip, so it resists whatever turns that.
-template <class T>
-SpringJacobian<T> turning(const GroundReaction<T>& ground) {
-  return {ground.stiffness, T(0), ground.across};
-}
-
 /// Steps of backward Euler, one after another.
 template <class T>
 class ImplicitEuler {
@@ -191,7 +185,7 @@ typename ImplicitEuler<T>::Evaluation ImplicitEuler<T>::evaluate(const Phase<T>&
         at.prescribed.col(i) = -reaction.held_part(R);
         at.r.col(i) = reaction.right_hand_side(dynamics_.mass(i), R);
         at.ground[static_cast<std::size_t>(i)] = reaction;
-        block.add(turning(reaction));
+        block.add({reaction.stiffness, T(0), reaction.across});
         at.holds = true;
         at.prescribes = at.prescribes || (at.prescribed.col(i).array() != T(0)).any();
       }
@@ -230,8 +224,8 @@ Field<T> ImplicitEuler<T>::apply(const Evaluation& at, const Field<T>& p) const 
   }
   for (Eigen::Index i = 0; i < p.cols(); ++i) {
     const GroundReaction<T>& ground = at.ground[static_cast<std::size_t>(i)];
-    if (ground.freedom != Freedom::all)
-      product.col(i) = ground.free_part(product.col(i) + turning(ground) * Vector<T>(p.col(i)));
+    if (ground.freedom == Freedom::plane) product.col(i) += ground.turning(p.col(i));
+    if (ground.freedom != Freedom::all) product.col(i) = ground.free_part(product.col(i));
     if (dynamics_.inverse_mass(i) == T(0)) product.col(i).setZero();
   }
   return product;
@@ -293,40 +287,44 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
   Evaluation at = evaluate(s, held, v);
   T best = at.residual, forcing = static_cast<T>(first_forcing);
   int without_progress = 0;
+  bool on_ground = at.holds;
   report.end = SolveEnd::not_converged;
   while (true) {
     if (at.residual <= tolerance_) {
       report.end = SolveEnd::converged;
       break;
     }
-    if (without_progress == max_without_progress) {
+    if (without_progress >= (on_ground ? max_without_progress_on_ground : max_without_progress)) {
       report.end = SolveEnd::stagnated;
       break;
     }
     if (report.newton_iterations == max_newton_) break;
     const Field<T> delta = solve(at, forcing, report.cg_iterations);
     ++report.newton_iterations;
-    // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down. With the ground in the equation
-    // it is δ: R bends where a particle meets or leaves it, so the way may lead over a larger residual.
+    // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down. R bends where a particle meets or
+    // leaves the ground or stops to slide, so with the ground in the equation there may be none: then δ itself,
+    // for Newton's method finds its way over a larger residual.
     T lambda = 1;
     Field<T> trial = v + lambda * delta;
     Evaluation next = evaluate(s, held, trial);
+    on_ground = at.holds || next.holds;
     int halvings = 0;
-    const auto accepted = [&] { return next.merit < at.merit || next.holds || at.holds; };
-    while (!accepted() && halvings < max_halvings) {
+    while (!(next.merit < at.merit) && halvings < max_halvings + (on_ground ? 1 : 0)) {
       ++halvings;
-      lambda = lambda / 2;
+      lambda = halvings > max_halvings ? T(1) : lambda / 2;
       trial = v + lambda * delta;
       next = evaluate(s, held, trial);
+      on_ground = on_ground || next.holds;
     }
-    if (!accepted()) {  // any further iteration would only repeat this one
+    if (!(next.merit < at.merit) && halvings <= max_halvings) {  // any further iteration would only repeat this one
       report.end = SolveEnd::stagnated;
       break;
     }
     forcing = next_forcing(next.merit / at.merit);
     v = trial;
     at = std::move(next);
-    without_progress = at.residual < static_cast<T>(progress_share) * best ? 0 : without_progress + 1;
+    const double share = on_ground ? progress_share_on_ground : progress_share;
+    without_progress = at.residual < static_cast<T>(share) * best ? 0 : without_progress + 1;
     best = at.residual < best ? at.residual : best;
   }
   report.residual = static_cast<double>(at.residual);

@@ -10,18 +10,13 @@
 #include <vector>
 
 #include "cpu_reference/coulomb.h"
+#include "model/implicit.h"
 
 namespace aspic::reference {
 
 /// What the ground leaves a particle: everything, the tangent plane of one terrain, the line along two, or
 /// nothing.
 enum class Freedom { all, plane, line, none };
-
-/// Least share of a turn that friction leaves in the matrix, which has to stay finite.
-inline constexpr double least_turn = 1e-3;
-/// Normals with a smaller sine² between them, or a smaller squared volume of three, count as one surface
-/// less: what they would have in common is rounding.
-inline constexpr double least_wedge = 1e-6;
 
 /// P at one velocity, and the part of its derivative that the linear system takes.
 template <class T>
@@ -54,8 +49,11 @@ struct GroundReaction {
   Vector<T> right_hand_side(T m, const Vector<T>& R) const {
     if (freedom == Freedom::none) return Vector<T>::Zero();
     const Vector<T> r = -(m * free_part(R));
-    return freedom == Freedom::plane ? Vector<T>(r - (stiffness * dot3<T>(across, R)) * across) : r;
+    return freedom == Freedom::plane ? Vector<T>(r - turning(R)) : r;
   }
+
+  /// Friction's part of the matrix times p: it turns with the slip, so it resists whatever turns that.
+  Vector<T> turning(const Vector<T>& p) const { return (stiffness * dot3<T>(across, p)) * across; }
 
   bool holds(std::size_t terrain) const {
     for (std::size_t k = 0; k < count; ++k) {

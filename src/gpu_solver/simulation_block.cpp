@@ -97,6 +97,10 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.progress_share = static_cast<float>(progress_share);
   block.max_halvings = max_halvings;
   block.max_without_progress = max_without_progress;
+  block.progress_share_on_ground = static_cast<float>(progress_share_on_ground);
+  block.max_without_progress_on_ground = max_without_progress_on_ground;
+  block.least_turn = static_cast<float>(least_turn);
+  block.least_wedge = static_cast<float>(least_wedge);
   for (std::size_t c = 0; c < model.spring_classes.size(); ++c) {
     const SpringClass& s = model.spring_classes[c];
     block.spring_classes[c] = {static_cast<float>(s.stiffness), static_cast<float>(s.damping),

@@ -14,7 +14,7 @@ enum class SolveEnd : std::uint32_t { converged = 0, stagnated = 1, not_converge
 struct SolveReport {
   std::uint32_t newton_iterations = 0;  ///< linear systems solved
   std::uint32_t cg_iterations = 0;      ///< of all of them
-  double residual = 0.0;                ///< max over particles and components of |(v' − v) − h·a| [m/s]
+  double residual = 0.0;  ///< largest component of |(v' − v) − h·a|, on the ground |v' − P(v + h·a)| [m/s]
   SolveEnd end = SolveEnd::converged;
 };
 
@@ -46,5 +46,14 @@ inline constexpr int max_halvings = 4;
 /// smallest before: differences of rounding are no progress.
 inline constexpr int max_without_progress = 3;
 inline constexpr double progress_share = 0.5;
+/// The same where the ground holds particles: which of them it holds is found iteration by iteration, and friction's
+/// dependence on the load is left out of the matrix, so that progress comes in smaller and fewer steps.
+inline constexpr int max_without_progress_on_ground = 5;
+inline constexpr double progress_share_on_ground = 0.9;
+/// Least share of a turn of the slip that friction leaves in the matrix, which has to stay finite.
+inline constexpr double least_turn = 1e-3;
+/// Terrain normals with a smaller sine² between two, or a smaller squared volume of three, count as one surface less:
+/// the direction they would leave is rounding.
+inline constexpr double least_wedge = 1e-6;
 
 }  // namespace aspic

@@ -1,0 +1,81 @@
+// What one, two or three terrains make of a free velocity v: `r` has their indices and takes the rest.
+
+// Coulomb's law on one surface: P(v) = keep·v_t + c·n.
+bool on_one(vec3 x, float m, vec3 v, inout Reaction r) {
+  precise vec4 g = gap(r.held[0], x);
+  precise float u = dot3(v, g.xyz);
+  precise float c = least_speed(g);
+  precise vec3 v_t = v - u * g.xyz;
+  precise float slip = norm3(v_t);
+  precise float keep = slip_kept(slip, terrains[r.held[0]].friction * (c - u));
+  precise vec3 left = c * g.xyz;
+  r.freedom = FREE_NONE;
+  if (keep > 0.0) {
+    left = keep * v_t + left;
+    precise float stiffness = m * (exact_div(1.0, keep > least_turn ? keep : least_turn) - 1.0);
+    r.freedom = FREE_PLANE;
+    r.axis = g.xyz;
+    r.stiffness = stiffness;
+    if (slip > 0.0) {
+      precise float q = exact_div(1.0, slip);
+      precise vec3 across = q * cross3(g.xyz, v_t);
+      r.across = across;
+    }
+  }
+  r.v = left;
+  return u < c;
+}
+
+// Two surfaces leave the line along both; both normal impulses bear on the friction there.
+bool between_two(vec3 x, vec3 v, inout Reaction r) {
+  precise vec4 a = gap(r.held[0], x);
+  precise vec4 b = gap(r.held[1], x);
+  precise vec3 line = cross3(a.xyz, b.xyz);
+  precise float sine2 = dot3(line, line);
+  precise float cosine = dot3(a.xyz, b.xyz);
+  if (!(sine2 > least_wedge)) return false;
+  precise float c_a = least_speed(a);
+  precise float c_b = least_speed(b);
+  precise float short_a = c_a - dot3(v, a.xyz);
+  precise float short_b = c_b - dot3(v, b.xyz);
+  precise float push_a = exact_div(short_a - cosine * short_b, sine2);
+  precise float push_b = exact_div(short_b - cosine * short_a, sine2);
+  precise float loss = terrains[r.held[0]].friction * (push_a > 0.0 ? push_a : 0.0) +
+                       terrains[r.held[1]].friction * (push_b > 0.0 ? push_b : 0.0);
+  precise float q = exact_div(1.0, exact_sqrt(sine2));
+  precise vec3 axis = q * line;
+  precise float slip = dot3(v, axis);
+  precise float keep = slip_kept(abs(slip), loss);
+  precise vec3 left = exact_div(c_a - cosine * c_b, sine2) * a.xyz + exact_div(c_b - cosine * c_a, sine2) * b.xyz;
+  r.freedom = FREE_NONE;
+  if (keep > 0.0) {
+    left = (keep * slip) * axis + left;
+    r.freedom = FREE_LINE;
+  }
+  r.axis = axis;
+  r.v = left;
+  return true;
+}
+
+// Three surfaces leave one point.
+bool among_three(vec3 x, inout Reaction r) {
+  precise vec4 a = gap(r.held[0], x);
+  precise vec4 b = gap(r.held[1], x);
+  precise vec4 c = gap(r.held[2], x);
+  precise vec3 bc = cross3(b.xyz, c.xyz);
+  precise vec3 ca = cross3(c.xyz, a.xyz);
+  precise vec3 ab = cross3(a.xyz, b.xyz);
+  precise float volume = dot3(a.xyz, bc);
+  if (!(volume * volume > least_wedge)) return false;
+  precise vec3 sum = (least_speed(a) * bc + least_speed(b) * ca) + least_speed(c) * ab;
+  precise vec3 left = exact_div(1.0, volume) * sum;
+  r.freedom = FREE_NONE;
+  r.v = left;
+  return true;
+}
+
+bool hold(vec3 x, float m, vec3 v, inout Reaction r) {
+  if (r.count == 1u) return on_one(x, m, v, r);
+  if (r.count == 2u) return between_two(x, v, r);
+  return among_three(x, r);
+}
