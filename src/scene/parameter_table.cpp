@@ -50,9 +50,10 @@ std::vector<Parameter> simulation_rows() {
 std::vector<Parameter> contact_rows() {
   return {
       word("contact.model", words_of(ContactModel::course), FIELD(model.contact.model),
-           "Contact law: Coulomb friction, or the original assignments' formulas."),
+           "Contact law: Coulomb contact that comes to rest, or the original assignments' formulas."),
       number("contact.epsilon", "m, m/s", {0.0, 1.0, true}, FIELD(model.contact.epsilon),
-             "Distance and approach speed below which a particle touches."),
+             "Distance within which a particle may rest on the ground, and the least approach speed that "
+             "bounces."),
       number("contact.restitution", "", fraction, FIELD(model.contact.restitution),
              "Part of the approach speed that a bounce gives back, for every terrain without its own."),
       number("contact.friction", "", friction, FIELD(model.contact.friction),

@@ -47,6 +47,14 @@ Result<Finding> comes_to_rest(const Subject& subject, Integrator integrator) {
                              1e3 * model.simulation.timestep)};
 }
 
+/// Turned by 30°, the cube lands on an edge and then rocks to and fro on another: most of its bottom layer
+/// rises and comes down again and again, which is what a rule of contact has to end.
+Result<Finding> rocks_to_rest(const Subject& subject, Integrator integrator) {
+  ASPIC_VERIFY_LET(model, dropped_cube(10, {0, 4, 0}, integrator, 30.0));
+  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, steps_of(model, 12.0)));
+  return at_most(measure(model, end).max_speed, bound_single, "m/s");
+}
+
 /// Largest distance from the ground [m] in the layer of particles that began lowest.
 double bottom_layer(const Model& model, const State& end) {
   double lowest = std::numeric_limits<double>::infinity(), worst = 0.0;
@@ -188,6 +196,12 @@ void add_rest_checks(std::vector<Check>& checks) {
          fmt::format("≤ {:.0g} and {:.0g} m/s", bound_single, bound_double),
          integrator == Integrator::symplectic_euler, false,
          [=](const Subject& subject) { return comes_to_rest(subject, integrator); }});
+  }
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back({fmt::format("rest/turned/{}", name_of(integrator)),
+                      "the cube turned by 30° and dropped, 12 s later, double precision: fastest particle",
+                      at_most_text(bound_single, "m/s"), false, false,
+                      [=](const Subject& subject) { return rocks_to_rest(subject, integrator); }});
   }
   checks.push_back(
       {"rest/bottom",
