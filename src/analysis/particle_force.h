@@ -29,7 +29,7 @@ struct ParticleForce {
   Vec3 gravity;  ///< m·g
   Vec3 springs;  ///< sum over its springs
   Vec3 pull;     ///< a hand's, where it pulls this particle
-  Vec3 contact;  ///< the course model's contact force; the Coulomb model has none, it acts on velocities
+  Vec3 contact;  ///< the course model's contact force; the Coulomb model's reaction belongs to a step
   Vec3 net;      ///< f: all summed in the solvers' order; of a pinned particle too, which it does not move
 };
 

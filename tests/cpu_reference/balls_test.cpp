@@ -222,7 +222,10 @@ TEST(Balls, WithoutSpinAreParticlesOfTheirRadius) {
   settings.contact.spin = false;
   const Model model = test::build(settings);
   const State end = after(model, 500);
-  EXPECT_EQ(end.ball_position[0], initial_state(model, Precision::double_).ball_position[0]);
+  expect_near(end.ball_position[0], initial_state(model, Precision::double_).ball_position[0],
+              4 * epsilon * 0.4);
+  // It is let down by what rounding leaves between it and the surface.
+  expect_near(end.ball_velocity[0], Vec3{}, 4 * epsilon * 0.4 / model.simulation.timestep);
   EXPECT_EQ(end.ball_angular_velocity[0], Vec3{});
 }
 
@@ -306,11 +309,12 @@ TEST(Balls, RollOnUnderEveryIntegrator) {
   }
 }
 
+// A groove that leads down to a wall; friction ends every rotation there.
 TEST(Balls, RestBetweenTwoSlopesAndAWall) {
   for (const bool spin : {true, false}) {
     ModelSettings settings;
     settings.contact.spin = spin;
-    const Vec3 normals[] = {{0.6, 0.8, 0.0}, {-0.8, 0.6, 0.0}, {0.0, 0.1, 1.0}};
+    const Vec3 normals[] = {{0.6, 0.8, 0.0}, {-0.8, 0.6, -0.1}, {0.0, 0.1, 1.0}};
     for (const Vec3& n : normals) {
       settings.terrain.emplace_back();
       settings.terrain.back().point = Vec3{};

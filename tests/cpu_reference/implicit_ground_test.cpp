@@ -168,28 +168,27 @@ TEST(GroundReaction, TwiceTheSameTerrainIsOne) {
   EXPECT_EQ(twice.react(v).freedom, Freedom::plane);
 }
 
-/// A squashed, sheared, spinning 4³ cube just above a groove with a wall across it.
+/// A squashed, sheared 4³ cube thrown into the corner of a slope and two walls.
 Model cube_in_a_corner(double mu) {
   ModelSettings settings = test::cube_on_plane(4, 2.8);
   settings.simulation.integrator = Integrator::implicit_euler;
   settings.simulation.timestep = h;
   settings.simulation.implicit.newton_iterations = 200;
   settings.contact.friction = mu;
-  settings.terrain[0].point = Vec3{-0.7, 0, 0};
-  settings.terrain[0].normal = Vec3{0.3, 1, 0};
-  settings.terrain.push_back(settings.terrain[0]);
-  settings.terrain[1].normal = Vec3{-0.2, 1, 0.1};
-  settings.terrain.push_back(settings.terrain[0]);
-  settings.terrain[2].point = Vec3{0, 0, -2.02};
-  settings.terrain[2].normal = Vec3{0, 0, 1};
+  settings.contact.restitution = 0.2;
+  settings.terrain.resize(3);
+  settings.terrain[0].point = Vec3{0, 0, 0};
+  settings.terrain[0].normal = Vec3{0.3, 1, 0.1};
+  settings.terrain[1].point = Vec3{2.4, 0, 0};
+  settings.terrain[1].normal = Vec3{-1, 0.1, 0};
+  settings.terrain[2].point = Vec3{0, 0, 2.1};
+  settings.terrain[2].normal = Vec3{0, 0, -1};
   Model model = test::build(settings);
   for (std::size_t i = 0; i < model.initial_position.size(); ++i) {
     Vec3& x = model.initial_position[i];
-    x = {1.1 * x.x + 0.1 * x.y, x.y, x.z};
-    model.initial_velocity[i] = {-2.0 * x.z, -4.0, 2.0 * x.x - 1.5};
+    x = {1.1 * x.x + 0.1 * (x.y - 2.8), 0.9 * x.y + 0.28, x.z};
+    model.initial_velocity[i] = {3.0, -6.0, 2.0};
   }
-  model.inverse_mass[5] = 0.0;
-  model.initial_velocity[5] = {};
   return model;
 }
 
@@ -203,17 +202,13 @@ TEST(ImplicitGround, SolvesTheEquationWithTheGroundInIt) {
     GroundAhead<double> ahead(dynamics.grounds(), h, true);
     Phase<double> s = start_of(model);
     std::array<int, 4> seen{};
-    for (int n = 0; n < 45; ++n) {
+    for (int n = 0; n < 90; ++n) {
       SolveReport report;
       Phase<double> next = method.step(s, report);
       ASSERT_EQ(report.end, SolveEnd::converged) << "step " << n << ", μ = " << mu;
       ahead.start(s.x);
       const Field<double> a = dynamics.acceleration(s.x + h * next.v, next.v);
       for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
-        if (dynamics.inverse_mass(i) == 0.0) {
-          EXPECT_EQ(V(next.v.col(i)), V(s.v.col(i)));
-          continue;
-        }
         const GroundReaction<double> wanted = ahead.react(i, dynamics.mass(i), s.v.col(i) + h * a.col(i));
         ++seen[wanted.count];
         // The tolerance, 1e-9 m/s, and what moving held particles by it exactly changes in others' forces:

@@ -107,7 +107,7 @@ TEST_F(BallsOnTheDevice, AtRestInACornerUnderEveryIntegrator) {
       ModelSettings settings;
       settings.simulation.integrator = integrator;
       settings.contact.spin = spin;
-      for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, 0.1}, Vec3{0.0, 0.1, 1.0}}) {
+      for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, -0.1}, Vec3{0.0, 0.1, 1.0}}) {
         TerrainSettings side;
         side.point = Vec3{};
         side.normal = normal;
