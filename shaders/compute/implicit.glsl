@@ -19,3 +19,6 @@ Particle state(uint i) {
 
 vec3 own(uint which, uint i) { return own_vectors[which * particle_count + i].xyz; }
 void set_own(uint which, uint i, vec3 value) { own_vectors[which * particle_count + i] = vec4(value, 0.0); }
+
+void report_overrun(uint kernel) { atomicMax(solve.overrun, kernel); }
+#include "compute/bounded.glsl"

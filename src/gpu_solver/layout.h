@@ -19,11 +19,14 @@ struct uvec2 {
 
 static_assert(sizeof(Particle) == 32 && offsetof(Particle, velocity) == 16);
 static_assert(sizeof(Ball) == 64 && offsetof(Ball, velocity) == 16 && offsetof(Ball, spin) == 32);
+static_assert(sizeof(BallTouches) == 32 && offsetof(BallTouches, items) == 28);
+static_assert(sizeof(BallItem) == 128 && offsetof(BallItem, acts) == 32 && offsetof(BallItem, linear) == 96);
+static_assert(sizeof(BallWork) == 64 && offsetof(BallWork, word_groups) == 16);
 static_assert(sizeof(BallBody) == 16 && offsetof(BallBody, launch_step) == 8);
 static_assert(offsetof(Simulation, ball_count) == 100 && offsetof(Simulation, ball_restitution) == 112);
 static_assert(sizeof(Stage) == 16 && sizeof(SpringClass) == 16 && sizeof(Control) == 16);
 static_assert(sizeof(Pull) == 32 && offsetof(Pull, stiffness) == 16 && offsetof(Pull, particle) == 24);
-static_assert(sizeof(Solve) == 144 && offsetof(Solve, lambda) == 64 && offsetof(Solve, converged) == 120);
+static_assert(sizeof(Solve) == 160 && offsetof(Solve, lambda) == 64 && offsetof(Solve, converged) == 120);
 static_assert(sizeof(Terrain) == 64 && offsetof(Terrain, mass) == 32 && offsetof(Terrain, shape) == 48);
 static_assert(offsetof(Simulation, epsilon) == 16 && offsetof(Simulation, particle_count) == 32);
 static_assert(offsetof(Simulation, class_bits) == 48 && offsetof(Simulation, time_step) == 64);

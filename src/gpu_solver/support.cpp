@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace aspic {
 
 Result<std::vector<layout::Particle>> to_device(const State& state, const Model& model) {
@@ -38,6 +42,29 @@ Status check_device(gl::Context& context, ErrorCode memory_code) {
       fmt::format("The device {} ran out of memory at work, with {} ({} bytes) held in buffers. Make the "
                   "scene smaller, close other programs that use the device, or choose --backend reference.",
                   context.info().renderer, gl::human_bytes(context.bytes_held()), context.bytes_held())};
+}
+
+Status check_overrun(std::uint32_t overrun) {
+  // By KERNEL_… of layout.glsl: the kernel, and what its loop goes over.
+  constexpr std::array<std::array<std::string_view, 2>, KERNEL_COUNT> kernels = {
+      {{},
+       {"gather", "the springs of one particle"},
+       {"sum_springs", "the springs of one particle"},
+       {"implicit_begin", "the springs of one particle"},
+       {"implicit_evaluate", "the springs of one particle"},
+       {"implicit_apply", "the springs of one particle"},
+       {"ball_find", "blocks of 256 balls"},
+       {"ball_gather", "the blocks of particles that one ball touches"},
+       {"ball_partials", "the blocks of partners of one body"},
+       {"ball_exchange", "the blocks of partners of one ball"},
+       {"ball_particles", "the blocks of partners of one particle"}}};
+  if (overrun == 0) return {};
+  const auto& [name, rounds] = kernels[std::min<std::uint32_t>(overrun, KERNEL_COUNT - 1)];
+  return Error{
+      ErrorCode::no_device,
+      fmt::format("The kernel {} would have to loop more often than the {} rounds that every device "
+                  "is sure to carry out, over {}. Make the scene smaller, or use --backend reference.",
+                  name, MAX_ROUNDS, rounds)};
 }
 
 Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model) {
