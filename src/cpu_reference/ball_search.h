@@ -1,6 +1,7 @@
 #pragma once
-// Which balls are near a point: candidates that an exact test then judges, from a grid of cells hashed into
-// buckets, so that balls spread out cost no more than their number.
+// Which balls are near a point: candidates that an exact test then judges. Balls sorted along x leave few;
+// where that leaves many, a grid of cells hashed into buckets does, so that balls spread out cost no more
+// than their number.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -39,31 +40,27 @@ template <class T>
 class BallSearch {
  public:
   /// `balls`: ascending indices of balls with finite positions `x`; `reach`: largest radius + ε [m].
-  BallSearch(const Field<T>& x, std::vector<std::uint32_t> balls, double reach)
-      : balls_(std::move(balls)), cells_per_metre_(1.0 / (2.5 * reach)) {
-    if (balls_.size() <= few) return;
-    mask_ = std::bit_ceil(2 * balls_.size()) - 1;
-    std::vector<Cell> cells;
-    cells.reserve(balls_.size());
-    for (const std::uint32_t b : balls_) cells.push_back(cell_of(x.col(b), 0.0));
-    bucket_start_.assign(mask_ + 2, 0);
-    for (const Cell& cell : cells) ++bucket_start_[bucket_of(cell) + 1];
-    std::partial_sum(bucket_start_.begin(), bucket_start_.end(), bucket_start_.begin());
-    std::vector<std::size_t> next(bucket_start_.begin(), bucket_start_.end() - 1);
-    entries_.resize(balls_.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      entries_[next[bucket_of(cells[i])]++] = {cells[i], balls_[i]};
-    }
+  BallSearch(const Field<T>& x, const std::vector<std::uint32_t>& balls, double reach) : reach_(reach) {
+    along_x_.reserve(balls.size());
+    for (const std::uint32_t b : balls) along_x_.push_back({x(0, b), b});
+    std::sort(along_x_.begin(), along_x_.end());
+    if (slabs_are_full()) fill_grid(x, balls);
   }
 
-  bool empty() const { return balls_.empty(); }
+  bool empty() const { return along_x_.empty(); }
 
   /// Calls take(b) for every ball whose surface may be within ε of that of a ball at x (`of_ball`) or of x,
   /// in no particular order.
   template <class Take>
   void candidates(const Vector<T>& x, bool of_ball, const Take& take) const {
-    if (balls_.size() <= few) {
-      for (const std::uint32_t b : balls_) take(b);
+    if (entries_.empty()) {
+      // A relative margin far above rounding keeps every pair that the exact test would take.
+      const double reach = 1.001 * (of_ball ? 2.0 * reach_ : reach_);
+      const double from = static_cast<double>(x(0)) - reach, to = static_cast<double>(x(0)) + reach;
+      auto at = std::lower_bound(along_x_.begin(), along_x_.end(), from, [](const auto& entry, double limit) {
+        return static_cast<double>(entry.first) < limit;
+      });
+      for (; at != along_x_.end() && static_cast<double>(at->first) <= to; ++at) take(at->second);
       return;
     }
     // A ball reaches less than one cell, a particle less than half of one.
@@ -84,10 +81,36 @@ class BallSearch {
     Cell cell;
     std::uint32_t ball = 0;
   };
-  /// So few balls are all candidates.
-  static constexpr std::size_t few = 16;
+  /// Candidates along x that a ball may have on average; a grid's 27 cells cost about as much.
+  static constexpr std::size_t few = 32;
   /// Cells past these are one with those at the edge; within, rounding moves no body by a tenth of a cell.
   static constexpr double farthest_cell = 1e12;
+
+  bool slabs_are_full() const {
+    std::size_t pairs = 0, first = 0;
+    for (std::size_t last = 0; last < along_x_.size(); ++last) {
+      const double from = static_cast<double>(along_x_[last].first) - 2.0 * reach_;
+      while (static_cast<double>(along_x_[first].first) < from) ++first;
+      pairs += 2 * (last - first);
+    }
+    return pairs > few * along_x_.size();
+  }
+
+  void fill_grid(const Field<T>& x, const std::vector<std::uint32_t>& balls) {
+    cells_per_metre_ = 1.0 / (2.5 * reach_);
+    mask_ = std::bit_ceil(2 * balls.size()) - 1;
+    std::vector<Cell> cells;
+    cells.reserve(balls.size());
+    for (const std::uint32_t b : balls) cells.push_back(cell_of(x.col(b), 0.0));
+    bucket_start_.assign(mask_ + 2, 0);
+    for (const Cell& cell : cells) ++bucket_start_[bucket_of(cell) + 1];
+    std::partial_sum(bucket_start_.begin(), bucket_start_.end(), bucket_start_.begin());
+    std::vector<std::size_t> next(bucket_start_.begin(), bucket_start_.end() - 1);
+    entries_.resize(balls.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      entries_[next[bucket_of(cells[i])]++] = {cells[i], balls[i]};
+    }
+  }
 
   Cell cell_of(const Vector<T>& x, double shift) const {
     Cell cell{};
@@ -107,11 +130,11 @@ class BallSearch {
     return hash & mask_;
   }
 
-  std::vector<std::uint32_t> balls_;
-  double cells_per_metre_;
+  double reach_, cells_per_metre_ = 0.0;
+  std::vector<std::pair<T, std::uint32_t>> along_x_;
   std::size_t mask_ = 0;
   std::vector<std::size_t> bucket_start_;
-  std::vector<Entry> entries_;  // bucket by bucket, ascending
+  std::vector<Entry> entries_;  // of the grid, bucket by bucket, ascending; empty without one
 };
 
 }  // namespace aspic::reference

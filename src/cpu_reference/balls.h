@@ -74,6 +74,8 @@ class Balls {
 
  private:
   using Counts = std::vector<std::uint32_t>;
+  /// What balls receive in a phase.
+  using Impulses = std::vector<std::pair<std::uint32_t, Impulse<T>>>;
   /// Impulses on one body, summed up.
   struct ImpulseSum {
     PartnerSum<Vector<T>> linear{Vector<T>::Zero()}, turning{Vector<T>::Zero()};
@@ -81,6 +83,7 @@ class Balls {
       linear.add(impulse.linear);
       turning.add(impulse.turning);
     }
+    Impulse<T> total() { return {linear.total(), turning.total()}; }
   };
 
   BallPhase<T> fly(std::uint64_t step, const BallPhase<T>& start) const {
@@ -115,7 +118,7 @@ class Balls {
   void exchange_among_balls(const BallPhase<T>& start, BallPhase<T>& balls);
   void exchange_with_particles(const BallPhase<T>& start, BallPhase<T>& balls, const Phase<T>& particle_start,
                                Phase<T>& particles);
-  void receive(BallPhase<T>& balls, std::uint32_t b, ImpulseSum& sum) const;
+  void receive(BallPhase<T>& balls, const Impulses& impulses) const;
   void separate(BallPhase<T>& balls, Phase<T>& particles);
 
   /// Of two balls, of a particle and a ball, and of a ball and a particle: as the first of them sees it.
@@ -134,6 +137,12 @@ class Balls {
     return pair_gap<T>(e, body(b).radius, false);
   }
 
+  /// False only for what is further apart than ε, far beyond rounding.
+  bool may_touch(const Vector<T>& e, T reach) const {
+    const T limit = T(1.01) * (reach + rules_.epsilon);
+    return !(dot3<T>(e, e) > limit * limit);
+  }
+
   const BallBody<T>& body(std::uint32_t b) const { return bodies_[b]; }
   static T number(std::uint32_t count) { return static_cast<T>(count); }
 
@@ -146,23 +155,25 @@ class Balls {
   std::vector<T> particle_weight_;  // w of every particle
   // Of the step under way.
   Contacts ball_ball_, ball_particle_, particle_ball_;
-  std::vector<std::uint32_t> near_;  // partners of one body
+  std::vector<std::uint32_t> present_;  // balls that have been launched
+  std::vector<std::uint32_t> near_;     // partners of one body
 };
 
 /// All pairs closer than ε, from candidates that a grid offers: the test itself is that of all pairs.
 template <class T>
 void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const Phase<T>& particles) {
-  std::vector<std::uint32_t> present;
+  present_.clear();
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
-    if (model_.balls[b].launched(step) && balls.x.col(b).allFinite()) present.push_back(b);
+    if (model_.balls[b].launched(step) && balls.x.col(b).allFinite()) present_.push_back(b);
   }
-  std::vector<bool> takes_part(bodies_.size(), false);
-  for (const std::uint32_t b : present) takes_part[b] = true;
-  const BallSearch<T> search(balls.x, std::move(present),
-                             largest_radius_ + static_cast<double>(rules_.epsilon));
+  const BallSearch<T> search(balls.x, present_, largest_radius_ + static_cast<double>(rules_.epsilon));
   ball_ball_.clear();
+  auto next = present_.begin();
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
-    if (takes_part[b]) find_balls_of(search, balls, b);
+    if (next != present_.end() && *next == b) {
+      find_balls_of(search, balls, b);
+      ++next;
+    }
     ball_ball_.end_body();
   }
   particle_ball_.clear();
@@ -177,7 +188,10 @@ template <class T>
 void Balls<T>::find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls, std::uint32_t own) {
   near_.clear();
   search.candidates(balls.x.col(own), true, [&](std::uint32_t other) {
-    if (own != other && between_balls(balls, own, other).d < rules_.epsilon) near_.push_back(other);
+    if (own == other ||
+        !may_touch(balls.x.col(own) - balls.x.col(other), body(own).radius + body(other).radius))
+      return;
+    if (between_balls(balls, own, other).d < rules_.epsilon) near_.push_back(other);
   });
   if (!std::is_sorted(near_.begin(), near_.end())) std::sort(near_.begin(), near_.end());
   for (const std::uint32_t other : near_) {
@@ -190,6 +204,7 @@ void Balls<T>::find_balls_of(const BallSearch<T>& search, const BallPhase<T>& ba
                              const Phase<T>& particles, std::uint32_t own) {
   near_.clear();
   search.candidates(particles.x.col(own), false, [&](std::uint32_t b) {
+    if (!may_touch(particles.x.col(own) - balls.x.col(b), body(b).radius)) return;
     if (from_particle(balls, particles, own, b).d < rules_.epsilon) near_.push_back(b);
   });
   if (!std::is_sorted(near_.begin(), near_.end())) std::sort(near_.begin(), near_.end());
@@ -253,30 +268,34 @@ void for_each(const Contacts& contacts, const std::vector<std::uint8_t>& flags, 
 }  // namespace detail
 
 template <class T>
-void Balls<T>::receive(BallPhase<T>& balls, std::uint32_t b, ImpulseSum& sum) const {
-  balls.v.col(b) += body(b).inverse_mass * sum.linear.total();
-  if (rules_.spin) balls.omega.col(b) += body(b).turn * sum.turning.total();
+void Balls<T>::receive(BallPhase<T>& balls, const Impulses& impulses) const {
+  for (const auto& [b, impulse] : impulses) {
+    balls.v.col(b) += body(b).inverse_mass * impulse.linear;
+    if (rules_.spin) balls.omega.col(b) += body(b).turn * impulse.turning;
+  }
 }
 
 template <class T>
 void Balls<T>::exchange_among_balls(const BallPhase<T>& start, BallPhase<T>& balls) {
+  if (ball_ball_.other.empty()) return;
   const Counts c = detail::tally(ball_ball_, [&](std::uint32_t i, std::uint32_t j) {
     const Vector<T> dv = balls.v.col(i) - balls.v.col(j);
     return dot3<T>(dv, between_balls(balls, i, j).n) < T(0);
   });
-  std::vector<ImpulseSum> sums(bodies_.size());
+  Impulses impulses;
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    if (c[i] == 0) continue;
+    ImpulseSum sum;
     detail::for_each(ball_ball_, ball_ball_.acting, i, [&](std::uint32_t j) {
       const Vector<T> dv = balls.v.col(i) - balls.v.col(j), dv0 = start.v.col(i) - start.v.col(j);
       const Vector<T> rolling = body(i).radius * balls.omega.col(i) + body(j).radius * balls.omega.col(j);
       const T weight = number(c[i]) * body(i).inverse_mass + number(c[j]) * body(j).inverse_mass;
       const T slip_weight = weight + (number(c[i]) * body(i).slip + number(c[j]) * body(j).slip);
-      sums[i].add(impact<T>(rules_, between_balls(balls, i, j).n, dv, dv0, rolling, weight, slip_weight));
+      sum.add(impact<T>(rules_, between_balls(balls, i, j).n, dv, dv0, rolling, weight, slip_weight));
     });
+    impulses.push_back({i, sum.total()});
   }
-  for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
-    if (c[b] != 0) receive(balls, b, sums[b]);
-  }
+  receive(balls, impulses);
 }
 
 template <class T>
@@ -298,12 +317,15 @@ void Balls<T>::exchange_with_particles(const BallPhase<T>& start, BallPhase<T>& 
     const T slip_weight = weight + number(c_ball[b]) * body(b).slip;
     return impact<T>(rules_, n, dv, dv0, rolling, weight, slip_weight);
   };
-  std::vector<ImpulseSum> on_ball(bodies_.size());
+  Impulses on_ball;
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
+    if (c_ball[b] == 0) continue;
+    ImpulseSum sum;
     detail::for_each(ball_particle_, ball_particle_.acting, b, [&](std::uint32_t p) {
-      on_ball[b].add(received(from_ball(balls, particles, b, p).n, b, p, balls.v.col(b) - particles.v.col(p),
-                              start.v.col(b) - particle_start.v.col(p)));
+      sum.add(received(from_ball(balls, particles, b, p).n, b, p, balls.v.col(b) - particles.v.col(p),
+                       start.v.col(b) - particle_start.v.col(p)));
     });
+    on_ball.push_back({b, sum.total()});
   }
   std::vector<std::pair<std::uint32_t, Vector<T>>> on_particle;
   for (std::uint32_t p = 0; p < particle_weight_.size(); ++p) {
@@ -316,15 +338,14 @@ void Balls<T>::exchange_with_particles(const BallPhase<T>& start, BallPhase<T>& 
     });
     on_particle.push_back({p, sum.total()});
   }
-  for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
-    if (c_ball[b] != 0) receive(balls, b, on_ball[b]);
-  }
+  receive(balls, on_ball);
   for (const auto& [p, sum] : on_particle) particles.v.col(p) += particle_weight_[p] * sum;
 }
 
 /// The position phase, over all overlapping pairs at once: a ball's balls come before its particles.
 template <class T>
 void Balls<T>::separate(BallPhase<T>& balls, Phase<T>& particles) {
+  if (ball_ball_.other.empty() && particle_ball_.other.empty()) return;
   Counts c_ball(bodies_.size(), 0), c_particle(particle_weight_.size(), 0);
   detail::tally_overlaps(ball_ball_, c_ball);
   detail::tally_overlaps(ball_particle_, c_ball);
