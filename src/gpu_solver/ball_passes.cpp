@@ -94,7 +94,7 @@ std::uint64_t ball_bytes(const ModelCounts& counts) {
 
 std::vector<std::string> BallPasses::pass_names() {
   return {"balls: flight and terrain",
-          "balls: empty the grid",
+          "balls: empty grid and marks",
           "balls: fill the grid",
           "balls: find contacts",
           "balls: find blocks of particles",

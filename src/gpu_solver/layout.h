@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "gpu/loop_bound.h"
+
 namespace aspic::layout {
 
 using uint = std::uint32_t;
@@ -17,6 +19,7 @@ struct uvec2 {
 
 #include "compute/layout.glsl"
 
+static_assert(MAX_ROUNDS == gl::max_rounds);
 static_assert(sizeof(Particle) == 32 && offsetof(Particle, velocity) == 16);
 static_assert(sizeof(Ball) == 64 && offsetof(Ball, velocity) == 16 && offsetof(Ball, spin) == 32);
 static_assert(sizeof(BallTouches) == 32 && offsetof(BallTouches, items) == 28);

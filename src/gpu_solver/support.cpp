@@ -6,6 +6,8 @@
 #include <array>
 #include <string_view>
 
+#include "gpu/loop_bound.h"
+
 namespace aspic {
 
 Result<std::vector<layout::Particle>> to_device(const State& state, const Model& model) {
@@ -60,11 +62,7 @@ Status check_overrun(std::uint32_t overrun) {
        {"ball_particles", "the blocks of partners of one particle"}}};
   if (overrun == 0) return {};
   const auto& [name, rounds] = kernels[std::min<std::uint32_t>(overrun, KERNEL_COUNT - 1)];
-  return Error{
-      ErrorCode::no_device,
-      fmt::format("The kernel {} would have to loop more often than the {} rounds that every device "
-                  "is sure to carry out, over {}. Make the scene smaller, or use --backend reference.",
-                  name, MAX_ROUNDS, rounds)};
+  return gl::loop_error(name, rounds);
 }
 
 Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model) {
@@ -83,6 +81,7 @@ Result<KernelOptions> kernel_options(gl::Context& context, const gl::ShaderLibra
   }
   kernels.defines = kernels.arithmetic.defines;
   kernels.defines.push_back({"ASPIC_GROUP_SIZE", std::to_string(group_size)});
+  kernels.defines.insert(kernels.defines.end(), options.defines.begin(), options.defines.end());
   return kernels;
 }
 
