@@ -9,7 +9,7 @@ layout(std430, binding = BINDING_BALL_TOUCHES) restrict buffer TouchesBlock { Ba
 #ifdef ASPIC_IMPLICIT
 layout(std430, binding = BINDING_SOLVE) restrict coherent buffer SolveBlock { Solve solve; };
 
-bool idle() { return solve.phase != PHASE_BALLS || solve.full != 0u; }
+bool idle() { return solve.phase != PHASE_BALLS || solve.full != 0u || solve.overrun != 0u; }
 uint steps_done() { return solve.step; }
 uint particle_parity() { return solve.parity; }
 uint start_slot() { return solve.parity; }

@@ -5,5 +5,5 @@
 #include "compute/implicit_end.glsl"
 
 void main() {
-  if (solve.phase == PHASE_BALLS && solve.full == 0u && item_index() == 0u) end_step();
+  if (solve.phase == PHASE_BALLS && solve.full == 0u && solve.overrun == 0u && item_index() == 0u) end_step();
 }
