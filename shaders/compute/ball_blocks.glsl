@@ -4,21 +4,23 @@
 layout(std430, binding = BINDING_STATE_A) restrict buffer StateA { Particle state_a[]; };
 layout(std430, binding = BINDING_STATE_B) restrict buffer StateB { Particle state_b[]; };
 layout(std430, binding = BINDING_BALLS) restrict buffer Balls { Ball balls[]; };
-layout(std430, binding = BINDING_BALL_COUNTS) restrict buffer BallCounts { uint acting[]; };
+layout(std430, binding = BINDING_BALL_TOUCHES) restrict buffer TouchesBlock { BallTouches touches[]; };
 
 #ifdef ASPIC_IMPLICIT
 layout(std430, binding = BINDING_SOLVE) restrict coherent buffer SolveBlock { Solve solve; };
 
-bool idle() { return solve.phase != PHASE_BALLS; }
+bool idle() { return solve.phase != PHASE_BALLS || solve.full != 0u || solve.overrun != 0u; }
 uint steps_done() { return solve.step; }
 uint particle_parity() { return solve.parity; }
 uint start_slot() { return solve.parity; }
 void mark_divergence(uint bad) { atomicMin(solve.bad_particle, bad); }
+void mark_full() { atomicMax(solve.full, 1u); }
+void report_overrun(uint kernel) { atomicMax(solve.overrun, kernel); }
 #else
 #include "compute/control.glsl"
 layout(location = LOCATION_BALL_PARITY) uniform uint ball_parity;
 
-bool idle() { return halted(); }
+bool idle() { return halted() || control.full_step == step_index; }
 uint steps_done() { return step_index; }
 uint particle_parity() { return 0u; }
 uint start_slot() { return ball_parity; }
@@ -26,7 +28,9 @@ void mark_divergence(uint bad) {
   atomicMin(control.bad_step, step_index);
   atomicMin(control.bad_particle, bad);
 }
+void mark_full() { atomicMin(control.full_step, step_index); }
 #endif
+#include "compute/bounded.glsl"
 
 uint end_slot() { return 1u - start_slot(); }
 

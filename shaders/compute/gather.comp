@@ -3,6 +3,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
+#include "compute/bounded.glsl"
 #include "compute/incident.glsl"
 #include "compute/spring.glsl"
 #include "compute/stage.glsl"
@@ -12,8 +13,9 @@ void main() {
   if (i >= particle_count || halted()) return;
   Particle p = stage_state[i];
   precise vec3 f = p.velocity.w * gravity.xyz;
-  uint end = incident_start[i + 1u];
-  for (uint n = incident_start[i]; n < end; ++n) {
+  uint first = incident_start[i];
+  uint end = first + bounded(incident_start[i + 1u] - first, KERNEL_GATHER);
+  for (uint n = first; n < end; ++n) {
     uint word = incident[n];
     Particle other = stage_state[neighbour_of(word)];
     f += spring_force(class_of(word), p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;

@@ -37,3 +37,6 @@ vec3 turning(vec4 across, vec3 p) {
   precise vec3 product = (across.w * dot3(across.xyz, p)) * across.xyz;
   return product;
 }
+
+void report_overrun(uint kernel) { atomicMax(solve.overrun, kernel); }
+#include "compute/bounded.glsl"

@@ -15,8 +15,9 @@ vec4 apply(uint i) {
   precise vec3 p = direction(i);
   precise vec3 v = trial[i].xyz;
   precise vec3 product = particle.velocity.w * p;
-  uint end = incident_start[i + 1u];
-  for (uint n = incident_start[i]; n < end; ++n) {
+  uint first = incident_start[i];
+  uint end = first + bounded(incident_start[i + 1u] - first, KERNEL_IMPLICIT_APPLY);
+  for (uint n = first; n < end; ++n) {
     uint word = incident[n], j = neighbour_of(word);
     precise vec3 dv = v - trial[j].xyz;
     precise vec3 e = (particle.position.xyz - state(j).position.xyz) + time_step * dv;

@@ -12,8 +12,9 @@
 vec3 held_contact_force(uint i, Particle p) {
   if (contact_model == CONTACT_COULOMB || p.position.w == 0.0) return vec3(0.0);
   precise vec3 f = p.velocity.w * gravity.xyz;
-  uint end = incident_start[i + 1u];
-  for (uint n = incident_start[i]; n < end; ++n) {
+  uint first = incident_start[i];
+  uint end = first + bounded(incident_start[i + 1u] - first, KERNEL_IMPLICIT_BEGIN);
+  for (uint n = first; n < end; ++n) {
     uint word = incident[n];
     Particle other = state(neighbour_of(word));
     f += spring_force(class_of(word), p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;

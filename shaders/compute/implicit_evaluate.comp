@@ -45,8 +45,9 @@ vec4 evaluate(uint i) {
   precise vec3 v = trial[i].xyz;
   precise vec3 f = p.velocity.w * gravity.xyz;
   DiagonalBlock block = block_of_mass(p.velocity.w);
-  uint end = incident_start[i + 1u];
-  for (uint n = incident_start[i]; n < end; ++n) {
+  uint first = incident_start[i];
+  uint end = first + bounded(incident_start[i + 1u] - first, KERNEL_IMPLICIT_EVALUATE);
+  for (uint n = first; n < end; ++n) {
     uint word = incident[n], j = neighbour_of(word);
     precise vec3 dv = v - trial[j].xyz;
     precise vec3 e = (p.position.xyz - state(j).position.xyz) + time_step * dv;

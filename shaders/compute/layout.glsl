@@ -25,8 +25,10 @@
 // Storage blocks of the ball kernels; particles are STATE_A and STATE_B: the step's start and its end.
 #define BINDING_BALLS 2         // Ball[BALL_SLOTS · balls]
 #define BINDING_BALL_BODIES 3   // BallBody[balls]
-#define BINDING_BALL_COUNTS 4   // uint[balls + particles]: acting or overlapping pairs of each body
-#define BINDING_BALL_GRID 5     // uint[2 · buckets + balls + particles]: heads of lists, then their links
+#define BINDING_BALL_ITEMS 3    // BallItem[], in every ball kernel but flight
+#define BINDING_BALL_TOUCHES 4  // BallTouches[balls + particles]
+#define BINDING_BALL_GRID 5     // uint[buckets + balls + balls · mark words]: heads of lists, their links, marks
+#define BINDING_BALL_WORK 7     // BallWork, then uint[]: the short lists of partners
 // Uniform blocks.
 #define BINDING_SIMULATION 0
 #define BINDING_PULL 1
@@ -72,6 +74,7 @@
 #define LOCATION_STAGE 1  // index of the stage within the step
 #define LOCATION_BALL_PARITY 2  // explicit methods: slot of the balls' state at the start of the step
 #define LOCATION_BALL_PHASE 3   // BALL_PHASE_…
+#define LOCATION_BALL_KIND 4    // KIND_… of the candidates that a dispatch looks at
 
 // Ball slots: two that take turns as start and end of a step, and one between phases.
 #define BALL_SLOTS 3u
@@ -84,6 +87,44 @@
 #define BALL_PHASES 3u
 
 #define NO_BODY 0xffffffffu
+
+#define KIND_BALL 0u
+#define KIND_PARTICLE 1u
+
+// Partners of one block of a sum, and candidates of one BallItem.
+#define PARTNER_BLOCK 256u
+// Words of 32 candidates in a BallItem.
+#define ITEM_WORDS 8u
+// Most ball partners of a body that are kept as a list; bodies with more of them are crowded.
+#define LIST_SIZE 32u
+#define CROWDED 0xffffffffu
+// Groups along x of the dispatches whose size the device decides: along y a dispatch may have 65,535.
+#define BALL_GROUPS_X 8u
+
+// Bounds of loops. Some drivers end the loops of an invocation silently after so many rounds in all (Mesa's llvmpipe
+// after 65,535, counted over the invocations that share a vector). So every loop whose length depends on the scene has
+// at most MAX_ROUNDS rounds, none is inside another, and no kernel has more than three, one after the other.
+// What would take more is reported (Control.overrun, Solve.overrun) and ends the run with an error.
+#ifndef MAX_ROUNDS
+#define MAX_ROUNDS 20000u
+#endif
+// Candidates that an invocation looks at before it calls its body crowded, which is slower and as right.
+#ifndef MAX_WALK
+#define MAX_WALK 16384u
+#endif
+
+// Kernels that report loops over MAX_ROUNDS; their names stand in src/gpu_solver/support.cpp.
+#define KERNEL_GATHER 1u
+#define KERNEL_SUM_SPRINGS 2u
+#define KERNEL_IMPLICIT_BEGIN 3u
+#define KERNEL_IMPLICIT_EVALUATE 4u
+#define KERNEL_IMPLICIT_APPLY 5u
+#define KERNEL_BALL_FIND 6u
+#define KERNEL_BALL_GATHER 7u
+#define KERNEL_BALL_PARTIALS 8u
+#define KERNEL_BALL_EXCHANGE 9u
+#define KERNEL_BALL_PARTICLES 10u
+#define KERNEL_COUNT 11u
 
 #define SHAPE_PLANE 0u
 #define SHAPE_SPHERE 1u
@@ -111,6 +152,43 @@ struct BallBody {
   float ball_inverse_mass;  // 1/m [1/kg]
   uint launch_step;         // first step it takes part in, counted since the state was loaded
   uint ball_padding;
+};
+
+// Whom a body touches in a step: balls in a list or, if it is crowded, in items; a ball's particles in items.
+struct BallTouches {
+  uint pairs[3];     // acting or overlapping pairs in each phase
+  uint listed;       // length of its list, or CROWDED
+  uint list;         // where it begins in the lists; crowded: its first item, of as many as there are blocks of balls
+  uint acting;       // bit i: entry i of the list acts in the phase of velocities
+  uint overlapping;  // bit i: entry i of the list overlaps
+  uint items;        // of a ball: its first item with particles, or NO_BODY
+};
+
+// 256 candidates in a row for one body: a bit for each.
+struct BallItem {
+  uint body;         // whose: ball, or balls + particle
+  uint kind;         // KIND_… of the candidates
+  uint first;        // first candidate, a multiple of PARTNER_BLOCK
+  uint total;        // how many items of this kind the body has, in a row
+  uint acting;       // set bits of each kind
+  uint overlapping;
+  uint item_padding0, item_padding1;
+  uint acts[8];      // nearer than ε; once velocities are known, those of them that act
+  uint overlaps[8];
+  vec4 linear;       // impulse or shift of the block of partners that begins here, if one does and is not the first
+  vec4 turning;
+};
+
+// What is taken of lists and items, and the dispatches over them.
+struct BallWork {
+  uint lists_used;     // words; may exceed the capacity: then the step is repeated with more
+  uint items_used;     // likewise
+  uint list_capacity;
+  uint item_capacity;
+  uint word_groups[3];    // over the words of all items
+  uint tally_groups[3];   // over these and the particles
+  uint item_groups[3];    // over items
+  uint work_padding0, work_padding1, work_padding2;
 };
 
 // One stage of an explicit method, see src/model/integrator.h.
@@ -151,7 +229,8 @@ struct Pull {
 struct Control {
   uint bad_step;      // first step that diverged, or NO_STEP: later steps write nothing
   uint bad_particle;  // 2 · lowest particle that diverged in it, + 1 if its numbers are finite (too fast)
-  uint padding0, padding1;
+  uint full_step;     // first step whose contacts found no room, or NO_STEP: it has to be repeated with more
+  uint overrun;       // KERNEL_… that had a loop of more than MAX_ROUNDS, or 0
 };
 
 // The state of implicit Euler's solve on the device, which decides by itself what the next dispatch does.
@@ -194,7 +273,8 @@ struct Solve {
   float forcing;      // η of the linear system under way
   uint on_ground;     // 1: the ground held a particle at the accepted iterate or at a trial since
   uint prescribing;   // 1: the round under way takes the prescribed part of δ to the right-hand side
-  uint solve_padding0, solve_padding1;
+  uint full;          // 1: the balls' contacts found no room; their part of the step has to be repeated with more
+  uint overrun;       // as in Control
 };
 
 #ifdef __cplusplus
@@ -233,8 +313,8 @@ layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
   uint bucket_mask;           // buckets of the grid − 1
   float ball_restitution;     // e of balls and particles
   float ball_friction;        // μ of balls and particles
-  float ball_cells_per_metre;      // cells of the grid of balls
-  float particle_cells_per_metre;  // cells of the grid of particles
+  float ball_cells_per_metre;  // of the grid
+  uint mark_shift;            // a mark stands for 2^mark_shift blocks of particles
   Stage stages[MAX_STAGES];
   SpringClass spring_classes[MAX_SPRING_CLASSES];
   Terrain terrains[MAX_TERRAINS];

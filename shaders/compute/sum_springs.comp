@@ -3,6 +3,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
+#include "compute/bounded.glsl"
 #include "compute/stage.glsl"
 
 layout(std430, binding = BINDING_INCIDENT_START) restrict readonly buffer IncidentStart { uint incident_start[]; };
@@ -14,8 +15,9 @@ void main() {
   if (i >= particle_count || halted()) return;
   Particle p = stage_state[i];
   precise vec3 f = p.velocity.w * gravity.xyz;
-  uint end = incident_start[i + 1u];
-  for (uint n = incident_start[i]; n < end; ++n) {
+  uint first = incident_start[i];
+  uint end = first + bounded(incident_start[i + 1u] - first, KERNEL_SUM_SPRINGS);
+  for (uint n = first; n < end; ++n) {
     uint word = incident[n];
     precise vec3 on_a = spring_forces[word >> 1u].xyz;
     f += (word & 1u) == 0u ? on_a : -on_a;

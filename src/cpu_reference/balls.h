@@ -3,15 +3,19 @@
 // particles, and last the position phase.
 //
 // A phase is Jacobi's: all of its pairs are computed from the velocities the phase before left, with every
-// body's mass shared among its acting pairs; a body's impulses are summed in ascending partner index. So many
-// simultaneous contacts keep momentum and never raise the energy: the outcome of a body is the mean of what
-// its parts would do, each in a collision of its own.
+// body's mass shared among its acting pairs; a body's impulses are summed in ascending partner index, in
+// blocks of 256 (cpu_reference/reductions.h). So many simultaneous contacts keep momentum and never raise the
+// energy: the outcome of a body is the mean of what its parts would do, each in a collision of its own.
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "cpu_reference/ball_contact.h"
+#include "cpu_reference/ball_search.h"
 #include "cpu_reference/integrators.h"
+#include "cpu_reference/reductions.h"
 
 namespace aspic::reference {
 
@@ -51,13 +55,18 @@ class Balls {
   }
 
  private:
-  /// Two bodies closer than ε, as `own` sees it.
-  struct Touch {
-    std::uint32_t own, other;
-    Gap<T> gap;
-    bool acting = false;
-  };
   using Counts = std::vector<std::uint32_t>;
+  /// What balls receive in a phase.
+  using Impulses = std::vector<std::pair<std::uint32_t, Impulse<T>>>;
+  /// Impulses on one body, summed up.
+  struct ImpulseSum {
+    PartnerSum<Vector<T>> linear{Vector<T>::Zero()}, turning{Vector<T>::Zero()};
+    void add(const Impulse<T>& impulse) {
+      linear.add(impulse.linear);
+      turning.add(impulse.turning);
+    }
+    Impulse<T> total() { return {linear.total(), turning.total()}; }
+  };
 
   /// The forces of one step from `start`: gravity, then what every terrain adds.
   struct Flight {
@@ -112,10 +121,37 @@ class Balls {
   }
 
   void find_touches(std::uint64_t step, const BallPhase<T>& balls, const Phase<T>& particles);
+  void find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls, std::uint32_t own);
+  void find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls, const Phase<T>& particles,
+                     std::uint32_t own);
+  void list_particles_of_balls();
   void exchange_among_balls(const BallPhase<T>& start, BallPhase<T>& balls);
   void exchange_with_particles(const BallPhase<T>& start, BallPhase<T>& balls, const Phase<T>& particle_start,
                                Phase<T>& particles);
+  void receive(BallPhase<T>& balls, const Impulses& impulses) const;
   void separate(BallPhase<T>& balls, Phase<T>& particles);
+
+  /// Of two balls, of a particle and a ball, and of a ball and a particle: as the first of them sees it.
+  Gap<T> between_balls(const BallPhase<T>& balls, std::uint32_t own, std::uint32_t other) const {
+    const Vector<T> e = balls.x.col(own) - balls.x.col(other);
+    return pair_gap<T>(e, body(own).radius + body(other).radius, own < other);
+  }
+  Gap<T> from_particle(const BallPhase<T>& balls, const Phase<T>& particles, std::uint32_t p,
+                       std::uint32_t b) const {
+    const Vector<T> e = particles.x.col(p) - balls.x.col(b);
+    return pair_gap<T>(e, body(b).radius, true);
+  }
+  Gap<T> from_ball(const BallPhase<T>& balls, const Phase<T>& particles, std::uint32_t b,
+                   std::uint32_t p) const {
+    const Vector<T> e = balls.x.col(b) - particles.x.col(p);
+    return pair_gap<T>(e, body(b).radius, false);
+  }
+
+  /// False only for what is further apart than ε, far beyond rounding.
+  bool may_touch(const Vector<T>& e, T reach) const {
+    const T limit = T(1.01) * (reach + rules_.contact.epsilon);
+    return !(dot3<T>(e, e) > limit * limit);
+  }
 
   const BallBody<T>& body(std::uint32_t b) const { return bodies_[b]; }
   static T number(std::uint32_t count) { return static_cast<T>(count); }
@@ -127,165 +163,228 @@ class Balls {
   std::vector<BallBody<T>> bodies_;
   std::vector<Ground<T>> grounds_;
   std::vector<T> particle_weight_;  // w of every particle
-  // Of the step under way, each sorted by (own, other).
-  std::vector<Touch> ball_ball_, ball_particle_, particle_ball_;
+  // Of the step under way.
+  Contacts ball_ball_, ball_particle_, particle_ball_;
+  std::vector<std::uint32_t> present_;  // balls that have been launched
+  std::vector<std::uint32_t> near_;     // partners of one body
 };
 
-/// All pairs closer than ε. Balls sorted along x leave few candidates; the test itself is that of all pairs.
+/// All pairs closer than ε, from candidates that a grid offers: the test itself is that of all pairs.
 template <class T>
 void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const Phase<T>& particles) {
-  std::vector<std::pair<T, std::uint32_t>> along_x;
+  present_.clear();
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
-    if (model_.balls[b].launched(step) && balls.x.col(b).allFinite()) along_x.push_back({balls.x(0, b), b});
+    if (model_.balls[b].launched(step) && balls.x.col(b).allFinite()) present_.push_back(b);
   }
-  std::sort(along_x.begin(), along_x.end());
-  // A relative margin far above rounding keeps every pair that the exact test would take.
-  const auto candidates = [&](T x, double reach, const auto& take) {
-    const double from = static_cast<double>(x) - reach * 1.001, to = static_cast<double>(x) + reach * 1.001;
-    auto at = std::lower_bound(along_x.begin(), along_x.end(), from, [](const auto& entry, double limit) {
-      return static_cast<double>(entry.first) < limit;
-    });
-    for (; at != along_x.end() && static_cast<double>(at->first) <= to; ++at) take(at->second);
-  };
-  const double margin = static_cast<double>(rules_.contact.epsilon);
-
+  const BallSearch<T> search(balls.x, present_, largest_radius_ + static_cast<double>(rules_.contact.epsilon));
   ball_ball_.clear();
-  for (const auto& [x, own] : along_x) {
-    candidates(x, 2.0 * largest_radius_ + margin, [&, own = own](std::uint32_t other) {
-      if (own == other) return;
-      const Vector<T> e = balls.x.col(own) - balls.x.col(other);
-      const Gap<T> g = pair_gap<T>(e, body(own).radius + body(other).radius, own < other);
-      if (g.d < rules_.contact.epsilon) ball_ball_.push_back({own, other, g});
-    });
+  auto next = present_.begin();
+  for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
+    if (next != present_.end() && *next == b) {
+      find_balls_of(search, balls, b);
+      ++next;
+    }
+    ball_ball_.end_body();
   }
-  ball_particle_.clear();
   particle_ball_.clear();
   for (std::uint32_t p = 0; p < particle_weight_.size(); ++p) {
-    if (along_x.empty() || !particles.x.col(p).allFinite()) continue;
-    candidates(particles.x(0, p), largest_radius_ + margin, [&](std::uint32_t b) {
-      const Vector<T> e = particles.x.col(p) - balls.x.col(b), back = balls.x.col(b) - particles.x.col(p);
-      const Gap<T> g = pair_gap<T>(e, body(b).radius, true);
-      if (!(g.d < rules_.contact.epsilon)) return;
-      particle_ball_.push_back({p, b, g});
-      ball_particle_.push_back({b, p, pair_gap<T>(back, body(b).radius, false)});
-    });
+    if (!search.empty() && particles.x.col(p).allFinite()) find_balls_of(search, balls, particles, p);
+    particle_ball_.end_body();
   }
-  for (std::vector<Touch>* list : {&ball_ball_, &ball_particle_, &particle_ball_}) {
-    std::sort(list->begin(), list->end(), [](const Touch& a, const Touch& b) {
-      return a.own != b.own ? a.own < b.own : a.other < b.other;
-    });
+  list_particles_of_balls();
+}
+
+template <class T>
+void Balls<T>::find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls, std::uint32_t own) {
+  near_.clear();
+  search.candidates(balls.x.col(own), true, [&](std::uint32_t other) {
+    if (own == other ||
+        !may_touch(balls.x.col(own) - balls.x.col(other), body(own).radius + body(other).radius))
+      return;
+    if (between_balls(balls, own, other).d < rules_.contact.epsilon) near_.push_back(other);
+  });
+  if (!std::is_sorted(near_.begin(), near_.end())) std::sort(near_.begin(), near_.end());
+  for (const std::uint32_t other : near_) {
+    ball_ball_.add(other, between_balls(balls, own, other).d < T(0));
+  }
+}
+
+template <class T>
+void Balls<T>::find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls,
+                             const Phase<T>& particles, std::uint32_t own) {
+  near_.clear();
+  search.candidates(particles.x.col(own), false, [&](std::uint32_t b) {
+    if (!may_touch(particles.x.col(own) - balls.x.col(b), body(b).radius)) return;
+    if (from_particle(balls, particles, own, b).d < rules_.contact.epsilon) near_.push_back(b);
+  });
+  if (!std::is_sorted(near_.begin(), near_.end())) std::sort(near_.begin(), near_.end());
+  for (const std::uint32_t b : near_) {
+    particle_ball_.add(b, from_particle(balls, particles, own, b).d < T(0));
+  }
+}
+
+/// The particles' pairs once more, ball by ball: particles come in ascending index, so they do in each ball's
+/// list.
+template <class T>
+void Balls<T>::list_particles_of_balls() {
+  std::vector<std::size_t>& start = ball_particle_.start;
+  start.assign(bodies_.size() + 1, 0);
+  for (const std::uint32_t b : particle_ball_.other) ++start[b + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<std::size_t> next(start.begin(), start.end() - 1);
+  ball_particle_.other.resize(particle_ball_.other.size());
+  ball_particle_.overlap.resize(particle_ball_.other.size());
+  for (std::uint32_t p = 0; p < particle_weight_.size(); ++p) {
+    for (std::size_t k = particle_ball_.start[p]; k < particle_ball_.start[p + 1]; ++k) {
+      const std::size_t place = next[particle_ball_.other[k]]++;
+      ball_particle_.other[place] = p;
+      ball_particle_.overlap[place] = particle_ball_.overlap[k];
+    }
+  }
+}
+
+namespace detail {
+
+/// Marks the pairs that act, and counts each body's.
+template <class Acts>
+std::vector<std::uint32_t> tally(Contacts& contacts, const Acts& acts) {
+  std::vector<std::uint32_t> c(contacts.start.size() - 1, 0);
+  contacts.acting.resize(contacts.other.size());
+  for (std::uint32_t own = 0; own < c.size(); ++own) {
+    for (std::size_t k = contacts.start[own]; k < contacts.start[own + 1]; ++k) {
+      contacts.acting[k] = acts(own, contacts.other[k]);
+      c[own] += contacts.acting[k];
+    }
+  }
+  return c;
+}
+
+/// Adds each body's pairs that overlap to its count.
+inline void tally_overlaps(const Contacts& contacts, std::vector<std::uint32_t>& c) {
+  for (std::size_t own = 0; own < c.size(); ++own) {
+    for (std::size_t k = contacts.start[own]; k < contacts.start[own + 1]; ++k) c[own] += contacts.overlap[k];
+  }
+}
+
+/// Calls take(other) for the partners of a body that `flags` marks.
+template <class Take>
+void for_each(const Contacts& contacts, const std::vector<std::uint8_t>& flags, std::uint32_t own,
+              const Take& take) {
+  for (std::size_t k = contacts.start[own]; k < contacts.start[own + 1]; ++k) {
+    if (flags[k] != 0) take(contacts.other[k]);
+  }
+}
+
+}  // namespace detail
+
+template <class T>
+void Balls<T>::receive(BallPhase<T>& balls, const Impulses& impulses) const {
+  for (const auto& [b, impulse] : impulses) {
+    balls.v.col(b) += body(b).inverse_mass * impulse.linear;
+    if (rules_.spin) balls.omega.col(b) += body(b).turn * impulse.turning;
   }
 }
 
 template <class T>
 void Balls<T>::exchange_among_balls(const BallPhase<T>& start, BallPhase<T>& balls) {
-  Counts c(bodies_.size(), 0);
-  for (Touch& touch : ball_ball_) {
-    const Vector<T> dv = balls.v.col(touch.own) - balls.v.col(touch.other);
-    touch.acting = dot3<T>(dv, touch.gap.n) < T(0);
-    c[touch.own] += touch.acting;
+  if (ball_ball_.other.empty()) return;
+  const Counts c = detail::tally(ball_ball_, [&](std::uint32_t i, std::uint32_t j) {
+    const Vector<T> dv = balls.v.col(i) - balls.v.col(j);
+    return dot3<T>(dv, between_balls(balls, i, j).n) < T(0);
+  });
+  Impulses impulses;
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    if (c[i] == 0) continue;
+    ImpulseSum sum;
+    detail::for_each(ball_ball_, ball_ball_.acting, i, [&](std::uint32_t j) {
+      const Vector<T> dv = balls.v.col(i) - balls.v.col(j), dv0 = start.v.col(i) - start.v.col(j);
+      const Vector<T> rolling = body(i).radius * balls.omega.col(i) + body(j).radius * balls.omega.col(j);
+      const T weight = number(c[i]) * body(i).inverse_mass + number(c[j]) * body(j).inverse_mass;
+      const T slip_weight = weight + (number(c[i]) * body(i).slip + number(c[j]) * body(j).slip);
+      sum.add(impact<T>(rules_, between_balls(balls, i, j).n, dv, dv0, rolling, weight, slip_weight));
+    });
+    impulses.push_back({i, sum.total()});
   }
-  std::vector<Impulse<T>> sum(bodies_.size(), {Vector<T>::Zero(), Vector<T>::Zero()});
-  for (const Touch& touch : ball_ball_) {
-    if (!touch.acting) continue;
-    const std::uint32_t i = touch.own, j = touch.other;
-    const Vector<T> dv = balls.v.col(i) - balls.v.col(j), dv0 = start.v.col(i) - start.v.col(j);
-    const Vector<T> rolling = body(i).radius * balls.omega.col(i) + body(j).radius * balls.omega.col(j);
-    const T weight = number(c[i]) * body(i).inverse_mass + number(c[j]) * body(j).inverse_mass;
-    const T slip_weight = weight + (number(c[i]) * body(i).slip + number(c[j]) * body(j).slip);
-    const Impulse<T> p = impact<T>(rules_, touch.gap.n, dv, dv0, rolling, weight, slip_weight);
-    sum[i].linear += p.linear;
-    sum[i].turning += p.turning;
-  }
-  for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
-    if (c[b] == 0) continue;
-    balls.v.col(b) += body(b).inverse_mass * sum[b].linear;
-    if (rules_.spin) balls.omega.col(b) += body(b).turn * sum[b].turning;
-  }
+  receive(balls, impulses);
 }
 
 template <class T>
 void Balls<T>::exchange_with_particles(const BallPhase<T>& start, BallPhase<T>& balls,
                                        const Phase<T>& particle_start, Phase<T>& particles) {
-  Counts c_ball(bodies_.size(), 0), c_particle(particle_weight_.size(), 0);
-  for (Touch& touch : ball_particle_) {
-    const Vector<T> dv = balls.v.col(touch.own) - particles.v.col(touch.other);
-    touch.acting = dot3<T>(dv, touch.gap.n) < T(0);
-    c_ball[touch.own] += touch.acting;
-  }
-  for (Touch& touch : particle_ball_) {
-    const Vector<T> dv = particles.v.col(touch.own) - balls.v.col(touch.other);
-    touch.acting = dot3<T>(dv, touch.gap.n) < T(0);
-    c_particle[touch.own] += touch.acting;
-  }
-  const auto received = [&](const Touch& touch, std::uint32_t b, std::uint32_t p, const Vector<T>& dv,
+  if (particle_ball_.other.empty()) return;
+  const Counts c_ball = detail::tally(ball_particle_, [&](std::uint32_t b, std::uint32_t p) {
+    const Vector<T> dv = balls.v.col(b) - particles.v.col(p);
+    return dot3<T>(dv, from_ball(balls, particles, b, p).n) < T(0);
+  });
+  const Counts c_particle = detail::tally(particle_ball_, [&](std::uint32_t p, std::uint32_t b) {
+    const Vector<T> dv = particles.v.col(p) - balls.v.col(b);
+    return dot3<T>(dv, from_particle(balls, particles, p, b).n) < T(0);
+  });
+  const auto received = [&](const Vector<T>& n, std::uint32_t b, std::uint32_t p, const Vector<T>& dv,
                             const Vector<T>& dv0) {
     const Vector<T> rolling = body(b).radius * balls.omega.col(b);
     const T weight = number(c_ball[b]) * body(b).inverse_mass + number(c_particle[p]) * particle_weight_[p];
     const T slip_weight = weight + number(c_ball[b]) * body(b).slip;
-    return impact<T>(rules_, touch.gap.n, dv, dv0, rolling, weight, slip_weight);
+    return impact<T>(rules_, n, dv, dv0, rolling, weight, slip_weight);
   };
-  std::vector<Impulse<T>> on_ball(bodies_.size(), {Vector<T>::Zero(), Vector<T>::Zero()});
-  std::vector<Vector<T>> on_particle(particle_weight_.size(), Vector<T>::Zero());
-  for (const Touch& touch : ball_particle_) {
-    if (!touch.acting) continue;
-    const std::uint32_t b = touch.own, p = touch.other;
-    const Impulse<T> got =
-        received(touch, b, p, balls.v.col(b) - particles.v.col(p), start.v.col(b) - particle_start.v.col(p));
-    on_ball[b].linear += got.linear;
-    on_ball[b].turning += got.turning;
-  }
-  for (const Touch& touch : particle_ball_) {
-    if (!touch.acting) continue;
-    const std::uint32_t p = touch.own, b = touch.other;
-    on_particle[p] +=
-        received(touch, b, p, particles.v.col(p) - balls.v.col(b), particle_start.v.col(p) - start.v.col(b))
-            .linear;
-  }
+  Impulses on_ball;
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     if (c_ball[b] == 0) continue;
-    balls.v.col(b) += body(b).inverse_mass * on_ball[b].linear;
-    if (rules_.spin) balls.omega.col(b) += body(b).turn * on_ball[b].turning;
+    ImpulseSum sum;
+    detail::for_each(ball_particle_, ball_particle_.acting, b, [&](std::uint32_t p) {
+      sum.add(received(from_ball(balls, particles, b, p).n, b, p, balls.v.col(b) - particles.v.col(p),
+                       start.v.col(b) - particle_start.v.col(p)));
+    });
+    on_ball.push_back({b, sum.total()});
   }
+  std::vector<std::pair<std::uint32_t, Vector<T>>> on_particle;
   for (std::uint32_t p = 0; p < particle_weight_.size(); ++p) {
     if (c_particle[p] == 0 || particle_weight_[p] == T(0)) continue;
-    particles.v.col(p) += particle_weight_[p] * on_particle[p];
+    PartnerSum<Vector<T>> sum(Vector<T>::Zero());
+    detail::for_each(particle_ball_, particle_ball_.acting, p, [&](std::uint32_t b) {
+      sum.add(received(from_particle(balls, particles, p, b).n, b, p, particles.v.col(p) - balls.v.col(b),
+                       particle_start.v.col(p) - start.v.col(b))
+                  .linear);
+    });
+    on_particle.push_back({p, sum.total()});
   }
+  receive(balls, on_ball);
+  for (const auto& [p, sum] : on_particle) particles.v.col(p) += particle_weight_[p] * sum;
 }
 
 /// The position phase, over all overlapping pairs at once: a ball's balls come before its particles.
 template <class T>
 void Balls<T>::separate(BallPhase<T>& balls, Phase<T>& particles) {
-  const auto overlaps = [](const Touch& touch) { return touch.gap.d < T(0); };
+  if (ball_ball_.other.empty() && particle_ball_.other.empty()) return;
   Counts c_ball(bodies_.size(), 0), c_particle(particle_weight_.size(), 0);
-  for (const Touch& touch : ball_ball_) c_ball[touch.own] += overlaps(touch);
-  for (const Touch& touch : ball_particle_) c_ball[touch.own] += overlaps(touch);
-  for (const Touch& touch : particle_ball_) c_particle[touch.own] += overlaps(touch);
+  detail::tally_overlaps(ball_ball_, c_ball);
+  detail::tally_overlaps(ball_particle_, c_ball);
+  detail::tally_overlaps(particle_ball_, c_particle);
   const auto ball_weight = [&](std::uint32_t b) { return number(c_ball[b]) * body(b).inverse_mass; };
   const auto particle_weight = [&](std::uint32_t p) { return number(c_particle[p]) * particle_weight_[p]; };
-  const auto push = [](const Touch& touch, T weight) {
-    return Vector<T>((-touch.gap.d / weight) * touch.gap.n);
-  };
-  std::vector<Vector<T>> on_ball(bodies_.size(), Vector<T>::Zero()),
-      on_particle(particle_weight_.size(), Vector<T>::Zero());
-  for (const Touch& touch : ball_ball_) {
-    if (overlaps(touch)) on_ball[touch.own] += push(touch, ball_weight(touch.own) + ball_weight(touch.other));
-  }
-  for (const Touch& touch : ball_particle_) {
-    if (overlaps(touch))
-      on_ball[touch.own] += push(touch, ball_weight(touch.own) + particle_weight(touch.other));
-  }
-  for (const Touch& touch : particle_ball_) {
-    if (overlaps(touch))
-      on_particle[touch.own] += push(touch, ball_weight(touch.other) + particle_weight(touch.own));
-  }
+  const auto push = [](const Gap<T>& gap, T weight) { return Vector<T>((-gap.d / weight) * gap.n); };
+  std::vector<std::pair<std::uint32_t, Vector<T>>> on_ball, on_particle;
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
-    if (c_ball[b] != 0) balls.x.col(b) += body(b).inverse_mass * on_ball[b];
+    if (c_ball[b] == 0) continue;
+    PartnerSum<Vector<T>> sum(Vector<T>::Zero());
+    detail::for_each(ball_ball_, ball_ball_.overlap, b, [&](std::uint32_t other) {
+      sum.add(push(between_balls(balls, b, other), ball_weight(b) + ball_weight(other)));
+    });
+    detail::for_each(ball_particle_, ball_particle_.overlap, b, [&](std::uint32_t p) {
+      sum.add(push(from_ball(balls, particles, b, p), ball_weight(b) + particle_weight(p)));
+    });
+    on_ball.push_back({b, sum.total()});
   }
   for (std::uint32_t p = 0; p < particle_weight_.size(); ++p) {
-    if (c_particle[p] != 0 && particle_weight_[p] != T(0))
-      particles.x.col(p) += particle_weight_[p] * on_particle[p];
+    if (c_particle[p] == 0 || particle_weight_[p] == T(0)) continue;
+    PartnerSum<Vector<T>> sum(Vector<T>::Zero());
+    detail::for_each(particle_ball_, particle_ball_.overlap, p, [&](std::uint32_t b) {
+      sum.add(push(from_particle(balls, particles, p, b), ball_weight(b) + particle_weight(p)));
+    });
+    on_particle.push_back({p, sum.total()});
   }
+  for (const auto& [b, sum] : on_ball) balls.x.col(b) += body(b).inverse_mass * sum;
+  for (const auto& [p, sum] : on_particle) particles.x.col(p) += particle_weight_[p] * sum;
 }
 
 }  // namespace aspic::reference

@@ -40,4 +40,32 @@ T tree_max(std::vector<T> values) {
   return tree_reduce<T>(std::move(values), [](T a, T b) { return b > a ? b : a; });
 }
 
+/// The sum over a body's partners: blocks of 256, one partner after the other, each from zero; then the
+/// blocks' sums, one after the other from the first. So up to 256 partners make a plain sum.
+template <class V>
+class PartnerSum {
+ public:
+  explicit PartnerSum(const V& zero) : zero_(zero), block_(zero), total_(zero) {}
+
+  void add(const V& value) {
+    block_ += value;
+    if (++in_block_ == reduction_block) end_block();
+  }
+  V total() {
+    if (in_block_ > 0) end_block();
+    return total_;
+  }
+
+ private:
+  void end_block() {
+    total_ = first_ ? block_ : V(total_ + block_);
+    first_ = false;
+    block_ = zero_;
+    in_block_ = 0;
+  }
+  V zero_, block_, total_;
+  std::size_t in_block_ = 0;
+  bool first_ = true;
+};
+
 }  // namespace aspic::reference

@@ -1,5 +1,7 @@
 #include "gpu_solver/ball_passes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -10,10 +12,37 @@ using gl::Binding;
 using gl::Buffer;
 using gl::Reader;
 
-constexpr std::array kernel_paths = {"compute/ball_fly.comp",      "compute/ball_clear.comp",
-                                     "compute/ball_insert.comp",   "compute/ball_count.comp",
-                                     "compute/ball_exchange.comp", "compute/ball_particles.comp",
-                                     "compute/ball_end.comp"};
+constexpr std::array kernel_paths = {
+    "compute/ball_fly.comp",       "compute/ball_clear.comp",    "compute/ball_insert.comp",
+    "compute/ball_find.comp",      "compute/ball_gather.comp",   "compute/ball_near.comp",
+    "compute/ball_tally.comp",     "compute/ball_partials.comp", "compute/ball_exchange.comp",
+    "compute/ball_particles.comp", "compute/ball_end.comp"};
+
+/// Words of marks that all balls may have: 16 MiB.
+constexpr std::uint64_t most_mark_words = std::uint64_t{1} << 22;
+
+std::uint64_t blocks_of(std::uint64_t count) {
+  return (count + PARTNER_BLOCK - 1) / PARTNER_BLOCK;
+}
+
+/// Words of one ball's marks, as mark_words() in ball_grid.glsl.
+std::uint64_t mark_words(std::uint32_t particles, std::uint32_t shift) {
+  const std::uint64_t marks = (blocks_of(particles) + (std::uint64_t{1} << shift) - 1) >> shift;
+  return (marks + 31) / 32;
+}
+
+std::uint64_t grid_bytes(std::uint32_t balls, std::uint32_t particles) {
+  return 4 * (std::uint64_t{grid_buckets(balls)} + balls +
+              balls * mark_words(particles, mark_shift(balls, particles)));
+}
+
+/// Room at first: a heap's contacts, and a few blocks of particles for each ball.
+std::uint64_t first_list_words(std::uint64_t balls) {
+  return 4096 + 8 * balls;
+}
+std::uint64_t first_items(std::uint64_t balls) {
+  return 64 + 4 * balls;
+}
 
 layout::vec4 packed(const Vec3& v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
@@ -25,12 +54,18 @@ Vec3 unpacked(const layout::vec4& v) {
 
 }  // namespace
 
-std::uint32_t grid_buckets(std::uint32_t balls, std::uint32_t particles) {
-  return std::bit_ceil(2 * std::max({balls, particles, 32u}));
+std::uint32_t grid_buckets(std::uint32_t balls) {
+  return std::bit_ceil(2 * std::max(balls, 32u));
 }
 
-bool grid_pays(std::uint32_t balls, std::uint32_t particles) {
-  return std::uint64_t{balls} * (std::uint64_t{balls} + particles) >= 40000;
+bool grid_pays(std::uint32_t balls) {
+  return balls > 64;
+}
+
+std::uint32_t mark_shift(std::uint32_t balls, std::uint32_t particles) {
+  std::uint32_t shift = 0;
+  while (shift < 24 && balls * mark_words(particles, shift) > most_mark_words) ++shift;
+  return shift;
 }
 
 void fill_balls(layout::Simulation& block, const Model& model) {
@@ -38,62 +73,152 @@ void fill_balls(layout::Simulation& block, const Model& model) {
   block.ball_spin = model.contact.spin ? 1u : 0u;
   block.ball_restitution = static_cast<float>(model.contact.ball_restitution);
   block.ball_friction = static_cast<float>(model.contact.ball_friction);
-  block.bucket_mask = grid_buckets(model.ball_count(), model.particle_count()) - 1;
+  block.bucket_mask = grid_buckets(model.ball_count()) - 1;
+  block.mark_shift = mark_shift(model.ball_count(), model.particle_count());
   double radius = 0.0;
   for (const Ball& ball : model.balls) radius = std::max(radius, ball.radius);
-  // A quarter more than the reach, so that neighbours are never two cells apart, rounding included.
-  block.ball_cells_per_metre = static_cast<float>(1.0 / (1.25 * (2.0 * radius + model.contact.epsilon)));
-  block.particle_cells_per_metre = static_cast<float>(1.0 / (1.25 * (radius + model.contact.epsilon)));
+  // A ball's reach to another, and twice its reach to a particle, and a quarter more, so that neighbours are
+  // never two cells apart, or one and a half, rounding included.
+  block.ball_cells_per_metre = static_cast<float>(1.0 / (2.5 * (radius + model.contact.epsilon)));
 }
 
 std::uint64_t ball_bytes(const ModelCounts& counts) {
   if (counts.balls == 0) return 0;
   const auto balls = static_cast<std::uint32_t>(counts.balls),
              particles = static_cast<std::uint32_t>(counts.particles);
-  const std::uint64_t grid = grid_pays(balls, particles) ? 2 * std::uint64_t{grid_buckets(balls, particles)} +
-                                                               counts.balls + counts.particles
-                                                         : 0;
   return counts.balls * (BALL_SLOTS * sizeof(layout::Ball) + sizeof(layout::BallBody)) +
-         4 * (counts.balls + counts.particles + grid);
+         (counts.balls + counts.particles) * sizeof(layout::BallTouches) + grid_bytes(balls, particles) +
+         sizeof(layout::BallWork) + 4 * first_list_words(counts.balls) +
+         first_items(counts.balls) * sizeof(layout::BallItem);
 }
 
 std::vector<std::string> BallPasses::pass_names() {
-  return {"balls: flight and terrain", "balls: empty the grid",    "balls: fill the grid",
-          "balls: count contacts",     "balls: impulses on balls", "balls: impulses on particles",
+  return {"balls: flight and terrain",
+          "balls: empty grid and marks",
+          "balls: fill the grid",
+          "balls: find contacts",
+          "balls: find blocks of particles",
+          "balls: look into blocks",
+          "balls: count contacts",
+          "balls: sum blocks",
+          "balls: impulses on balls",
+          "balls: impulses on particles",
           "balls: end of the step"};
 }
 
-Status BallPasses::build(gl::Context& context, const Model& model, const gl::ShaderLibrary& library,
-                         const KernelOptions& kernels, const Surroundings& surroundings, BallSearch search) {
-  model_ = &model;
-  count_ = model.ball_count();
-  particle_count_ = model.particle_count();
-  if (!any()) return {};
-  implicit_ = surroundings.implicit;
-  grid_ = search == BallSearch::automatic ? grid_pays(count_, particle_count_) : search == BallSearch::grid;
-  buckets_ = grid_buckets(count_, particle_count_);
+/// Which kernels the scene needs. Only with more than LIST_SIZE other balls can a body be crowded.
+bool BallPasses::wanted(Kernel kernel) const {
+  const bool crowds = count_ > LIST_SIZE, with_particles = particle_count_ > 0;
+  switch (kernel) {
+    case insert:
+      return grid_;
+    case gather:
+    case tally:
+    case particles:
+      return with_particles;
+    case near:
+      return crowds || with_particles;
+    case partials:
+      return std::uint64_t{count_} + particle_count_ > PARTNER_BLOCK;
+    case end_implicit:
+      return implicit_;
+    default:
+      return true;
+  }
+}
+
+Status BallPasses::build_buffers(gl::Context& context) {
   const std::uint64_t bodies = std::uint64_t{count_} + particle_count_;
   ASPIC_ASSIGN_OR_RETURN(
       balls_, Buffer::create(context, "balls", BALL_SLOTS * std::uint64_t{count_} * sizeof(layout::Ball)));
   ASPIC_ASSIGN_OR_RETURN(bodies_,
                          Buffer::create(context, "ball constants", count_ * sizeof(layout::BallBody)));
-  ASPIC_ASSIGN_OR_RETURN(counts_, Buffer::create(context, "ball contacts", 4 * bodies));
-  ASPIC_ASSIGN_OR_RETURN(
-      lists_, Buffer::create(context, "ball grid", grid_ ? 4 * (2 * std::uint64_t{buckets_} + bodies) : 0));
+  ASPIC_ASSIGN_OR_RETURN(touches_,
+                         Buffer::create(context, "ball contacts", bodies * sizeof(layout::BallTouches)));
+  ASPIC_ASSIGN_OR_RETURN(grid_words_,
+                         Buffer::create(context, "ball grid", grid_bytes(count_, particle_count_)));
+  if (const Status made = allot(first_list_words(count_), first_items(count_)); !made) return made;
+  first_bytes_ = work_.bytes() + items_.bytes();
+  return {};
+}
+
+/// Gives the lists and the items this much room, where they have less. What they held is gone.
+Status BallPasses::allot(std::uint64_t list_words, std::uint64_t items) {
+  if (list_words > list_capacity_) {
+    ASPIC_ASSIGN_OR_RETURN(work_, Buffer::create(*context_, "lists of ball contacts",
+                                                 sizeof(layout::BallWork) + 4 * list_words));
+    list_capacity_ = list_words;
+  }
+  if (items > item_capacity_) {
+    ASPIC_ASSIGN_OR_RETURN(
+        items_, Buffer::create(*context_, "blocks of ball contacts", items * sizeof(layout::BallItem)));
+    item_capacity_ = items;
+  }
+  return {};
+}
+
+void BallPasses::reset_work() {
+  layout::BallWork work{};
+  work.list_capacity = static_cast<std::uint32_t>(list_capacity_);
+  work.item_capacity = static_cast<std::uint32_t>(item_capacity_);
+  work_.upload_items(std::span<const layout::BallWork>(&work, 1));
+}
+
+Status BallPasses::grow() {
+  const layout::BallWork work = work_.download_items<layout::BallWork>(1).front();
+  if (const Status ok = check_device(*context_); !ok) return ok;
+  // A quarter more than was asked for, so that a crowd that grows is not in the way at every step; where
+  // nothing more was asked for, the passes stopped half-way.
+  const auto room = [](std::uint64_t held, std::uint64_t used) {
+    return used > held ? used + used / 4 : held;
+  };
+  std::uint64_t list_words = room(list_capacity_, work.lists_used),
+                items = room(item_capacity_, work.items_used);
+  if (list_words == list_capacity_ && items == item_capacity_) {
+    list_words *= 2;
+    items *= 2;
+  }
+  if (const Status made = allot(list_words, items); !made) {
+    Error error = made.error();
+    error.message = fmt::format(
+        "The balls of the scene touch in more places than the device {} has room for: {} words of lists and "
+        "{} "
+        "blocks of 256 candidates are wanted. {} Start fewer balls in one place, or use --backend reference.",
+        context_->info().renderer, list_words, items, error.message);
+    return error;
+  }
+  reset_work();
+  return {};
+}
+
+std::uint64_t BallPasses::grown_bytes() const {
+  return any() ? work_.bytes() + items_.bytes() - first_bytes_ : 0;
+}
+
+Status BallPasses::build(gl::Context& context, const Model& model, const gl::ShaderLibrary& library,
+                         const KernelOptions& kernels, const Surroundings& surroundings, BallSearch search) {
+  context_ = &context;
+  model_ = &model;
+  count_ = model.ball_count();
+  particle_count_ = model.particle_count();
+  if (!any()) return {};
+  implicit_ = surroundings.implicit;
+  grid_ = search == BallSearch::automatic ? grid_pays(count_) : search == BallSearch::grid;
+  if (const Status made = build_buffers(context); !made) return made;
 
   std::vector<gl::Define> defines = kernels.defines;
   if (implicit_) defines.push_back({"ASPIC_IMPLICIT", "1"});
   if (grid_) defines.push_back({"ASPIC_BALL_GRID", "1"});
-  const std::vector<Binding> bindings = {
-      {BINDING_SIMULATION, surroundings.simulation, gl::BufferKind::uniform},
-      {BINDING_BALLS, &balls_},
-      {BINDING_BALL_BODIES, &bodies_},
-      {BINDING_BALL_COUNTS, &counts_},
-      {BINDING_BALL_GRID, &lists_},
-      {implicit_ ? std::uint32_t{BINDING_SOLVE} : std::uint32_t{BINDING_CONTROL}, surroundings.control}};
   for (std::size_t k = 0; k < kernel_count; ++k) {
-    const bool wanted = k == end_implicit ? implicit_ : (k != clear && k != insert) || grid_;
-    if (!wanted) continue;
+    if (!wanted(static_cast<Kernel>(k))) continue;
+    const std::vector<Binding> bindings = {
+        {BINDING_SIMULATION, surroundings.simulation, gl::BufferKind::uniform},
+        {BINDING_BALLS, &balls_},
+        k == fly ? Binding{BINDING_BALL_BODIES, &bodies_} : Binding{BINDING_BALL_ITEMS, &items_},
+        {BINDING_BALL_TOUCHES, &touches_},
+        {BINDING_BALL_GRID, &grid_words_},
+        {BINDING_BALL_WORK, &work_},
+        {implicit_ ? std::uint32_t{BINDING_SOLVE} : std::uint32_t{BINDING_CONTROL}, surroundings.control}};
     ASPIC_ASSIGN_OR_RETURN(programs_[k], context.programs().compute(library, kernel_paths[k], defines));
     passes_[k].emplace(*programs_[k], bindings, Reader::compute_pass);
   }
@@ -112,6 +237,7 @@ void BallPasses::load(const State& state) {
     balls[b].start_velocity = packed(state.ball_velocity[b], ball.radius * ball.radius / inertia);
   }
   balls_.upload_items(std::span<const layout::Ball>(balls));
+  reset_work();
   set_base_step(state.step);
 }
 
@@ -127,19 +253,58 @@ void BallPasses::set_base_step(std::uint64_t base_step) {
   bodies_.upload_items(std::span<const layout::BallBody>(bodies));
 }
 
-void BallPasses::dispatch(Kernel kernel, std::uint32_t items, std::span<const Binding> states,
-                          std::uint32_t phase, Reader readers) const {
-  if (kernel == tally || kernel == exchange || kernel == particles) {
-    programs_[kernel]->set(LOCATION_BALL_PHASE, phase);
+void BallPasses::dispatch(const Queue& queue, Kernel kernel, std::uint32_t items, Reader readers) const {
+  if (!passes_[kernel] || items == 0) return;
+  passes_[kernel]->dispatch_for(items, queue.states, readers);
+  mark(kernel);
+}
+
+void BallPasses::dispatch_indirect(const Queue& queue, Kernel kernel, std::size_t arguments) const {
+  if (!passes_[kernel]) return;
+  passes_[kernel]->dispatch_indirect(work_, arguments, queue.states);
+  mark(kernel);
+}
+
+/// Whom each body touches, all of it before anyone receives anything: where room is missing, the step can be
+/// repeated.
+void BallPasses::find_touches(const Queue& queue) const {
+  const Reader next = Reader::compute_pass, counted = Reader::compute_pass | Reader::indirect;
+  const std::uint64_t marks = count_ * mark_words(particle_count_, mark_shift(count_, particle_count_));
+  dispatch(queue, clear, static_cast<std::uint32_t>(grid_buckets(count_) + marks));
+  dispatch(queue, insert, count_, next);
+  dispatch(queue, find, count_ + particle_count_, counted);
+  if (count_ > LIST_SIZE) {
+    programs_[near]->set(LOCATION_BALL_KIND, std::uint32_t{KIND_BALL});
+    dispatch_indirect(queue, near, offsetof(layout::BallWork, word_groups));
   }
-  passes_[kernel]->dispatch_for(items, states, readers);
-  if (profiler_ && items > 0) profiler_->mark(first_kind_ + kernel);
+  if (particle_count_ > 0) {
+    dispatch(queue, gather, count_, counted);
+    programs_[near]->set(LOCATION_BALL_KIND, std::uint32_t{KIND_PARTICLE});
+    dispatch_indirect(queue, near, offsetof(layout::BallWork, word_groups));
+  }
+}
+
+void BallPasses::queue_phase(const Queue& queue, std::uint32_t phase) const {
+  for (const Kernel kernel : {partials, exchange, particles}) {
+    if (programs_[kernel]) programs_[kernel]->set(LOCATION_BALL_PHASE, phase);
+  }
+  const Reader after = phase + 1 == BALL_PHASES && !implicit_ ? queue.last : Reader(Reader::compute_pass);
+  if (phase == BALL_PHASE_PARTICLES) {
+    dispatch_indirect(queue, tally, offsetof(layout::BallWork, tally_groups));
+  }
+  // Fewer balls make no sum of more than one block among themselves.
+  if (phase != BALL_PHASE_BALLS || count_ > PARTNER_BLOCK) {
+    dispatch_indirect(queue, partials, offsetof(layout::BallWork, item_groups));
+  }
+  dispatch(queue, exchange, count_, after);
+  if (phase != BALL_PHASE_BALLS) dispatch(queue, particles, particle_count_, after);
 }
 
 void BallPasses::queue(const Buffer& start, const Buffer& end, std::uint32_t step, std::uint32_t parity,
                        Reader last) const {
   if (!any()) return;
   const std::array<Binding, 2> states = {{{BINDING_STATE_A, &start}, {BINDING_STATE_B, &end}}};
+  const Queue queue = {states, last};
   if (!implicit_) {
     for (const auto& program : programs_) {
       if (!program) continue;
@@ -147,20 +312,10 @@ void BallPasses::queue(const Buffer& start, const Buffer& end, std::uint32_t ste
       program->set(LOCATION_BALL_PARITY, parity);
     }
   }
-  const Reader next = Reader::compute_pass;
-  const std::uint32_t bodies = count_ + particle_count_;
-  dispatch(fly, count_, states, 0, next);
-  if (grid_) {
-    dispatch(clear, 2 * buckets_, states, 0, next);
-    dispatch(insert, bodies, states, 0, next);
-  }
-  for (std::uint32_t phase = 0; phase < BALL_PHASES; ++phase) {
-    const bool ends = phase + 1 == BALL_PHASES && !implicit_;
-    dispatch(tally, bodies, states, phase, next);
-    dispatch(exchange, count_, states, phase, ends ? last : next);
-    if (phase != BALL_PHASE_BALLS) dispatch(particles, particle_count_, states, phase, ends ? last : next);
-  }
-  if (implicit_) dispatch(end_implicit, 1, states, 0, last);
+  dispatch(queue, fly, count_);
+  find_touches(queue);
+  for (std::uint32_t phase = 0; phase < BALL_PHASES; ++phase) queue_phase(queue, phase);
+  if (implicit_) dispatch(queue, end_implicit, 1, last);
 }
 
 void BallPasses::read(State& state, std::uint32_t slot) const {

@@ -17,17 +17,21 @@
 
 namespace aspic {
 
-/// Buckets of the grid's hash table for this many bodies of one kind: a power of two, about two for each.
-std::uint32_t grid_buckets(std::uint32_t balls, std::uint32_t particles);
+/// Buckets of the grid's hash table for this many balls: a power of two, about two for each.
+std::uint32_t grid_buckets(std::uint32_t balls);
 
-/// Whether `automatic` takes the grid: from 40,000 pairs of a ball with another body on. With fewer, trying
-/// all pairs costs less than keeping a grid.
-bool grid_pays(std::uint32_t balls, std::uint32_t particles);
+/// Whether `automatic` takes the grid: with fewer balls, trying all of them costs less than keeping a grid.
+bool grid_pays(std::uint32_t balls);
+
+/// A mark stands for 2^shift blocks of particles: the least shift with which all balls' marks take 16 MiB or
+/// less (shaders/compute/ball_grid.glsl).
+std::uint32_t mark_shift(std::uint32_t balls, std::uint32_t particles);
 
 /// Fills the balls' part of the constants.
 void fill_balls(layout::Simulation& block, const Model& model);
 
-/// Bytes of device memory the balls of a scene take.
+/// Bytes of device memory the balls of a scene take at first. Crowds take more, by what they need: 128 bytes
+/// for each 256 balls in the scene and each body that touches more than 32 balls.
 std::uint64_t ball_bytes(const ModelCounts& counts);
 
 class BallPasses {
@@ -47,7 +51,7 @@ class BallPasses {
 
   /// Writes the balls of a state into slot 0; launch steps count from the state's step.
   void load(const State& state);
-  /// Writes the launch steps anew, counted from `base_step`.
+  /// Writes the launch steps again, counted from `base_step`.
   void set_base_step(std::uint64_t base_step);
 
   /// Queues the passes of one step between particle states `start` and `end`. `step` and `parity` (which slot
@@ -55,6 +59,14 @@ class BallPasses {
   /// states.
   void queue(const gl::Buffer& start, const gl::Buffer& end, std::uint32_t step, std::uint32_t parity,
              gl::Reader last) const;
+
+  /// Makes room for the contacts that found none, which the last passes have counted, or for twice as many;
+  /// the passes can then be queued again for the same step. Error (scene_rejected): more than the device
+  /// holds, with figures. Error (no_device): the context is lost.
+  Status grow();
+
+  /// Bytes held beyond those after build().
+  std::uint64_t grown_bytes() const;
 
   /// Reads the balls of a slot into a state.
   void read(State& state, std::uint32_t slot) const;
@@ -70,14 +82,44 @@ class BallPasses {
   }
 
  private:
-  enum Kernel : std::size_t { fly, clear, insert, tally, exchange, particles, end_implicit, kernel_count };
-  void dispatch(Kernel kernel, std::uint32_t items, std::span<const gl::Binding> states, std::uint32_t phase,
-                gl::Reader readers) const;
+  enum Kernel : std::size_t {
+    fly,
+    clear,
+    insert,
+    find,
+    gather,
+    near,
+    tally,
+    partials,
+    exchange,
+    particles,
+    end_implicit,
+    kernel_count
+  };
+  /// One queue() at work.
+  struct Queue {
+    std::span<const gl::Binding> states;
+    gl::Reader last;
+  };
+  bool wanted(Kernel kernel) const;
+  Status build_buffers(gl::Context& context);
+  Status allot(std::uint64_t list_words, std::uint64_t items);
+  void reset_work();
+  void mark(Kernel kernel) const {
+    if (profiler_) profiler_->mark(first_kind_ + kernel);
+  }
+  void dispatch(const Queue& queue, Kernel kernel, std::uint32_t items,
+                gl::Reader readers = gl::Reader::compute_pass) const;
+  void dispatch_indirect(const Queue& queue, Kernel kernel, std::size_t arguments) const;
+  void find_touches(const Queue& queue) const;
+  void queue_phase(const Queue& queue, std::uint32_t phase) const;
 
+  gl::Context* context_ = nullptr;
   const Model* model_ = nullptr;
-  std::uint32_t count_ = 0, particle_count_ = 0, buckets_ = 0;
+  std::uint32_t count_ = 0, particle_count_ = 0;
+  std::uint64_t list_capacity_ = 0, item_capacity_ = 0, first_bytes_ = 0;
   bool grid_ = false, implicit_ = false;
-  gl::Buffer balls_, bodies_, counts_, lists_;
+  gl::Buffer balls_, bodies_, touches_, grid_words_, work_, items_;
   // By kernel; nothing where the scene needs none.
   std::array<std::shared_ptr<const gl::Program>, kernel_count> programs_;
   std::array<std::optional<gl::Pass>, kernel_count> passes_;

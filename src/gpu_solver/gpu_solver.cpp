@@ -52,7 +52,7 @@ class ComputeSolver final : public GpuSolver {
   }
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return model_; }
-  std::uint64_t bytes() const override { return bytes_; }
+  std::uint64_t bytes() const override { return bytes_ + balls_.grown_bytes(); }
   const Buffer& particles() const override { return states_[current_]; }
   const Buffer& balls() const override { return balls_.buffer(); }
   std::uint32_t first_ball() const override { return ball_parity_ * model_.ball_count(); }
@@ -82,6 +82,7 @@ class ComputeSolver final : public GpuSolver {
   void mark(Kind kind) {
     if (profiler_) profiler_->mark(kind);
   }
+  void reset_control();
   Result<layout::Control> read_control();
 
   gl::Context& context_;
@@ -181,8 +182,7 @@ Status ComputeSolver::take(const State& state) {
   states_[0].upload_items(std::span<const layout::Particle>(particles));
   balls_.load(state);
   ball_parity_ = 0;
-  const layout::Control control = {NO_STEP, NO_STEP, 0, 0};
-  control_.upload_items(std::span<const layout::Control>(&control, 1));
+  reset_control();
   base_step_ = state.step;
   steps_since_ = 0;
   divergence_.reset();
@@ -235,8 +235,14 @@ Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
     }
     const auto control = read_control();
     if (!control) return control.error();
+    if (const Status ok = check_overrun(control->overrun); !ok) return ok.error();
     std::uint32_t good = queue;
-    if (control->bad_step != NO_STEP) {
+    if (control->full_step != NO_STEP) {
+      // Steps before it have passed; it is repeated from the state it began with, where nothing was written.
+      good = control->full_step - steps_since_;
+      if (const Status made = balls_.grow(); !made) return made.error();
+      reset_control();
+    } else if (control->bad_step != NO_STEP) {
       good = control->bad_step - steps_since_;
       divergence_ = divergence_from(control->bad_particle, base_step_ + control->bad_step + 1, model_);
     }
@@ -259,6 +265,11 @@ void ComputeSolver::set_profiling(bool on) {
   for (std::string& name : BallPasses::pass_names()) names.push_back(std::move(name));
   profiler_ = std::make_unique<gl::PassProfiler>(context_, std::move(names));
   balls_.set_profiler(profiler_.get(), ball_kinds);
+}
+
+void ComputeSolver::reset_control() {
+  const layout::Control control = {NO_STEP, NO_STEP, NO_STEP, 0};
+  control_.upload_items(std::span<const layout::Control>(&control, 1));
 }
 
 Result<layout::Control> ComputeSolver::read_control() {

@@ -41,6 +41,9 @@ struct GpuOptions {
   BallSearch ball_search = BallSearch::automatic;
   /// Files here go before the embedded shaders; empty: embedded alone.
   std::filesystem::path shader_directory;
+  /// Further definitions for the kernels. MAX_ROUNDS and MAX_WALK lower the bounds of loops
+  /// (shaders/compute/layout.glsl), so that a test reaches them; never affects the bits of a step that ends.
+  std::vector<gl::Define> defines;
   /// How to compile for this device's arithmetic; absent: the canary is asked first.
   std::optional<gl::Arithmetic> arithmetic;
   /// A solver to share with: where both models have the same springs, its buffers of them serve both. It and

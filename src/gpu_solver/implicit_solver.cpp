@@ -47,7 +47,7 @@ class ImplicitSolver final : public GpuSolver {
   }
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return model_; }
-  std::uint64_t bytes() const override { return bytes_; }
+  std::uint64_t bytes() const override { return bytes_ + balls_.grown_bytes(); }
   const Buffer& particles() const override { return states_[solve_.parity]; }
   const Buffer& balls() const override { return balls_.buffer(); }
   std::uint32_t first_ball() const override { return solve_.parity * model_.ball_count(); }
@@ -178,6 +178,7 @@ Status ImplicitSolver::read_solve() {
   // A lost device answers with anything, also with a parity that names no state.
   const layout::Solve read = solve_buffer_.download_items<layout::Solve>(1).front();
   if (const Status ok = check_device(context_); !ok) return ok;
+  if (const Status ok = check_overrun(read.overrun); !ok) return ok;
   const layout::Solve before = std::exchange(solve_, read);
   take_statistics(before);
   return {};
@@ -243,6 +244,12 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
         queue_rounds(rounds);
       }
       if (const Status ok = read_solve(); !ok) return ok.error();
+      if (solve_.full != 0) {
+        // The balls' part of the step is repeated, from the state it began with, where nothing was written.
+        if (const Status made = balls_.grow(); !made) return made.error();
+        solve_.full = 0;
+        write_solve();
+      }
       rounds = std::max(more_rounds, solve_.last_ticks + solve_.last_ticks / 4 + 1);
     }
     if (measured) profiler_->end_step();

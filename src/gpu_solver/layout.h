@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "gpu/loop_bound.h"
+
 namespace aspic::layout {
 
 using uint = std::uint32_t;
@@ -17,8 +19,12 @@ struct uvec2 {
 
 #include "compute/layout.glsl"
 
+static_assert(MAX_ROUNDS == gl::max_rounds);
 static_assert(sizeof(Particle) == 32 && offsetof(Particle, velocity) == 16);
 static_assert(sizeof(Ball) == 64 && offsetof(Ball, velocity) == 16 && offsetof(Ball, spin) == 32);
+static_assert(sizeof(BallTouches) == 32 && offsetof(BallTouches, items) == 28);
+static_assert(sizeof(BallItem) == 128 && offsetof(BallItem, acts) == 32 && offsetof(BallItem, linear) == 96);
+static_assert(sizeof(BallWork) == 64 && offsetof(BallWork, word_groups) == 16);
 static_assert(sizeof(BallBody) == 16 && offsetof(BallBody, launch_step) == 8);
 static_assert(offsetof(Simulation, ball_count) == 116 && offsetof(Simulation, ball_restitution) == 128);
 static_assert(sizeof(Stage) == 16 && sizeof(SpringClass) == 16 && sizeof(Control) == 16);

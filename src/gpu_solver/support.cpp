@@ -2,6 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "gpu/loop_bound.h"
+
 namespace aspic {
 
 Result<std::vector<layout::Particle>> to_device(const State& state, const Model& model) {
@@ -40,6 +46,25 @@ Status check_device(gl::Context& context, ErrorCode memory_code) {
                   context.info().renderer, gl::human_bytes(context.bytes_held()), context.bytes_held())};
 }
 
+Status check_overrun(std::uint32_t overrun) {
+  // By KERNEL_… of layout.glsl: the kernel, and what its loop goes over.
+  constexpr std::array<std::array<std::string_view, 2>, KERNEL_COUNT> kernels = {
+      {{},
+       {"gather", "the springs of one particle"},
+       {"sum_springs", "the springs of one particle"},
+       {"implicit_begin", "the springs of one particle"},
+       {"implicit_evaluate", "the springs of one particle"},
+       {"implicit_apply", "the springs of one particle"},
+       {"ball_find", "blocks of 256 balls"},
+       {"ball_gather", "the blocks of particles that one ball touches"},
+       {"ball_partials", "the blocks of partners of one body"},
+       {"ball_exchange", "the blocks of partners of one ball"},
+       {"ball_particles", "the blocks of partners of one particle"}}};
+  if (overrun == 0) return {};
+  const auto& [name, rounds] = kernels[std::min<std::uint32_t>(overrun, KERNEL_COUNT - 1)];
+  return gl::loop_error(name, rounds);
+}
+
 Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model) {
   const std::uint32_t index = word >> 1, particles = model.particle_count();
   const bool ball = index >= particles;
@@ -56,6 +81,7 @@ Result<KernelOptions> kernel_options(gl::Context& context, const gl::ShaderLibra
   }
   kernels.defines = kernels.arithmetic.defines;
   kernels.defines.push_back({"ASPIC_GROUP_SIZE", std::to_string(group_size)});
+  kernels.defines.insert(kernels.defines.end(), options.defines.begin(), options.defines.end());
   return kernels;
 }
 

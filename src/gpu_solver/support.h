@@ -32,6 +32,10 @@ State from_device(std::span<const layout::Particle> particles, std::uint64_t ste
 /// while at work, so that what it computed is not to be trusted.
 Status check_device(gl::Context& context, ErrorCode memory_code = ErrorCode::no_device);
 
+/// Error (no_device): a kernel had a loop of more than MAX_ROUNDS (layout.glsl), which `overrun` of Control
+/// or Solve names; 0: none had. The state is not to be trusted then.
+Status check_overrun(std::uint32_t overrun);
+
 /// The divergence a kernel's word for it means (layout.glsl, Control and Solve).
 Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 
+#include "gpu/loop_bound.h"
 #include "gpu/pass.h"
 
 namespace aspic {
@@ -41,6 +42,13 @@ Incident incident_springs(const Model& model) {
   return result;
 }
 
+/// The longest of the lists that begin at `start`.
+std::uint64_t longest(const std::vector<std::uint32_t>& start) {
+  std::uint32_t most = 0;
+  for (std::size_t i = 1; i < start.size(); ++i) most = std::max(most, start[i] - start[i - 1]);
+  return most;
+}
+
 /// Index pairs sorted by class, and where each class's run lies.
 std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRun>& runs) {
   std::vector<std::uint32_t> count(model.spring_classes.size(), 0);
@@ -70,6 +78,12 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   b.particle_count_ = model.particle_count();
   gl::BufferFiller fill(context);
   const Surface surface = make_surface(model);
+  for (const Status& ok :
+       {gl::check_loop("normals", "the faces at one particle", longest(surface.fan_start)),
+        gl::check_loop("bounds", "particles",
+                       LIGHTS * (std::uint64_t{b.particle_count_} / most_bounding_invocations + 1))}) {
+    if (!ok) return ok.error();
+  }
   b.parts_ = surface.parts;
   b.coarse_parts_ = surface.coarse_parts;
   b.skin_vertices_ = static_cast<std::uint32_t>(surface.fan_vertex.size());
@@ -104,6 +118,10 @@ Status ModelBuffers::prepare_springs(gl::Context& context, const Model& model) {
   std::vector<SpringRun> runs;
   fill(spring_indices_, "spring indices", spring_pairs(model, runs));
   const Incident incident = incident_springs(model);
+  if (const Status ok = gl::check_loop("quantity", "the springs of one particle", longest(incident.start));
+      !ok) {
+    return ok;
+  }
   fill(spring_start_, "incident spring starts", incident.start);
   fill(spring_ends_, "incident springs", incident.ends);
   std::vector<std::array<float, 4>> classes;

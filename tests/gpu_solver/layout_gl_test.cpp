@@ -117,7 +117,22 @@ TEST_F(Layout, BallBlocksMatchTheDriver) {
   const gl::Program exchange = program("compute/ball_exchange.comp");
   EXPECT_EQ(exchange.storage_block_binding("StateA"), BINDING_STATE_A);
   EXPECT_EQ(exchange.storage_block_binding("StateB"), BINDING_STATE_B);
-  EXPECT_EQ(exchange.storage_block_binding("BallCounts"), BINDING_BALL_COUNTS);
+  EXPECT_EQ(exchange.storage_block_binding("TouchesBlock"), BINDING_BALL_TOUCHES);
+  EXPECT_EQ(exchange.storage_block_binding("ItemsBlock"), BINDING_BALL_ITEMS);
+  EXPECT_EQ(exchange.storage_block_binding("WorkBlock"), BINDING_BALL_WORK);
+  EXPECT_EQ(exchange.buffer_variable_offset("touches[0].items"),
+            static_cast<int>(offsetof(layout::BallTouches, items)));
+  EXPECT_EQ(exchange.buffer_variable_top_level_stride("touches[0].list"),
+            static_cast<int>(sizeof(layout::BallTouches)));
+  EXPECT_EQ(exchange.buffer_variable_offset("items[0].overlaps[0]"),
+            static_cast<int>(offsetof(layout::BallItem, overlaps)));
+  EXPECT_EQ(exchange.buffer_variable_offset("items[0].turning"),
+            static_cast<int>(offsetof(layout::BallItem, turning)));
+  EXPECT_EQ(exchange.buffer_variable_top_level_stride("items[0].turning"),
+            static_cast<int>(sizeof(layout::BallItem)));
+  EXPECT_EQ(exchange.buffer_variable_offset("lists[0]"), static_cast<int>(sizeof(layout::BallWork)));
+  const gl::Program near = program("compute/ball_near.comp");
+  EXPECT_EQ(near.uniform_location("sought"), LOCATION_BALL_KIND);
   EXPECT_EQ(exchange.uniform_location("ball_phase"), LOCATION_BALL_PHASE);
   EXPECT_EQ(exchange.uniform_location("ball_parity"), LOCATION_BALL_PARITY);
   EXPECT_EQ(exchange.uniform_offset("ball_restitution"),
@@ -128,8 +143,10 @@ TEST_F(Layout, BallBlocksMatchTheDriver) {
   EXPECT_EQ(insert.storage_block_binding("BallGrid"), BINDING_BALL_GRID);
   EXPECT_EQ(insert.uniform_offset("bucket_mask"),
             static_cast<int>(offsetof(layout::Simulation, bucket_mask)));
-  EXPECT_EQ(insert.uniform_offset("particle_cells_per_metre"),
-            static_cast<int>(offsetof(layout::Simulation, particle_cells_per_metre)));
+  const gl::Program clear = program("compute/ball_clear.comp");
+  EXPECT_EQ(clear.uniform_offset("mark_shift"), static_cast<int>(offsetof(layout::Simulation, mark_shift)));
+  EXPECT_EQ(clear.buffer_variable_offset("work.item_groups[0]"),
+            static_cast<int>(offsetof(layout::BallWork, item_groups)));
 }
 
 TEST_F(Layout, UniformLocationsAndBlockCounts) {

@@ -114,10 +114,13 @@ TEST_F(PassTimes, NameAndCountTheBallsToo) {
       // The balls' part is queued after each end of the particles', of which a top-up adds one.
       const double ends = solved ? counts.at("end of the step, contact") : 1.0;
       EXPECT_EQ(counts.at("balls: flight and terrain"), ends);
-      EXPECT_EQ(counts.at("balls: count contacts"), 3 * ends);
+      EXPECT_EQ(counts.at("balls: find contacts"), ends);
+      EXPECT_EQ(counts.at("balls: find blocks of particles"), ends);
+      EXPECT_EQ(counts.at("balls: look into blocks"), ends);  // of particles: one ball makes no crowd
+      EXPECT_EQ(counts.at("balls: count contacts"), ends);
       EXPECT_EQ(counts.at("balls: impulses on balls"), 3 * ends);
       EXPECT_EQ(counts.at("balls: impulses on particles"), 2 * ends);
-      EXPECT_EQ(counts.count("balls: empty the grid"), grid ? 1u : 0u);
+      EXPECT_EQ(counts.at("balls: empty grid and marks"), ends);
       EXPECT_EQ(counts.count("balls: fill the grid"), grid ? 1u : 0u);
       EXPECT_EQ(counts.count("balls: end of the step"), solved ? 1u : 0u);
     }

@@ -1,0 +1,106 @@
+// The balls that each body touches, balls first, then particles: found by trying all or (ASPIC_BALL_GRID) in the grid, kept
+// in ascending index, as a list; who meets more than LIST_SIZE, or looks at more than MAX_WALK, is crowded and gets items
+// over all balls.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/ball_blocks.glsl"
+#include "compute/ball_contact.glsl"
+#define ball_phase BALL_PHASE_BALLS
+#include "compute/ball_pairs.glsl"
+#include "compute/ball_work.glsl"
+#include "compute/ball_grid.glsl"
+
+uint found[LIST_SIZE];
+uint found_count = 0u;
+bool crowded = false;
+
+// Puts a ball into the sorted list if it is near.
+void consider(Seeker own, uint b) {
+  if (!is_partner(own, KIND_BALL, b) || !may_touch(own, KIND_BALL, b)) return;
+  if (!(partner(own, KIND_BALL, b).gap.w < epsilon)) return;
+  crowded = found_count == LIST_SIZE;
+  if (crowded) return;
+  uint at = found_count++;
+  for (; at > 0u && found[at - 1u] > b; --at) found[at] = found[at - 1u];
+  found[at] = b;
+}
+
+#ifdef ASPIC_BALL_GRID
+void search(Seeker own) {
+  // A particle reaches no further than half a cell, a ball no further than a whole one.
+  bool ball = own.kind == KIND_BALL;
+  ivec3 home = ivec3(floor(in_cells(own.x) - (ball ? 1.0 : 0.5)));
+  int span = ball ? 3 : 2;
+  int next_cell = 0;
+  ivec3 cell = home;
+  uint b = NO_BODY;
+  // One loop over cells and links, for MAX_WALK to bound both.
+  for (uint n = 0u; !crowded; ++n) {
+    if (b == NO_BODY) {
+      if (next_cell == span * span * span) break;
+      cell = home + ivec3(next_cell % span, (next_cell / span) % span, next_cell / (span * span));
+      ++next_cell;
+      b = grid[head_of(cell)];
+    } else {
+      // Cells that share a bucket must not be taken for each other.
+      if (cell_of(balls[slot_before(ball_phase) * ball_count + b].position.xyz) == cell) consider(own, b);
+      b = grid[link_of(b)];
+    }
+    if (n == MAX_WALK) crowded = true;
+  }
+}
+#else
+void search(Seeker own) {
+  for (uint b = 0u; b < ball_count && !crowded; ++b) {
+    consider(own, b);
+    if (b == MAX_WALK) crowded = true;
+  }
+}
+#endif
+
+void keep_list(Seeker own, inout BallTouches touch) {
+  touch.list = take_list(found_count);
+  if (touch.list == NO_BODY) return;
+  for (uint n = 0u; n < found_count; ++n) {
+    uint b = found[n];
+    lists[touch.list + n] = b;
+    Partner other = partner(own, KIND_BALL, b);
+    if (other.gap.w < 0.0) touch.overlapping |= 1u << n;
+    if (own.kind == KIND_PARTICLE) {
+      mark(b, own.index);
+    } else if (dot3(other.dv, other.gap.xyz) < 0.0) {
+      touch.acting |= 1u << n;
+    }
+  }
+  touch.listed = found_count;
+  touch.pairs[BALL_PHASE_BALLS] = uint(bitCount(touch.acting));
+  touch.pairs[BALL_PHASE_POSITIONS] = uint(bitCount(touch.overlapping));
+}
+
+void keep_items(uint body, inout BallTouches touch) {
+  uint blocks = blocks_of(ball_count);
+  uint count = bounded(blocks, KERNEL_BALL_FIND);
+  touch.listed = CROWDED;
+  touch.list = take_items(blocks);
+  if (touch.list == NO_BODY) return;
+  for (uint k = 0u; k < count; ++k) write_item(touch.list + k, body, KIND_BALL, k * PARTNER_BLOCK, blocks);
+}
+
+void main() {
+  uint i = item_index();
+  if (i >= ball_count + particle_count || idle()) return;
+  Seeker own = seeking(i);
+  bool waits = own.kind == KIND_BALL && ball_in(slot_before(ball_phase), i).velocity.w == 0.0;
+  if (!waits && finite(own.x)) search(own);
+  BallTouches touch = BallTouches(uint[3](0u, 0u, 0u), 0u, 0u, 0u, 0u, NO_BODY);
+  if (crowded) {
+    keep_items(i, touch);
+  } else if (found_count > 0u) {
+    keep_list(own, touch);
+  } else if (own.kind == KIND_PARTICLE) {
+    // It is at the end of its step.
+    uint bad = divergence_word(own.index, own.x, own.v);
+    if (bad != NO_STEP) mark_divergence(bad);
+  }
+  touches[i] = touch;
+}

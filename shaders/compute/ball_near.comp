@@ -1,0 +1,43 @@
+// Which candidates of the items of one kind are near: a word of 32 an invocation. Of two balls it also says whether they
+// act, since their velocities are those of this moment.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/ball_blocks.glsl"
+#include "compute/ball_contact.glsl"
+layout(location = LOCATION_BALL_KIND) uniform uint sought;
+#define ball_phase BALL_PHASE_BALLS
+#include "compute/ball_pairs.glsl"
+#include "compute/ball_work.glsl"
+#include "compute/ball_grid.glsl"
+
+void main() {
+  uint i = item_index() / ITEM_WORDS, w = item_index() % ITEM_WORDS;
+  if (idle() || i >= work.items_used || items[i].kind != sought) return;
+  uint body = items[i].body;
+  Seeker own = seeking(body);
+  bool velocities_known = own.kind == KIND_BALL && sought == KIND_BALL;
+  uint end = sought == KIND_BALL ? ball_count : particle_count;
+  uint first = items[i].first + 32u * w;
+  uint acts = 0u, overlaps = 0u;
+  for (uint n = 0u; n < 32u && first + n < end; ++n) {
+    uint index = first + n;
+    if (!is_partner(own, sought, index) || !may_touch(own, sought, index)) continue;
+    Partner other = partner(own, sought, index);
+    if (!(other.gap.w < epsilon)) continue;
+    if (!velocities_known || dot3(other.dv, other.gap.xyz) < 0.0) acts |= 1u << n;
+    if (other.gap.w < 0.0) overlaps |= 1u << n;
+    if (own.kind == KIND_PARTICLE) mark(index, own.index);
+  }
+  items[i].acts[w] = acts;
+  items[i].overlaps[w] = overlaps;
+  if (overlaps != 0u) {
+    uint count = uint(bitCount(overlaps));
+    atomicAdd(items[i].overlapping, count);
+    atomicAdd(touches[body].pairs[BALL_PHASE_POSITIONS], count);
+  }
+  if (velocities_known && acts != 0u) {
+    uint count = uint(bitCount(acts));
+    atomicAdd(items[i].acting, count);
+    atomicAdd(touches[body].pairs[BALL_PHASE_BALLS], count);
+  }
+}

@@ -1,0 +1,54 @@
+// Which near pairs of a ball and a particle act, once the balls have met each other: first the words of all items, then the
+// lists of particles.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/ball_blocks.glsl"
+#include "compute/ball_contact.glsl"
+#define ball_phase BALL_PHASE_PARTICLES
+#include "compute/ball_pairs.glsl"
+#include "compute/ball_work.glsl"
+
+bool acts(Seeker own, uint kind, uint index) {
+  Partner other = partner(own, kind, index);
+  return dot3(other.dv, other.gap.xyz) < 0.0;
+}
+
+void tally_word(uint i, uint w) {
+  uint body = items[i].body, kind = items[i].kind;
+  if (body < ball_count && kind == KIND_BALL) return;
+  uint near = items[i].acts[w];
+  if (near == 0u) return;
+  Seeker own = seeking(body);
+  uint acting = 0u;
+  for (uint left = near; left != 0u; left &= left - 1u) {
+    uint n = uint(findLSB(left));
+    if (acts(own, kind, items[i].first + 32u * w + n)) acting |= 1u << n;
+  }
+  items[i].acts[w] = acting;
+  if (acting == 0u) return;
+  uint count = uint(bitCount(acting));
+  atomicAdd(items[i].acting, count);
+  atomicAdd(touches[body].pairs[BALL_PHASE_PARTICLES], count);
+}
+
+void tally_list(uint p) {
+  BallTouches touch = touches[ball_count + p];
+  if (touch.listed == 0u || touch.listed == CROWDED) return;
+  Seeker own = seeking_particle(p);
+  uint acting = 0u;
+  for (uint n = 0u; n < touch.listed; ++n) {
+    if (acts(own, KIND_BALL, lists[touch.list + n])) acting |= 1u << n;
+  }
+  touches[ball_count + p].acting = acting;
+  touches[ball_count + p].pairs[BALL_PHASE_PARTICLES] = uint(bitCount(acting));
+}
+
+void main() {
+  if (idle()) return;
+  uint i = item_index(), words = ITEM_WORDS * work.items_used;
+  if (i < words) {
+    tally_word(i / ITEM_WORDS, i % ITEM_WORDS);
+  } else if (i - words < particle_count) {
+    tally_list(i - words);
+  }
+}

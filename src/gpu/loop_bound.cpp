@@ -1,0 +1,20 @@
+#include "gpu/loop_bound.h"
+
+#include <fmt/format.h>
+
+namespace aspic::gl {
+
+Error loop_error(std::string_view kernel, std::string_view rounds) {
+  return {
+      ErrorCode::no_device,
+      fmt::format("The kernel {} would have to loop over {} more often than every device is sure to do. Make "
+                  "the scene smaller, or use --backend reference.",
+                  kernel, rounds)};
+}
+
+Status check_loop(std::string_view kernel, std::string_view rounds, std::uint64_t count) {
+  if (count <= max_rounds) return {};
+  return loop_error(kernel, rounds);
+}
+
+}  // namespace aspic::gl

@@ -1,0 +1,189 @@
+// Kernels loop no more often than every device is sure to do: at the bound they are right, past it they are
+// named.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "cpu_reference/reference_solver.h"
+#include "gpu/loop_bound.h"
+#include "gpu/shader_source.h"
+#include "gpu_solver/gpu_solver.h"
+#include "render/model_buffers.h"
+#include "support/gl_fixture.h"
+#include "support/model_building.h"
+#include "support/temporary_directory.h"
+
+namespace aspic {
+namespace {
+
+using ::testing::HasSubstr;
+
+class LoopBounds : public aspic::testing::GlTest {
+ protected:
+  /// One particle with springs to `degree` others, pinned, all at rest length.
+  static Model hub(std::uint32_t degree) {
+    Model model;
+    for (std::uint32_t p = 0; p <= degree; ++p) {
+      const double angle = 0.001 * p;
+      model.initial_position.push_back(p == 0 ? Vec3{} : Vec3{std::cos(angle), std::sin(angle), 1e-5 * p});
+      model.initial_velocity.push_back({});
+      model.mass.push_back(p == 0 ? 100.0 : 1.0);
+      model.inverse_mass.push_back(p == 0 ? 0.01 : 0.0);
+    }
+    SpringClass spring;
+    spring.stiffness = 1.0;
+    spring.damping = 0.1;
+    spring.rest_length = 1.0;
+    model.spring_classes.push_back(spring);
+    for (std::uint32_t p = 1; p <= degree; ++p) model.springs.push_back({0, p, 0});
+    return model;
+  }
+
+  /// What a run of one step says with this kernel compiled for loops of one round; empty without an error.
+  static std::string complaint(Model model, Integrator integrator, const std::string& kernel,
+                               ForcePath path = ForcePath::automatic) {
+    model.simulation.integrator = integrator;
+    const test::TemporaryDirectory directory;
+    std::filesystem::create_directories(directory.path() / "compute");
+    const std::string file = "compute/" + kernel + ".comp";
+    std::ofstream(directory.path() / file) << "#define MAX_ROUNDS 1u\n" << *gl::ShaderLibrary().read(file);
+    GpuOptions options;
+    options.force_path = path;
+    options.shader_directory = directory.path();
+    auto solver = make_gpu_solver(context(), model, options);
+    EXPECT_TRUE(solver.ok()) << (solver.ok() ? "" : solver.error().message);
+    const auto ran = (*solver)->advance(1);
+    if (ran.ok()) return {};
+    EXPECT_EQ(ran.error().code, ErrorCode::no_device);
+    return ran.error().message;
+  }
+
+  static std::string named(const std::string& kernel) {
+    return "The kernel " + kernel + " would have to loop";
+  }
+
+  /// 300 balls in one place on a cube's corner.
+  static Model crowd() {
+    ModelSettings settings = test::cube_on_plane(3, 3.0);
+    settings.contact.model = ContactModel::course;
+    settings.balls.assign(300, {0.3, 1.0, {2.0, 5.2, 2.0}, {0.0, -1.0, 0.0}, {}});
+    for (std::size_t b = 0; b < settings.balls.size(); ++b)
+      settings.balls[b].position.x += 1e-4 * static_cast<double>(b);
+    return test::build(settings);
+  }
+};
+
+TEST_F(LoopBounds, ArePlacedInEveryKernelThatNeedsOne) {
+  const Model cube = test::build(test::cube_on_plane(3));
+  ModelSettings course = test::cube_on_plane(3);
+  course.contact.model = ContactModel::course;
+  EXPECT_THAT(complaint(cube, Integrator::midpoint, "gather"), HasSubstr(named("gather")));
+  EXPECT_THAT(complaint(cube, Integrator::midpoint, "sum_springs", ForcePath::per_spring),
+              HasSubstr(named("sum_springs")));
+  EXPECT_THAT(complaint(test::build(course), Integrator::implicit_euler, "implicit_begin"),
+              HasSubstr(named("implicit_begin")));
+  for (const char* kernel : {"implicit_evaluate", "implicit_apply"}) {
+    EXPECT_THAT(complaint(cube, Integrator::implicit_euler, kernel), HasSubstr(named(kernel)));
+  }
+  for (const Integrator integrator : {Integrator::midpoint, Integrator::implicit_euler}) {
+    for (const char* kernel :
+         {"ball_find", "ball_gather", "ball_partials", "ball_exchange", "ball_particles"}) {
+      EXPECT_THAT(complaint(crowd(), integrator, kernel), HasSubstr(named(kernel)));
+    }
+  }
+}
+
+TEST_F(LoopBounds, LetPassWhatStaysBelow) {
+  for (const char* kernel : {"ball_fly", "ball_clear", "ball_insert", "ball_near", "ball_tally"}) {
+    EXPECT_EQ(complaint(crowd(), Integrator::midpoint, kernel), "") << kernel;
+  }
+}
+
+// As many springs at one particle as a loop may go over, and one more.
+TEST_F(LoopBounds, OfSpringsAtOneParticle) {
+  for (const Integrator integrator : {Integrator::midpoint, Integrator::implicit_euler}) {
+    for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+      if (integrator == Integrator::implicit_euler && path == ForcePath::per_spring) continue;  // refused
+      GpuOptions options;
+      options.force_path = path;
+      Model model = hub(gl::max_rounds);
+      model.simulation.integrator = integrator;
+      model.simulation.gravity = {0.0, -9.8, 0.0};
+      auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+      auto solver = std::move(make_gpu_solver(context(), model, options)).value();
+      ASSERT_FALSE((*reference->advance(3)).has_value());
+      const auto divergence = solver->advance(3);
+      ASSERT_TRUE(divergence.ok()) << divergence.error().message;
+      EXPECT_EQ(*solver->state(), *reference->state());
+
+      model = hub(gl::max_rounds + 1);
+      model.simulation.integrator = integrator;
+      auto refused = std::move(make_gpu_solver(context(), model, options)).value()->advance(1);
+      ASSERT_FALSE(refused.ok());
+      EXPECT_THAT(refused.error().message, HasSubstr("the springs of one particle"));
+    }
+  }
+}
+
+// Every stage of every integrator goes over all terrains, of which there are 64 at most, and so does a ball.
+TEST_F(LoopBounds, OfTerrains) {
+  for (const Integrator integrator : {Integrator::runge_kutta_4, Integrator::implicit_euler}) {
+    for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
+      ModelSettings settings = test::cube_on_plane(4, 1.02);
+      settings.simulation.integrator = integrator;
+      settings.contact.model = contact;
+      while (settings.terrain.size() < 64) {
+        TerrainSettings sphere;
+        sphere.shape = TerrainShape::sphere;
+        sphere.centre = Vec3{0.1 * static_cast<double>(settings.terrain.size()), -2.0, 0.0};
+        sphere.radius = 1.0 + 0.01 * static_cast<double>(settings.terrain.size() % 5);
+        settings.terrain.push_back(sphere);
+      }
+      settings.balls.push_back({0.5, 2.0, {3.0, -0.4, 0.0}, {-1.0, -1.0, 0.0}, {}});
+      const Model model = test::build(settings);
+      auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+      auto solver = std::move(make_gpu_solver(context(), model)).value();
+      ASSERT_FALSE((*reference->advance(50)).has_value());
+      ASSERT_FALSE((*solver->advance(50)).has_value());
+      EXPECT_EQ(*solver->state(), *reference->state());
+    }
+  }
+}
+
+// A reduction over more than 65,536 particles has three levels.
+TEST_F(LoopBounds, OfReductions) {
+  std::vector<Vec3> positions, velocities;
+  for (int p = 0; p < 140000; ++p) {
+    positions.push_back({0.01 * p, 0.0, 0.0});
+    velocities.push_back({0.0, 0.001 * (p % 1000), 0.0});
+  }
+  Model model = test::particles(std::move(positions), std::move(velocities));
+  model.simulation.integrator = Integrator::implicit_euler;
+  auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+  auto solver = std::move(make_gpu_solver(context(), model)).value();
+  ASSERT_FALSE((*reference->advance(2)).has_value());
+  ASSERT_FALSE((*solver->advance(2)).has_value());
+  EXPECT_EQ(*solver->state(), *reference->state());
+}
+
+// Pictures: their kernels go over lists that the host has made, which looks at them first.
+TEST_F(LoopBounds, OfPictures) {
+  EXPECT_TRUE(gl::check_loop("k", "n", gl::max_rounds).ok());
+  const Status over = gl::check_loop("normals", "the faces at one particle", gl::max_rounds + 1);
+  ASSERT_FALSE(over.ok());
+  EXPECT_THAT(over.error().message, HasSubstr("The kernel normals would have to loop over the faces"));
+  for (const std::uint32_t springs : {gl::max_rounds, gl::max_rounds + 1}) {
+    const Model model = hub(springs);
+    auto buffers = ModelBuffers::create(context(), model);
+    ASSERT_TRUE(buffers.ok()) << buffers.error().message;
+    const Status ready = buffers->prepare_springs(context(), model);
+    EXPECT_EQ(ready.ok(), springs == gl::max_rounds);
+    EXPECT_THAT(ready.ok() ? named("quantity") : ready.error().message, HasSubstr(named("quantity")));
+  }
+}
+
+}  // namespace
+}  // namespace aspic
