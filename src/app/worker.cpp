@@ -11,9 +11,13 @@ namespace aspic::app {
 
 Worker::Worker() : thread_([this] { loop(); }) {}
 
-Worker::~Worker() {
+void Worker::abandon() noexcept {
   hurry_ = true;
   await_end();
+}
+
+Worker::~Worker() {
+  abandon();
   {
     const std::lock_guard lock(mutex_);
     end_ = true;

@@ -9,8 +9,8 @@
 
 namespace aspic::app {
 
-/// Runs one job at a time. All calls from one thread, the window's. An exception that leaves a job, such as the want of
-/// memory, comes out of the next start(), finish() or wait() there.
+/// Runs one job at a time. All calls from one thread, the window's. An exception that leaves a job, such as
+/// the want of memory, comes out of the next start(), finish() or wait() there.
 class Worker {
  public:
   /// A job looks at the flag now and then and comes to an early end once it is true.
@@ -27,6 +27,8 @@ class Worker {
   bool busy() const;
   /// Hurries the job under way, if any, and waits for its end: its results may be read then.
   void finish();
+  /// The same for destructors: a job's exception is kept.
+  void abandon() noexcept;
   /// Waits without hurrying it.
   void wait();
 

@@ -134,7 +134,7 @@ class Importer {
       return;
     }
     const auto number = number_in(text);
-    if (!number) return fail(fmt::format("*{} must be a finite number, not \"{}\"", key_, shown(text)));
+    if (!number) return fail(fmt::format("*{} must be a number, not \"{}\"", key_, shown(text)));
     const Parameter& p = *find_parameter(target->path);
     const auto value = converted(p, *target, *number);
     if (!value) return;
