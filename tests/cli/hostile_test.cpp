@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "cli/process.h"
 #include "io/checkpoint.h"
+#include "model/model.h"
 #include "scene/load.h"
 #include "scene/write.h"
 
