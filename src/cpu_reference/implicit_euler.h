@@ -8,6 +8,7 @@
 // eigenvalues across its axis: they are left out of the matrix (Choi and Ko, Stable but Responsive Cloth,
 // 2002), which keeps it symmetric positive definite, while the residual stays that of the true equation. So
 // the method converges to the true solution, linearly where springs are compressed.
+#include <cmath>
 #include <utility>
 
 #include "cpu_reference/implicit_ground.h"
@@ -328,7 +329,8 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
     without_progress = at.residual < static_cast<T>(share) * best ? 0 : without_progress + 1;
     best = at.residual < best ? at.residual : best;
   }
-  report.residual = static_cast<double>(at.residual);
+  // A largest component passes over those that are no numbers; the sum of squares does not.
+  report.residual = static_cast<double>(std::isnan(at.merit) ? at.merit : at.residual);
   for (Eigen::Index i = 0; i < v.cols(); ++i) {  // the ground gives way by no tolerance
     if (at.ground[static_cast<std::size_t>(i)].freedom != Freedom::all) v.col(i) += at.prescribed.col(i);
   }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cctype>
+#include <fstream>
 #include <regex>
 #include <sstream>
 #include <string_view>
@@ -99,6 +100,20 @@ Process::Process(const std::vector<std::string>& arguments, const ProcessOptions
     const rlimit limit = {*options.file_size_limit, *options.file_size_limit};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (options.stdout_to_closed_pipe) {
+    int ends[2];
+    if (::pipe(ends) != 0) ::_exit(127);
+    ::dup2(ends[1], 1);
+    ::close(ends[0]);
+    ::close(ends[1]);
+  }
+  for (const int descriptor : options.closed) ::close(descriptor);
+  const auto limit = [](int resource, const std::optional<std::uint64_t>& bytes) {
+    const rlimit both = {bytes.value_or(0), bytes.value_or(0)};
+    if (bytes) ::setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
+  };
+  limit(RLIMIT_AS, options.address_space_limit);
+  limit(RLIMIT_STACK, options.stack_limit);
   ::alarm(120);  // outlives exec: a program that hangs ends by SIGALRM and fails its test
   ::execv(argv[0], argv.data());
   ::_exit(127);
@@ -112,6 +127,15 @@ Process::~Process() {
 
 void Process::send(int signal) const {
   ::kill(pid_, signal);
+}
+
+bool Process::catches(int signal) const {
+  std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("SigCgt:"))
+      return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
+  }
+  return true;  // it has ended
 }
 
 Finished Process::wait() {
