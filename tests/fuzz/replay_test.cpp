@@ -66,8 +66,8 @@ std::vector<const Target*> all_targets() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, ::testing::ValuesIn(all_targets()), [](const auto& info) {
-  std::string name(info.param->name);
+INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, ::testing::ValuesIn(all_targets()), [](const auto& chosen) {
+  std::string name(chosen.param->name);
   std::ranges::replace(name, '-', '_');
   return name;
 });
