@@ -13,8 +13,15 @@ void report() {
   solve.cg_sum += solve.cg_total;
 }
 
+// A largest component passes over those that are no numbers; the sum of squares does not, though it may overflow.
+bool residual_is_finite() {
+  bool merit_is_number = (floatBitsToUint(solve.merit) & 0x7fffffffu) <= 0x7f800000u;
+  return finite(vec3(solve.residual)) && merit_is_number;
+}
+
 // Unless the step diverged: then nothing moves any more.
 void end_step() {
+  if (!residual_is_finite()) atomicMin(solve.bad_particle, BAD_RESIDUAL);
   if (atomicAdd(solve.bad_particle, 0u) != NO_STEP) {
     solve.phase = PHASE_HALTED;
     return;

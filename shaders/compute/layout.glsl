@@ -84,6 +84,7 @@
 #define CONTACT_COURSE 1u
 
 #define NO_STEP 0xffffffffu
+#define BAD_RESIDUAL 0xfffffffeu  // in place of a particle that diverged: the implicit solve's residual did
 
 struct Particle {
   vec4 position;  // x [m]; w: inverse mass [1/kg], 0 = pinned
@@ -151,7 +152,7 @@ struct Solve {
   uint step;         // steps ended since the state was loaded
   uint target_step;  // where to stop
   uint parity;       // 0: the state is in A, 1: in B
-  uint bad_particle;  // as in Control
+  uint bad_particle;  // as in Control, or BAD_RESIDUAL
   uint blocks_done;   // of the reduction under way
   uint first;         // 1: the trial is the step's first and is accepted whatever it is
   uint use_trial;     // 1: v' is the trial, 0: the base

@@ -85,8 +85,10 @@ std::optional<double> eigenvalue_limit(Integrator integrator, std::complex<doubl
 }
 
 std::optional<double> mode_limit(Integrator integrator, double kappa, double gamma) {
-  assert(kappa >= 0.0 && gamma >= 0.0);
+  assert(!(kappa < 0.0) && !(gamma < 0.0));
   if (integrator == Integrator::implicit_euler || (kappa == 0.0 && gamma == 0.0)) return infinity;
+  // The limit as either grows beyond all bounds; NaN is the quotient or product of such values.
+  if (!std::isfinite(kappa) || !std::isfinite(gamma)) return 0.0;
   // 4κ/γ² decides between real and complex roots; written with √ so that large κ and γ do not overflow.
   const double root_kappa = std::sqrt(kappa);
   if (integrator == Integrator::symplectic_euler) {

@@ -16,7 +16,7 @@ std::optional<double> eigenvalue_limit(Integrator integrator, std::complex<doubl
 
 /// The same for both eigenvalues of a mode of stiffness per mass κ [1/s²] ≥ 0 and damping per mass γ [1/s] ≥
 /// 0, for every integrator. Symplectic Euler: (−γ + √(γ² + 4κ))/κ, from the Jury criterion on its step
-/// matrix. Implicit Euler: infinite.
+/// matrix. Implicit Euler: infinite. κ or γ that overflowed, to infinity or NaN: 0.
 std::optional<double> mode_limit(Integrator integrator, double kappa, double gamma);
 
 }  // namespace aspic

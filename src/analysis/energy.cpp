@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace aspic {
 
@@ -40,6 +41,21 @@ Measures measure(const Model& model, const State& state) {
     m.elastic += 0.5 * c.stiffness * stretch * stretch;
   }
   return m;
+}
+
+std::optional<std::string_view> first_not_finite(const Measures& m) {
+  const std::pair<double, std::string_view> figures[] = {{m.kinetic, "the kinetic energy"},
+                                                         {m.elastic, "the elastic energy"},
+                                                         {m.gravitational, "the gravitational energy"},
+                                                         {m.total(), "the total energy"},
+                                                         {m.momentum.x, "the momentum along x"},
+                                                         {m.momentum.y, "the momentum along y"},
+                                                         {m.momentum.z, "the momentum along z"},
+                                                         {m.max_speed, "the largest speed"},
+                                                         {m.min_height, "the lowest height"}};
+  for (const auto& [value, name] : figures)
+    if (!std::isfinite(value)) return name;
+  return std::nullopt;
 }
 
 }  // namespace aspic

@@ -1,5 +1,8 @@
 #pragma once
 // Energies, momentum and extremes of a state, in double precision whatever the state's own.
+#include <optional>
+#include <string_view>
+
 #include "model/model.h"
 #include "model/state.h"
 
@@ -16,6 +19,9 @@ struct Measures {
 
   double total() const { return kinetic + elastic + gravitational; }
 };
+
+/// The first figure that is not finite, in words such as `the kinetic energy`; nothing if all are.
+std::optional<std::string_view> first_not_finite(const Measures& measures);
 
 /// Measures a state of the model. Pinned particles count for the potential energies and the height; they do
 /// not move, so they have no part in kinetic energy, momentum and speed. Balls count

@@ -25,10 +25,50 @@ Vector start_vector(std::size_t size) {
   return v;
 }
 
+/// The largest eigenvalue θ of the symmetric tridiagonal matrix of a Lanczos iteration, and the last
+/// component of its unit vector, from eigenvalues alone: s² = Π (θ − μ_j)/(θ − θ_j) with the eigenvalues μ of
+/// the matrix without its last row (Golub and Van Loan, §8.5, and the interlacing theorem, which keeps every
+/// factor from 0 to 1).
+struct TopOfTridiagonal {
+  double value, last_component;
+};
+Eigen::VectorXd tridiagonal_eigenvalues(std::vector<double>& diagonal, std::vector<double>& off_diagonal,
+                                        Eigen::Index n) {
+  if (n == 0) return {};
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(Eigen::Map<Vector>(diagonal.data(), n),
+                                Eigen::Map<Vector>(off_diagonal.data(), n - 1), Eigen::EigenvaluesOnly);
+  return solver.eigenvalues();
+}
+TopOfTridiagonal top_of(std::vector<double>& diagonal, std::vector<double>& off_diagonal) {
+  const auto n = static_cast<Eigen::Index>(diagonal.size());
+  const Vector all = tridiagonal_eigenvalues(diagonal, off_diagonal, n),
+               inner = tridiagonal_eigenvalues(diagonal, off_diagonal, n - 1);
+  const double top = all[n - 1];
+  double squared = 1.0;
+  for (Eigen::Index j = 0; j + 1 < n; ++j) {
+    // Equal eigenvalues are copies that a converged iteration makes by rounding.
+    const double below = top - all[j];
+    squared *= below > 0.0 ? std::clamp((top - inner[j]) / below, 0.0, 1.0) : 0.0;
+  }
+  return {top, std::sqrt(squared)};
+}
+
 }  // namespace
 
-LinearisedBody::LinearisedBody(const Model& model, std::uint32_t first_particle,
-                               std::uint32_t particle_count) {
+bool WorkBudget::spend(std::uint64_t evaluations) {
+  constexpr std::uint64_t between_looks = 1000000;
+  left_ -= std::min(left_, evaluations);
+  since_look_ += evaluations;
+  if (watch_ && since_look_ >= between_looks) {
+    since_look_ = 0;
+    if (!watch_(1.0 - static_cast<double>(left_) / static_cast<double>(all_))) left_ = 0;
+  }
+  return left_ > 0;
+}
+
+LinearisedBody::LinearisedBody(const Model& model, std::uint32_t first_particle, std::uint32_t particle_count,
+                               bool springs) {
   root_inverse_mass_.reserve(particle_count);
   for (std::uint32_t i = 0; i < particle_count; ++i) {
     root_inverse_mass_.push_back(std::sqrt(model.inverse_mass[first_particle + i]));
@@ -37,7 +77,8 @@ LinearisedBody::LinearisedBody(const Model& model, std::uint32_t first_particle,
                                       [](const Spring& s, std::uint32_t particle) { return s.a < particle; });
   const auto end = std::lower_bound(begin, model.springs.end(), first_particle + particle_count,
                                     [](const Spring& s, std::uint32_t particle) { return s.a < particle; });
-  springs_.reserve(static_cast<std::size_t>(end - begin));
+  if (springs) springs_.reserve(static_cast<std::size_t>(end - begin));
+  std::vector<double> stiffness_disc(particle_count, 0.0), damping_disc(particle_count, 0.0);
   smallest_ratio_ = std::numeric_limits<double>::infinity();
   for (auto spring = begin; spring != end; ++spring) {
     const SpringClass& c = model.spring_classes[spring->spring_class];
@@ -45,13 +86,34 @@ LinearisedBody::LinearisedBody(const Model& model, std::uint32_t first_particle,
     const double l = length(e);
     const bool moves = model.inverse_mass[spring->a] > 0.0 || model.inverse_mass[spring->b] > 0.0;
     if (l == 0.0 || !moves || (c.stiffness == 0.0 && c.damping == 0.0)) continue;
-    springs_.push_back(
-        {spring->a - first_particle, spring->b - first_particle, e / l, c.stiffness, c.damping});
+    const std::uint32_t a = spring->a - first_particle, b = spring->b - first_particle;
+    if (springs) springs_.push_back({a, b, e / l, c.stiffness, c.damping});
+    ++spring_count_;
+    for (const auto& [own, other] : {std::pair(a, b), std::pair(b, a)}) {
+      const double share = root_inverse_mass_[own] * (root_inverse_mass_[own] + root_inverse_mass_[other]);
+      stiffness_disc[own] += c.stiffness * share;
+      damping_disc[own] += c.damping * share;
+    }
     const double ratio = c.damping / c.stiffness;
     smallest_ratio_ = std::min(smallest_ratio_, ratio);
     largest_ratio_ = std::max(largest_ratio_, ratio);
   }
-  if (springs_.empty()) smallest_ratio_ = 0.0;
+  if (spring_count_ == 0) smallest_ratio_ = 0.0;
+  for (std::uint32_t i = 0; i < particle_count; ++i) {
+    // Unlike std::max this keeps a NaN.
+    if (!(stiffness_disc[i] <= stiffness_bound_)) stiffness_bound_ = stiffness_disc[i];
+    if (!(damping_disc[i] <= damping_bound_)) damping_bound_ = damping_disc[i];
+  }
+}
+
+void LinearisedBody::join(const LinearisedBody& other) {
+  if (other.spring_count_ == 0) return;
+  smallest_ratio_ =
+      spring_count_ == 0 ? other.smallest_ratio_ : std::min(smallest_ratio_, other.smallest_ratio_);
+  largest_ratio_ = std::max(largest_ratio_, other.largest_ratio_);
+  spring_count_ += other.spring_count_;
+  if (!(other.stiffness_bound_ <= stiffness_bound_)) stiffness_bound_ = other.stiffness_bound_;
+  if (!(other.damping_bound_ <= damping_bound_)) damping_bound_ = other.damping_bound_;
 }
 
 std::size_t LinearisedBody::free_dof() const {
@@ -65,8 +127,15 @@ bool LinearisedBody::proportional() const {
 }
 
 LargestEigenvalue LinearisedBody::largest_eigenvalue(double stiffness_factor, double damping_factor,
-                                                     double tolerance, int max_iterations) const {
-  if (springs_.empty()) return {};
+                                                     double tolerance, int max_iterations,
+                                                     WorkBudget& work) const {
+  if (spring_count_ == 0) return {};
+  const double bound = eigenvalue_bound(stiffness_factor, damping_factor);
+  const std::uint64_t work_of_iteration = springs_.size() + root_inverse_mass_.size();
+  // Fewer iterations than these say little.
+  constexpr std::uint64_t least_iterations = 20;
+  if (springs_.empty() || !std::isfinite(bound) || work.left() < least_iterations * work_of_iteration)
+    return {bound, false};
   const auto apply = [&](const Vector& in, Vector& out) {
     out.setZero();
     for (const LinearSpring& s : springs_) {
@@ -92,9 +161,10 @@ LargestEigenvalue LinearisedBody::largest_eigenvalue(double stiffness_factor, do
   current.normalize();
   std::vector<double> diagonal, off_diagonal;
   double beta = 0.0;
-  LargestEigenvalue best{0.0, false};
+  LargestEigenvalue best{bound, false};
   const int limit =
       std::min<int>(max_iterations, static_cast<int>(std::min<std::size_t>(size, 1u << 20)) + 1);
+  int next_look = 5;
   for (int iteration = 1; iteration <= limit; ++iteration) {
     apply(current, image);
     const double alpha = current.dot(image);
@@ -102,15 +172,15 @@ LargestEigenvalue LinearisedBody::largest_eigenvalue(double stiffness_factor, do
     diagonal.push_back(alpha);
     const double next_beta = image.norm();
     const bool exhausted = next_beta <= 1e-14 * (std::abs(alpha) + beta);
-    if (iteration % 5 == 0 || exhausted || iteration == limit) {
-      const auto n = static_cast<Eigen::Index>(diagonal.size());
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tridiagonal;
-      tridiagonal.computeFromTridiagonal(Eigen::Map<Vector>(diagonal.data(), n),
-                                         Eigen::Map<Vector>(off_diagonal.data(), n - 1));
-      best.value = std::max(0.0, tridiagonal.eigenvalues()[n - 1]);
-      const double residual = next_beta * std::abs(tridiagonal.eigenvectors()(n - 1, n - 1));
-      best.converged = exhausted || residual <= tolerance * best.value;
-      if (best.converged) break;
+    const bool last = !work.spend(work_of_iteration) || iteration == limit;
+    if (iteration >= next_look || exhausted || last) {
+      next_look = iteration + std::max(5, iteration / 10);
+      const TopOfTridiagonal top = top_of(diagonal, off_diagonal);
+      const double residual = exhausted ? 0.0 : next_beta * top.last_component;
+      best.converged = exhausted || residual <= tolerance * top.value;
+      best.value =
+          best.converged ? std::max(0.0, top.value) : std::min(bound, std::max(0.0, top.value) + residual);
+      if (best.converged || last) break;
     }
     off_diagonal.push_back(next_beta);
     previous.swap(current);

@@ -19,19 +19,32 @@ struct Effort {
   double tolerance;  // of Lanczos' residual, relative
   int iterations;
   std::size_t dense_dof;
+  std::uint64_t evaluations;  // of springs, in all
 };
-constexpr Effort quick = {1e-4, 100, 81};
-constexpr Effort thorough = {1e-7, 1000, 600};
+constexpr Effort quick = {1e-4, 100, 81, 40000000};
+constexpr Effort thorough = {1e-7, 1000, 600, 400000000};
 
-/// A body with what several integrators ask of it, computed once.
+/// Work of one mode's limit: a scan of 800 points, in spring evaluations.
+constexpr std::uint64_t work_of_mode = 500;
+
+/// A body with what several integrators ask of it, computed once. Also what several bodies that must do
+/// without a closer look have in common.
 class BodyAnalysis {
  public:
-  BodyAnalysis(LinearisedBody body, const Effort& effort) : body_(std::move(body)), effort_(effort) {}
+  BodyAnalysis(LinearisedBody body, const Effort& effort, WorkBudget& work)
+      : body_(std::move(body)), effort_(effort), work_(work) {}
 
   const LinearisedBody& body() const { return body_; }
-  bool small() const { return body_.free_dof() <= effort_.dense_dof; }
+  WorkBudget& work() { return work_; }
+  /// Whether all eigenvalues can be afforded: about 10·(2n)³ operations, twenty of which make a spring
+  /// evaluation.
+  bool small() const {
+    const std::uint64_t dof = body_.free_dof();
+    return dof <= effort_.dense_dof && body_.springs_kept() && 4 * dof * dof * dof <= work_.left();
+  }
   LargestEigenvalue largest(double stiffness_factor, double damping_factor) const {
-    return body_.largest_eigenvalue(stiffness_factor, damping_factor, effort_.tolerance, effort_.iterations);
+    return body_.largest_eigenvalue(stiffness_factor, damping_factor, effort_.tolerance, effort_.iterations,
+                                    work_);
   }
   const LargestEigenvalue& kappa_max() {
     if (!kappa_) kappa_ = largest(1.0, 0.0);
@@ -42,13 +55,18 @@ class BodyAnalysis {
     return *gamma_;
   }
   const std::vector<std::complex<double>>& eigenvalues() {
-    if (!eigenvalues_) eigenvalues_ = body_.eigenvalues();
+    const std::uint64_t dof = body_.free_dof();
+    if (!eigenvalues_) {
+      eigenvalues_ = body_.eigenvalues();
+      work_.spend(4 * dof * dof * dof);
+    }
     return *eigenvalues_;
   }
 
  private:
   LinearisedBody body_;
   Effort effort_;
+  WorkBudget& work_;
   std::optional<LargestEigenvalue> kappa_, gamma_;
   std::optional<std::vector<std::complex<double>>> eigenvalues_;
 };
@@ -84,6 +102,7 @@ StabilityLimit proportional_limit(BodyAnalysis& analysis, Integrator integrator)
   const StabilityLimit end = at(1.0);
   StabilityLimit least = end;
   scan_unit_interval(300, [&](double share) { least = smaller(least, at(share)); });
+  analysis.work().spend(600 * work_of_mode);
   // The interval holds all eigenvalues, but not each of its points is one: only its upper end is sure to be.
   const bool at_end =
       end.step && least.step ? *end.step <= *least.step * (1.0 + 1e-9) : end.step == least.step;
@@ -142,15 +161,19 @@ StabilityLimit bounded_limit(BodyAnalysis& analysis, Integrator integrator) {
   const double gamma_max = analysis.gamma_max().value;
   const LinearisedBody& body = analysis.body();
   StabilityLimit least = {infinity, false};
+  // Without stiffness there is no ratio to it: κ = 0 stands for all of γ.
+  const auto gamma_of = [&](double ratio, double kappa) {
+    return kappa > 0.0 ? std::min(ratio * kappa, gamma_max) : 0.0;
+  };
   const auto visit = [&](double kappa) {
-    const double from = std::min(body.smallest_ratio() * kappa, gamma_max);
-    const double to = std::min(body.largest_ratio() * kappa, gamma_max);
+    const double from = gamma_of(body.smallest_ratio(), kappa), to = gamma_of(body.largest_ratio(), kappa);
     constexpr int steps = 40;
     for (int i = 0; i <= steps; ++i) {
       least = smaller(least, of_mode(integrator, kappa, from + (to - from) * i / steps));
     }
   };
   scan_unit_interval(60, [&](double share) { visit(share * kappa_max); });
+  analysis.work().spend(120 * 41 * work_of_mode);
   least = smaller(least, of_mode(integrator, 0.0, gamma_max));
   least.exact = false;
   return least;
@@ -159,41 +182,67 @@ StabilityLimit bounded_limit(BodyAnalysis& analysis, Integrator integrator) {
 StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
   const LinearisedBody& body = analysis.body();
   if (integrator == Integrator::implicit_euler || !body.has_springs()) return {infinity, true};
+  if (!std::isfinite(body.eigenvalue_bound(1.0, 0.0)) || !std::isfinite(body.eigenvalue_bound(0.0, 1.0)))
+    return {0.0, false};
   if (body.proportional()) return proportional_limit(analysis, integrator);
   if (integrator == Integrator::symplectic_euler) return symplectic_limit(analysis);
   if (analysis.small()) return dense_limit(analysis, integrator);
   return bounded_limit(analysis, integrator);
 }
 
-/// Calls f for each body; particles outside any body count as one more.
-template <class F>
-void for_each_body(const Model& model, const F& f) {
+/// The model's bodies as runs of particles; one run of all particles if some are outside any body.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> runs_of(const Model& model) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
   std::uint32_t covered = 0;
-  for (const Body& body : model.bodies) covered += body.particle_count;
-  if (covered != model.particle_count()) {
-    f(LinearisedBody(model, 0, model.particle_count()));
-    return;
+  for (const Body& body : model.bodies) {
+    covered += body.particle_count;
+    runs.emplace_back(body.first_particle, body.particle_count);
   }
-  for (const Body& body : model.bodies) f(LinearisedBody(model, body.first_particle, body.particle_count));
+  if (covered != model.particle_count()) runs = {{0, model.particle_count()}};
+  return runs;
+}
+
+/// Springs with which a body is looked at closely: fewer iterations than twenty would say little, and it
+/// takes memory.
+bool affordable(const WorkBudget& work, std::size_t springs) {
+  return !work.spent() && 20 * springs <= work.left();
 }
 
 }  // namespace
 
 std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const Integrator> integrators,
-                                             StabilityEffort effort) {
+                                             StabilityEffort effort, const StabilityWatch& watch) {
   std::vector<StabilityLimit> limits(integrators.size(), StabilityLimit{infinity, true});
-  for_each_body(model, [&](LinearisedBody body) {
-    BodyAnalysis analysis(std::move(body), effort == StabilityEffort::quick ? quick : thorough);
+  const Effort& means = effort == StabilityEffort::quick ? quick : thorough;
+  WorkBudget work(means.evaluations, watch);
+  LinearisedBody rest;
+  const auto take = [&](LinearisedBody body) {
+    BodyAnalysis analysis(std::move(body), means, work);
     for (std::size_t i = 0; i < integrators.size(); ++i) {
       limits[i] = smaller(limits[i], body_limit(analysis, integrators[i]));
     }
-  });
+  };
+  for (const auto& [first, count] : runs_of(model)) {
+    LinearisedBody light(model, first, count, false);
+    if (affordable(work, light.spring_count())) {
+      take(LinearisedBody(model, first, count));
+    } else {
+      rest.join(light);
+    }
+  }
+  if (rest.has_springs()) take(std::move(rest));
   return limits;
 }
+
+/// Different kinds of bodies that are looked at in no time; more of them are left to stability_limit.
+constexpr int most_looks = 50;
 
 bool certainly_stable(const Model& model, Integrator integrator, double timestep) {
   if (integrator == Integrator::implicit_euler) return true;
   std::uint32_t covered = 0;
+  double known_kappa = 0.0, known_ratio = 0.0;  // of the body before: cubes are often alike
+  std::optional<StabilityLimit> known;
+  int looks = 0;
   for (const Body& body : model.bodies) {
     covered += body.particle_count;
     double stiffness = 0.0, ratio = 0.0, inverse_mass = 0.0;
@@ -208,26 +257,36 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
       inverse_mass = std::max(inverse_mass, model.inverse_mass[i]);
     }
     const double kappa = infinite_lattice_eigenvalue * stiffness * inverse_mass;
-    StabilityLimit least = of_mode(integrator, kappa, ratio * kappa);
-    scan_unit_interval(300, [&](double share) {
-      least = smaller(least, of_mode(integrator, share * kappa, ratio * share * kappa));
-    });
+    if (!known || kappa != known_kappa || ratio != known_ratio) {
+      if (++looks > most_looks) return false;
+      StabilityLimit limit = of_mode(integrator, kappa, ratio * kappa);
+      scan_unit_interval(300, [&](double share) {
+        limit = smaller(limit, of_mode(integrator, share * kappa, ratio * share * kappa));
+      });
+      known = limit;
+      known_kappa = kappa;
+      known_ratio = ratio;
+    }
+    const StabilityLimit& least = *known;
     if (body.kind != BodyKind::cube || !least.step || timestep > *least.step) return false;
   }
   return covered == model.particle_count();
 }
 
-StabilityLimit stability_limit(const Model& model, Integrator integrator, StabilityEffort effort) {
+StabilityLimit stability_limit(const Model& model, Integrator integrator, StabilityEffort effort,
+                               const StabilityWatch& watch) {
   if (integrator == Integrator::implicit_euler) return {infinity, true};
-  return stability_limits(model, {&integrator, 1}, effort).front();
+  return stability_limits(model, {&integrator, 1}, effort, watch).front();
 }
 
 double largest_stiffness_eigenvalue(const Model& model) {
   double largest = 0.0;
-  for_each_body(model, [&](const LinearisedBody& body) {
-    largest =
-        std::max(largest, body.largest_eigenvalue(1.0, 0.0, thorough.tolerance, thorough.iterations).value);
-  });
+  WorkBudget work(std::numeric_limits<std::uint64_t>::max());
+  for (const auto& [first, count] : runs_of(model)) {
+    const LinearisedBody body(model, first, count);
+    largest = std::max(
+        largest, body.largest_eigenvalue(1.0, 0.0, thorough.tolerance, thorough.iterations, work).value);
+  }
   return largest;
 }
 

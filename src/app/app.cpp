@@ -319,10 +319,8 @@ void App::watch_divergence() {
   tell(fmt::format("The simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is {} s; {}. "
                    "Shown is the last good step.",
                    divergence->step, static_cast<double>(divergence->step) * s.timestep,
-                   body_text(*divergence),
-                   divergence->finite ? fmt::format("became faster than {} m/s", divergence_speed)
-                                      : "is no longer a finite number",
-                   s.timestep, cli::stability_sentence(s.integrator, *stable_)),
+                   body_text(*divergence), fault_text(*divergence), s.timestep,
+                   cli::stability_sentence(s.integrator, *stable_)),
        true);
 }
 
@@ -339,7 +337,7 @@ Status App::frame(const WindowSize& size, double dt) {
   film();
   if (const Status moved = simulation_->update(dt, budget); !moved) return moved;
   end_change();
-  if (auto message = simulation_->take_message()) tell(std::move(*message), true);
+  if (auto message = simulation_->take_message()) tell(*message, true);
   film();
   watch_divergence();
   still_ = camera_moves || simulation_->running() || simulation_->seeking() ? 0.0 : still_ + dt;

@@ -20,6 +20,7 @@
 #include "app/scene_editor.h"
 #include "app/simulation.h"
 #include "app/window.h"
+#include "base/printable.h"
 #include "render/camera.h"
 #include "render/renderer.h"
 
@@ -172,7 +173,7 @@ class App final : public EventReceiver {
   void take_effect(Effect effect);
   void request_changes();
   void end_change();
-  void tell(std::string text, bool is_error = false) { notice_ = Notice{std::move(text), is_error}; }
+  void tell(const std::string& text, bool is_error = false) { notice_ = Notice{printable(text), is_error}; }
   void tell(const Status& status);
   void scene_replaced();
   void read_again();

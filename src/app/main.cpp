@@ -10,6 +10,7 @@
 #include "app/window.h"
 #include "cli/arguments.h"
 #include "cli/console.h"
+#include "cli/program.h"
 #include "io/interrupt.h"
 
 namespace aspic::app {
@@ -81,16 +82,20 @@ int show(const cli::ViewOptions& view) {
   return guard.interrupted() ? static_cast<int>(ErrorCode::interrupted) : 0;
 }
 
+int start(int argc, char** argv) {
+  // The words are those of `aspic view`.
+  std::vector<const char*> words = {"aspic", "view"};
+  words.insert(words.end(), argv + (argc > 0 ? 1 : 0), argv + argc);
+  const auto command = cli::parse_arguments(static_cast<int>(words.size()), words.data());
+  if (!command) return fail(command.error());
+  if (const auto* text = std::get_if<cli::ShowText>(&*command))
+    return cli::print_data(text->text) ? 0 : static_cast<int>(ErrorCode::io);
+  return show(std::get<cli::ViewOptions>(*command));
+}
+
 }  // namespace
 }  // namespace aspic::app
 
 int main(int argc, char** argv) {
-  // The words are those of `aspic view`.
-  std::vector<const char*> words = {"aspic", "view"};
-  words.insert(words.end(), argv + (argc > 0 ? 1 : 0), argv + argc);
-  const auto command = aspic::cli::parse_arguments(static_cast<int>(words.size()), words.data());
-  if (!command) return aspic::app::fail(command.error());
-  if (const auto* text = std::get_if<aspic::cli::ShowText>(&*command))
-    return aspic::cli::print_data(text->text) ? 0 : static_cast<int>(aspic::ErrorCode::io);
-  return aspic::app::show(std::get<aspic::cli::ViewOptions>(*command));
+  return aspic::cli::run_program([&] { return aspic::app::start(argc, argv); });
 }

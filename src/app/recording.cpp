@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 
 #include "io/frame_directory.h"
 #include "io/video_file.h"
@@ -20,6 +21,16 @@ Result<std::unique_ptr<FrameSink>> open_sink(const FilmOptions& options) {
     return open_frame_directory(options.path, format, options.size, Overwrite::refuse);
   }
   return open_video(options.path, options.size, options.fps, Overwrite::refuse);
+}
+
+/// What the encoder's thread does: an exception would end the program.
+template <class Work>
+Status guarded(const Work& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::io, "The film could not be written: there is not enough memory."};
+  }
 }
 
 }  // namespace
@@ -150,13 +161,14 @@ void Recording::encode() {
     const Picture picture = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
-    for (std::uint64_t i = 0; i < picture.copies && result; ++i) result = sink_->write(picture.pixels);
+    for (std::uint64_t i = 0; i < picture.copies && result; ++i)
+      result = guarded([&] { return sink_->write(picture.pixels); });
     lock.lock();
     if (!result) break;
   }
   const bool complete = result && !abandoned_;
   lock.unlock();
-  if (complete) result = sink_->finish();
+  if (complete) result = guarded([&] { return sink_->finish(); });
   sink_.reset();
   lock.lock();
   waiting_.clear();

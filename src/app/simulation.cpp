@@ -40,7 +40,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(gl::Context& context, con
 Simulation::Simulation(gl::Context& context) : context_(&context), history_(most_history_bytes) {}
 
 Simulation::~Simulation() {
-  worker_.finish();
+  worker_.abandon();
 }
 
 Result<Simulation::Engine> Simulation::make_engine(const Model& model, BackendName backend) {

@@ -11,8 +11,13 @@ namespace aspic::app {
 
 Worker::Worker() : thread_([this] { loop(); }) {}
 
+void Worker::abandon() noexcept {
+  hurry_ = true;
+  await_end();
+}
+
 Worker::~Worker() {
-  finish();
+  abandon();
   {
     const std::lock_guard lock(mutex_);
     end_ = true;
@@ -22,6 +27,7 @@ Worker::~Worker() {
 }
 
 void Worker::start(Job job) {
+  rethrow();
   {
     const std::lock_guard lock(mutex_);
     assert(!busy_);
@@ -43,6 +49,20 @@ void Worker::finish() {
 }
 
 void Worker::wait() {
+  await_end();
+  rethrow();
+}
+
+void Worker::rethrow() {
+  std::exception_ptr failure;
+  {
+    const std::lock_guard lock(mutex_);
+    failure = std::exchange(failure_, nullptr);
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+void Worker::await_end() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return !busy_; });
 }
@@ -57,8 +77,14 @@ void Worker::loop() {
     changed_.wait(lock, [this] { return busy_ || end_; });
     if (!busy_) return;
     lock.unlock();
-    job_(hurry_);
+    std::exception_ptr failure;
+    try {
+      job_(hurry_);
+    } catch (...) {
+      failure = std::current_exception();
+    }
     lock.lock();
+    failure_ = failure;
     busy_ = false;
     changed_.notify_all();
   }

@@ -7,6 +7,8 @@
 #include <functional>
 #include <string_view>
 
+#include "base/printable.h"
+#include "cli/number_checks.h"
 #include "cli/raw_options.h"
 #include "scene/diagnostics.h"
 
@@ -98,20 +100,23 @@ std::string full_name(const CLI::App& app) {
 /// A sentence for words that no option or argument takes.
 Error unexpected_word(const CLI::App& command, const std::string& word) {
   const bool option = word.starts_with('-');
-  const std::string name = word.substr(0, word.find('='));
+  const std::string shown = printable_line(word);
+  const std::string name = shown.substr(0, shown.find('='));
   const std::vector<std::string> known = option ? option_names(command) : command_names(command);
   std::string message = option          ? fmt::format("{} has no option {}.", full_name(command), name)
-                        : known.empty() ? fmt::format("{} does not expect \"{}\".", full_name(command), word)
-                                        : fmt::format("{} has no command \"{}\".", full_name(command), word);
+                        : known.empty() ? fmt::format("{} does not expect \"{}\".", full_name(command), shown)
+                                        : fmt::format("{} has no command \"{}\".", full_name(command), shown);
   const std::vector<std::string_view> candidates(known.begin(), known.end());
   const std::string_view near = diagnostics::nearest(name, candidates);
   if (!near.empty()) message += fmt::format(" Did you mean {}?", near);
   return usage(message + fmt::format(" See {} --help.", full_name(command)));
 }
 
-/// CLI11 wraps negative numbers round into large counts.
-std::string not_negative(const std::string& word) {
-  return word.starts_with('-') ? fmt::format("{} is negative; give 0 or more", word) : "";
+CLI::Validator whole(std::uint64_t most) {
+  return {[most](std::string& text) { return check_whole(text, most); }, ""};
+}
+CLI::Validator number() {
+  return {[](std::string& text) { return check_number(text); }, ""};
 }
 
 void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
@@ -123,10 +128,11 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
 void add_length(CLI::App& command, RunLength& length) {
   auto* steps = command.add_option("--steps", length.steps, "simulate up to this step")
                     ->type_name("N")
-                    ->check(not_negative);
+                    ->transform(whole(most_steps));
   command
       .add_option("--duration", length.duration, "simulate up to this time, in seconds; default: the scene's")
       ->type_name("S")
+      ->transform(number())
       ->excludes(steps);
 }
 
@@ -139,10 +145,12 @@ void add_pictures(CLI::App& command, RecordingOptions& pictures, RawOptions& raw
       ->capture_default_str()
       ->type_name("NAME");
   command.add_option("--fps", pictures.fps, "pictures per second shown; default 60, for a GIF 50")
-      ->type_name("F");
+      ->type_name("F")
+      ->transform(number());
   command.add_option("--speed", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion")
       ->capture_default_str()
-      ->type_name("X");
+      ->type_name("X")
+      ->transform(number());
   command.add_option("--size", raw.size, "size of the pictures in pixels")
       ->capture_default_str()
       ->type_name("WxH");
@@ -177,7 +185,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   c->add_option("--every", run.every, "steps between rows of the series")
       ->capture_default_str()
       ->type_name("N")
-      ->check(not_negative)
+      ->transform(whole(most_steps))
       ->needs(series);
   add_pictures(*c, run.pictures, raw);
   c->add_option("--checkpoint", run.checkpoint_file, "write scene and final state, to resume from")
@@ -221,7 +229,8 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
   c->add_option("--tolerance", compare.tolerance,
                 "largest difference allowed, in m and m/s; 0: identical bits")
       ->capture_default_str()
-      ->type_name("T");
+      ->type_name("T")
+      ->transform(number());
   c->add_flag("--json", compare.json, "result on stdout as JSON");
   c->footer(compare_examples);
   return c;
@@ -242,6 +251,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
       ->allow_extra_args(false);
   c->add_option("--size", bench.sizes, "particles per edge of the scene's cubes; repeatable")
       ->type_name("N")
+      ->transform(whole(1000000))
       ->allow_extra_args(false);
   c->add_option("--integrator", raw.bench_integrators, "instead of the scene's; repeatable")
       ->type_name("NAME")
@@ -252,11 +262,16 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
       ->capture_default_str();
   auto* seconds = c->add_option("--seconds", bench.seconds, "time to spend on each case")
                       ->type_name("S")
+                      ->transform(number())
                       ->capture_default_str();
   c->add_option("--duration", bench.duration, "simulated seconds of each repeat, however long they take")
       ->type_name("S")
+      ->transform(number())
       ->excludes(seconds);
-  c->add_option("--repeats", bench.repeats, "runs of each case")->type_name("N")->capture_default_str();
+  c->add_option("--repeats", bench.repeats, "runs of each case")
+      ->type_name("N")
+      ->transform(whole(1000000))
+      ->capture_default_str();
   add_overrides(*c, bench.overrides);
   c->add_flag("--json", bench.json, "result on stdout as JSON");
   c->footer(bench_examples);

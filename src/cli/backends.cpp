@@ -4,13 +4,16 @@
 
 #include <cstdlib>
 
+#include "base/memory.h"
+#include "base/printable.h"
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic::cli {
 namespace {
 
 Error unknown_word(std::string_view what, std::string_view word, std::string_view allowed) {
-  return {ErrorCode::usage, fmt::format("unknown {} \"{}\"; allowed: {}.", what, word, allowed)};
+  return {ErrorCode::usage,
+          fmt::format("unknown {} \"{}\"; allowed: {}.", what, printable_line(word), allowed)};
 }
 
 Error not_built(std::string_view what, std::string_view instead) {
@@ -40,7 +43,26 @@ Result<Backend> make_gpu(std::unique_ptr<gl::Context> context, const BackendChoi
   return backend;
 }
 
+/// What it holds at work; under implicit Euler also every spring's Jacobian, of the trial and of the iterate
+/// before.
+Status check_reference_memory(const Model& model, Precision precision) {
+  ModelCounts bodies;
+  bodies.particles = model.particle_count();
+  bodies.balls = model.ball_count();
+  const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
+  std::uint64_t bytes = reference_bytes(bodies, precision);
+  if (model.simulation.integrator == Integrator::implicit_euler) bytes += 2 * 5 * real * model.springs.size();
+  const std::optional<std::uint64_t> memory = available_memory();
+  if (!memory || bytes <= *memory) return {};
+  return Error{
+      ErrorCode::scene_rejected,
+      fmt::format("the reference solver needs {} of memory for this scene and {} are available; use fewer "
+                  "particles or balls",
+                  gl::human_bytes(bytes), gl::human_bytes(*memory))};
+}
+
 Result<Backend> make_reference(const BackendChoice& choice, const Model& model) {
+  if (const Status fits = check_reference_memory(model, choice.precision); !fits) return fits.error();
   auto solver = make_reference_solver(model, choice.precision);
   if (!solver) return solver.error();
   Backend backend;
@@ -61,7 +83,7 @@ Result<std::filesystem::path> shader_directory() {
         ErrorCode::io,
         fmt::format("ASPIC_SHADER_DIR names {}, which is no directory: name one laid out as shaders/ "
                     "of the sources, or unset it.",
-                    value)};
+                    printable_line(value))};
   }
   return std::filesystem::path(value);
 }

@@ -116,8 +116,9 @@ Result<Measurement> measure_case(const BenchOptions& options, const Scene& scene
   m.bytes = solver.bytes();
   m.timestep = *timestep;
   if (options.duration) {
-    m.steps =
-        std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(*options.duration / *timestep)));
+    const auto steps = steps_of({std::nullopt, options.duration}, model->simulation);
+    if (!steps) return steps.error();
+    m.steps = std::max<std::uint64_t>(1, *steps);
   } else {
     const auto steps = steps_for(solver, options.seconds / options.repeats, m);
     if (!steps) return steps.error();
@@ -225,7 +226,7 @@ Status bench_command(const BenchOptions& options) {
                       "integrator", "n", "springs", "h [s]", "steps/s", "spring ev./s", "s per sim. s",
                       "spread", "MiB");
   for (const Measurement& m : measurements) text += table_line(m);
-  return print_data(text);
+  return print_text(text);
 }
 
 }  // namespace aspic::cli

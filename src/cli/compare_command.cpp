@@ -148,7 +148,7 @@ Status print_result(const CompareOptions& options, const Scene& scene, const std
   text += result.first_difference ? fmt::format("first differing step {}\n", *result.first_difference)
                                   : "no step differs\n";
   text += fmt::format("{}: tolerance {}\n", within ? "within" : "EXCEEDED", options.tolerance);
-  return print_data(text);
+  return print_text(text);
 }
 
 }  // namespace

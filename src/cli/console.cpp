@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 
+#include "base/printable.h"
 #include "io/atomic_file.h"
 
 namespace aspic::cli {
@@ -17,12 +18,16 @@ Status print_data(std::string_view text) {
   return {};
 }
 
+Status print_text(std::string_view text) {
+  return print_data(printable(text));
+}
+
 void print_message(std::string_view text) {
-  fmt::print(stderr, "aspic: {}\n", text);
+  fmt::print(stderr, "aspic: {}\n", printable(text));
 }
 
 void print_warning(std::string_view text) {
-  fmt::print(stderr, "aspic: warning: {}\n", text);
+  fmt::print(stderr, "aspic: warning: {}\n", printable(text));
 }
 
 ProgressBar::ProgressBar(std::uint64_t total, std::string_view unit)

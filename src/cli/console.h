@@ -12,6 +12,12 @@ namespace aspic::cli {
 /// Writes data to stdout and flushes. Error (io): a full disk behind a redirection, a closed pipe.
 Status print_data(std::string_view text);
 
+/// Writes text for people to stdout as print_data does, escaped as the messages below.
+Status print_text(std::string_view text);
+
+// Messages may quote names, options, scenes and drivers: all of them pass through printable()
+// (base/printable.h), so that nothing from outside acts on the terminal.
+
 /// A line on stderr: "aspic: <text>".
 void print_message(std::string_view text);
 /// "aspic: warning: <text>".

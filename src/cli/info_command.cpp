@@ -93,7 +93,7 @@ Status info_command(const InfoOptions& options) {
   }
   text += fmt::format("\nBackend auto: {}, since {}.\n", chosen, automatic.reason);
   if (!automatic.detail.empty()) text += automatic.detail + "\n";
-  return print_data(text);
+  return print_text(text);
 }
 
 }  // namespace aspic::cli

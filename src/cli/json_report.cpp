@@ -29,7 +29,7 @@ struct Converter {
 }  // namespace
 
 std::string to_json(const JsonObject& object) {
-  return Converter()(object).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return Converter()(object).dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace aspic::cli

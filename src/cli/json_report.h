@@ -37,7 +37,8 @@ class JsonValue {
   Content content_;
 };
 
-/// Indented by two spaces, with a line end. Text that is not UTF-8 (a file name) has its bad bytes replaced.
+/// Indented by two spaces, with a line end, in ASCII: other characters are escaped, so that none acts on a
+/// terminal. Text that is not UTF-8 (a file name) has its bad bytes replaced.
 std::string to_json(const JsonObject& object);
 
 }  // namespace aspic::cli

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "base/printable.h"
 #include "io/video_file.h"
 
 namespace aspic::cli {
@@ -34,7 +35,8 @@ Result<PictureSize> parse_size(const std::string& text) {
       return size;
   }
   return usage(fmt::format(
-      "--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".", text));
+      "--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".",
+      printable_line(text)));
 }
 
 Status finish_pictures(RecordingOptions& pictures, const RawOptions& raw) {
@@ -42,10 +44,11 @@ Status finish_pictures(RecordingOptions& pictures, const RawOptions& raw) {
   if (!size) return size.error();
   pictures.size = *size;
   if (raw.frames_format != "png" && raw.frames_format != "jpg")
-    return usage(fmt::format("--frames-format must be png or jpg, not \"{}\".", raw.frames_format));
+    return usage(
+        fmt::format("--frames-format must be png or jpg, not \"{}\".", printable_line(raw.frames_format)));
   pictures.frames_format = raw.frames_format == "png" ? ImageFormat::png : ImageFormat::jpg;
   if (raw.text != "on" && raw.text != "off")
-    return usage(fmt::format("--text must be on or off, not \"{}\".", raw.text));
+    return usage(fmt::format("--text must be on or off, not \"{}\".", printable_line(raw.text)));
   pictures.text = raw.text == "on" && !raw.no_text;
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (pictures.fps && !(positive(*pictures.fps) && *pictures.fps <= 1000.0))
@@ -158,17 +161,19 @@ Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
     if (known == std::end(all_integrators)) {
       std::vector<std::string_view> names;
       for (const Integrator i : all_integrators) names.push_back(name_of(i));
-      return usage(
-          fmt::format("--integrator does not know \"{}\"; allowed: {}.", word, fmt::join(names, ", ")));
+      return usage(fmt::format("--integrator does not know \"{}\"; allowed: {}.", printable_line(word),
+                               fmt::join(names, ", ")));
     }
     bench.integrators.push_back(*known);
   }
   if (raw.bench_timestep != "scene" && raw.bench_timestep != "largest") {
-    return usage(fmt::format("--timestep must be scene or largest, not \"{}\".", raw.bench_timestep));
+    return usage(
+        fmt::format("--timestep must be scene or largest, not \"{}\".", printable_line(raw.bench_timestep)));
   }
   bench.timestep = raw.bench_timestep == "largest" ? BenchTimestep::largest : BenchTimestep::scene;
-  if (!(std::isfinite(bench.seconds) && bench.seconds > 0.0))
-    return usage("--seconds must be a number above 0.");
+  constexpr double longest = 1e6;  // s: eleven days
+  if (!(bench.seconds > 0.0 && bench.seconds <= longest))
+    return usage("--seconds must be a number above 0 and at most 1e6.");
   if (bench.duration && !(std::isfinite(*bench.duration) && *bench.duration > 0.0)) {
     return usage("--duration must be a number above 0.");
   }

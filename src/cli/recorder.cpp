@@ -1,5 +1,7 @@
 #include "cli/recorder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -9,6 +11,9 @@
 
 namespace aspic::cli {
 namespace {
+
+/// Half a year at 60 pictures a second: what makes more was not meant.
+constexpr std::uint64_t most_pictures = 1000000000;
 
 using Clock = std::chrono::steady_clock;
 
@@ -46,6 +51,14 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordingOptions& optio
                                                    std::uint64_t last_step) {
   const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, frames_per_second(options),
                                options.speed);
+  if (schedule.count() > most_pictures) {
+    return Error{
+        ErrorCode::usage,
+        fmt::format(
+            "--speed {} and --fps {} make more than {} pictures of this run: choose a larger speed or "
+            "fewer pictures a second.",
+            options.speed, frames_per_second(options), most_pictures)};
+  }
   std::unique_ptr<Recorder> r(new Recorder(options, scene, model, std::move(sinks), schedule));
   r->context_ = backend.context.get();
   if (!r->context_) {

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/json_report.h"
+#include "cli/number_checks.h"
 #include "cli/recorder.h"
 #include "cli/run_files.h"
 #include "cli/stability_text.h"
@@ -70,6 +71,8 @@ Result<Start> load_start(const RunOptions& options) {
         fmt::format("the scene inside the checkpoint, written by aspic {}, is not accepted by aspic {}:\n{}",
                     checkpoint->program_version, ASPIC_VERSION, scene.error().message)};
   }
+  if (const Status fits = check_against_scene(*checkpoint, scene->model, options.resume_file); !fits)
+    return fits.error();
   if (!options.scene.empty()) {
     const auto given = load_scene(options.scene, options.overrides);
     if (!given) return given.error();
@@ -187,7 +190,9 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, st
 JsonObject to_json_object(const Divergence& divergence, double timestep) {
   return {{"step", divergence.step},
           {"time", static_cast<double>(divergence.step) * timestep},
-          {divergence.ball ? "ball" : "particle", divergence.particle},
+          divergence.residual
+              ? std::pair<std::string, JsonValue>("residual", true)
+              : std::pair<std::string, JsonValue>(divergence.ball ? "ball" : "particle", divergence.particle),
           {"finite", divergence.finite}};
 }
 
@@ -284,31 +289,30 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   }
   text += fmt::format("state hash   {}\n", hash);
   for (const std::string& file : files.written()) text += fmt::format("wrote        {}\n", file);
-  return print_data(text);
+  return print_text(text);
 }
 
 /// The infinite lattice clears most cubes at once; a large one's own spectrum takes seconds.
-void warn_if_unstable(const Model& model) {
+void warn_if_unstable(const Model& model, const InterruptGuard& interrupt) {
   const SimulationSettings& simulation = model.simulation;
   if (certainly_stable(model, simulation.integrator, simulation.timestep)) return;
-  const StabilityLimit stable = stability_limit(model, simulation.integrator, StabilityEffort::quick);
-  if (!exceeds(simulation.timestep, stable)) return;
-  print_warning(fmt::format("the time step {} s is not stable: {}.", simulation.timestep,
-                            stability_sentence(simulation.integrator, stable)));
+  const StabilityLimit stable = stability_limit(model, simulation.integrator, StabilityEffort::quick,
+                                                [&](double) { return !interrupt.interrupted(); });
+  if (!interrupt.interrupted() && exceeds(simulation.timestep, stable))
+    print_warning(unstable_sentence(simulation.timestep, simulation.integrator, stable));
 }
 
-Error divergence_error(const Model& model, const Outcome& outcome) {
+Error divergence_error(const Model& model, const Outcome& outcome, const InterruptGuard& interrupt) {
   const Divergence& d = *outcome.divergence;
-  const StabilityLimit stable = stability_limit(model, model.simulation.integrator, StabilityEffort::quick);
+  const StabilityLimit stable = stability_limit(model, model.simulation.integrator, StabilityEffort::quick,
+                                                [&](double) { return !interrupt.interrupted(); });
   const double h = model.simulation.timestep;
   return {ErrorCode::diverged,
           fmt::format("the simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is "
                       "{} s; {}. The last good "
                       "step is {}; every output holds that state.",
-                      d.step, static_cast<double>(d.step) * h, body_text(d),
-                      d.finite ? fmt::format("became faster than {} m/s", divergence_speed)
-                               : "is no longer a finite number",
-                      h, stability_sentence(model.simulation.integrator, stable), outcome.state.step)};
+                      d.step, static_cast<double>(d.step) * h, body_text(d), fault_text(d), h,
+                      stability_sentence(model.simulation.integrator, stable), outcome.state.step)};
 }
 
 }  // namespace
@@ -317,8 +321,7 @@ Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings
   if (length.steps) return *length.steps;
   const double duration = length.duration.value_or(simulation.duration);
   const double steps = std::round(duration / simulation.timestep);
-  // Beyond 2⁵³ a double cannot count.
-  if (!(steps <= 0x1p53)) {
+  if (!(steps <= static_cast<double>(most_steps))) {
     return Error{ErrorCode::usage,
                  fmt::format("{} s at a time step of {} s are more steps than can be counted.", duration,
                              simulation.timestep)};
@@ -350,7 +353,7 @@ Status run_command(const RunOptions& options) {
   if (start->state) {
     if (const Status loaded = backend->solver->load(*start->state); !loaded) return loaded.error();
   }
-  warn_if_unstable(*model);
+  warn_if_unstable(*model, interrupt);
 
   std::unique_ptr<Recorder> recorder;
   if (options.pictures.any()) {
@@ -361,13 +364,18 @@ Status run_command(const RunOptions& options) {
   }
   auto outcome = simulate(*backend->solver, *files, recorder.get(), *steps, interrupt);
   if (!outcome) return outcome.error();
+  if (const auto bad = first_not_finite(measure(*model, outcome->state))) {
+    return Error{
+        ErrorCode::diverged,
+        fmt::format("{} of step {} is not a finite number; no file was written.", *bad, outcome->state.step)};
+  }
   const Status finished = files->finish(*model, start->scene_toml, outcome->state);
   const Status summary =
       print_summary(options, start->scene, *model, *backend, *outcome, *files, recorder.get());
   if (recorder) print_frame_times(*recorder);
   if (!finished) return finished;
   if (!summary) return summary;
-  if (outcome->divergence) return divergence_error(*model, *outcome);
+  if (outcome->divergence) return divergence_error(*model, *outcome, interrupt);
   if (outcome->interrupted) {
     return Error{
         ErrorCode::interrupted,

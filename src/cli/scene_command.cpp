@@ -7,6 +7,7 @@
 #include "cli/console.h"
 #include "cli/json_report.h"
 #include "cli/stability_text.h"
+#include "io/interrupt.h"
 #include "scene/import_configuration.h"
 #include "scene/load.h"
 #include "scene/write.h"
@@ -50,6 +51,7 @@ Status scene_import_command(const SceneImportOptions& options) {
 }
 
 Status scene_check_command(const SceneCheckOptions& options) {
+  const InterruptGuard interrupt;
   const auto scene = load_scene(options.scene, options.overrides);
   if (!scene) return scene.error();
   const auto model = build_model(scene->model);
@@ -57,7 +59,17 @@ Status scene_check_command(const SceneCheckOptions& options) {
   const ModelCounts counts = count(*model);
   const Integrator own = model->simulation.integrator;
   const double timestep = model->simulation.timestep;
-  const std::vector<StabilityLimit> limits = stability_limits(*model, explicit_integrators);
+  std::vector<StabilityLimit> limits;
+  {
+    ProgressBar bar(100, "stable steps: part");
+    limits = stability_limits(*model, explicit_integrators, StabilityEffort::thorough, [&](double share) {
+      bar.update(static_cast<std::uint64_t>(100.0 * share));
+      return !interrupt.interrupted();
+    });
+  }
+  if (interrupt.interrupted())
+    return Error{ErrorCode::interrupted,
+                 "interrupted before the stable steps were known; nothing was printed."};
 
   if (options.json) {
     JsonObject bytes, steps;
@@ -95,14 +107,13 @@ Status scene_check_command(const SceneCheckOptions& options) {
                           stability_figure(limits[i]));
     }
     text += fmt::format("time step    {:<24} {:>8} s\n", name_of(own), timestep);
-    if (const Status printed = print_data(text); !printed) return printed;
+    if (const Status printed = print_text(text); !printed) return printed;
   }
   const auto at = std::find(explicit_integrators.begin(), explicit_integrators.end(), own);
   if (at != explicit_integrators.end()) {
     const StabilityLimit& limit = limits[static_cast<std::size_t>(at - explicit_integrators.begin())];
     if (exceeds(timestep, limit)) {
-      print_warning(
-          fmt::format("the time step {} s is not stable: {}.", timestep, stability_sentence(own, limit)));
+      print_warning(unstable_sentence(timestep, own, limit));
     }
   }
   return {};

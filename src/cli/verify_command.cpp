@@ -66,7 +66,7 @@ std::string table(const std::vector<Row>& rows, const std::string& device, doubl
 
 Status print_rows(const VerifyOptions& options, const std::vector<Row>& rows, const std::string& device,
                   double seconds) {
-  if (!options.json) return print_data(table(rows, device, seconds));
+  if (!options.json) return print_text(table(rows, device, seconds));
   JsonArray array;
   for (const Row& row : rows) {
     array.emplace_back(JsonObject{{"name", row.name},

@@ -8,6 +8,7 @@
 // eigenvalues across its axis: they are left out of the matrix (Choi and Ko, Stable but Responsive Cloth,
 // 2002), which keeps it symmetric positive definite, while the residual stays that of the true equation. So
 // the method converges to the true solution, linearly where springs are compressed.
+#include <cmath>
 #include <utility>
 
 #include "cpu_reference/integrators.h"
@@ -276,7 +277,8 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
     without_progress = at.residual < static_cast<T>(progress_share) * best ? 0 : without_progress + 1;
     best = at.residual < best ? at.residual : best;
   }
-  report.residual = static_cast<double>(at.residual);
+  // A largest component passes over those that are no numbers; the sum of squares does not.
+  report.residual = static_cast<double>(std::isnan(at.merit) ? at.merit : at.residual);
   return {s.x + h_ * v, v};
 }
 

@@ -13,9 +13,10 @@ namespace aspic {
 namespace reference {
 namespace {
 
-/// Lowest particle, else lowest ball, that is not finite or too fast, if any.
+/// Lowest particle, else lowest ball, that is not finite or too fast, if any; else the solve's residual.
 template <class T>
-std::optional<Divergence> find_divergence(const Phase<T>& phase, const BallPhase<T>& balls,
+std::optional<Divergence> find_divergence(const Model& model, const Phase<T>& phase,
+                                          const BallPhase<T>& balls, const SolveReport& report,
                                           std::uint64_t step) {
   const T limit = static_cast<T>(divergence_speed * divergence_speed);
   for (Eigen::Index i = 0; i < phase.x.cols(); ++i) {
@@ -26,10 +27,15 @@ std::optional<Divergence> find_divergence(const Phase<T>& phase, const BallPhase
   }
   for (Eigen::Index b = 0; b < balls.x.cols(); ++b) {
     const Vector<T> v = balls.v.col(b);
-    const bool finite = balls.x.col(b).allFinite() && v.allFinite() && balls.omega.col(b).allFinite();
+    // An energy is measured in double precision, where the square of any ω in single precision is finite.
+    const double spinning = balls.omega.col(b).template cast<double>().squaredNorm() *
+                            model.balls[static_cast<std::size_t>(b)].inertia();
+    const bool finite = balls.x.col(b).allFinite() && v.allFinite() && balls.omega.col(b).allFinite() &&
+                        std::isfinite(spinning);
     if (!finite || dot3<T>(v, v) > limit)
       return Divergence{step, static_cast<std::uint32_t>(b), finite, true};
   }
+  if (!std::isfinite(report.residual)) return Divergence{step, 0, false, false, true};
   return std::nullopt;
 }
 
@@ -81,7 +87,7 @@ class ReferenceSolver final : public Solver {
       dynamics_.respond(phase_.x, phase_.v, next.x, next.v);
       BallPhase<T> next_balls;
       if (model_.ball_count() > 0) next_balls = balls_.step(step_, ball_phase_, phase_, next);
-      divergence_ = find_divergence(next, next_balls, step_ + 1);
+      divergence_ = find_divergence(model_, next, next_balls, report, step_ + 1);
       if (divergence_) break;
       if (solved) statistics_.add(report);
       std::swap(phase_, next);

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <optional>
+
+#include "base/printable.h"
 
 namespace aspic::gl {
 namespace {
@@ -38,6 +39,27 @@ std::optional<std::string> quoted(std::string_view text) {
   return std::string(text.substr(1, close - 1));
 }
 
+/// Larger than any shader by far: keeps a wrong file from filling the memory.
+constexpr std::streamsize largest_shader_file = 4 << 20;
+/// Includes inside each other. Those of the program are four deep.
+constexpr std::size_t deepest_include = 32;
+
+Result<std::string> read_shader_file(const std::filesystem::path& file) {
+  const auto error = [&](std::string_view what) {
+    return Error{ErrorCode::io, fmt::format("The shader file {} {}.", printable_line(file.string()), what)};
+  };
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    return error("is a directory, a device or a pipe, and no file");
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(static_cast<std::size_t>(largest_shader_file) + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream.is_open() || stream.bad()) return error("cannot be read");
+  if (stream.gcount() > largest_shader_file) return error("is larger than 4 MiB");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
 }  // namespace
 
 /// A flattening under way: the shader so far, and the files that lead to the present one.
@@ -67,13 +89,7 @@ Result<std::string> ShaderLibrary::read(std::string_view path) const {
   if (!directory_.empty()) {
     const std::filesystem::path file = directory_ / std::filesystem::path(path);
     std::error_code ignored;
-    if (std::filesystem::exists(file, ignored)) {
-      std::ifstream stream(file, std::ios::binary);
-      std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-      if (!stream.is_open() || stream.bad())
-        return Error{ErrorCode::io, fmt::format("The shader file {} cannot be read.", file.string())};
-      return text;
-    }
+    if (std::filesystem::exists(file, ignored)) return read_shader_file(file);
   }
   const auto files = embedded_shaders();
   const auto found = std::ranges::find(files, path, &EmbeddedShader::path);
@@ -110,6 +126,13 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
   const Result<std::string> text = read(path);
   if (!text) return Error{text.error().code, where() + text.error().message};
 
+  if (work.open.size() == deepest_include) {
+    return Error{ErrorCode::io,
+                 fmt::format("{}:{}: more than {} includes are inside each other. Include the files from "
+                             "fewer levels.",
+                             files[static_cast<std::size_t>(work.open.back().file)], work.open.back().line,
+                             deepest_include)};
+  }
   const int file = static_cast<int>(files.size());
   files.push_back(path);
   work.open.push_back({file, 0});

@@ -41,6 +41,7 @@ Status check_device(gl::Context& context, ErrorCode memory_code) {
 }
 
 Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model) {
+  if (word == BAD_RESIDUAL) return {step, 0, false, false, true};
   const std::uint32_t index = word >> 1, particles = model.particle_count();
   const bool ball = index >= particles;
   return {step, ball ? index - particles : index, (word & 1u) != 0, ball};

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -12,7 +13,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <utility>
+
+#include "base/printable.h"
 
 namespace aspic {
 namespace {
@@ -65,7 +69,7 @@ Error already_exists(const std::string& path) {
       ErrorCode::io,
       fmt::format(
           "{} exists already and was left as it is. Choose another name, or allow overwriting with --force.",
-          path)};
+          printable_line(path))};
 }
 
 std::string_view remedy(int error_number) {
@@ -98,9 +102,9 @@ std::string_view remedy(int error_number) {
 }  // namespace
 
 Error file_error(std::string_view verb, const std::string& path, int error_number) {
-  return {ErrorCode::io,
-          fmt::format("Cannot {} {}: {}. {}", verb, path.empty() ? "a file without a name" : path,
-                      std::strerror(error_number), remedy(error_number))};
+  return {ErrorCode::io, fmt::format("Cannot {} {}: {}. {}", verb,
+                                     path.empty() ? "a file without a name" : printable_line(path),
+                                     std::strerror(error_number), remedy(error_number))};
 }
 
 Result<AtomicFile> AtomicFile::create(const std::string& path, Overwrite overwrite) {
@@ -235,24 +239,54 @@ Status AtomicFile::commit() {
   return {};
 }
 
-Result<std::string> read_whole_file(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return file_error("read", path, errno);
+namespace {
+
+/// Reads until `most` bytes are there or the file ends; closes the descriptor.
+Result<std::string> read_and_close(int descriptor, std::uint64_t most, const std::string& path) {
   std::string content;
   std::array<char, 65536> block;
-  for (;;) {
-    const ssize_t got = ::read(descriptor, block.data(), block.size());
+  int reason = 0;
+  while (reason == 0 && content.size() < most) {
+    const std::size_t wanted = std::min<std::uint64_t>(block.size(), most - content.size());
+    const ssize_t got = ::read(descriptor, block.data(), wanted);
     if (got == 0) break;
     if (got > 0) {
       content.append(block.data(), static_cast<std::size_t>(got));
     } else if (errno != EINTR) {
-      const int reason = errno;
-      ::close(descriptor);
-      return file_error("read", path, reason);
+      reason = errno;
     }
   }
   ::close(descriptor);
+  if (reason != 0) return file_error("read", path, reason);
   return content;
+}
+
+}  // namespace
+
+Result<FileStart> read_regular_file(const std::string& path, std::uint64_t most) {
+  // Opening a pipe without a writer would wait for one.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (descriptor < 0) return file_error("read", path, errno);
+  struct stat present = {};
+  const bool known = ::fstat(descriptor, &present) == 0;
+  if (!known || !S_ISREG(present.st_mode)) {
+    const int reason = known ? EISDIR : errno;
+    ::close(descriptor);
+    if (!known || S_ISDIR(present.st_mode)) return file_error("read", path, reason);
+    return Error{ErrorCode::io,
+                 fmt::format("Cannot read {}: it is a device or a pipe, which may have no end. Give the "
+                             "name of a file.",
+                             printable_line(path))};
+  }
+  auto content = read_and_close(descriptor, most, path);
+  if (!content) return content.error();
+  return FileStart{std::move(*content), static_cast<std::uint64_t>(present.st_size)};
+}
+
+Result<std::string> read_whole_file(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return file_error("read", path, errno);
+  return read_and_close(descriptor, std::numeric_limits<std::uint64_t>::max(), path);
 }
 
 void remove_temporary_files() noexcept {

@@ -2,6 +2,7 @@
 // Files that appear whole or not at all: written under a temporary name beside their place and renamed when
 // complete.
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -55,6 +56,15 @@ class AtomicFile {
   int slot_ = -1;  ///< in the list that remove_temporary_files() reads
   Overwrite overwrite_ = Overwrite::refuse;
 };
+
+/// The beginning of a file, and the size of all of it.
+struct FileStart {
+  std::string content;
+  std::uint64_t size = 0;  ///< [bytes]
+};
+/// Reads the first `most` bytes, or all if there are fewer, of a regular file. Errors (io): it is missing or
+/// unreadable, a directory, or a device or pipe, which may have no end.
+Result<FileStart> read_regular_file(const std::string& path, std::uint64_t most);
 
 /// Reads a whole file. Error (io): missing, unreadable, a directory.
 Result<std::string> read_whole_file(const std::string& path);

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <optional>
 #include <span>
 
 #include "base/fnv.h"
+#include "base/memory.h"
+#include "base/printable.h"
+#include "model/model.h"
 
 namespace aspic {
 namespace {
@@ -143,17 +147,34 @@ std::string encode_checkpoint(const Checkpoint& checkpoint) {
   return out.take();
 }
 
+namespace {
+
+constexpr std::string_view damaged =
+    "the checkpoint is damaged or cut short, and resuming from it would give a wrong result. Use another "
+    "copy, or run "
+    "the scene again.";
+
+Error error_in(const std::string& name, std::string_view what) {
+  return {ErrorCode::io, fmt::format("{}: {}", printable_line(name), what)};
+}
+
+/// What the first bytes alone tell.
+Status check_magic(std::string_view bytes, const std::string& name) {
+  if (bytes.empty()) return error_in(name, "the file is empty, so it is no checkpoint.");
+  if (magic.starts_with(bytes.substr(0, magic.size()))) return {};
+  return error_in(name, "this is not a checkpoint of aspic. Give a file that aspic run --checkpoint wrote.");
+}
+
+bool is_version_text(std::string_view text) {
+  return text.size() <= longest_program_version &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+}  // namespace
+
 Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& name) {
-  const auto error = [&](std::string_view what) {
-    return Error{ErrorCode::io, fmt::format("{}: {}", name, what)};
-  };
-  if (bytes.empty()) return error("the file is empty, so it is no checkpoint.");
-  if (!magic.starts_with(bytes.substr(0, magic.size()))) {
-    return error("this is not a checkpoint of aspic. Give a file that aspic run --checkpoint wrote.");
-  }
-  constexpr std::string_view damaged =
-      "the checkpoint is damaged or cut short, and resuming from it would give a wrong result. Use another "
-      "copy, or run the scene anew.";
+  const auto error = [&](std::string_view what) { return error_in(name, what); };
+  if (const Status known = check_magic(bytes, name); !known) return known.error();
   Decoder in(bytes);
   in.take(magic.size());
   const auto version = static_cast<std::uint32_t>(in.get(4));
@@ -162,7 +183,7 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
     return error(fmt::format("the checkpoint has format version {}, this program reads version {}. {}",
                              version, checkpoint_version,
                              version > checkpoint_version ? "Use the newer aspic that wrote it."
-                                                          : "Run the scene anew to make a new one."));
+                                                          : "Run the scene again to make a new one."));
   }
   if (bytes.size() < 8) return error(damaged);
   Decoder tail(bytes.substr(bytes.size() - 8));
@@ -176,15 +197,19 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
   state.step = in.get(8);
   checkpoint.timestep = std::bit_cast<double>(in.get(8));
   const std::uint64_t hash = in.get(8);
-  checkpoint.program_version = in.text();
-  checkpoint.scene = in.text();
+  const std::string_view program_version = in.text(), scene = in.text();
   const std::uint64_t particles = in.get(8);
   const std::uint64_t balls = in.get(8);
+  if (!is_version_text(program_version) || scene.size() > longest_scene ||
+      state.step > last_checkpoint_step || !(checkpoint.timestep > 0.0 && std::isfinite(checkpoint.timestep)))
+    return error(damaged);
   // Sizes are compared before anything is allocated: 6 numbers a particle, 9 a ball and the checksum must be
   // all that is left.
   if (in.failed() || particles > bytes.size() || balls > bytes.size() ||
       in.left() != (particles * 6 + balls * 9) * width + 8)
     return error(damaged);
+  checkpoint.program_version = program_version;
+  checkpoint.scene = scene;
   state.position.reserve(particles);
   state.velocity.reserve(particles);
   for (std::uint64_t i = 0; i < particles; ++i) {
@@ -208,10 +233,43 @@ Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint) {
   return file.write(encode_checkpoint(checkpoint));
 }
 
+Status check_against_scene(const Checkpoint& checkpoint, const ModelSettings& scene,
+                           const std::string& name) {
+  if (checkpoint.timestep != scene.simulation.timestep) {
+    return error_in(
+        name, fmt::format("the checkpoint was made at a time step of {} s, but the scene in it says {} s: "
+                          "it was tampered with. Use another copy, or run the scene again.",
+                          checkpoint.timestep, scene.simulation.timestep));
+  }
+  const ModelCounts counts = predict_counts(scene);
+  const State& state = checkpoint.state;
+  if (counts.particles != state.position.size() || counts.balls != state.ball_position.size()) {
+    return Error{
+        ErrorCode::scene_rejected,
+        fmt::format(
+            "{}: the checkpoint holds {} particles and {} balls, but the scene in it has {} and {}: it "
+            "was tampered with. Use another copy, or run the scene again.",
+            printable_line(name), state.position.size(), state.ball_position.size(), counts.particles,
+            counts.balls)};
+  }
+  return {};
+}
+
 Result<Checkpoint> read_checkpoint(const std::string& path) {
-  const auto bytes = read_whole_file(path);
+  // The first bytes come first: what is no checkpoint needs no memory to be refused.
+  const auto start = read_regular_file(path, magic.size());
+  if (!start) return start.error();
+  if (const Status known = check_magic(start->content, path); !known) return known.error();
+  // Once as bytes, and as doubles whatever the precision in the file.
+  const std::optional<std::uint64_t> memory = available_memory();
+  if (memory && start->size > *memory / 3) {
+    return error_in(
+        path, fmt::format("the checkpoint has {} bytes, too many for the {} bytes of memory that are free.",
+                          start->size, *memory));
+  }
+  const auto bytes = read_regular_file(path, start->size);
   if (!bytes) return bytes.error();
-  return decode_checkpoint(*bytes, path);
+  return decode_checkpoint(bytes->content, path);
 }
 
 }  // namespace aspic

@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "io/atomic_file.h"
+#include "model/settings.h"
 #include "model/state.h"
 
 namespace aspic {
@@ -13,24 +14,37 @@ namespace aspic {
 /// Version of the checkpoint format this program writes, and the only one it reads.
 inline constexpr std::uint32_t checkpoint_version = 2;
 
+/// Bounds of what a checkpoint may hold: no aspic writes more.
+inline constexpr std::size_t longest_program_version = 64;
+inline constexpr std::uint64_t longest_scene = std::uint64_t{64} << 20;  ///< bytes, as of a scene file
+inline constexpr std::uint64_t last_checkpoint_step = std::uint64_t{1}
+                                                      << 53;  ///< as far as double precision counts
+
 struct Checkpoint {
-  std::string program_version;  ///< of the program that wrote it
-  std::string scene;            ///< the complete scene as TOML, overrides applied
-  double timestep = 0.0;        ///< h [s], the scene's own: repeated to be seen without parsing
-  State state;                  ///< with its precision and step
+  std::string
+      program_version;    ///< of the program that wrote it: printable ASCII, at most longest_program_version
+  std::string scene;      ///< the complete scene as TOML, overrides applied
+  double timestep = 0.0;  ///< h [s], the scene's own: repeated to be seen without parsing
+  State state;            ///< with its precision and step
 };
 
 /// The bytes of a checkpoint.
 std::string encode_checkpoint(const Checkpoint& checkpoint);
 
 /// Reads bytes back. `name` is for messages. Errors (io): not a checkpoint, another format version, damaged
-/// or cut short (its checksum or the hash of its state does not match).
+/// or cut short (its checksum or the hash of its state does not match, a number is out of its bounds or not
+/// finite). Nothing is allocated for sizes that the file names before they are found to fit the file.
 Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& name);
 
 /// Writes to an open file; the caller commits. Error (diverged) if a value of the state is not finite.
 Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint);
 
-/// Reads a file.
+/// Error (io): the checkpoint's time step is not the scene's, or (scene_rejected) its state has other numbers
+/// of particles and balls than the scene; found without building the scene's model.
+Status check_against_scene(const Checkpoint& checkpoint, const ModelSettings& scene, const std::string& name);
+
+/// Reads a file. Errors (io): as decode_checkpoint; it cannot be read, is no regular file (a device or pipe
+/// may never end), or is larger than free memory.
 Result<Checkpoint> read_checkpoint(const std::string& path);
 
 }  // namespace aspic

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace aspic {
 
 Result<SeriesWriter> SeriesWriter::create(const std::string& path, Overwrite overwrite, bool solves) {
@@ -18,11 +16,9 @@ Result<SeriesWriter> SeriesWriter::create(const std::string& path, Overwrite ove
 Status SeriesWriter::add(const Model& model, const State& state, const SolveStatistics& solves) {
   if (has_row_ && last_step_ == state.step) return {};
   const Measures m = measure(model, state);
-  // Every figure is a sum or an extreme of finite terms, so one test of the sum of all finds a NaN or
-  // infinity in any.
-  if (!std::isfinite(m.total() + m.momentum.x + m.momentum.y + m.momentum.z + m.max_speed + m.min_height)) {
+  if (const auto bad = first_not_finite(m)) {
     return Error{ErrorCode::diverged,
-                 fmt::format("{}: step {} is not a finite number.", file_.path(), state.step)};
+                 fmt::format("{}: {} of step {} is not a finite number.", file_.path(), *bad, state.step)};
   }
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
   has_row_ = true;

@@ -1,6 +1,7 @@
 #include "model/launcher.h"
 
 #include <cmath>
+#include <limits>
 
 namespace aspic {
 namespace {
@@ -20,6 +21,12 @@ Vec3 point_in(const BoxSettings& box, std::int64_t seed, std::uint64_t first) {
   return point;
 }
 
+/// round(n·interval/h), and the largest number there is where that exceeds all step numbers.
+std::uint64_t launch_step(std::uint64_t n, double interval, double timestep) {
+  const double step = std::round(static_cast<double>(n) * interval / timestep);
+  return step < 0x1p64 ? static_cast<std::uint64_t>(step) : std::numeric_limits<std::uint64_t>::max();
+}
+
 }  // namespace
 
 double launcher_number(std::int64_t seed, std::uint64_t index) {
@@ -34,8 +41,7 @@ Ball launched_ball(const LauncherSettings& launcher, std::uint64_t n, double tim
   Ball ball;
   ball.radius = launcher.ball.radius;
   ball.mass = launcher.ball.mass;
-  ball.launch_step =
-      static_cast<std::uint64_t>(std::round(static_cast<double>(n) * launcher.interval / timestep));
+  ball.launch_step = launch_step(n, launcher.interval, timestep);
   ball.initial_position = start;
   ball.initial_velocity = launcher.speed_factor * (target - start);
   return ball;

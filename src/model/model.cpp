@@ -149,6 +149,11 @@ std::uint64_t model_bytes(const ModelCounts& counts) {
          counts.balls * sizeof(Ball);
 }
 
+std::uint64_t run_bytes(const ModelCounts& counts) {
+  const std::uint64_t state = counts.particles * 2 * sizeof(Vec3) + counts.balls * 3 * sizeof(Vec3);
+  return model_bytes(counts) + 2 * state + state / 2;
+}
+
 std::string_view name_of(Integrator integrator) {
   switch (integrator) {
     case Integrator::explicit_euler:

@@ -113,6 +113,10 @@ ModelCounts predict_counts(const ModelSettings& settings);
 /// Bytes a Model with these counts holds.
 std::uint64_t model_bytes(const ModelCounts& counts);
 
+/// Bytes that a run with these counts takes at least: the model, the state at hand and the one measured, and
+/// a solver in single precision. For memory checks before anything is allocated.
+std::uint64_t run_bytes(const ModelCounts& counts);
+
 /// Every integrator, in the order of spec §2.6.
 inline constexpr Integrator all_integrators[] = {
     Integrator::explicit_euler, Integrator::symplectic_euler, Integrator::midpoint,

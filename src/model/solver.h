@@ -13,16 +13,20 @@
 
 namespace aspic {
 
-/// A step whose result was not a finite number or was faster than 1,000 m/s (spec §2.8).
+/// A step whose result was not a finite number or was faster than 1,000 m/s, or whose implicit solve ended
+/// with a residual that is not finite: then its result, finite or not, means nothing.
 struct Divergence {
   std::uint64_t step = 0;      ///< the step that failed: it would have been this step's end
   std::uint32_t particle = 0;  ///< lowest index of those that failed; particles come before balls
   bool finite = true;          ///< false: NaN or infinity; true: too fast
   bool ball = false;           ///< true: `particle` is the index of a ball
+  bool residual = false;       ///< true: it was the solve's residual, and `particle` says nothing
 };
 
-/// Who diverged, for messages: `particle 7`, `ball 2`.
+/// What diverged, for messages: `particle 7`, `ball 2`, `the residual of the implicit solve`.
 std::string body_text(const Divergence& divergence);
+/// How it did, after body_text: `became faster than 1000 m/s` or `is no longer a finite number`.
+std::string fault_text(const Divergence& divergence);
 
 /// Speed above which a step counts as diverged [m/s].
 inline constexpr double divergence_speed = 1000.0;

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "base/printable.h"
 #include "scene/parameters.h"
 
 namespace aspic::diagnostics {
@@ -25,19 +26,20 @@ std::string_view line_of(std::string_view text, std::uint32_t line) {
   return text;
 }
 
-/// The line as UTF-8 characters, fit for a terminal: tabs as single spaces, control characters as question
-/// marks.
+/// The line as UTF-8 characters, fit for a terminal and each as wide as in the file, so that the caret stays
+/// below the culprit: tabs as single spaces, what acts on a terminal or is not UTF-8 as question marks.
 std::vector<std::string> characters_of(std::string_view line) {
   std::vector<std::string> characters;
-  for (const char c : line) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xc0u) == 0x80u && !characters.empty()) {
-      characters.back() += c;
-    } else if (c == '\t') {
+  while (!line.empty()) {
+    const Utf8Character c = first_character(line);
+    if (c.code == '\t') {
       characters.emplace_back(" ");
+    } else if (!c.valid || acts_on_terminal(c.code)) {
+      characters.emplace_back("?");
     } else {
-      characters.emplace_back(1, byte < 0x20u || byte == 0x7fu ? '?' : c);
+      characters.emplace_back(line.substr(0, c.size));
     }
+    line.remove_prefix(c.size);
   }
   return characters;
 }
@@ -64,12 +66,13 @@ std::string line_with_caret(std::string_view line, std::uint32_t column, std::st
 std::string rendered(const Source& source, const document::Problem& problem) {
   const std::string_view line = line_of(source.text, problem.at.line);
   const std::uint32_t column = problem.at.column;
+  // A key or a name may hold a line feed of its own.
+  const std::string label = printable_line(source.label), message = printable_line(problem.message);
   if (!source.is_file) {
-    return fmt::format("{}: {}\n{}", source.label, problem.message,
-                       line_with_caret(line, column, "  ", "  "));
+    return fmt::format("{}: {}\n{}", label, message, line_with_caret(line, column, "  ", "  "));
   }
   return fmt::format(
-      "{}:{}:{}: {}\n{}", source.label, problem.at.line, column, problem.message,
+      "{}:{}:{}: {}\n{}", label, problem.at.line, column, message,
       line_with_caret(
           line, column, fmt::format("{:>4} | ", problem.at.line),
           fmt::format("{:>{}} | ", "", std::max<std::size_t>(4, std::to_string(problem.at.line).size()))));

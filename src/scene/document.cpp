@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "scene/nesting.h"
+
 namespace aspic::document {
 namespace {
 
@@ -88,6 +90,7 @@ Position start_of_key_before(std::string_view text, Position at) {
 }  // namespace
 
 std::variant<Node, Problem> parse(std::string_view text, std::uint32_t source) {
+  if (auto problem = too_deep(text, source)) return *std::move(problem);
   try {
     return converted(toml::parse(text), source);
   } catch (const toml::parse_error& error) {

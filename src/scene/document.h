@@ -44,7 +44,8 @@ struct Problem {
   std::string message;
 };
 
-/// Parses TOML. The first syntax error ends it.
+/// Parses TOML. The first syntax error ends it; so does text that nests deeper than scenes do
+/// (scene/nesting.h).
 std::variant<Node, Problem> parse(std::string_view text, std::uint32_t source);
 
 /// The member of a table with that key, or nullptr (also if the node is no table).

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "base/printable.h"
 #include "model/model.h"
 #include "scene/diagnostics.h"
 #include "scene/load.h"
@@ -69,8 +70,14 @@ std::optional<double> number_in(std::string_view text) {
   if (text.ends_with('f')) text.remove_suffix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+/// Keys and values as messages and the scene's comments quote them: valid UTF-8 on one line, and not all of a
+/// long one.
+std::string shown(std::string_view text) {
+  return excerpt(text, 60);
 }
 
 class Importer {
@@ -102,10 +109,10 @@ class Importer {
       key_ = trimmed(line.substr(1));
       key_line_ = line_;
       if (const auto [at, fresh] = seen_.emplace(key_, line_); !fresh) {
-        fail(fmt::format("*{} stands in line {} already", key_, at->second));
+        fail(fmt::format("*{} is in line {} already", shown(key_), at->second));
       }
     } else if (key_.empty()) {
-      fail(fmt::format("\"{}\" is neither a key, which starts with *, nor the value of one", line));
+      fail(fmt::format("\"{}\" is neither a key, which starts with *, nor the value of one", shown(line)));
     } else {
       store(line);
       key_.clear();
@@ -118,16 +125,16 @@ class Importer {
     if (target == targets.end()) {
       std::vector<std::string_view> known;
       for (const Target& t : targets) known.push_back(t.key);
-      note(fmt::format("*{} is not known and was left out (value {}){}", key_, text,
+      note(fmt::format("*{} is not known and was left out (value {}){}", shown(key_), shown(text),
                        diagnostics::did_you_mean(diagnostics::nearest(key_, known))));
       return;
     }
     if (target->path.empty()) {
-      note(fmt::format("*{} has no meaning here (value {}): {}", key_, text, target->reason));
+      note(fmt::format("*{} has no meaning here (value {}): {}", key_, shown(text), target->reason));
       return;
     }
     const auto number = number_in(text);
-    if (!number) return fail(fmt::format("*{} must be a number, not \"{}\"", key_, text));
+    if (!number) return fail(fmt::format("*{} must be a number, not \"{}\"", key_, shown(text)));
     const Parameter& p = *find_parameter(target->path);
     const auto value = converted(p, *target, *number);
     if (!value) return;
@@ -162,6 +169,10 @@ class Importer {
         fail(fmt::format("*{} must be 0 (Euler) or 1 (Runge–Kutta), not {}", key_, number));
         return std::nullopt;
       case ParameterType::words: {
+        if (number != 0.0 && number != 1.0) {
+          fail(fmt::format("*{} must be true or false, not {}", key_, number));
+          return std::nullopt;
+        }
         auto& words = std::get<std::vector<std::string>>(value);
         const std::string word(p.words[static_cast<std::size_t>(target.axis)]);
         std::erase(words, word);
@@ -174,14 +185,14 @@ class Importer {
   }
 
   void missing_value() {
-    problems_.push_back(
-        fmt::format("{}:{}: *{} has no value: it stands on the next line", file_name_, key_line_, key_));
+    problems_.push_back(fmt::format("{}:{}: *{} has no value: it stands on the next line",
+                                    printable_line(file_name_), key_line_, shown(key_)));
   }
   void fail(const std::string& what) {
-    problems_.push_back(fmt::format("{}:{}: {}", file_name_, line_, what));
+    problems_.push_back(fmt::format("{}:{}: {}", printable_line(file_name_), line_, what));
   }
   void note(const std::string& what) {
-    result_.notes.push_back(fmt::format("{}:{}: {}", file_name_, key_line_, what));
+    result_.notes.push_back(fmt::format("{}:{}: {}", printable_line(file_name_), key_line_, what));
   }
 
   const std::string& file_name_;
@@ -195,6 +206,11 @@ class Importer {
 }  // namespace
 
 Result<ImportedConfiguration> import_configuration(std::string_view text, const std::string& file_name) {
+  if (text.find('\0') != std::string_view::npos) {
+    return Error{ErrorCode::scene_rejected,
+                 fmt::format("{}: this is no text but a binary file; give the framework's Configuration.txt",
+                             printable_line(file_name))};
+  }
   auto ground = load_scene("penalty");
   if (!ground) return ground.error();
   ground->name = "imported";
@@ -202,19 +218,12 @@ Result<ImportedConfiguration> import_configuration(std::string_view text, const 
 }
 
 std::string imported_toml(const ImportedConfiguration& imported, const std::string& file_name) {
-  // A name may hold what would end a comment.
-  const auto on_one_line = [](std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20u || c == 0x7f; },
-        ' ');
-    return text;
-  };
   std::string text = fmt::format(
       "# Imported from {}. The launcher throws at random what was shot by hand there.\n"
       "# For that framework's own contact formulas say model = \"course\" and spin = false in [contact].\n",
-      on_one_line(file_name));
+      printable_line(file_name));
   for (const std::string& note : imported.notes)
-    text += fmt::format("# Not carried over: {}\n", on_one_line(note));
+    text += fmt::format("# Not carried over: {}\n", printable_line(note));
   return text + to_toml(imported.scene);
 }
 

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/printable.h"
 #include "scene/diagnostics.h"
 #include "scene/document.h"
 #include "scene/overrides.h"
@@ -33,36 +34,27 @@ std::string known_scenes(std::string_view name) {
 Result<std::string> read_text_file(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    return Error{ErrorCode::io, fmt::format("{} is a directory, not a file to read", path)};
+    return Error{ErrorCode::io, fmt::format("{} is a directory, not a file to read", printable_line(path))};
   }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    return Error{ErrorCode::io, fmt::format("{} cannot be opened: {}", path, std::strerror(errno))};
+    return Error{ErrorCode::io,
+                 fmt::format("{} cannot be opened: {}", printable_line(path), std::strerror(errno))};
   }
   std::string text;
   char block[1 << 14];
   while (file.read(block, sizeof block) || file.gcount() > 0) {
     text.append(block, static_cast<std::size_t>(file.gcount()));
     if (static_cast<std::streamsize>(text.size()) > largest_file) {
-      return Error{ErrorCode::io, fmt::format("{} is larger than 64 MiB: that is no scene", path)};
+      return Error{ErrorCode::io,
+                   fmt::format("{} is larger than 64 MiB: that is no scene", printable_line(path))};
     }
   }
   if (file.bad())
-    return Error{ErrorCode::io, fmt::format("{} cannot be read: {}", path, std::strerror(errno))};
+    return Error{ErrorCode::io,
+                 fmt::format("{} cannot be read: {}", printable_line(path), std::strerror(errno))};
   return text;
-}
-
-std::optional<std::uint64_t> available_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string line;
-  while (std::getline(file, line)) {
-    std::istringstream words(line);
-    std::string key;
-    std::uint64_t kibibytes = 0;
-    if (words >> key >> kibibytes && key == "MemAvailable:") return kibibytes * 1024;
-  }
-  return std::nullopt;
 }
 
 Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
@@ -90,10 +82,12 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
     // A path was meant if it looks like one; any other word was meant as a name.
     if (file_or_builtin.find_first_of("/.") != std::string::npos) {
       const std::string stem = std::filesystem::path(file_or_builtin).stem().string();
-      return Error{ErrorCode::io, fmt::format("{}: no such file; {}", file_or_builtin, known_scenes(stem))};
+      return Error{ErrorCode::io,
+                   fmt::format("{}: no such file; {}", printable_line(file_or_builtin), known_scenes(stem))};
     }
-    return Error{ErrorCode::scene_rejected, fmt::format("'{}' is neither a file nor a built-in scene; {}",
-                                                        file_or_builtin, known_scenes(file_or_builtin))};
+    return Error{ErrorCode::scene_rejected,
+                 fmt::format("'{}' is neither a file nor a built-in scene; {}",
+                             printable_line(file_or_builtin), known_scenes(file_or_builtin))};
   }
   auto text = read_text_file(file_or_builtin);
   if (!text) return text.error();

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/memory.h"
 #include "base/result.h"
 #include "scene/scene.h"
 
@@ -45,8 +46,5 @@ std::vector<BuiltinScene> list_builtin_scenes();
 
 /// The file of a built-in scene as it was written, comments and all; nothing for an unknown name.
 std::optional<std::string_view> builtin_scene_text(std::string_view name);
-
-/// Bytes of memory the system could give now (MemAvailable of /proc/meminfo); nothing where it does not say.
-std::optional<std::uint64_t> available_memory();
 
 }  // namespace aspic

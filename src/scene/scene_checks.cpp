@@ -165,7 +165,7 @@ std::string bytes_text(std::uint64_t bytes) {
 void check_size(const Node& root, const Scene& scene, std::optional<std::uint64_t> memory_bytes,
                 std::vector<Problem>& problems) {
   const ModelCounts counts = predict_counts(scene.model);
-  const std::uint64_t bytes = model_bytes(counts);
+  const std::uint64_t bytes = run_bytes(counts);
   const std::string size =
       counts.balls == 0
           ? fmt::format("the scene has {} particles and {} springs", counts.particles, counts.springs())

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/printable.h"
+
 namespace aspic {
 namespace {
 
@@ -16,15 +18,17 @@ std::string number_text(double x) {
 
 std::string string_text(std::string_view s) {
   std::string text = "\"";
-  for (const char c : s) {
-    if (c == '"' || c == '\\') {
-      text += '\\';
-      text += c;
-    } else if (static_cast<unsigned char>(c) < 0x20u || c == 0x7f) {
-      text += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+  while (!s.empty()) {
+    const Utf8Character c = first_character(s);
+    if (c.code == '"' || c.code == '\\') text += '\\';
+    if (!c.valid) {
+      text += "\\uFFFD";  // no scene that was read has such bytes, but a file's name may
+    } else if (acts_on_terminal(c.code)) {
+      text += fmt::format("\\u{:04X}", c.code);
     } else {
-      text += c;
+      text += s.substr(0, c.size);
     }
+    s.remove_prefix(c.size);
   }
   return text + "\"";
 }

@@ -99,6 +99,20 @@ Process::Process(const std::vector<std::string>& arguments, const ProcessOptions
     const rlimit limit = {*options.file_size_limit, *options.file_size_limit};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (options.stdout_to_closed_pipe) {
+    int ends[2];
+    if (::pipe(ends) != 0) ::_exit(127);
+    ::dup2(ends[1], 1);
+    ::close(ends[0]);
+    ::close(ends[1]);
+  }
+  for (const int descriptor : options.closed) ::close(descriptor);
+  const auto limit = [](int resource, const std::optional<std::uint64_t>& bytes) {
+    const rlimit both = {bytes.value_or(0), bytes.value_or(0)};
+    if (bytes) ::setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
+  };
+  limit(RLIMIT_AS, options.address_space_limit);
+  limit(RLIMIT_STACK, options.stack_limit);
   ::alarm(120);  // outlives exec: a program that hangs ends by SIGALRM and fails its test
   ::execv(argv[0], argv.data());
   ::_exit(127);

@@ -66,6 +66,42 @@ TEST(ReferenceSolver, TooFastIsDivergenceAndNamesTheLowestParticle) {
   EXPECT_TRUE(divergence->finite);
 }
 
+// Springs of 1e12 N/m between particles of 1.9e-38 kg: rounding alone makes forces that no single-precision
+// acceleration can hold, so that the first residual is infinite and no iterate is better.
+TEST(ReferenceSolver, ASolveWhoseResidualIsNotFiniteIsDivergence) {
+  ModelSettings settings = test::cube_on_plane(3);
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.cubes[0].particle_mass = 1.9e-38;
+  settings.cubes[0].structural.stiffness = 1e12;
+  settings.cubes[0].rotation = {{1, 2, 3}, 20};
+  const Model model = test::build(settings);
+  auto solver = solver_for(model);
+  const auto divergence = *solver->advance(10);
+  ASSERT_TRUE(divergence.has_value());
+  EXPECT_TRUE(divergence->residual);
+  EXPECT_FALSE(divergence->finite);
+  EXPECT_EQ(body_text(*divergence), "the residual of the implicit solve");
+  EXPECT_EQ(divergence->step, 1u);
+  EXPECT_EQ(*solver->state(), initial_state(model, Precision::single));
+  EXPECT_EQ(solver->solve_statistics()->steps, 0u);
+  EXPECT_EQ(solver->solve_statistics()->worst_residual, 0.0);
+}
+
+// |ω| = 1e160 rad/s is a number; its square is none, and no energy could be told.
+TEST(ReferenceSolver, SpinWithoutAFiniteEnergyIsDivergence) {
+  ModelSettings settings;
+  settings.balls.emplace_back();
+  const Model model = test::build(settings);
+  auto solver = solver_for(model, Precision::double_);
+  State state = *solver->state();
+  state.ball_angular_velocity[0] = {0.0, 1e160, 0.0};
+  ASSERT_TRUE(solver->load(state).ok());
+  const auto divergence = *solver->advance(1);
+  ASSERT_TRUE(divergence.has_value());
+  EXPECT_TRUE(divergence->ball);
+  EXPECT_FALSE(divergence->finite);
+}
+
 TEST(ReferenceSolver, PinnedParticlesStay) {
   ModelSettings settings = test::cube_on_plane(4, 3.0);
   settings.cubes[0].pinned.names = {"top"};

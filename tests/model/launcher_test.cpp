@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
+
 #include "support/model_building.h"
 
 namespace aspic {
@@ -95,6 +98,21 @@ TEST(Launcher, ComesAfterTheBallsOfTheFile) {
   const State state = initial_state(model, Precision::double_);
   EXPECT_EQ(state.ball_position.size(), 9u);
   EXPECT_EQ(state.ball_velocity[2], model.balls[2].initial_velocity);
+}
+
+// round(n·interval/h) may exceed every step number: then the ball waits for ever, and is not thrown at once.
+TEST(Launcher, BallsBeyondAllStepNumbersAreNeverThrown) {
+  LauncherSettings launcher;
+  launcher.interval = 1e6;
+  EXPECT_EQ(launched_ball(launcher, 0, 1e-14).launch_step, 0u);
+  EXPECT_EQ(launched_ball(launcher, 1, 1e-14).launch_step, std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(launched_ball(launcher, 9999999, 5e-324).launch_step, std::numeric_limits<std::uint64_t>::max());
+  EXPECT_FALSE(launched_ball(launcher, 1, 1e-14).launched(std::uint64_t{1} << 53));
+  // The last step numbers that double precision tells apart, and the first that 64 bits do not hold.
+  launcher.interval = 1.0;
+  EXPECT_EQ(launched_ball(launcher, 1, 0x1p-53).launch_step, std::uint64_t{1} << 53);
+  EXPECT_EQ(launched_ball(launcher, 1, 0x1p-63).launch_step, std::uint64_t{1} << 63);
+  EXPECT_EQ(launched_ball(launcher, 1, 0x1p-64).launch_step, std::numeric_limits<std::uint64_t>::max());
 }
 
 }  // namespace

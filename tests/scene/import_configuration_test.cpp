@@ -81,7 +81,7 @@ TEST(Import, ReportsAllErrorsWithTheirLines) {
         "c.txt:8: *NumAtHeight must be a whole number",
         "c.txt:10: *SpringCoef must be a number, not \"stiff\"",
         "c.txt:12: *NetWidth: 'goal-net.size' is out of range",
-        "c.txt:13: *SpringCoef stands in line 9 already", "c.txt:15: *DamperCoef has no value"}) {
+        "c.txt:13: *SpringCoef is in line 9 already", "c.txt:15: *DamperCoef has no value"}) {
     EXPECT_THAT(imported.error().message, HasSubstr(expected));
   }
   EXPECT_FALSE(import_configuration("", "c.txt").ok());
