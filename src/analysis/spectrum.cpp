@@ -60,7 +60,7 @@ bool WorkBudget::spend(std::uint64_t evaluations) {
   constexpr std::uint64_t between_looks = 1000000;
   left_ -= std::min(left_, evaluations);
   since_look_ += evaluations;
-  if (watch_ && since_look_ >= between_looks) {
+  if (watch_ && left_ > 0 && since_look_ >= between_looks) {
     since_look_ = 0;
     if (!watch_(1.0 - static_cast<double>(left_) / static_cast<double>(all_))) left_ = 0;
   }

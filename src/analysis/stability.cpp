@@ -21,7 +21,7 @@ struct Effort {
   std::size_t dense_dof;
   std::uint64_t evaluations;  // of springs, in all
 };
-constexpr Effort quick = {1e-4, 100, 81, 40000000};
+constexpr Effort quick = {1e-4, 250, 81, 40000000};
 constexpr Effort thorough = {1e-7, 1000, 600, 400000000};
 
 /// Work of one mode's limit: a scan of 800 points, in spring evaluations.

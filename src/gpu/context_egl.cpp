@@ -4,12 +4,18 @@
 #include <EGL/eglext.h>
 #include <fmt/format.h>
 #include <glad/gl.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <optional>
 
+#include "base/memory.h"
+#include "base/printable.h"
 #include "gpu/context.h"
+#include "gpu/device_info.h"
 #include "gpu/program_cache.h"
 
 namespace aspic::gl {
@@ -122,7 +128,7 @@ Result<Choice> choose(const ContextOptions& options) {
         fmt::format("The environment variable ASPIC_EGL_DEVICE is \"{}\", which names no device. Allowed are "
                     "automatic, hardware, software, surfaceless, default, or an index of the list that "
                     "aspic info prints.",
-                    wish)};
+                    printable_line(wish))};
   return choice;
 }
 
@@ -158,6 +164,37 @@ Result<std::vector<Candidate>> candidates(const Choice& choice) {
     result.push_back({"EGL surfaceless platform", EGL_PLATFORM_SURFACELESS_MESA, nullptr, general});
   if (choice.platform != "surfaceless") result.push_back({"EGL default display", 0, nullptr, general});
   return result;
+}
+
+constexpr std::uint64_t mebi = std::uint64_t{1} << 20;
+
+/// What drivers need so much that they die of a signal where it is missing: address space for themselves, a
+/// shader compiler and their threads, and stack to compile on. Empty: it is there, as far as limits of the
+/// process go.
+std::string missing_resource() {
+  const auto threads = static_cast<std::uint64_t>(std::clamp(::sysconf(_SC_NPROCESSORS_ONLN), 1L, 32L));
+  const std::uint64_t space = (704 + 16 * threads) * mebi;
+  if (const auto left = address_space_left(); left && *left < space) {
+    return fmt::format(
+        "OpenGL needs about {} of address space for its driver, and the limit of this process (ulimit -v) "
+        "leaves {}",
+        human_bytes(space), human_bytes(*left));
+  }
+  rlimit stack = {};
+  if (::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < mebi) {
+    return fmt::format(
+        "OpenGL drivers need 1 MiB of stack to compile shaders, and the limit of this process (ulimit -s) "
+        "is {} KiB",
+        stack.rlim_cur >> 10);
+  }
+  return "";
+}
+
+/// Mesa's software rasterisers divide by zero with another width than these.
+bool vector_width_crashes() {
+  const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+  const std::string_view text = width ? width : "";
+  return !text.empty() && text != "128" && text != "256" && text != "512";
 }
 
 EGLContext create_context(EGLDisplay display, const ContextOptions& options) {
@@ -201,6 +238,13 @@ class EglContextMaker {
 
   /// The context on this candidate; null with the reason in `why`.
   std::unique_ptr<Context> attempt(const Candidate& candidate, std::string& why) const {
+    if (candidate.demand != Demand::hardware && vector_width_crashes()) {
+      why =
+          "may be a software rasteriser, which the environment variable LP_NATIVE_VECTOR_WIDTH makes crash "
+          "(allowed "
+          "are 128, 256 and 512)";
+      return nullptr;
+    }
     const EGLDisplay display = candidate.platform
                                    ? eglGetPlatformDisplay(candidate.platform, candidate.native, nullptr)
                                    : eglGetDisplay(EGL_DEFAULT_DISPLAY);
@@ -249,6 +293,9 @@ class EglContextMaker {
 };
 
 Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& options) {
+  if (const std::string missing = missing_resource(); !missing.empty()) {
+    return Error{ErrorCode::no_device, missing + ". Raise it, or use --backend reference without pictures."};
+  }
   const Result<Choice> choice = choose(options);
   if (!choice) return choice.error();
   const Result<std::vector<Candidate>> ways = candidates(*choice);

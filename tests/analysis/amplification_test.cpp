@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
+#include <utility>
 
 namespace aspic {
 namespace {
@@ -103,6 +104,19 @@ TEST(ModeLimit, NothingLimitsImplicitEulerOrAFreeParticle) {
   EXPECT_EQ(*mode_limit(Integrator::implicit_euler, 1e9, 0.0), infinity);
   for (const Integrator integrator : explicit_integrators)
     EXPECT_EQ(*mode_limit(integrator, 0.0, 0.0), infinity);
+}
+
+TEST(ModeLimit, IsZeroForWhatOverflowed) {
+  constexpr double infinite = std::numeric_limits<double>::infinity(),
+                   none = std::numeric_limits<double>::quiet_NaN();
+  for (const Integrator integrator : explicit_integrators) {
+    for (const auto& [kappa, gamma] : std::initializer_list<std::pair<double, double>>{
+             {infinite, 0.0}, {0.0, infinite}, {infinite, infinite}, {none, 1.0}, {1.0, none}})
+      EXPECT_EQ(*mode_limit(integrator, kappa, gamma), 0.0) << static_cast<int>(integrator);
+    // Large numbers that are some are no such case.
+    EXPECT_GT(mode_limit(integrator, 1e300, 1e150).value_or(1.0), 0.0);
+  }
+  EXPECT_EQ(*mode_limit(Integrator::implicit_euler, none, none), infinite);
 }
 
 }  // namespace

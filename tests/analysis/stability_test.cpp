@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "analysis/amplification.h"
+#include "analysis/spectrum.h"
 
 namespace aspic {
 namespace {
@@ -211,6 +212,71 @@ TEST(Stability, OfTwoBodiesTheStifferDecides) {
   const double stiff = *stability_limit(model_of(settings.cubes[1]), Integrator::explicit_euler).step;
   EXPECT_LT(stiff, *stability_limit(model_of(settings.cubes[0]), Integrator::explicit_euler).step);
   EXPECT_NEAR(*stability_limit(*both, Integrator::explicit_euler).step, stiff, 1e-9);
+}
+
+// Springs of very different damping ratios: Lanczos iterates and dense solves come to an end at their budget.
+TEST(Stability, WorkIsBoundedAndWhatIsLeftOutIsBounded) {
+  ModelSettings settings;
+  for (int c = 0; c < 40; ++c) {
+    CubeSettings cube = cube_settings(5);
+    cube.structural = {2000.0 + c, 60.0};
+    cube.shear = {1e-3, 2.0};
+    cube.bending = {1e9, 100.0};
+    settings.cubes.push_back(cube);
+  }
+  const auto model = build_model(settings);
+  ASSERT_TRUE(model.ok());
+  for (const Integrator integrator : explicit_integrators) {
+    int looks = 0;
+    double share = 0.0;
+    const auto watch = [&](double done) {
+      EXPECT_GE(done, share);
+      EXPECT_LE(done, 1.0);
+      share = done;
+      return ++looks < 3;
+    };
+    const StabilityLimit cut = stability_limit(*model, integrator, StabilityEffort::thorough, watch);
+    EXPECT_EQ(looks, 3) << "nothing asks again once the work is called off";
+    ASSERT_TRUE(cut.step.has_value());
+    EXPECT_FALSE(cut.exact);
+    // The stiffest of the cubes decides, and what is not looked at is not thought stabler than it is.
+    ModelSettings last;
+    last.cubes = {settings.cubes.back()};
+    const auto alone = build_model(last);
+    EXPECT_LE(*cut.step, *stability_limit(*alone, integrator, StabilityEffort::quick).step * (1.0 + 1e-4));
+    EXPECT_GT(*cut.step, 0.0);
+  }
+}
+
+TEST(Stability, GershgorinBoundIsAboveTheEigenvalue) {
+  for (const int n : {2, 4, 7}) {
+    CubeSettings cube = cube_settings(n);
+    cube.shear.stiffness = 30.0;
+    cube.bending.stiffness = 9000.0;
+    const Model model = model_of(cube);
+    const LinearisedBody body(model, 0, model.particle_count());
+    WorkBudget work(1000000000);
+    for (const auto& [k, c] : {std::pair(1.0, 0.0), std::pair(0.0, 1.0), std::pair(1e-6, 2e-3)}) {
+      const LargestEigenvalue largest = body.largest_eigenvalue(k, c, 1e-7, 1000, work);
+      EXPECT_TRUE(largest.converged);
+      EXPECT_GE(body.eigenvalue_bound(k, c), largest.value);
+      EXPECT_LE(body.eigenvalue_bound(k, c), 12.0 * largest.value);
+      // Cut short it is still above.
+      const LargestEigenvalue cut = body.largest_eigenvalue(k, c, 1e-15, 20, work);
+      EXPECT_GE(cut.value, largest.value * (1.0 - 1e-6));
+    }
+  }
+}
+
+TEST(Stability, OverflowHasAnAnswer) {
+  Model model = model_of(cube_settings(2));
+  for (double& w : model.inverse_mass) w = 1e308;
+  for (const Integrator integrator : explicit_integrators) {
+    const StabilityLimit limit = stability_limit(model, integrator);
+    EXPECT_EQ(limit.step.value_or(-1.0), 0.0);
+    EXPECT_FALSE(limit.exact);
+    EXPECT_FALSE(certainly_stable(model, integrator, 1e-9));
+  }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
+
 namespace aspic::app {
 namespace {
 
@@ -31,6 +33,23 @@ TEST(Worker, FinishHurriesAJobThatWouldNeverEnd) {
   worker.start([&hurried](const std::atomic<bool>& hurry) { hurried = hurry; });
   worker.wait();
   EXPECT_FALSE(hurried);
+}
+
+TEST(Worker, HandsOnWhatAJobThrows) {
+  Worker worker;
+  const auto fail = [](const std::atomic<bool>&) { throw std::bad_alloc(); };
+  worker.start(fail);
+  EXPECT_THROW(worker.wait(), std::bad_alloc);
+  EXPECT_FALSE(worker.busy());
+  worker.start(fail);
+  worker.abandon();
+  EXPECT_THROW(worker.start(fail), std::bad_alloc);
+  // Once is enough, and nothing is left behind.
+  bool ran = false;
+  worker.start([&ran](const std::atomic<bool>&) { ran = true; });
+  worker.finish();
+  EXPECT_TRUE(ran);
+  worker.start(fail);
 }
 
 TEST(Worker, EndsWithAJobUnderWay) {

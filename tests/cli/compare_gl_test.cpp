@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -68,6 +69,48 @@ TEST(CompareGl, DivergenceOnTheGpuEndsWhereTheReferenceEnds) {
   EXPECT_EQ(gpu.exit_code, 5) << gpu.err;
   EXPECT_EQ(json_member(gpu.out, "steps"), json_member(reference.out, "steps"));
   EXPECT_EQ(json_member(gpu.out, "state_hash"), json_member(reference.out, "state_hash"));
+}
+
+// Masses and stiffnesses that the ranges allow and single precision does not bear: neither backend calls that
+// a success, both end at the same step, and no figure of theirs is anything but a number.
+TEST(CompareGl, SolvesThatOverflowDivergeAlike) {
+  const std::vector<std::vector<std::string>> cases = {
+      {"cube[0].particle-mass=1.9e-38", "cube[0].structural.stiffness=1e12", "cube[0].rotation.axis=[1,2,3]",
+       "cube[0].rotation.angle=20"},
+      {"cube[0].particle-mass=1.9e-38", "contact.friction=96052", "simulation.timestep=0.05"}};
+  for (const auto& sets : cases) {
+    std::vector<std::string> outcomes;
+    for (const char* backend : {"reference", "gpu"}) {
+      const test::TemporaryDirectory dir;
+      std::vector<std::string> words = {"run",
+                                        "cube-and-balls",
+                                        "--backend",
+                                        backend,
+                                        "--steps",
+                                        "40",
+                                        "--json",
+                                        "--series",
+                                        dir.file("e.csv"),
+                                        "--state",
+                                        dir.file("s.csv"),
+                                        "--set",
+                                        "simulation.integrator=implicit-euler",
+                                        "--set",
+                                        "cube[0].particles-per-edge=5"};
+      for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
+      const auto run = aspic(words);
+      EXPECT_EQ(run.exit_code, 5) << run.err;
+      EXPECT_THAT(run.err, testing::HasSubstr("is no longer a finite number"));
+      for (const std::string& text : {run.out, dir.read("e.csv"), dir.read("s.csv")}) {
+        EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+        EXPECT_EQ(text.find("inf,"), std::string::npos) << text;
+      }
+      EXPECT_NE(json_member(run.out, "worst_residual"), "null");
+      outcomes.push_back(run.err + json_member(run.out, "state_hash") + json_member(run.out, "step") +
+                         json_member(run.out, "worst_residual"));
+    }
+    EXPECT_EQ(outcomes[0], outcomes[1]);
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cctype>
+#include <fstream>
 #include <regex>
 #include <sstream>
 #include <string_view>
@@ -126,6 +127,15 @@ Process::~Process() {
 
 void Process::send(int signal) const {
   ::kill(pid_, signal);
+}
+
+bool Process::catches(int signal) const {
+  std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("SigCgt:"))
+      return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
+  }
+  return true;  // it has ended
 }
 
 Finished Process::wait() {

@@ -21,12 +21,12 @@ struct Finished {
 
 struct ProcessOptions {
   std::vector<std::pair<std::string, std::string>> environment;
-  std::string stdout_file;                           ///< empty: captured
-  std::optional<std::uint64_t> file_size_limit;      ///< RLIMIT_FSIZE [bytes]
-  std::optional<std::uint64_t> address_space_limit;  ///< RLIMIT_AS [bytes]
-  std::optional<std::uint64_t> stack_limit;          ///< RLIMIT_STACK [bytes]
-  std::vector<int> closed;                           ///< descriptors that are closed when it starts
-  bool stdout_to_closed_pipe = false;                ///< stdout is a pipe that nobody reads
+  std::string stdout_file;                                ///< empty: captured
+  std::optional<std::uint64_t> file_size_limit;           ///< RLIMIT_FSIZE [bytes]
+  std::optional<std::uint64_t> address_space_limit = {};  ///< RLIMIT_AS [bytes]
+  std::optional<std::uint64_t> stack_limit = {};          ///< RLIMIT_STACK [bytes]
+  std::vector<int> closed = {};                           ///< descriptors that are closed when it starts
+  bool stdout_to_closed_pipe = false;                     ///< stdout is a pipe that nobody reads
 };
 
 /// A running aspic. Killed if it is still there at the end of its life.
@@ -38,6 +38,8 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void send(int signal) const;
+  /// Whether it handles that signal by now.
+  bool catches(int signal) const;
   /// Waits for its end.
   Finished wait();
 

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <string>
 
+#include "support/temporary_directory.h"
+
 namespace aspic::gl {
 namespace {
 
@@ -137,6 +139,33 @@ TEST(FlatShader, LeavesOtherLinesOfALogAlone) {
   EXPECT_EQ(flat.rewrite_log(""), "");
   // A column past the line's end is not worth a caret.
   EXPECT_EQ(flat.rewrite_log("0:1(500): error: x"), "defines:1: error: x\n  #version 430 core\n");
+}
+
+TEST(ShaderLibrary, RefusesWhatIsNoShaderFile) {
+  const test::TemporaryDirectory dir;
+  const ShaderLibrary library{dir.file("")};
+  std::filesystem::create_directories(dir.file("compute/gather.comp"));
+  const auto directory = library.flatten("compute/gather.comp");
+  ASSERT_FALSE(directory.ok());
+  EXPECT_THAT(directory.error().message, HasSubstr("is a directory, a device or a pipe"));
+  std::filesystem::create_symlink("/dev/zero", dir.file("compute/endless.comp"));
+  EXPECT_FALSE(library.flatten("compute/endless.comp").ok());
+  std::ofstream(dir.file("compute/large.comp")) << std::string((4 << 20) + 1, '\n');
+  EXPECT_THAT(library.flatten("compute/large.comp").error().message, HasSubstr("4 MiB"));
+}
+
+TEST(ShaderLibrary, IncludesAreNestedToADepth) {
+  const test::TemporaryDirectory dir;
+  const int files = 20000;
+  for (int i = 0; i < files; ++i)
+    std::ofstream(dir.file(std::to_string(i)))
+        << (i + 1 < files ? "#include \"" + std::to_string(i + 1) + "\"\n" : "");
+  const ShaderLibrary library{dir.file("")};
+  const auto deep = library.flatten("0");
+  ASSERT_FALSE(deep.ok());
+  EXPECT_THAT(deep.error().message, HasSubstr("more than 32 includes"));
+  EXPECT_LT(deep.error().message.size(), 300u);
+  EXPECT_TRUE(library.flatten(std::to_string(files - 32)).ok());
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cmath>
+#include <limits>
 
 #include "support/random_state.h"
 #include "support/temporary_directory.h"
@@ -83,6 +87,69 @@ TEST(Checkpoint, NotANumberIsNeverWritten) {
   const Status written = write_checkpoint(*file, checkpoint);
   ASSERT_FALSE(written.ok());
   EXPECT_EQ(written.error().code, ErrorCode::diverged);
+}
+
+TEST(Checkpoint, NumbersOutOfTheirBoundsAreDamage) {
+  const auto refused = [](const Checkpoint& checkpoint) {
+    const auto back = decode_checkpoint(encode_checkpoint(checkpoint), "c");
+    return !back.ok() && back.error().message.find("damaged") != std::string::npos;
+  };
+  Checkpoint checkpoint = example(Precision::single);
+  EXPECT_FALSE(refused(checkpoint));
+  for (const double timestep :
+       {std::numeric_limits<double>::quiet_NaN(), 0.0, -1.0, std::numeric_limits<double>::infinity()}) {
+    checkpoint = example(Precision::single);
+    checkpoint.timestep = timestep;
+    EXPECT_TRUE(refused(checkpoint)) << timestep;
+  }
+  for (const std::string& version : {std::string(longest_program_version + 1, '1'), std::string("1\x1b"),
+                                     std::string("1\n"), std::string("1\0", 2), std::string("\xc2\x9b")}) {
+    checkpoint = example(Precision::single);
+    checkpoint.program_version = version;
+    EXPECT_TRUE(refused(checkpoint)) << version;
+  }
+  checkpoint = example(Precision::single);
+  checkpoint.program_version = std::string(longest_program_version, '1');
+  EXPECT_FALSE(refused(checkpoint));
+  checkpoint.state.step = last_checkpoint_step;
+  EXPECT_FALSE(refused(checkpoint));
+  ++checkpoint.state.step;
+  EXPECT_TRUE(refused(checkpoint));
+}
+
+TEST(Checkpoint, BelongsToItsScene) {
+  ModelSettings settings;
+  settings.cubes.resize(1);
+  settings.cubes[0].particles_per_edge = 3;
+  settings.simulation.timestep = 0.002;
+  Checkpoint checkpoint;
+  checkpoint.timestep = 0.002;
+  checkpoint.state = test::random_bits_state(27, Precision::single);
+  const std::size_t balls = checkpoint.state.ball_position.size();
+  settings.balls.resize(balls);
+  EXPECT_TRUE(check_against_scene(checkpoint, settings, "c").ok());
+  settings.balls.resize(balls + 1);
+  EXPECT_THAT(check_against_scene(checkpoint, settings, "c").error().message,
+              HasSubstr("balls, but the scene"));
+  settings.balls.resize(balls);
+  settings.cubes[0].particles_per_edge = 400;
+  EXPECT_THAT(check_against_scene(checkpoint, settings, "c").error().message, HasSubstr("64000000"));
+  settings.cubes[0].particles_per_edge = 3;
+  settings.simulation.timestep = std::nextafter(0.002, 1.0);
+  EXPECT_THAT(check_against_scene(checkpoint, settings, "c").error().message, HasSubstr("time step"));
+}
+
+TEST(Checkpoint, OnlyRegularFilesAreRead) {
+  const test::TemporaryDirectory dir;
+  const std::string pipe = dir.file("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {std::string("/dev/zero"), std::string("/dev/full"), pipe}) {
+    const auto read = read_checkpoint(path);
+    ASSERT_FALSE(read.ok());
+    EXPECT_EQ(read.error().code, ErrorCode::io);
+    EXPECT_THAT(read.error().message, testing::AllOf(HasSubstr(path), HasSubstr("device or a pipe")));
+  }
+  EXPECT_THAT(read_checkpoint("/").error().message, HasSubstr("directory"));
 }
 
 }  // namespace

@@ -80,8 +80,8 @@ TEST(Import, ReportsAllErrorsWithTheirLines) {
         "c.txt:4: \"stray\" is neither", "c.txt:6: *NumAtWidth: 'goal-net.particles' is out of range: 1",
         "c.txt:8: *NumAtHeight must be a whole number",
         "c.txt:10: *SpringCoef must be a number, not \"stiff\"",
-        "c.txt:12: *NetWidth: 'goal-net.size' is out of range",
-        "c.txt:13: *SpringCoef is in line 9 already", "c.txt:15: *DamperCoef has no value"}) {
+        "c.txt:12: *NetWidth: 'goal-net.size' is out of range", "c.txt:13: *SpringCoef is in line 9 already",
+        "c.txt:15: *DamperCoef has no value"}) {
     EXPECT_THAT(imported.error().message, HasSubstr(expected));
   }
   EXPECT_FALSE(import_configuration("", "c.txt").ok());
@@ -91,6 +91,35 @@ TEST(Import, SuggestsTheNearestKey) {
   const auto imported = import_configuration("*DeltaTT\n1\n", "c.txt");
   ASSERT_TRUE(imported.ok());
   EXPECT_THAT(imported->notes, testing::ElementsAre(HasSubstr("did you mean 'DeltaT'?")));
+}
+
+TEST(Import, RefusesNumbersThatAreNone) {
+  for (const char* value : {"nan", "-nan", "inf", "1e308", "1e999", "2", "-1"}) {
+    const auto imported = import_configuration(std::string("*DrawParticle\n") + value + "\n", "c.txt");
+    ASSERT_FALSE(imported.ok()) << value;
+    EXPECT_THAT(imported.error().message, HasSubstr("c.txt:2: *DrawParticle must be")) << value;
+  }
+  for (const char* value : {"nan", "inf", "1e308"})
+    EXPECT_FALSE(import_configuration(std::string("*SpringCoef\n") + value + "\n", "c.txt").ok()) << value;
+  EXPECT_TRUE(import_configuration("*DrawParticle\n1\n*DrawSpringShear\nfalse\n", "c.txt").ok());
+}
+
+TEST(Import, QuotesNoBytesThatAreNoText) {
+  const auto binary = import_configuration(std::string_view("\x7f"
+                                                            "ELF\0\0\0",
+                                                            7),
+                                           "c");
+  ASSERT_FALSE(binary.ok());
+  EXPECT_THAT(binary.error().message, testing::AllOf(HasSubstr("binary"), testing::Not(HasSubstr("ELF"))));
+  const auto stray = import_configuration(std::string(10000, '\xe9'), "c");
+  ASSERT_FALSE(stray.ok());
+  EXPECT_LT(stray.error().message.size(), 400u);
+  // Comments may be in any encoding; values that end up in notes become valid text.
+  const auto imported = import_configuration("*StudentID # \xb1\n\xb1\x61\x1b\n", "c\n\xff");
+  ASSERT_TRUE(imported.ok());
+  const std::string toml = imported_toml(*imported, "c\n\xff");
+  EXPECT_THAT(toml, HasSubstr("\\xb1a\\x1b"));
+  EXPECT_TRUE(parse_scene(toml, "s.toml").ok());
 }
 
 }  // namespace

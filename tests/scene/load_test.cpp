@@ -132,7 +132,7 @@ TEST(Parse, RefusesWhatMemoryCannotHold) {
   ModelSettings settings;
   settings.cubes.resize(2);
   settings.cubes[1].particles_per_edge = 64;
-  const std::uint64_t needed = model_bytes(predict_counts(settings));
+  const std::uint64_t needed = run_bytes(predict_counts(settings));
   EXPECT_TRUE(parse_scene(text, "scene.toml", {}, {needed}).ok());
   const std::string message = test::rejection(text, {}, {needed - 1});
   EXPECT_THAT(message, StartsWith("scene.toml:4:22: the scene has 263144 particles"));
@@ -264,6 +264,30 @@ TEST(Load, NamesAnUnnamedSceneAfterItsFile) {
   std::filesystem::remove(path);
   ASSERT_TRUE(scene.ok()) << scene.error().message;
   EXPECT_EQ(scene->name, "aspic-unnamed");
+}
+
+TEST(Parse, RefusesDeepNestingButNotDotsInStringsAndComments) {
+  std::string key = "a", dots = ".";
+  for (int i = 1; i < 32; ++i) key += ".a";
+  for (int i = 1; i < 100; ++i) dots += " .";
+  // 32 parts are an unknown key like any other; 33 are too many.
+  EXPECT_THAT(test::rejection(smallest + key + " = 1\n"), HasSubstr("unknown key 'a'"));
+  EXPECT_THAT(test::rejection(smallest + key + " . a = 1\n"), HasSubstr("a key has more than 32 parts"));
+  EXPECT_THAT(test::rejection(smallest + "[" + key + ".a]\n"), HasSubstr("a key has more than 32 parts"));
+  EXPECT_THAT(test::rejection(smallest + std::string(33, '[') + "\n"),
+              HasSubstr("more than 32 arrays and tables"));
+  for (const std::string& harmless :
+       {"# " + dots + "\n", "name = \"" + dots + " \\\" # " + dots + "\"\n", "name = '" + dots + "\\'\n",
+        "name = \"\"\"\n" + dots + "\n\"\"" + dots + "\"\"\"\"\n",
+        "name = '''" + dots + "'' " + dots + "'''''\n",
+        "name = \"" + std::string(100, '[') + "\" # " + std::string(100, '{') + "\n"}) {
+    const auto scene = parse_scene("schema = 1\n" + harmless + "[[cube]]\n", "scene.toml");
+    EXPECT_TRUE(scene.ok()) << harmless << (scene ? "" : scene.error().message);
+  }
+  // What ends a string or a comment for one parser and not for another hides nothing.
+  for (const char* begin : {"# \r", "# \v", "name = \"\r", "name = '\f"})
+    EXPECT_THAT(test::rejection(smallest + begin + key + ".a = 1\n"),
+                HasSubstr("a key has more than 32 parts"));
 }
 
 }  // namespace

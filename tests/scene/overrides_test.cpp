@@ -1,3 +1,4 @@
+#include "base/printable.h"
 #include "scene/overrides.h"
 
 #include <fmt/format.h>
@@ -178,7 +179,8 @@ TEST(Set, PointsAtWhatIsWrongInAnArgument) {
   };
   for (const Refused& c : cases) {
     const std::string message = test::rejection(base, {c.argument});
-    EXPECT_THAT(message, StartsWith(fmt::format("--set {}: ", c.argument)));
+    // Line feeds of an argument are shown as escapes.
+    EXPECT_THAT(message, StartsWith(fmt::format("--set {}: ", printable_line(c.argument))));
     EXPECT_THAT(message, HasSubstr(c.fragment));
     const std::string last = message.substr(message.rfind('\n') + 1);
     EXPECT_EQ(last, fmt::format("{:>{}}", "^", c.column + 2)) << message;
