@@ -5,7 +5,7 @@ import os
 import re
 import shutil
 
-from attack import DEVICE, IO, OK, TINY, all_files, hash_in, main, read, write
+from attack import DEVICE, IO, OK, SCENE, TINY, all_files, hash_in, main, read, write
 
 SERIES = ["--series", "series.csv", "--every", "3", "--state", "end.csv", "--checkpoint", "end.aspic"]
 REFERENCE = ["run", "cube-plane", "--backend", "reference", *TINY, "--steps", "12", *SERIES]
@@ -59,6 +59,8 @@ class Bench:
             attack.require(struck is None or done.code == -9, f"{note}: {done}, not killed")
         else:
             attack.judge(done, codes, note)
+            if "alloc" in order or "own" in order:
+                attack.require(done.code == OK or b"memory" in done.err, f"{note}: the wrong thing is blamed: {done}")
         for name, content in self.contents().items():
             temporary = os.path.basename(name).startswith(".aspic-")
             # A file that could not be removed, or whose owner was killed, is all that may stay.
@@ -137,9 +139,9 @@ def allocations(attack):
     bench = Bench(attack, [*REFERENCE, "--force"], earlier)
     total, stride = bench.counts["alloc"], 1 if attack.thorough else 3
     for n in range(1, total + 1, stride):
-        bench.strike(f"alloc:{n}", [OK, IO])
+        bench.strike(f"alloc:{n}", [OK, SCENE, IO])
     for n in range(2, total + 1, 2 * stride):
-        bench.strike(f"alloc:{n}+", [IO])
+        bench.strike(f"alloc:{n}+", [SCENE, IO])
     directory = attack.fresh()
     scene = write(os.path.join(directory, "scene.toml"), attack.run("scene", "show", "goal-net").out)
     commands = [["scene", "check", scene], ["compare", scene, "--backends", "reference,reference:double", "--steps", "3"],
@@ -162,7 +164,7 @@ def device_allocations(attack):
         bench = Bench(attack, words, {})
         stride = 1 if attack.thorough else max(1, bench.counts["own"] // most)
         for n in range(1, bench.counts["own"] + 1, stride):
-            bench.strike(f"own:{n}", [OK, DEVICE, IO])
+            bench.strike(f"own:{n}", [OK, SCENE, DEVICE, IO])
 
 
 def films(attack):
