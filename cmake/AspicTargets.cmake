@@ -8,6 +8,12 @@ target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -We
 if(ASPIC_WARNINGS_AS_ERRORS)
   target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
 endif()
+if(ASPIC_FUZZ)
+  # What a fuzzer reaches tells it where it has been; every finding ends the program.
+  target_compile_options(aspic_rules INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
+                         -fno-omit-frame-pointer -g1 -w)  # warnings are the ordinary build's business
+  target_link_options(aspic_rules INTERFACE -fsanitize=address,undefined)
+endif()
 if(ASPIC_SANITIZE)
   target_compile_options(aspic_rules INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(aspic_rules INTERFACE -fsanitize=address,undefined)

@@ -10,24 +10,13 @@
 #include <thread>
 #include <vector>
 
+#include "app/film_format.h"
 #include "base/result.h"
 #include "gpu/pixel_ring.h"
 #include "io/frame_sink.h"
 
 namespace aspic::app {
 
-/// What a film is written as: one file, or a directory of numbered pictures.
-enum class FilmFormat { mp4, webm, gif, png, jpeg };
-inline constexpr FilmFormat film_formats[] = {FilmFormat::mp4, FilmFormat::webm, FilmFormat::gif,
-                                              FilmFormat::png, FilmFormat::jpeg};
-
-/// As people and state files call it: "mp4".
-std::string_view name_of(FilmFormat format);
-std::optional<FilmFormat> film_format_of(std::string_view name);
-/// Whether the pictures go into a directory.
-bool is_directory(FilmFormat format);
-/// The most pictures per second that viewers of the format show.
-double most_fps(FilmFormat format);
 /// `path` with the end that the format wants, another format's end replaced; directories have none.
 std::string film_path(const std::string& path, FilmFormat format);
 /// A name in the working directory that nobody has taken yet: `aspic-cube-plane-0001.mp4`. `scene` is a file

@@ -91,6 +91,11 @@ void Buffer::upload(std::span<const std::byte> data, std::uint64_t offset) {
 void Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
   assert(offset <= bytes_ && data.size() <= bytes_ - offset);
   if (data.empty()) return;
+  if (context_->dead_) {
+    // What a lost device answers is anything; this is the least likely to pass for a result.
+    std::ranges::fill(data, std::byte{0xff});
+    return;
+  }
   glBindBuffer(source_target, id_);
   glGetBufferSubData(source_target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()),
                      data.data());

@@ -95,7 +95,8 @@ void Context::clear_messages() {
 
 bool Context::lost() {
   if (lost_) return true;
-  lost_ = strikes(Fault::lost_context) || (info_.robust && glGetGraphicsResetStatus() != GL_NO_ERROR);
+  lost_ =
+      dead_ || strikes(Fault::lost_context) || (info_.robust && glGetGraphicsResetStatus() != GL_NO_ERROR);
   return lost_;
 }
 
@@ -128,6 +129,17 @@ Error Context::lost_error() const {
 
 void Context::inject_fault(Fault fault, std::uint64_t after) {
   faults_[static_cast<std::size_t>(fault)] = after;
+}
+
+void Context::take_back_faults() {
+  faults_ = {};
+  dead_ = lost_ = false;
+}
+
+bool Context::begins_dispatch() {
+  ++dispatches_;
+  if (strikes(Fault::lost_at_dispatch)) dead_ = true;
+  return !dead_;
 }
 
 bool Context::strikes(Fault fault) {

@@ -59,8 +59,9 @@ struct DebugMessage {
 
 /// What a driver does on a bad day; see Context::inject_fault.
 enum class Fault {
-  lost_context,  ///< the device was reset, and all that this context held is gone
-  out_of_memory  ///< an allocation failed
+  lost_context,     ///< the device was reset, and all that this context held is gone
+  out_of_memory,    ///< an allocation failed
+  lost_at_dispatch  ///< the same as lost_context, at a pass: it and all later ones do nothing
 };
 
 class ProgramCache;
@@ -106,8 +107,14 @@ class Context {
 
   /// For tests: the driver's fault strikes at its next chance, or after so many chances have passed. Chances
   /// of lost_context are calls of lost(); those of out_of_memory are the making of a buffer or a texture and
-  /// calls of ran_out_of_memory(). No GL call is made for it, so that the context itself goes on working.
+  /// calls of ran_out_of_memory(); those of lost_at_dispatch are the dispatches of passes, and what is
+  /// downloaded once it has struck has all bits set. No GL call is made for it, so that the context itself
+  /// goes on working.
   void inject_fault(Fault fault, std::uint64_t after = 0);
+  /// For tests: faults that have not struck yet never will, and an injected loss is taken back.
+  void take_back_faults();
+  /// Dispatches of passes since the context was made.
+  std::uint64_t dispatches() const { return dispatches_; }
 
   /// The last KHR_debug messages, oldest first: at most 256, high severity kept in preference. Empty without
   /// debug.
@@ -127,18 +134,23 @@ class Context {
  private:
   friend class Buffer;
   friend class Texture;
+  friend class Pass;
   friend class EglContextMaker;
   Context();
   void start(std::string platform);
   void receive(DebugMessage message);
   /// Whether an injected fault's time has come; it has only one.
   bool strikes(Fault fault);
+  /// A pass is about to be dispatched: whether it may.
+  bool begins_dispatch();
 
   void* display_ = nullptr;  // EGLDisplay and EGLContext; null for an adopted context
   void* context_ = nullptr;
   DeviceInfo info_;
   bool lost_ = false;
-  std::array<std::optional<std::uint64_t>, 2> faults_;  // by Fault: chances left to let pass
+  bool dead_ = false;                                   // by an injected loss at a dispatch
+  std::array<std::optional<std::uint64_t>, 3> faults_;  // by Fault: chances left to let pass
+  std::uint64_t dispatches_ = 0;
   std::unique_ptr<ProgramCache> programs_;
   std::uint64_t bytes_held_ = 0;
   std::uint64_t high_severity_count_ = 0;

@@ -56,7 +56,7 @@ void Pass::prepare(std::span<const Binding> extra) const {
 }
 
 void Pass::dispatch_for(std::uint32_t count, std::span<const Binding> extra, Reader readers) const {
-  if (count == 0) return;
+  if (count == 0 || !program_->context().begins_dispatch()) return;
   prepare(extra);
   const GroupCount groups = groups_for(count, program_->group_size()[0]);
   glDispatchCompute(groups.x, groups.y, 1);
@@ -66,6 +66,7 @@ void Pass::dispatch_for(std::uint32_t count, std::span<const Binding> extra, Rea
 void Pass::dispatch_indirect(const Buffer& arguments, std::uint64_t offset,
                              std::span<const Binding> extra) const {
   assert(offset % 4 == 0 && offset + 12 <= arguments.bytes());
+  if (!program_->context().begins_dispatch()) return;
   prepare(extra);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments.id());
   glDispatchComputeIndirect(static_cast<GLintptr>(offset));

@@ -107,6 +107,7 @@ Result<Program> Program::compute(Context& context, const FlatShader& source) {
   const std::string& path = source.path();
   Program program;
   program.path_ = path;
+  program.context_ = &context;
   program.id_ = glCreateProgram();
   const StageSource stage = {GL_COMPUTE_SHADER, source};
   const Status built = build(program.id_, context, std::span(&stage, 1));
@@ -141,6 +142,7 @@ Result<Program> Program::graphics(Context& context, const ShaderLibrary& library
   }
   Program program;
   program.path_ = stages.fragment;
+  program.context_ = &context;
   program.id_ = glCreateProgram();
   const Status built = build(program.id_, context, sources);
   if (!built) return built.error();
@@ -161,7 +163,8 @@ Program::~Program() {
 }
 
 Program::Program(Program&& other) noexcept
-    : id_(std::exchange(other.id_, 0)),
+    : context_(std::exchange(other.context_, nullptr)),
+      id_(std::exchange(other.id_, 0)),
       path_(std::move(other.path_)),
       group_size_(other.group_size_),
       storage_blocks_(other.storage_blocks_) {}
@@ -169,6 +172,7 @@ Program::Program(Program&& other) noexcept
 Program& Program::operator=(Program&& other) noexcept {
   if (this == &other) return *this;
   release();
+  context_ = std::exchange(other.context_, nullptr);
   id_ = std::exchange(other.id_, 0);
   path_ = std::move(other.path_);
   group_size_ = other.group_size_;

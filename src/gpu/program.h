@@ -58,6 +58,8 @@ class Program {
   void set(int location, const std::array<float, 4>& value) const;
 
   std::uint32_t id() const { return id_; }
+  /// The context it was made in; not of an empty handle.
+  Context& context() const { return *context_; }
   /// The path it was compiled from; of a graphics program, the fragment shader's.
   const std::string& path() const { return path_; }
   /// Invocations per group along x, y, z, as its layout says; all 0 for a graphics program.
@@ -88,6 +90,7 @@ class Program {
  private:
   std::optional<int> property(std::uint32_t interface, std::string_view name, std::uint32_t property) const;
   void release();
+  Context* context_ = nullptr;
   std::uint32_t id_ = 0;
   std::string path_;
   std::array<std::uint32_t, 3> group_size_ = {};

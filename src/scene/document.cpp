@@ -87,10 +87,7 @@ Position start_of_key_before(std::string_view text, Position at) {
   return at;
 }
 
-}  // namespace
-
-std::variant<Node, Problem> parse(std::string_view text, std::uint32_t source) {
-  if (auto problem = too_deep(text, source)) return *std::move(problem);
+std::variant<Node, Problem> parse_once(std::string_view text, std::uint32_t source) {
   try {
     return converted(toml::parse(text), source);
   } catch (const toml::parse_error& error) {
@@ -101,6 +98,16 @@ std::variant<Node, Problem> parse(std::string_view text, std::uint32_t source) {
     }
     return Problem{at, reworded(description)};
   }
+}
+
+}  // namespace
+
+std::variant<Node, Problem> parse(std::string_view text, std::uint32_t source) {
+  if (auto problem = too_deep(text, source)) return *std::move(problem);
+  // The streams that toml++ reads numbers with swallow std::bad_alloc, and a good number is blamed: what is
+  // wrong with the text is so a second time.
+  auto parsed = parse_once(text, source);
+  return std::holds_alternative<Problem>(parsed) ? parse_once(text, source) : parsed;
 }
 
 const Member* find(const Node& table, std::string_view key) {
