@@ -28,7 +28,8 @@ TEST(Battery, NamesAreUniqueAndEveryRowIsComplete) {
 TEST(Battery, CoversEveryIntegrator) {
   const auto checks = battery();
   for (const char* group : {"order", "closed-form/damped", "closed-form/undamped", "conservation/double",
-                            "conservation/single", "contact/stick", "contact/slide", "rest", "equality"}) {
+                            "conservation/single", "contact/stick", "contact/slide", "contact/restitution",
+                            "contact/cone", "rest", "rest/turned", "rest/groove", "rest/corner", "energy", "equality"}) {
     for (const char* integrator : {"explicit-euler", "symplectic-euler", "midpoint", "runge-kutta-4",
                                    "implicit-euler-one-pass", "implicit-euler"}) {
       const std::vector<std::string> name = {std::string(group) + "/" + integrator};
