@@ -56,16 +56,17 @@ bool crosses(uint t, vec3 x, Reaction r) {
 
 #include "compute/implicit_hold.glsl"
 
-// The fewest of those that hold the particle already, and terrain t, with which none is crossed.
+// The fewest of those that hold the particle already, and terrain t, with which none is crossed and none pulls.
 Reaction joined(vec3 x, float m, vec3 v, Reaction so_far, uint t) {
   if (so_far.count == 3u) return so_far;
-  for (uint subset = 0u; subset < (1u << so_far.count); ++subset) {
+  uint subsets = 1u << so_far.count;
+  for (uint subset = 0u; subset < subsets; ++subset) {
     Reaction next = no_reaction(v);
     for (uint k = 0u; k < so_far.count; ++k) {
       if (((subset >> k) & 1u) != 0u) next.held[next.count++] = so_far.held[k];
     }
     next.held[next.count++] = t;
-    bool crossing = !hold(x, m, v, next);
+    bool crossing = !hold(x, m, v, subset + 1u == subsets, next);
     for (uint k = 0u; k < so_far.count && !crossing; ++k) crossing = crosses(so_far.held[k], x, next);
     if (!crossing) return next;
   }

@@ -26,8 +26,9 @@ bool on_one(vec3 x, float m, vec3 v, inout Reaction r) {
   return u < c;
 }
 
-// Two surfaces leave the line along both; both normal impulses bear on the friction there.
-bool between_two(vec3 x, vec3 v, inout Reaction r) {
+// Two surfaces leave the line along both; both normal impulses bear on the friction there. The last choice is taken
+// even if one would have to pull, which only friction can ask for; it does not.
+bool between_two(vec3 x, vec3 v, bool last, inout Reaction r) {
   precise vec4 a = gap(r.held[0], x);
   precise vec4 b = gap(r.held[1], x);
   precise vec3 line = cross3(a.xyz, b.xyz);
@@ -40,6 +41,7 @@ bool between_two(vec3 x, vec3 v, inout Reaction r) {
   precise float short_b = c_b - dot3(v, b.xyz);
   precise float push_a = exact_div(short_a - cosine * short_b, sine2);
   precise float push_b = exact_div(short_b - cosine * short_a, sine2);
+  if (!last && (push_a < 0.0 || push_b < 0.0)) return false;
   precise float loss = terrains[r.held[0]].friction * (push_a > 0.0 ? push_a : 0.0) +
                        terrains[r.held[1]].friction * (push_b > 0.0 ? push_b : 0.0);
   precise float q = exact_div(1.0, exact_sqrt(sine2));
@@ -74,8 +76,8 @@ bool among_three(vec3 x, inout Reaction r) {
   return true;
 }
 
-bool hold(vec3 x, float m, vec3 v, inout Reaction r) {
+bool hold(vec3 x, float m, vec3 v, bool last, inout Reaction r) {
   if (r.count == 1u) return on_one(x, m, v, r);
-  if (r.count == 2u) return between_two(x, v, r);
+  if (r.count == 2u) return between_two(x, v, last, r);
   return among_three(x, r);
 }

@@ -301,9 +301,9 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
     if (report.newton_iterations == max_newton_) break;
     const Field<T> delta = solve(at, forcing, report.cg_iterations);
     ++report.newton_iterations;
-    // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down. R bends where a particle meets or
-    // leaves the ground or stops to slide, so with the ground in the equation there may be none: then δ itself,
-    // for Newton's method finds its way over a larger residual.
+    // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down. R bends where a particle meets
+    // or leaves the ground or stops to slide, so with the ground in the equation there may be none: then δ
+    // itself, for Newton's method finds its way over a larger residual.
     T lambda = 1;
     Field<T> trial = v + lambda * delta;
     Evaluation next = evaluate(s, held, trial);
@@ -316,7 +316,8 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
       next = evaluate(s, held, trial);
       on_ground = on_ground || next.holds;
     }
-    if (!(next.merit < at.merit) && halvings <= max_halvings) {  // any further iteration would only repeat this one
+    if (!(next.merit < at.merit) &&
+        halvings <= max_halvings) {  // any further iteration would only repeat this one
       report.end = SolveEnd::stagnated;
       break;
     }

@@ -29,6 +29,10 @@ struct GroundReaction {
   std::array<std::size_t, 3> held{};     ///< indices of the terrains that hold the particle
   std::size_t count = 0;                 ///< so many of them
 
+  GroundReaction() = default;
+  /// No reaction: P(v) = v.
+  explicit GroundReaction(const Vector<T>& free) : v(free) {}
+
   /// The part of y that the ground leaves free.
   Vector<T> free_part(const Vector<T>& y) const {
     if (freedom == Freedom::all) return y;
@@ -92,12 +96,11 @@ class GroundAhead {
 
   /// P of particle i, of mass m, with free velocity v [m/s]. Terrains take their turns in file order. One
   /// that the velocity left so far would cross joins the fewest of those that hold the particle already with
-  /// which none is crossed. One more round looks whether a later terrain has pushed the particle through an
-  /// earlier one.
+  /// which none is crossed and none pulls: without friction, the nearest velocity that crosses none. One more
+  /// round looks whether a later terrain has pushed the particle through an earlier one.
   GroundReaction<T> react(Eigen::Index i, T m, const Vector<T>& v) const {
     const Gap<T>* gaps = &gaps_[static_cast<std::size_t>(i) * grounds_.size()];
-    GroundReaction<T> reaction;
-    reaction.v = v;
+    GroundReaction<T> reaction(v);
     for (int round = 0; round < 2; ++round) {
       for (std::size_t t = 0; t < grounds_.size(); ++t) {
         if (crosses(gaps, t, reaction)) reaction = joined(gaps, m, v, reaction, t);
@@ -118,14 +121,15 @@ class GroundAhead {
   GroundReaction<T> joined(const Gap<T>* gaps, T m, const Vector<T>& v, const GroundReaction<T>& so_far,
                            std::size_t t) const {
     if (so_far.count == 3) return so_far;
-    for (std::size_t subset = 0; subset < (std::size_t{1} << so_far.count); ++subset) {
-      GroundReaction<T> next;
+    const std::size_t subsets = std::size_t{1} << so_far.count;
+    for (std::size_t subset = 0; subset < subsets; ++subset) {
+      GroundReaction<T> next(v);
       for (std::size_t k = 0; k < so_far.count; ++k) {
         if ((subset >> k) & 1) next.held[next.count++] = so_far.held[k];
       }
       next.held[next.count++] = t;
       const bool possible = next.count == 1   ? on_one(gaps, m, v, next)
-                            : next.count == 2 ? between_two(gaps, v, next)
+                            : next.count == 2 ? between_two(gaps, v, subset + 1 == subsets, next)
                                               : among_three(gaps, next);
       if (!possible) continue;
       bool crossing = false;
@@ -155,8 +159,9 @@ class GroundAhead {
     return u < c;
   }
 
-  /// Two surfaces leave the line along both; both normal impulses bear on the friction there.
-  bool between_two(const Gap<T>* gaps, const Vector<T>& v, GroundReaction<T>& out) const {
+  /// Two surfaces leave the line along both; both normal impulses bear on the friction there. The last choice
+  /// is taken even if one would have to pull, which only friction can ask for; it does not.
+  bool between_two(const Gap<T>* gaps, const Vector<T>& v, bool last, GroundReaction<T>& out) const {
     const Gap<T>&a = gaps[out.held[0]], &b = gaps[out.held[1]];
     const Vector<T> line = cross3<T>(a.n, b.n);
     const T sine2 = dot3<T>(line, line), cosine = dot3<T>(a.n, b.n);
@@ -164,6 +169,7 @@ class GroundAhead {
     const T c_a = least_speed(a), c_b = least_speed(b);
     const T short_a = c_a - dot3<T>(v, a.n), short_b = c_b - dot3<T>(v, b.n);
     const T push_a = (short_a - cosine * short_b) / sine2, push_b = (short_b - cosine * short_a) / sine2;
+    if (!last && (push_a < T(0) || push_b < T(0))) return false;
     const T loss = grounds_[out.held[0]].friction * (push_a > T(0) ? push_a : T(0)) +
                    grounds_[out.held[1]].friction * (push_b > T(0) ? push_b : T(0));
     out.axis = (T(1) / std::sqrt(sine2)) * line;

@@ -166,6 +166,42 @@ TEST_F(EqualBits, FiveImplicit) {
   }
 }
 
+// Ground in the equation: flat, inclined, curved both ways; until it rests or nearly so.
+TEST_F(EqualBits, FourImplicitOnEveryTerrain) {
+  for (const TerrainShape shape :
+       {TerrainShape::plane, TerrainShape::tilted_plane, TerrainShape::sphere, TerrainShape::bowl}) {
+    ModelSettings settings = implicit(low_cube(4, Integrator::implicit_euler, ContactModel::coulomb));
+    settings.terrain[0].shape = shape;
+    settings.terrain[0].friction = 0.6;
+    settings.terrain[0].mass = 20.0;
+    settings.cubes[0].position = shape == TerrainShape::bowl     ? Vec3{2.0, 4.0, 1.0}
+                                 : shape == TerrainShape::sphere ? Vec3{0.1, 5.2, 0.0}
+                                 : shape == TerrainShape::plane  ? Vec3{0.0, 1.9, 0.0}
+                                                                 : Vec3{1.6, 2.8, 0.0};
+    expect_equal(settings, 150, {64});
+  }
+}
+
+// A groove and a wall across it: particles held by one, two and three terrains, with and without a pinned
+// corner.
+TEST_F(EqualBits, FourImplicitInACornerOfThreeTerrains) {
+  for (const bool pinned : {false, true}) {
+    ModelSettings settings = implicit(low_cube(4, Integrator::implicit_euler, ContactModel::coulomb));
+    settings.cubes[0].position = {0.3, 4.5, 2.9};
+    settings.cubes[0].velocity = {0.2, -1.0, -1.5};
+    if (pinned) settings.cubes[0].pinned.names = {"left-top-front"};
+    settings.terrain.clear();
+    for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, 0.1}, Vec3{0.0, 0.1, 1.0}}) {
+      TerrainSettings side;
+      side.point = Vec3{};
+      side.normal = normal;
+      side.restitution = 0.2;
+      settings.terrain.push_back(side);
+    }
+    expect_equal(settings, 300, {64});
+  }
+}
+
 // 1,000 particles are four blocks of a reduction, 74,088 are 290: their results make two more blocks.
 TEST_F(EqualBits, TenPerEdgeImplicit) {
   expect_equal(implicit(low_cube(10, Integrator::implicit_euler, ContactModel::coulomb)), 20, {64});

@@ -1,0 +1,311 @@
+// Bodies come to rest under implicit Euler, with the ground in its equation, at 60 steps a second: cubes,
+// slopes, grooves and corners, sphere and bowl, pulls, pinned particles, bounces before. The explicit
+// methods' are in rest_test.cpp.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analysis/energy.h"
+#include "cpu_reference/reference_solver.h"
+#include "model/pull.h"
+#include "model/terrain.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double h = 1.0 / 60.0, g = 9.8;
+constexpr double tolerance = 1e-9;  // of a solve in double precision [m/s]
+
+std::unique_ptr<Solver> solver_for(const Model& model, Precision precision = Precision::double_) {
+  auto solver = make_reference_solver(model, precision);
+  EXPECT_TRUE(solver.ok());
+  return std::move(solver).value();
+}
+
+State advanced(Solver& solver, std::uint64_t steps) {
+  EXPECT_FALSE((*solver.advance(steps)).has_value());
+  return *solver.state();
+}
+
+double fastest(const State& state) {
+  double most = 0.0;
+  for (const Vec3& v : state.velocity) most = std::max(most, length(v));
+  return most;
+}
+
+/// How far the nearest `count` particles are from the terrain, at most [m].
+double layer(const Terrain& terrain, const State& state, std::size_t count) {
+  std::vector<double> gaps;
+  for (const Vec3& x : state.position) gaps.push_back(signed_distance(terrain, x));
+  std::sort(gaps.begin(), gaps.end());
+  return std::max(-gaps.front(), gaps[count - 1]);
+}
+
+TerrainSettings plane(const Vec3& point, const Vec3& normal) {
+  TerrainSettings settings;
+  settings.point = point;
+  settings.normal = normal;
+  return settings;
+}
+
+ModelSettings cube(int n, const Vec3& position) {
+  ModelSettings settings = test::cube_on_plane(n);
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = h;
+  settings.cubes[0].position = position;
+  return settings;
+}
+
+ModelSettings cube_on_slope(double degrees, double mu, double gap) {
+  const double angle = degrees * std::numbers::pi / 180.0;
+  const Vec3 n = {std::sin(angle), std::cos(angle), 0.0};
+  ModelSettings settings = cube(5, (2.0 + gap) * n);
+  settings.cubes[0].rotation = {{0.0, 0.0, 1.0}, -degrees};
+  settings.terrain = {plane({}, n)};
+  settings.terrain[0].friction = mu;
+  return settings;
+}
+
+Model loose(std::vector<Vec3> positions, std::vector<Vec3> velocities, std::vector<TerrainSettings> terrain,
+            const ContactSettings& contact = {}) {
+  Model model = test::particles(std::move(positions), std::move(velocities));
+  model.simulation.integrator = Integrator::implicit_euler;
+  model.simulation.timestep = h;
+  model.contact = contact;
+  for (const TerrainSettings& t : terrain) model.terrain.push_back(make_terrain(t, contact));
+  return model;
+}
+
+// A step that ends at its tolerance τ may leave an energy of at most Σ m·|v|·√3·τ per particle too much.
+TEST(ImplicitRest, TheDefaultCubeFallsComesToRestAndGainsNoEnergy) {
+  const Model model = test::build(cube(10, {0.0, 9.0, 0.0}));
+  const auto solver = solver_for(model);
+  double before = measure(model, *solver->state()).total();
+  for (int n = 0; n < 600; ++n) {
+    const Measures now = measure(model, advanced(*solver, 1));
+    EXPECT_LE(now.total(), before + 1000 * (20.0 * std::sqrt(3.0) * tolerance) + 1e4 * 1000 * eps) << n;
+    before = now.total();
+  }
+  const State end = *solver->state();
+  EXPECT_LT(fastest(end), 1e-6);
+  EXPECT_LT(layer(model.terrain[0], end, 100), 1e-5);
+  const SolveStatistics all = *solver->solve_statistics();
+  EXPECT_EQ(all.converged, 600u);
+  const auto single = solver_for(model, Precision::single);
+  const State rough = advanced(*single, 600);
+  EXPECT_LT(fastest(rough), 1e-3);
+  EXPECT_LT(layer(model.terrain[0], rough, 100), 1e-5);
+  EXPECT_EQ(single->solve_statistics()->converged, 600u);
+}
+
+TEST(ImplicitRest, TurnedCubes) {
+  for (const RotationSettings& turn : {RotationSettings{{1.0, 0.0, 1.0}, 30.0}, {{1.0, 0.3, 0.2}, 50.0}}) {
+    ModelSettings settings = cube(5, {0.0, 4.0, 0.0});
+    settings.cubes[0].rotation = turn;
+    const Model model = test::build(settings);
+    const auto solver = solver_for(model);
+    const State end = advanced(*solver, 600);
+    EXPECT_LT(fastest(end), 1e-6);
+    EXPECT_GE(solver->solve_statistics()->converged, 595u);
+    const double start = measure(model, initial_state(model, Precision::double_)).total();
+    EXPECT_LT(measure(model, end).total(), start);
+  }
+}
+
+// The cone holds it: μ = 0.5 > tan 15° = 0.268.
+TEST(ImplicitRest, ACubeOnASlopeItSticksTo) {
+  const Model model = test::build(cube_on_slope(15.0, 0.5, 0.5));
+  const auto solver = solver_for(model);
+  const State early = advanced(*solver, 420), late = advanced(*solver, 60);
+  EXPECT_LT(fastest(late), 1e-6);
+  EXPECT_LT(layer(model.terrain[0], late, 25), 1e-5);
+  for (std::size_t i = 0; i < late.position.size(); ++i)
+    EXPECT_LT(length(late.position[i] - early.position[i]), 1e-6);
+}
+
+TEST(ImplicitRest, ACubeSlidesWithCoulombsAcceleration) {
+  for (const double degrees : {15.0, 25.0}) {
+    const double angle = degrees * std::numbers::pi / 180.0, mu = 0.2;
+    const Vec3 along = {std::cos(angle), -std::sin(angle), 0.0};
+    const Model model = test::build(cube_on_slope(degrees, mu, 0.02));
+    const auto solver = solver_for(model);
+    const auto speed = [&](const State& state) {
+      return dot(measure(model, state).momentum, along) / static_cast<double>(model.particle_count());
+    };
+    const double early = speed(advanced(*solver, 180)), late = speed(advanced(*solver, 120));
+    EXPECT_NEAR((late - early) / 2.0, g * (std::sin(angle) - mu * std::cos(angle)), 1e-4);
+  }
+}
+
+// One particle: exact, on either side of the cone.
+TEST(ImplicitRest, AParticleOnASlopeKeepsToCoulombsCone) {
+  const double angle = 25.0 * std::numbers::pi / 180.0, tangent = std::tan(angle);
+  const Vec3 n = {std::sin(angle), std::cos(angle), 0.0};
+  const int steps = 100;
+  const double t = steps * h, rounding = steps * 16 * eps * 8.0;
+  for (const double share : {0.0, 0.5, 0.99, 1.01, 2.0}) {
+    ContactSettings contact;
+    contact.friction = share * tangent;
+    const Model model = loose({{0, 0, 0}}, {{}}, {plane({}, n)}, contact);
+    const State end = advanced(*solver_for(model), steps);
+    const double free = t * g * (std::sin(angle) - contact.friction * std::cos(angle));
+    EXPECT_NEAR(length(end.velocity[0]), share < 1.0 ? free : 0.0, rounding) << share;
+    EXPECT_NEAR(dot(end.velocity[0], n), 0.0, rounding);
+  }
+}
+
+// Sixteen phases of the step at which a particle meets the ground. Backward Euler itself is off by g·h/2 in
+// the speed it gives at a height, of 4.4 m/s here, and the apex between two steps by up to g·h²/8.
+TEST(ImplicitRest, ABounceKeepsRestitutionSquared) {
+  for (const double e : {0.2, 0.5, 0.8, 1.0}) {
+    std::vector<Vec3> positions, velocities(16);
+    for (int i = 0; i < 16; ++i) positions.push_back({1.0 * i, 1.0 + 0.03 * i / 16.0, 0.0});
+    ContactSettings contact;
+    contact.restitution = e;
+    const Model model = loose(positions, velocities, {plane({}, {0, 1, 0})}, contact);
+    const auto solver = solver_for(model);
+    std::vector<double> apex(16, 0.0);
+    std::vector<int> bounces(16, 0);
+    State before = *solver->state();
+    for (int n = 0; n < (e < 1.0 ? 60 : 540); ++n) {
+      const State now = advanced(*solver, 1);
+      for (std::size_t i = 0; i < 16; ++i) {
+        bounces[i] += before.velocity[i].y < 0.0 && now.velocity[i].y > 0.0;
+        if (bounces[i] == 1 || (bounces[i] > 1 && e == 1.0)) apex[i] = std::max(apex[i], now.position[i].y);
+      }
+      before = now;
+    }
+    for (std::size_t i = 0; i < 16; ++i) {
+      ASSERT_GE(bounces[i], e < 1.0 ? 1 : 9);
+      EXPECT_NEAR(apex[i] / (e * e * positions[i].y), 1.0, g * h * h / 8 / (e * e))
+          << "e = " << e << ", " << i;
+      EXPECT_LE(apex[i], positions[i].y) << "phase " << i;
+    }
+  }
+}
+
+TEST(ImplicitRest, ABounceKnowsTheTerrainsMass) {
+  ContactSettings contact;
+  contact.restitution = 1.0;
+  TerrainSettings movable = plane({}, {0, 1, 0});
+  movable.mass = 10.0;
+  const Model model = loose({{0, 1, 0}}, {{}}, {movable}, contact);
+  const auto solver = solver_for(model);
+  double apex = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    const double y = advanced(*solver, 1).position[0].y;
+    if (n > 28) apex = std::max(apex, y);  // the fall takes 27 steps
+  }
+  EXPECT_NEAR(apex, 81.0 / 121.0, g * h * h / 8);
+}
+
+// Cubes in grooves of several angles and in a corner of three planes: all come to rest, none below a surface.
+TEST(ImplicitRest, CubesInGroovesAndInACorner) {
+  for (const double slope : {0.4, 1.0, 2.5}) {
+    ModelSettings settings = cube(5, {0.0, 2.0 + 2.9 * std::sqrt(1.0 + slope * slope), 0.0});
+    settings.cubes[0].rotation = {{0.0, 0.0, 1.0}, 45.0};
+    settings.contact.friction = 0.5;
+    settings.terrain = {plane({}, {slope, 1, 0}), plane({}, {-slope, 1, 0})};
+    const Model model = test::build(settings);
+    const State end = advanced(*solver_for(model), 600);
+    EXPECT_LT(fastest(end), 1e-6) << slope;
+    for (const Terrain& side : model.terrain) EXPECT_LT(layer(side, end, 5), 1e-5) << slope;
+  }
+  ModelSettings settings = cube(5, {0.5, 3.0, 0.3});
+  settings.cubes[0].velocity = {-6.0, 0.0, -4.0};
+  settings.terrain = {plane({0, -1, 0}, {0, 1, 0}), plane({-3, 0, 0}, {1, 0, 0}),
+                      plane({0, 0, -3}, {0, 0, 1})};
+  const Model model = test::build(settings);
+  const State end = advanced(*solver_for(model), 600);
+  EXPECT_LT(fastest(end), 1e-6);
+  EXPECT_LT(layer(model.terrain[0], end, 25), 1e-5);
+  for (const Terrain& side : model.terrain) EXPECT_GE(signed_distance(side, end.position[0]), -1e-12);
+}
+
+// Without friction nothing but the second plane stops it.
+TEST(ImplicitRest, AParticleInAGrooveWithoutFriction) {
+  for (const double slope : {0.1, 1.0, 5.0}) {
+    ContactSettings contact;
+    contact.friction = 0.0;
+    contact.restitution = 0.0;
+    const Model model =
+        loose({{0.1, 1.0, 0.0}}, {{}}, {plane({}, {slope, 1, 0}), plane({}, {-slope, 1, 0})}, contact);
+    const State end = advanced(*solver_for(model), 600);
+    EXPECT_LT(fastest(end), 1e-6) << slope;
+    EXPECT_LT(std::hypot(end.position[0].x, end.position[0].y), 1e-6) << slope;
+  }
+}
+
+TEST(ImplicitRest, SphereAndBowl) {
+  TerrainSettings sphere, bowl;
+  sphere.shape = TerrainShape::sphere;
+  bowl.shape = TerrainShape::bowl;
+  const Terrain round = make_terrain(sphere, ContactSettings{});
+  const Vec3 top = round.point + round.radius * Vec3{std::sin(0.1), std::cos(0.1), 0.0};
+  const Model on_top = loose({top}, {{}}, {sphere});
+  const State held = advanced(*solver_for(on_top), 600);
+  EXPECT_LE(length(held.position[0] - top), 600 * 8 * eps * round.radius) << "μ = 0.3 > tan 0.1";
+  const Terrain hollow = make_terrain(bowl, ContactSettings{});
+  const Model model = loose({hollow.point - Vec3{4.0, 3.0, 1.0}}, {{1, 0, 2}}, {bowl});
+  const State end = advanced(*solver_for(model), 1200);
+  EXPECT_LT(fastest(end), 1e-6);
+  EXPECT_LT(std::abs(signed_distance(hollow, end.position[0])), 1e-9);
+  const Vec3 out = end.position[0] - hollow.point;
+  EXPECT_LE(std::hypot(out.x, out.z), 0.3 * -out.y * (1.0 + 1e-9)) << "within the cone";
+
+  ModelSettings settings = cube(5, {3.0, 7.5, 0.5});
+  settings.terrain = {bowl};
+  const Model rocking = test::build(settings);
+  EXPECT_LT(fastest(advanced(*solver_for(rocking), 900)), 1e-3);
+}
+
+// A hand above pulls with hardly more, or hardly less, than the weight: nothing keeps the particle down.
+TEST(ImplicitRest, APulledParticleLeavesWithoutAdhesion) {
+  const double stiffness = 0.001;
+  for (const double share : {0.999, 1.001}) {
+    const Model model = loose({{0, 0, 0}}, {{}}, {plane({}, {0, 1, 0})});
+    const auto solver = solver_for(model);
+    ASSERT_TRUE(solver->set_pull(Pull{0, {0, share * g / stiffness, 0}, stiffness, 0.0}).ok());
+    const State end = advanced(*solver, 60);
+    if (share < 1.0) {
+      EXPECT_EQ(end.position[0].y, 0.0);
+      EXPECT_EQ(end.velocity[0], Vec3{});
+    } else {
+      const double t = 60 * h, a = (share - 1.0) * g;
+      // The pull weakens by stiffness·y, y = a·h²·n(n + 1)/2 after n steps; each step's solve may be off by
+      // its tolerance.
+      EXPECT_NEAR(end.velocity[0].y, a * t, stiffness * a * t * (t + h) * (t + 2 * h) / 6 + 60 * tolerance);
+      EXPECT_NEAR(end.position[0].y, a * t * t / 2, a * h * t + 60 * t * tolerance);
+    }
+  }
+}
+
+TEST(ImplicitRest, PinnedParticlesTakeNoPart) {
+  Model model = loose({{0, 0.005, 0}, {1, -0.5, 0}, {2, 0, 0}}, {{1, -2, 0}, {}, {}}, {plane({}, {0, 1, 0})});
+  model.inverse_mass[1] = model.inverse_mass[2] = 0.0;
+  const State start = initial_state(model, Precision::double_), end = advanced(*solver_for(model), 30);
+  for (const std::size_t i : {1u, 2u}) {
+    EXPECT_EQ(end.position[i], start.position[i]);
+    EXPECT_EQ(end.velocity[i], start.velocity[i]);
+  }
+  EXPECT_NE(end.position[0], start.position[0]);
+}
+
+// At rest on the ground the sum of the momenta that the ground gives is the weight's, step by step: the
+// cube's momentum stays what it is, while in flight it is gravity's alone.
+TEST(ImplicitRest, MomentumInFlightIsGravitysAlone) {
+  const Model model = test::build(cube(5, {0.0, 9.0, 0.0}));
+  const auto solver = solver_for(model);
+  for (int n = 1; n <= 60; ++n) {
+    const Vec3 momentum = measure(model, advanced(*solver, 1)).momentum;
+    EXPECT_LE(length(momentum - Vec3{0, -125 * g * n * h, 0}), 125 * n * tolerance);
+  }
+}
+
+}  // namespace
+}  // namespace aspic
