@@ -179,8 +179,8 @@ Model cube_in_a_corner(double mu) {
   settings.terrain.resize(3);
   settings.terrain[0].point = Vec3{0, 0, 0};
   settings.terrain[0].normal = Vec3{0.3, 1, 0.1};
-  settings.terrain[1].point = Vec3{2.4, 0, 0};
-  settings.terrain[1].normal = Vec3{-1, 0.1, 0};
+  settings.terrain[1].point = Vec3{2.7, 0, 0};
+  settings.terrain[1].normal = Vec3{-1, 0.35, 0};
   settings.terrain[2].point = Vec3{0, 0, 2.1};
   settings.terrain[2].normal = Vec3{0, 0, -1};
   Model model = test::build(settings);
@@ -202,7 +202,7 @@ TEST(ImplicitGround, SolvesTheEquationWithTheGroundInIt) {
     GroundAhead<double> ahead(dynamics.grounds(), h, true);
     Phase<double> s = start_of(model);
     std::array<int, 4> seen{};
-    for (int n = 0; n < 90; ++n) {
+    for (int n = 0; n < 120; ++n) {
       SolveReport report;
       Phase<double> next = method.step(s, report);
       ASSERT_EQ(report.end, SolveEnd::converged) << "step " << n << ", μ = " << mu;
