@@ -14,7 +14,7 @@
 // What the ground makes of particle p with free velocity v at the trial: its reaction, and the residual R,
 // right-hand side r and preconditioner of a particle it holds.
 Reaction meet_ground(Particle p, vec3 free, vec3 v, inout precise vec3 R, inout precise vec3 r, inout DiagonalBlock b) {
-  float m = p.velocity.w;
+  precise float m = p.velocity.w;
   Reaction reaction = react(p.position.xyz, m, free);
   if (reaction.freedom == FREE_ALL) return reaction;
   R = v - reaction.v;

@@ -14,7 +14,7 @@ void finish(uint i) {
   if (own4(OWN_GROUND, i).w != FREE_ALL) v = v + own(OWN_PRESCRIBED, i);  // the ground gives way by no tolerance
   precise vec3 x = start.position.xyz + time_step * v;
   if (contact_model == CONTACT_COULOMB) {
-    float word = own4(OWN_PRESCRIBED, i).w;
+    precise float word = own4(OWN_PRESCRIBED, i).w;
     for (uint t = 0u; t < terrain_count && start.position.w != 0.0; ++t) {
       respond_solved(t, start.velocity.w, word_holds(word, t), start.position.xyz, start.velocity.xyz, x, v);
     }

@@ -179,8 +179,8 @@ Model cube_in_a_corner(double mu) {
   settings.terrain.resize(3);
   settings.terrain[0].point = Vec3{0, 0, 0};
   settings.terrain[0].normal = Vec3{0.3, 1, 0.1};
-  settings.terrain[1].point = Vec3{2.4, 0, 0};
-  settings.terrain[1].normal = Vec3{-1, 0.1, 0};
+  settings.terrain[1].point = Vec3{2.7, 0, 0};
+  settings.terrain[1].normal = Vec3{-1, 0.35, 0};
   settings.terrain[2].point = Vec3{0, 0, 2.1};
   settings.terrain[2].normal = Vec3{0, 0, -1};
   Model model = test::build(settings);
@@ -195,14 +195,14 @@ Model cube_in_a_corner(double mu) {
 // v' = P(v + h·a(x + h·v', v')), with a of the explicit methods' code, for every particle, in steps that
 // press it into three terrains; what is held is at the surface exactly.
 TEST(ImplicitGround, SolvesTheEquationWithTheGroundInIt) {
-  for (const double mu : {0.0, 0.3, 0.8}) {
+  for (const double mu : {0.0, 0.15, 0.3}) {
     const Model model = cube_in_a_corner(mu);
     const Dynamics<double> dynamics(model);
     ImplicitEuler<double> method(dynamics, model);
     GroundAhead<double> ahead(dynamics.grounds(), h, true);
     Phase<double> s = start_of(model);
     std::array<int, 4> seen{};
-    for (int n = 0; n < 90; ++n) {
+    for (int n = 0; n < 120; ++n) {
       SolveReport report;
       Phase<double> next = method.step(s, report);
       ASSERT_EQ(report.end, SolveEnd::converged) << "step " << n << ", μ = " << mu;

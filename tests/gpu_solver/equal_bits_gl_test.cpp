@@ -198,7 +198,7 @@ TEST_F(EqualBits, FourImplicitInACornerOfThreeTerrains) {
       side.restitution = 0.2;
       settings.terrain.push_back(side);
     }
-    expect_equal(settings, 300, {64});
+    expect_equal(settings, 150, {64});
   }
 }
 
