@@ -147,6 +147,61 @@ TEST(Balls, ManyContactsKeepMomentumAndNeverRaiseTheEnergy) {
   }
 }
 
+// Several hundred in one place, so that every sum has more than one block, balls and particles mixed.
+TEST(Balls, CrowdsKeepMomentumAndNeverRaiseTheEnergy) {
+  for (const int balls : {33, 256, 257, 500}) {
+    Model model = crowd(0.6, true, 21);
+    const std::vector<Ball> few = model.balls;
+    model.balls.clear();
+    for (int b = 0; b < balls; ++b) {
+      Ball ball = few[static_cast<std::size_t>(b) % few.size()];
+      ball.initial_position = 1e-3 * ball.initial_position + Vec3{1e-6 * b, 0.0, 0.0};
+      model.balls.push_back(ball);
+    }
+    for (Vec3& x : model.initial_position) x = 1e-3 * x;
+    auto solver = solver_for(model);
+    const double momentum_scale = (balls + 200.0) * 55.0 * 5.0;  // bodies · kg · m/s, at most
+    Measures before = measure(model, *solver->state());
+    for (int step = 0; step < 10; ++step) {
+      ASSERT_FALSE((*solver->advance(1)).has_value());
+      const Measures now = measure(model, *solver->state());
+      expect_near(now.momentum, before.momentum, 4 * epsilon * momentum_scale);
+      ASSERT_LE(now.kinetic, before.kinetic * (1.0 + 1000 * epsilon)) << balls << " balls, step " << step;
+      before = now;
+    }
+  }
+}
+
+// What the sort along x and the grid leave out has no partner. Every ball that has one is moved: the
+// positions of the others are those of free flight.
+TEST(Balls, AreFoundWhereverTheyAre) {
+  std::mt19937_64 random(3);
+  const auto number = [&](double half) {
+    return half * (2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0);
+  };
+  for (const Vec3& box :
+       {Vec3{40.0, 1.0, 1.0}, Vec3{3.0, 3.0, 3.0}, Vec3{0.2, 6.0, 6.0}, Vec3{0.3, 0.3, 0.3}}) {
+    ModelSettings settings = weightless();
+    for (int b = 0; b < 700; ++b) {
+      settings.balls.push_back(
+          {0.05 + 0.1 * (b % 3), 1.0, {number(box.x), number(box.y), number(box.z)}, {}, {}});
+    }
+    const Model model = test::build(settings);
+    const State end = after(model, 1);
+    int touching = 0;
+    for (std::size_t a = 0; a < model.balls.size(); ++a) {
+      bool overlaps = false;
+      for (std::size_t b = 0; b < model.balls.size() && !overlaps; ++b) {
+        const Vec3 e = model.balls[a].initial_position - model.balls[b].initial_position;
+        overlaps = a != b && length(e) < model.balls[a].radius + model.balls[b].radius;
+      }
+      EXPECT_EQ(end.ball_position[a] != model.balls[a].initial_position, overlaps) << "ball " << a;
+      touching += overlaps;
+    }
+    EXPECT_GT(touching, 50);
+  }
+}
+
 // The position phase alone: bodies at rest that overlap are pushed apart and keep their centre of mass.
 TEST(Balls, OverlapIsMendedAboutTheCentreOfMass) {
   ModelSettings settings = weightless();

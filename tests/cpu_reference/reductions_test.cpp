@@ -61,5 +61,26 @@ TEST(TreeMax, FindsTheLargestWhereverItStands) {
   }
 }
 
+// Blocks of 256 from zero, then the blocks' sums: written out for counts around the blocks' ends.
+TEST(PartnerSum, GoesByBlocks) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> number(-1.0f, 1.0f);
+  for (const std::size_t count : {1u, 2u, 255u, 256u, 257u, 511u, 512u, 513u, 5000u}) {
+    std::vector<float> values(count);
+    for (float& value : values) value = number(random);
+    reference::PartnerSum<float> sum(0.0f);
+    for (const float value : values) sum.add(value);
+    std::vector<float> blocks;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i % 256 == 0) blocks.push_back(0.0f);
+      blocks.back() = blocks.back() + values[i];
+    }
+    float expected = blocks.front();
+    for (std::size_t b = 1; b < blocks.size(); ++b) expected = expected + blocks[b];
+    EXPECT_EQ(sum.total(), expected) << count;
+  }
+  EXPECT_EQ(reference::PartnerSum<float>(0.0f).total(), 0.0f);
+}
+
 }  // namespace
 }  // namespace aspic::reference

@@ -9,6 +9,8 @@
 
 #include "cpu_reference/reference_solver.h"
 #include "gpu/loop_bound.h"
+#include "gpu/pass.h"
+#include "gpu/program.h"
 #include "gpu/shader_source.h"
 #include "gpu_solver/gpu_solver.h"
 #include "render/model_buffers.h"
@@ -75,6 +77,37 @@ class LoopBounds : public aspic::testing::GlTest {
     return test::build(settings);
   }
 };
+
+// What the bound rests on: this driver carries out three loops of as many rounds, of neighbours in step or
+// not.
+TEST_F(LoopBounds, AreWhatTheDriverDoes) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory.path() / "rounds.comp") << R"(
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) buffer Counts { uint counts[]; };
+layout(location = 0) uniform uint rounds;
+void main() {
+  uint count = 0u, mine = rounds - gl_LocalInvocationIndex;
+  for (uint loop_a = 0u; loop_a < mine; ++loop_a) count += counts[64] + 1u;
+  for (uint loop_b = 0u; loop_b < mine; ++loop_b) count += counts[65] + 1u;
+  for (uint loop_c = 0u; loop_c < mine; ++loop_c) count += counts[66] + 1u;
+  counts[gl_LocalInvocationIndex] = count;
+}
+)";
+  const auto program = gl::Program::compute(context(), gl::ShaderLibrary(directory.path()), "rounds.comp");
+  ASSERT_TRUE(program.ok()) << program.error().message;
+  auto counts = std::move(gl::Buffer::create(context(), "counts", 4 * 67)).value();
+  const auto count = [&](std::uint32_t rounds) {
+    counts.clear();
+    program->set(0, rounds);
+    gl::Pass(*program, {{0, &counts}}, gl::Reader::read_back).dispatch_for(64);
+    return counts.download_items<std::uint32_t>(64);
+  };
+  const auto done = count(gl::max_rounds);
+  for (std::uint32_t i = 0; i < 64; ++i) EXPECT_EQ(done[i], 3 * (gl::max_rounds - i));
+  // On record: how far it goes.
+  RecordProperty("rounds-of-300000", std::to_string(count(100000)[0]));
+}
 
 TEST_F(LoopBounds, ArePlacedInEveryKernelThatNeedsOne) {
   const Model cube = test::build(test::cube_on_plane(3));
