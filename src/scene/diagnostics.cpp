@@ -14,6 +14,8 @@ namespace {
 
 /// Lines longer than this are shown in part, around the culprit.
 constexpr std::size_t shown_characters = 100;
+/// Arguments longer than this are named in part; the line below shows the place.
+constexpr std::size_t longest_label = 200;
 
 std::string_view line_of(std::string_view text, std::uint32_t line) {
   for (std::uint32_t current = 1; current < line; ++current) {
@@ -67,7 +69,9 @@ std::string rendered(const Source& source, const document::Problem& problem) {
   const std::string_view line = line_of(source.text, problem.at.line);
   const std::uint32_t column = problem.at.column;
   // A key or a name may hold a line feed of its own.
-  const std::string label = printable_line(source.label), message = printable_line(problem.message);
+  const std::string label =
+                        source.is_file ? printable_line(source.label) : excerpt(source.label, longest_label),
+                    message = printable_line(problem.message);
   if (!source.is_file) {
     return fmt::format("{}: {}\n{}", label, message, line_with_caret(line, column, "  ", "  "));
   }
