@@ -15,6 +15,7 @@
 #include "base/result.h"
 #include "cli/console.h"
 #include "io/atomic_file.h"
+#include "io/child_process.h"
 
 namespace aspic::cli {
 namespace {
@@ -43,6 +44,7 @@ void open_standard_streams() {
 }
 
 void on_fatal_signal(int number) {
+  end_child_processes();
   remove_temporary_files();
   std::array<char, 2> digits = {static_cast<char>('0' + number / 10), static_cast<char>('0' + number % 10)};
   write_plainly("aspic: a fault ended the program by signal ");
@@ -58,6 +60,7 @@ void on_fatal_signal(int number) {
 
 /// For exceptions that leave a thread or a destructor: nothing unwinds there.
 [[noreturn]] void on_terminate() {
+  end_child_processes();
   remove_temporary_files();
   try {
     if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
@@ -110,6 +113,7 @@ int run_program(const std::function<int()>& work) {
       write_plainly(no_memory);
     }
   }
+  end_child_processes();
   remove_temporary_files();
   return failed;
 }

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -19,6 +20,17 @@ extern char** environ;
 
 namespace aspic {
 namespace {
+
+// Readable by a signal handler: 0 is a free place.
+std::array<std::atomic<pid_t>, 16> running;
+static_assert(std::atomic<pid_t>::is_always_lock_free);
+
+void exchange_running(pid_t from, pid_t to) {
+  for (std::atomic<pid_t>& place : running) {
+    pid_t expected = from;
+    if (place.compare_exchange_strong(expected, to)) return;
+  }
+}
 
 Error start_error(const std::string& program, int reason) {
   return {ErrorCode::io, fmt::format("{} cannot be started: {}.", program, std::strerror(reason))};
@@ -64,6 +76,7 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
     child.pid_ = -1;
     return start_error(arguments.front(), failed);
   }
+  exchange_running(0, child.pid_);
   return child;
 }
 
@@ -96,10 +109,20 @@ ChildProcess::End ChildProcess::finish() {
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
+  exchange_running(pid_, 0);
   pid_ = -1;
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   return end;
+}
+
+void end_child_processes() noexcept {
+  for (std::atomic<pid_t>& place : running) {
+    const pid_t pid = place.load();
+    if (pid <= 0) continue;
+    ::kill(pid, SIGKILL);
+    (void)::waitpid(pid, nullptr, 0);
+  }
 }
 
 std::string ChildProcess::last_lines(std::size_t count) const {

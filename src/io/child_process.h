@@ -48,4 +48,8 @@ class ChildProcess {
   int errors_ = -1;
 };
 
+/// Ends the programs that run at present and waits for them: before their files are removed in a process that
+/// is about to end. Safe to call from a signal handler.
+void end_child_processes() noexcept;
+
 }  // namespace aspic

@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include "io/atomic_file.h"
+#include "io/child_process.h"
 
 namespace aspic {
 namespace {
@@ -14,6 +15,7 @@ struct sigaction old_interrupt, old_terminate, old_file_size;
 void on_signal(int number) {
   signal_count = signal_count + 1;
   if (signal_count < 2) return;
+  end_child_processes();  // one that runs on could make its file after all
   remove_temporary_files();
   ::signal(number, SIG_DFL);
   ::raise(number);  // delivered when this handler returns and the signal is unblocked

@@ -5,7 +5,7 @@
 //   ASPIC_FAULT_LOG=FILE           gets "struck NAME" at the first strike, and the counts at the end
 //
 // KIND alloc    malloc and its family, whoever calls                  fails
-//      own      operator new and malloc called from the program itself fails
+//      own      operator new and malloc, no driver being at work       fails
 //      file     file operations                                       WHAT: an errno (EIO by default), or
 //      kill disk     those alone that need room on the disk                WHAT: as above (ENOSPC by default)
 //      short    write() and send() take a third of what is offered    N is not looked at
@@ -24,6 +24,7 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <unwind.h>
 
 #include <atomic>
 #include <cstddef>
@@ -46,6 +47,9 @@ char log_path[4096];
 struct Range {
   std::uintptr_t begin, end;
 } program_range, library_range;
+// What was loaded when the program started: all else is a driver, or code that one made.
+Range known[128];
+int known_count = 0;
 
 bool inside(const Range& range, const void* address) {
   const auto at = reinterpret_cast<std::uintptr_t>(address);
@@ -62,6 +66,7 @@ int find_ranges(dl_phdr_info* info, std::size_t, void*) {
     if (begin < range.begin) range.begin = begin;
     if (begin + header.p_memsz > range.end) range.end = begin + header.p_memsz;
   }
+  if (known_count < 128) known[known_count++] = range;
   if (info->dlpi_name[0] == '\0' && program_range.end == 0) program_range = range;
   if (strstr(info->dlpi_name, "libstdc++") != nullptr) library_range = range;
   return 0;
@@ -148,6 +153,24 @@ int main_with_faults(int argc, char** argv, char** environment) {
   return code;
 }
 
+_Unwind_Reason_Code look_at_frame(_Unwind_Context* context, void* found) {
+  const auto* const at = reinterpret_cast<const void*>(_Unwind_GetIP(context));
+  if (at == nullptr) return _URC_END_OF_STACK;
+  for (int i = 0; i < known_count; ++i) {
+    if (inside(known[i], at)) return _URC_NO_REASON;
+  }
+  *static_cast<bool*>(found) = true;
+  return _URC_END_OF_STACK;
+}
+
+/// Whether a driver is among the callers. Drivers share functions of std::string with the program, so that
+/// the nearest caller alone does not tell.
+bool in_a_driver() {
+  bool found = false;
+  _Unwind_Backtrace(look_at_frame, &found);
+  return found;
+}
+
 bool ours(const void* caller) {
   return inside(program_range, caller) || inside(library_range, caller);
 }
@@ -161,7 +184,7 @@ bool file_strikes(const void* caller, const char* name, bool needs_room) {
 
 bool allocation_strikes(const void* caller) {
   if (!armed.load(std::memory_order_relaxed)) return false;
-  const bool mine = inside(program_range, caller) && strikes(own, "malloc");
+  const bool mine = inside(program_range, caller) && !in_a_driver() && strikes(own, "malloc");
   return strikes(alloc, "malloc") || mine;
 }
 
@@ -280,7 +303,7 @@ int posix_spawnp(pid_t* pid, const char* program, const posix_spawn_file_actions
 
 void* operator new(std::size_t bytes) {
   if (armed.load(std::memory_order_relaxed)) {
-    const bool mine = inside(program_range, CALLER) && strikes(own, "operator new");
+    const bool mine = inside(program_range, CALLER) && !in_a_driver() && strikes(own, "operator new");
     if (strikes(alloc, "operator new") || mine) throw std::bad_alloc();
   }
   if (void* made = __libc_malloc(bytes ? bytes : 1)) return made;

