@@ -25,10 +25,14 @@ if ! ninja -C "$build" --quiet fuzzers >"$build/build.log" 2>&1; then
 fi
 echo "Built the fuzzers in $((SECONDS - started)) s." >&2
 
-rm -rf "$build/seeds" "$build/tmp"
-mkdir -p "$build/seeds" "$build/findings" "$build/tmp"
-TMPDIR=$build/tmp "$build/tests/fuzz/fuzz_seeds" "$build/seeds"
-export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=1 TMPDIR=$build/tmp
+rm -rf "$build/seeds"
+mkdir -p "$build/seeds" "$build/findings"
+memory=/dev/shm
+[ -w "$memory" ] || memory=${TMPDIR:-/tmp}
+TMPDIR=$(mktemp -d "$memory/aspic-fuzz.XXXXXX") # the shader target writes files for each input
+export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=1 TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
+"$build/tests/fuzz/fuzz_seeds" "$build/seeds"
 
 # fuzz TARGET: one fuzzer's run, its output in a log, its finding's name begun with the kind (crash-, timeout-, oom-, leak-).
 fuzz() {
@@ -66,13 +70,12 @@ collect() {
     echo "  to keep it: mkdir -p tests/fuzz/regressions/$target && cp $input tests/fuzz/regressions/$target/WHAT-IT-IS"
   fi
 }
-trap 'kill "${!running[@]}" 2>/dev/null || true' EXIT
+trap 'kill "${!running[@]}" 2>/dev/null || true; rm -rf "$TMPDIR"' EXIT
 for target in "${chosen[@]}"; do
   while [ "${#running[@]}" -ge "$(nproc)" ]; do collect; done
   fuzz "$target" &
   running[$!]=$target
 done
 while [ "${#running[@]}" -gt 0 ]; do collect; done
-rm -rf "$build/tmp"
 echo "${#chosen[@]} fuzzers, $seconds s each, in $((SECONDS - started)) s."
 exit "$status"
