@@ -212,7 +212,7 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
     scan_unit_interval(300, [&](double share) {
       least = smaller(least, of_mode(integrator, share * kappa, ratio * share * kappa));
     });
-    if (body.kind != BodyKind::cube || !least.step || timestep > *least.step) return false;
+    if (body.spacing <= 0.0 || !least.step || timestep > *least.step) return false;
   }
   return covered == model.particle_count();
 }

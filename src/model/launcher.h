@@ -20,6 +20,6 @@ double launcher_number(std::int64_t seed, std::uint64_t index);
 Ball launched_ball(const LauncherSettings& launcher, std::uint64_t n, double timestep);
 
 /// Appends the launcher's balls to the model.
-void add_launcher(Model& model, const LauncherSettings& launcher);
+Status add_launcher(Model& model, const LauncherSettings& launcher);
 
 }  // namespace aspic

@@ -43,15 +43,17 @@ struct Terrain {
   double friction = 0.3;                                  ///< μ
 };
 
-enum class BodyKind { cube, goal_net };
+/// What a body shows when it is drawn solid: the outer faces of its lattice, or, of a net, its springs.
+enum class BodySurface { faces, springs };
 
 /// A run of consecutive particles that was made as one body.
 struct Body {
-  BodyKind kind = BodyKind::cube;
+  BodySurface surface = BodySurface::faces;
+  bool goal = false;  ///< a goal's net: its frame is drawn with it, and balls are footballs
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
   std::array<int, 3> lattice = {0, 0, 0};          ///< particles along x, y, z (nets: net_index)
-  double spacing = 0.0;                            ///< cubes: s [m] between lattice neighbours; nets: 0
+  double spacing = 0.0;  ///< of a cubic lattice: s [m] between neighbours; 0: it is none
 };
 
 /// A ball: a solid sphere. Those of [[ball]] come first, in file order, then those of the launchers.
@@ -104,6 +106,7 @@ Status check_sizes(const Model& model, const State& state);
 struct ModelCounts {
   std::uint64_t particles = 0, pinned = 0, structural = 0, shear = 0, bending = 0, balls = 0;
   std::uint64_t springs() const { return structural + shear + bending; }
+  ModelCounts& operator+=(const ModelCounts& other);
 };
 ModelCounts count(const Model& model);
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/vec3.h"
@@ -24,6 +25,17 @@ enum class Integrator {
 
 /// Contact models, spec §2.5.
 enum class ContactModel { coulomb, course };
+
+/// A value of an enumeration with its name in scene files and reports.
+template <class Enum>
+struct Named {
+  Enum value;
+  std::string_view name;
+};
+
+/// Every contact model, in the order in which they are listed for users.
+inline constexpr Named<ContactModel> contact_models[] = {{ContactModel::coulomb, "coulomb"},
+                                                         {ContactModel::course, "course"}};
 
 enum class SpringType { structural, shear, bending };
 
@@ -55,17 +67,17 @@ struct ContactSettings {
   bool spin = true;
 };
 
-/// One terrain of the scene. Absent values take the shape's defaults (terrain_defaults) or the scene's
+/// One terrain of the scene. Absent values take the shape's defaults (terrain_shapes) or the scene's
 /// contact values.
 struct TerrainSettings {
   TerrainShape shape = TerrainShape::plane;
-  std::optional<Vec3> point;     ///< [m], plane and tilted plane
-  std::optional<Vec3> normal;    ///< any length but zero, plane and tilted plane
-  std::optional<Vec3> centre;    ///< [m], sphere and bowl
-  std::optional<double> radius;  ///< [m], > 0, sphere and bowl
-  std::optional<double> mass;    ///< M [kg], > 0; absent: infinite
-  std::optional<double> restitution;
-  std::optional<double> friction;
+  std::optional<Vec3> point = {};     ///< [m], plane and tilted plane
+  std::optional<Vec3> normal = {};    ///< any length but zero, plane and tilted plane
+  std::optional<Vec3> centre = {};    ///< [m], sphere and bowl
+  std::optional<double> radius = {};  ///< [m], > 0, sphere and bowl
+  std::optional<double> mass = {};    ///< M [kg], > 0; absent: infinite
+  std::optional<double> restitution = {};
+  std::optional<double> friction = {};
 };
 
 /// Stiffness and damping of the springs of one type.
@@ -88,8 +100,10 @@ struct RotationSettings {
 
 /// Which particles of a cube are pinned: face and corner names, and local indices.
 struct PinnedSettings {
-  std::vector<std::string> names;      ///< "top", "left", … or corners such as "left-bottom-front"
-  std::vector<std::uint32_t> indices;  ///< local indices i*n*n + j*n + k
+  std::vector<std::string> names;     ///< "top", "left", … or corners such as "left-bottom-front"
+  std::vector<std::int64_t> indices;  ///< local indices i*n*n + j*n + k, each 0 … n³ − 1
+
+  friend bool operator==(const PinnedSettings&, const PinnedSettings&) = default;
 };
 
 struct CubeSettings {

@@ -1,3 +1,4 @@
+#include "model/cube.h"
 #include "model/solver.h"
 #include "scene/parameter_rows.h"
 
@@ -7,6 +8,10 @@ namespace {
 using namespace rows;
 
 std::vector<Parameter> cube_rows() {
+  Parameter pinned =
+      row("cube[].pinned", ParameterType::pinned, FIELD(model.cubes[i].pinned),
+          "Particles that never move: faces, corners such as left-top-front, or local indices.");
+  for (const CubeFace& face : cube_faces) pinned.words.push_back(face.name);
   return {
       fixed(integer("cube[].particles-per-edge", {2, 512}, FIELD(model.cubes[i].particles_per_edge),
                     "Particles n along each edge, n³ in all.")),
@@ -44,8 +49,7 @@ std::vector<Parameter> cube_rows() {
                 "Young's modulus E along an axis, from which k = E·s/7.3125 at spacing s.")),
       of(material, number("cube[].material.damping-ratio", "", {0.0, 1e6}, MATERIAL(damping_ratio),
                           "Damping ratio ζ, from which c = 2ζ√(k·m/2).")),
-      fixed(row("cube[].pinned", ParameterType::pinned, FIELD(model.cubes[i].pinned),
-                "Particles that never move: faces, corners such as left-top-front, or local indices.")),
+      fixed(pinned),
   };
 }
 
@@ -117,7 +121,7 @@ std::vector<Parameter> launcher_rows() {
 
 }  // namespace
 
-std::vector<Parameter> body_rows() {
+std::vector<Parameter> body_parameters() {
   std::vector<Parameter> all;
   for (auto part : {cube_rows(), net_rows(), ball_rows(), launcher_rows()}) {
     all.insert(all.end(), part.begin(), part.end());

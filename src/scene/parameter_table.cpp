@@ -1,3 +1,4 @@
+#include "model/terrain.h"
 #include "scene/parameter_rows.h"
 
 namespace aspic {
@@ -25,8 +26,8 @@ std::vector<Parameter> root_rows() {
 
 std::vector<Parameter> simulation_rows() {
   return {
-      word("simulation.integrator", words_of(Integrator::implicit_euler_one_pass),
-           FIELD(model.simulation.integrator), "Time integration method."),
+      word<all_integrators>("simulation.integrator", FIELD(model.simulation.integrator),
+                            "Time integration method."),
       number("simulation.timestep", "s", {0.0, 1.0, true}, FIELD(model.simulation.timestep), "Time step h."),
       number("simulation.duration", "s", {0.0, longest}, FIELD(model.simulation.duration),
              "Simulated time of a run for which neither steps nor duration are asked."),
@@ -49,8 +50,8 @@ std::vector<Parameter> simulation_rows() {
 
 std::vector<Parameter> contact_rows() {
   return {
-      word("contact.model", words_of(ContactModel::course), FIELD(model.contact.model),
-           "Contact law: Coulomb friction, or the original assignments' formulas."),
+      word<contact_models>("contact.model", FIELD(model.contact.model),
+                           "Contact law: Coulomb friction, or the original assignments' formulas."),
       number("contact.epsilon", "m, m/s", {0.0, 1.0, true}, FIELD(model.contact.epsilon),
              "Distance and approach speed below which a particle touches."),
       number("contact.restitution", "", fraction, FIELD(model.contact.restitution),
@@ -68,16 +69,16 @@ std::vector<Parameter> contact_rows() {
 
 std::vector<Parameter> terrain_rows() {
   return {
-      word("terrain[].shape", words_of(TerrainShape::bowl), FIELD(model.terrain[i].shape),
-           "Shape of the resting surface; a bowl is the inside of a sphere."),
-      of(planes, absent(of_shape, vector("terrain[].point", "m", far, FIELD(model.terrain[i].point),
-                                         "A point of the plane."))),
-      of(planes, absent(of_shape, direction("terrain[].normal", FIELD(model.terrain[i].normal),
-                                            "Direction to the free side; its length does not matter."))),
-      of(round, absent(of_shape, vector("terrain[].centre", "m", far, FIELD(model.terrain[i].centre),
-                                        "Centre of the sphere or bowl."))),
-      of(round, absent(of_shape, number("terrain[].radius", "m", positive_length,
-                                        FIELD(model.terrain[i].radius), "Radius of the sphere or bowl."))),
+      word<terrain_shapes>("terrain[].shape", FIELD(model.terrain[i].shape),
+                           "Shape of the resting surface; a bowl is the inside of a sphere."),
+      of(geometry, absent(of_shape, vector("terrain[].point", "m", far, FIELD(model.terrain[i].point),
+                                           "A point of the plane."))),
+      of(geometry, absent(of_shape, direction("terrain[].normal", FIELD(model.terrain[i].normal),
+                                              "Direction to the free side; its length does not matter."))),
+      of(geometry, absent(of_shape, vector("terrain[].centre", "m", far, FIELD(model.terrain[i].centre),
+                                           "Centre of the sphere or bowl."))),
+      of(geometry, absent(of_shape, number("terrain[].radius", "m", positive_length,
+                                           FIELD(model.terrain[i].radius), "Radius of the sphere or bowl."))),
       absent("infinite", number("terrain[].mass", "kg", {0.0, heaviest, true}, FIELD(model.terrain[i].mass),
                                 "Mass M in the bounce speed (m − e·M)/(m + M)·u; the terrain never moves.")),
       absent("that of [contact]",
@@ -89,44 +90,30 @@ std::vector<Parameter> terrain_rows() {
 }
 
 std::vector<Parameter> view_rows() {
-  Parameter draw =
-      word("view.draw", {"solid", "particles", "structural", "shear", "bending"}, FIELD(view.draw),
-           "Parts of the bodies that are drawn: surface, particles, springs by type.");
-  draw.type = ParameterType::words;
+  Parameter draw = row("view.draw", ParameterType::words, FIELD(view.draw),
+                       "Parts of the bodies that are drawn: surface, particles, springs by type.");
+  draw.words = {"solid", "particles", "structural", "shear", "bending"};
   return {
       vector("view.camera.position", "m", far, FIELD(view.camera.position), "Position of the eye."),
       vector("view.camera.target", "m", far, FIELD(view.camera.target),
              "Point in the middle of the picture."),
       number("view.camera.fov", "°", {1.0, 179.0}, FIELD(view.camera.fov), "Vertical field of view."),
       draw,
-      word("view.colour", words_of(ViewColour::speed), FIELD(view.colour),
-           "What the colours of bodies mean."),
+      word<view_colours>("view.colour", FIELD(view.colour), "What the colours of bodies mean."),
   };
 }
 
 }  // namespace
 
 std::string_view name_of(ViewColour colour) {
-  switch (colour) {
-    case ViewColour::material:
-      return "material";
-    case ViewColour::type:
-      return "type";
-    case ViewColour::strain:
-      return "strain";
-    case ViewColour::force:
-      return "force";
-    case ViewColour::speed:
-      return "speed";
-  }
-  return "";
+  return std::ranges::find(view_colours, colour, &Named<ViewColour>::value)->name;
 }
 
 std::span<const Parameter> parameters() {
   static const std::vector<Parameter> table = [] {
     std::vector<Parameter> all;
     for (auto rows :
-         {root_rows(), simulation_rows(), contact_rows(), terrain_rows(), body_rows(), view_rows()}) {
+         {root_rows(), simulation_rows(), contact_rows(), terrain_rows(), body_parameters(), view_rows()}) {
       all.insert(all.end(), rows.begin(), rows.end());
     }
     return all;
