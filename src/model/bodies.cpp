@@ -13,10 +13,7 @@ namespace {
 template <auto Member>
 SettingsList list_of(std::string_view key) {
   return {key, [](const ModelSettings& s) { return (s.*Member).size(); },
-          [](ModelSettings& s) { (s.*Member).emplace_back(); },
-          [](ModelSettings& s, std::size_t i) {
-            (s.*Member).erase((s.*Member).begin() + static_cast<std::ptrdiff_t>(i));
-          }};
+          [](ModelSettings& s) { (s.*Member).emplace_back(); }};
 }
 
 ModelCounts balls(std::uint64_t count) {

@@ -13,8 +13,7 @@ namespace aspic {
 struct SettingsList {
   std::string_view key;
   std::size_t (*size)(const ModelSettings&);
-  void (*append)(ModelSettings&);              ///< an element with default values
-  void (*erase)(ModelSettings&, std::size_t);  ///< the element must exist
+  void (*append)(ModelSettings&);  ///< an element with default values
 };
 
 /// One kind of body. Model, parser, checks, --set and window iterate the table.

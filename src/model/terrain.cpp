@@ -4,18 +4,6 @@
 
 namespace aspic {
 
-namespace terrain_distance {
-double plane(const Terrain& terrain, const Vec3& x) {
-  return dot(terrain.normal, x - terrain.point);
-}
-double sphere(const Terrain& terrain, const Vec3& x) {
-  return length(x - terrain.point) - terrain.radius;
-}
-double bowl(const Terrain& terrain, const Vec3& x) {
-  return terrain.radius - length(x - terrain.point);
-}
-}  // namespace terrain_distance
-
 const TerrainShapeRow& terrain_row(TerrainShape shape) {
   return *std::ranges::find(terrain_shapes, shape, &TerrainShapeRow::value);
 }

@@ -16,36 +16,28 @@ struct TerrainShapeRow {
   double (*signed_distance)(const Terrain&, const Vec3&);
 };
 
-namespace terrain_distance {
-double plane(const Terrain& terrain, const Vec3& x);   ///< (x − P)·N
-double sphere(const Terrain& terrain, const Vec3& x);  ///< |x − C| − R
-double bowl(const Terrain& terrain, const Vec3& x);    ///< R − |x − C|
-}  // namespace terrain_distance
-
 /// Every shape, in the order in which they are listed for users.
 inline constexpr TerrainShapeRow terrain_shapes[] = {
-    {.value = TerrainShape::plane,
-     .name = "plane",
-     .title = "plane",
-     .defaults = {.shape = TerrainShape::plane, .point = Vec3{0.0, -1.0, 0.0}, .normal = Vec3{0.0, 1.0, 0.0}},
-     .signed_distance = terrain_distance::plane},
-    {.value = TerrainShape::tilted_plane,
-     .name = "tilted-plane",
-     .title = "tilted plane",
-     .defaults = {.shape = TerrainShape::tilted_plane,
-                  .point = Vec3{0.0, 0.0, 0.0},
-                  .normal = Vec3{1.0, 1.0, 0.0}},
-     .signed_distance = terrain_distance::plane},
-    {.value = TerrainShape::sphere,
-     .name = "sphere",
-     .title = "sphere",
-     .defaults = {.shape = TerrainShape::sphere, .centre = Vec3{0.0, -1.0, 0.0}, .radius = 3.0},
-     .signed_distance = terrain_distance::sphere},
-    {.value = TerrainShape::bowl,
-     .name = "bowl",
-     .title = "bowl",
-     .defaults = {.shape = TerrainShape::bowl, .centre = Vec3{2.0, 7.0, 1.0}, .radius = 7.0},
-     .signed_distance = terrain_distance::bowl},
+    {TerrainShape::plane,
+     "plane",
+     "plane",
+     {.shape = TerrainShape::plane, .point = Vec3{0.0, -1.0, 0.0}, .normal = Vec3{0.0, 1.0, 0.0}},
+     [](const Terrain& t, const Vec3& x) { return dot(t.normal, x - t.point); }},
+    {TerrainShape::tilted_plane,
+     "tilted-plane",
+     "tilted plane",
+     {.shape = TerrainShape::tilted_plane, .point = Vec3{0.0, 0.0, 0.0}, .normal = Vec3{1.0, 1.0, 0.0}},
+     [](const Terrain& t, const Vec3& x) { return dot(t.normal, x - t.point); }},
+    {TerrainShape::sphere,
+     "sphere",
+     "sphere",
+     {.shape = TerrainShape::sphere, .centre = Vec3{0.0, -1.0, 0.0}, .radius = 3.0},
+     [](const Terrain& t, const Vec3& x) { return length(x - t.point) - t.radius; }},
+    {TerrainShape::bowl,
+     "bowl",
+     "bowl",
+     {.shape = TerrainShape::bowl, .centre = Vec3{2.0, 7.0, 1.0}, .radius = 7.0},
+     [](const Terrain& t, const Vec3& x) { return t.radius - length(x - t.point); }},
 };
 
 /// The row of a shape.

@@ -159,6 +159,8 @@ class Argument {
   }
 
   bool find_element(const Segment& segment, std::size_t position) {
+    const auto written = reader_.written().find(segment.name);
+    if (written != reader_.written().end() && written->second.problem) return false;  // reported there
     const SettingsList& list = *std::ranges::find(settings_lists(), segment.name, &SettingsList::key);
     const std::size_t count = list.size(reader_.scene().model);
     if (!segment.index) {
@@ -200,7 +202,11 @@ std::optional<Position> first_override(const Reader& reader, const std::string& 
 /// Decides between material and explicit springs where arguments changed what the scene had chosen.
 void resolve_material(Reader& reader, std::size_t cube, bool had_material) {
   const std::string material_path = path_text("cube[].material", cube);
-  if (!had_material && !reader.written().contains(material_path)) return;
+  const auto written = reader.written().find(material_path);
+  if (written != reader.written().end())
+    had_material = written->second.key.source == 0;
+  else if (!had_material)
+    return;
   const std::optional<Position> set_material = first_override(reader, material_path);
   const std::vector<std::string> keys = reader.explicit_keys(cube);
   std::optional<Position> set_explicit;
@@ -254,9 +260,7 @@ void apply(std::span<const std::string> arguments, Reader& reader,
            std::vector<diagnostics::Source>& sources) {
   const auto& cubes = reader.scene().model.cubes;
   std::vector<bool> had_material;
-  for (std::size_t c = 0; c < cubes.size(); ++c) {
-    had_material.push_back(cubes[c].material || reader.written().contains(path_text("cube[].material", c)));
-  }
+  for (const CubeSettings& cube : cubes) had_material.push_back(cube.material.has_value());
   for (const std::string& argument : arguments) {
     const auto source = static_cast<std::uint32_t>(sources.size());
     sources.push_back({"--set " + argument, argument, diagnostics::Source::argument});

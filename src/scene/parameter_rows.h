@@ -63,19 +63,30 @@ constexpr auto value_of(const Row& row) {
   }
 }
 
-template <class T>
-inline constexpr bool is_optional = false;
-template <class T>
-inline constexpr bool is_optional<std::optional<T>> = true;
-
 // ---- rows ----
+
+/// The type a field has in the file.
+template <class Field>
+constexpr ParameterType type_of() {
+  if constexpr (std::is_same_v<Field, bool>) return ParameterType::boolean;
+  if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, std::int64_t>)
+    return ParameterType::integer;
+  if constexpr (std::is_same_v<Field, std::string>) return ParameterType::text;
+  if constexpr (std::is_same_v<Field, DrawSettings>) return ParameterType::words;
+  if constexpr (std::is_same_v<Field, Vec3>) return ParameterType::vector;
+  if constexpr (std::is_same_v<Field, std::array<int, 3>>) return ParameterType::counts;
+  if constexpr (std::is_same_v<Field, PinnedSettings>) return ParameterType::pinned;
+  return ParameterType::number;
+}
 
 /// A row whose field `Access` finds in a scene: a stateless generic lambda (scene, index) -> field&.
 template <class Access>
-Parameter row(std::string_view path, ParameterType type, Access, std::string_view meaning) {
+Parameter row(std::string_view path, std::string_view unit, const Range& range, Access,
+              std::string_view meaning) {
   Parameter p;
   p.path = path;
-  p.type = type;
+  p.unit = unit;
+  p.range = range;
   p.meaning = meaning;
   p.read = [](const Parameter& self, const Scene& scene, std::size_t index) {
     return to_value(self, Access{}(scene, index));
@@ -84,50 +95,17 @@ Parameter row(std::string_view path, ParameterType type, Access, std::string_vie
     from_value(self, Access{}(scene, index), value);
   };
   using Field = std::remove_cvref_t<decltype(Access{}(std::declval<Scene&>(), std::size_t{}))>;
-  if constexpr (is_optional<Field>)
+  if constexpr (requires(Field field) { field.reset(); }) {
+    p.type = type_of<typename Field::value_type>();
     p.erase = [](Scene& scene, std::size_t index) { Access{}(scene, index).reset(); };
+  } else {
+    p.type = type_of<Field>();
+  }
   return p;
 }
-
 template <class Access>
-Parameter number(std::string_view path, std::string_view unit, Range range, Access access,
-                 std::string_view meaning) {
-  Parameter p = row(path, ParameterType::number, access, meaning);
-  p.unit = unit;
-  p.range = range;
-  return p;
-}
-
-template <class Access>
-Parameter integer(std::string_view path, Range range, Access access, std::string_view meaning) {
-  Parameter p = row(path, ParameterType::integer, access, meaning);
-  p.range = range;
-  return p;
-}
-
-template <class Access>
-Parameter vector(std::string_view path, std::string_view unit, double largest, Access access,
-                 std::string_view meaning) {
-  Parameter p = row(path, ParameterType::vector, access, meaning);
-  p.unit = unit;
-  p.range = {-largest, largest};
-  return p;
-}
-
-/// A vector of lengths, each positive.
-template <class Access>
-Parameter extent(std::string_view path, Range range, Access access, std::string_view meaning) {
-  Parameter p = row(path, ParameterType::vector, access, meaning);
-  p.unit = "m";
-  p.range = range;
-  return p;
-}
-
-template <class Access>
-Parameter counts(std::string_view path, Range range, Access access, std::string_view meaning) {
-  Parameter p = row(path, ParameterType::counts, access, meaning);
-  p.range = range;
-  return p;
+Parameter row(std::string_view path, Access access, std::string_view meaning) {
+  return row(path, "", {}, access, meaning);
 }
 
 /// One of the values of a table: terrain_shapes, contact_models, …
@@ -149,9 +127,13 @@ Parameter word(std::string_view path, Access, std::string_view meaning) {
   return p;
 }
 
-template <class Access>
-Parameter direction(std::string_view path, Access access, std::string_view meaning) {
-  Parameter p = vector(path, "", 1e6, access, meaning);
+/// Components of at most this size.
+constexpr Range within(double largest) {
+  return {-largest, largest};
+}
+
+inline Parameter direction(Parameter p) {
+  p.range = within(1e6);
   p.direction = true;
   return p;
 }

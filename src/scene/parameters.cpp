@@ -159,57 +159,33 @@ std::size_t index_count(const Parameter& parameter, const Scene& scene) {
 }
 
 std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
-  const auto complaint = [](std::optional<std::string> message) -> std::optional<Complaint> {
-    return message ? std::optional<Complaint>({*message, std::nullopt}) : std::nullopt;
-  };
-  switch (p.type) {
-    case ParameterType::boolean:
-    case ParameterType::text:
-      return std::nullopt;
-    case ParameterType::integer:
-      return complaint(complaint_about(p, static_cast<double>(std::get<std::int64_t>(value))));
-    case ParameterType::number:
-      return complaint(complaint_about(p, std::get<double>(value)));
-    case ParameterType::word:
-      return complaint(complaint_about_word(p, std::get<std::string>(value)));
-    case ParameterType::words: {
-      const auto& words = std::get<std::vector<std::string>>(value);
-      for (std::size_t i = 0; i < words.size(); ++i) {
-        if (auto message = complaint_about_word(p, words[i])) return Complaint{*message, i};
-        if (std::find(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i), words[i]) !=
-            words.begin() + static_cast<std::ptrdiff_t>(i)) {
-          return Complaint{fmt::format("'{}' names \"{}\" twice", key_text(p), words[i]), i};
-        }
-      }
-      return std::nullopt;
-    }
-    case ParameterType::vector: {
-      const Vec3& v = std::get<Vec3>(value);
-      for (int axis = 0; axis < 3; ++axis) {
-        if (auto message = complaint_about(p, v[axis]))
-          return Complaint{*message, static_cast<std::size_t>(axis)};
-      }
-      if (p.direction && length(v) < shortest_direction) {
-        return Complaint{fmt::format("'{}' has no direction: its length is zero; allowed: {}", key_text(p),
-                                     allowed_text(p)),
-                         std::nullopt};
-      }
-      return std::nullopt;
-    }
-    case ParameterType::counts: {
-      const auto& counts = std::get<std::array<int, 3>>(value);
-      for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (auto message = complaint_about(p, counts[i])) return Complaint{*message, i};
-      }
-      return std::nullopt;
-    }
-    case ParameterType::pinned: {
-      const auto& names = std::get<PinnedSettings>(value).names;
-      for (std::size_t i = 0; i < names.size(); ++i) {
-        if (auto message = complaint_about_word(p, names[i])) return Complaint{*message, i};
-      }
-      return std::nullopt;
-    }
+  std::vector<double> numbers;
+  std::vector<std::string> words;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) numbers = {static_cast<double>(*whole)};
+  if (const auto* number = std::get_if<double>(&value)) numbers = {*number};
+  if (const auto* v = std::get_if<Vec3>(&value)) numbers = {v->x, v->y, v->z};
+  if (const auto* counts = std::get_if<std::array<int, 3>>(&value))
+    numbers.assign(counts->begin(), counts->end());
+  if (p.type == ParameterType::word) words = {std::get<std::string>(value)};
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value)) words = *list;
+  if (const auto* pinned = std::get_if<PinnedSettings>(&value)) words = pinned->names;
+  const bool several = !std::holds_alternative<std::string>(value) && numbers.size() != 1;
+  const auto at = [&](std::size_t i) { return several ? std::optional(i) : std::nullopt; };
+
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (auto message = complaint_about(p, numbers[i])) return Complaint{*message, at(i)};
+  }
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (auto message = complaint_about_word(p, words[i])) return Complaint{*message, at(i)};
+    const bool twice = std::find(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i), words[i]) !=
+                       words.begin() + static_cast<std::ptrdiff_t>(i);
+    if (twice && p.type == ParameterType::words)
+      return Complaint{fmt::format("'{}' names \"{}\" twice", key_text(p), words[i]), i};
+  }
+  if (p.direction && length(std::get<Vec3>(value)) < shortest_direction) {
+    return Complaint{
+        fmt::format("'{}' has no direction: its length is zero; allowed: {}", key_text(p), allowed_text(p)),
+        std::nullopt};
   }
   return std::nullopt;
 }

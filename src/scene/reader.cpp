@@ -152,12 +152,16 @@ void Reader::read_member(std::string_view path, std::size_t index, std::string_v
   // A key with brackets or dots inside quotes must not be taken for a path.
   const bool plain = key.find_first_of("[].") == std::string::npos && !key.empty();
   const PathKind kind = plain ? path_kind(child) : PathKind::unknown;
-  if (kind == PathKind::unknown) return fail(at, diagnostics::unknown_key(path, key));
+  if (!plain) return fail(at, diagnostics::unknown_key(path, key));
   Written here = {at, position_of(value.source(), source), elements_of(value, source), {}};
+  if (kind == PathKind::unknown) here.problem = {at, diagnostics::unknown_key(path, key)};
+  // A value takes the place of a table and all its keys.
+  if (kind == PathKind::table && !value.is_table()) forget(path_text(child, index));
   const auto [entry, fresh] = written_.try_emplace(path_text(child, index), here);
   Written& written = entry->second;
   // A table adds its keys to one that is there already; anything else takes the place of what was there.
   if (!fresh && (kind != PathKind::table || !value.is_table() || written.problem)) written = std::move(here);
+  if (kind == PathKind::unknown) return;
   if (kind == PathKind::parameter) {
     read_parameter(*find_parameter(child), value, index, written);
   } else if (kind == PathKind::list) {

@@ -153,10 +153,12 @@ std::vector<SceneComplaint> check_scene(const Scene& scene, std::optional<std::u
   const bool legal = check_values(scene, complaints);
   check_geometry(scene, complaints);
   check_pinned(scene, complaints);
+  check_bodies(scene, complaints);
+  if (!legal) return complaints;
+  // These compute with the numbers.
   check_boxes(scene, complaints);
   check_camera(scene, complaints);
-  check_bodies(scene, complaints);
-  if (legal) check_size(scene, memory_bytes, complaints);
+  check_size(scene, memory_bytes, complaints);
   return complaints;
 }
 
