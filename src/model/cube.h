@@ -1,5 +1,5 @@
 #pragma once
-// The jelly cube of spec §2.2: a lattice of n³ particles with structural, shear and bending springs.
+// The jelly cube: a lattice of n³ particles with structural, shear and bending springs.
 #include <cstddef>
 #include <string_view>
 
@@ -29,7 +29,7 @@ ModelCounts cube_counts(int particles_per_edge);
 double material_particle_mass(const MaterialSettings& material, int particles_per_edge, double edge_length);
 
 /// Spring constants of a material cube: k = E·s/7.3125, c = 2ζ√(k·m/2), for all types. 7.3125 s⁻¹k is Young's
-/// modulus of the infinite lattice with these springs along an axis (spec §2.2; derivation in
+/// modulus of the infinite lattice with these springs along an axis (derivation in
 /// docs/physics.md).
 SpringSettings material_springs(const MaterialSettings& material, int particles_per_edge, double edge_length);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The goal net of spec §2.2: back, top and two sides of a box of lattice points, joined along the faces.
+// The goal net: back, top and two sides of a box of lattice points, joined along the faces.
 #include <array>
 #include <cstdint>
 #include <optional>

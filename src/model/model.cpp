@@ -10,7 +10,7 @@
 namespace aspic {
 namespace {
 
-/// x + 0 turns −0 into +0 and leaves every other number alone (spec §2.9).
+/// x + 0 turns −0 into +0 and leaves every other number alone.
 double without_negative_zero(double x) {
   return x + 0.0;
 }

@@ -31,7 +31,7 @@ struct Spring {
   friend bool operator==(const Spring&, const Spring&) = default;
 };
 
-/// A resting surface, spec §2.4. Planes use point and normal, spheres and bowls use point (the centre) and
+/// A resting surface. Planes use point and normal, spheres and bowls use point (the centre) and
 /// radius.
 struct Terrain {
   TerrainShape shape = TerrainShape::plane;
@@ -71,7 +71,7 @@ struct Ball {
 };
 
 /// The model. Springs are sorted by (a, b), so that adding spring forces in this order adds to every
-/// particle in ascending neighbour index (spec §2.9).
+/// particle in ascending neighbour index.
 struct Model {
   SimulationSettings simulation;
   ContactSettings contact;
@@ -96,7 +96,7 @@ Result<Model> build_model(const ModelSettings& settings);
 /// The state a run starts from, rounded to `precision`; −0 becomes +0.
 State initial_state(const Model& model, Precision precision);
 
-/// Approach speed below which a contact is at rest: max(ε, 2|g|h) [m/s], spec §2.5.
+/// Approach speed below which a contact is at rest: max(ε, 2|g|h) [m/s].
 double resting_speed(const Model& model);
 
 /// Error (usage): the state has another number of particles or balls than the model.
@@ -116,7 +116,7 @@ ModelCounts predict_counts(const ModelSettings& settings);
 /// Bytes a Model with these counts holds.
 std::uint64_t model_bytes(const ModelCounts& counts);
 
-/// Every integrator, in the order of spec §2.6.
+/// Every integrator, in the order in which they are listed for users.
 inline constexpr Integrator all_integrators[] = {
     Integrator::explicit_euler, Integrator::symplectic_euler, Integrator::midpoint,
     Integrator::runge_kutta_4,  Integrator::implicit_euler,   Integrator::implicit_euler_one_pass};

@@ -13,7 +13,7 @@
 
 namespace aspic {
 
-/// Time integration methods, spec §2.6.
+/// Time integration methods.
 enum class Integrator {
   explicit_euler,
   symplectic_euler,
@@ -23,7 +23,7 @@ enum class Integrator {
   implicit_euler_one_pass
 };
 
-/// Contact models, spec §2.5.
+/// Contact models.
 enum class ContactModel { coulomb, course };
 
 /// A value of an enumeration with its name in scene files and reports.
@@ -41,7 +41,7 @@ enum class SpringType { structural, shear, bending };
 
 enum class TerrainShape { plane, tilted_plane, sphere, bowl };
 
-/// Limits of the implicit Euler solve, spec §2.6.
+/// Limits of the implicit Euler solve.
 struct ImplicitSettings {
   int newton_iterations = 20;       ///< ≥ 1
   int cg_iterations = 200;          ///< per Newton iteration, ≥ 1
@@ -86,7 +86,7 @@ struct SpringSettings {
   double damping = 60.0;      ///< c [N·s/m], ≥ 0
 };
 
-/// The same jelly at every resolution, spec §2.2: m = ρ·edge³/n³, k = E·s/7.3125, c = 2ζ√(k·m/2).
+/// The same jelly at every resolution: m = ρ·edge³/n³, k = E·s/7.3125, c = 2ζ√(k·m/2).
 struct MaterialSettings {
   double density = 16.0;            ///< ρ [kg/m³], > 0
   double youngs_modulus = 33000.0;  ///< E [Pa], > 0
@@ -124,7 +124,7 @@ struct OptionalSpringSettings {
   double damping = 50.0;   ///< c [N·s/m], ≥ 0
 };
 
-/// A goal net, spec §2.2: back, top and two sides of a box; its front (+x) and its bottom are open.
+/// A goal net: back, top and two sides of a box; its front (+x) and its bottom are open.
 struct GoalNetSettings {
   std::array<int, 3> particles = {10, 20,
                                   35};  ///< nw, nh, nl along width (x), height (y), length (z), each ≥ 2
@@ -136,7 +136,7 @@ struct GoalNetSettings {
   bool cord = false;  ///< springs resist stretch only
 };
 
-/// A ball, spec §2.7: a solid sphere, inertia 2/5·m·R².
+/// A ball: a solid sphere, inertia 2/5·m·R².
 struct BallSettings {
   double radius = 0.3;                      ///< R [m], > 0
   double mass = 1.0;                        ///< m [kg], > 0

@@ -188,13 +188,13 @@ class Argument {
 /// Where the first argument wrote the path or a value below it.
 std::optional<Position> first_override(const Reader& reader, const std::string& path) {
   std::optional<Position> first;
-  std::string_view at;
-  for (const auto& [written, place] : reader.written()) {
-    if (place.key.source == 0 || !reader::lies_in(written, path)) continue;
-    const bool deeper = first && place.key.source == first->source && reader::lies_in(written, at);
-    if (first && place.key.source >= first->source && !deeper) continue;
-    first = place.key;
-    at = written;
+  std::string at;
+  for (const std::string& written : reader.written_in(path)) {
+    const Position& key = reader.written().at(written).key;
+    const bool deeper = first && key.source == first->source && written.starts_with(at);
+    if (key.source == 0 || (first && key.source >= first->source && !deeper)) continue;
+    first = key;
+    at = written + ".";
   }
   return first;
 }

@@ -134,12 +134,6 @@ Value some_geometry(const Parameter& p) {
 
 }  // namespace
 
-bool lies_in(std::string_view path, std::string_view top) {
-  if (!path.starts_with(top)) return false;
-  const std::string_view rest = path.substr(top.size());
-  return rest.empty() || rest.front() == '.' || rest.front() == '[';
-}
-
 void Reader::read_table(const toml::table& table, std::string_view path, std::size_t index,
                         std::uint32_t source) {
   for (const auto& [key, value] : table)
@@ -151,8 +145,8 @@ void Reader::read_member(std::string_view path, std::size_t index, std::string_v
   const std::string child = fmt::format("{}{}{}", path, path.empty() ? "" : ".", key);
   // A key with brackets or dots inside quotes must not be taken for a path.
   const bool plain = key.find_first_of("[].") == std::string::npos && !key.empty();
-  const PathKind kind = plain ? path_kind(child) : PathKind::unknown;
   if (!plain) return fail(at, diagnostics::unknown_key(path, key));
+  const PathKind kind = path_kind(child);
   Written here = {at, position_of(value.source(), source), elements_of(value, source), {}};
   if (kind == PathKind::unknown) here.problem = {at, diagnostics::unknown_key(path, key)};
   // A value takes the place of a table and all its keys.
@@ -227,7 +221,16 @@ void Reader::enter(std::string_view path, std::size_t index, const Position& at)
 }
 
 void Reader::forget(const std::string& path) {
-  std::erase_if(written_, [&](const auto& entry) { return lies_in(entry.first, path); });
+  for (const std::string& gone : written_in(path)) written_.erase(gone);
+}
+
+std::vector<std::string> Reader::written_in(const std::string& path) const {
+  std::vector<std::string> paths;
+  for (auto at = written_.lower_bound(path); at != written_.end() && at->first.starts_with(path); ++at) {
+    const bool here = at->first.size() == path.size();
+    if (here || at->first[path.size()] == '.' || at->first[path.size()] == '[') paths.push_back(at->first);
+  }
+  return paths;
 }
 
 std::vector<std::string> Reader::explicit_keys(std::size_t cube) const {
@@ -235,7 +238,7 @@ std::vector<std::string> Reader::explicit_keys(std::size_t cube) const {
   for (const std::string_view key : child_keys("cube[]")) {
     const std::string path = fmt::format("cube[].{}", key);
     const bool decided_by_material = std::ranges::any_of(parameters(), [&](const Parameter& p) {
-      return p.belonging == Belonging::explicit_springs && lies_in(p.path, path);
+      return p.belonging == Belonging::explicit_springs && (p.path == path || p.path.starts_with(path + "."));
     });
     if (decided_by_material && written_.contains(path_text(path, cube))) keys.emplace_back(key);
   }
@@ -243,8 +246,8 @@ std::vector<std::string> Reader::explicit_keys(std::size_t cube) const {
 }
 
 bool Reader::has_problem(const std::string& path) const {
-  return !path.empty() && std::ranges::any_of(written_, [&](const auto& entry) {
-    return entry.second.problem && lies_in(entry.first, path);
+  return !path.empty() && std::ranges::any_of(written_in(path), [&](const std::string& entry) {
+    return written_.at(entry).problem.has_value();
   });
 }
 
@@ -279,8 +282,9 @@ std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes)
   }
   for (std::size_t c = 0; c < scene_.model.cubes.size(); ++c) {
     const auto material = written_.find(path_text("cube[].material", c));
+    if (material == written_.end()) continue;
     const std::vector<std::string> others = explicit_keys(c);
-    if (material == written_.end() || others.empty()) continue;
+    if (others.empty()) continue;
     const std::vector<std::string_view> names(others.begin(), others.end());
     problems.push_back({material->second.key,
                         fmt::format("a cube has either 'material' or the masses and springs it decides, not "

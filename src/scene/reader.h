@@ -34,6 +34,8 @@ class Reader {
 
   Scene& scene() { return scene_; }
   const std::map<std::string, Written>& written() const { return written_; }
+  /// The paths that were written at a path and below it.
+  std::vector<std::string> written_in(const std::string& path) const;
   void fail(const Position& at, std::string message) { problems_.push_back({at, std::move(message)}); }
 
   /// Reads every member of the table at `path` ("" is the file, `cube[]` an element of a list).
@@ -64,8 +66,5 @@ class Reader {
   std::map<std::string, Written> written_;  // by path with indices
   std::vector<Problem> problems_;           // of keys that are not in the table, and of arguments
 };
-
-/// Whether a path is `top` or lies below it.
-bool lies_in(std::string_view path, std::string_view top);
 
 }  // namespace aspic::reader
