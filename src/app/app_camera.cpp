@@ -83,7 +83,7 @@ void App::paste_camera() {
         true);
   }
   const std::vector<std::string> set = {"view.camera=" + text};
-  const auto scene = parse_scene(to_toml(editor_.scene()), "clipboard", set);
+  const auto scene = with_overrides(editor_.scene(), set);
   if (!scene) return tell(scene.error());
   camera_.jump_to(scene->view.camera);
 }

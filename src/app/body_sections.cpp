@@ -11,6 +11,7 @@
 #include "app/parameter_widget.h"
 #include "cpu_reference/reference_solver.h"
 #include "gpu/device_info.h"
+#include "model/bodies.h"
 #include "scene/load.h"
 
 namespace aspic::app {
@@ -45,20 +46,17 @@ bool element_line(Gui& gui, const std::string& title, const std::string& name, s
   return button(gui, name.c_str(), label, help, "", enabled);
 }
 
-std::size_t body_lists(const ModelSettings& m) {
-  return m.cubes.size() + m.goal_nets.size() + m.balls.size() + m.launchers.size();
+std::size_t body_count(const ModelSettings& settings) {
+  std::size_t count = 0;
+  for (const BodyRow& row : body_rows()) count += row.list.size(settings);
+  return count;
 }
 
 /// Every key of one list of bodies, straight from the table.
-void all_keys_of(App& app, std::string_view list) {
-  const std::string prefix = fmt::format("{}[].", list);
-  const Parameter* first = nullptr;
-  for (const Parameter& p : parameters()) {
-    if (p.path.starts_with(prefix)) first = first ? first : &p;
-  }
-  const std::size_t count = first ? index_count(*first, app.editor().scene()) : 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    ImGui::TextDisabled("%.*s %zu", static_cast<int>(list.size()), list.data(), i);
+void all_keys_of(App& app, const SettingsList& list) {
+  const std::string prefix = fmt::format("{}[].", list.key);
+  for (std::size_t i = 0; i < list.size(app.editor().scene().model); ++i) {
+    ImGui::TextDisabled("%.*s %zu", static_cast<int>(list.key.size()), list.key.data(), i);
     for (const Parameter& p : parameters()) {
       if (!p.path.starts_with(prefix) || !applies(p, app.editor().scene(), i)) continue;
       std::string label(p.path.substr(prefix.size()));
@@ -97,7 +95,7 @@ void placed_cube(App& app, std::size_t cube) {
 void bodies_section(App& app) {
   const std::size_t count = app.editor().scene().model.cubes.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const bool last_body = body_lists(app.editor().scene().model) == 1;
+    const bool last_body = body_count(app.editor().scene().model) == 1;
     if (element_line(app.gui(), fmt::format("cube {}", i), fmt::format("cube/{}/remove", i),
                      last_body ? "The scene's last body stays: without one, nothing would move."
                                : "Takes this cube away. The simulation starts anew.\n\nScene key: [[cube]]",
@@ -114,7 +112,9 @@ void bodies_section(App& app) {
     edit(app, "cube[].pinned", i);
   }
   add_cube(app);
-  for (const std::string_view list : {"goal-net", "ball", "launcher"}) all_keys_of(app, list);
+  for (const BodyRow& row : body_rows()) {
+    if (row.list.key != "cube") all_keys_of(app, row.list);
+  }
 }
 
 namespace {

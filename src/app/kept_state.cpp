@@ -17,75 +17,69 @@ namespace aspic::app {
 namespace {
 
 namespace fs = std::filesystem;
-using document::Kind;
-using document::Node;
-
 constexpr std::int64_t version = 1;
 constexpr double slowest = 1.0 / 1024.0, fastest = 1024.0;
 constexpr const char* paces[] = {"steps-per-frame", "real-time"};
 
+std::optional<double> number_of(const toml::node& node) {
+  if (const auto* x = node.as_floating_point()) return x->get();
+  if (const auto* x = node.as_integer()) return static_cast<double>(x->get());
+  return std::nullopt;
+}
+
 /// Takes values out of a parsed file; the first that is not as expected is remembered.
 class Taker {
  public:
-  const Node* table(const Node& parent, std::string_view key) { return find(parent, key, Kind::table); }
-
-  void take(const Node* table, std::string_view key, double& into, double low, double high) {
-    const Node* const node = table ? any(*table, key) : nullptr;
-    if (!node) return;
-    const bool whole = node->kind == Kind::integer;
-    const double value = whole ? static_cast<double>(node->integer) : node->number;
-    if ((!whole && node->kind != Kind::floating) || !(value >= low && value <= high))
-      return blame(key, *node);
-    into = value;
+  /// A value of type T (toml::table, toml::array, std::string, bool), or nullptr.
+  template <class T>
+  const auto* find(const toml::table* table, std::string_view key) {
+    const toml::node* const node = table ? table->get(key) : nullptr;
+    const auto* const found = node ? node->as<T>() : nullptr;
+    if (node && !found) blame(key, *node);
+    return found;
   }
-  void take(const Node* table, std::string_view key, bool& into) {
-    if (const Node* const node = table ? find(*table, key, Kind::boolean) : nullptr) into = node->boolean;
+  void take(const toml::table* table, std::string_view key, double& into, double low, double high) {
+    const toml::node* const node = table ? table->get(key) : nullptr;
+    if (!node) return;
+    const auto value = number_of(*node);
+    if (!value || !(*value >= low && *value <= high)) return blame(key, *node);
+    into = *value;
+  }
+  void take(const toml::table* table, std::string_view key, bool& into) {
+    if (const auto* const node = find<bool>(table, key)) into = node->get();
   }
   /// An index into some words.
   template <class Words>
-  void take(const Node* table, std::string_view key, const Words& words, std::size_t& into) {
-    const Node* const node = table ? find(*table, key, Kind::string) : nullptr;
+  void take(const toml::table* table, std::string_view key, const Words& words, std::size_t& into) {
+    const auto* const node = find<std::string>(table, key);
     if (!node) return;
-    const auto word = std::ranges::find(words, node->text);
+    const auto word = std::ranges::find(words, node->get());
     if (word == std::end(words)) return blame(key, *node);
     into = static_cast<std::size_t>(word - std::begin(words));
   }
   /// `count` numbers within ±1e6; false if they are not there.
   template <class Numbers>
-  bool take_numbers(const Node* table, std::string_view key, Numbers& into) {
-    const Node* const node = table ? find(*table, key, Kind::array) : nullptr;
-    if (!node) return false;
-    if (node->elements.size() != into.size()) return blame(key, *node), false;
+  bool take_numbers(const toml::table* table, std::string_view key, Numbers& into) {
+    const auto* const array = find<toml::array>(table, key);
+    if (!array) return false;
+    if (array->size() != into.size()) return blame(key, *array), false;
     for (std::size_t i = 0; i < into.size(); ++i) {
-      const Node& e = node->elements[i];
-      const double value = e.kind == Kind::integer ? static_cast<double>(e.integer) : e.number;
-      if ((e.kind != Kind::integer && e.kind != Kind::floating) || !(std::abs(value) <= 1e6))
-        return blame(key, e), false;
-      into[i] = static_cast<typename Numbers::value_type>(value);
+      const auto value = number_of((*array)[i]);
+      if (!value || !(std::abs(*value) <= 1e6)) return blame(key, (*array)[i]), false;
+      into[i] = static_cast<typename Numbers::value_type>(*value);
     }
     return true;
   }
-  const Node* find(const Node& parent, std::string_view key, Kind kind) {
-    const Node* const node = any(parent, key);
-    if (!node || node->kind == kind) return node;
-    blame(key, *node);
-    return nullptr;
-  }
-  void blame(std::string_view key, const Node& node) {
-    if (complaint.empty()) complaint = fmt::format("line {}, '{}'", node.position.line, key);
+  void blame(std::string_view key, const toml::node& node) {
+    if (complaint.empty())
+      complaint = fmt::format("line {}, '{}'", document::position_of(node.source(), 0).line, key);
   }
 
   std::string complaint;
-
- private:
-  static const Node* any(const Node& parent, std::string_view key) {
-    const document::Member* const member = document::find(parent, key);
-    return member ? &member->value : nullptr;
-  }
 };
 
-void take_window(Taker& taker, const Node& root, KeptState& state) {
-  const Node* const window = taker.table(root, "window");
+void take_window(Taker& taker, const toml::table& root, KeptState& state) {
+  const toml::table* const window = taker.find<toml::table>(&root, "window");
   std::array<int, 2> size = {}, position = {};
   if (!taker.take_numbers(window, "size", size)) return;
   if (std::min(size[0], size[1]) < 16 || std::max(size[0], size[1]) > 16384)
@@ -94,30 +88,31 @@ void take_window(Taker& taker, const Node& root, KeptState& state) {
   if (taker.take_numbers(window, "position", position)) state.window->position = position;
 }
 
-void take_sections(Taker& taker, const Node* panels, std::string_view key, bool open, Layout& layout) {
-  const Node* const names = panels ? taker.find(*panels, key, Kind::array) : nullptr;
+void take_sections(Taker& taker, const toml::table* panels, std::string_view key, bool open, Layout& layout) {
+  const toml::array* const names = taker.find<toml::array>(panels, key);
   if (!names) return;
-  for (const Node& name : names->elements) {
-    if (name.kind != Kind::string) return taker.blame(key, name);
-    layout.sections[name.text] = open;
+  for (const toml::node& name : *names) {
+    if (!name.is_string()) return taker.blame(key, name);
+    layout.sections[name.as_string()->get()] = open;
   }
 }
 
-void take_cameras(Taker& taker, const Node& root, KeptState& state) {
-  const Node* const cameras = taker.find(root, "camera", Kind::array);
+void take_cameras(Taker& taker, const toml::table& root, KeptState& state) {
+  const toml::array* const cameras = taker.find<toml::array>(&root, "camera");
   if (!cameras) return;
-  for (const Node& node : cameras->elements) {
-    const Node* const scene = node.kind == Kind::table ? taker.find(node, "scene", Kind::string) : nullptr;
+  for (const toml::node& node : *cameras) {
+    const toml::table* const table = node.as_table();
+    const auto* const scene = taker.find<std::string>(table, "scene");
     std::array<double, 3> position = {}, target = {};
     double fov = 0.0;
-    if (!scene || !taker.take_numbers(&node, "position", position) ||
-        !taker.take_numbers(&node, "target", target))
+    if (!scene || !taker.take_numbers(table, "position", position) ||
+        !taker.take_numbers(table, "target", target))
       return taker.blame("camera", node);
-    taker.take(&node, "fov", fov, 1.0, 179.0);
+    taker.take(table, "fov", fov, 1.0, 179.0);
     const CameraSettings camera = {
         {position[0], position[1], position[2]}, {target[0], target[1], target[2]}, fov};
     if (fov == 0.0 || !(length(camera.position - camera.target) > 0.0)) return taker.blame("camera", node);
-    keep_camera(state.cameras, scene->text, camera);
+    keep_camera(state.cameras, scene->get(), camera);
   }
 }
 
@@ -176,14 +171,14 @@ Result<KeptState> read_kept_state(const std::string& text) {
   const auto parsed = document::parse(text, 0);
   if (const auto* problem = std::get_if<document::Problem>(&parsed))
     return Error{ErrorCode::io, fmt::format("line {}: {}", problem->at.line, problem->message)};
-  const Node& root = std::get<Node>(parsed);
-  const document::Member* const written = document::find(root, "version");
-  if (!written || written->value.kind != Kind::integer || written->value.integer != version)
+  const auto& root = std::get<toml::table>(parsed);
+  const auto* const written = root.get_as<std::int64_t>("version");
+  if (!written || written->get() != version)
     return Error{ErrorCode::io, fmt::format("it does not say version = {}", version)};
   KeptState state;
   Taker taker;
   take_window(taker, root, state);
-  const Node* const panels = taker.table(root, "panels");
+  const toml::table* const panels = taker.find<toml::table>(&root, "panels");
   Layout& layout = state.layout;
   taker.take(panels, "visible", layout.panels);
   taker.take(panels, "left-width", layout.left_width, Layout::narrowest, Layout::widest);
@@ -191,12 +186,12 @@ Result<KeptState> read_kept_state(const std::string& text) {
   taker.take(panels, "text-size", layout.text_size, Layout::smallest_text, Layout::largest_text);
   take_sections(taker, panels, "open", true, layout);
   take_sections(taker, panels, "closed", false, layout);
-  const Node* const simulation = taker.table(root, "simulation");
+  const toml::table* const simulation = taker.find<toml::table>(&root, "simulation");
   std::size_t pace = 0, format = 0;
   taker.take(simulation, "pace", paces, pace);
   state.pace = static_cast<Pace>(pace);
   taker.take(simulation, "speed", state.speed, slowest, fastest);
-  const Node* const recording = taker.table(root, "recording");
+  const toml::table* const recording = taker.find<toml::table>(&root, "recording");
   std::vector<std::string> formats;
   for (const FilmFormat f : film_formats) formats.emplace_back(name_of(f));
   taker.take(recording, "format", formats, format);

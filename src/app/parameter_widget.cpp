@@ -25,13 +25,6 @@ std::string words_of(std::string_view path) {
   return words;
 }
 
-std::string key_with_index(const Parameter& p, std::size_t index) {
-  std::string key(p.path);
-  if (const std::size_t at = key.find("[]"); at != std::string::npos)
-    key.replace(at, 2, fmt::format("[{}]", index));
-  return key;
-}
-
 /// How fast a drag changes a number: by a two-hundredth of what it is for each window unit.
 float drag_speed(double value, const Parameter& p) {
   const bool bounded = std::isfinite(p.range.max) && p.range.max - p.range.min <= 1000.0;
@@ -107,9 +100,8 @@ std::optional<Value> word_widget(Gui& gui, const Parameter& p, const std::string
 }
 
 /// Boxes, in two columns where they fit, one for each word; those ticked stay in the order of the list.
-template <class Words>
-bool check_boxes(Gui& gui, const Words& all, std::vector<std::string>& ticked, const std::string& mark,
-                 std::string_view help) {
+bool check_boxes(Gui& gui, const std::vector<std::string_view>& all, std::vector<std::string>& ticked,
+                 const std::string& mark, std::string_view help) {
   const auto width_of = [](std::string_view word) {
     return ImGui::CalcTextSize(word.data(), word.data() + word.size()).x + ImGui::GetFrameHeight() +
            2.0f * ImGui::GetStyle().ItemInnerSpacing.x;
@@ -142,10 +134,9 @@ std::optional<Value> words_widget(Gui& gui, const Parameter& p, std::vector<std:
 }
 
 /// Faces by name; corners and indices that the file gives stay as they are.
-std::optional<Value> pinned_widget(Gui& gui, PinnedSettings value, const std::string& mark,
-                                   std::string_view help) {
-  static constexpr std::string_view faces[] = {"top", "bottom", "left", "right", "front", "back"};
-  return check_boxes(gui, faces, value.names, mark, help) ? std::optional<Value>(value) : std::nullopt;
+std::optional<Value> pinned_widget(Gui& gui, const Parameter& p, PinnedSettings value,
+                                   const std::string& mark, std::string_view help) {
+  return check_boxes(gui, p.words, value.names, mark, help) ? std::optional<Value>(value) : std::nullopt;
 }
 
 /// What a key starts with when it is set: the value that its absence stood for, where that is a number.
@@ -162,7 +153,7 @@ std::string tooltip_of(const Parameter& p, std::size_t index) {
   std::string text = fmt::format("{}\n\nAllowed: {}", p.meaning, allowed_text(p));
   const std::string by_default = default_text(p);
   if (!by_default.empty()) text += fmt::format("\nDefault: {}", by_default);
-  text += fmt::format("\nScene key: {}", key_with_index(p, index));
+  text += fmt::format("\nScene key: {}", path_text(p.path, index));
   if (!p.live) text += "\nA change starts the simulation anew.";
   if (p.type == ParameterType::number || p.type == ParameterType::vector)
     text += "\nDrag to change, Ctrl+click to type.";
@@ -244,7 +235,7 @@ std::optional<Value> value_widget(Gui& gui, const Parameter& p, const Value& val
     case ParameterType::words:
       return words_widget(gui, p, std::get<std::vector<std::string>>(value), key, help);
     case ParameterType::pinned:
-      return pinned_widget(gui, std::get<PinnedSettings>(value), key, help);
+      return pinned_widget(gui, p, std::get<PinnedSettings>(value), key, help);
     case ParameterType::text:
       ImGui::TextUnformatted(std::get<std::string>(value).c_str());
       return std::nullopt;
@@ -278,7 +269,7 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const
   const bool optional = p.can_be_absent() && p.belonging == Belonging::always;
   const auto value = p.get(scene, index);
   if (!value && !optional) return std::nullopt;
-  const std::string key = key_with_index(p, index);
+  const std::string key = path_text(p.path, index);
   const std::string label = words.label.empty() ? words_of(p.path) : std::string(words.label);
   std::string help = tooltip_of(p, index);
   if (!words.note.empty()) help += fmt::format("\n\n{}", words.note);

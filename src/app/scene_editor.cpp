@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "io/atomic_file.h"
+#include "model/bodies.h"
 #include "scene/load.h"
+#include "scene/scene_checks.h"
 #include "scene/write.h"
 
 namespace aspic::app {
@@ -18,11 +20,6 @@ Effect effect_of(const Parameter& p) {
   return p.live ? Effect::constants : Effect::restart;
 }
 
-bool same(const std::optional<Value>& a, const std::optional<Value>& b) {
-  if (a.has_value() != b.has_value()) return false;
-  return !a || toml_value(*a) == toml_value(*b);
-}
-
 std::optional<std::filesystem::file_time_type> time_of(const std::string& path) {
   std::error_code error;
   const auto time = std::filesystem::last_write_time(path, error);
@@ -32,16 +29,15 @@ std::optional<std::filesystem::file_time_type> time_of(const std::string& path) 
 }  // namespace
 
 Effect effect_between(const Scene& before, const Scene& after) {
-  const ModelSettings &a = before.model, &b = after.model;
-  if (a.cubes.size() != b.cubes.size() || a.goal_nets.size() != b.goal_nets.size() ||
-      a.balls.size() != b.balls.size() || a.launchers.size() != b.launchers.size())
-    return Effect::restart;
+  for (const BodyRow& row : body_rows()) {
+    if (row.list.size(before.model) != row.list.size(after.model)) return Effect::restart;
+  }
   Effect effect = Effect::none;
   if (before.model.terrain.size() != after.model.terrain.size()) effect = Effect::constants;
   for (const Parameter& p : parameters()) {
     const std::size_t count = std::min(index_count(p, before), index_count(p, after));
     for (std::size_t i = 0; i < count; ++i) {
-      if (!same(p.get(before, i), p.get(after, i))) effect = std::max(effect, effect_of(p));
+      if (p.get(before, i) != p.get(after, i)) effect = std::max(effect, effect_of(p));
     }
   }
   return effect;
@@ -94,8 +90,12 @@ Result<Effect> SceneEditor::set(const Parameter& parameter, std::size_t index, c
 Result<Effect> SceneEditor::apply(Scene changed, const std::string& name, const std::string& gesture) {
   const Effect effect = effect_between(scene_, changed);
   if (effect == Effect::none) return effect;
-  // The checks that need the whole scene stand in one place, behind the file format.
-  if (const auto checked = parse_scene(to_toml(changed), name); !checked) return checked.error();
+  if (const auto complaints = check_scene(changed, available_memory()); !complaints.empty()) {
+    std::string message;
+    for (const SceneComplaint& complaint : complaints)
+      message += (message.empty() ? "" : "\n") + complaint.message;
+    return Error{ErrorCode::scene_rejected, message};
+  }
   if (gesture.empty() || gesture != gesture_ || undo_.empty()) {
     if (undo_.size() == longest_past) undo_.erase(undo_.begin());
     undo_.push_back({std::move(scene_), name});

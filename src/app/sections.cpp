@@ -9,6 +9,7 @@
 #include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "model/terrain.h"
 #include "scene/load.h"
 
 namespace aspic::app {
@@ -22,16 +23,16 @@ bool holds(std::string_view text, std::string_view word) {
 }
 
 /// A terrain of another shape with the same surface.
-void terrain_button(App& app, TerrainShape shape, const char* label, float width) {
-  const std::string name = fmt::format("terrain/{}", name_of(shape));
+void terrain_button(App& app, const TerrainShapeRow& row, float width) {
+  const std::string name = fmt::format("terrain/{}", row.name), label(row.title);
   const std::string help =
       fmt::format("Makes the first terrain a {} where its defaults put it. The motion goes on.", label);
-  if (!button(app.gui(), name.c_str(), label, help, "", true, width)) return;
+  if (!button(app.gui(), name.c_str(), label.c_str(), help, "", true, width)) return;
   Scene scene = app.editor().scene();
   if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
   TerrainSettings& terrain = scene.model.terrain.front();
   TerrainSettings other;
-  other.shape = shape;
+  other.shape = row.value;
   other.mass = terrain.mass;
   other.restitution = terrain.restitution;
   other.friction = terrain.friction;
@@ -90,12 +91,10 @@ void scene_section(App& app) {
     tooltip("A scene file. It is read again whenever it is written.");
   }
   const float half = share_of_line(2);
-  terrain_button(app, TerrainShape::plane, "plane", half);
-  ImGui::SameLine();
-  terrain_button(app, TerrainShape::tilted_plane, "tilted plane", half);
-  terrain_button(app, TerrainShape::sphere, "sphere", half);
-  ImGui::SameLine();
-  terrain_button(app, TerrainShape::bowl, "bowl", half);
+  for (const TerrainShapeRow& row : terrain_shapes) {
+    if ((&row - terrain_shapes) % 2 != 0) ImGui::SameLine();
+    terrain_button(app, row, half);
+  }
   save_popup(app);
   const bool undo = app.editor().can_undo(), redo = app.editor().can_redo();
   const std::string undo_help = undo ? "Takes back: " + app.editor().undo_name() : "Nothing to take back.";

@@ -188,11 +188,11 @@ Status bench_command(const BenchOptions& options) {
   if (integrators.empty()) integrators.push_back(loaded->model.simulation.integrator);
   for (const int size : sizes) {
     // Through the parser, so that a size out of range or past the memory is refused as in a file.
-    std::vector<std::string> overrides = options.overrides;
+    std::vector<std::string> overrides;
     for (std::size_t c = 0; size > 0 && c < loaded->model.cubes.size(); ++c) {
       overrides.push_back(fmt::format("cube[{}].particles-per-edge={}", c, size));
     }
-    auto scene = load_scene(options.scene, overrides);
+    auto scene = with_overrides(*loaded, overrides);
     if (!scene) return scene.error();
     for (const Integrator integrator : integrators) {
       scene->model.simulation.integrator = integrator;

@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 /// Scene and start of a run.
 struct Start {
   Scene scene;
-  std::string scene_toml;
+  std::string scene_toml;      ///< for a checkpoint; empty where none is asked for
   std::optional<State> state;  ///< absent: the scene's own
 };
 
@@ -46,7 +46,8 @@ std::string first_difference(const std::string& a, const std::string& b) {
 }
 
 /// --view as --set sees it. A view changes no checkpoint: it is no part of the run.
-std::vector<std::string> with_view(std::vector<std::string> overrides, const std::vector<std::string>& view) {
+std::vector<std::string> overrides_of(const std::vector<std::string>& view) {
+  std::vector<std::string> overrides;
   for (const std::string& argument : view) overrides.push_back("view." + argument);
   return overrides;
 }
@@ -54,17 +55,18 @@ std::vector<std::string> with_view(std::vector<std::string> overrides, const std
 Result<Start> load_start(const RunOptions& options) {
   Start start;
   if (options.resume_file.empty()) {
-    const auto scene = load_scene(options.scene, options.overrides);
+    auto scene = load_scene(options.scene, options.overrides);
     if (!scene) return scene.error();
-    start.scene_toml = to_toml(*scene);
-    auto seen = load_scene(options.scene, with_view(options.overrides, options.pictures.view));
-    if (!seen) return seen.error();
-    start.scene = std::move(*seen);
+    if (!options.checkpoint_file.empty()) start.scene_toml = to_toml(*scene);
+    if (!options.pictures.view.empty())
+      scene = with_overrides(std::move(*scene), overrides_of(options.pictures.view));
+    if (!scene) return scene.error();
+    start.scene = std::move(*scene);
     return start;
   }
   auto checkpoint = read_checkpoint(options.resume_file);
   if (!checkpoint) return checkpoint.error();
-  auto scene = parse_scene(checkpoint->scene, options.resume_file, with_view({}, options.pictures.view));
+  auto scene = parse_scene(checkpoint->scene, options.resume_file, overrides_of(options.pictures.view));
   if (!scene) {
     return Error{
         scene.error().code,

@@ -54,26 +54,14 @@ enum class Place { anywhere, first, last };
 using Places = std::array<Place, 3>;
 
 /// The places a name of a face or a corner speaks of; nothing for a name that is unknown.
-std::optional<Places> places_of(const std::string& name) {
-  struct Face {
-    const char* name;
-    int axis;
-    bool high;
-  };
-  static constexpr std::array<Face, 6> faces = {{{"left", 0, false},
-                                                 {"right", 0, true},
-                                                 {"bottom", 1, false},
-                                                 {"top", 1, true},
-                                                 {"back", 2, false},
-                                                 {"front", 2, true}}};
+std::optional<Places> places_of(std::string_view name) {
   Places places = {Place::anywhere, Place::anywhere, Place::anywhere};
   int parts = 0;
   for (std::size_t start = 0; start <= name.size();) {
     const std::size_t end = std::min(name.find('-', start), name.size());
-    const std::string part = name.substr(start, end - start);
-    const auto face = std::find_if(faces.begin(), faces.end(), [&](const Face& f) { return part == f.name; });
-    if (face == faces.end()) return std::nullopt;
-    Place& place = places[static_cast<std::size_t>(face->axis)];
+    const auto face = std::ranges::find(cube_faces, name.substr(start, end - start), &CubeFace::name);
+    if (face == std::end(cube_faces)) return std::nullopt;
+    Place& place = places[face->axis];
     if (place != Place::anywhere) return std::nullopt;
     place = face->high ? Place::last : Place::first;
     ++parts;
@@ -107,18 +95,22 @@ Result<std::vector<bool>> pinned_particles(const CubeSettings& cube) {
       }
     }
   }
-  for (const std::uint32_t index : cube.pinned.indices) {
-    if (index >= pinned.size()) {
+  for (const std::int64_t index : cube.pinned.indices) {
+    if (index < 0 || index >= std::ssize(pinned)) {
       return Error{
           ErrorCode::scene_rejected,
-          fmt::format("pinned: index {} is past the cube's last particle {}", index, pinned.size() - 1)};
+          fmt::format("pinned: index {} is not in the cube; allowed: 0 … {}", index, pinned.size() - 1)};
     }
-    pinned[index] = true;
+    pinned[static_cast<std::size_t>(index)] = true;
   }
   return pinned;
 }
 
 }  // namespace
+
+bool is_face_or_corner(std::string_view name) {
+  return places_of(name).has_value();
+}
 
 ModelCounts cube_counts(int particles_per_edge) {
   const auto n = static_cast<std::uint64_t>(particles_per_edge);
@@ -159,7 +151,6 @@ Status add_cube(Model& model, const CubeSettings& cube) {
   }
 
   Body body;
-  body.kind = BodyKind::cube;
   body.first_particle = model.particle_count();
   body.particle_count = static_cast<std::uint32_t>(pinned->size());
   body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());

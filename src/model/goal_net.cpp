@@ -87,11 +87,12 @@ bool net_pinned(const std::array<int, 3>& lattice, int i, int j, int k) {
   return perimeter_of_top || j == 0 || (end_i && end_k);
 }
 
-void add_goal_net(Model& model, const GoalNetSettings& net) {
+Status add_goal_net(Model& model, const GoalNetSettings& net) {
   const auto [nw, nh, nl] = net.particles;
   const Vec3 s = spacing_of(net);
   Body body;
-  body.kind = BodyKind::goal_net;
+  body.surface = BodySurface::springs;
+  body.goal = true;
   body.first_particle = model.particle_count();
   body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());
   body.lattice = net.particles;
@@ -136,6 +137,7 @@ void add_goal_net(Model& model, const GoalNetSettings& net) {
   body.particle_count = model.particle_count() - body.first_particle;
   body.class_count = static_cast<std::uint32_t>(model.spring_classes.size()) - body.first_class;
   model.bodies.push_back(body);
+  return {};
 }
 
 }  // namespace aspic

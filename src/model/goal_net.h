@@ -1,5 +1,5 @@
 #pragma once
-// The goal net of spec §2.2: back, top and two sides of a box of lattice points, joined along the faces.
+// The goal net: back, top and two sides of a box of lattice points, joined along the faces.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -24,7 +24,8 @@ bool net_pinned(const std::array<int, 3>& lattice, int i, int j, int k);
 /// Appends the net's particles and springs to the model, springs sorted by (a, b). A spring joins two
 /// particles that lie in one face: structural neighbours along an axis, shear along the diagonals of a face's
 /// cells, bending two steps along an axis; shear and bending only if their stiffness is positive. One spring
-/// class for each type and direction, since the spacings along the axes differ.
-void add_goal_net(Model& model, const GoalNetSettings& net);
+/// class for each type and direction, since the spacings along the axes differ. Never
+/// fails.
+Status add_goal_net(Model& model, const GoalNetSettings& net);
 
 }  // namespace aspic

@@ -47,10 +47,11 @@ Ball launched_ball(const LauncherSettings& launcher, std::uint64_t n, double tim
   return ball;
 }
 
-void add_launcher(Model& model, const LauncherSettings& launcher) {
+Status add_launcher(Model& model, const LauncherSettings& launcher) {
   for (int n = 0; n < launcher.count; ++n) {
     model.balls.push_back(launched_ball(launcher, static_cast<std::uint64_t>(n), model.simulation.timestep));
   }
+  return {};
 }
 
 }  // namespace aspic

@@ -1,5 +1,5 @@
 #pragma once
-// The launcher of spec §3: balls at random, the same ones for the same seed on every machine and backend.
+// The launcher: balls at random, the same ones for the same seed on every machine and backend.
 //
 // Nothing is carried from ball to ball: ball n's start and target follow from (seed, n) alone, so a launcher
 // has no state. Its numbers are those of SplitMix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom Number
@@ -21,6 +21,6 @@ double launcher_number(std::int64_t seed, std::uint64_t index);
 Ball launched_ball(const LauncherSettings& launcher, std::uint64_t n, double timestep);
 
 /// Appends the launcher's balls to the model.
-void add_launcher(Model& model, const LauncherSettings& launcher);
+Status add_launcher(Model& model, const LauncherSettings& launcher);
 
 }  // namespace aspic

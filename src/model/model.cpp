@@ -4,15 +4,13 @@
 
 #include <algorithm>
 
-#include "model/cube.h"
-#include "model/goal_net.h"
-#include "model/launcher.h"
+#include "model/bodies.h"
 #include "model/terrain.h"
 
 namespace aspic {
 namespace {
 
-/// x + 0 turns −0 into +0 and leaves every other number alone (spec §2.9).
+/// x + 0 turns −0 into +0 and leaves every other number alone.
 double without_negative_zero(double x) {
   return x + 0.0;
 }
@@ -53,17 +51,13 @@ Result<Model> build_model(const ModelSettings& settings) {
   model.initial_position.reserve(predicted.particles);
   model.initial_velocity.reserve(predicted.particles);
   model.springs.reserve(predicted.springs());
-  for (std::size_t c = 0; c < settings.cubes.size(); ++c) {
-    if (const Status added = add_cube(model, settings.cubes[c]); !added) {
-      return Error{added.error().code, fmt::format("cube[{}].{}", c, added.error().message)};
+  model.balls.reserve(predicted.balls);
+  for (const BodyRow& body : body_rows()) {
+    for (std::size_t i = 0; i < body.list.size(settings); ++i) {
+      if (const Status added = body.add(model, settings, i); !added)
+        return Error{added.error().code, fmt::format("{}[{}].{}", body.list.key, i, added.error().message)};
     }
   }
-  for (const GoalNetSettings& net : settings.goal_nets) add_goal_net(model, net);
-  model.balls.reserve(predicted.balls);
-  for (const BallSettings& ball : settings.balls) {
-    model.balls.push_back({ball.radius, ball.mass, 0, ball.position, ball.velocity, ball.angular_velocity});
-  }
-  for (const LauncherSettings& launcher : settings.launchers) add_launcher(model, launcher);
   return model;
 }
 
@@ -125,26 +119,22 @@ ModelCounts count(const Model& model) {
   return counts;
 }
 
+ModelCounts& ModelCounts::operator+=(const ModelCounts& other) {
+  particles += other.particles;
+  pinned += other.pinned;
+  structural += other.structural;
+  shear += other.shear;
+  bending += other.bending;
+  balls += other.balls;
+  return *this;
+}
+
 ModelCounts predict_counts(const ModelSettings& settings) {
   ModelCounts sum;
-  for (const CubeSettings& cube : settings.cubes) {
-    const ModelCounts c = cube_counts(cube.particles_per_edge);
-    sum.particles += c.particles;
-    sum.structural += c.structural;
-    sum.shear += c.shear;
-    sum.bending += c.bending;
+  for (const BodyRow& body : body_rows()) {
+    for (std::size_t i = 0; i < body.list.size(settings); ++i) sum += body.counts(settings, i);
   }
-  for (const GoalNetSettings& net : settings.goal_nets) {
-    const ModelCounts c = goal_net_counts(net);
-    sum.particles += c.particles;
-    sum.structural += c.structural;
-    sum.shear += c.shear;
-    sum.bending += c.bending;
-  }
-  sum.balls = settings.balls.size();
-  for (const LauncherSettings& launcher : settings.launchers) {
-    sum.balls += static_cast<std::uint64_t>(launcher.count);
-  }
+  sum.pinned = 0;
   return sum;
 }
 
@@ -177,7 +167,7 @@ std::string_view name_of(Integrator integrator) {
 }
 
 std::string_view name_of(ContactModel model) {
-  return model == ContactModel::coulomb ? "coulomb" : "course";
+  return std::ranges::find(contact_models, model, &Named<ContactModel>::value)->name;
 }
 
 std::string_view name_of(SpringType type) {
@@ -188,20 +178,6 @@ std::string_view name_of(SpringType type) {
       return "shear";
     case SpringType::bending:
       return "bending";
-  }
-  return "";
-}
-
-std::string_view name_of(TerrainShape shape) {
-  switch (shape) {
-    case TerrainShape::plane:
-      return "plane";
-    case TerrainShape::tilted_plane:
-      return "tilted-plane";
-    case TerrainShape::sphere:
-      return "sphere";
-    case TerrainShape::bowl:
-      return "bowl";
   }
   return "";
 }

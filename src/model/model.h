@@ -31,7 +31,7 @@ struct Spring {
   friend bool operator==(const Spring&, const Spring&) = default;
 };
 
-/// A resting surface, spec §2.4. Planes use point and normal, spheres and bowls use point (the centre) and
+/// A resting surface. Planes use point and normal, spheres and bowls use point (the centre) and
 /// radius.
 struct Terrain {
   TerrainShape shape = TerrainShape::plane;
@@ -43,15 +43,17 @@ struct Terrain {
   double friction = 0.3;                                  ///< μ
 };
 
-enum class BodyKind { cube, goal_net };
+/// What a body shows when it is drawn solid: the outer faces of its lattice, or, of a net, its springs.
+enum class BodySurface { faces, springs };
 
 /// A run of consecutive particles that was made as one body.
 struct Body {
-  BodyKind kind = BodyKind::cube;
+  BodySurface surface = BodySurface::faces;
+  bool goal = false;  ///< a goal's net: its frame is drawn with it, and balls are footballs
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
   std::array<int, 3> lattice = {0, 0, 0};          ///< particles along x, y, z (nets: net_index)
-  double spacing = 0.0;                            ///< cubes: s [m] between lattice neighbours; nets: 0
+  double spacing = 0.0;  ///< of a cubic lattice: s [m] between neighbours; 0: it is none
 };
 
 /// A ball: a solid sphere. Those of [[ball]] come first, in file order, then those of the launchers.
@@ -69,7 +71,7 @@ struct Ball {
 };
 
 /// The model. Springs are sorted by (a, b), so that adding spring forces in this order adds to every
-/// particle in ascending neighbour index (spec §2.9).
+/// particle in ascending neighbour index.
 struct Model {
   SimulationSettings simulation;
   ContactSettings contact;
@@ -94,7 +96,7 @@ Result<Model> build_model(const ModelSettings& settings);
 /// The state a run starts from, rounded to `precision`; −0 becomes +0.
 State initial_state(const Model& model, Precision precision);
 
-/// Approach speed below which a contact is at rest: max(ε, 2|g|h) [m/s], spec §2.5.
+/// Approach speed below which a contact is at rest: max(ε, 2|g|h) [m/s].
 double resting_speed(const Model& model);
 
 /// |g|h: what a step of free fall gains [m/s].
@@ -107,6 +109,7 @@ Status check_sizes(const Model& model, const State& state);
 struct ModelCounts {
   std::uint64_t particles = 0, pinned = 0, structural = 0, shear = 0, bending = 0, balls = 0;
   std::uint64_t springs() const { return structural + shear + bending; }
+  ModelCounts& operator+=(const ModelCounts& other);
 };
 ModelCounts count(const Model& model);
 
@@ -120,7 +123,7 @@ std::uint64_t model_bytes(const ModelCounts& counts);
 /// a solver in single precision. For memory checks before anything is allocated.
 std::uint64_t run_bytes(const ModelCounts& counts);
 
-/// Every integrator, in the order of spec §2.6.
+/// Every integrator, in the order in which they are listed for users.
 inline constexpr Integrator all_integrators[] = {
     Integrator::explicit_euler, Integrator::symplectic_euler, Integrator::midpoint,
     Integrator::runge_kutta_4,  Integrator::implicit_euler,   Integrator::implicit_euler_one_pass};

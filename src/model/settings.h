@@ -6,13 +6,14 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/vec3.h"
 
 namespace aspic {
 
-/// Time integration methods, spec §2.6.
+/// Time integration methods.
 enum class Integrator {
   explicit_euler,
   symplectic_euler,
@@ -22,14 +23,25 @@ enum class Integrator {
   implicit_euler_one_pass
 };
 
-/// Contact models, spec §2.5.
+/// Contact models.
 enum class ContactModel { coulomb, course };
+
+/// A value of an enumeration with its name in scene files and reports.
+template <class Enum>
+struct Named {
+  Enum value;
+  std::string_view name;
+};
+
+/// Every contact model, in the order in which they are listed for users.
+inline constexpr Named<ContactModel> contact_models[] = {{ContactModel::coulomb, "coulomb"},
+                                                         {ContactModel::course, "course"}};
 
 enum class SpringType { structural, shear, bending };
 
 enum class TerrainShape { plane, tilted_plane, sphere, bowl };
 
-/// Limits of the implicit Euler solve, spec §2.6.
+/// Limits of the implicit Euler solve.
 struct ImplicitSettings {
   int newton_iterations = 20;       ///< ≥ 1
   int cg_iterations = 200;          ///< per Newton iteration, ≥ 1
@@ -55,17 +67,17 @@ struct ContactSettings {
   bool spin = true;
 };
 
-/// One terrain of the scene. Absent values take the shape's defaults (terrain_defaults) or the scene's
+/// One terrain of the scene. Absent values take the shape's defaults (terrain_shapes) or the scene's
 /// contact values.
 struct TerrainSettings {
   TerrainShape shape = TerrainShape::plane;
-  std::optional<Vec3> point;     ///< [m], plane and tilted plane
-  std::optional<Vec3> normal;    ///< any length but zero, plane and tilted plane
-  std::optional<Vec3> centre;    ///< [m], sphere and bowl
-  std::optional<double> radius;  ///< [m], > 0, sphere and bowl
-  std::optional<double> mass;    ///< M [kg], > 0; absent: infinite
-  std::optional<double> restitution;
-  std::optional<double> friction;
+  std::optional<Vec3> point = {};     ///< [m], plane and tilted plane
+  std::optional<Vec3> normal = {};    ///< any length but zero, plane and tilted plane
+  std::optional<Vec3> centre = {};    ///< [m], sphere and bowl
+  std::optional<double> radius = {};  ///< [m], > 0, sphere and bowl
+  std::optional<double> mass = {};    ///< M [kg], > 0; absent: infinite
+  std::optional<double> restitution = {};
+  std::optional<double> friction = {};
 };
 
 /// Stiffness and damping of the springs of one type.
@@ -74,7 +86,7 @@ struct SpringSettings {
   double damping = 60.0;      ///< c [N·s/m], ≥ 0
 };
 
-/// The same jelly at every resolution, spec §2.2: m = ρ·edge³/n³, k = E·s/7.3125, c = 2ζ√(k·m/2).
+/// The same jelly at every resolution: m = ρ·edge³/n³, k = E·s/7.3125, c = 2ζ√(k·m/2).
 struct MaterialSettings {
   double density = 16.0;            ///< ρ [kg/m³], > 0
   double youngs_modulus = 33000.0;  ///< E [Pa], > 0
@@ -88,8 +100,10 @@ struct RotationSettings {
 
 /// Which particles of a cube are pinned: face and corner names, and local indices.
 struct PinnedSettings {
-  std::vector<std::string> names;      ///< "top", "left", … or corners such as "left-bottom-front"
-  std::vector<std::uint32_t> indices;  ///< local indices i*n*n + j*n + k
+  std::vector<std::string> names;     ///< "top", "left", … or corners such as "left-bottom-front"
+  std::vector<std::int64_t> indices;  ///< local indices i*n*n + j*n + k, each 0 … n³ − 1
+
+  friend bool operator==(const PinnedSettings&, const PinnedSettings&) = default;
 };
 
 struct CubeSettings {
@@ -110,7 +124,7 @@ struct OptionalSpringSettings {
   double damping = 50.0;   ///< c [N·s/m], ≥ 0
 };
 
-/// A goal net, spec §2.2: back, top and two sides of a box; its front (+x) and its bottom are open.
+/// A goal net: back, top and two sides of a box; its front (+x) and its bottom are open.
 struct GoalNetSettings {
   std::array<int, 3> particles = {10, 20,
                                   35};  ///< nw, nh, nl along width (x), height (y), length (z), each ≥ 2
@@ -122,7 +136,7 @@ struct GoalNetSettings {
   bool cord = false;  ///< springs resist stretch only
 };
 
-/// A ball, spec §2.7: a solid sphere, inertia 2/5·m·R².
+/// A ball: a solid sphere, inertia 2/5·m·R².
 struct BallSettings {
   double radius = 0.3;                      ///< R [m], > 0
   double mass = 1.0;                        ///< m [kg], > 0

@@ -74,7 +74,7 @@ void add_frame(TubeMesh& mesh, const Model& model, const Body& net) {
 TubeMesh goal_post_mesh(const Model& model) {
   TubeMesh mesh;
   for (const Body& body : model.bodies)
-    if (body.kind == BodyKind::goal_net) add_frame(mesh, model, body);
+    if (body.goal) add_frame(mesh, model, body);
   return mesh;
 }
 

@@ -60,7 +60,7 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
   }
   for (const Body& body : model.bodies)
     for (std::uint32_t c = 0; c < body.class_count; ++c)
-      runs[body.first_class + c].net = body.kind == BodyKind::goal_net;
+      runs[body.first_class + c].net = body.surface == BodySurface::springs;
   std::vector<std::uint32_t> next;
   for (const SpringRun& run : runs) next.push_back(run.first_index);
   std::vector<std::uint32_t> pairs(first);

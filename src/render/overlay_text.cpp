@@ -6,6 +6,7 @@
 
 #include "model/cube.h"
 #include "model/model.h"
+#include "model/terrain.h"
 
 namespace aspic {
 namespace {
@@ -40,9 +41,8 @@ std::string springs(const SpringSettings& s) {
 std::string terrain_names(const std::vector<TerrainSettings>& terrain) {
   std::string names;
   for (const TerrainSettings& t : terrain) {
-    std::string name(name_of(t.shape));
-    if (t.shape == TerrainShape::tilted_plane) name = "tilted plane";
-    names += (names.empty() ? "" : ", ") + name;
+    names += names.empty() ? "" : ", ";
+    names += terrain_row(t.shape).title;
   }
   return names.empty() ? "none" : names;
 }

@@ -151,7 +151,7 @@ void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
 
 bool Renderer::Parts::needs_springs(const ViewSettings& view) const {
   const bool net =
-      std::ranges::any_of(model->bodies, [](const Body& b) { return b.kind == BodyKind::goal_net; });
+      std::ranges::any_of(model->bodies, [](const Body& b) { return b.surface == BodySurface::springs; });
   return net || view.draw.structural || view.draw.shear || view.draw.bending ||
          view.colour >= ViewColour::strain;
 }

@@ -59,7 +59,7 @@ Surface make_surface(const Model& model) {
   Surface surface;
   std::vector<Quad> all;
   for (const Body& body : model.bodies) {
-    const bool inside = body.kind == BodyKind::cube;
+    const bool inside = body.surface == BodySurface::faces;
     const std::vector<Quad> quads =
         inside ? faces_of(body, std::numeric_limits<int>::max()) : std::vector<Quad>();
     surface.parts.push_back(add_triangles(quads, surface.indices));

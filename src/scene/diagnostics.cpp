@@ -65,14 +65,15 @@ std::string line_with_caret(std::string_view line, std::uint32_t column, std::st
                      std::string(indent, ' '));
 }
 
-std::string rendered(const Source& source, const document::Problem& problem) {
+std::string rendered(const Source& source, const Problem& problem) {
+  // A key or a name may hold a line feed of its own.
+  const std::string label = source.kind == Source::argument ? excerpt(source.label, longest_label)
+                                                            : printable_line(source.label),
+                    message = printable_line(problem.message);
+  if (source.kind == Source::none) return fmt::format("{}: {}", label, message);
   const std::string_view line = line_of(source.text, problem.at.line);
   const std::uint32_t column = problem.at.column;
-  // A key or a name may hold a line feed of its own.
-  const std::string label =
-                        source.is_file ? printable_line(source.label) : excerpt(source.label, longest_label),
-                    message = printable_line(problem.message);
-  if (!source.is_file) {
+  if (source.kind == Source::argument) {
     return fmt::format("{}: {}\n{}", label, message, line_with_caret(line, column, "  ", "  "));
   }
   return fmt::format(
@@ -84,20 +85,16 @@ std::string rendered(const Source& source, const document::Problem& problem) {
 
 }  // namespace
 
-Error rejection(std::span<const Source> sources, std::vector<document::Problem> problems) {
-  const auto key = [](const document::Problem& p) {
-    return std::tie(p.at.source, p.at.line, p.at.column, p.message);
-  };
-  const auto position = [](const document::Problem& p) {
-    return std::tie(p.at.source, p.at.line, p.at.column);
-  };
+Error rejection(std::span<const Source> sources, std::vector<Problem> problems) {
+  const auto key = [](const Problem& p) { return std::tie(p.at.source, p.at.line, p.at.column, p.message); };
+  const auto position = [](const Problem& p) { return std::tie(p.at.source, p.at.line, p.at.column); };
   std::stable_sort(problems.begin(), problems.end(),
                    [&](const auto& a, const auto& b) { return position(a) < position(b); });
   problems.erase(std::unique(problems.begin(), problems.end(),
                              [&](const auto& a, const auto& b) { return key(a) == key(b); }),
                  problems.end());
   std::string message;
-  for (const document::Problem& problem : problems) {
+  for (const Problem& problem : problems) {
     if (!message.empty()) message += "\n\n";
     message += rendered(sources[problem.at.source], problem);
   }

@@ -1,25 +1,38 @@
 #pragma once
 // Messages about scene text: where, the line with a caret, what is allowed, what was probably meant.
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/result.h"
-#include "scene/document.h"
 
 namespace aspic::diagnostics {
+
+/// Where something was written.
+struct Position {
+  std::uint32_t source = 0;  ///< 0: the file; i > 0: the i-th --set argument
+  std::uint32_t line = 1;    ///< from 1
+  std::uint32_t column = 1;  ///< from 1, in characters
+};
+
+/// What is wrong, and where.
+struct Problem {
+  Position at;
+  std::string message;
+};
 
 /// A text that problems point into.
 struct Source {
   std::string label;  ///< the file's name; for an argument the whole `--set KEY=VALUE`
   std::string text;
-  bool is_file = true;
+  enum Kind { file, argument, none } kind = file;  ///< none: a scene that was not read from text
 };
 
 /// All problems as one scene_rejected error: those of the file by line and column, then those of the
 /// arguments in their order, a blank line between. A problem that was found twice in one place is told once.
-Error rejection(std::span<const Source> sources, std::vector<document::Problem> problems);
+Error rejection(std::span<const Source> sources, std::vector<Problem> problems);
 
 /// Damerau–Levenshtein distance in its restricted form (optimal string alignment): insertions, deletions,
 /// substitutions and swaps of neighbours. Damerau, Communications of the ACM 7 (1964); Levenshtein (1966).

@@ -1,56 +1,14 @@
 #include "scene/document.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
+#include <string>
 
 #include "scene/nesting.h"
 
 namespace aspic::document {
 namespace {
-
-Position position_of(const toml::source_position& at, std::uint32_t source) {
-  return {source, std::max<std::uint32_t>(at.line, 1), std::max<std::uint32_t>(at.column, 1)};
-}
-
-Node converted(const toml::node& from, std::uint32_t source) {
-  Node node;
-  node.position = position_of(from.source().begin, source);
-  switch (from.type()) {
-    case toml::node_type::string:
-      node.kind = Kind::string;
-      node.text = from.as_string()->get();
-      break;
-    case toml::node_type::integer:
-      node.kind = Kind::integer;
-      node.integer = from.as_integer()->get();
-      break;
-    case toml::node_type::floating_point:
-      node.kind = Kind::floating;
-      node.number = from.as_floating_point()->get();
-      break;
-    case toml::node_type::boolean:
-      node.kind = Kind::boolean;
-      node.boolean = from.as_boolean()->get();
-      break;
-    case toml::node_type::array:
-      node.kind = Kind::array;
-      for (const toml::node& element : *from.as_array()) node.elements.push_back(converted(element, source));
-      break;
-    case toml::node_type::table:
-      node.kind = Kind::table;
-      for (const auto& [key, value] : *from.as_table()) {
-        node.members.push_back(
-            {std::string(key.str()), position_of(key.source().begin, source), converted(value, source)});
-      }
-      break;
-    default:
-      node.kind = Kind::date;
-      break;
-  }
-  return node;
-}
 
 /// toml++ says "Error while parsing WHERE: WHAT"; users read "WHAT (in WHERE)".
 std::string reworded(std::string_view description) {
@@ -87,11 +45,11 @@ Position start_of_key_before(std::string_view text, Position at) {
   return at;
 }
 
-std::variant<Node, Problem> parse_once(std::string_view text, std::uint32_t source) {
+std::variant<toml::table, Problem> parse_once(std::string_view text, std::uint32_t source) {
   try {
-    return converted(toml::parse(text), source);
+    return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    Position at = position_of(error.source().begin, source);
+    Position at = position_of(error.source(), source);
     const std::string_view description = error.description();
     if (description.find("key-value pair: cannot redefine") != std::string_view::npos) {
       at = start_of_key_before(text, at);
@@ -102,42 +60,36 @@ std::variant<Node, Problem> parse_once(std::string_view text, std::uint32_t sour
 
 }  // namespace
 
-std::variant<Node, Problem> parse(std::string_view text, std::uint32_t source) {
+Position position_of(const toml::source_region& at, std::uint32_t source) {
+  return {source, std::max<std::uint32_t>(at.begin.line, 1), std::max<std::uint32_t>(at.begin.column, 1)};
+}
+
+std::variant<toml::table, Problem> parse(std::string_view text, std::uint32_t source) {
   if (auto problem = too_deep(text, source)) return *std::move(problem);
   // The streams that toml++ reads numbers with swallow std::bad_alloc, and a good number is blamed: what is
   // wrong with the text is so a second time.
   auto parsed = parse_once(text, source);
-  return std::holds_alternative<Problem>(parsed) ? parse_once(text, source) : parsed;
+  if (std::holds_alternative<Problem>(parsed)) return parse_once(text, source);
+  return parsed;
 }
 
-const Member* find(const Node& table, std::string_view key) {
-  const auto found =
-      std::find_if(table.members.begin(), table.members.end(), [&](const Member& m) { return m.key == key; });
-  return found == table.members.end() ? nullptr : &*found;
-}
-
-Member* find(Node& table, std::string_view key) {
-  return const_cast<Member*>(find(static_cast<const Node&>(table), key));
-}
-
-std::string_view kind_text(Kind kind) {
-  switch (kind) {
-    case Kind::string:
+std::string_view kind_text(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::string:
       return "a string";
-    case Kind::integer:
+    case toml::node_type::integer:
       return "a whole number";
-    case Kind::floating:
+    case toml::node_type::floating_point:
       return "a number with a decimal point";
-    case Kind::boolean:
+    case toml::node_type::boolean:
       return "true or false";
-    case Kind::date:
-      return "a date or time";
-    case Kind::array:
+    case toml::node_type::array:
       return "an array";
-    case Kind::table:
+    case toml::node_type::table:
       return "a table";
+    default:
+      return "a date or time";
   }
-  return "";
 }
 
 }  // namespace aspic::document

@@ -29,6 +29,14 @@ std::string known_scenes(std::string_view name) {
                      diagnostics::did_you_mean(diagnostics::nearest(name, names)));
 }
 
+Result<Scene> with_arguments(reader::Reader reader, std::vector<diagnostics::Source> sources,
+                             std::span<const std::string> overrides, const LoadLimits& limits) {
+  overrides::apply(overrides, reader, sources);
+  auto problems = reader.problems(limits.memory_bytes ? limits.memory_bytes : available_memory());
+  if (!problems.empty()) return diagnostics::rejection(sources, std::move(problems));
+  return std::move(reader.scene());
+}
+
 }  // namespace
 
 Result<std::string> read_text_file(const std::string& path) {
@@ -59,17 +67,20 @@ Result<std::string> read_text_file(const std::string& path) {
 
 Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
                           std::span<const std::string> overrides, const LoadLimits& limits) {
-  std::vector<diagnostics::Source> sources = {{file_name, std::string(text), true}};
-  auto parsed = document::parse(text, 0);
-  if (const auto* problem = std::get_if<document::Problem>(&parsed))
+  const auto parsed = document::parse(text, 0);
+  std::vector<diagnostics::Source> sources = {{file_name, std::string(text)}};
+  if (const auto* problem = std::get_if<diagnostics::Problem>(&parsed))
     return diagnostics::rejection(sources, {*problem});
-  auto& root = std::get<document::Node>(parsed);
-  std::vector<document::Problem> problems;
-  overrides::apply(overrides, root, sources, problems);
-  Scene scene = reader::read(root, limits.memory_bytes ? limits.memory_bytes : available_memory(), problems);
-  if (!problems.empty()) return diagnostics::rejection(sources, std::move(problems));
-  if (!document::find(root, "name")) scene.name = std::filesystem::path(file_name).stem().string();
-  return scene;
+  reader::Reader reader({}, true);
+  reader.read_table(std::get<toml::table>(parsed), "", 0, 0);
+  if (!reader.written().contains("name"))
+    reader.scene().name = std::filesystem::path(file_name).stem().string();
+  return with_arguments(std::move(reader), std::move(sources), overrides, limits);
+}
+
+Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides, const LoadLimits& limits) {
+  std::vector<diagnostics::Source> sources = {{scene.name, "", diagnostics::Source::none}};
+  return with_arguments({std::move(scene), false}, std::move(sources), overrides, limits);
 }
 
 Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std::string> overrides,

@@ -26,6 +26,11 @@ struct LoadLimits {
 Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
                           std::span<const std::string> overrides = {}, const LoadLimits& limits = {});
 
+/// A scene with KEY=VALUE arguments of --set applied to it, and checked. Errors: as parse_scene; a complaint
+/// that is not about an argument names the key instead of a line.
+Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides,
+                             const LoadLimits& limits = {});
+
 /// Reads a built-in scene by name, or else a file (write `./cube-plane` for a file with a built-in's name).
 /// Errors: as parse_scene; io for a path that cannot be read; scene_rejected for a name nobody knows, with
 /// the list of names and the nearest one.

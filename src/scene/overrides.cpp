@@ -7,18 +7,15 @@
 #include <optional>
 #include <string_view>
 
-#include "model/model.h"
+#include "model/bodies.h"
 #include "scene/parameters.h"
 
 namespace aspic::overrides {
 namespace {
 
-using document::find;
-using document::Kind;
-using document::Member;
-using document::Node;
-using document::Position;
-using document::Problem;
+using diagnostics::Position;
+using diagnostics::Problem;
+using reader::Reader;
 
 /// One part of a key: `cube[0]` is name cube, index 0.
 struct Segment {
@@ -40,38 +37,25 @@ bool is_bare_word(std::string_view text) {
                      [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-'; });
 }
 
-/// Merges `value` into the member: tables key by key, anything else in its place.
-void merge(Node& table, const std::string& key, const Position& position, const Node& value) {
-  Member* member = find(table, key);
-  if (!member) {
-    table.members.push_back({key, position, value});
-  } else if (member->value.kind == Kind::table && value.kind == Kind::table) {
-    for (const Member& inner : value.members) merge(member->value, inner.key, inner.position, inner.value);
-  } else {
-    member->position = position;
-    member->value = value;
-  }
-}
-
-/// One argument on its way into the document.
+/// One argument on its way into the scene.
 class Argument {
  public:
-  Argument(const std::string& text, std::uint32_t source, std::vector<Problem>& problems)
-      : text_(text), source_(source), problems_(problems) {}
+  Argument(const std::string& text, std::uint32_t source, Reader& reader)
+      : text_(text), source_(source), reader_(reader) {}
 
-  void apply(Node& root) {
+  void apply() {
     const std::size_t equals = text_.find('=');
     if (equals == std::string::npos) {
       return fail(1, "an argument of --set is KEY=VALUE, such as simulation.timestep=0.002");
     }
     if (!parse_key(std::string_view(text_).substr(0, equals))) return;
     if (!parse_value(equals)) return;
-    insert(root);
+    read();
   }
 
  private:
   void fail(std::uint32_t column, std::string message) {
-    problems_.push_back({{source_, 1, column}, std::move(message)});
+    reader_.fail({source_, 1, column}, std::move(message));
   }
 
   bool parse_key(std::string_view key) {
@@ -108,15 +92,10 @@ class Argument {
   bool parse_value(std::size_t equals) {
     const std::string_view value = std::string_view(text_).substr(equals + 1);
     const std::uint32_t column = characters(std::string_view(text_).substr(0, equals)) + 2;
-    if (is_bare_word(value)) {
-      value_.kind = Kind::string;
-      value_.text = value;
-      value_.position = {source_, 1, column};
-      return true;
-    }
     // A stand-in key of the same width keeps the parser's columns those of the argument.
     const std::string stand_in(std::max<std::size_t>(column - 2, 1), 'k');
-    auto parsed = document::parse(fmt::format("{}={}", stand_in, value), source_);
+    const char* const quote = is_bare_word(value) ? "\"" : "";
+    auto parsed = document::parse(fmt::format("{0}={1}{2}{1}", stand_in, quote, value), source_);
     if (const auto* problem = std::get_if<Problem>(&parsed)) {
       fail(
           column,
@@ -125,12 +104,12 @@ class Argument {
                       text_.substr(0, equals), problem->message));
       return false;
     }
-    Node& root = std::get<Node>(parsed);
-    if (root.members.size() != 1 || root.members[0].key != stand_in) {
+    table_ = std::move(std::get<toml::table>(parsed));
+    value_ = table_.get(stand_in);
+    if (table_.size() != 1 || !value_) {
       fail(column, "the value ends with its first line");
       return false;
     }
-    value_ = std::move(root.members[0].value);
     return true;
   }
 
@@ -144,17 +123,17 @@ class Argument {
     return key;
   }
 
-  void insert(Node& root) {
-    Node* table = &root;
-    std::string path;
+  void read() {
+    std::string table;
+    std::size_t index = 0;
     for (std::size_t s = 0; s < segments_.size(); ++s) {
       const Segment& segment = segments_[s];
       const bool last = s + 1 == segments_.size();
-      const std::string parent = path;
-      path += (path.empty() ? "" : ".") + segment.name;
+      const std::string path = table + (table.empty() ? "" : ".") + segment.name;
+      const Position at = {source_, 1, segment.column};
       const PathKind kind = path_kind(path);
       if (kind == PathKind::unknown)
-        return fail(segment.column, diagnostics::unknown_key(parent, segment.name));
+        return fail(segment.column, diagnostics::unknown_key(table, segment.name));
       if (kind != PathKind::list && segment.index) {
         return fail(segment.column,
                     fmt::format("'{}' is not a list of tables and takes no index", segment.name));
@@ -163,159 +142,132 @@ class Argument {
         return fail(segments_[s + 1].column, fmt::format("'{}' is a value and has no keys", segment.name));
       }
       if (kind == PathKind::list) {
-        table = list_element(*table, segment, s);
-        if (!table) return;
-        path += "[]";
+        if (!find_element(segment, s)) return;
+        index = *segment.index;
+        table = path + "[]";
         if (!last) continue;
-        if (value_.kind != Kind::table) {
-          return fail(
-              value_.position.column,
-              fmt::format("'{}' is a table: give {{ key = value }} or name one of its keys", segment.name));
-        }
-        for (const Member& member : value_.members) merge(*table, member.key, member.position, member.value);
-        return;
+        if (const auto* values = value_->as_table())
+          return reader_.read_table(*values, table, index, source_);
+        return fail(
+            document::position_of(value_->source(), source_).column,
+            fmt::format("'{}' is a table: give {{ key = value }} or name one of its keys", segment.name));
       }
-      if (last) return merge(*table, segment.name, {source_, 1, segment.column}, value_);
-      Member* member = find(*table, segment.name);
-      if (!member) {
-        table->members.push_back({segment.name, {source_, 1, segment.column}, Node{}});
-        member = &table->members.back();
-        member->value.position = member->position;
-      }
-      // What is no table in the file is reported there.
-      if (member->value.kind != Kind::table) return;
-      table = &member->value;
+      if (last) return reader_.read_member(table, index, segment.name, at, *value_, source_);
+      reader_.enter(path, index, at);
+      table = path;
     }
   }
 
-  Node* list_element(Node& table, const Segment& segment, std::size_t position) {
+  bool find_element(const Segment& segment, std::size_t position) {
+    const auto written = reader_.written().find(segment.name);
+    if (written != reader_.written().end() && written->second.problem) return false;  // reported there
+    const SettingsList& list = *std::ranges::find(settings_lists(), segment.name, &SettingsList::key);
+    const std::size_t count = list.size(reader_.scene().model);
     if (!segment.index) {
       fail(segment.column, fmt::format("'{}' is a list and needs an index; did you mean '{}'?", segment.name,
                                        key_with_index(position)));
-      return nullptr;
-    }
-    Member* member = find(table, segment.name);
-    if (member && member->value.kind != Kind::array) return nullptr;  // reported where the file says so
-    const std::size_t count = member ? member->value.elements.size() : 0;
-    if (*segment.index >= count) {
+    } else if (*segment.index >= count) {
       fail(segment.column, count == 0   ? fmt::format("the scene has no [[{}]]", segment.name)
                            : count == 1 ? fmt::format("the scene has only one [[{0}]]: {0}[0]", segment.name)
                                         : fmt::format("the scene has {0} [[{1}]]: {1}[0] to {1}[{2}]", count,
                                                       segment.name, count - 1));
-      return nullptr;
+    } else {
+      return true;
     }
-    Node& element = member->value.elements[*segment.index];
-    return element.kind == Kind::table ? &element : nullptr;
+    return false;
   }
 
   const std::string& text_;
   std::uint32_t source_;
-  std::vector<Problem>& problems_;
+  Reader& reader_;
   std::vector<Segment> segments_;
-  Node value_;
+  toml::table table_;  // holds the value
+  const toml::node* value_ = nullptr;
 };
 
-bool is_key_of(std::string_view key, Belonging belonging) {
-  for (const Parameter& p : parameters()) {
-    if (p.belonging != belonging || !p.path.starts_with("cube[].")) continue;
-    const std::string_view rest = p.path.substr(7);
-    if (rest.substr(0, rest.find('.')) == key) return true;
+/// Where the first argument wrote the path or a value below it.
+std::optional<Position> first_override(const Reader& reader, const std::string& path) {
+  std::optional<Position> first;
+  std::string at;
+  for (const std::string& written : reader.written_in(path)) {
+    const Position& key = reader.written().at(written).key;
+    const bool deeper = first && key.source == first->source && written.starts_with(at);
+    if (key.source == 0 || (first && key.source >= first->source && !deeper)) continue;
+    first = key;
+    at = written + ".";
   }
-  return false;
+  return first;
 }
 
-/// Position of the first value in a member that an argument wrote; nothing if the file wrote all of it.
-std::optional<Position> first_override(const Member& member) {
-  if (member.value.kind == Kind::table) {
-    for (const Member& inner : member.value.members) {
-      if (const auto found = first_override(inner)) return found;
-    }
-    if (!member.value.members.empty()) return std::nullopt;
-  }
-  return member.position.source > 0 ? std::optional(member.position) : std::nullopt;
-}
-
-/// How many values of the table's parameters arguments wrote.
-std::size_t overridden_values(const Member& member) {
-  if (member.value.kind != Kind::table) return member.position.source > 0 ? 1 : 0;
-  std::size_t sum = 0;
-  for (const Member& inner : member.value.members) sum += overridden_values(inner);
-  return sum;
-}
-
-/// Decides between material and explicit springs where arguments changed what the file had chosen.
-void resolve_material(Node& cube, std::vector<Problem>& problems) {
-  Member* material = find(cube, "material");
-  if (!material) return;
-  const bool file_material = material->position.source == 0;
-  const std::optional<Position> set_material = first_override(*material);
-  const auto is_explicit = [](const Member& m) { return is_key_of(m.key, Belonging::explicit_springs); };
-  bool file_explicit = false;
+/// Decides between material and explicit springs where arguments changed what the scene had chosen.
+void resolve_material(Reader& reader, std::size_t cube, bool had_material) {
+  const std::string material_path = path_text("cube[].material", cube);
+  const auto written = reader.written().find(material_path);
+  if (written != reader.written().end())
+    had_material = written->second.key.source == 0;
+  else if (!had_material)
+    return;
+  const std::optional<Position> set_material = first_override(reader, material_path);
+  const std::vector<std::string> keys = reader.explicit_keys(cube);
   std::optional<Position> set_explicit;
-  std::size_t values_set = 0;
-  for (const Member& m : cube.members) {
-    if (!is_explicit(m)) continue;
-    file_explicit = file_explicit || m.position.source == 0;
-    values_set += overridden_values(m);
-    if (const auto at = first_override(m); at && !set_explicit) set_explicit = at;
+  for (const std::string& key : keys) {
+    const std::string path = fmt::format("cube[{}].{}", cube, key);
+    if (had_material && reader.written().at(path).key.source == 0) return;  // the file is wrong by itself
+    const auto at = first_override(reader, path);
+    if (at && (!set_explicit || at->source < set_explicit->source)) set_explicit = at;
   }
-  if (file_material && file_explicit) return;  // the file is wrong by itself
-  const auto needed = static_cast<std::size_t>(
-      std::count_if(parameters().begin(), parameters().end(),
-                    [](const Parameter& p) { return p.belonging == Belonging::explicit_springs; }));
+  const bool all_set = std::ranges::all_of(parameters(), [&](const Parameter& p) {
+    const auto place = reader.written().find(path_text(p.path, cube));
+    return p.belonging != Belonging::explicit_springs ||
+           (place != reader.written().end() && place->second.key.source > 0);
+  });
+  if (set_explicit && all_set && !set_material) {
+    reader.scene().model.cubes[cube].material.reset();
+    return reader.forget(material_path);
+  }
   if (set_material && set_explicit) {
-    problems.push_back({std::max(*set_material, *set_explicit,
-                                 [](const Position& a, const Position& b) { return a.source < b.source; }),
-                        "a cube has either a material or masses and springs: --set gives both"});
-    std::erase_if(cube.members, is_explicit);
-  } else if (set_material) {
-    std::erase_if(cube.members, is_explicit);
-  } else if (set_explicit && values_set == needed) {
-    std::erase_if(cube.members, [](const Member& m) { return m.key == "material"; });
+    reader.fail(std::max(*set_material, *set_explicit,
+                         [](const Position& a, const Position& b) { return a.source < b.source; }),
+                "a cube has either a material or masses and springs: --set gives both");
   } else if (set_explicit) {
-    problems.push_back(
-        {*set_explicit,
-         "this cube is made of a material, which decides its masses and springs; set material.density, "
-         "material.youngs-modulus or material.damping-ratio, or all of particle-mass, structural, shear and "
-         "bending with stiffness and damping"});
-    std::erase_if(cube.members, is_explicit);
+    reader.fail(
+        *set_explicit,
+        "this cube is made of a material, which decides its masses and springs; set material.density, "
+        "material.youngs-modulus or material.damping-ratio, or all of particle-mass, structural, shear "
+        "and bending with stiffness and damping");
+  } else if (!set_material) {
+    return;
   }
+  for (const std::string& key : keys) reader.forget(fmt::format("cube[{}].{}", cube, key));
 }
 
-/// Takes out the file's geometry where an argument chose a shape that does not have it.
-void resolve_shape(Node& terrain) {
-  const Member* shape = find(terrain, "shape");
-  if (!shape || shape->position.source == 0 || shape->value.kind != Kind::string) return;
-  const std::vector<std::string_view>& words = find_parameter("terrain[].shape")->words;
-  const auto word = std::find(words.begin(), words.end(), shape->value.text);
-  if (word == words.end()) return;
-  const auto chosen = static_cast<TerrainShape>(word - words.begin());
-  std::erase_if(terrain.members, [&](const Member& m) {
-    const Parameter* p = find_parameter("terrain[]." + m.key);
-    return p && m.position.source == 0 && !belongs_to_shape(*p, chosen);
-  });
+/// Takes out the scene's geometry where an argument chose a shape that does not have it.
+void resolve_shape(Reader& reader, std::size_t terrain) {
+  const auto shape = reader.written().find(path_text("terrain[].shape", terrain));
+  if (shape == reader.written().end() || shape->second.key.source == 0 || shape->second.problem) return;
+  for (const Parameter& p : parameters()) {
+    if (belongs_to_shape(p, reader.scene().model.terrain[terrain].shape)) continue;
+    const std::string path = path_text(p.path, terrain);
+    if (first_override(reader, path)) continue;
+    p.clear(reader.scene(), terrain);
+    reader.forget(path);
+  }
 }
 
 }  // namespace
 
-void apply(std::span<const std::string> arguments, Node& root, std::vector<diagnostics::Source>& sources,
-           std::vector<Problem>& problems) {
+void apply(std::span<const std::string> arguments, Reader& reader,
+           std::vector<diagnostics::Source>& sources) {
+  const auto& cubes = reader.scene().model.cubes;
+  std::vector<bool> had_material;
+  for (const CubeSettings& cube : cubes) had_material.push_back(cube.material.has_value());
   for (const std::string& argument : arguments) {
     const auto source = static_cast<std::uint32_t>(sources.size());
-    sources.push_back({"--set " + argument, argument, false});
-    Argument(argument, source, problems).apply(root);
+    sources.push_back({"--set " + argument, argument, diagnostics::Source::argument});
+    Argument(argument, source, reader).apply();
   }
-  for (const std::string_view list : {"cube", "terrain"}) {
-    Member* member = find(root, list);
-    if (!member) continue;
-    for (Node& element : member->value.elements) {
-      if (list == "cube") {
-        resolve_material(element, problems);
-      } else {
-        resolve_shape(element);
-      }
-    }
-  }
+  for (std::size_t c = 0; c < cubes.size(); ++c) resolve_material(reader, c, had_material[c]);
+  for (std::size_t t = 0; t < reader.scene().model.terrain.size(); ++t) resolve_shape(reader, t);
 }
 
 }  // namespace aspic::overrides

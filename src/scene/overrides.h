@@ -1,22 +1,20 @@
 #pragma once
-// --set: KEY=VALUE arguments worked into a document before it is read.
+// --set: KEY=VALUE arguments read into a scene.
 #include <span>
 #include <string>
 #include <vector>
 
 #include "scene/diagnostics.h"
-#include "scene/document.h"
+#include "scene/reader.h"
 
 namespace aspic::overrides {
 
-/// Writes each argument into the document, in order, and adds one source for each. What the arguments
-/// themselves get wrong is added to `problems`; whether the values are legal is the reader's business, as for
-/// the file.
+/// Reads each argument into the reader's scene, in order, and adds one source for each.
 ///
-/// A `material` key takes the place of the file's masses and springs; masses and springs take the place of
-/// the file's material only if all seven are given. A new terrain shape takes the place of geometry keys it
+/// A `material` key takes the place of the scene's masses and springs; masses and springs take the place of
+/// the scene's material only if all seven are given. A new terrain shape takes the place of geometry keys it
 /// does not have.
-void apply(std::span<const std::string> arguments, document::Node& root,
-           std::vector<diagnostics::Source>& sources, std::vector<document::Problem>& problems);
+void apply(std::span<const std::string> arguments, reader::Reader& reader,
+           std::vector<diagnostics::Source>& sources);
 
 }  // namespace aspic::overrides

@@ -12,37 +12,17 @@ namespace aspic::rows {
 
 // ---- conversions between a field of the settings and a Value ----
 
-inline std::optional<Value> to_value(const Parameter&, bool field) {
-  return Value(field);
-}
-inline std::optional<Value> to_value(const Parameter&, int field) {
-  return Value(std::int64_t{field});
-}
-inline std::optional<Value> to_value(const Parameter&, double field) {
-  return Value(field);
-}
-inline std::optional<Value> to_value(const Parameter&, const std::string& field) {
-  return Value(field);
-}
-inline std::optional<Value> to_value(const Parameter&, const Vec3& field) {
-  return Value(field);
-}
-inline std::optional<Value> to_value(const Parameter&, std::int64_t field) {
-  return Value(field);
-}
-inline std::optional<Value> to_value(const Parameter&, const std::array<int, 3>& field) {
-  return Value(field);
-}
-inline std::optional<Value> to_value(const Parameter&, const PinnedSettings& field) {
-  return Value(field);
+template <class T>
+std::optional<Value> to_value(const Parameter&, const T& field) {
+  if constexpr (std::is_same_v<T, int>) {
+    return Value(std::int64_t{field});
+  } else {
+    return Value(field);
+  }
 }
 template <class T>
 std::optional<Value> to_value(const Parameter&, const std::optional<T>& field) {
   return field ? std::optional<Value>(*field) : std::nullopt;
-}
-template <class Enum>
-requires std::is_enum_v<Enum> std::optional<Value> to_value(const Parameter&, Enum field) {
-  return Value(std::string(name_of(field)));
 }
 inline std::optional<Value> to_value(const Parameter& p, const DrawSettings& field) {
   const bool drawn[] = {field.solid, field.particles, field.structural, field.shear, field.bending};
@@ -55,20 +35,15 @@ inline std::optional<Value> to_value(const Parameter& p, const DrawSettings& fie
 
 template <class T>
 void from_value(const Parameter&, T& field, const Value& value) {
-  field = std::get<T>(value);
-}
-inline void from_value(const Parameter&, int& field, const Value& value) {
-  field = static_cast<int>(std::get<std::int64_t>(value));
+  if constexpr (std::is_same_v<T, int>) {
+    field = static_cast<int>(std::get<std::int64_t>(value));
+  } else {
+    field = std::get<T>(value);
+  }
 }
 template <class T>
 void from_value(const Parameter&, std::optional<T>& field, const Value& value) {
   field = std::get<T>(value);
-}
-template <class Enum>
-requires std::is_enum_v<Enum>
-void from_value(const Parameter& p, Enum& field, const Value& value) {
-  const auto word = std::find(p.words.begin(), p.words.end(), std::get<std::string>(value));
-  field = static_cast<Enum>(word - p.words.begin());
 }
 inline void from_value(const Parameter& p, DrawSettings& field, const Value& value) {
   const auto& words = std::get<std::vector<std::string>>(value);
@@ -78,27 +53,40 @@ inline void from_value(const Parameter& p, DrawSettings& field, const Value& val
   }
 }
 
-/// The words of an enumeration whose values count from 0.
-template <class Enum>
-std::vector<std::string_view> words_of(Enum last) {
-  std::vector<std::string_view> words;
-  for (int i = 0; i <= static_cast<int>(last); ++i) words.push_back(name_of(static_cast<Enum>(i)));
-  return words;
+/// Value and name of a table's row; a row may be the enumerator alone.
+template <class Row>
+constexpr auto value_of(const Row& row) {
+  if constexpr (std::is_enum_v<Row>) {
+    return row;
+  } else {
+    return row.value;
+  }
 }
-
-template <class T>
-inline constexpr bool is_optional = false;
-template <class T>
-inline constexpr bool is_optional<std::optional<T>> = true;
 
 // ---- rows ----
 
+/// The type a field has in the file.
+template <class Field>
+constexpr ParameterType type_of() {
+  if constexpr (std::is_same_v<Field, bool>) return ParameterType::boolean;
+  if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, std::int64_t>)
+    return ParameterType::integer;
+  if constexpr (std::is_same_v<Field, std::string>) return ParameterType::text;
+  if constexpr (std::is_same_v<Field, DrawSettings>) return ParameterType::words;
+  if constexpr (std::is_same_v<Field, Vec3>) return ParameterType::vector;
+  if constexpr (std::is_same_v<Field, std::array<int, 3>>) return ParameterType::counts;
+  if constexpr (std::is_same_v<Field, PinnedSettings>) return ParameterType::pinned;
+  return ParameterType::number;
+}
+
 /// A row whose field `Access` finds in a scene: a stateless generic lambda (scene, index) -> field&.
 template <class Access>
-Parameter row(std::string_view path, ParameterType type, Access, std::string_view meaning) {
+Parameter row(std::string_view path, std::string_view unit, const Range& range, Access,
+              std::string_view meaning) {
   Parameter p;
   p.path = path;
-  p.type = type;
+  p.unit = unit;
+  p.range = range;
   p.meaning = meaning;
   p.read = [](const Parameter& self, const Scene& scene, std::size_t index) {
     return to_value(self, Access{}(scene, index));
@@ -107,63 +95,45 @@ Parameter row(std::string_view path, ParameterType type, Access, std::string_vie
     from_value(self, Access{}(scene, index), value);
   };
   using Field = std::remove_cvref_t<decltype(Access{}(std::declval<Scene&>(), std::size_t{}))>;
-  if constexpr (is_optional<Field>)
+  if constexpr (requires(Field field) { field.reset(); }) {
+    p.type = type_of<typename Field::value_type>();
     p.erase = [](Scene& scene, std::size_t index) { Access{}(scene, index).reset(); };
+  } else {
+    p.type = type_of<Field>();
+  }
+  return p;
+}
+template <class Access>
+Parameter row(std::string_view path, Access access, std::string_view meaning) {
+  return row(path, "", {}, access, meaning);
+}
+
+/// One of the values of a table: terrain_shapes, contact_models, …
+template <const auto& Table, class Access>
+Parameter word(std::string_view path, Access, std::string_view meaning) {
+  Parameter p;
+  p.path = path;
+  p.type = ParameterType::word;
+  p.meaning = meaning;
+  for (const auto& entry : Table) p.words.push_back(name_of(value_of(entry)));
+  p.read = [](const Parameter&, const Scene& scene, std::size_t index) {
+    return std::optional<Value>(std::string(name_of(Access{}(scene, index))));
+  };
+  p.write = [](const Parameter&, Scene& scene, std::size_t index, const Value& value) {
+    for (const auto& entry : Table) {
+      if (name_of(value_of(entry)) == std::get<std::string>(value)) Access{}(scene, index) = value_of(entry);
+    }
+  };
   return p;
 }
 
-template <class Access>
-Parameter number(std::string_view path, std::string_view unit, Range range, Access access,
-                 std::string_view meaning) {
-  Parameter p = row(path, ParameterType::number, access, meaning);
-  p.unit = unit;
-  p.range = range;
-  return p;
+/// Components of at most this size.
+constexpr Range within(double largest) {
+  return {-largest, largest};
 }
 
-template <class Access>
-Parameter integer(std::string_view path, Range range, Access access, std::string_view meaning) {
-  Parameter p = row(path, ParameterType::integer, access, meaning);
-  p.range = range;
-  return p;
-}
-
-template <class Access>
-Parameter vector(std::string_view path, std::string_view unit, double largest, Access access,
-                 std::string_view meaning) {
-  Parameter p = row(path, ParameterType::vector, access, meaning);
-  p.unit = unit;
-  p.range = {-largest, largest};
-  return p;
-}
-
-/// A vector of lengths, each positive.
-template <class Access>
-Parameter extent(std::string_view path, Range range, Access access, std::string_view meaning) {
-  Parameter p = row(path, ParameterType::vector, access, meaning);
-  p.unit = "m";
-  p.range = range;
-  return p;
-}
-
-template <class Access>
-Parameter counts(std::string_view path, Range range, Access access, std::string_view meaning) {
-  Parameter p = row(path, ParameterType::counts, access, meaning);
-  p.range = range;
-  return p;
-}
-
-template <class Access>
-Parameter word(std::string_view path, std::vector<std::string_view> words, Access access,
-               std::string_view meaning) {
-  Parameter p = row(path, ParameterType::word, access, meaning);
-  p.words = std::move(words);
-  return p;
-}
-
-template <class Access>
-Parameter direction(std::string_view path, Access access, std::string_view meaning) {
-  Parameter p = vector(path, "", 1e6, access, meaning);
+inline Parameter direction(Parameter p) {
+  p.range = within(1e6);
   p.direction = true;
   return p;
 }
@@ -209,8 +179,7 @@ inline constexpr Range damping = {0.0, 1e9};
     return chosen->field;                                                        \
   }
 
-inline constexpr auto planes = Belonging::plane;
-inline constexpr auto round = Belonging::round;
+inline constexpr auto geometry = Belonging::geometry;
 inline constexpr auto springs = Belonging::explicit_springs;
 inline constexpr auto material = Belonging::material;
 inline constexpr std::string_view of_shape = "by shape";
@@ -220,6 +189,6 @@ inline constexpr std::string_view of_shape = "by shape";
 namespace aspic {
 
 /// Rows of the tables that describe bodies: cube, goal-net, ball, launcher.
-std::vector<Parameter> body_rows();
+std::vector<Parameter> body_parameters();
 
 }  // namespace aspic

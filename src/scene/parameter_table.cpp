@@ -1,3 +1,4 @@
+#include "model/terrain.h"
 #include "scene/parameter_rows.h"
 
 namespace aspic {
@@ -18,116 +19,102 @@ std::vector<Parameter> root_rows() {
   schema.write = [](const Parameter&, Scene&, std::size_t, const Value&) {};
   return {
       fixed(schema),
-      fixed(absent("the file's name without ending", row("name", ParameterType::text, FIELD(name),
-                                                         "Title of the scene in windows and reports."))),
+      fixed(absent("the file's name without ending",
+                   row("name", FIELD(name), "Title of the scene in windows and reports."))),
   };
 }
 
 std::vector<Parameter> simulation_rows() {
   return {
-      word("simulation.integrator", words_of(Integrator::implicit_euler_one_pass),
-           FIELD(model.simulation.integrator), "Time integration method."),
-      number("simulation.timestep", "s", {0.0, 1.0, true}, FIELD(model.simulation.timestep), "Time step h."),
-      number("simulation.duration", "s", {0.0, longest}, FIELD(model.simulation.duration),
-             "Simulated time of a run for which neither steps nor duration are asked."),
-      vector("simulation.gravity", "m/s²", 1e4, FIELD(model.simulation.gravity),
-             "Gravitational acceleration g."),
-      integer("simulation.steps-per-frame", {1, 100000}, FIELD(model.simulation.steps_per_frame),
-              "Time steps between two pictures in the window."),
-      integer("simulation.implicit.newton-iterations", {1, 1000},
-              FIELD(model.simulation.implicit.newton_iterations),
-              "Most Newton iterations of one implicit Euler step."),
-      integer("simulation.implicit.cg-iterations", {1, 100000},
-              FIELD(model.simulation.implicit.cg_iterations),
-              "Most conjugate gradient iterations within one Newton iteration."),
+      word<all_integrators>("simulation.integrator", FIELD(model.simulation.integrator),
+                            "Time integration method."),
+      row("simulation.timestep", "s", {0.0, 1.0, true}, FIELD(model.simulation.timestep), "Time step h."),
+      row("simulation.duration", "s", {0.0, longest}, FIELD(model.simulation.duration),
+          "Simulated time of a run for which neither steps nor duration are asked."),
+      row("simulation.gravity", "m/s²", within(1e4), FIELD(model.simulation.gravity),
+          "Gravitational acceleration g."),
+      row("simulation.steps-per-frame", "", {1, 100000}, FIELD(model.simulation.steps_per_frame),
+          "Time steps between two pictures in the window."),
+      row("simulation.implicit.newton-iterations", "", {1, 1000},
+          FIELD(model.simulation.implicit.newton_iterations),
+          "Most Newton iterations of one implicit Euler step."),
+      row("simulation.implicit.cg-iterations", "", {1, 100000},
+          FIELD(model.simulation.implicit.cg_iterations),
+          "Most conjugate gradient iterations within one Newton iteration."),
       absent("0.0001 in single precision, 1e-9 in double",
-             number("simulation.implicit.tolerance", "m/s", {0.0, 1.0, true},
-                    FIELD(model.simulation.implicit.tolerance),
-                    "Largest residual component at which an implicit Euler step counts as converged.")),
+             row("simulation.implicit.tolerance", "m/s", {0.0, 1.0, true},
+                 FIELD(model.simulation.implicit.tolerance),
+                 "Largest residual component at which an implicit Euler step counts as converged.")),
   };
 }
 
 std::vector<Parameter> contact_rows() {
   return {
-      word("contact.model", words_of(ContactModel::course), FIELD(model.contact.model),
-           "Contact law: Coulomb contact that comes to rest, or the original assignments' formulas."),
-      number("contact.epsilon", "m, m/s", {0.0, 1.0, true}, FIELD(model.contact.epsilon),
-             "Distance within which a particle may rest on the ground, and the least approach speed that "
-             "bounces."),
-      number("contact.restitution", "", fraction, FIELD(model.contact.restitution),
-             "Part of the approach speed that a bounce gives back, for every terrain without its own."),
-      number("contact.friction", "", friction, FIELD(model.contact.friction),
-             "Friction coefficient of every terrain without its own."),
-      number("contact.ball-restitution", "", fraction, FIELD(model.contact.ball_restitution),
-             "Restitution between balls, and between balls and particles."),
-      number("contact.ball-friction", "", friction, FIELD(model.contact.ball_friction),
-             "Friction coefficient between balls, and between balls and particles."),
-      row("contact.spin", ParameterType::boolean, FIELD(model.contact.spin),
-          "Whether friction makes balls rotate."),
+      word<contact_models>(
+          "contact.model", FIELD(model.contact.model),
+          "Contact law: Coulomb contact that comes to rest, or the original assignments' formulas."),
+      row("contact.epsilon", "m, m/s", {0.0, 1.0, true}, FIELD(model.contact.epsilon),
+          "Distance within which a particle may rest on the ground, and the least approach speed that "
+          "bounces."),
+      row("contact.restitution", "", fraction, FIELD(model.contact.restitution),
+          "Part of the approach speed that a bounce gives back, for every terrain without its own."),
+      row("contact.friction", "", friction, FIELD(model.contact.friction),
+          "Friction coefficient of every terrain without its own."),
+      row("contact.ball-restitution", "", fraction, FIELD(model.contact.ball_restitution),
+          "Restitution between balls, and between balls and particles."),
+      row("contact.ball-friction", "", friction, FIELD(model.contact.ball_friction),
+          "Friction coefficient between balls, and between balls and particles."),
+      row("contact.spin", FIELD(model.contact.spin), "Whether friction makes balls rotate."),
   };
 }
 
 std::vector<Parameter> terrain_rows() {
   return {
-      word("terrain[].shape", words_of(TerrainShape::bowl), FIELD(model.terrain[i].shape),
-           "Shape of the resting surface; a bowl is the inside of a sphere."),
-      of(planes, absent(of_shape, vector("terrain[].point", "m", far, FIELD(model.terrain[i].point),
-                                         "A point of the plane."))),
-      of(planes, absent(of_shape, direction("terrain[].normal", FIELD(model.terrain[i].normal),
-                                            "Direction to the free side; its length does not matter."))),
-      of(round, absent(of_shape, vector("terrain[].centre", "m", far, FIELD(model.terrain[i].centre),
+      word<terrain_shapes>("terrain[].shape", FIELD(model.terrain[i].shape),
+                           "Shape of the resting surface; a bowl is the inside of a sphere."),
+      of(geometry, absent(of_shape, row("terrain[].point", "m", within(far), FIELD(model.terrain[i].point),
+                                        "A point of the plane."))),
+      of(geometry,
+         absent(of_shape, direction(row("terrain[].normal", FIELD(model.terrain[i].normal),
+                                        "Direction to the free side; its length does not matter.")))),
+      of(geometry, absent(of_shape, row("terrain[].centre", "m", within(far), FIELD(model.terrain[i].centre),
                                         "Centre of the sphere or bowl."))),
-      of(round, absent(of_shape, number("terrain[].radius", "m", positive_length,
+      of(geometry, absent(of_shape, row("terrain[].radius", "m", positive_length,
                                         FIELD(model.terrain[i].radius), "Radius of the sphere or bowl."))),
-      absent("infinite", number("terrain[].mass", "kg", {0.0, heaviest, true}, FIELD(model.terrain[i].mass),
-                                "Mass M in the bounce speed (m − e·M)/(m + M)·u; the terrain never moves.")),
-      absent("that of [contact]",
-             number("terrain[].restitution", "", fraction, FIELD(model.terrain[i].restitution),
-                    "Restitution of this terrain.")),
-      absent("that of [contact]", number("terrain[].friction", "", friction, FIELD(model.terrain[i].friction),
-                                         "Friction coefficient of this terrain.")),
+      absent("infinite", row("terrain[].mass", "kg", {0.0, heaviest, true}, FIELD(model.terrain[i].mass),
+                             "Mass M in the bounce speed (m − e·M)/(m + M)·u; the terrain never moves.")),
+      absent("that of [contact]", row("terrain[].restitution", "", fraction,
+                                      FIELD(model.terrain[i].restitution), "Restitution of this terrain.")),
+      absent("that of [contact]", row("terrain[].friction", "", friction, FIELD(model.terrain[i].friction),
+                                      "Friction coefficient of this terrain.")),
   };
 }
 
 std::vector<Parameter> view_rows() {
-  Parameter draw =
-      word("view.draw", {"solid", "particles", "structural", "shear", "bending"}, FIELD(view.draw),
-           "Parts of the bodies that are drawn: surface, particles, springs by type.");
-  draw.type = ParameterType::words;
+  Parameter draw = row("view.draw", FIELD(view.draw),
+                       "Parts of the bodies that are drawn: surface, particles, springs by type.");
+  draw.words = {"solid", "particles", "structural", "shear", "bending"};
   return {
-      vector("view.camera.position", "m", far, FIELD(view.camera.position), "Position of the eye."),
-      vector("view.camera.target", "m", far, FIELD(view.camera.target),
-             "Point in the middle of the picture."),
-      number("view.camera.fov", "°", {1.0, 179.0}, FIELD(view.camera.fov), "Vertical field of view."),
+      row("view.camera.position", "m", within(far), FIELD(view.camera.position), "Position of the eye."),
+      row("view.camera.target", "m", within(far), FIELD(view.camera.target),
+          "Point in the middle of the picture."),
+      row("view.camera.fov", "°", {1.0, 179.0}, FIELD(view.camera.fov), "Vertical field of view."),
       draw,
-      word("view.colour", words_of(ViewColour::speed), FIELD(view.colour),
-           "What the colours of bodies mean."),
+      word<view_colours>("view.colour", FIELD(view.colour), "What the colours of bodies mean."),
   };
 }
 
 }  // namespace
 
 std::string_view name_of(ViewColour colour) {
-  switch (colour) {
-    case ViewColour::material:
-      return "material";
-    case ViewColour::type:
-      return "type";
-    case ViewColour::strain:
-      return "strain";
-    case ViewColour::force:
-      return "force";
-    case ViewColour::speed:
-      return "speed";
-  }
-  return "";
+  return std::ranges::find(view_colours, colour, &Named<ViewColour>::value)->name;
 }
 
 std::span<const Parameter> parameters() {
   static const std::vector<Parameter> table = [] {
     std::vector<Parameter> all;
     for (auto rows :
-         {root_rows(), simulation_rows(), contact_rows(), terrain_rows(), body_rows(), view_rows()}) {
+         {root_rows(), simulation_rows(), contact_rows(), terrain_rows(), body_parameters(), view_rows()}) {
       all.insert(all.end(), rows.begin(), rows.end());
     }
     return all;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/bodies.h"
 #include "model/cube.h"
 #include "model/terrain.h"
 #include "scene/diagnostics.h"
@@ -16,8 +17,26 @@ namespace {
 /// Shorter directions lose their digits when their length is squared.
 constexpr double shortest_direction = 1e-100;
 
-bool is_round(TerrainShape shape) {
-  return shape == TerrainShape::sphere || shape == TerrainShape::bowl;
+/// Every shape with its default geometry, in the order of the table.
+const Scene& default_terrain() {
+  static const Scene scene = [] {
+    Scene all;
+    for (const TerrainShapeRow& row : terrain_shapes) all.model.terrain.push_back(row.defaults);
+    return all;
+  }();
+  return scene;
+}
+
+/// The default of a geometry key; nothing if the shape does not have it.
+std::optional<Value> default_geometry(const Parameter& p, TerrainShape shape) {
+  return p.read(p, default_terrain(), static_cast<std::size_t>(&terrain_row(shape) - terrain_shapes));
+}
+
+/// The list an indexed path leads into, or nullptr.
+const SettingsList* list_of(std::string_view path) {
+  const std::string_view key = path.substr(0, path.find('['));
+  const auto found = std::ranges::find(settings_lists(), key, &SettingsList::key);
+  return key.size() == path.size() || found == settings_lists().end() ? nullptr : &*found;
 }
 
 std::string range_text(const Parameter& p) {
@@ -56,22 +75,10 @@ std::optional<std::string> complaint_about(const Parameter& p, double value) {
 }
 
 std::optional<std::string> complaint_about_word(const Parameter& p, const std::string& word) {
-  if (std::find(p.words.begin(), p.words.end(), word) != p.words.end()) return std::nullopt;
+  const bool known = std::ranges::find(p.words, word) != p.words.end();
+  if (known || (p.type == ParameterType::pinned && is_face_or_corner(word))) return std::nullopt;
   return fmt::format("'{}' does not know \"{}\"; allowed: {}{}", key_text(p), word, allowed_text(p),
                      diagnostics::did_you_mean(diagnostics::nearest(word, p.words)));
-}
-
-constexpr std::string_view faces[] = {"top", "bottom", "left", "right", "front", "back"};
-
-std::optional<std::string> complaint_about_pinned_name(const Parameter& p, const std::string& name) {
-  // The model alone knows the names: the smallest cube is asked.
-  CubeSettings smallest;
-  smallest.particles_per_edge = 2;
-  smallest.pinned.names = {name};
-  Model scratch;
-  if (add_cube(scratch, smallest)) return std::nullopt;
-  return fmt::format("'{}' does not know \"{}\"; allowed: {}{}", key_text(p), name, allowed_text(p),
-                     diagnostics::did_you_mean(diagnostics::nearest(name, faces)));
 }
 
 }  // namespace
@@ -79,11 +86,8 @@ std::optional<std::string> complaint_about_pinned_name(const Parameter& p, const
 std::optional<Value> Parameter::get(const Scene& scene, std::size_t index) const {
   if (!applies(*this, scene, index)) return std::nullopt;
   std::optional<Value> value = read(*this, scene, index);
-  if (!value && (belonging == Belonging::plane || belonging == Belonging::round)) {
-    Scene defaults;
-    defaults.model.terrain.push_back(terrain_defaults(scene.model.terrain[index].shape));
-    return read(*this, defaults, 0);
-  }
+  if (!value && belonging == Belonging::geometry)
+    return default_geometry(*this, scene.model.terrain[index].shape);
   return value;
 }
 
@@ -96,6 +100,13 @@ const Parameter* find_parameter(std::string_view path) {
 std::string key_text(const Parameter& parameter) {
   std::string text(parameter.path);
   if (const std::size_t brackets = text.find("[]"); brackets != std::string::npos) text.erase(brackets, 2);
+  return text;
+}
+
+std::string path_text(std::string_view path, std::size_t index) {
+  std::string text(path);
+  if (const std::size_t at = text.find("[]"); at != std::string::npos)
+    text.replace(at, 2, fmt::format("[{}]", index));
   return text;
 }
 
@@ -128,10 +139,8 @@ bool applies(const Parameter& parameter, const Scene& scene, std::size_t index) 
   switch (parameter.belonging) {
     case Belonging::always:
       return true;
-    case Belonging::plane:
-      return !is_round(scene.model.terrain[index].shape);
-    case Belonging::round:
-      return is_round(scene.model.terrain[index].shape);
+    case Belonging::geometry:
+      return belongs_to_shape(parameter, scene.model.terrain[index].shape);
     case Belonging::explicit_springs:
       return !scene.model.cubes[index].material.has_value();
     case Belonging::material:
@@ -141,78 +150,42 @@ bool applies(const Parameter& parameter, const Scene& scene, std::size_t index) 
 }
 
 bool belongs_to_shape(const Parameter& parameter, TerrainShape shape) {
-  if (parameter.belonging == Belonging::plane) return !is_round(shape);
-  return parameter.belonging != Belonging::round || is_round(shape);
+  return parameter.belonging != Belonging::geometry || default_geometry(parameter, shape).has_value();
 }
 
 std::size_t index_count(const Parameter& parameter, const Scene& scene) {
-  if (parameter.path.starts_with("terrain[]")) return scene.model.terrain.size();
-  if (parameter.path.starts_with("cube[]")) return scene.model.cubes.size();
-  if (parameter.path.starts_with("goal-net[]")) return scene.model.goal_nets.size();
-  if (parameter.path.starts_with("ball[]")) return scene.model.balls.size();
-  if (parameter.path.starts_with("launcher[]")) return scene.model.launchers.size();
-  return 1;
-}
-
-void append_element(Scene& scene, std::string_view list) {
-  if (list == "terrain") scene.model.terrain.emplace_back();
-  if (list == "cube") scene.model.cubes.emplace_back();
-  if (list == "goal-net") scene.model.goal_nets.emplace_back();
-  if (list == "ball") scene.model.balls.emplace_back();
-  if (list == "launcher") scene.model.launchers.emplace_back();
+  const SettingsList* list = list_of(parameter.path);
+  return list ? list->size(scene.model) : 1;
 }
 
 std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
-  const auto complaint = [](std::optional<std::string> message) -> std::optional<Complaint> {
-    return message ? std::optional<Complaint>({std::nullopt, *message}) : std::nullopt;
-  };
-  switch (p.type) {
-    case ParameterType::boolean:
-    case ParameterType::text:
-      return std::nullopt;
-    case ParameterType::integer:
-      return complaint(complaint_about(p, static_cast<double>(std::get<std::int64_t>(value))));
-    case ParameterType::number:
-      return complaint(complaint_about(p, std::get<double>(value)));
-    case ParameterType::word:
-      return complaint(complaint_about_word(p, std::get<std::string>(value)));
-    case ParameterType::words: {
-      const auto& words = std::get<std::vector<std::string>>(value);
-      for (std::size_t i = 0; i < words.size(); ++i) {
-        if (auto message = complaint_about_word(p, words[i])) return Complaint{i, *message};
-        if (std::find(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i), words[i]) !=
-            words.begin() + static_cast<std::ptrdiff_t>(i)) {
-          return Complaint{i, fmt::format("'{}' names \"{}\" twice", key_text(p), words[i])};
-        }
-      }
-      return std::nullopt;
-    }
-    case ParameterType::vector: {
-      const Vec3& v = std::get<Vec3>(value);
-      for (int axis = 0; axis < 3; ++axis) {
-        if (auto message = complaint_about(p, v[axis]))
-          return Complaint{static_cast<std::size_t>(axis), *message};
-      }
-      if (p.direction && length(v) < shortest_direction) {
-        return Complaint{std::nullopt, fmt::format("'{}' has no direction: its length is zero; allowed: {}",
-                                                   key_text(p), allowed_text(p))};
-      }
-      return std::nullopt;
-    }
-    case ParameterType::counts: {
-      const auto& counts = std::get<std::array<int, 3>>(value);
-      for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (auto message = complaint_about(p, counts[i])) return Complaint{i, *message};
-      }
-      return std::nullopt;
-    }
-    case ParameterType::pinned: {
-      const auto& names = std::get<PinnedSettings>(value).names;
-      for (std::size_t i = 0; i < names.size(); ++i) {
-        if (auto message = complaint_about_pinned_name(p, names[i])) return Complaint{i, *message};
-      }
-      return std::nullopt;
-    }
+  std::vector<double> numbers;
+  std::vector<std::string> words;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) numbers = {static_cast<double>(*whole)};
+  if (const auto* number = std::get_if<double>(&value)) numbers = {*number};
+  if (const auto* v = std::get_if<Vec3>(&value)) numbers = {v->x, v->y, v->z};
+  if (const auto* counts = std::get_if<std::array<int, 3>>(&value))
+    numbers.assign(counts->begin(), counts->end());
+  if (p.type == ParameterType::word) words = {std::get<std::string>(value)};
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value)) words = *list;
+  if (const auto* pinned = std::get_if<PinnedSettings>(&value)) words = pinned->names;
+  const bool several = !std::holds_alternative<std::string>(value) && numbers.size() != 1;
+  const auto at = [&](std::size_t i) { return several ? std::optional(i) : std::nullopt; };
+
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (auto message = complaint_about(p, numbers[i])) return Complaint{*message, at(i)};
+  }
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (auto message = complaint_about_word(p, words[i])) return Complaint{*message, at(i)};
+    const bool twice = std::find(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i), words[i]) !=
+                       words.begin() + static_cast<std::ptrdiff_t>(i);
+    if (twice && p.type == ParameterType::words)
+      return Complaint{fmt::format("'{}' names \"{}\" twice", key_text(p), words[i]), i};
+  }
+  if (p.direction && length(std::get<Vec3>(value)) < shortest_direction) {
+    return Complaint{
+        fmt::format("'{}' has no direction: its length is zero; allowed: {}", key_text(p), allowed_text(p)),
+        std::nullopt};
   }
   return std::nullopt;
 }
@@ -240,27 +213,23 @@ std::string allowed_text(const Parameter& p) {
       return fmt::format(
           "an array of faces ({}), corners (three faces joined by hyphens, such as left-top-front) and local "
           "indices 0 … n³ − 1",
-          diagnostics::list_text(faces, false));
+          diagnostics::list_text(p.words, false));
   }
   return "";
 }
 
 std::string default_text(const Parameter& p) {
-  if (p.belonging == Belonging::plane || p.belonging == Belonging::round) {
+  if (p.belonging == Belonging::geometry) {
     std::string text;
-    for (const std::string_view word : find_parameter("terrain[].shape")->words) {
-      Scene scene;
-      scene.model.terrain.emplace_back();
-      find_parameter("terrain[].shape")->set(scene, 0, Value(std::string(word)));
-      const auto value = p.get(scene, 0);
-      if (value) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", word, toml_value(*value));
+    for (const TerrainShapeRow& row : terrain_shapes) {
+      if (const auto value = default_geometry(p, row.value))
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, toml_value(*value));
     }
     return text;
   }
   if (!p.when_absent.empty()) return std::string(p.when_absent);
   Scene scene;
-  for (const std::string_view list : {"terrain", "cube", "goal-net", "ball", "launcher"})
-    append_element(scene, list);
+  for (const SettingsList& list : settings_lists()) list.append(scene.model);
   if (p.belonging == Belonging::material) scene.model.cubes[0].material.emplace();
   return toml_value(*p.get(scene, 0));
 }

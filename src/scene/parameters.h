@@ -40,9 +40,9 @@ struct Range {
   bool min_excluded = false;
 };
 
-/// When a key has a meaning. Keys of planes and of round terrain exclude each other by shape, those of
-/// explicit springs and of a material by what the cube is made of.
-enum class Belonging { always, plane, round, explicit_springs, material };
+/// When a key has a meaning. Geometry belongs to the shapes whose defaults hold it (terrain_shapes); keys of
+/// explicit springs and of a material exclude each other by what the cube is made of.
+enum class Belonging { always, geometry, explicit_springs, material };
 
 /// One key.
 struct Parameter {
@@ -50,7 +50,7 @@ struct Parameter {
   ParameterType type = ParameterType::number;
   std::string_view unit;                ///< empty: a pure number or not a number
   Range range;                          ///< integer, number, vector, counts
-  std::vector<std::string_view> words;  ///< word, words: those allowed, not-yet-built ones included
+  std::vector<std::string_view> words;  ///< word, words: those allowed; pinned: the faces
   Belonging belonging = Belonging::always;
   bool direction = false;        ///< vector: any length but zero
   bool live = true;              ///< may change while the simulation runs, without starting anew
@@ -82,6 +82,9 @@ const Parameter* find_parameter(std::string_view path);
 /// The path as messages write it, without brackets: `cube.shear.stiffness`.
 std::string key_text(const Parameter& parameter);
 
+/// A path with its index in the brackets: `cube[1].shear.stiffness`.
+std::string path_text(std::string_view path, std::size_t index);
+
 /// What a path means to the file format.
 enum class PathKind { unknown, parameter, table, list };
 
@@ -100,14 +103,11 @@ bool belongs_to_shape(const Parameter& parameter, TerrainShape shape);
 /// How many elements the scene has in the list of an indexed path, 1 for other paths.
 std::size_t index_count(const Parameter& parameter, const Scene& scene);
 
-/// Appends an element with default values to a list of the scene, by its key (`cube`).
-void append_element(Scene& scene, std::string_view list);
-
 /// A value that is not allowed.
 struct Complaint {
-  std::optional<std::size_t>
-      element;          ///< of a vector or list, the element to blame (of pinned: the name); else the whole
   std::string message;  ///< a sentence that names the key and says what is allowed
+  std::optional<std::size_t>
+      element;  ///< of a vector or list, the element to blame; of pinned, names come before indices
 };
 
 /// Checks range, finiteness, words and direction of a value of the parameter's type; nothing if it is legal.

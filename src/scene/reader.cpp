@@ -4,220 +4,298 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
-#include <string_view>
+#include <utility>
 
-#include "scene/diagnostics.h"
-#include "scene/parameters.h"
-#include "scene/scene_checks.h"
+#include "model/bodies.h"
+#include "model/terrain.h"
 
 namespace aspic::reader {
 namespace {
 
-using document::Kind;
-using document::Member;
-using document::Node;
-using document::Problem;
+using document::position_of;
 
-std::optional<double> number_of(const Node& node) {
-  if (node.kind == Kind::floating) return node.number;
-  if (node.kind == Kind::integer) return static_cast<double>(node.integer);
+/// A value in its parameter's type, or the node that is of another type and what is wrong with it.
+struct WrongType {
+  const toml::node* culprit;
+  std::string message;
+};
+using Converted = std::variant<Value, WrongType>;
+
+std::optional<double> number_of(const toml::node& node) {
+  if (const auto* x = node.as_floating_point()) return x->get();
+  if (const auto* x = node.as_integer()) return static_cast<double>(x->get());
   return std::nullopt;
 }
 
-class Reader {
- public:
-  explicit Reader(std::vector<Problem>& problems) : problems_(problems) {}
+WrongType wrong_type(const Parameter& p, const toml::node& culprit) {
+  return {&culprit,
+          fmt::format("'{}' must be {}, not {}", key_text(p), allowed_text(p), document::kind_text(culprit))};
+}
 
-  Scene read(const Node& root) {
-    read_table(root, "", 0);
-    return std::move(scene_);
+Converted converted_words(const Parameter& p, const toml::array& array) {
+  std::vector<std::string> words;
+  for (const toml::node& element : array) {
+    if (!element.is_string()) return wrong_type(p, element);
+    words.push_back(element.as_string()->get());
   }
+  return Value(words);
+}
 
- private:
-  void read_table(const Node& table, const std::string& path, std::size_t index) {
-    for (const Member& member : table.members) {
-      const std::string child = path.empty() ? member.key : path + "." + member.key;
-      // A key with brackets or dots inside quotes must not be taken for a path.
-      const bool plain = member.key.find_first_of("[].") == std::string::npos && !member.key.empty();
-      switch (plain ? path_kind(child) : PathKind::unknown) {
-        case PathKind::unknown:
-          problems_.push_back({member.position, diagnostics::unknown_key(path, member.key)});
-          break;
-        case PathKind::parameter:
-          read_parameter(*find_parameter(child), member.value, index);
-          break;
-        case PathKind::table:
-          read_inner_table(member, child, index);
-          break;
-        case PathKind::list:
-          read_list(member, child);
-          break;
+Converted converted_vector(const Parameter& p, const toml::array& array) {
+  Vec3 v;
+  for (int axis = 0; axis < 3; ++axis) {
+    const toml::node& element = array[static_cast<std::size_t>(axis)];
+    const auto number = number_of(element);
+    if (!number) return wrong_type(p, element);
+    v[axis] = *number;
+  }
+  return Value(v);
+}
+
+Converted converted_counts(const Parameter& p, const toml::array& array) {
+  std::array<int, 3> counts = {};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (!array[i].is_integer()) return wrong_type(p, array[i]);
+    // Far numbers are out of every range: the nearest int says so as well.
+    counts[i] =
+        static_cast<int>(std::clamp<std::int64_t>(array[i].as_integer()->get(), -2147483647, 2147483647));
+  }
+  return Value(counts);
+}
+
+Converted converted_pinned(const Parameter& p, const toml::array& array) {
+  PinnedSettings pinned;
+  for (const toml::node& element : array) {
+    if (const auto* name = element.as_string()) {
+      pinned.names.push_back(name->get());
+    } else if (const auto* index = element.as_integer()) {
+      pinned.indices.push_back(index->get());
+    } else {
+      return wrong_type(p, element);
+    }
+  }
+  return Value(pinned);
+}
+
+Converted converted(const Parameter& p, const toml::node& node) {
+  const toml::array* array = node.as_array();
+  switch (p.type) {
+    case ParameterType::boolean:
+      if (const auto* x = node.as_boolean()) return Value(x->get());
+      break;
+    case ParameterType::integer:
+      if (const auto* x = node.as_integer()) return Value(x->get());
+      break;
+    case ParameterType::number:
+      if (const auto x = number_of(node)) return Value(*x);
+      break;
+    case ParameterType::text:
+    case ParameterType::word:
+      if (const auto* x = node.as_string()) return Value(x->get());
+      break;
+    case ParameterType::words:
+      if (array) return converted_words(p, *array);
+      break;
+    case ParameterType::pinned:
+      if (array) return converted_pinned(p, *array);
+      break;
+    case ParameterType::vector:
+    case ParameterType::counts:
+      if (!array) break;
+      if (array->size() != 3) {
+        return WrongType{&node, fmt::format("'{}' must be {}, not {} of them", key_text(p), allowed_text(p),
+                                            array->size())};
       }
+      return p.type == ParameterType::vector ? converted_vector(p, *array) : converted_counts(p, *array);
+  }
+  return wrong_type(p, node);
+}
+
+std::vector<Position> elements_of(const toml::node& node, std::uint32_t source) {
+  std::vector<Position> elements;
+  const toml::array* array = node.as_array();
+  for (const bool strings : {true, false}) {
+    for (std::size_t i = 0; array && i < array->size(); ++i) {
+      if ((*array)[i].is_string() == strings) elements.push_back(position_of((*array)[i].source(), source));
     }
   }
+  return elements;
+}
 
-  void read_inner_table(const Member& member, const std::string& path, std::size_t index) {
-    if (member.value.kind != Kind::table) {
-      const std::vector<std::string_view> keys = child_keys(path);
-      problems_.push_back({member.value.position, fmt::format("'{}' must be a table with the keys {}, not {}",
-                                                              member.key, diagnostics::list_text(keys, false),
-                                                              document::kind_text(member.value.kind))});
-      return;
-    }
-    // Even an empty `material = {}` makes the cube one of a material.
-    if (path == "cube[].material") scene_.model.cubes[index].material.emplace();
-    read_table(member.value, path, index);
+/// A legal value of a key of terrain geometry.
+Value some_geometry(const Parameter& p) {
+  Scene scene;
+  for (const TerrainShapeRow& row : terrain_shapes) {
+    scene.model.terrain = {row.defaults};
+    if (const auto value = p.get(scene, 0)) return *value;
   }
-
-  void read_list(const Member& member, const std::string& path) {
-    const auto wrong = [&](const Node& culprit) {
-      problems_.push_back(
-          {culprit.position, fmt::format("'{}' must be a list of tables: write [[{}]], not {}", path, path,
-                                         document::kind_text(culprit.kind))});
-    };
-    if (member.value.kind != Kind::array) return wrong(member.value);
-    for (std::size_t i = 0; i < member.value.elements.size(); ++i) {
-      // One entry in the scene for each element, right or wrong, so that indices stay those of the file.
-      append_element(scene_, path);
-      const Node& element = member.value.elements[i];
-      if (element.kind != Kind::table) {
-        wrong(element);
-      } else {
-        read_table(element, path + "[]", i);
-      }
-    }
-  }
-
-  void read_parameter(const Parameter& p, const Node& node, std::size_t index) {
-    const std::optional<Value> value = converted(p, node);
-    if (!value) return;
-    if (const auto complaint = check_value(p, *value)) {
-      problems_.push_back({culprit(p, node, *complaint).position, complaint->message});
-      return;
-    }
-    p.set(scene_, index, *value);
-  }
-
-  /// The node a complaint is about: the value itself, or the element of an array.
-  static const Node& culprit(const Parameter& p, const Node& node, const Complaint& complaint) {
-    if (!complaint.element) return node;
-    std::size_t seen = 0;
-    for (const Node& element : node.elements) {
-      if (p.type == ParameterType::pinned && element.kind != Kind::string) continue;
-      if (seen++ == *complaint.element) return element;
-    }
-    return node;
-  }
-
-  std::nullopt_t wrong_type(const Parameter& p, const Node& culprit) {
-    problems_.push_back({culprit.position, fmt::format("'{}' must be {}, not {}", key_text(p),
-                                                       allowed_text(p), document::kind_text(culprit.kind))});
-    return std::nullopt;
-  }
-
-  /// The node's value in the parameter's type; nothing, and a problem, if it has another type.
-  std::optional<Value> converted(const Parameter& p, const Node& node) {
-    switch (p.type) {
-      case ParameterType::boolean:
-        if (node.kind != Kind::boolean) return wrong_type(p, node);
-        return Value(node.boolean);
-      case ParameterType::integer:
-        if (node.kind != Kind::integer) return wrong_type(p, node);
-        return Value(node.integer);
-      case ParameterType::number: {
-        const auto number = number_of(node);
-        if (!number) return wrong_type(p, node);
-        return Value(*number);
-      }
-      case ParameterType::text:
-      case ParameterType::word:
-        if (node.kind != Kind::string) return wrong_type(p, node);
-        return Value(node.text);
-      case ParameterType::words:
-        return converted_words(p, node);
-      case ParameterType::vector:
-        return converted_vector(p, node);
-      case ParameterType::counts:
-        return converted_counts(p, node);
-      case ParameterType::pinned:
-        return converted_pinned(p, node);
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Value> converted_words(const Parameter& p, const Node& node) {
-    if (node.kind != Kind::array) return wrong_type(p, node);
-    std::vector<std::string> words;
-    for (const Node& element : node.elements) {
-      if (element.kind != Kind::string) return wrong_type(p, element);
-      words.push_back(element.text);
-    }
-    return Value(words);
-  }
-
-  /// Whether the node is an array of three, and a problem if it is not.
-  bool has_three(const Parameter& p, const Node& node) {
-    if (node.kind != Kind::array) {
-      wrong_type(p, node);
-      return false;
-    }
-    if (node.elements.size() == 3) return true;
-    problems_.push_back({node.position, fmt::format("'{}' must be {}, not {} of them", key_text(p),
-                                                    allowed_text(p), node.elements.size())});
-    return false;
-  }
-
-  std::optional<Value> converted_counts(const Parameter& p, const Node& node) {
-    if (!has_three(p, node)) return std::nullopt;
-    std::array<int, 3> counts = {};
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      const Node& element = node.elements[i];
-      if (element.kind != Kind::integer) return wrong_type(p, element);
-      // Far numbers are out of every range: the nearest int says so as well.
-      counts[i] = static_cast<int>(std::clamp<std::int64_t>(element.integer, -2147483647, 2147483647));
-    }
-    return Value(counts);
-  }
-
-  std::optional<Value> converted_vector(const Parameter& p, const Node& node) {
-    if (!has_three(p, node)) return std::nullopt;
-    Vec3 v;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Node& element = node.elements[static_cast<std::size_t>(axis)];
-      const auto number = number_of(element);
-      if (!number) return wrong_type(p, element);
-      v[axis] = *number;
-    }
-    return Value(v);
-  }
-
-  std::optional<Value> converted_pinned(const Parameter& p, const Node& node) {
-    if (node.kind != Kind::array) return wrong_type(p, node);
-    PinnedSettings pinned;
-    for (const Node& element : node.elements) {
-      if (element.kind == Kind::string) {
-        pinned.names.push_back(element.text);
-      } else if (element.kind != Kind::integer) {
-        return wrong_type(p, element);
-      } else if (element.integer >= 0 && element.integer <= std::int64_t{0xffffffff}) {
-        pinned.indices.push_back(static_cast<std::uint32_t>(element.integer));
-      }
-      // Other integers are past every cube's end; scene_checks says so for all of them.
-    }
-    return Value(pinned);
-  }
-
-  std::vector<Problem>& problems_;
-  Scene scene_;
-};
+  return {};
+}
 
 }  // namespace
 
-Scene read(const Node& root, std::optional<std::uint64_t> memory_bytes, std::vector<Problem>& problems) {
-  Scene scene = Reader(problems).read(root);
-  check_whole_scene(root, scene, memory_bytes, problems);
-  return scene;
+void Reader::read_table(const toml::table& table, std::string_view path, std::size_t index,
+                        std::uint32_t source) {
+  for (const auto& [key, value] : table)
+    read_member(path, index, key.str(), position_of(key.source(), source), value, source);
+}
+
+void Reader::read_member(std::string_view path, std::size_t index, std::string_view key, const Position& at,
+                         const toml::node& value, std::uint32_t source) {
+  const std::string child = fmt::format("{}{}{}", path, path.empty() ? "" : ".", key);
+  // A key with brackets or dots inside quotes must not be taken for a path.
+  const bool plain = key.find_first_of("[].") == std::string::npos && !key.empty();
+  if (!plain) return fail(at, diagnostics::unknown_key(path, key));
+  const PathKind kind = path_kind(child);
+  Written here = {at, position_of(value.source(), source), elements_of(value, source), {}};
+  if (kind == PathKind::unknown) here.problem = {at, diagnostics::unknown_key(path, key)};
+  // A value takes the place of a table and all its keys.
+  if (kind == PathKind::table && !value.is_table()) forget(path_text(child, index));
+  const auto [entry, fresh] = written_.try_emplace(path_text(child, index), here);
+  Written& written = entry->second;
+  // A table adds its keys to one that is there already; anything else takes the place of what was there.
+  if (!fresh && (kind != PathKind::table || !value.is_table() || written.problem)) written = std::move(here);
+  if (kind == PathKind::unknown) return;
+  if (kind == PathKind::parameter) {
+    read_parameter(*find_parameter(child), value, index, written);
+  } else if (kind == PathKind::list) {
+    read_list(value, child, written, source);
+  } else if (!value.is_table()) {
+    const std::vector<std::string_view> keys = child_keys(child);
+    written.problem = {written.value,
+                       fmt::format("'{}' must be a table with the keys {}, not {}", key,
+                                   diagnostics::list_text(keys, false), document::kind_text(value))};
+  } else {
+    // Even an empty `material = {}` makes the cube one of a material.
+    if (child == "cube[].material" && !scene_.model.cubes[index].material)
+      scene_.model.cubes[index].material.emplace();
+    read_table(*value.as_table(), child, index, source);
+  }
+}
+
+void Reader::read_list(const toml::node& value, std::string_view path, Written& written,
+                       std::uint32_t source) {
+  const SettingsList& list = *std::ranges::find(settings_lists(), path, &SettingsList::key);
+  const auto wrong = [&](const toml::node& culprit) {
+    return Problem{position_of(culprit.source(), source),
+                   fmt::format("'{}' must be a list of tables: write [[{}]], not {}", path, path,
+                               document::kind_text(culprit))};
+  };
+  if (!value.is_array()) {
+    written.problem = wrong(value);
+    list.append(scene_.model);  // something was meant: the scene is not empty
+    return;
+  }
+  for (const toml::node& element : *value.as_array()) {
+    // One entry in the scene for each element, right or wrong, so that indices stay those of the file.
+    const std::size_t index = list.size(scene_.model);
+    list.append(scene_.model);
+    const Position at = position_of(element.source(), source);
+    Written& here = written_[fmt::format("{}[{}]", path, index)] = {at, at, {}, {}};
+    if (const auto* table = element.as_table()) {
+      read_table(*table, fmt::format("{}[]", path), index, source);
+    } else {
+      here.problem = wrong(element);
+    }
+  }
+}
+
+void Reader::read_parameter(const Parameter& p, const toml::node& node, std::size_t index, Written& written) {
+  const Converted result = converted(p, node);
+  if (const auto* wrong = std::get_if<WrongType>(&result)) {
+    written.problem = {position_of(wrong->culprit->source(), written.value.source), wrong->message};
+  } else if (const Value& value = std::get<Value>(result); p.type == ParameterType::pinned) {
+    p.set(scene_, index, value);  // checked with the size of its cube
+  } else if (const auto complaint = check_value(p, value)) {
+    written.problem = {complaint->element ? written.elements[*complaint->element] : written.value,
+                       complaint->message};
+  } else {
+    p.set(scene_, index, value);
+  }
+  // What was written wrong was written: a shape that has no such key complains about that too.
+  if (written.problem && p.belonging == Belonging::geometry) p.set(scene_, index, some_geometry(p));
+}
+
+void Reader::enter(std::string_view path, std::size_t index, const Position& at) {
+  written_.try_emplace(path_text(path, index), Written{at, at, {}, {}});
+}
+
+void Reader::forget(const std::string& path) {
+  for (const std::string& gone : written_in(path)) written_.erase(gone);
+}
+
+std::vector<std::string> Reader::written_in(const std::string& path) const {
+  std::vector<std::string> paths;
+  for (auto at = written_.lower_bound(path); at != written_.end() && at->first.starts_with(path); ++at) {
+    const bool here = at->first.size() == path.size();
+    if (here || at->first[path.size()] == '.' || at->first[path.size()] == '[') paths.push_back(at->first);
+  }
+  return paths;
+}
+
+std::vector<std::string> Reader::explicit_keys(std::size_t cube) const {
+  std::vector<std::string> keys;
+  for (const std::string_view key : child_keys("cube[]")) {
+    const std::string path = fmt::format("cube[].{}", key);
+    const bool decided_by_material = std::ranges::any_of(parameters(), [&](const Parameter& p) {
+      return p.belonging == Belonging::explicit_springs && (p.path == path || p.path.starts_with(path + "."));
+    });
+    if (decided_by_material && written_.contains(path_text(path, cube))) keys.emplace_back(key);
+  }
+  return keys;
+}
+
+bool Reader::has_problem(const std::string& path) const {
+  return !path.empty() && std::ranges::any_of(written_in(path), [&](const std::string& entry) {
+    return written_.at(entry).problem.has_value();
+  });
+}
+
+Problem Reader::located(const SceneComplaint& complaint) const {
+  const auto at = [&](std::string_view path) {
+    const auto entry = written_.find(std::string(path));
+    return entry == written_.end() ? nullptr : &entry->second;
+  };
+  if (const Written* here = at(complaint.path)) {
+    const Position& whole = complaint.of_key ? here->key : here->value;
+    return {complaint.element ? here->elements[*complaint.element] : whole, complaint.message};
+  }
+  if (const Written* other = at(complaint.other)) return {other->value, complaint.message};
+  // A default is to blame: the nearest table around it, or the scene.
+  for (std::string_view path = complaint.path; !path.empty();) {
+    const std::size_t end = path.find_last_of(".[");
+    path = path.substr(0, end == std::string_view::npos ? 0 : end);
+    if (const Written* around = at(path)) return {around->value, complaint.message};
+  }
+  if (has_text_ || complaint.path.empty()) return {{}, complaint.message};
+  return {{}, fmt::format("{}: {}", complaint.path, complaint.message)};
+}
+
+std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes) const {
+  std::vector<Problem> problems = problems_;
+  for (const auto& [path, written] : written_) {
+    if (written.problem) problems.push_back(*written.problem);
+  }
+  if (has_text_ && !written_.contains("schema")) {
+    problems.push_back(
+        {{}, fmt::format("'schema' is missing; start the file with the line schema = {}", scene_schema)});
+  }
+  for (std::size_t c = 0; c < scene_.model.cubes.size(); ++c) {
+    const auto material = written_.find(path_text("cube[].material", c));
+    if (material == written_.end()) continue;
+    const std::vector<std::string> others = explicit_keys(c);
+    if (others.empty()) continue;
+    const std::vector<std::string_view> names(others.begin(), others.end());
+    problems.push_back({material->second.key,
+                        fmt::format("a cube has either 'material' or the masses and springs it decides, not "
+                                    "both; leave out 'material' or {}",
+                                    diagnostics::list_text(names, false))});
+  }
+  for (const SceneComplaint& complaint : check_scene(scene_, memory_bytes)) {
+    if ((complaint.of_key || !has_problem(complaint.path)) && !has_problem(complaint.other))
+      problems.push_back(located(complaint));
+  }
+  return problems;
 }
 
 }  // namespace aspic::reader

@@ -1,19 +1,70 @@
 #pragma once
-// From document to Scene, along the parameter table.
+// From TOML and --set arguments to a Scene, along the parameter table.
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/document.h"
+#include "scene/parameters.h"
 #include "scene/scene.h"
+#include "scene/scene_checks.h"
 
 namespace aspic::reader {
 
-/// Reads every key of the document into a scene and adds to `problems` whatever is wrong with it: unknown
-/// keys, types, ranges, and what only the whole scene shows (keys of another shape, both material and
-/// springs, pinned indices, an empty scene, more than `memory_bytes`). The scene is only good if no problem
-/// was added.
-Scene read(const document::Node& root, std::optional<std::uint64_t> memory_bytes,
-           std::vector<document::Problem>& problems);
+using diagnostics::Position;
+using diagnostics::Problem;
+
+/// Where a path of the scene was written last, and what is wrong with what was written.
+struct Written {
+  Position key, value;
+  std::vector<Position> elements;  ///< of an array's elements; of pinned, names before indices
+  std::optional<Problem> problem;
+};
+
+/// Reads keys into a scene and remembers where each was written. A key that is written again replaces value,
+/// place and problem.
+class Reader {
+ public:
+  /// `scene` is what the keys are read into: an empty one for a file's text, another for --set alone.
+  Reader(Scene scene, bool has_text) : scene_(std::move(scene)), has_text_(has_text) {}
+
+  Scene& scene() { return scene_; }
+  const std::map<std::string, Written>& written() const { return written_; }
+  /// The paths that were written at a path and below it.
+  std::vector<std::string> written_in(const std::string& path) const;
+  void fail(const Position& at, std::string message) { problems_.push_back({at, std::move(message)}); }
+
+  /// Reads every member of the table at `path` ("" is the file, `cube[]` an element of a list).
+  void read_table(const toml::table& table, std::string_view path, std::size_t index, std::uint32_t source);
+  /// Reads one member of the table at `path`.
+  void read_member(std::string_view path, std::size_t index, std::string_view key, const Position& at,
+                   const toml::node& value, std::uint32_t source);
+  /// Notes a table on the way to a key, where none was written.
+  void enter(std::string_view path, std::size_t index, const Position& at);
+  /// Forgets a path and everything below it: the values that are there now were not written.
+  void forget(const std::string& path);
+
+  /// Keys of a cube that were written although a material would decide them.
+  std::vector<std::string> explicit_keys(std::size_t cube) const;
+
+  /// All problems: those of reading, and those of the scene (check_scene), each where its key was written. A
+  /// complaint about a key that could not be read, or that depends on one, is left out.
+  std::vector<Problem> problems(std::optional<std::uint64_t> memory_bytes) const;
+
+ private:
+  void read_list(const toml::node& value, std::string_view path, Written& written, std::uint32_t source);
+  void read_parameter(const Parameter& p, const toml::node& value, std::size_t index, Written& written);
+  bool has_problem(const std::string& path) const;
+  Problem located(const SceneComplaint& complaint) const;
+
+  Scene scene_;
+  bool has_text_;
+  std::map<std::string, Written> written_;  // by path with indices
+  std::vector<Problem> problems_;           // of keys that are not in the table, and of arguments
+};
 
 }  // namespace aspic::reader

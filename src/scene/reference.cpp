@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/terrain.h"
 #include "scene/diagnostics.h"
 #include "scene/load.h"
 #include "scene/parameters.h"
@@ -23,14 +24,20 @@ std::string section_heading(std::string_view section) {
   return heading;
 }
 
+std::vector<std::string_view> shapes_with(const Parameter& p) {
+  std::vector<std::string_view> titles;
+  for (const TerrainShapeRow& row : terrain_shapes) {
+    if (belongs_to_shape(p, row.value)) titles.push_back(row.title);
+  }
+  return titles;
+}
+
 std::string condition(const Parameter& p) {
   switch (p.belonging) {
     case Belonging::always:
       break;
-    case Belonging::plane:
-      return " Planes only.";
-    case Belonging::round:
-      return " Spheres and bowls only.";
+    case Belonging::geometry:
+      return fmt::format(" Only for {}.", diagnostics::list_text(shapes_with(p), false));
     case Belonging::explicit_springs:
       return " Not together with `material`.";
     case Belonging::material:

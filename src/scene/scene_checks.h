@@ -1,16 +1,29 @@
 #pragma once
-// Checks that need more than one key.
+// What is wrong with a scene, whatever it was read from.
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "scene/document.h"
+#include "scene/parameters.h"
 #include "scene/scene.h"
 
-namespace aspic::reader {
+namespace aspic {
 
-/// Adds the problems that only the whole scene shows. `root` is the document the scene was read from.
-void check_whole_scene(const document::Node& root, const Scene& scene,
-                       std::optional<std::uint64_t> memory_bytes, std::vector<document::Problem>& problems);
+/// What is wrong with a scene, and where.
+struct SceneComplaint : Complaint {
+  SceneComplaint(std::string where, Complaint what) : Complaint(std::move(what)), path(std::move(where)) {}
 
-}  // namespace aspic::reader
+  std::string path;     ///< the key to blame, `cube[1].shear.stiffness`; empty: the scene as a whole
+  std::string other;    ///< another key that the complaint depends on; empty: none
+  bool of_key = false;  ///< the key has no place there, whatever its value
+};
+
+/// Checks every value and what only the whole scene shows: geometry of another shape, pinned indices, boxes,
+/// the camera, a scene in which nothing moves, more than 32-bit indices or `memory_bytes` (absent: any
+/// number) hold. Empty if the scene is legal.
+std::vector<SceneComplaint> check_scene(const Scene& scene,
+                                        std::optional<std::uint64_t> memory_bytes = std::nullopt);
+
+}  // namespace aspic

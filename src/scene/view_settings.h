@@ -2,7 +2,7 @@
 // How window and video show a scene: plain data, no rendering.
 #include <string_view>
 
-#include "model/vec3.h"
+#include "model/settings.h"
 
 namespace aspic {
 
@@ -28,6 +28,13 @@ struct DrawSettings {
 
 /// What the colours of bodies mean.
 enum class ViewColour { material, type, strain, force, speed };
+
+/// Every one, in the order in which they are listed for users.
+inline constexpr Named<ViewColour> view_colours[] = {{ViewColour::material, "material"},
+                                                     {ViewColour::type, "type"},
+                                                     {ViewColour::strain, "strain"},
+                                                     {ViewColour::force, "force"},
+                                                     {ViewColour::speed, "speed"}};
 
 /// The `view` table of a scene.
 struct ViewSettings {

@@ -47,10 +47,10 @@ struct Writer {
   std::string operator()(const std::vector<std::string>& x) const { return list(x, {}); }
   std::string operator()(const PinnedSettings& x) const { return list(x.names, x.indices); }
 
-  static std::string list(const std::vector<std::string>& words, const std::vector<std::uint32_t>& numbers) {
+  static std::string list(const std::vector<std::string>& words, const std::vector<std::int64_t>& numbers) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : ", ") + string_text(word);
-    for (const std::uint32_t number : numbers) text += fmt::format("{}{}", text.empty() ? "" : ", ", number);
+    for (const std::int64_t number : numbers) text += fmt::format("{}{}", text.empty() ? "" : ", ", number);
     return "[" + text + "]";
   }
 };

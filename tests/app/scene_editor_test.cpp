@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scene/load.h"
+#include "scene/write.h"
 
 namespace aspic::app {
 namespace {
@@ -79,6 +82,41 @@ TEST(SceneEditor, WhatTheWholeSceneForbidsChangesNothing) {
   empty.model.terrain.clear();
   EXPECT_FALSE(editor.apply(empty, "nothing", "").ok());
   EXPECT_EQ(editor.scene().model.cubes.size(), 1u);
+}
+
+// A name that is no UTF-8 cannot be written as TOML and read back.
+TEST(SceneEditor, EditsGoThroughNoText) {
+  SceneEditor editor = editor_of("cube-plane");
+  Scene named = editor.scene();
+  named.name = std::string(1, static_cast<char>(0xff));
+  ASSERT_FALSE(parse_scene(to_toml(named), "named.toml").ok());
+  ASSERT_TRUE(editor.apply(named, "name", "").ok());
+  const auto effect = editor.set(key("simulation.timestep"), 0, Value(0.002), "");
+  ASSERT_TRUE(effect.ok()) << effect.error().message;
+  EXPECT_EQ(*effect, Effect::constants);
+  EXPECT_EQ(editor.scene().name, named.name);
+}
+
+TEST(SceneEditor, ComparesValuesNotTheirText) {
+  SceneEditor editor = editor_of("cube-plane");
+  const Parameter& gravity = key("simulation.gravity");
+  Vec3 value = std::get<Vec3>(*gravity.get(editor.scene(), 0));
+  value.x = -0.0;  // written as -0.0, but equal to the scene's 0.0
+  EXPECT_EQ(*editor.set(gravity, 0, Value(value), ""), Effect::none);
+  value.y = std::nextafter(value.y, 0.0);
+  EXPECT_EQ(*editor.set(gravity, 0, Value(value), ""), Effect::constants);
+}
+
+TEST(SceneEditor, RefusesInASentencePerComplaint) {
+  SceneEditor editor = editor_of("cube-plane");
+  Scene wrong = editor.scene();
+  wrong.model.cubes[0].edge_length = -1.0;
+  wrong.model.cubes[0].pinned.indices = {1000};
+  const auto refused = editor.apply(wrong, "wrong", "");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().message,
+            "'cube.edge-length' is out of range: -1; allowed: a number > 0 and ≤ 1e6 m\n"
+            "'cube.pinned' index 1000 is not in the cube; allowed: 0 … 999");
 }
 
 TEST(SceneEditor, OverridesSurviveAReloadAndGoWithTheirScene) {

@@ -54,9 +54,10 @@ std::string argument_for(const Parameter& p) {
 TEST(Set, ReachesEveryKeyAndNoOther) {
   for (const Parameter& p : parameters()) {
     std::string text = base;
-    if (p.belonging == Belonging::round) text += "[[terrain]]\n";
+    if (p.belonging == Belonging::geometry) text += "[[terrain]]\n";
     std::vector<std::string> arguments;
-    if (p.belonging == Belonging::round) arguments.emplace_back("terrain[0].shape=sphere");
+    if (p.belonging == Belonging::geometry)
+      arguments.push_back(fmt::format("terrain[0].shape={}", test::shape_with(p)));
     if (p.belonging == Belonging::material) arguments.emplace_back("cube[0].material={}");
     const Scene before = test::parsed(text, arguments);
     arguments.push_back(argument_for(p));
@@ -74,7 +75,8 @@ TEST(Set, RefusesWhatTheFileCouldNotSayEither) {
     const std::string argument =
         fmt::format("{}=1979-05-27", argument_for(p).substr(0, argument_for(p).find('=')));
     std::vector<std::string> arguments;
-    if (p.belonging == Belonging::round) arguments.emplace_back("terrain[0].shape=sphere");
+    if (p.belonging == Belonging::geometry)
+      arguments.push_back(fmt::format("terrain[0].shape={}", test::shape_with(p)));
     if (p.belonging == Belonging::material) arguments.emplace_back("cube[0].material={}");
     arguments.push_back(argument);
     const std::string message = test::rejection(base, arguments);
@@ -92,7 +94,7 @@ TEST(Set, TakesTheFormsOfTheFormat) {
   EXPECT_EQ(s.model.cubes[0].shear.stiffness, 10.0);
   EXPECT_EQ(s.model.contact.model, ContactModel::course);
   EXPECT_EQ(s.model.cubes[0].pinned.names, std::vector<std::string>{"top"});
-  EXPECT_EQ(s.model.cubes[0].pinned.indices, std::vector<std::uint32_t>{3});
+  EXPECT_EQ(s.model.cubes[0].pinned.indices, std::vector<std::int64_t>{3});
   EXPECT_EQ(s.model.terrain[0].normal, (Vec3{0.0, 1.0, 0.0}));
   EXPECT_EQ(s.model.terrain[0].mass, 10.0);
   EXPECT_EQ(s.view.colour, ViewColour::strain);

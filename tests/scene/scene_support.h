@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/terrain.h"
 #include "scene/load.h"
 #include "scene/parameters.h"
 
@@ -17,6 +18,12 @@ namespace aspic::test {
 
 /// Enough for every legal size, so that ranges alone decide.
 inline constexpr LoadLimits unlimited = {std::uint64_t{1} << 60};
+
+/// The first shape that has a geometry key.
+inline std::string_view shape_with(const Parameter& p) {
+  const auto has = [&](const TerrainShapeRow& row) { return belongs_to_shape(p, row.value); };
+  return std::ranges::find_if(terrain_shapes, has)->name;
+}
 
 /// A scene file that gives one key a value, and where it does so (from 1).
 struct KeyFile {
@@ -49,7 +56,7 @@ inline KeyFile file_with(const Parameter& p, const std::string& value, const std
   if (!section.empty()) {
     const bool list = section.ends_with("[]");
     add(list ? fmt::format("[[{}]]", section.substr(0, section.size() - 2)) : fmt::format("[{}]", section));
-    if (p.belonging == Belonging::round) add("shape = \"sphere\"");
+    if (p.belonging == Belonging::geometry) add(fmt::format("shape = \"{}\"", shape_with(p)));
     add_key();
   }
   return file;
