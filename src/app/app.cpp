@@ -11,8 +11,8 @@
 
 #include "app/panels.h"
 #include "app/shortcuts.h"
-#include "cli/backends.h"
-#include "cli/stability_text.h"
+#include "run/backends.h"
+#include "analysis/stability_text.h"
 #include "scene/load.h"
 
 namespace aspic::app {
@@ -322,7 +322,7 @@ void App::watch_divergence() {
                    body_text(*divergence),
                    divergence->finite ? fmt::format("became faster than {} m/s", divergence_speed)
                                       : "is no longer a finite number",
-                   s.timestep, cli::stability_sentence(s.integrator, *stable_)),
+                   s.timestep, stability_sentence(s.integrator, *stable_)),
        true);
 }
 

@@ -15,7 +15,7 @@
 #include "app/film_pace.h"
 #include "app/gui.h"
 #include "app/kept_state.h"
-#include "app/recording.h"
+#include "run/recording.h"
 #include "app/resolution.h"
 #include "app/scene_editor.h"
 #include "app/simulation.h"

@@ -1,12 +1,12 @@
 // The part of App that holds on to a context, and lets go of one that was lost.
 #include "app/app.h"
-#include "cli/backends.h"
+#include "run/backends.h"
 
 namespace aspic::app {
 
 /// Renderer and panels, in the context.
 Status App::make_pictures(double scale, WindowServices services) {
-  const auto directory = cli::shader_directory();
+  const auto directory = shader_directory();
   if (!directory) return directory.error();
   RendererOptions look;
   look.samples = draws_in_full() ? 4 : 1;

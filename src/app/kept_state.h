@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/recording.h"
+#include "run/recording.h"
 #include "app/simulation.h"
 #include "base/result.h"
 #include "scene/view_settings.h"

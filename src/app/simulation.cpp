@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/backends.h"
+#include "run/backends.h"
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic::app {
@@ -51,7 +51,7 @@ Result<Simulation::Engine> Simulation::make_engine(const Model& model, BackendNa
     engine.solver = std::move(*solver);
     return engine;
   }
-  auto directory = cli::shader_directory();
+  auto directory = shader_directory();
   if (!directory) return directory.error();
   GpuOptions options;
   options.shader_directory = std::move(*directory);

@@ -7,9 +7,9 @@
 
 #include "analysis/stability.h"
 #include "cli/commands.h"
-#include "cli/console.h"
+#include "io/console.h"
 #include "cli/json_report.h"
-#include "cli/stability_text.h"
+#include "analysis/stability_text.h"
 #include "io/interrupt.h"
 #include "model/integrator.h"
 #include "scene/load.h"

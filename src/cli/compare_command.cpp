@@ -6,7 +6,7 @@
 
 #include "analysis/compare.h"
 #include "cli/commands.h"
-#include "cli/console.h"
+#include "io/console.h"
 #include "cli/json_report.h"
 #include "io/interrupt.h"
 #include "scene/load.h"

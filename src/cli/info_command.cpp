@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
-#include "cli/console.h"
+#include "io/console.h"
 #include "cli/json_report.h"
 #include "gpu/canary.h"
 

@@ -4,9 +4,9 @@
 #include <array>
 
 #include "cli/commands.h"
-#include "cli/console.h"
+#include "io/console.h"
 #include "cli/json_report.h"
-#include "cli/stability_text.h"
+#include "analysis/stability_text.h"
 #include "scene/import_configuration.h"
 #include "scene/load.h"
 #include "scene/write.h"

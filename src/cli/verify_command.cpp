@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/console.h"
+#include "io/console.h"
 #include "cli/json_report.h"
 #include "gpu/context.h"
 #include "verify/check.h"

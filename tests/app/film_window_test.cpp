@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using app::BackendName;
-using app::FilmFormat;
 
 /// What a command writes to its standard output; a failure if it ends badly.
 std::string output_of(const std::string& command) {

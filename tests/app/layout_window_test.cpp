@@ -109,7 +109,7 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   const CameraSettings sphere = app().camera().goal();
   app().simulation().pace = app::Pace::real_time;
   app().simulation().speed = 0.5;
-  app().film_settings().format = app::FilmFormat::webm;
+  app().film_settings().format = FilmFormat::webm;
   const app::KeptState kept = app().kept_state();
   close();
 
@@ -122,7 +122,7 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   EXPECT_TRUE(has("section/Performance"));
   EXPECT_EQ(app().simulation().pace, app::Pace::real_time);
   EXPECT_EQ(app().simulation().speed, 0.5);
-  EXPECT_EQ(app().film_settings().format, app::FilmFormat::webm);
+  EXPECT_EQ(app().film_settings().format, FilmFormat::webm);
   app().open("cube-plane");
   EXPECT_EQ(app().camera().shown(), plane);
   press(GLFW_KEY_HOME);

@@ -3,7 +3,7 @@
 
 #include "analysis/stability.h"
 
-namespace aspic::cli {
+namespace aspic {
 
 /// Whether a time step [s] is above the limit. A bound that is not exact counts: the warning is then a
 /// caution.
@@ -15,4 +15,4 @@ std::string stability_figure(const StabilityLimit& limit);
 /// "the largest stable one for explicit-euler is 0.002048 s": part of a sentence.
 std::string stability_sentence(Integrator integrator, const StabilityLimit& limit);
 
-}  // namespace aspic::cli
+}  // namespace aspic

@@ -1,4 +1,4 @@
-#include "cli/recorder.h"
+#include "run/recorder.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,7 +7,7 @@
 #include "io/video_file.h"
 #include "render/overlay_text.h"
 
-namespace aspic::cli {
+namespace aspic {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -135,4 +135,4 @@ Status Recorder::finish(Solver& solver, std::uint64_t step) {
   return {};
 }
 
-}  // namespace aspic::cli
+}  // namespace aspic

@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "base/result.h"
-#include "cli/arguments.h"
-#include "cli/backends.h"
+#include "command_line/arguments.h"
+#include "run/backends.h"
 #include "gpu/pixel_ring.h"
 #include "io/frame_schedule.h"
 #include "io/frame_sink.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 
-namespace aspic::cli {
+namespace aspic {
 
 /// --fps, or what the outputs take where it is absent.
 double frames_per_second(const RecordingOptions& options);
@@ -72,4 +72,4 @@ class Recorder {
   FrameTimes times_;
 };
 
-}  // namespace aspic::cli
+}  // namespace aspic

@@ -1,16 +1,16 @@
-#include "cli/run_files.h"
+#include "run/run_files.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <filesystem>
 
-#include "cli/recorder.h"
+#include "run/recorder.h"
 #include "io/checkpoint.h"
 #include "io/state_csv.h"
 #include "io/video_file.h"
 
-namespace aspic::cli {
+namespace aspic {
 namespace {
 
 Status refuse_duplicates(const RunOptions& options) {
@@ -113,4 +113,4 @@ Status RunFiles::finish(const Model& model, const std::string& scene_toml, const
   return first;
 }
 
-}  // namespace aspic::cli
+}  // namespace aspic

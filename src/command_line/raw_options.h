@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/arguments.h"
+#include "command_line/arguments.h"
 
-namespace aspic::cli {
+namespace aspic {
 
 /// What the parser fills in before words become values.
 struct RawOptions {
@@ -27,4 +27,4 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw);
 Result<Command> finish_view(ViewOptions view, const RawOptions& raw);
 Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw);
 
-}  // namespace aspic::cli
+}  // namespace aspic

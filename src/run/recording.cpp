@@ -1,4 +1,4 @@
-#include "app/recording.h"
+#include "run/recording.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "io/frame_directory.h"
 #include "io/video_file.h"
 
-namespace aspic::app {
+namespace aspic {
 namespace {
 
 /// What waits for the encoder at most: enough for its moods, little beside a simulation.
@@ -196,4 +196,4 @@ void Recording::encode() {
   changed_.notify_all();
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/result.h"
-#include "cli/backends.h"
+#include "run/backends.h"
 #include "io/frame_directory.h"
 #include "model/state.h"
 
-namespace aspic::cli {
+namespace aspic {
 
 /// How far a run goes, counted from the scene's start, also when resumed.
 struct RunLength {
@@ -119,4 +119,4 @@ using Command =
 /// yet.
 Result<Command> parse_arguments(int argc, const char* const* argv);
 
-}  // namespace aspic::cli
+}  // namespace aspic

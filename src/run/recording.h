@@ -14,7 +14,7 @@
 #include "gpu/pixel_ring.h"
 #include "io/frame_sink.h"
 
-namespace aspic::app {
+namespace aspic {
 
 /// What a film is written as: one file, or a directory of numbered pictures.
 enum class FilmFormat { mp4, webm, gif, png, jpeg };
@@ -106,4 +106,4 @@ class Recording {
   std::thread thread_;
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -1,10 +1,10 @@
-#include "cli/stability_text.h"
+#include "analysis/stability_text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace aspic::cli {
+namespace aspic {
 
 bool exceeds(double timestep, const StabilityLimit& limit) {
   return !limit.step || timestep > *limit.step;
@@ -28,4 +28,4 @@ std::string stability_sentence(Integrator integrator, const StabilityLimit& limi
                      stability_figure(limit));
 }
 
-}  // namespace aspic::cli
+}  // namespace aspic

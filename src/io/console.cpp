@@ -1,4 +1,4 @@
-#include "cli/console.h"
+#include "io/console.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 
 #include "io/atomic_file.h"
 
-namespace aspic::cli {
+namespace aspic {
 
 Status print_data(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
@@ -47,4 +47,4 @@ void ProgressBar::update(std::uint64_t done) {
   std::fflush(stderr);
 }
 
-}  // namespace aspic::cli
+}  // namespace aspic

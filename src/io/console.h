@@ -7,7 +7,7 @@
 
 #include "base/result.h"
 
-namespace aspic::cli {
+namespace aspic {
 
 /// Writes data to stdout and flushes. Error (io): a full disk behind a redirection, a closed pipe.
 Status print_data(std::string_view text);
@@ -38,4 +38,4 @@ class ProgressBar {
   Clock::time_point start_ = Clock::now(), last_ = {};
 };
 
-}  // namespace aspic::cli
+}  // namespace aspic

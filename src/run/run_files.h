@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "base/result.h"
-#include "cli/arguments.h"
+#include "command_line/arguments.h"
 #include "io/atomic_file.h"
 #include "io/frame_sink.h"
 #include "io/series_csv.h"
 
-namespace aspic::cli {
+namespace aspic {
 
 class RunFiles {
  public:
@@ -42,4 +42,4 @@ class RunFiles {
   std::vector<std::string> written_;
 };
 
-}  // namespace aspic::cli
+}  // namespace aspic

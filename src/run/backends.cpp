@@ -1,4 +1,4 @@
-#include "cli/backends.h"
+#include "run/backends.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "cpu_reference/reference_solver.h"
 
-namespace aspic::cli {
+namespace aspic {
 namespace {
 
 Error unknown_word(std::string_view what, std::string_view word, std::string_view allowed) {
@@ -174,4 +174,4 @@ std::vector<BackendBytes> bytes_by_backend(const Model& model) {
           {"gpu:per-spring", gpu_bytes(counts, integrator, ForcePath::per_spring)}};
 }
 
-}  // namespace aspic::cli
+}  // namespace aspic

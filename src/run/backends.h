@@ -11,7 +11,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "model/solver.h"
 
-namespace aspic::cli {
+namespace aspic {
 
 enum class BackendKind { automatic, gpu, cpu, reference };
 
@@ -68,4 +68,4 @@ struct BackendBytes {
 };
 std::vector<BackendBytes> bytes_by_backend(const Model& model);
 
-}  // namespace aspic::cli
+}  // namespace aspic

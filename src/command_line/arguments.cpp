@@ -1,4 +1,4 @@
-#include "cli/arguments.h"
+#include "command_line/arguments.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <functional>
 #include <string_view>
 
-#include "cli/raw_options.h"
+#include "command_line/raw_options.h"
 #include "scene/diagnostics.h"
 
-namespace aspic::cli {
+namespace aspic {
 namespace {
 
 constexpr const char* main_examples = R"(Examples:
@@ -366,4 +366,4 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   return Command(info);
 }
 
-}  // namespace aspic::cli
+}  // namespace aspic

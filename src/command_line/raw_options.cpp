@@ -1,4 +1,4 @@
-#include "cli/raw_options.h"
+#include "command_line/raw_options.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "io/video_file.h"
 
-namespace aspic::cli {
+namespace aspic {
 namespace {
 
 Status check_length(const RunLength& length) {
@@ -176,4 +176,4 @@ Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
   return Command(std::move(bench));
 }
 
-}  // namespace aspic::cli
+}  // namespace aspic
