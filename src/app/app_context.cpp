@@ -23,7 +23,7 @@ Status App::make_pictures(double scale, WindowServices services) {
 
 Status App::release_context(const Error& why) {
   for (const std::string& line : finish_films()) tell(line, true);
-  if (const Status left = simulation_->leave_gpu(why); !left) return left;
+  ASPIC_CHECK(simulation_->leave_gpu(why));
   // What the solver said when it noticed first says more.
   if (!notice_ || !notice_->is_error) tell(why.message, true);
   end_pull();

@@ -25,8 +25,7 @@ AppOptions options_from(const ViewOptions& view) {
   AppOptions options;
   options.scene = view.scene;
   options.overrides = view.overrides;
-  if (view.backend.kind == BackendKind::gpu) options.backend = BackendName::gpu;
-  if (view.backend.kind == BackendKind::reference) options.backend = BackendName::reference;
+  options.backend = view.backend.row;
   return options;
 }
 
@@ -74,8 +73,7 @@ int show(const ViewOptions& view) {
     const std::array<int, 4> stood = (*window)->place();
     left.window = WindowPlace{stood[2], stood[3], std::array<int, 2>{stood[0], stood[1]}};
     // What cannot be kept is no reason to fail: nothing of the user's is lost.
-    if (const Status saved = save_kept_state(left, kept_path); !saved)
-      print_message(saved.error().message);
+    if (const Status saved = save_kept_state(left, kept_path); !saved) print_message(saved.error().message);
   }
   if (error) return fail(*error);
   return guard.interrupted() ? static_cast<int>(ErrorCode::interrupted) : 0;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 
-#include "cli/commands.h"
-#include "io/console.h"
-#include "cli/json_report.h"
 #include "analysis/stability_text.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/json_report.h"
+#include "io/console.h"
 #include "scene/import_configuration.h"
 #include "scene/load.h"
 #include "scene/write.h"
@@ -41,7 +43,7 @@ Status scene_show_command(const SceneShowOptions& options) {
 }
 
 Status scene_import_command(const SceneImportOptions& options) {
-  const auto text = read_text_file(options.file);
+  const auto text = read_file(options.file);
   if (!text) return text.error();
   const auto imported = import_configuration(*text, options.file);
   if (!imported) return imported.error();
@@ -88,14 +90,14 @@ Status scene_check_command(const SceneCheckOptions& options) {
                         counts.structural, counts.shear, counts.bending);
     text += fmt::format("balls        {}\n", counts.balls);
     for (const BackendBytes& backend : bytes_by_backend(*model)) {
-      text += fmt::format("memory       {:<24} {:>10}\n", backend.backend, gl::human_bytes(backend.bytes));
+      text += fmt::format("memory       {:<24} {:>10}\n", backend.backend, human_bytes(backend.bytes));
     }
     for (std::size_t i = 0; i < limits.size(); ++i) {
       text += fmt::format("stable step  {:<24} {:>10}\n", name_of(explicit_integrators[i]),
                           stability_figure(limits[i]));
     }
     text += fmt::format("time step    {:<24} {:>8} s\n", name_of(own), timestep);
-    if (const Status printed = print_data(text); !printed) return printed;
+    ASPIC_CHECK(print_data(text));
   }
   const auto at = std::find(explicit_integrators.begin(), explicit_integrators.end(), own);
   if (at != explicit_integrators.end()) {

@@ -130,12 +130,15 @@ void add_length(CLI::App& command, RunLength& length) {
       ->excludes(steps);
 }
 
-void add_pictures(CLI::App& command, RecordingOptions& pictures, RawOptions& raw) {
-  command.add_option("--video", pictures.video, "write a video: .mp4, .webm or .gif (needs ffmpeg)")
+void add_pictures(CLI::App& command, RunOptions& run, RawOptions& raw) {
+  PictureOutput& pictures = run.pictures;
+  command
+      .add_option("--video", pictures.video,
+                  fmt::format("write a video: {} (needs ffmpeg)", film_endings(false)))
       ->type_name("FILE");
   command.add_option("--frames", pictures.frames, "write numbered pictures into a directory")
       ->type_name("DIR");
-  command.add_option("--frames-format", raw.frames_format, "png or jpg")
+  command.add_option("--frames-format", raw.frames_format, film_endings(true))
       ->capture_default_str()
       ->type_name("NAME");
   command.add_option("--fps", pictures.fps, "pictures per second shown; default 60, for a GIF 50")
@@ -151,19 +154,34 @@ void add_pictures(CLI::App& command, RecordingOptions& pictures, RawOptions& raw
       ->type_name("on|off");
   command.add_flag("--no-text", raw.no_text, "the same as --text off");
   command
-      .add_option("--view", pictures.view,
+      .add_option("--view", run.view,
                   "set a value of the scene's view, e.g. camera.position=[8,4,12]; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_outputs(CLI::App& command, std::vector<StateOutput>& outputs) {
+  for (const std::string_view option : state_options()) outputs.push_back({std::string(option), "", {}});
+  for (StateOutput& output : outputs) {
+    const StateFormat& format = state_format_of(output.option, "");
+    auto* file =
+        command.add_option("--" + output.option, output.path, std::string(format.summary))->type_name("FILE");
+    // The series' interval was there first, and has the short name too.
+    const char* const short_name = format.over_time ? "--every," : "";
+    command
+        .add_option(fmt::format("{}--{}-every", short_name, output.option), output.every,
+                    std::string(format.every))
+        ->type_name("N")
+        ->check(not_negative)
+        ->needs(file);
+  }
 }
 
 CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   CLI::App* c = app.add_subcommand("run", "Simulate a scene headless");
   c->add_option("scene", run.scene, "scene file or built-in name; not needed with --resume")
       ->type_name("SCENE");
-  c->add_option("--backend", raw.backend, "auto, gpu, cpu, reference")
-      ->capture_default_str()
-      ->type_name("NAME");
+  c->add_option("--backend", raw.backend, backend_words())->capture_default_str()->type_name("NAME");
   c->add_option("--precision", raw.precision, "single or double (reference only); default single")
       ->type_name("NAME");
   c->add_option("--force-path", raw.force_path, "auto, per-spring, gather, lattice (gpu only)")
@@ -171,17 +189,8 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
       ->type_name("NAME");
   add_length(*c, run.length);
   add_overrides(*c, run.overrides);
-  c->add_option("--state", run.state_file, "write the final state as CSV")->type_name("FILE");
-  auto* series = c->add_option("--series", run.series_file, "write energies and momentum over time as CSV")
-                     ->type_name("FILE");
-  c->add_option("--every", run.every, "steps between rows of the series")
-      ->capture_default_str()
-      ->type_name("N")
-      ->check(not_negative)
-      ->needs(series);
-  add_pictures(*c, run.pictures, raw);
-  c->add_option("--checkpoint", run.checkpoint_file, "write scene and final state, to resume from")
-      ->type_name("FILE");
+  add_outputs(*c, run.outputs);
+  add_pictures(*c, run, raw);
   c->add_option("--resume", run.resume_file,
                 "go on from a checkpoint; --steps and --duration count from its start")
       ->type_name("FILE");
@@ -196,7 +205,7 @@ CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
   c->add_option("scene", view.scene, "scene file or built-in name")
       ->type_name("SCENE")
       ->capture_default_str();
-  c->add_option("--backend", raw.backend, "auto, gpu, reference; G changes it in the window")
+  c->add_option("--backend", raw.backend, backend_words() + "; G changes it in the window")
       ->capture_default_str()
       ->type_name("NAME");
   add_overrides(*c, view.overrides);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/result.h"
-#include "run/backends.h"
-#include "io/frame_directory.h"
 #include "model/state.h"
+#include "run/backends.h"
+#include "run/outputs.h"
 
 namespace aspic {
 
@@ -19,28 +19,16 @@ struct RunLength {
   std::optional<double> duration;  ///< [s], ≥ 0; rounded to the nearest whole number of steps
 };
 
-/// Pictures of a run.
-struct RecordingOptions {
-  std::string video, frames;  ///< file and directory; empty: none
-  ImageFormat frames_format = ImageFormat::png;
-  std::optional<double> fps;  ///< pictures per second shown, > 0; absent: 60, a GIF 50
-  double speed = 1.0;         ///< simulated seconds per second shown, > 0
-  PictureSize size;
-  bool text = true;
-  std::vector<std::string> view;  ///< KEY=VALUE of the scene's view table
-
-  bool any() const { return !video.empty() || !frames.empty(); }
-};
-
 struct RunOptions {
   std::string scene;  ///< empty: that of the checkpoint
   std::vector<std::string> overrides;
   BackendChoice backend;
   bool precision_given = false;
   RunLength length;
-  std::string state_file, series_file, checkpoint_file, resume_file;  ///< empty: none
-  std::uint64_t every = 1;                                            ///< steps between series rows, ≥ 1
-  RecordingOptions pictures;
+  std::string resume_file;           ///< empty: none
+  std::vector<StateOutput> outputs;  ///< one for each of state_options()
+  PictureOutput pictures;
+  std::vector<std::string> view;  ///< KEY=VALUE of the scene's view table, for the pictures
   bool force = false;
   bool json = false;
 };

@@ -8,8 +8,6 @@
 #include <iterator>
 #include <string_view>
 
-#include "io/video_file.h"
-
 namespace aspic {
 namespace {
 
@@ -37,13 +35,15 @@ Result<PictureSize> parse_size(const std::string& text) {
       "--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".", text));
 }
 
-Status finish_pictures(RecordingOptions& pictures, const RawOptions& raw) {
+Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
   const auto size = parse_size(raw.size);
   if (!size) return size.error();
   pictures.size = *size;
-  if (raw.frames_format != "png" && raw.frames_format != "jpg")
-    return usage(fmt::format("--frames-format must be png or jpg, not \"{}\".", raw.frames_format));
-  pictures.frames_format = raw.frames_format == "png" ? ImageFormat::png : ImageFormat::jpg;
+  const FilmFormat* const images = find_film_format(raw.frames_format);
+  if (!images || !images->is_directory())
+    return usage(
+        fmt::format("--frames-format must be {}, not \"{}\".", film_endings(true), raw.frames_format));
+  pictures.frames_format = images;
   if (raw.text != "on" && raw.text != "off")
     return usage(fmt::format("--text must be on or off, not \"{}\".", raw.text));
   pictures.text = raw.text == "on" && !raw.no_text;
@@ -55,7 +55,12 @@ Status finish_pictures(RecordingOptions& pictures, const RawOptions& raw) {
   if (pictures.video.empty()) return {};
   const auto format = video_format_of(pictures.video);
   if (!format) return format.error();
-  return check_video(*format, pictures.size, pictures.fps.value_or(default_fps(*format)));
+  return check_film(**format, pictures.size, frames_per_second(pictures));
+}
+
+/// Whether the backend was named and has force paths to choose from.
+bool has_force_paths(const BackendChoice& choice) {
+  return choice.row && !choice.row->force_paths.empty();
 }
 
 Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
@@ -63,7 +68,7 @@ Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
   for (const std::string& text : raw.bench_backends) {
     const auto choice = parse_backend(text);
     if (!choice) return choice.error();
-    const bool open = choice->kind == BackendKind::gpu && choice->force_path == ForcePath::automatic;
+    const bool open = has_force_paths(*choice) && choice->force_path == ForcePath::automatic;
     if (!open || raw.bench_force_paths.empty()) {
       backends.push_back(*choice);
       continue;
@@ -76,7 +81,7 @@ Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
     }
   }
   for (const BackendChoice& choice : backends) {
-    if (const Status possible = check_choice(choice); !possible) return possible.error();
+    ASPIC_CHECK(check_choice(choice));
   }
   return backends;
 }
@@ -88,16 +93,19 @@ Error usage(std::string message) {
 }
 
 Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
-  const auto kind = parse_backend_kind(raw.backend);
-  if (!kind) return kind.error();
+  const auto row = parse_backend_name(raw.backend);
+  if (!row) return row.error();
   const auto precision = parse_precision(raw.precision.empty() ? "single" : raw.precision);
   if (!precision) return precision.error();
   const auto path = parse_force_path(raw.force_path);
   if (!path) return path.error();
-  run.backend = {*kind, *precision, *path};
+  run.backend = {*row, *precision, *path};
   run.precision_given = !raw.precision.empty();
-  if (const Status length = check_length(run.length); !length) return length.error();
-  if (run.every < 1) return usage("--every must be 1 or more.");
+  ASPIC_CHECK(check_length(run.length));
+  for (const StateOutput& output : run.outputs) {
+    if (output.every && *output.every < 1)
+      return usage(fmt::format("--{}-every must be 1 or more.", output.option));
+  }
   if (run.scene.empty() && run.resume_file.empty()) {
     return usage("aspic run needs a SCENE: a file, or a built-in name from aspic scene list.");
   }
@@ -106,8 +114,8 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
         "a resumed run goes on with the scene of its checkpoint, which --set cannot change. Leave --set out, "
         "or run a scene.");
   }
-  if (const Status pictures = finish_pictures(run.pictures, raw); !pictures) return pictures.error();
-  if (const Status choice = check_choice(run.backend); !choice) return choice.error();
+  ASPIC_CHECK(finish_pictures(run.pictures, raw));
+  ASPIC_CHECK(check_choice(run.backend));
   return Command(std::move(run));
 }
 
@@ -117,9 +125,8 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
   const auto choose = [&](const std::string& text) -> Result<BackendChoice> {
     auto choice = parse_backend(text);
     if (!choice) return choice;
-    if (choice->kind == BackendKind::gpu && choice->force_path == ForcePath::automatic)
-      choice->force_path = *path;
-    if (const Status possible = check_choice(*choice); !possible) return possible.error();
+    if (has_force_paths(*choice) && choice->force_path == ForcePath::automatic) choice->force_path = *path;
+    ASPIC_CHECK(check_choice(*choice));
     return choice;
   };
   const auto first = choose(raw.backends.front());
@@ -128,7 +135,7 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
   if (!second) return second.error();
   compare.first = *first;
   compare.second = *second;
-  if (const Status length = check_length(compare.length); !length) return length.error();
+  ASPIC_CHECK(check_length(compare.length));
   if (!(std::isfinite(compare.tolerance) && compare.tolerance >= 0.0)) {
     return usage(fmt::format("--tolerance must be a finite number, 0 or more, not {}.", compare.tolerance));
   }
@@ -136,10 +143,10 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
 }
 
 Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
-  const auto kind = parse_backend_kind(raw.backend);
-  if (!kind) return kind.error();
-  view.backend.kind = *kind;
-  if (const Status possible = check_choice(view.backend); !possible) return possible.error();
+  const auto row = parse_backend_name(raw.backend);
+  if (!row) return row.error();
+  view.backend.row = *row;
+  ASPIC_CHECK(check_choice(view.backend));
   if (!raw.window_size.empty()) {
     const auto size = parse_size(raw.window_size);
     if (!size) return size.error();

@@ -75,9 +75,7 @@ Result<std::string> ShaderLibrary::read(std::string_view path) const {
       return text;
     }
   }
-  const auto files = embedded_shaders();
-  const auto found = std::ranges::find(files, path, &EmbeddedShader::path);
-  if (found != files.end()) return std::string(found->text);
+  if (const auto text = find_embedded(embedded_shaders(), path)) return std::string(*text);
   return Error{
       ErrorCode::io,
       fmt::format("There is no shader file \"{}\"{}. Paths are relative to shaders/.", path,

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
+
 namespace aspic {
 
 Result<std::vector<layout::Particle>> to_device(const State& state, const Model& model) {
@@ -37,7 +39,7 @@ Status check_device(gl::Context& context, ErrorCode memory_code) {
       memory_code,
       fmt::format("The device {} ran out of memory at work, with {} ({} bytes) held in buffers. Make the "
                   "scene smaller, close other programs that use the device, or choose --backend reference.",
-                  context.info().renderer, gl::human_bytes(context.bytes_held()), context.bytes_held())};
+                  context.info().renderer, human_bytes(context.bytes_held()), context.bytes_held())};
 }
 
 Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model) {

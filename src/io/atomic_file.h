@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/files.h"
 #include "base/result.h"
 
 namespace aspic {
@@ -56,14 +57,8 @@ class AtomicFile {
   Overwrite overwrite_ = Overwrite::refuse;
 };
 
-/// Reads a whole file. Error (io): missing, unreadable, a directory.
-Result<std::string> read_whole_file(const std::string& path);
-
 /// Removes the temporary files of this process that are not committed yet. Safe to call from a signal
 /// handler.
 void remove_temporary_files() noexcept;
-
-/// The error for a failed system call on a file: "Cannot <verb> <path>: <reason>. <remedy>".
-Error file_error(std::string_view verb, const std::string& path, int error_number);
 
 }  // namespace aspic

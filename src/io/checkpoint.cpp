@@ -209,7 +209,7 @@ Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint) {
 }
 
 Result<Checkpoint> read_checkpoint(const std::string& path) {
-  const auto bytes = read_whole_file(path);
+  const auto bytes = read_file(path);
   if (!bytes) return bytes.error();
   return decode_checkpoint(*bytes, path);
 }

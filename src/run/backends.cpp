@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "cpu_reference/reference_solver.h"
@@ -9,48 +10,146 @@
 namespace aspic {
 namespace {
 
-Error unknown_word(std::string_view what, std::string_view word, std::string_view allowed) {
-  return {ErrorCode::usage, fmt::format("unknown {} \"{}\"; allowed: {}.", what, word, allowed)};
-}
+// ---- gpu ----
 
-Error not_built(std::string_view what, std::string_view instead) {
-  return {ErrorCode::scene_rejected, fmt::format("{} is not built yet; use {}.", what, instead)};
-}
-
-Result<Backend> make_gpu(std::unique_ptr<gl::Context> context, const BackendChoice& choice,
-                         const Model& model) {
-  if (!context) {
+Result<Backend> make_gpu(const Model& model, const BackendChoice& choice, const SolverHost& host) {
+  Backend backend;
+  gl::Context* context = host.context;
+  if (context == nullptr) {
     auto made = gl::Context::create_headless();
     if (!made) return made.error();
-    context = std::move(*made);
+    backend.context = std::move(*made);
+    context = backend.context.get();
   }
-  GpuOptions options;
-  options.force_path = choice.force_path;
   auto directory = shader_directory();
   if (!directory) return directory.error();
+  GpuOptions options;
+  options.force_path = choice.force_path;
   options.shader_directory = std::move(*directory);
+  options.like = host.like;
+  options.arithmetic = host.arithmetic;
   auto solver = make_gpu_solver(*context, model, options);
   if (!solver) return solver.error();
-  Backend backend;
-  backend.name = "gpu";
+  backend.gpu = solver->get();
   backend.device = context->info().renderer;
   backend.force_path = name_of((*solver)->force_path());
-  backend.context = std::move(context);
   backend.solver = std::move(*solver);
   return backend;
 }
 
-Result<Backend> make_reference(const BackendChoice& choice, const Model& model) {
+Suitability gpu_suitability(const gl::Context* window) {
+  Suitability result;
+  if (window == nullptr) {
+    gl::ContextOptions options;
+    options.device = gl::DeviceChoice::hardware;
+    auto made = gl::Context::create_headless(options);
+    if (!made) return {false, "no hardware GPU with OpenGL 4.3 was found", made.error().message, nullptr};
+    result.context = std::move(*made);
+    window = result.context.get();
+  }
+  const gl::DeviceInfo& info = window->info();
+  if (info.is_software) {
+    return {false,
+            fmt::format("{} is a software rasteriser, which is used only when asked for with --backend gpu",
+                        info.renderer),
+            "", nullptr};
+  }
+  result.suits = true;
+  result.reason = fmt::format("{} is a hardware GPU with OpenGL 4.3 compute", info.renderer);
+  return result;
+}
+
+// ---- reference ----
+
+Result<Backend> make_reference(const Model& model, const BackendChoice& choice, const SolverHost&) {
   auto solver = make_reference_solver(model, choice.precision);
   if (!solver) return solver.error();
   Backend backend;
-  backend.name = "reference";
   backend.device = (*solver)->description();
   backend.solver = std::move(*solver);
   return backend;
 }
 
+// ---- the table ----
+
+constexpr Precision single_alone[] = {Precision::single};
+constexpr Precision both_precisions[] = {Precision::single, Precision::double_};
+constexpr ForcePath gpu_paths[] = {ForcePath::gather, ForcePath::per_spring};
+
+constexpr BackendRow table[] = {
+    {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, gpu_paths, true, make_gpu,
+     [](const ModelCounts& counts, Integrator integrator, const BackendChoice& choice) {
+       return gpu_bytes(counts, integrator, choice.force_path);
+     },
+     gpu_suitability},
+    {"reference",
+     "reference",
+     "one thread, Eigen, written to be read",
+     both_precisions,
+     {},
+     false,
+     make_reference,
+     [](const ModelCounts& counts, Integrator, const BackendChoice& choice) {
+       return reference_bytes(counts, choice.precision);
+     },
+     [](const gl::Context*) {
+       return Suitability{true, "", "", nullptr};
+     }},
+};
+
+template <class T>
+bool has(std::span<const T> values, T value) {
+  return std::ranges::find(values, value) != values.end();
+}
+
+Error unknown_word(std::string_view what, std::string_view word, std::string_view allowed) {
+  return {ErrorCode::usage, fmt::format("unknown {} \"{}\"; allowed: {}.", what, word, allowed)};
+}
+
+/// Names of the rows for which something holds.
+template <class Predicate>
+std::vector<std::string_view> names_where(Predicate holds) {
+  std::vector<std::string_view> names;
+  for (const BackendRow& row : table)
+    if (holds(row)) names.push_back(row.name);
+  return names;
+}
+
+std::string only_those_with(Precision precision) {
+  const auto names = names_where([&](const BackendRow& row) { return has(row.precisions, precision); });
+  return fmt::format("only the {} compute{} in {} precision", fmt::join(names, " and the "),
+                     names.size() == 1 ? "s" : "", name_of(precision));
+}
+
+std::string variant_of(const BackendRow& row, std::string_view force_path, Precision precision) {
+  if (!force_path.empty()) return fmt::format("{}:{}", row.name, force_path);
+  return precision == Precision::double_ ? fmt::format("{}:double", row.name) : std::string(row.name);
+}
+
 }  // namespace
+
+std::span<const BackendRow> backends() {
+  return table;
+}
+
+const BackendRow* find_backend(std::string_view name) {
+  const auto* const found = std::ranges::find(table, name, &BackendRow::name);
+  return found == std::end(table) ? nullptr : found;
+}
+
+const BackendRow& next_backend(const BackendRow& row) {
+  return &row == &backends().back() ? backends().front() : *(&row + 1);
+}
+
+std::string backend_words() {
+  std::string words = "auto";
+  for (const BackendRow& row : table) words += fmt::format(", {}", row.name);
+  return words;
+}
+
+std::string Backend::variant() const {
+  return variant_of(*row, force_path, solver->precision());
+}
 
 Result<std::filesystem::path> shader_directory() {
   const char* value = std::getenv("ASPIC_SHADER_DIR");
@@ -66,34 +165,28 @@ Result<std::filesystem::path> shader_directory() {
   return std::filesystem::path(value);
 }
 
-AutomaticChoice choose_automatically(const BackendChoice& choice) {
-  if (choice.precision == Precision::double_) {
-    return {BackendKind::reference, "only the reference computes in double precision", "", nullptr};
+AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Context* window) {
+  AutomaticChoice result;
+  for (const BackendRow& row : table) {
+    const bool able = has(row.precisions, choice.precision);
+    Suitability found = able ? row.suitability(window) : Suitability{};
+    if (!able) found.reason = only_those_with(choice.precision);
+    // The backend that would have come first says why another is taken.
+    if (result.reason.empty() || (found.suits && !found.reason.empty()))
+      result.reason = std::move(found.reason);
+    if (result.detail.empty()) result.detail = std::move(found.detail);
+    if (!found.suits) continue;
+    result.row = &row;
+    result.context = std::move(found.context);
+    break;
   }
-  gl::ContextOptions options;
-  options.device = gl::DeviceChoice::hardware;
-  auto context = gl::Context::create_headless(options);
-  if (!context) {
-    return {BackendKind::reference, "no hardware GPU with OpenGL 4.3 was found", context.error().message,
-            nullptr};
-  }
-  const gl::DeviceInfo& info = (*context)->info();
-  if (info.is_software) {
-    return {BackendKind::reference,
-            fmt::format("{} is a software rasteriser, which is used only when asked for with --backend gpu",
-                        info.renderer),
-            "", nullptr};
-  }
-  std::string reason = fmt::format("{} is a hardware GPU with OpenGL 4.3 compute", info.renderer);
-  return {BackendKind::gpu, std::move(reason), "", std::move(*context)};
+  return result;
 }
 
-Result<BackendKind> parse_backend_kind(std::string_view word) {
-  if (word == "auto") return BackendKind::automatic;
-  if (word == "gpu") return BackendKind::gpu;
-  if (word == "cpu") return BackendKind::cpu;
-  if (word == "reference") return BackendKind::reference;
-  return unknown_word("backend", word, "auto, gpu, cpu, reference");
+Result<const BackendRow*> parse_backend_name(std::string_view word) {
+  if (word == "auto") return static_cast<const BackendRow*>(nullptr);
+  if (const BackendRow* row = find_backend(word)) return row;
+  return unknown_word("backend", word, backend_words());
 }
 
 Result<Precision> parse_precision(std::string_view word) {
@@ -113,9 +206,9 @@ Result<ForcePath> parse_force_path(std::string_view word) {
 Result<BackendChoice> parse_backend(std::string_view text) {
   BackendChoice choice;
   const std::size_t colon = text.find(':');
-  const auto kind = parse_backend_kind(text.substr(0, colon));
-  if (!kind) return kind.error();
-  choice.kind = *kind;
+  const auto row = parse_backend_name(text.substr(0, colon));
+  if (!row) return row.error();
+  choice.row = *row;
   while (text.find(':') != std::string_view::npos) {
     text.remove_prefix(text.find(':') + 1);
     const std::string_view word = text.substr(0, text.find(':'));
@@ -131,47 +224,68 @@ Result<BackendChoice> parse_backend(std::string_view text) {
 }
 
 Status check_choice(const BackendChoice& choice) {
-  if (choice.kind == BackendKind::cpu) return not_built("the cpu backend", "reference or gpu");
-  if (choice.force_path == ForcePath::lattice)
-    return not_built("the force path lattice", "gather or per-spring");
-  if (choice.precision == Precision::double_ && choice.kind == BackendKind::gpu) {
-    return Error{ErrorCode::usage,
-                 "the gpu computes in single precision; for double say --backend reference."};
+  if (choice.force_path == ForcePath::lattice) {
+    return Error{ErrorCode::scene_rejected,
+                 "the force path lattice is not built yet; use gather or per-spring."};
   }
-  const bool gpu_possible = choice.kind == BackendKind::gpu ||
-                            (choice.kind == BackendKind::automatic && choice.precision == Precision::single);
-  if (choice.force_path != ForcePath::automatic && !gpu_possible) {
+  const auto with_precision =
+      names_where([&](const BackendRow& row) { return has(row.precisions, choice.precision); });
+  if (choice.row && !has(choice.row->precisions, choice.precision)) {
     return Error{ErrorCode::usage,
-                 "a force path belongs to the gpu backend; leave it out or say --backend gpu."};
+                 fmt::format("the {0} does not compute in {1} precision; for {1} say "
+                             "--backend {2}.",
+                             choice.row->name, name_of(choice.precision), fmt::join(with_precision, " or "))};
   }
-  return {};
+  if (choice.force_path == ForcePath::automatic) return {};
+  const auto possible = [&](const BackendRow& row) {
+    return has(row.precisions, choice.precision) && has(row.force_paths, choice.force_path);
+  };
+  if (choice.row ? possible(*choice.row) : std::ranges::any_of(table, possible)) return {};
+  const std::string with_path = fmt::format(
+      "{}", fmt::join(names_where([](const BackendRow& row) { return !row.force_paths.empty(); }), " or "));
+  return Error{
+      ErrorCode::usage,
+      fmt::format("a force path belongs to the {0} backend; leave it out or say --backend {0}.", with_path)};
 }
 
-Result<Backend> make_backend(const BackendChoice& choice, const Model& model) {
-  if (const Status possible = check_choice(choice); !possible) return possible.error();
-  if (choice.kind == BackendKind::gpu) return make_gpu(nullptr, choice, model);
-  if (choice.kind == BackendKind::reference) return make_reference(choice, model);
-
-  AutomaticChoice automatic = choose_automatically(choice);
-  if (automatic.kind == BackendKind::reference && choice.force_path != ForcePath::automatic) {
+Result<Backend> make_backend(const BackendChoice& choice, const Model& model, const SolverHost& host) {
+  ASPIC_CHECK(check_choice(choice));
+  AutomaticChoice automatic;
+  if (!choice.row) automatic = choose_automatically(choice, host.context);
+  const BackendRow& row = choice.row ? *choice.row : *automatic.row;
+  if (choice.force_path != ForcePath::automatic && !has(row.force_paths, choice.force_path)) {
+    const auto names =
+        names_where([&](const BackendRow& r) { return has(r.force_paths, choice.force_path); });
     return Error{ErrorCode::no_device,
-                 fmt::format("the force path {} needs the gpu backend, but {}. Say --backend gpu to take "
+                 fmt::format("the force path {0} needs the {1} backend, but {2}. Say --backend {1} to take "
                              "any device there is.",
-                             name_of(choice.force_path), automatic.reason)};
+                             name_of(choice.force_path), names.front(), automatic.reason)};
   }
-  auto backend = automatic.kind == BackendKind::gpu ? make_gpu(std::move(automatic.context), choice, model)
-                                                    : make_reference(choice, model);
-  if (backend) backend->reason = std::move(automatic.reason);
+  SolverHost place = host;
+  if (automatic.context) place.context = automatic.context.get();
+  auto backend = row.make(model, choice, place);
+  if (!backend) return backend.error();
+  backend->row = &row;
+  if (automatic.context) backend->context = std::move(automatic.context);
+  backend->reason = std::move(automatic.reason);
   return backend;
 }
 
 std::vector<BackendBytes> bytes_by_backend(const Model& model) {
   const ModelCounts counts = count(model);
   const Integrator integrator = model.simulation.integrator;
-  return {{"reference", reference_bytes(counts, Precision::single)},
-          {"reference:double", reference_bytes(counts, Precision::double_)},
-          {"gpu:gather", gpu_bytes(counts, integrator, ForcePath::gather)},
-          {"gpu:per-spring", gpu_bytes(counts, integrator, ForcePath::per_spring)}};
+  std::vector<BackendBytes> result;
+  for (const BackendRow& row : table) {
+    for (const Precision precision : row.precisions) {
+      const std::span<const ForcePath> paths = row.force_paths;
+      for (std::size_t i = 0; i < std::max<std::size_t>(paths.size(), 1); ++i) {
+        const BackendChoice choice = {&row, precision, paths.empty() ? ForcePath::automatic : paths[i]};
+        const std::string_view path = paths.empty() ? std::string_view() : name_of(paths[i]);
+        result.push_back({variant_of(row, path, precision), row.bytes(counts, integrator, choice)});
+      }
+    }
+  }
+  return result;
 }
 
 }  // namespace aspic

@@ -1,52 +1,26 @@
 #include "run/recorder.h"
 
-#include <algorithm>
 #include <chrono>
 #include <limits>
 
-#include "io/video_file.h"
 #include "render/overlay_text.h"
 
 namespace aspic {
-namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// Adds the time until its end to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& sum) : sum_(sum) {}
-  ~Stopwatch() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& sum_;
-  Clock::time_point start_ = Clock::now();
-};
-
-}  // namespace
-
-double frames_per_second(const RecordingOptions& options) {
-  if (options.fps) return *options.fps;
-  if (options.video.empty()) return default_fps(VideoFormat::mp4);
-  const auto format = video_format_of(options.video);
-  return default_fps(format ? *format : VideoFormat::mp4);
-}
-
-Recorder::Recorder(const RecordingOptions& options, const Scene& scene, const Model& model,
-                   std::vector<FrameSink*> sinks, const FrameSchedule& schedule)
-    : options_(options), scene_(scene), model_(model), sinks_(std::move(sinks)), schedule_(schedule) {}
+Recorder::Recorder(const PictureOutput& output, const Scene& scene, const Backend& backend,
+                   const FrameSchedule& schedule)
+    : output_(output), scene_(scene), backend_(backend), schedule_(schedule) {}
 
 Recorder::~Recorder() = default;
 
-Result<std::unique_ptr<Recorder>> Recorder::create(const RecordingOptions& options, const Scene& scene,
-                                                   const Model& model, const Backend& backend,
-                                                   std::vector<FrameSink*> sinks, std::uint64_t first_step,
-                                                   std::uint64_t last_step) {
-  const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, frames_per_second(options),
-                               options.speed);
-  std::unique_ptr<Recorder> r(new Recorder(options, scene, model, std::move(sinks), schedule));
+Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, const Scene& scene,
+                                                   const Backend& backend,
+                                                   std::vector<std::unique_ptr<FrameSink>> sinks,
+                                                   std::uint64_t first_step, std::uint64_t last_step) {
+  const Model& model = backend.solver->model();
+  const double fps = frames_per_second(output);
+  const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, fps, output.speed);
+  std::unique_ptr<Recorder> r(new Recorder(output, scene, backend, schedule));
   r->context_ = backend.context.get();
   if (!r->context_) {
     auto context = gl::Context::create_headless();
@@ -63,15 +37,23 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const RecordingOptions& optio
   auto renderer = Renderer::create(*r->context_, look);
   if (!renderer) return renderer.error();
   r->renderer_ = std::move(*renderer);
-  if (const Status taken = r->renderer_->set_model(model); !taken) return taken.error();
-  auto ring = gl::PixelRing::create(*r->context_, options.size.width, options.size.height);
-  if (!ring) return ring.error();
-  r->ring_ = std::make_unique<gl::PixelRing>(std::move(*ring));
+  ASPIC_CHECK(r->renderer_->set_model(model));
+  FilmOptions film = {sinks.front()->path(), fps, output.size};
+  auto recording = Recording::start(*r->context_, std::move(sinks), std::move(film));
+  if (!recording) return recording.error();
+  r->recording_ = std::move(*recording);
   return r;
 }
 
 const std::string& Recorder::device() const {
   return context_->info().renderer;
+}
+
+FrameTimes Recorder::times() const {
+  FrameTimes times = recording_->times();
+  times.simulate = simulate_seconds_;
+  times.draw = draw_seconds_;
+  return times;
 }
 
 std::uint64_t Recorder::next_step() const {
@@ -80,21 +62,19 @@ std::uint64_t Recorder::next_step() const {
 }
 
 Status Recorder::reach(Solver& solver, std::uint64_t step) {
-  while (next_step() == step) {
-    if (const Status drawn = draw(solver, step); !drawn) return drawn;
-    ++next_frame_;
-  }
-  return {};
+  std::uint64_t copies = 0;
+  for (; next_step() == step; ++next_frame_) ++copies;
+  return copies > 0 ? draw(solver, step, copies) : Status();
 }
 
-Status Recorder::draw(Solver& solver, std::uint64_t step) {
-  if (ring_->full()) {
-    if (const Status handed = hand_on(); !handed) return handed;
-  }
-  const Stopwatch watch(times_.draw);
+Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) {
+  recording_->wait_until_ready();
+  // Nothing but an error completes the film before its end.
+  if (recording_->completed()) return recording_->result();
+  const auto before = std::chrono::steady_clock::now();
   DeviceState drawn_state;
-  if (const auto* gpu = dynamic_cast<const GpuSolver*>(&solver); gpu && !own_context_) {
-    drawn_state = {&gpu->particles(), &gpu->balls(), gpu->first_ball(), step};
+  if (backend_.gpu && !own_context_) {
+    drawn_state = {&backend_.gpu->particles(), &backend_.gpu->balls(), backend_.gpu->first_ball(), step};
   } else {
     const auto state = solver.state();
     if (!state) return state.error();
@@ -102,37 +82,25 @@ Status Recorder::draw(Solver& solver, std::uint64_t step) {
     if (!uploaded) return uploaded.error();
     drawn_state = *uploaded;
   }
-  aspic::PictureOptions picture;
+  PictureOptions picture;
   picture.view = scene_.view;
-  picture.legend = options_.text;
-  if (options_.text)
-    picture.text = overlay_lines(scene_.model, static_cast<double>(step) * model_.simulation.timestep);
-  const Status drawn = renderer_->draw(options_.size.width, options_.size.height, drawn_state, picture);
+  picture.legend = output_.text;
+  if (output_.text)
+    picture.text =
+        overlay_lines(scene_.model, static_cast<double>(step) * solver.model().simulation.timestep);
+  const Status drawn = renderer_->draw(output_.size.width, output_.size.height, drawn_state, picture);
   if (!drawn) return drawn;
-  ring_->submit(renderer_->picture());
+  draw_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   last_shown_ = step;
-  ++times_.frames;
-  return {};
-}
-
-Status Recorder::hand_on() {
-  {
-    const Stopwatch watch(times_.read);
-    if (const Status taken = ring_->take(pixels_); !taken) return taken;
-  }
-  const Stopwatch watch(times_.encode);
-  for (FrameSink* sink : sinks_)
-    if (const Status written = sink->write(pixels_); !written) return written;
-  return {};
+  return recording_->add(renderer_->picture(), copies);
 }
 
 Status Recorder::finish(Solver& solver, std::uint64_t step) {
-  if (times_.frames == 0 || last_shown_ != step) {
-    if (const Status drawn = draw(solver, step); !drawn) return drawn;
+  if (recording_->pictures() == 0 || last_shown_ != step) {
+    ASPIC_CHECK(draw(solver, step, 1));
   }
-  while (ring_->pending() > 0)
-    if (const Status handed = hand_on(); !handed) return handed;
-  return {};
+  recording_->end();
+  return recording_->result();
 }
 
 }  // namespace aspic

@@ -1,12 +1,10 @@
 #pragma once
-// A film on its way to the disk: read back from the device, encoded by a thread of its own.
+// Pictures on their way to the disk: read back from the device, encoded by a thread of its own.
 #include <condition_variable>
 #include <deque>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -16,46 +14,29 @@
 
 namespace aspic {
 
-/// What a film is written as: one file, or a directory of numbered pictures.
-enum class FilmFormat { mp4, webm, gif, png, jpeg };
-inline constexpr FilmFormat film_formats[] = {FilmFormat::mp4, FilmFormat::webm, FilmFormat::gif,
-                                              FilmFormat::png, FilmFormat::jpeg};
-
-/// As people and state files call it: "mp4".
-std::string_view name_of(FilmFormat format);
-std::optional<FilmFormat> film_format_of(std::string_view name);
-/// Whether the pictures go into a directory.
-bool is_directory(FilmFormat format);
-/// The most pictures per second that viewers of the format show.
-double most_fps(FilmFormat format);
-/// `path` with the end that the format wants, another format's end replaced; directories have none.
-std::string film_path(const std::string& path, FilmFormat format);
-/// A name in the working directory that nobody has taken yet: `aspic-cube-plane-0001.mp4`. `scene` is a file
-/// or a built-in name.
-std::string free_film_name(const std::string& scene, FilmFormat format);
-
-/// What the next film will be.
-struct FilmSettings {
-  FilmFormat format = FilmFormat::mp4;
-  double fps = 60.0;  ///< pictures shown per second, 1 … most_fps
-  bool text = true;   ///< the parameters stand in the picture
-  std::string path;   ///< empty: free_film_name()
+/// What the pictures of a film have in common.
+struct FilmOptions {
+  std::string path;   ///< of the first sink
+  double fps = 60.0;  ///< pictures shown per second, > 0
+  PictureSize size;
 };
 
-struct FilmOptions {
-  std::string path;
-  FilmFormat format = FilmFormat::mp4;
-  double fps = 60.0;  ///< pictures shown per second, > 0
-  PictureSize size;   ///< made even where the format wants that
+/// Time spent on pictures [s], in all. A device works on while the program does: its time shows where it is
+/// waited for.
+struct FrameTimes {
+  std::uint64_t frames = 0;
+  double simulate = 0.0, draw = 0.0, read = 0.0, encode = 0.0;
+  double per_frame(double total) const { return frames > 0 ? total / static_cast<double>(frames) : 0.0; }
 };
 
 /// Takes pictures of one size. Nothing is dropped: while the encoder is behind, ready() is false. One that is
 /// destroyed before its end() leaves no film file, only the pictures of a directory.
 class Recording {
  public:
-  /// Errors: usage (more pictures a second than the format has), io (the name is taken, its place cannot be
-  /// written, ffmpeg is missing), scene_rejected (no device memory). The context must outlive end().
-  static Result<std::unique_ptr<Recording>> start(gl::Context& context, FilmOptions options);
+  /// All sinks get every picture. Error (scene_rejected): no device memory. The context must outlive end().
+  static Result<std::unique_ptr<Recording>> start(gl::Context& context,
+                                                  std::vector<std::unique_ptr<FrameSink>> sinks,
+                                                  FilmOptions options);
   ~Recording();
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
@@ -67,6 +48,8 @@ class Recording {
 
   /// Whether a picture can be added without waiting for the encoder.
   bool ready() const;
+  /// Waits until it can.
+  void wait_until_ready();
   /// Adds a picture of the options' size, `copies` ≥ 1 times; legal until end(). Error (no_device): the
   /// device was lost.
   Status add(const gl::Framebuffer& picture, std::uint64_t copies);
@@ -78,22 +61,29 @@ class Recording {
   void end();
   /// The thread is through, be it with the film or with an error.
   bool completed() const;
-  /// Waits for that. Error (io): the film could not be written; a film file leaves nothing behind then.
+  /// Waits for that. Error (io): a sink could not be written. A picture that one of them refuses ends the
+  /// film; at the end each is completed whatever the others do. A film file that fails leaves nothing behind.
   Status result();
+  /// Waits too; the paths of the sinks that were completed.
+  std::vector<std::string> written();
+  /// Seconds spent on reading back and, by the thread, on encoding.
+  FrameTimes times() const;
 
  private:
-  Recording(gl::PixelRing ring, std::unique_ptr<FrameSink> sink, FilmOptions options);
+  Recording(gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>> sinks, FilmOptions options);
   struct Picture {
     std::vector<std::byte> pixels;
     std::uint64_t copies = 1;
   };
   Status hand_on();
   void encode();
+  Status write(const Picture& picture);
 
   FilmOptions options_;
   gl::PixelRing ring_;
   std::deque<std::uint64_t> copies_;  // of the ring's pictures
   std::uint64_t pictures_ = 0;
+  double read_seconds_ = 0.0;
   std::size_t most_waiting_;
   bool ended_ = false;
 
@@ -102,7 +92,9 @@ class Recording {
   std::deque<Picture> waiting_;  // guarded, as all below
   bool no_more_ = false, abandoned_ = false, completed_ = false;
   Status result_;
-  std::unique_ptr<FrameSink> sink_;  // the thread's own
+  std::vector<std::string> written_;
+  double encode_seconds_ = 0.0;
+  std::vector<std::unique_ptr<FrameSink>> sinks_;  // the thread's own
   std::thread thread_;
 };
 

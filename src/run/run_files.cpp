@@ -2,36 +2,27 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <filesystem>
-
-#include "run/recorder.h"
-#include "io/checkpoint.h"
-#include "io/state_csv.h"
-#include "io/video_file.h"
+#include <limits>
+#include <utility>
 
 namespace aspic {
 namespace {
 
-Status refuse_duplicates(const RunOptions& options) {
-  struct Named {
-    const char* option;
-    const std::string* path;
-  };
-  const std::array<Named, 4> files = {{{"--state", &options.state_file},
-                                       {"--series", &options.series_file},
-                                       {"--checkpoint", &options.checkpoint_file},
-                                       {"--video", &options.pictures.video}}};
+Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOutput& pictures) {
+  std::vector<std::pair<std::string, std::string>> files = {{"video", pictures.video}};
+  for (const StateOutput& output : states) files.emplace_back(output.option, output.path);
+  std::erase_if(files, [](const auto& file) { return file.second.empty(); });
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t j = i + 1; j < files.size(); ++j) {
-      if (files[i].path->empty() || files[j].path->empty()) continue;
       std::error_code failed_a, failed_b;
-      const auto a = std::filesystem::weakly_canonical(std::filesystem::absolute(*files[i].path), failed_a);
-      const auto b = std::filesystem::weakly_canonical(std::filesystem::absolute(*files[j].path), failed_b);
+      const auto a = std::filesystem::weakly_canonical(std::filesystem::absolute(files[i].second), failed_a);
+      const auto b = std::filesystem::weakly_canonical(std::filesystem::absolute(files[j].second), failed_b);
       // Devices may take several outputs one after the other.
       if (failed_a || failed_b || a != b || a.native().starts_with("/dev/")) continue;
-      return Error{ErrorCode::usage, fmt::format("{} and {} both name {}: give each file its own name.",
-                                                 files[i].option, files[j].option, *files[i].path)};
+      return Error{ErrorCode::usage, fmt::format("--{} and --{} both name {}: give each file its own name.",
+                                                 files[i].first, files[j].first, files[i].second)};
     }
   }
   return {};
@@ -39,77 +30,61 @@ Status refuse_duplicates(const RunOptions& options) {
 
 }  // namespace
 
-Result<RunFiles> RunFiles::open(const RunOptions& options, Integrator integrator) {
-  if (const Status distinct = refuse_duplicates(options); !distinct) return distinct.error();
-  const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
+Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
+                                const RunFacts& facts, Overwrite overwrite) {
+  ASPIC_CHECK(refuse_duplicates(states, pictures));
   RunFiles files;
-  files.every_ = options.every;
-  if (!options.series_file.empty()) {
-    auto series =
-        SeriesWriter::create(options.series_file, overwrite, integrator == Integrator::implicit_euler);
-    if (!series) return series.error();
-    files.series_ = std::move(*series);
-    files.series_path_ = options.series_file;
+  for (const StateOutput& output : states) {
+    if (output.path.empty()) continue;
+    const StateFormat& format = state_format_of(output.option, output.path);
+    auto sink = format.open(output.path, output.every.value_or(format.default_every), overwrite, facts);
+    if (!sink) return sink.error();
+    files.sinks_.push_back(std::move(*sink));
   }
-  if (!options.state_file.empty()) {
-    auto file = AtomicFile::create(options.state_file, overwrite);
-    if (!file) return file.error();
-    files.state_ = std::move(*file);
-  }
-  if (!options.checkpoint_file.empty()) {
-    auto file = AtomicFile::create(options.checkpoint_file, overwrite);
-    if (!file) return file.error();
-    files.checkpoint_ = std::move(*file);
-  }
-  const RecordingOptions& pictures = options.pictures;
+  const auto add = [&](const FilmFormat& format, const std::string& path) -> Status {
+    auto sink = open_film(format, path, pictures.size, frames_per_second(pictures), overwrite);
+    if (!sink) return sink.error();
+    files.frame_sinks_.push_back(std::move(*sink));
+    return {};
+  };
   if (!pictures.frames.empty()) {
-    auto frames = open_frame_directory(pictures.frames, pictures.frames_format, pictures.size, overwrite);
-    if (!frames) return frames.error();
-    files.frames_ = std::move(*frames);
+    ASPIC_CHECK(add(*pictures.frames_format, pictures.frames));
   }
   if (!pictures.video.empty()) {
-    auto video = open_video(pictures.video, pictures.size, frames_per_second(pictures), overwrite);
-    if (!video) return video.error();
-    files.video_ = std::move(*video);
+    const auto format = video_format_of(pictures.video);
+    if (!format) return format.error();
+    ASPIC_CHECK(add(**format, pictures.video));
   }
   return files;
 }
 
-std::vector<FrameSink*> RunFiles::frame_sinks() const {
-  std::vector<FrameSink*> sinks;
-  for (FrameSink* sink : {video_.get(), frames_.get()})
-    if (sink) sinks.push_back(sink);
-  return sinks;
+std::uint64_t RunFiles::next_step(std::uint64_t step) const {
+  std::uint64_t next = std::numeric_limits<std::uint64_t>::max();
+  for (const auto& sink : sinks_)
+    if (sink->every() > 0) next = std::min(next, step + (sink->every() - step % sink->every()));
+  return next;
 }
 
-Status RunFiles::add_row(const Model& model, const State& state, const SolveStatistics& solves) {
-  return series_ ? series_->add(model, state, solves) : Status{};
+Status RunFiles::take(const Sample& sample) {
+  const bool first = !std::exchange(begun_, true);
+  for (const auto& sink : sinks_) {
+    if (!first && (sink->every() == 0 || sample.state.step % sink->every() != 0)) continue;
+    ASPIC_CHECK(sink->take(sample));
+  }
+  return {};
 }
 
-Status RunFiles::finish(const Model& model, const std::string& scene_toml, const State& state) {
+Status RunFiles::finish(const Sample& last) {
   Status first;
-  const auto complete = [&](const std::string& path, Status written, auto& file, auto close) {
-    if (written) written = close(*file);
-    if (written) {
-      written_.push_back(path);
-    } else if (first) {
-      first = written;
-    }
-    file.reset();
-  };
-  for (std::unique_ptr<FrameSink>* sink : {&video_, &frames_}) {
-    if (!*sink) continue;
-    const std::string path = (*sink)->path();
-    complete(path, {}, *sink, [](FrameSink& s) { return s.finish(); });
+  for (auto& sink : sinks_) {
+    const Status finished = sink->finish(last);
+    if (finished)
+      written_.push_back(sink->path());
+    else if (first)
+      first = finished;
+    sink.reset();
   }
-  if (series_) complete(series_path_, {}, series_, [](SeriesWriter& s) { return s.finish(); });
-  const auto commit = [](AtomicFile& file) { return file.commit(); };
-  if (state_) complete(std::string(state_->path()), write_state_csv(*state_, state), state_, commit);
-  if (checkpoint_) {
-    const Checkpoint checkpoint = {ASPIC_VERSION, scene_toml, model.simulation.timestep, state};
-    complete(std::string(checkpoint_->path()), write_checkpoint(*checkpoint_, checkpoint), checkpoint_,
-             commit);
-  }
+  sinks_.clear();
   return first;
 }
 

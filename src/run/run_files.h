@@ -1,45 +1,40 @@
 #pragma once
-// The output files of a run: opened before it, closed whole after it.
+// The files of a run: opened before it, completed after it.
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
-#include "command_line/arguments.h"
-#include "io/atomic_file.h"
 #include "io/frame_sink.h"
-#include "io/series_csv.h"
+#include "run/outputs.h"
 
 namespace aspic {
 
 class RunFiles {
  public:
-  /// Opens every file the options name. Errors: usage for one name given twice; io.
-  static Result<RunFiles> open(const RunOptions& options, Integrator integrator);
+  /// Opens every file that is named. Errors: usage for one name given twice; io.
+  static Result<RunFiles> open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
+                               const RunFacts& facts, Overwrite overwrite);
 
-  /// Steps between rows of the series; 0 without one.
-  std::uint64_t series_interval() const { return series_ ? every_ : 0; }
-  /// Where pictures go; empty without any.
-  std::vector<FrameSink*> frame_sinks() const;
-  /// Adds a row of the series, if there is one.
-  Status add_row(const Model& model, const State& state, const SolveStatistics& solves);
+  /// The first step after `step` at which a file wants the state; the largest number if none does.
+  std::uint64_t next_step(std::uint64_t step) const;
+  /// Hands a state to the files that want it: the first of the run, and those of next_step().
+  Status take(const Sample& sample);
+  /// Completes all files with the last state. One that fails does not keep the others from being completed;
+  /// the first error is returned.
+  Status finish(const Sample& last);
 
-  /// Writes final state and checkpoint and completes all files. One that fails does not keep the others from
-  /// being completed; the first error is returned.
-  Status finish(const Model& model, const std::string& scene_toml, const State& state);
-
+  /// Hands over the sinks of the pictures.
+  std::vector<std::unique_ptr<FrameSink>> take_frame_sinks() { return std::move(frame_sinks_); }
   /// Names of the completed files.
   const std::vector<std::string>& written() const { return written_; }
 
  private:
   RunFiles() = default;
-  std::uint64_t every_ = 1;
-  std::optional<AtomicFile> state_, checkpoint_;
-  std::optional<SeriesWriter> series_;
-  std::unique_ptr<FrameSink> video_, frames_;
-  std::string series_path_;
+  std::vector<std::unique_ptr<StateSink>> sinks_;
+  std::vector<std::unique_ptr<FrameSink>> frame_sinks_;
   std::vector<std::string> written_;
+  bool begun_ = false;
 };
 
 }  // namespace aspic

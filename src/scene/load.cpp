@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <utility>
 
+#include "base/files.h"
 #include "scene/diagnostics.h"
 #include "scene/document.h"
 #include "scene/overrides.h"
@@ -18,7 +17,7 @@ namespace aspic {
 namespace {
 
 /// Far beyond any scene: keeps a device or a wrong file from filling the memory.
-constexpr std::streamsize largest_file = 64 << 20;
+constexpr std::uint64_t largest_file = 64 << 20;
 
 /// The end of every message about a name that leads nowhere.
 std::string known_scenes(std::string_view name) {
@@ -29,29 +28,6 @@ std::string known_scenes(std::string_view name) {
 }
 
 }  // namespace
-
-Result<std::string> read_text_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    return Error{ErrorCode::io, fmt::format("{} is a directory, not a file to read", path)};
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return Error{ErrorCode::io, fmt::format("{} cannot be opened: {}", path, std::strerror(errno))};
-  }
-  std::string text;
-  char block[1 << 14];
-  while (file.read(block, sizeof block) || file.gcount() > 0) {
-    text.append(block, static_cast<std::size_t>(file.gcount()));
-    if (static_cast<std::streamsize>(text.size()) > largest_file) {
-      return Error{ErrorCode::io, fmt::format("{} is larger than 64 MiB: that is no scene", path)};
-    }
-  }
-  if (file.bad())
-    return Error{ErrorCode::io, fmt::format("{} cannot be read: {}", path, std::strerror(errno))};
-  return text;
-}
 
 std::optional<std::uint64_t> available_memory() {
   std::ifstream file("/proc/meminfo");
@@ -95,7 +71,7 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
     return Error{ErrorCode::scene_rejected, fmt::format("'{}' is neither a file nor a built-in scene; {}",
                                                         file_or_builtin, known_scenes(file_or_builtin))};
   }
-  auto text = read_text_file(file_or_builtin);
+  auto text = read_file(file_or_builtin, largest_file);
   if (!text) return text.error();
   return parse_scene(*text, file_or_builtin, overrides, limits);
 }

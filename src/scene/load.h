@@ -31,9 +31,6 @@ Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
 Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std::string> overrides = {},
                          const LoadLimits& limits = {});
 
-/// The whole of a text file. Error (io): it cannot be read, or is larger than 64 MiB.
-Result<std::string> read_text_file(const std::string& path);
-
 /// A scene that is part of the program.
 struct BuiltinScene {
   std::string_view name;
