@@ -30,7 +30,7 @@ struct Figures {
 struct Case {
   std::string scene;
   std::vector<std::string> overrides;
-  app::BackendName backend = app::BackendName::reference;
+  const char* backend = "reference";
   bool edits = false;  ///< a value is changed ten times a second, as a slider under the mouse does
 };
 
@@ -46,7 +46,7 @@ Figures measure(const Case& c, double seconds) {
   app::AppOptions options;
   options.scene = c.scene;
   options.overrides = c.overrides;
-  options.backend = c.backend;
+  options.backend = find_backend(c.backend);
   auto app = app::App::create((*window)->context(), options, 1.0, (*window)->services());
   if (!app) fail(app.error().message);
   (*window)->set_receiver(app->get());
@@ -94,10 +94,6 @@ Figures measure(const Case& c, double seconds) {
   return figures;
 }
 
-std::string_view name_of(app::BackendName backend) {
-  return backend == app::BackendName::gpu ? "gpu" : "reference";
-}
-
 void report(std::string_view what, const Case& c, const Figures& f) {
   std::string overrides;
   for (const std::string& o : c.overrides)
@@ -106,7 +102,7 @@ void report(std::string_view what, const Case& c, const Figures& f) {
       "{{\"case\": \"{}\", \"scene\": \"{}\", \"overrides\": [{}], \"backend\": \"{}\", "
       "\"real_time_factor\": {:.3f}, \"pictures_per_second\": {:.1f}, \"longest_gap_seconds\": {:.3f}, "
       "\"resolution\": {}}}\n",
-      what, c.scene, overrides, name_of(c.backend), f.real_time_factor, f.pictures_per_second, f.longest_gap,
+      what, c.scene, overrides, c.backend, f.real_time_factor, f.pictures_per_second, f.longest_gap,
       f.resolution);
   std::fflush(stdout);
 }
@@ -122,7 +118,7 @@ Figures median_of(const Case& c, double seconds, int repeats) {
 
 /// The largest cube, of 4 to 35 particles an edge, whose median factor is 0.98 or more; 3: none. By
 /// bisection.
-void largest(app::BackendName backend, Integrator integrator, double timestep) {
+void largest(const char* backend, Integrator integrator, double timestep) {
   int fits = 3, too_large = 36;
   while (too_large - fits > 1) {
     const int n = (fits + too_large) / 2;
@@ -138,7 +134,7 @@ void largest(app::BackendName backend, Integrator integrator, double timestep) {
   fmt::print(
       "{{\"case\": \"largest\", \"backend\": \"{}\", \"integrator\": \"{}\", \"timestep\": {}, "
       "\"particles_per_edge\": {}}}\n",
-      name_of(backend), name_of(integrator), timestep, fits);
+      backend, name_of(integrator), timestep, fits);
   std::fflush(stdout);
 }
 
@@ -152,24 +148,24 @@ int main(int argc, char** argv) {
         "usage: window_figures default | large | sizes [BACKEND/INTEGRATOR] | all\nPrints a JSON object a "
         "line; needs a display "
         "(xvfb-run).");
-  constexpr app::BackendName backends[] = {app::BackendName::reference, app::BackendName::gpu};
+  constexpr const char* names[] = {"reference", "gpu"};
   if (all || what == "default") {
-    for (const auto backend : backends) {
+    for (const char* const backend : names) {
       const Case c = {"cube-plane", {}, backend};
       report("default", c, median_of(c, 4.0, 5));
     }
   }
   if (all || what == "large") {
     for (const bool edits : {false, true}) {
-      const Case c = {"large-cube", {}, app::BackendName::reference, edits};
+      const Case c = {"large-cube", {}, "reference", edits};
       report(edits ? "large, edited" : "large", c, median_of(c, 6.0, 3));
     }
   }
   if (all || what == "sizes") {
-    for (const auto backend : backends) {
+    for (const char* const backend : names) {
       for (const Integrator integrator : all_integrators) {
-        const std::string name = fmt::format("{}/{}", name_of(backend), name_of(integrator));
-        if (!only.empty() && only != name && only != name_of(backend)) continue;
+        const std::string name = fmt::format("{}/{}", backend, name_of(integrator));
+        if (!only.empty() && only != name && only != backend) continue;
         // One-pass is stable up to 0.98 ms in large cubes; implicit Euler is for steps of a picture's length.
         const double h = integrator == Integrator::implicit_euler            ? 1.0 / 60
                          : integrator == Integrator::implicit_euler_one_pass ? 0.0009

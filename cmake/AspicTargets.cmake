@@ -19,23 +19,39 @@ if(ASPIC_SANITIZE)
   target_link_options(aspic_rules INTERFACE -fsanitize=address,undefined)
 endif()
 
-# aspic_library(NAME SOURCES a.cpp … DEPENDS target …): one room of the house.
+# aspic_library(NAME SOURCES a.cpp … DEPENDS target …): one room of the library. Rooms name the rooms they use; their objects
+# are linked together into aspic::aspic by aspic_link_library().
 function(aspic_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
-  if(arg_SOURCES)
-    add_library(${name} STATIC ${arg_SOURCES})
-    target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS})
-  else()
-    add_library(${name} INTERFACE)
-    target_link_libraries(${name} INTERFACE aspic_rules ${arg_DEPENDS})
-  endif()
+  add_library(${name} OBJECT ${arg_SOURCES})
+  target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS})
+  set_property(GLOBAL APPEND PROPERTY ASPIC_ROOMS ${name})
 endfunction()
 
-# aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each of its tests known to ctest.
+# aspic_link_library(): libaspic, made of all rooms.
+function(aspic_link_library)
+  get_property(rooms GLOBAL PROPERTY ASPIC_ROOMS)
+  add_library(aspic_lib STATIC)
+  add_library(aspic::aspic ALIAS aspic_lib)
+  target_link_libraries(aspic_lib PUBLIC ${rooms})
+  set_target_properties(aspic_lib PROPERTIES OUTPUT_NAME aspic ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+endfunction()
+
+# aspic_program_part(NAME SOURCES a.cpp … DEPENDS target …): what a program is made of besides the library.
+function(aspic_program_part name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS} aspic::aspic)
+endfunction()
+
+# aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each of its tests known to ctest. Rooms among the
+# targets say what is tested; they come from the library.
 function(aspic_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  get_property(rooms GLOBAL PROPERTY ASPIC_ROOMS)
+  list(REMOVE_ITEM arg_DEPENDS ${rooms})
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE aspic_rules ${arg_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE aspic_rules ${arg_DEPENDS} aspic::aspic GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 ${ASPIC_TEST_PROPERTIES})
 endfunction()

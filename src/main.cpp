@@ -1,7 +1,7 @@
 #include "cli/main.h"
 
-#include "cli/program.h"
+#include "io/program.h"
 
 int main(int argc, char** argv) {
-  return aspic::cli::run_program([&] { return aspic::cli::main(argc, argv); });
+  return aspic::run_program([&] { return aspic::cli::main(argc, argv); });
 }

@@ -6,22 +6,18 @@
 #include <cmath>
 #include <limits>
 
+#include "base/split_mix.h"
+
 namespace aspic {
 namespace {
 
 using Vector = Eigen::VectorXd;
 
-/// A start vector with a share of every mode, the same on every run (splitmix64: Steele, Lea, Flood, 2014).
+/// A start vector with a share of every mode, the same on every run.
 Vector start_vector(std::size_t size) {
   Vector v(static_cast<Eigen::Index>(size));
-  std::uint64_t seed = 0;
-  for (Eigen::Index i = 0; i < v.size(); ++i) {
-    seed += 0x9e3779b97f4a7c15ull;
-    std::uint64_t z = seed;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    v[i] = static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53 - 0.5;
-  }
+  SplitMix64 random(0);
+  for (Eigen::Index i = 0; i < v.size(); ++i) v[i] = random.share() - 0.5;
   return v;
 }
 

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/stability_text.h"
 #include "app/panels.h"
 #include "app/shortcuts.h"
-#include "cli/backends.h"
-#include "cli/stability_text.h"
+#include "run/backends.h"
 #include "scene/load.h"
 
 namespace aspic::app {
@@ -30,11 +30,11 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   if (!editor) return editor.error();
   std::unique_ptr<App> app(new App(context, std::move(*editor)));
   app->full_quality_ = options.full_quality;
-  const BackendName unasked = context.info().is_software ? BackendName::reference : BackendName::gpu;
-  auto simulation = Simulation::create(context, app->editor_.scene(), options.backend.value_or(unasked));
+  const BackendRow& backend = options.backend ? *options.backend : *choose_automatically({}, &context).row;
+  auto simulation = Simulation::create(context, app->editor_.scene(), backend);
   if (!simulation) return simulation.error();
   app->simulation_ = std::move(*simulation);
-  if (const Status ready = app->make_pictures(scale, std::move(services)); !ready) return ready.error();
+  ASPIC_CHECK(app->make_pictures(scale, std::move(services)));
   app->take_on(options.kept, options.overrides);
   return app;
 }
@@ -162,8 +162,7 @@ void App::change_speed(double factor) {
 }
 
 void App::toggle_backend() {
-  const bool to_gpu = simulation_->backend() == BackendName::reference;
-  const Status changed = simulation_->set_backend(to_gpu ? BackendName::gpu : BackendName::reference);
+  const Status changed = simulation_->set_backend(next_backend(simulation_->backend()));
   follow_history();
   if (changed)
     tell(fmt::format("Now on {}.", simulation_->solver().description()));
@@ -320,7 +319,7 @@ void App::watch_divergence() {
                    "Shown is the last good step.",
                    divergence->step, static_cast<double>(divergence->step) * s.timestep,
                    body_text(*divergence), fault_text(*divergence), s.timestep,
-                   cli::stability_sentence(s.integrator, *stable_)),
+                   stability_sentence(s.integrator, *stable_)),
        true);
 }
 
@@ -335,7 +334,7 @@ Status App::frame(const WindowSize& size, double dt) {
   // A picture of a software rasteriser takes longer anyway, so steps may too.
   const double budget = context_->info().is_software ? 0.030 : 0.012;
   film();
-  if (const Status moved = simulation_->update(dt, budget); !moved) return moved;
+  ASPIC_CHECK(simulation_->update(dt, budget));
   end_change();
   if (auto message = simulation_->take_message()) tell(*message, true);
   film();
@@ -352,7 +351,7 @@ Status App::frame(const WindowSize& size, double dt) {
   find_hovered();
   gui_->begin(size.width, size.height, static_cast<double>(size.pixel_width) / size.width, dt);
   viewport_ = draw_panels(*this, size.width, size.height);
-  if (const Status drawn = draw_scene(size); !drawn) return drawn;
+  ASPIC_CHECK(draw_scene(size));
   gui_->end();
   if (screenshot_wanted_) save_screenshot(size);
   return {};

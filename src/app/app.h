@@ -13,25 +13,27 @@
 #include "analysis/stability.h"
 #include "app/camera_control.h"
 #include "app/film_pace.h"
+#include "app/film_settings.h"
 #include "app/gui.h"
 #include "app/kept_state.h"
-#include "app/recording.h"
 #include "app/resolution.h"
 #include "app/scene_editor.h"
 #include "app/simulation.h"
 #include "app/window.h"
 #include "base/printable.h"
+#include "io/state_sink.h"
 #include "render/camera.h"
 #include "render/renderer.h"
+#include "run/recording.h"
 
 namespace aspic::app {
 
 struct AppOptions {
-  std::string scene = "cube-plane";    ///< file or built-in name
-  std::vector<std::string> overrides;  ///< KEY=VALUE
-  std::optional<BackendName> backend;  ///< absent: the gpu where it is hardware, else the reference
-  KeptState kept = {};                 ///< how the window was last left
-  bool full_quality = false;           ///< on a software rasteriser too, however long pictures take
+  std::string scene = "cube-plane";     ///< file or built-in name
+  std::vector<std::string> overrides;   ///< KEY=VALUE
+  const BackendRow* backend = nullptr;  ///< null: what `auto` takes in the window's context
+  KeptState kept = {};                  ///< how the window was last left
+  bool full_quality = false;            ///< on a software rasteriser too, however long pictures take
 };
 
 /// A line to the user, on top of the picture until dismissed or replaced.
@@ -112,6 +114,9 @@ class App final : public EventReceiver {
   FilmSettings& film_settings() { return film_settings_; }
   /// Films that have ended and are not complete yet.
   std::size_t films_completing() const { return completing_.size(); }
+  /// Writes the state at hand, or with a format over time the energies of the plot, to a new file (empty: a
+  /// free name). A notice says what became of it.
+  void save_output(const StateFormat& format, std::string path);
   /// Ends the film under way and waits for all; what there is to say of each.
   std::vector<std::string> finish_films();
   // ---- time: the scene's values go back and forth with it, for they are part of the run ----

@@ -1,12 +1,12 @@
 // The part of App that holds on to a context, and lets go of one that was lost.
 #include "app/app.h"
-#include "cli/backends.h"
+#include "run/backends.h"
 
 namespace aspic::app {
 
 /// Renderer and panels, in the context.
 Status App::make_pictures(double scale, WindowServices services) {
-  const auto directory = cli::shader_directory();
+  const auto directory = shader_directory();
   if (!directory) return directory.error();
   RendererOptions look;
   look.samples = draws_in_full() ? 4 : 1;
@@ -23,7 +23,7 @@ Status App::make_pictures(double scale, WindowServices services) {
 
 Status App::release_context(const Error& why) {
   for (const std::string& line : finish_films()) tell(line, true);
-  if (const Status left = simulation_->leave_gpu(why); !left) return left;
+  ASPIC_CHECK(simulation_->leave_gpu(why));
   // What the solver said when it noticed first says more.
   if (!notice_ || !notice_->is_error) tell(why.message, true);
   end_pull();

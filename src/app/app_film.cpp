@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "app/app.h"
+#include "run/outputs.h"
 
 namespace aspic::app {
 namespace {
@@ -18,18 +20,40 @@ std::string said_of(Recording& film) {
 
 }  // namespace
 
+std::string film_path(const std::string& path, const FilmFormat& format) {
+  std::filesystem::path named(path);
+  if (find_film_format(named.extension().string())) named.replace_extension();
+  return named.string() + std::string(film_ending(format));
+}
+
 void App::start_recording() {
   stop_recording();
   const auto pixels = [this](double length) {
     return std::max(static_cast<int>(std::lround(length * pixels_per_unit_)), 16);
   };
+  const FilmFormat& format = *film_settings_.format;
   FilmOptions options;
-  options.format = film_settings_.format;
   options.fps = film_settings_.fps;
-  options.path = film_settings_.path.empty() ? free_film_name(editor_.source(), options.format)
-                                             : film_path(film_settings_.path, options.format);
+  options.path = film_settings_.path.empty() ? free_name(editor_.source(), film_ending(format))
+                                             : film_path(film_settings_.path, format);
   options.size = {pixels(viewport_.right - viewport_.left), pixels(viewport_.bottom - viewport_.top)};
-  auto started = Recording::start(*context_, std::move(options));
+  if (format.even_sides) {
+    options.size.width &= ~1;
+    options.size.height &= ~1;
+  }
+  std::error_code unknown;
+  if (format.is_directory() && std::filesystem::exists(options.path, unknown) &&
+      !std::filesystem::is_empty(options.path, unknown)) {
+    return tell(fmt::format("{} exists already and is not an empty directory. Choose another name for the "
+                            "pictures.",
+                            options.path),
+                true);
+  }
+  auto sink = open_film(format, options.path, options.size, options.fps, Overwrite::refuse);
+  if (!sink) return tell(sink.error());
+  std::vector<std::unique_ptr<FrameSink>> sinks;
+  sinks.push_back(std::move(*sink));
+  auto started = Recording::start(*context_, std::move(sinks), std::move(options));
   if (!started) return tell(started.error());
   recording_ = std::move(*started);
   film_pace_.emplace(recording_->options().fps);

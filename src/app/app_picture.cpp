@@ -14,6 +14,7 @@
 #include "io/frame_directory.h"
 #include "render/camera.h"
 #include "render/overlay_text.h"
+#include "run/outputs.h"
 
 namespace aspic::app {
 namespace {
@@ -43,7 +44,7 @@ Status App::draw_scene(const WindowSize& size) {
   // picture stays. Nothing but the picture may be used of the renderer then, whose model is gone.
   const bool rest = std::exchange(rest_a_picture_, false) && drawn_width_ > 0 && !recording_;
   if (!rest) {
-    if (const Status drawn = draw_picture(picture.width, picture.height); !drawn) return drawn;
+    ASPIC_CHECK(draw_picture(picture.width, picture.height));
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, size.pixel_width, size.pixel_height);
@@ -61,7 +62,7 @@ Status App::draw_scene(const WindowSize& size) {
   shown_ = {shown_left / ratio, (size.pixel_height - shown_bottom - shown_height) / ratio,
             (shown_left + shown_width) / ratio, (size.pixel_height - shown_bottom) / ratio};
   if (rest) return {};
-  if (const Status marked = present_ring(); !marked) return marked;
+  ASPIC_CHECK(present_ring());
   return ask_what_is_under_mouse();
 }
 
@@ -83,7 +84,7 @@ Status App::draw_picture(int width, int height) {
   if (same) return {};
   const auto start = std::chrono::steady_clock::now();
   if (new_model) {
-    if (const Status taken = renderer_->set_model(simulation_->model()); !taken) return taken;
+    ASPIC_CHECK(renderer_->set_model(simulation_->model()));
     if (drawn_particles_ != simulation_->model().particle_count())
       resolution_.reset(simulation_->model().particle_count() > many_particles);
     drawn_particles_ = simulation_->model().particle_count();
@@ -94,7 +95,7 @@ Status App::draw_picture(int width, int height) {
     if (!uploaded) return uploaded.error();
     state = *uploaded;
   }
-  if (const Status drawn = renderer_->draw(width, height, *state, options); !drawn) return drawn;
+  ASPIC_CHECK(renderer_->draw(width, height, *state, options));
   if (context_->info().is_software) glFinish();
   drawn_model_ = simulation_->model_number();
   drawn_state_ = simulation_->picture_number();
@@ -122,11 +123,9 @@ void App::save_screenshot(const WindowSize& size) {
   for (std::size_t row = 0; row < height; ++row)
     std::copy_n(below.begin() + static_cast<std::ptrdiff_t>((height - 1 - row) * 3 * width), 3 * width,
                 rgb.begin() + static_cast<std::ptrdiff_t>(row * 3 * width));
-  const auto png = encode_image(ImageFormat::png, {size.pixel_width, size.pixel_height}, rgb);
+  const auto png = encode_png({size.pixel_width, size.pixel_height}, rgb);
   if (!png) return tell(png.error());
-  std::string path;
-  for (int number = 1; path.empty() || std::filesystem::exists(path); ++number)
-    path = fmt::format("aspic-{}-{:04}.png", std::filesystem::path(editor_.source()).stem().string(), number);
+  const std::string path = free_name(editor_.source(), ".png");
   auto file = AtomicFile::create(path, Overwrite::refuse);
   if (!file) return tell(file.error());
   Status written = file->write(*png);

@@ -9,9 +9,10 @@
 #include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
-#include "cpu_reference/reference_solver.h"
+#include "base/text.h"
 #include "gpu/device_info.h"
 #include "model/bodies.h"
+#include "run/backends.h"
 #include "scene/load.h"
 
 namespace aspic::app {
@@ -23,15 +24,16 @@ constexpr std::string_view spring_types[] = {"structural", "shear", "bending"};
 std::string memory_note(const App& app) {
   const ModelSettings& settings = app.editor().scene().model;
   const ModelCounts counts = predict_counts(settings);
-  const std::uint64_t reference = reference_bytes(counts, Precision::single);
-  const std::uint64_t gpu = gpu_bytes(counts, settings.simulation.integrator, ForcePath::gather);
   std::string note = fmt::format(
-      "This scene: {} particles and {} springs. The model takes {}, the reference {} more, the gpu {}.",
-      counts.particles, counts.springs(), gl::human_bytes(model_bytes(counts)), gl::human_bytes(reference),
-      gl::human_bytes(gpu));
+      "This scene: {} particles and {} springs. The model takes {}, and a backend more:", counts.particles,
+      counts.springs(), human_bytes(model_bytes(counts)));
+  for (const BackendRow& row : backends()) {
+    note += fmt::format(" {} {}{}", row.title,
+                        human_bytes(row.bytes(counts, settings.simulation.integrator, {&row})),
+                        &row == &backends().back() ? "." : ",");
+  }
   if (const auto free = available_memory())
-    note +=
-        fmt::format(" {} of memory are free; a scene that does not fit is refused.", gl::human_bytes(*free));
+    note += fmt::format(" {} of memory are free; a scene that does not fit is refused.", human_bytes(*free));
   return note + " Springs grow with the third power of the particles per edge.";
 }
 

@@ -11,6 +11,7 @@
 #include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "base/text.h"
 
 namespace aspic::app {
 namespace {
@@ -120,7 +121,7 @@ void performance_section(App& app) {
   figure("Springs", fmt::format("{}", model.springs.size()), "Springs of all types.");
   if (model.ball_count() > 0)
     figure("Balls", fmt::format("{}", model.ball_count()), "Balls, launched or waiting.");
-  figure("Solver", fmt::format("{}, {}", s.solver().backend(), gl::human_bytes(s.solver().bytes())),
+  figure("Solver", fmt::format("{}, {}", s.solver().backend(), human_bytes(s.solver().bytes())),
          s.solver().description());
   ImGui::TextDisabled("%s", app.device().renderer.substr(0, 40).c_str());
   tooltip(fmt::format("Draws the window: {}, OpenGL {}", app.device().renderer, app.device().version));

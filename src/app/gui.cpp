@@ -12,9 +12,11 @@
 #include <span>
 #include <utility>
 
+#include "base/embedded_file.h"
+
 namespace aspic {
 
-std::span<const std::byte> embedded_font();
+std::span<const EmbeddedFile> embedded_fonts();  // generated: one
 
 namespace app {
 namespace {
@@ -131,12 +133,12 @@ void Gui::set_look() {
   set_theme(static_cast<float>(scale()));
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   fonts.Clear();
-  const std::span<const std::byte> font = embedded_font();
+  const std::string_view font = embedded_fonts().front().text;
   ImFontConfig config;
   config.FontDataOwnedByAtlas = false;
   const float height = std::min(std::round(font_height * static_cast<float>(scale())), largest_font);
-  fonts.AddFontFromMemoryTTF(const_cast<std::byte*>(font.data()), static_cast<int>(font.size()), height,
-                             &config, characters);
+  fonts.AddFontFromMemoryTTF(const_cast<char*>(font.data()), static_cast<int>(font.size()), height, &config,
+                             characters);
 }
 
 Gui::~Gui() {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <variant>
 
+#include "base/files.h"
 #include "io/atomic_file.h"
 #include "scene/document.h"
 #include "scene/load.h"
@@ -157,7 +158,7 @@ std::string to_text(const KeptState& s) {
       list_of(l, true), list_of(l, false));
   text += fmt::format("\n[simulation]\npace = \"{}\"\nspeed = {}\n", paces[static_cast<std::size_t>(s.pace)],
                       toml_value(s.speed));
-  text += fmt::format("\n[recording]\nformat = \"{}\"\nfps = {}\nparameters = {}\n", name_of(s.film_format),
+  text += fmt::format("\n[recording]\nformat = \"{}\"\nfps = {}\nparameters = {}\n", s.film_format->name,
                       toml_value(s.film_fps), s.film_text);
   for (const KeptCamera& c : s.cameras) {
     text +=
@@ -193,10 +194,10 @@ Result<KeptState> read_kept_state(const std::string& text) {
   taker.take(simulation, "speed", state.speed, slowest, fastest);
   const toml::table* const recording = taker.find<toml::table>(&root, "recording");
   std::vector<std::string> formats;
-  for (const FilmFormat f : film_formats) formats.emplace_back(name_of(f));
+  for (const FilmFormat& f : film_formats()) formats.emplace_back(f.name);
   taker.take(recording, "format", formats, format);
-  state.film_format = film_formats[format];
-  taker.take(recording, "fps", state.film_fps, 1.0, most_fps(state.film_format));
+  state.film_format = &film_formats()[format];
+  taker.take(recording, "fps", state.film_fps, 1.0, state.film_format->most_fps);
   taker.take(recording, "parameters", state.film_text);
   take_cameras(taker, root, state);
   if (!taker.complaint.empty())
@@ -215,7 +216,7 @@ std::string kept_state_path() {
 Result<KeptState> load_kept_state(const std::string& path) {
   std::error_code error;
   if (path.empty() || !fs::exists(path, error)) return KeptState();
-  const auto text = read_text_file(path);
+  const auto text = read_file(path);
   if (!text) return text.error();
   auto state = read_kept_state(*text);
   if (state) return state;
@@ -231,7 +232,7 @@ Status save_kept_state(const KeptState& state, const std::string& path) {
   fs::create_directories(fs::path(path).parent_path(), error);
   auto file = AtomicFile::create(path, Overwrite::allow);
   if (!file) return file.error();
-  if (const Status written = file->write(to_text(state)); !written) return written;
+  ASPIC_CHECK(file->write(to_text(state)));
   return file->commit();
 }
 

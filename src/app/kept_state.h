@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/film_format.h"
 #include "app/simulation.h"
 #include "base/result.h"
+#include "io/film_format.h"
 #include "scene/view_settings.h"
 
 namespace aspic::app {
@@ -45,7 +45,7 @@ struct KeptState {
   Layout layout;
   Pace pace = Pace::steps_per_frame;
   double speed = 1.0;
-  FilmFormat film_format = FilmFormat::mp4;
+  const FilmFormat* film_format = &film_formats().front();
   double film_fps = 60.0;
   bool film_text = true;
   std::vector<KeptCamera> cameras;  ///< the one last used at the end

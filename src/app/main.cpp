@@ -8,35 +8,34 @@
 #include "app/app.h"
 #include "app/revival.h"
 #include "app/window.h"
-#include "cli/arguments.h"
-#include "cli/console.h"
-#include "cli/program.h"
+#include "command_line/arguments.h"
+#include "io/console.h"
 #include "io/interrupt.h"
+#include "io/program.h"
 
 namespace aspic::app {
 namespace {
 
 /// An error that comes before there is a window to show it in, or ends the window.
 int fail(const Error& error) {
-  cli::print_message(error.message);
+  print_message(error.message);
   return static_cast<int>(error.code);
 }
 
-AppOptions options_from(const cli::ViewOptions& view) {
+AppOptions options_from(const ViewOptions& view) {
   AppOptions options;
   options.scene = view.scene;
   options.overrides = view.overrides;
-  if (view.backend.kind == cli::BackendKind::gpu) options.backend = BackendName::gpu;
-  if (view.backend.kind == cli::BackendKind::reference) options.backend = BackendName::reference;
+  options.backend = view.backend.row;
   return options;
 }
 
-int show(const cli::ViewOptions& view) {
+int show(const ViewOptions& view) {
   // A scene that is refused needs no window to say so.
   if (const auto editor = SceneEditor::open(view.scene, view.overrides); !editor) return fail(editor.error());
   const std::string kept_path = kept_state_path();
   const auto kept = load_kept_state(kept_path);
-  if (!kept) cli::print_message(kept.error().message);
+  if (!kept) print_message(kept.error().message);
   AppOptions options = options_from(view);
   if (kept) options.kept = *kept;
   const WindowPlace place = options.kept.window.value_or(WindowPlace{1280, 720, std::nullopt});
@@ -68,15 +67,14 @@ int show(const cli::ViewOptions& view) {
     (*window)->show_picture();
     if ((*app)->title() != title) (*window)->set_title(title = (*app)->title());
   }
-  for (const std::string& line : (*app)->finish_films()) cli::print_message(line);
+  for (const std::string& line : (*app)->finish_films()) print_message(line);
   (*window)->set_receiver(nullptr);
   if (!error) {
     KeptState left = (*app)->kept_state();
     const std::array<int, 4> stood = (*window)->place();
     left.window = WindowPlace{stood[2], stood[3], std::array<int, 2>{stood[0], stood[1]}};
     // What cannot be kept is no reason to fail: nothing of the user's is lost.
-    if (const Status saved = save_kept_state(left, kept_path); !saved)
-      cli::print_message(saved.error().message);
+    if (const Status saved = save_kept_state(left, kept_path); !saved) print_message(saved.error().message);
   }
   if (error) return fail(*error);
   return guard.interrupted() ? static_cast<int>(ErrorCode::interrupted) : 0;
@@ -86,16 +84,16 @@ int start(int argc, char** argv) {
   // The words are those of `aspic view`.
   std::vector<const char*> words = {"aspic", "view"};
   words.insert(words.end(), argv + (argc > 0 ? 1 : 0), argv + argc);
-  const auto command = cli::parse_arguments(static_cast<int>(words.size()), words.data());
+  const auto command = parse_arguments(static_cast<int>(words.size()), words.data());
   if (!command) return fail(command.error());
-  if (const auto* text = std::get_if<cli::ShowText>(&*command))
-    return cli::print_data(text->text) ? 0 : static_cast<int>(ErrorCode::io);
-  return show(std::get<cli::ViewOptions>(*command));
+  if (const auto* text = std::get_if<ShowText>(&*command))
+    return print_data(text->text) ? 0 : static_cast<int>(ErrorCode::io);
+  return show(std::get<ViewOptions>(*command));
 }
 
 }  // namespace
 }  // namespace aspic::app
 
 int main(int argc, char** argv) {
-  return aspic::cli::run_program([&] { return aspic::app::start(argc, argv); });
+  return aspic::run_program([&] { return aspic::app::start(argc, argv); });
 }

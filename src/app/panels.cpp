@@ -42,7 +42,8 @@ constexpr Heading left_sections[] = {
     {"Balls", balls_section, false, "Balls thrown by hand, and how hard hands pull."}};
 constexpr Heading right_sections[] = {
     {"View", view_section, true, "What is drawn, its colours, the camera, and the size of text."},
-    {"Recording", recording_section, false, "Films of the scene."},
+    {"Recording", recording_section, false,
+     "Films of the scene; its states, energies and checkpoints as files."},
     {"Performance", performance_section, true, "How fast simulation and pictures are, and by what."},
     {"Energy", energy_section, true, "Energies and momentum over time."},
     {"Shadow", shadow_section, false, "The other backend alongside, and how far the two are apart."}};
@@ -75,7 +76,7 @@ void status_line(App& app) {
   const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
   const char* const motion = s.divergence() ? "Diverged" : s.running() ? "Running" : "Paused";
   ImGui::TextColored(s.divergence() ? ImVec4(0.95f, 0.55f, 0.40f, 1.0f) : bright, "%s", motion);
-  const bool software = app.device().is_software && s.backend() == BackendName::gpu;
+  const bool software = app.device().is_software && s.backend().needs_context;
   std::vector<std::string> facts = {
       fmt::format("t = {:.3f} s", s.time()),
       fmt::format("{}{}", s.solver().backend(), software ? " (software)" : ""),

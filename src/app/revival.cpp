@@ -7,7 +7,7 @@ namespace aspic::app {
 Result<std::unique_ptr<Window>> replace_window(App& app, std::unique_ptr<Window> window, const Error& why) {
   const std::array<int, 4> place = window->place();
   window->set_receiver(nullptr);
-  if (const Status released = app.release_context(why); !released) return released.error();
+  ASPIC_CHECK(app.release_context(why));
   window.reset();
   auto other = Window::create(place[2], place[3], app.title(), std::array<int, 2>{place[0], place[1]});
   if (!other) return other;

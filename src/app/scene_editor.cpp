@@ -129,7 +129,7 @@ Status SceneEditor::save_as(const std::string& path, const CameraSettings& camer
   saved.view.camera = camera;
   auto file = AtomicFile::create(path, Overwrite::refuse);
   if (!file) return file.error();
-  if (const Status written = file->write(to_toml(saved)); !written) return written;
+  ASPIC_CHECK(file->write(to_toml(saved)));
   return file->commit();
 }
 

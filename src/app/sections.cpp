@@ -120,9 +120,9 @@ void simulation_section(App& app) {
              third))
     app.reset();
   const float half = share_of_line(2);
-  const char* const other = s.backend() == BackendName::gpu ? "Switch to reference" : "Switch to GPU";
-  if (button(gui, "simulation/backend", other, "Carries the state over to the other solver, to the bit.",
-             "other backend", true, half))
+  const std::string other = fmt::format("Switch to {}", next_backend(s.backend()).title);
+  if (button(gui, "simulation/backend", other.c_str(),
+             "Carries the state over to the other solver, to the bit.", "other backend", true, half))
     app.toggle_backend();
   ImGui::SameLine();
   const bool back = s.can_step_back();

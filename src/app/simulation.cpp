@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/backends.h"
-#include "cpu_reference/reference_solver.h"
-
 namespace aspic::app {
 namespace {
 
@@ -23,7 +20,7 @@ std::uint64_t predict_particles(const Setup& setup) {
 }  // namespace
 
 Result<std::unique_ptr<Simulation>> Simulation::create(gl::Context& context, const Scene& scene,
-                                                       BackendName backend) {
+                                                       const BackendRow& backend) {
   std::unique_ptr<Simulation> s(new Simulation(context));
   const Setup setup = {scene.model, {}, {}};
   auto model = build_model(setup);
@@ -33,7 +30,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(gl::Context& context, con
   auto engine = s->make_engine(*s->model_, backend);
   if (!engine) return engine.error();
   s->engine_ = std::move(*engine);
-  if (const Status ready = s->reset(); !ready) return ready.error();
+  ASPIC_CHECK(s->reset());
   return s;
 }
 
@@ -43,25 +40,10 @@ Simulation::~Simulation() {
   worker_.abandon();
 }
 
-Result<Simulation::Engine> Simulation::make_engine(const Model& model, BackendName backend) {
-  Engine engine;
-  if (backend == BackendName::reference) {
-    auto solver = make_reference_solver(model, Precision::single);
-    if (!solver) return solver.error();
-    engine.solver = std::move(*solver);
-    return engine;
-  }
-  auto directory = cli::shader_directory();
-  if (!directory) return directory.error();
-  GpuOptions options;
-  options.shader_directory = std::move(*directory);
-  options.arithmetic = arithmetic_;
-  options.like = engine_.gpu ? engine_.gpu : shadow_.gpu;
-  auto solver = make_gpu_solver(*context_, model, options);
-  if (!solver) return solver.error();
-  engine.gpu = solver->get();
-  engine.solver = std::move(*solver);
-  arithmetic_ = engine.gpu->arithmetic();
+Result<Backend> Simulation::make_engine(const Model& model, const BackendRow& backend) {
+  auto engine = make_backend({&backend, Precision::single, ForcePath::automatic}, model,
+                             {context_, engine_.gpu ? engine_.gpu : shadow_.gpu, arithmetic_});
+  if (engine && engine->gpu) arithmetic_ = engine->gpu->arithmetic();
   return engine;
 }
 
@@ -75,9 +57,9 @@ Result<Simulation::Built> Simulation::build(const Setup& setup) {
   auto engine = make_engine(*built.model, backend());
   if (!engine && engine_.gpu) {
     built.message = fmt::format("{} The reference goes on.", engine.error().message);
-    engine = make_engine(*built.model, BackendName::reference);
+    engine = make_engine(*built.model, reference_backend());
   } else if (engine && shadow_.solver) {
-    auto other = make_engine(*built.model, shadow_.gpu ? BackendName::gpu : BackendName::reference);
+    auto other = make_engine(*built.model, *shadow_.row);
     if (!other) return other.error();
     built.shadow = std::move(*other);
   }
@@ -107,9 +89,9 @@ Status Simulation::rebuild(Setup setup) {
 }
 
 Status Simulation::load(const State& state) {
-  for (Engine* engine : {&engine_, &shadow_}) {
+  for (Backend* engine : {&engine_, &shadow_}) {
     if (!engine->solver) continue;
-    if (const Status loaded = engine->solver->load(state); !loaded) return loaded;
+    ASPIC_CHECK(engine->solver->load(state));
   }
   snapshot_ = state;
   snapshot_time_ = Clock::now();
@@ -152,7 +134,7 @@ void Simulation::start_change() {
 }
 
 Status Simulation::change_setup(Setup setup, bool keep_state) {
-  if (const Status settled = settle(); !settled) return settled;
+  ASPIC_CHECK(settle());
   Change change = begin_change(std::move(setup), keep_state);
   auto built = build(change.setup);
   return finish_change(std::move(change), std::move(built));
@@ -185,7 +167,7 @@ Status Simulation::finish_change(Change change, Result<Built> built) {
   if (!fits) return reset();
   if (!at_end()) forget_future();
   const State state = grown_state(*model_, std::move(change.state));
-  if (const Status loaded = load(state); !loaded) return loaded;
+  ASPIC_CHECK(load(state));
   history_.begin(setup_, state);
   stretch_ = history_.end_moment().stretch;
   ever_differed_ = false;
@@ -195,16 +177,16 @@ Status Simulation::finish_change(Change change, Result<Built> built) {
 Status Simulation::reset() {
   worker_.finish();
   if (change_) {
-    if (const Status taken = take_outcome(); !taken) return taken;
+    ASPIC_CHECK(take_outcome());
   }
   has_outcome_ = false;
   seek_.reset();
   if (!setup_.thrown.empty() || !setup_.pinned.empty()) {
-    if (const Status rebuilt = rebuild({setup_.settings, {}, {}}); !rebuilt) return rebuilt;
+    ASPIC_CHECK(rebuild({setup_.settings, {}, {}}));
   }
   forget_past();
   const State start = initial_state(*model_, Precision::single);
-  if (const Status loaded = load(start); !loaded) return loaded;
+  ASPIC_CHECK(load(start));
   history_.begin(setup_, start);
   stretch_ = history_.end_moment().stretch;
   add_sample(start, measure(*model_, start));
@@ -222,15 +204,15 @@ void Simulation::forget_past() {
   steps_per_second_ = 0.0;
 }
 
-Status Simulation::set_backend(BackendName name) {
-  if (name == backend()) return {};
-  if (const Status settled = settle(); !settled) return settled;
+Status Simulation::set_backend(const BackendRow& row) {
+  if (&row == engine_.row) return {};
+  ASPIC_CHECK(settle());
   const auto divergence = divergence_;
-  if (shadowed()) {
+  if (shadow_.row == &row) {
     // Both are there, at the same step.
     std::swap(engine_, shadow_);
   } else {
-    auto engine = make_engine(*model_, name);
+    auto engine = make_engine(*model_, row);
     if (!engine) return engine.error();
     engine_ = std::move(*engine);
     given_.reset();
@@ -243,16 +225,18 @@ Status Simulation::set_backend(BackendName name) {
 
 Status Simulation::set_shadow(bool on) {
   if (on == shadowed()) return {};
-  if (const Status settled = settle(); !settled) return settled;
+  ASPIC_CHECK(settle());
   differences_.clear();
   ever_differed_ = false;
   if (!on) {
     shadow_ = {};
     return {};
   }
-  auto engine = make_engine(*model_, engine_.gpu ? BackendName::reference : BackendName::gpu);
+  const BackendRow& other =
+      engine_.row == &reference_backend() ? next_backend(reference_backend()) : reference_backend();
+  auto engine = make_engine(*model_, other);
   if (!engine) return engine.error();
-  if (const Status loaded = engine->solver->load(snapshot_); !loaded) return loaded;
+  ASPIC_CHECK(engine->solver->load(snapshot_));
   shadow_ = std::move(*engine);
   given_.reset();
   return {};
@@ -267,7 +251,7 @@ Status Simulation::fall_back(const Error& error) {
   worker_.finish();
   has_outcome_ = false;
   if (gpu_led) {
-    auto engine = make_engine(*model_, BackendName::reference);
+    auto engine = make_engine(*model_, reference_backend());
     if (!engine) return engine.error();
     engine_ = std::move(*engine);
   }
@@ -298,7 +282,7 @@ void Simulation::set_context(gl::Context& context) {
 // ---- hands ----
 
 Status Simulation::toggle_pin(std::uint32_t particle) {
-  if (const Status settled = settle(); !settled) return settled;
+  ASPIC_CHECK(settle());
   if (particle >= model_->particle_count()) return {};
   Setup setup = setup_;
   setup.pinned[particle] = model_->inverse_mass[particle] != 0.0;
@@ -306,7 +290,7 @@ Status Simulation::toggle_pin(std::uint32_t particle) {
 }
 
 Status Simulation::throw_balls(const std::vector<BallSettings>& balls) {
-  if (const Status settled = settle(); !settled) return settled;
+  ASPIC_CHECK(settle());
   Setup setup = setup_;
   for (const BallSettings& b : balls)
     setup.thrown.push_back({b.radius, b.mass, step_, b.position, b.velocity, b.angular_velocity});
@@ -314,7 +298,7 @@ Status Simulation::throw_balls(const std::vector<BallSettings>& balls) {
 }
 
 Status Simulation::clear_balls() {
-  if (const Status settled = settle(); !settled) return settled;
+  ASPIC_CHECK(settle());
   if (setup_.thrown.empty()) return {};
   Setup setup = setup_;
   setup.thrown.clear();

@@ -18,11 +18,10 @@
 #include "gpu_solver/gpu_solver.h"
 #include "model/solver.h"
 #include "render/device_state.h"
+#include "run/backends.h"
 #include "scene/scene.h"
 
 namespace aspic::app {
-
-enum class BackendName { reference, gpu };
 
 /// How fast simulated time passes.
 enum class Pace {
@@ -34,6 +33,7 @@ enum class Pace {
 struct EnergySample {
   double time = 0.0;  ///< [s]
   Measures measures;
+  std::uint64_t step = 0;
 };
 
 /// How far the two backends of shadow mode were apart at one time.
@@ -44,13 +44,13 @@ struct DifferenceSample {
   bool identical = false;  ///< every bit is the same
 };
 
-/// All calls from the window's thread, with its context current. The reference advances in a thread of its
-/// own; the gpu in batches that keep within a frame.
+/// All calls from the window's thread, with its context current. A backend that needs the context advances in
+/// batches that keep within a frame, every other in a thread of its own.
 class Simulation {
  public:
-  /// `context` must outlive it. The gpu is taken if `backend` says so; see make_engine for errors.
+  /// `context` must outlive it. Errors: those of the scene and of make_backend().
   static Result<std::unique_ptr<Simulation>> create(gl::Context& context, const Scene& scene,
-                                                    BackendName backend);
+                                                    const BackendRow& backend);
   ~Simulation();
 
   // ---- what is simulated, and by whom ----
@@ -64,7 +64,7 @@ class Simulation {
   std::optional<Status> take_change() { return std::exchange(change_result_, std::nullopt); }
   bool changing() const { return wanted_change_.has_value() || change_.has_value(); }
   /// Carries the state over to another backend, to the bit. On an error nothing changes.
-  Status set_backend(BackendName backend);
+  Status set_backend(const BackendRow& backend);
   /// Back to the scene's start, which also forgets a divergence and all that hands did. Paused or running
   /// stays.
   Status reset();
@@ -74,7 +74,7 @@ class Simulation {
   Status leave_gpu(const Error& why);
   /// The context of solvers to come, after leave_gpu().
   void set_context(gl::Context& context);
-  BackendName backend() const { return engine_.gpu ? BackendName::gpu : BackendName::reference; }
+  const BackendRow& backend() const { return *engine_.row; }
   const Solver& solver() const { return *engine_.solver; }
   GpuSolver* gpu() { return engine_.gpu; }
   const Model& model() const { return *model_; }
@@ -128,7 +128,8 @@ class Simulation {
   /// Takes all balls away that were thrown by hand.
   Status clear_balls();
 
-  // ---- shadow mode: the other backend does the same steps, and the states are compared ----
+  // ---- shadow mode: another backend does the same steps, and the states are compared ----
+  /// The other one is the reference; if that leads, the next in the table.
   Status set_shadow(bool on);
   bool shadowed() const { return shadow_.solver != nullptr; }
   const Solver* shadow() const { return shadow_.solver.get(); }
@@ -161,15 +162,10 @@ class Simulation {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// A solver, and its other face where it is one of the gpu.
-  struct Engine {
-    std::unique_ptr<Solver> solver;
-    GpuSolver* gpu = nullptr;
-  };
   /// A model with its solvers, ready to take the place of those in use.
   struct Built {
     std::unique_ptr<Model> model;
-    Engine engine, shadow;
+    Backend engine, shadow;
     std::optional<std::string> message;
   };
   /// A change on its way: the setup to be built, and the state that will go on in it.
@@ -185,12 +181,14 @@ class Simulation {
     std::optional<Divergence> divergence;
     std::uint64_t steps = 0;
     State state;
+    std::optional<Divergence> other_divergence;  ///< of the shadow, where the job advances both
+    State other_state;
     Measures measures;
     std::unique_ptr<Result<Built>> built;
   };
   explicit Simulation(gl::Context& context);
 
-  Result<Engine> make_engine(const Model& model, BackendName backend);
+  Result<Backend> make_engine(const Model& model, const BackendRow& backend);
   Result<Built> build(const Setup& setup);
   void install(Setup setup, Built built);
   Status rebuild(Setup setup);
@@ -200,7 +198,6 @@ class Simulation {
   Status load(const State& state);
   Status change_setup(Setup setup, bool keep_state);
   Status fall_back(const Error& error);
-  Engine& reference_engine() { return engine_.gpu ? shadow_ : engine_; }
 
   Status prepare_to_advance();
   Status give_pull(const std::optional<Pull>& pull);
@@ -209,7 +206,7 @@ class Simulation {
   void start_job(std::uint64_t steps, double budget);
   void start_measuring();
   Status take_outcome();
-  Status follow_with_gpu(const Outcome& outcome);
+  Status follow(Outcome outcome);
   Status seek_on(double budget);
   Status finish_seek();
   void note(std::uint64_t steps, const std::optional<Divergence>& divergence);
@@ -222,7 +219,7 @@ class Simulation {
   gl::Context* context_;
   Setup setup_;
   std::unique_ptr<Model> model_;
-  Engine engine_, shadow_;
+  Backend engine_, shadow_;
   std::optional<gl::Arithmetic> arithmetic_;  // what the canary found once; the device does not change
   std::uint64_t model_number_ = 0, picture_number_ = 0, step_ = 0;
   State snapshot_;

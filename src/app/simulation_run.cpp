@@ -35,9 +35,9 @@ void Simulation::set_running(bool running) {
 
 Status Simulation::give_pull(const std::optional<Pull>& pull) {
   if (given_ == pull) return {};
-  for (Engine* engine : {&engine_, &shadow_}) {
+  for (Backend* engine : {&engine_, &shadow_}) {
     if (!engine->solver) continue;
-    if (const Status given = engine->solver->set_pull(pull); !given) return given;
+    ASPIC_CHECK(engine->solver->set_pull(pull));
   }
   given_ = pull;
   return {};
@@ -58,16 +58,16 @@ Status Simulation::prepare_to_advance() {
 
 Status Simulation::single_step() {
   if (running_ || divergence_) return {};
-  if (const Status settled = settle(); !settled) return settled;
+  ASPIC_CHECK(settle());
   if (const auto next = history_.after(here())) {
-    if (const Status sought = seek(*next); !sought) return sought;
+    ASPIC_CHECK(seek(*next));
     return settle();
   }
-  if (const Status ready = prepare_to_advance(); !ready) return ready;
+  ASPIC_CHECK(prepare_to_advance());
   const auto advanced = engine_.solver->advance(1);
   if (!advanced) return engine_.gpu ? fall_back(advanced.error()) : Status(advanced.error());
   note(*advanced ? 0 : 1, *advanced);
-  if (const Status read = refresh_snapshot(); !read) return read;
+  ASPIC_CHECK(refresh_snapshot());
   if (shadowed()) {
     const auto followed = shadow_.solver->advance(1);
     if (!followed) return fall_back(followed.error());
@@ -125,12 +125,12 @@ Status Simulation::advance_run(double dt, double budget) {
   if (pause_step_) steps = std::min(steps, *pause_step_ > step_ ? *pause_step_ - step_ : 0);
   if (steps == 0) return {};
   if (engine_.gpu && !shadowed()) {
-    if (const Status ready = prepare_to_advance(); !ready) return ready;
+    ASPIC_CHECK(prepare_to_advance());
     return advance_gpu(steps, budget);
   }
   // A job that came to its end since the last look still has its outcome to hand over.
   if (worker_.busy() || has_outcome_) return {};
-  if (const Status ready = prepare_to_advance(); !ready) return ready;
+  ASPIC_CHECK(prepare_to_advance());
   start_job(steps, std::max(budget, shortest_job));
   return {};
 }
@@ -154,7 +154,7 @@ Status Simulation::advance_gpu(std::uint64_t steps, double budget) {
     if (seconds_since(start) > 0.75 * budget) break;
   }
   if (!seek_ && (divergence_ || Clock::now() - last_sampled_ > sample_every)) {
-    if (const Status read = refresh_snapshot(); !read) return read;
+    ASPIC_CHECK(refresh_snapshot());
     if (!worker_.busy() && !has_outcome_) start_measuring();
   }
   return {};
@@ -171,7 +171,9 @@ void Simulation::start_measuring() {
 void Simulation::start_job(std::uint64_t steps, double budget) {
   has_outcome_ = true;
   outcome_ = Outcome{};
-  worker_.start([this, steps, budget, &solver = *reference_engine().solver](const std::atomic<bool>& hurry) {
+  Solver& solver = engine_.gpu ? *shadow_.solver : *engine_.solver;
+  Solver* const other = engine_.gpu || shadow_.gpu || seek_ ? nullptr : shadow_.solver.get();
+  worker_.start([this, steps, budget, &solver, other](const std::atomic<bool>& hurry) {
     const auto start = Clock::now();
     while (outcome_.steps < steps && !hurry) {
       const auto advanced = solver.advance(1);
@@ -191,6 +193,16 @@ void Simulation::start_job(std::uint64_t steps, double budget) {
     }
     outcome_.state = std::move(*state);
     outcome_.measures = measure(*model_, outcome_.state);
+    if (other == nullptr) return;
+    // A step that failed on one side is tried on the other.
+    const auto followed = other->advance(outcome_.steps + (outcome_.divergence ? 1 : 0));
+    auto other_state = followed ? other->state() : Result<State>(followed.error());
+    if (!other_state) {
+      outcome_.error = other_state.error();
+      return;
+    }
+    outcome_.other_divergence = *followed;
+    outcome_.other_state = std::move(*other_state);
   });
 }
 
@@ -207,7 +219,7 @@ Status Simulation::take_outcome() {
   }
   const bool stepped = outcome.steps > 0 || outcome.divergence;
   if (shadowed() && stepped && !seek_) {
-    if (const Status followed = follow_with_gpu(outcome); !followed) return followed;
+    return follow(std::move(outcome));
   } else if (!engine_.gpu) {
     snapshot_ = std::move(outcome.state);
     snapshot_time_ = Clock::now();
@@ -219,26 +231,35 @@ Status Simulation::take_outcome() {
   return {};
 }
 
-/// Shadow mode: the gpu does the steps that the reference has done.
-Status Simulation::follow_with_gpu(const Outcome& outcome) {
-  Engine& gpu = engine_.gpu ? engine_ : shadow_;
-  // A step that failed on one side is tried on the other.
-  const auto advanced = gpu.solver->advance(outcome.steps + (outcome.divergence ? 1 : 0));
-  if (!advanced) return advanced.error();
-  auto state = gpu.solver->state();
-  if (!state) return state.error();
-  snapshot_ = engine_.gpu ? *state : outcome.state;
+/// Shadow mode: the solver that needs the context does the steps that the job has done, and the two states
+/// are compared.
+Status Simulation::follow(Outcome outcome) {
+  if (GpuSolver* const gpu = engine_.gpu ? engine_.gpu : shadow_.gpu) {
+    // A step that failed on one side is tried on the other.
+    const auto advanced = gpu->advance(outcome.steps + (outcome.divergence ? 1 : 0));
+    if (!advanced) return advanced.error();
+    auto state = gpu->state();
+    if (!state) return state.error();
+    outcome.other_divergence = *advanced;
+    outcome.other_state = std::move(*state);
+  }
+  const Measures measures = outcome.measures;
+  if (engine_.gpu) {
+    std::swap(outcome.state, outcome.other_state);
+    std::swap(outcome.divergence, outcome.other_divergence);
+  }
+  snapshot_ = std::move(outcome.state);
   snapshot_time_ = Clock::now();
-  const std::optional<Divergence>& divergence = engine_.gpu ? *advanced : outcome.divergence;
-  const std::uint64_t steps = snapshot_.step - step_;
-  note(steps, divergence);
-  compare_shadow(engine_.gpu ? outcome.state : *state);
-  if (advanced->has_value() != outcome.divergence.has_value()) {
+  note(snapshot_.step - step_, outcome.divergence);
+  compare_shadow(outcome.other_state);
+  if (outcome.divergence.has_value() != outcome.other_divergence.has_value()) {
     differences_.back().metres = std::numeric_limits<double>::infinity();
     differences_.back().identical = false;
     ever_differed_ = true;
     set_running(false);
   }
+  // The measures are those of the job's own state.
+  add_sample(engine_.gpu ? outcome.other_state : snapshot_, measures);
   return {};
 }
 
@@ -294,12 +315,12 @@ Status Simulation::seek(const Moment& moment) {
   const Keyframe& keyframe = history_.keyframe(moment);
   const bool on_the_way = moment.stretch == stretch_ && step_ <= moment.step && step_ >= keyframe.step;
   if (moment.stretch != stretch_) {
-    if (const Status rebuilt = rebuild(history_.stretch(moment.stretch).setup); !rebuilt) return rebuilt;
+    ASPIC_CHECK(rebuild(history_.stretch(moment.stretch).setup));
     stretch_ = moment.stretch;
   }
   if (!on_the_way) {
     // The newest state of a gpu may not have been kept yet: it is where a way back ends.
-    if (const Status loaded = load(unpack(keyframe)); !loaded) return loaded;
+    ASPIC_CHECK(load(unpack(keyframe)));
   }
   divergence_.reset();
   seek_ = moment.step;
@@ -310,14 +331,13 @@ Status Simulation::seek_on(double budget) {
   const auto start = Clock::now();
   while (seek_ && step_ < *seek_) {
     if (worker_.busy() || has_outcome_) return {};
-    if (const Status given = give_pull(history_.pull_at(here())); !given) return given;
+    ASPIC_CHECK(give_pull(history_.pull_at(here())));
     const std::uint64_t stop = std::min(*seek_, history_.next_pull_change(here()).value_or(*seek_));
     if (!engine_.gpu) {
       start_job(stop - step_, std::max(budget, shortest_job));
       return {};
     }
-    if (const Status advanced = advance_gpu(stop - step_, budget - seconds_since(start)); !advanced)
-      return advanced;
+    ASPIC_CHECK(advance_gpu(stop - step_, budget - seconds_since(start)));
     if (seconds_since(start) > 0.75 * budget) return {};
   }
   return finish_seek();
@@ -325,7 +345,7 @@ Status Simulation::seek_on(double budget) {
 
 Status Simulation::finish_seek() {
   seek_.reset();
-  if (const Status read = refresh_snapshot(); !read) return read;
+  ASPIC_CHECK(refresh_snapshot());
   if (!shadowed()) return {};
   return shadow_.solver->load(snapshot_);
 }
@@ -350,7 +370,7 @@ void Simulation::add_sample(const State& state, const Measures& measures) {
   remember(state);
   const double t = static_cast<double>(state.step) * model_->simulation.timestep;
   while (!energies_.empty() && energies_.back().time >= t) energies_.pop_back();
-  energies_.push_back({t, measures});
+  energies_.push_back({t, measures, state.step});
   if (energies_.size() <= most_samples) return;
   // Half as dense: the whole run stays in the plot.
   std::deque<EnergySample> thinner;

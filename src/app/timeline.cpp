@@ -7,6 +7,7 @@
 #include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "base/text.h"
 
 namespace aspic::app {
 
@@ -34,7 +35,7 @@ void draw_timeline(App& app, const Box& box) {
               "{} states that are kept are simulated again and give the same bits, pulls and pins included. "
               "Marks are changes of the scene, which go back and forth as well. Going on from the past drops "
               "what came after.",
-              gl::human_bytes(history.bytes()), history.keyframe_count()),
+              human_bytes(history.bytes()), history.keyframe_count()),
           "step back");
   if (last > first) {
     for (const double t : history.changes()) {

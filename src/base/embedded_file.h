@@ -1,5 +1,5 @@
 #pragma once
-// Text files that are compiled into the program, see cmake/EmbedFiles.cmake.
+// Files that are compiled into the program, see cmake/EmbedFiles.cmake.
 #include <optional>
 #include <span>
 #include <string_view>
@@ -8,10 +8,10 @@ namespace aspic {
 
 struct EmbeddedFile {
   std::string_view name;  ///< path relative to the base directory that was named when embedding
-  std::string_view text;
+  std::string_view text;  ///< its bytes
 };
 
-/// The text of the file of that name, if there is one.
+/// The content of the file of that name, if there is one.
 inline std::optional<std::string_view> find_embedded(std::span<const EmbeddedFile> files,
                                                      std::string_view name) {
   for (const EmbeddedFile& file : files) {

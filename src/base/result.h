@@ -25,7 +25,7 @@ struct Error {
   std::string message;
 };
 
-/// Either a T or an Error. Use `if (!result) return result.error();`.
+/// Either a T or an Error. To pass an error on: ASPIC_TRY, ASPIC_CHECK.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -80,3 +80,20 @@ class [[nodiscard]] Result<void> {
 using Status = Result<void>;
 
 }  // namespace aspic
+
+#define ASPIC_JOIN_(a, b) a##b
+#define ASPIC_JOIN(a, b) ASPIC_JOIN_(a, b)
+
+/// Moves the value of a Result into `target`, which may declare a variable, or returns the error from the
+/// enclosing function: `ASPIC_TRY(auto model, build_model(settings));`. Two statements: braces where one is
+/// expected.
+#define ASPIC_TRY(target, ...)                                                                  \
+  auto ASPIC_JOIN(aspic_result_, __LINE__) = (__VA_ARGS__);                                     \
+  if (!ASPIC_JOIN(aspic_result_, __LINE__)) return ASPIC_JOIN(aspic_result_, __LINE__).error(); \
+  target = std::move(*ASPIC_JOIN(aspic_result_, __LINE__))
+
+/// Returns the error of a Status from the enclosing function, if there is one.
+#define ASPIC_CHECK(...)                                                                                \
+  do {                                                                                                  \
+    if (const ::aspic::Status aspic_status = (__VA_ARGS__); !aspic_status) return aspic_status.error(); \
+  } while (false)

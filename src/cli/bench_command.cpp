@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "analysis/stability.h"
+#include "analysis/stability_text.h"
 #include "cli/commands.h"
-#include "cli/console.h"
 #include "cli/json_report.h"
-#include "cli/stability_text.h"
+#include "io/console.h"
 #include "io/interrupt.h"
 #include "model/integrator.h"
 #include "scene/load.h"
@@ -60,8 +60,7 @@ Result<double> chosen_timestep(const BenchOptions& options, const Model& model) 
 
 /// From the scene's start over `steps` steps, the wait for the device included [s].
 Result<double> time_run(Solver& solver, std::uint64_t steps, Measurement& m) {
-  if (const Status loaded = solver.load(initial_state(solver.model(), solver.precision())); !loaded)
-    return loaded.error();
+  ASPIC_CHECK(solver.load(initial_state(solver.model(), solver.precision())));
   const auto start = Clock::now();
   const auto advanced = solver.advance(steps);
   if (!advanced) return advanced.error();
@@ -106,7 +105,7 @@ Result<Measurement> measure_case(const BenchOptions& options, const Scene& scene
   Solver& solver = *backend->solver;
 
   Measurement m;
-  m.backend = backend->name;
+  m.backend = backend->row->name;
   m.force_path = backend->force_path;
   m.device = backend->device;
   m.integrator = model->simulation.integrator;

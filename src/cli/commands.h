@@ -1,7 +1,7 @@
 #pragma once
 // The commands. Each prints its data to stdout and returns success or the error whose code is the exit code.
 #include "base/result.h"
-#include "cli/arguments.h"
+#include "command_line/arguments.h"
 
 namespace aspic::cli {
 

@@ -6,8 +6,8 @@
 
 #include "analysis/compare.h"
 #include "cli/commands.h"
-#include "cli/console.h"
 #include "cli/json_report.h"
+#include "io/console.h"
 #include "io/interrupt.h"
 #include "scene/load.h"
 
@@ -83,11 +83,6 @@ Result<Comparison> compare_steps(std::array<Backend, 2>& backends, std::uint64_t
   }
 }
 
-std::string name_of(const Backend& backend) {
-  if (!backend.force_path.empty()) return backend.name + ":" + backend.force_path;
-  return backend.solver->precision() == Precision::double_ ? backend.name + ":double" : backend.name;
-}
-
 /// `body` is "particle" or "ball".
 JsonObject to_json_object(const Worst& worst, const std::string& body) {
   return {{"largest_absolute", worst.difference.absolute},
@@ -104,14 +99,14 @@ Status print_result(const CompareOptions& options, const Scene& scene, const std
     JsonArray sides;
     for (std::size_t i = 0; i < backends.size(); ++i) {
       sides.emplace_back(JsonObject{
-          {"backend", name_of(backends[i])},
+          {"backend", backends[i].variant()},
           {"device", backends[i].device},
           {"state_hash", result.hash[i]},
           {"diverged_in_step", result.divergence[i] ? JsonValue(result.divergence[i]->step) : JsonValue()}});
     }
     return print_data(
         to_json({{"scene", scene.name},
-                 {"integrator", aspic::name_of(scene.model.simulation.integrator)},
+                 {"integrator", name_of(scene.model.simulation.integrator)},
                  {"steps", result.steps},
                  {"tolerance", options.tolerance},
                  {"within_tolerance", within},
@@ -127,9 +122,9 @@ Status print_result(const CompareOptions& options, const Scene& scene, const std
                  {"backends", sides}}));
   }
   std::string text = fmt::format("scene       {}, {}, {} steps compared\n", scene.name,
-                                 aspic::name_of(scene.model.simulation.integrator), result.steps);
+                                 name_of(scene.model.simulation.integrator), result.steps);
   for (std::size_t i = 0; i < backends.size(); ++i) {
-    text += fmt::format("{:<11} {}  {}\n", name_of(backends[i]), result.hash[i], backends[i].device);
+    text += fmt::format("{:<11} {}  {}\n", backends[i].variant(), result.hash[i], backends[i].device);
   }
   const auto line = [](std::string_view name, std::string_view unit, const Worst& w,
                        std::string_view body = "particle") {
@@ -173,8 +168,7 @@ Status compare_command(const CompareOptions& options) {
   if (!result) return result.error();
   const bool within =
       options.tolerance == 0.0 ? !result->first_difference : result->largest_absolute() <= options.tolerance;
-  if (const Status printed = print_result(options, *scene, backends, *result, within); !printed)
-    return printed;
+  ASPIC_CHECK(print_result(options, *scene, backends, *result, within));
   if (result->interrupted) {
     return Error{ErrorCode::interrupted, fmt::format("interrupted at step {} of {}.", result->steps, *steps)};
   }
@@ -185,13 +179,13 @@ Status compare_command(const CompareOptions& options) {
   }
   if (first || second) {
     return Error{ErrorCode::diverged,
-                 fmt::format("{} alone diverged, in step {} ({}).", name_of(backends[first ? 0 : 1]),
+                 fmt::format("{} alone diverged, in step {} ({}).", backends[first ? 0 : 1].variant(),
                              (first ? *first : *second).step, body_text(first ? *first : *second))};
   }
   if (!within) {
     return Error{ErrorCode::check_failed,
-                 fmt::format("{} and {} differ by more than the tolerance {}.", name_of(backends[0]),
-                             name_of(backends[1]), options.tolerance)};
+                 fmt::format("{} and {} differ by more than the tolerance {}.", backends[0].variant(),
+                             backends[1].variant(), options.tolerance)};
   }
   return {};
 }

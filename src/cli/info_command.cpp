@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
-#include "cli/console.h"
 #include "cli/json_report.h"
 #include "gpu/canary.h"
+#include "io/console.h"
 
 namespace aspic::cli {
 namespace {
@@ -48,7 +48,7 @@ std::vector<std::string> arithmetic_sentences(gl::Context& context) {
 Status info_command(const InfoOptions& options) {
   const std::vector<gl::EglDevice> devices = gl::list_devices();
   AutomaticChoice automatic = choose_automatically({});
-  const char* chosen = automatic.kind == BackendKind::gpu ? "gpu" : "reference";
+  const std::string_view chosen = automatic.row->name;
   // The device that --backend gpu would take: the hardware found just now, or whatever else there is.
   std::unique_ptr<gl::Context> context = std::move(automatic.context);
   std::string no_context;
@@ -69,8 +69,15 @@ Status info_command(const InfoOptions& options) {
       list.emplace_back(JsonObject{
           {"index", std::uint64_t(device.index)}, {"name", device.name}, {"software", device.software}});
     }
+    JsonArray rows;
+    for (const BackendRow& row : backends()) {
+      JsonArray precisions;
+      for (const Precision precision : row.precisions) precisions.emplace_back(name_of(precision));
+      rows.emplace_back(JsonObject{{"name", row.name}, {"summary", row.summary}, {"precisions", precisions}});
+    }
     return print_data(
         to_json({{"version", ASPIC_VERSION},
+                 {"backends", rows},
                  {"devices", list},
                  {"gpu", context ? to_json_value(context->info()) : JsonValue()},
                  {"gpu_error", context ? JsonValue() : JsonValue(no_context)},
@@ -79,7 +86,9 @@ Status info_command(const InfoOptions& options) {
                  {"auto_reason", automatic.reason},
                  {"auto_detail", automatic.detail.empty() ? JsonValue() : JsonValue(automatic.detail)}}));
   }
-  std::string text = "aspic " ASPIC_VERSION "\n\n";
+  std::string text = "aspic " ASPIC_VERSION "\n\nBackends\n";
+  for (const BackendRow& row : backends()) text += fmt::format("  {:<10} {}\n", row.name, row.summary);
+  text += "\n";
   text += devices.empty() ? "EGL lists no devices.\n" : "EGL devices\n";
   for (const gl::EglDevice& device : devices)
     text += fmt::format("  {}  {} ({})\n", device.index, device.name, kind_of(device));

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "cli/commands.h"
-#include "cli/console.h"
+#include "io/console.h"
 
 namespace aspic::cli {
 

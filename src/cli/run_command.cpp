@@ -8,15 +8,15 @@
 
 #include "analysis/energy.h"
 #include "analysis/stability.h"
+#include "analysis/stability_text.h"
 #include "cli/commands.h"
-#include "cli/console.h"
 #include "cli/json_report.h"
-#include "cli/number_checks.h"
-#include "cli/recorder.h"
-#include "cli/run_files.h"
-#include "cli/stability_text.h"
+#include "command_line/number_checks.h"
 #include "io/checkpoint.h"
+#include "io/console.h"
 #include "io/interrupt.h"
+#include "run/recorder.h"
+#include "run/run_files.h"
 #include "scene/load.h"
 #include "scene/write.h"
 
@@ -52,21 +52,26 @@ std::vector<std::string> overrides_of(const std::vector<std::string>& view) {
   return overrides;
 }
 
+bool asks_for_checkpoint(const RunOptions& options) {
+  return std::ranges::any_of(options.outputs, [](const StateOutput& output) {
+    return output.option == "checkpoint" && !output.path.empty();
+  });
+}
+
 Result<Start> load_start(const RunOptions& options) {
   Start start;
   if (options.resume_file.empty()) {
     auto scene = load_scene(options.scene, options.overrides);
     if (!scene) return scene.error();
-    if (!options.checkpoint_file.empty()) start.scene_toml = to_toml(*scene);
-    if (!options.pictures.view.empty())
-      scene = with_overrides(std::move(*scene), overrides_of(options.pictures.view));
+    if (asks_for_checkpoint(options)) start.scene_toml = to_toml(*scene);
+    if (!options.view.empty()) scene = with_overrides(std::move(*scene), overrides_of(options.view));
     if (!scene) return scene.error();
     start.scene = std::move(*scene);
     return start;
   }
   auto checkpoint = read_checkpoint(options.resume_file);
   if (!checkpoint) return checkpoint.error();
-  auto scene = parse_scene(checkpoint->scene, options.resume_file, overrides_of(options.pictures.view));
+  auto scene = parse_scene(checkpoint->scene, options.resume_file, overrides_of(options.view));
   if (!scene) {
     return Error{
         scene.error().code,
@@ -105,6 +110,7 @@ struct Outcome {
   std::uint64_t first_step = 0, last_step = 0;  ///< of this run; last: as planned
   std::optional<Divergence> divergence;
   std::optional<SolveStatistics> solves;  ///< implicit Euler only
+  Status pictured;                        ///< whether the pictures were completed
   bool interrupted = false;
   double wall_seconds = 0.0;
   double steps_per_second() const {
@@ -141,21 +147,20 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, st
   Outcome outcome;
   outcome.first_step = state->step;
   outcome.last_step = last_step;
-  const std::uint64_t interval = files.series_interval();
-  if (const Status row = files.add_row(model, *state, solver.solve_statistics().value_or(SolveStatistics{}));
-      !row)
-    return row.error();
+  const auto solves = [&] { return solver.solve_statistics().value_or(SolveStatistics{}); };
+  ASPIC_CHECK(files.take({model, *state, solves()}));
 
   ProgressBar bar(last_step);
   BatchSize batch;
   std::uint64_t step = state->step;
   const auto started = Clock::now();
   if (recorder) {
-    if (const Status shown = recorder->reach(solver, step); !shown) return shown.error();
+    ASPIC_CHECK(recorder->reach(solver, step));
   }
   while (step < last_step && !outcome.divergence && !(outcome.interrupted = interrupt.interrupted())) {
     std::uint64_t count = std::min(batch.next(), last_step - step);
-    if (interval > 0) count = std::min(count, interval - step % interval);
+    const std::uint64_t wanted = files.next_step(step);
+    count = std::min(count, wanted - step);
     if (recorder) count = std::min(count, recorder->next_step() - step);
     const auto before = Clock::now();
     const auto advanced = solver.advance(count);
@@ -163,27 +168,31 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, st
     outcome.divergence = *advanced;
     if (outcome.divergence) break;
     step += count;
-    if (interval > 0 && (step % interval == 0 || step == last_step)) {
+    if (step == wanted) {
       state = solver.state();
       if (!state) return state.error();
-      if (const Status row =
-              files.add_row(model, *state, solver.solve_statistics().value_or(SolveStatistics{}));
-          !row)
-        return row.error();
+      ASPIC_CHECK(files.take({model, *state, solves()}));
     }
     if (recorder) {
       recorder->add_simulation(std::chrono::duration<double>(Clock::now() - before).count());
-      if (const Status shown = recorder->reach(solver, step); !shown) return shown.error();
+      ASPIC_CHECK(recorder->reach(solver, step));
     }
     batch.took(count, std::chrono::duration<double>(Clock::now() - before).count());
     bar.update(step);
   }
   state = solver.state();  // waits for the device, so that the time below is that of finished work
   if (!state) return state.error();
-  if (recorder) {
-    if (const Status shown = recorder->finish(solver, state->step); !shown) return shown.error();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started).count(); };
+  outcome.wall_seconds = seconds();
+  if (const auto bad = first_not_finite(measure(model, *state))) {
+    return Error{ErrorCode::diverged,
+                 fmt::format("{} of step {} is not a finite number; the outputs were not completed.", *bad,
+                             state->step)};
   }
-  outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - started).count();
+  if (recorder) {
+    outcome.pictured = recorder->finish(solver, state->step);
+    outcome.wall_seconds = seconds();
+  }
   outcome.state = std::move(*state);
   outcome.solves = solver.solve_statistics();
   return outcome;
@@ -220,7 +229,7 @@ void print_frame_times(const Recorder& recorder) {
 }
 
 Status print_summary(const RunOptions& options, const Scene& scene, const Model& model,
-                     const Backend& backend, const Outcome& outcome, const RunFiles& files,
+                     const Backend& backend, const Outcome& outcome, const std::vector<std::string>& files,
                      const Recorder* recorder) {
   const State& state = outcome.state;
   const Measures m = measure(model, state);
@@ -228,11 +237,11 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   const std::string hash = state_hash_text(state);
   if (options.json) {
     JsonArray written;
-    for (const std::string& file : files.written()) written.emplace_back(file);
+    for (const std::string& file : files) written.emplace_back(file);
     const auto or_null = [](const std::string& text) { return text.empty() ? JsonValue() : JsonValue(text); };
     return print_data(to_json({
         {"scene", scene.name},
-        {"backend", backend.name},
+        {"backend", backend.row->name},
         {"backend_reason", or_null(backend.reason)},
         {"device", backend.device},
         {"precision", name_of(state.precision)},
@@ -267,7 +276,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   std::string text = fmt::format("scene        {} ({} particles, {} springs{})\n", scene.name,
                                  model.particle_count(), model.springs.size(),
                                  model.ball_count() > 0 ? fmt::format(", {} balls", model.ball_count()) : "");
-  text += fmt::format("backend      {}{}, {} precision{}\n", backend.name,
+  text += fmt::format("backend      {}{}, {} precision{}\n", backend.row->name,
                       backend.force_path.empty() ? "" : ", force path " + backend.force_path,
                       name_of(state.precision),
                       backend.reason.empty() ? "" : fmt::format("; chosen since {}", backend.reason));
@@ -290,7 +299,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         s.converged, s.stagnated, s.not_converged, s.worst_residual, s.newton_iterations, s.cg_iterations);
   }
   text += fmt::format("state hash   {}\n", hash);
-  for (const std::string& file : files.written()) text += fmt::format("wrote        {}\n", file);
+  for (const std::string& file : files) text += fmt::format("wrote        {}\n", file);
   return print_text(text);
 }
 
@@ -343,7 +352,9 @@ Status run_command(const RunOptions& options) {
                                                "scene's start.",
                                                options.resume_file, start->state->step, *steps)};
   }
-  auto files = RunFiles::open(options, start->scene.model.simulation.integrator);
+  const RunFacts facts = {start->scene_toml, start->scene.model.simulation.integrator};
+  auto files = RunFiles::open(options.outputs, options.pictures, facts,
+                              options.force ? Overwrite::allow : Overwrite::refuse);
   if (!files) return files.error();
   const auto model = build_model(start->scene.model);
   if (!model) return model.error();
@@ -353,38 +364,38 @@ Status run_command(const RunOptions& options) {
   auto backend = make_backend(choice, *model);
   if (!backend) return backend.error();
   if (start->state) {
-    if (const Status loaded = backend->solver->load(*start->state); !loaded) return loaded.error();
+    ASPIC_CHECK(backend->solver->load(*start->state));
   }
   warn_if_unstable(*model, interrupt);
 
   std::unique_ptr<Recorder> recorder;
   if (options.pictures.any()) {
-    auto made = Recorder::create(options.pictures, start->scene, *model, *backend, files->frame_sinks(),
+    auto made = Recorder::create(options.pictures, start->scene, *backend, files->take_frame_sinks(),
                                  start->state ? start->state->step : 0, *steps);
     if (!made) return made.error();
     recorder = std::move(*made);
   }
   auto outcome = simulate(*backend->solver, *files, recorder.get(), *steps, interrupt);
   if (!outcome) return outcome.error();
-  if (const auto bad = first_not_finite(measure(*model, outcome->state))) {
-    return Error{
-        ErrorCode::diverged,
-        fmt::format("{} of step {} is not a finite number; no file was written.", *bad, outcome->state.step)};
-  }
-  const Status finished = files->finish(*model, start->scene_toml, outcome->state);
+  const Status finished =
+      files->finish({*model, outcome->state, outcome->solves.value_or(SolveStatistics{})});
+  std::vector<std::string> written = recorder ? recorder->written() : std::vector<std::string>{};
+  written.insert(written.end(), files->written().begin(), files->written().end());
   const Status summary =
-      print_summary(options, start->scene, *model, *backend, *outcome, *files, recorder.get());
+      print_summary(options, start->scene, *model, *backend, *outcome, written, recorder.get());
   if (recorder) print_frame_times(*recorder);
+  if (!outcome->pictured) return outcome->pictured;
   if (!finished) return finished;
   if (!summary) return summary;
   if (outcome->divergence) return divergence_error(*model, *outcome, interrupt);
   if (outcome->interrupted) {
+    const auto checkpoint = std::ranges::find(options.outputs, "checkpoint", &StateOutput::option);
     return Error{
         ErrorCode::interrupted,
         fmt::format("interrupted at step {} of {}; all files are whole.{}", outcome->state.step, *steps,
-                    options.checkpoint_file.empty()
+                    checkpoint == options.outputs.end() || checkpoint->path.empty()
                         ? ""
-                        : fmt::format(" Go on with aspic run --resume {}.", options.checkpoint_file))};
+                        : fmt::format(" Go on with aspic run --resume {}.", checkpoint->path))};
   }
   return {};
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "analysis/stability_text.h"
+#include "base/files.h"
+#include "base/text.h"
 #include "cli/commands.h"
-#include "cli/console.h"
 #include "cli/json_report.h"
-#include "cli/stability_text.h"
+#include "io/console.h"
 #include "io/interrupt.h"
 #include "scene/import_configuration.h"
 #include "scene/load.h"
@@ -42,7 +44,7 @@ Status scene_show_command(const SceneShowOptions& options) {
 }
 
 Status scene_import_command(const SceneImportOptions& options) {
-  const auto text = read_text_file(options.file);
+  const auto text = read_file(options.file);
   if (!text) return text.error();
   const auto imported = import_configuration(*text, options.file);
   if (!imported) return imported.error();
@@ -100,14 +102,14 @@ Status scene_check_command(const SceneCheckOptions& options) {
                         counts.structural, counts.shear, counts.bending);
     text += fmt::format("balls        {}\n", counts.balls);
     for (const BackendBytes& backend : bytes_by_backend(*model)) {
-      text += fmt::format("memory       {:<24} {:>10}\n", backend.backend, gl::human_bytes(backend.bytes));
+      text += fmt::format("memory       {:<24} {:>10}\n", backend.backend, human_bytes(backend.bytes));
     }
     for (std::size_t i = 0; i < limits.size(); ++i) {
       text += fmt::format("stable step  {:<24} {:>10}\n", name_of(explicit_integrators[i]),
                           stability_figure(limits[i]));
     }
     text += fmt::format("time step    {:<24} {:>8} s\n", name_of(own), timestep);
-    if (const Status printed = print_text(text); !printed) return printed;
+    ASPIC_CHECK(print_text(text));
   }
   const auto at = std::find(explicit_integrators.begin(), explicit_integrators.end(), own);
   if (at != explicit_integrators.end()) {

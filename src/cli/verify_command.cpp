@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/console.h"
 #include "cli/json_report.h"
 #include "gpu/context.h"
+#include "io/console.h"
 #include "verify/check.h"
 
 namespace aspic::cli {
@@ -117,7 +117,7 @@ Status verify_command(const VerifyOptions& options) {
     rows = verify::evaluate_all(*checks, subject, [&](std::size_t done) { bar.update(done); });
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  if (const Status printed = print_rows(options, rows, device, seconds); !printed) return printed;
+  ASPIC_CHECK(print_rows(options, rows, device, seconds));
 
   const std::size_t failed = count(rows, Verdict::failed), not_run = count(rows, Verdict::not_run);
   if (failed > 0)

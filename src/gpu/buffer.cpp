@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/text.h"
+
 namespace aspic::gl {
 namespace {
 

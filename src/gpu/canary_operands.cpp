@@ -5,18 +5,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/split_mix.h"
+
 namespace aspic::gl {
 namespace {
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
 class Random {
  public:
-  std::uint64_t bits() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t bits() { return random_(); }
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>((bits() >> 32) * n >> 32); }
   /// A mantissa of 24 bits, the highest set.
   std::uint32_t mantissa() { return 0x800000u | below(0x800000u); }
@@ -28,7 +24,7 @@ class Random {
   }
 
  private:
-  std::uint64_t state_ = 0x6173706963ull;
+  SplitMix64 random_{0x6173706963ull};
 };
 
 void add_notable(std::vector<CanaryOperands>& cases) {

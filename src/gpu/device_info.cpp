@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/text.h"
+
 namespace aspic::gl {
 namespace {
 
@@ -62,15 +64,6 @@ DeviceInfo query_device_info() {
   info.limits.storage_offset_alignment = integer<std::uint32_t>(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
   info.limits.uniform_offset_alignment = integer<std::uint32_t>(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
   return info;
-}
-
-std::string human_bytes(std::uint64_t bytes) {
-  constexpr const char* units[] = {"KiB", "MiB", "GiB", "TiB", "PiB"};
-  if (bytes < 1024) return fmt::format("{} bytes", bytes);
-  double size = static_cast<double>(bytes) / 1024.0;
-  std::size_t unit = 0;
-  while (size >= 1024.0 && unit + 1 < std::size(units)) size /= 1024.0, ++unit;
-  return fmt::format("{:.4g} {}", size, units[unit]);
 }
 
 std::vector<std::string> describe(const DeviceInfo& info) {

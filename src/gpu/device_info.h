@@ -45,7 +45,4 @@ DeviceInfo query_device_info();
 /// The lines that `aspic info` prints, without line ends.
 std::vector<std::string> describe(const DeviceInfo& info);
 
-/// "1.5 MiB", "512 bytes": a size for a sentence.
-std::string human_bytes(std::uint64_t bytes);
-
 }  // namespace aspic::gl

@@ -91,9 +91,7 @@ Result<std::string> ShaderLibrary::read(std::string_view path) const {
     std::error_code ignored;
     if (std::filesystem::exists(file, ignored)) return read_shader_file(file);
   }
-  const auto files = embedded_shaders();
-  const auto found = std::ranges::find(files, path, &EmbeddedShader::path);
-  if (found != files.end()) return std::string(found->text);
+  if (const auto text = find_embedded(embedded_shaders(), path)) return std::string(*text);
   return Error{
       ErrorCode::io,
       fmt::format("There is no shader file \"{}\"{}. Paths are relative to shaders/.", path,

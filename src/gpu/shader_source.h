@@ -6,18 +6,17 @@
 #include <string_view>
 #include <vector>
 
+#include "base/embedded_file.h"
 #include "base/result.h"
 
+namespace aspic {
+
+/// Every file under shaders/ by its path there, e.g. "compute/gather.comp", in the order of the paths.
+std::span<const EmbeddedFile> embedded_shaders();
+
+}  // namespace aspic
+
 namespace aspic::gl {
-
-/// A shader file that is part of the program.
-struct EmbeddedShader {
-  std::string_view path;  ///< relative to shaders/, e.g. "compute/gather.comp"
-  std::string_view text;
-};
-
-/// Every file under shaders/, in the order of the paths.
-std::span<const EmbeddedShader> embedded_shaders();
 
 /// `#define name value`.
 struct Define {

@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include "base/text.h"
 #include "gpu/loop_bound.h"
 
 namespace aspic {
@@ -43,7 +44,7 @@ Status check_device(gl::Context& context, ErrorCode memory_code) {
       memory_code,
       fmt::format("The device {} ran out of memory at work, with {} ({} bytes) held in buffers. Make the "
                   "scene smaller, close other programs that use the device, or choose --backend reference.",
-                  context.info().renderer, gl::human_bytes(context.bytes_held()), context.bytes_held())};
+                  context.info().renderer, human_bytes(context.bytes_held()), context.bytes_held())};
 }
 
 Status check_overrun(std::uint32_t overrun) {

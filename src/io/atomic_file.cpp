@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "base/printable.h"
@@ -72,40 +71,7 @@ Error already_exists(const std::string& path) {
           printable_line(path))};
 }
 
-std::string_view remedy(int error_number) {
-  switch (error_number) {
-    case ENOSPC:
-    case EDQUOT:
-      return "Free some space or choose another disk; nothing incomplete was left behind.";
-    case EFBIG:
-      return "The file would be larger than the file system or the limit of this process (ulimit -f) allows.";
-    case EACCES:
-    case EPERM:
-      return "Choose a place you have permission for.";
-    case EROFS:
-      return "The file system is read-only: choose another place.";
-    case ENOENT:
-    case ENOTDIR:
-      return "Check the spelling, and that the directory exists.";
-    case EISDIR:
-      return "Give the name of a file, not of a directory.";
-    case ENAMETOOLONG:
-      return "Choose a shorter name.";
-    case EMFILE:
-    case ENFILE:
-      return "Too many files are open: close other programs or raise the limit (ulimit -n).";
-    default:
-      return "Check the path and the disk, then try again.";
-  }
-}
-
 }  // namespace
-
-Error file_error(std::string_view verb, const std::string& path, int error_number) {
-  return {ErrorCode::io, fmt::format("Cannot {} {}: {}. {}", verb,
-                                     path.empty() ? "a file without a name" : printable_line(path),
-                                     std::strerror(error_number), remedy(error_number))};
-}
 
 Result<AtomicFile> AtomicFile::create(const std::string& path, Overwrite overwrite) {
   AtomicFile file;
@@ -211,7 +177,7 @@ Status AtomicFile::give_final_name() {
 Status AtomicFile::commit() {
   if (descriptor_ < 0)
     return Error{ErrorCode::io, fmt::format("{} was discarded after an earlier error.", path_)};
-  if (const Status flushed = flush(); !flushed) return flushed;
+  ASPIC_CHECK(flush());
   const bool device = temporary_.empty();
   if (!device && ::fsync(descriptor_) != 0) {
     const Error error = file_error("write", path_, errno);
@@ -237,56 +203,6 @@ Status AtomicFile::commit() {
     ::close(directory);
   }
   return {};
-}
-
-namespace {
-
-/// Reads until `most` bytes are there or the file ends; closes the descriptor.
-Result<std::string> read_and_close(int descriptor, std::uint64_t most, const std::string& path) {
-  std::string content;
-  std::array<char, 65536> block;
-  int reason = 0;
-  while (reason == 0 && content.size() < most) {
-    const std::size_t wanted = std::min<std::uint64_t>(block.size(), most - content.size());
-    const ssize_t got = ::read(descriptor, block.data(), wanted);
-    if (got == 0) break;
-    if (got > 0) {
-      content.append(block.data(), static_cast<std::size_t>(got));
-    } else if (errno != EINTR) {
-      reason = errno;
-    }
-  }
-  ::close(descriptor);
-  if (reason != 0) return file_error("read", path, reason);
-  return content;
-}
-
-}  // namespace
-
-Result<FileStart> read_regular_file(const std::string& path, std::uint64_t most) {
-  // Opening a pipe without a writer would wait for one.
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (descriptor < 0) return file_error("read", path, errno);
-  struct stat present = {};
-  const bool known = ::fstat(descriptor, &present) == 0;
-  if (!known || !S_ISREG(present.st_mode)) {
-    const int reason = known ? EISDIR : errno;
-    ::close(descriptor);
-    if (!known || S_ISDIR(present.st_mode)) return file_error("read", path, reason);
-    return Error{ErrorCode::io,
-                 fmt::format("Cannot read {}: it is a device or a pipe, which may have no end. Give the "
-                             "name of a file.",
-                             printable_line(path))};
-  }
-  auto content = read_and_close(descriptor, most, path);
-  if (!content) return content.error();
-  return FileStart{std::move(*content), static_cast<std::uint64_t>(present.st_size)};
-}
-
-Result<std::string> read_whole_file(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return file_error("read", path, errno);
-  return read_and_close(descriptor, std::numeric_limits<std::uint64_t>::max(), path);
 }
 
 void remove_temporary_files() noexcept {

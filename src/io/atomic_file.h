@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/files.h"
 #include "base/result.h"
 
 namespace aspic {
@@ -57,23 +58,8 @@ class AtomicFile {
   Overwrite overwrite_ = Overwrite::refuse;
 };
 
-/// The beginning of a file, and the size of all of it.
-struct FileStart {
-  std::string content;
-  std::uint64_t size = 0;  ///< [bytes]
-};
-/// Reads the first `most` bytes, or all if there are fewer, of a regular file. Errors (io): it is missing or
-/// unreadable, a directory, or a device or pipe, which may have no end.
-Result<FileStart> read_regular_file(const std::string& path, std::uint64_t most);
-
-/// Reads a whole file. Error (io): missing, unreadable, a directory.
-Result<std::string> read_whole_file(const std::string& path);
-
 /// Removes the temporary files of this process that are not committed yet. Safe to call from a signal
 /// handler.
 void remove_temporary_files() noexcept;
-
-/// The error for a failed system call on a file: "Cannot <verb> <path>: <reason>. <remedy>".
-Error file_error(std::string_view verb, const std::string& path, int error_number);
 
 }  // namespace aspic

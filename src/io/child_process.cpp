@@ -36,16 +36,32 @@ Error start_error(const std::string& program, int reason) {
   return {ErrorCode::io, fmt::format("{} cannot be started: {}.", program, std::strerror(reason))};
 }
 
-/// posix_spawnp with the child's ends of its three streams.
-int spawn(const std::vector<std::string>& arguments, int input, int errors, pid_t& pid) {
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
+/// Ends of the child's three streams; negative: /dev/null.
+struct Streams {
+  int input = -1, output = -1, errors = -1;
+};
+
+std::vector<char*> pointers(const std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  for (const std::string& text : texts) result.push_back(const_cast<char*>(text.c_str()));
+  result.push_back(nullptr);
+  return result;
+}
+
+/// posix_spawnp, in a process group of its own if `apart`.
+int spawn(const std::vector<std::string>& arguments, const Streams& streams, char* const* environment,
+          bool apart, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
+  const auto set = [&](int end, int stream, int mode) {
+    if (end >= 0)
+      posix_spawn_file_actions_adddup2(&actions, end, stream);
+    else
+      posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", mode, 0);
+  };
+  set(streams.input, STDIN_FILENO, O_RDONLY);
+  set(streams.output, STDOUT_FILENO, O_WRONLY);
+  set(streams.errors, STDERR_FILENO, O_WRONLY);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t defaults;
@@ -53,11 +69,36 @@ int spawn(const std::vector<std::string>& arguments, int input, int errors, pid_
   sigaddset(&defaults, SIGPIPE);
   posix_spawnattr_setsigdefault(&attributes, &defaults);
   posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-  const int failed = posix_spawnp(&pid, argv[0], &actions, &attributes, argv.data(), environ);
+  const int flags = POSIX_SPAWN_SETSIGDEF | (apart ? POSIX_SPAWN_SETPGROUP : 0);
+  posix_spawnattr_setflags(&attributes, static_cast<short>(flags));
+  const int failed = posix_spawnp(&pid, arguments.front().c_str(), &actions, &attributes,
+                                  pointers(arguments).data(), environment);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return failed;
+}
+
+ChildProcess::End wait_for(pid_t pid) {
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  ChildProcess::End end;
+  if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  return end;
+}
+
+std::vector<std::string> environment_with(const std::vector<std::pair<std::string, std::string>>& changes) {
+  std::vector<std::string> result;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    const bool changed = std::any_of(changes.begin(), changes.end(), [&](const auto& change) {
+      return text.starts_with(change.first + "=");
+    });
+    if (!changed) result.push_back(text);
+  }
+  for (const auto& [name, value] : changes) result.push_back(name + "=" + value);
+  return result;
 }
 
 }  // namespace
@@ -70,7 +111,8 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
     return start_error(arguments.front(), errno);
   child.input_ = ends[0];
   child.errors_ = ::memfd_create("messages", MFD_CLOEXEC);
-  const int failed = child.errors_ < 0 ? errno : spawn(arguments, ends[1], child.errors_, child.pid_);
+  const int failed =
+      child.errors_ < 0 ? errno : spawn(arguments, {ends[1], -1, child.errors_}, environ, true, child.pid_);
   ::close(ends[1]);
   if (failed != 0) {
     child.pid_ = -1;
@@ -104,15 +146,9 @@ bool ChildProcess::write(std::span<const std::byte> data) {
 
 ChildProcess::End ChildProcess::finish() {
   if (input_ >= 0) ::close(std::exchange(input_, -1));
-  End end;
-  if (pid_ <= 0) return end;
-  int status = 0;
-  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-  }
-  exchange_running(pid_, 0);
-  pid_ = -1;
-  if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
-  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  if (pid_ <= 0) return {};
+  const End end = wait_for(pid_);
+  exchange_running(std::exchange(pid_, -1), 0);
   return end;
 }
 
@@ -136,6 +172,30 @@ std::string ChildProcess::last_lines(std::size_t count) const {
   std::size_t start = text.size();
   for (; count > 0 && start != 0 && start != std::string::npos; --count) start = text.rfind('\n', start - 1);
   return text.substr(start == std::string::npos || text[start] != '\n' ? 0 : start + 1) + "\n";
+}
+
+Result<std::string> output_of(const std::string& program, const std::vector<std::string>& words,
+                              const std::vector<std::pair<std::string, std::string>>& environment) {
+  std::array<int, 2> ends = {};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return start_error(program, errno);
+  std::vector<std::string> arguments = {program};
+  arguments.insert(arguments.end(), words.begin(), words.end());
+  const std::vector<std::string> variables = environment_with(environment);
+  pid_t child = 0;
+  const int failed = spawn(arguments, {-1, ends[1], -1}, pointers(variables).data(), false, child);
+  ::close(ends[1]);
+  std::string output;
+  std::array<char, 4096> block = {};
+  for (ssize_t got = 0; failed == 0 && ((got = ::read(ends[0], block.data(), block.size())) > 0 ||
+                                        (got < 0 && errno == EINTR));)
+    if (got > 0) output.append(block.data(), static_cast<std::size_t>(got));
+  ::close(ends[0]);
+  if (failed != 0) return start_error(program, failed);
+  const ChildProcess::End end = wait_for(child);
+  if (end.ok()) return output;
+  return Error{ErrorCode::check_failed,
+               end.signal != 0 ? fmt::format("signal {} ended the child process", end.signal)
+                               : fmt::format("the child process ended with exit code {}", end.exit_code)};
 }
 
 }  // namespace aspic

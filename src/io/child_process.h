@@ -1,10 +1,11 @@
 #pragma once
-// Another program, fed through its standard input.
+// Other programs: one fed through its standard input, one listened to.
 #include <sys/types.h>
 
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -51,5 +52,10 @@ class ChildProcess {
 /// Ends the programs that run at present and waits for them: before their files are removed in a process that
 /// is about to end. Safe to call from a signal handler.
 void end_child_processes() noexcept;
+
+/// What `program` prints on its standard output with these words and environment variables; its standard
+/// error is discarded. Error (io): it cannot be started; check_failed: it ended with another code than 0.
+Result<std::string> output_of(const std::string& program, const std::vector<std::string>& words,
+                              const std::vector<std::pair<std::string, std::string>>& environment);
 
 }  // namespace aspic

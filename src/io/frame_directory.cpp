@@ -19,15 +19,12 @@ namespace fs = std::filesystem;
 
 constexpr int jpeg_quality = 92;
 
-std::string_view extension(ImageFormat format) {
-  return format == ImageFormat::png ? "png" : "jpg";
-}
-
-/// frame-, six digits or more, .png or .jpg.
+/// frame-, six digits or more, the ending of a picture format.
 bool is_frame_name(const std::string& name) {
   const fs::path path(name);
   const std::string stem = path.stem().string();
-  if (path.extension() != ".png" && path.extension() != ".jpg") return false;
+  const FilmFormat* const format = find_film_format(path.extension().string());
+  if (!format || !format->is_directory() || path.extension() != format->ending) return false;
   return stem.size() >= 12 && stem.starts_with("frame-") &&
          std::all_of(stem.begin() + 6, stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
@@ -41,19 +38,34 @@ Result<std::vector<fs::path>> frames_in(const std::string& directory) {
   return frames;
 }
 
+template <class Write>
+Result<std::string> encoded(std::string_view format, const PictureSize& size,
+                            [[maybe_unused]] std::span<const std::byte> rgb, const Write& write) {
+  assert(rgb.size() == 3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+  std::string content;
+  const auto append = [](void* into, void* data, int bytes) {
+    static_cast<std::string*>(into)->append(static_cast<const char*>(data), static_cast<std::size_t>(bytes));
+  };
+  if (write(append, content) == 0 || content.empty())
+    return Error{ErrorCode::io,
+                 fmt::format("A picture of {} x {} pixels could not be encoded as {}: not enough memory.",
+                             size.width, size.height, format)};
+  return content;
+}
+
 class FrameDirectory : public FrameSink {
  public:
-  FrameDirectory(std::string directory, ImageFormat format, const PictureSize& size)
+  FrameDirectory(std::string directory, const FilmFormat& format, const PictureSize& size)
       : directory_(std::move(directory)), format_(format), size_(size) {}
 
   Status write(std::span<const std::byte> rgb) override {
-    const auto content = encode_image(format_, size_, rgb);
+    const auto content = format_.encode(size_, rgb);
     if (!content) return content.error();
-    const std::string name = fmt::format("{}/frame-{:06}.{}", directory_, next_, extension(format_));
+    const std::string name = fmt::format("{}/frame-{:06}{}", directory_, next_, format_.ending);
     auto file = AtomicFile::create(name, Overwrite::refuse);
     if (!file) return file.error();
-    if (const Status written = file->write(*content); !written) return written;
-    if (const Status named = file->commit(); !named) return named;
+    ASPIC_CHECK(file->write(*content));
+    ASPIC_CHECK(file->commit());
     ++next_;
     return {};
   }
@@ -63,33 +75,28 @@ class FrameDirectory : public FrameSink {
 
  private:
   std::string directory_;
-  ImageFormat format_;
+  const FilmFormat& format_;
   PictureSize size_;
   std::uint64_t next_ = 0;
 };
 
 }  // namespace
 
-Result<std::string> encode_image(ImageFormat format, const PictureSize& size,
-                                 std::span<const std::byte> rgb) {
-  assert(rgb.size() == 3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-  std::string content;
-  const auto append = [](void* into, void* data, int bytes) {
-    static_cast<std::string*>(into)->append(static_cast<const char*>(data), static_cast<std::size_t>(bytes));
-  };
-  const int ok =
-      format == ImageFormat::png
-          ? stbi_write_png_to_func(append, &content, size.width, size.height, 3, rgb.data(), 3 * size.width)
-          : stbi_write_jpg_to_func(append, &content, size.width, size.height, 3, rgb.data(), jpeg_quality);
-  if (ok == 0 || content.empty())
-    return Error{ErrorCode::io,
-                 fmt::format("A picture of {} x {} pixels could not be encoded as {}: not enough memory.",
-                             size.width, size.height, extension(format))};
-  return content;
+Result<std::string> encode_png(const PictureSize& size, std::span<const std::byte> rgb) {
+  return encoded("PNG", size, rgb, [&](auto append, std::string& content) {
+    return stbi_write_png_to_func(append, &content, size.width, size.height, 3, rgb.data(), 3 * size.width);
+  });
 }
 
-Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& directory, ImageFormat format,
-                                                        const PictureSize& size, Overwrite overwrite) {
+Result<std::string> encode_jpeg(const PictureSize& size, std::span<const std::byte> rgb) {
+  return encoded("JPEG", size, rgb, [&](auto append, std::string& content) {
+    return stbi_write_jpg_to_func(append, &content, size.width, size.height, 3, rgb.data(), jpeg_quality);
+  });
+}
+
+Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& directory,
+                                                        const FilmFormat& format, const PictureSize& size,
+                                                        Overwrite overwrite) {
   if (::mkdir(directory.c_str(), 0777) != 0 && errno != EEXIST)
     return file_error("make the directory", directory, errno);
   struct stat present = {};

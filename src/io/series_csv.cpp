@@ -15,16 +15,19 @@ Result<SeriesWriter> SeriesWriter::create(const std::string& path, Overwrite ove
 
 Status SeriesWriter::add(const Model& model, const State& state, const SolveStatistics& solves) {
   if (has_row_ && last_step_ == state.step) return {};
-  const Measures m = measure(model, state);
+  const double time = static_cast<double>(state.step) * model.simulation.timestep;
+  return add(state.step, time, measure(model, state), solves);
+}
+
+Status SeriesWriter::add(std::uint64_t step, double time, const Measures& m, const SolveStatistics& solves) {
   if (const auto bad = first_not_finite(m)) {
     return Error{ErrorCode::diverged,
-                 fmt::format("{}: {} of step {} is not a finite number.", file_.path(), *bad, state.step)};
+                 fmt::format("{}: {} of step {} is not a finite number.", file_.path(), *bad, step)};
   }
-  const double time = static_cast<double>(state.step) * model.simulation.timestep;
   has_row_ = true;
-  last_step_ = state.step;
+  last_step_ = step;
   std::string row =
-      fmt::format("{},{},{},{},{},{},{},{},{},{},{}", state.step, time, m.kinetic, m.elastic, m.gravitational,
+      fmt::format("{},{},{},{},{},{},{},{},{},{},{}", step, time, m.kinetic, m.elastic, m.gravitational,
                   m.total(), m.momentum.x, m.momentum.y, m.momentum.z, m.max_speed, m.min_height);
   if (has_solves_) {
     row += fmt::format(",{},{},{},{},{},{}", solves.newton_iterations - before_.newton_iterations,

@@ -30,6 +30,8 @@ class SeriesWriter {
   /// the run's statistics so far, read only where the file has their columns. Errors: io from the file;
   /// diverged if a figure is not finite.
   Status add(const Model& model, const State& state, const SolveStatistics& solves = {});
+  /// The same with what was measured at a step, at `time` [s].
+  Status add(std::uint64_t step, double time, const Measures& measures, const SolveStatistics& solves = {});
 
   /// Completes the file with the rows so far.
   Status finish() { return file_.commit(); }

@@ -83,7 +83,7 @@ Status write_state_csv(AtomicFile& file, const State& state) {
                    fmt::format("{} was not written: ball {} is not a finite number.", file.path(), b)};
     }
   }
-  if (const Status header = file.write(fmt::format("{}\n", state_csv_header)); !header) return header;
+  ASPIC_CHECK(file.write(fmt::format("{}\n", state_csv_header)));
   fmt::memory_buffer line;
   for (std::size_t i = 0; i < state.position.size(); ++i) {
     line.clear();
@@ -91,7 +91,7 @@ Status write_state_csv(AtomicFile& file, const State& state) {
     for (int axis = 0; axis < 3; ++axis) append_number(line, state.position[i][axis], state.precision);
     for (int axis = 0; axis < 3; ++axis) append_number(line, state.velocity[i][axis], state.precision);
     line.append(std::string_view(",0,0,0\n"));
-    if (const Status written = file.write({line.data(), line.size()}); !written) return written;
+    ASPIC_CHECK(file.write({line.data(), line.size()}));
   }
   for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
     line.clear();
@@ -101,7 +101,7 @@ Status write_state_csv(AtomicFile& file, const State& state) {
       for (int axis = 0; axis < 3; ++axis) append_number(line, (*part)[b][axis], state.precision);
     }
     line.push_back('\n');
-    if (const Status written = file.write({line.data(), line.size()}); !written) return written;
+    ASPIC_CHECK(file.write({line.data(), line.size()}));
   }
   return {};
 }
@@ -145,7 +145,7 @@ Result<State> parse_state_csv(std::string_view text, const std::string& name, Pr
 }
 
 Result<State> read_state_csv(const std::string& path, Precision precision) {
-  const auto text = read_whole_file(path);
+  const auto text = read_file(path);
   if (!text) return text.error();
   return parse_state_csv(*text, path, precision);
 }

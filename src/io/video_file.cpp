@@ -2,51 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <optional>
 
 #include "io/child_process.h"
 
 namespace aspic {
 namespace {
-
-constexpr double gif_fps_limit = 50.0;  // shortest picture that viewers honour: two hundredths of a second
-
-/// What ffmpeg is told about the output; sRGB in, BT.709 video range out.
-std::vector<std::string> encoding(VideoFormat format) {
-  const std::vector<std::string> colour = {
-      "-vf",
-      "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd,format=yuv420p",
-      "-colorspace",
-      "bt709",
-      "-color_primaries",
-      "bt709",
-      "-color_trc",
-      "iec61966-2-1",
-      "-color_range",
-      "tv"};
-  std::vector<std::string> words;
-  switch (format) {
-    case VideoFormat::mp4:
-      words = {"-c:v", "libx264", "-preset", "medium", "-crf", "18", "-movflags", "+faststart"};
-      words.insert(words.end(), colour.begin(), colour.end());
-      words.insert(words.end(), {"-f", "mp4"});
-      break;
-    case VideoFormat::webm:
-      words = {"-c:v",      "libvpx-vp9", "-crf",      "28", "-b:v",    "0",
-               "-deadline", "good",       "-cpu-used", "4",  "-row-mt", "1"};
-      words.insert(words.end(), colour.begin(), colour.end());
-      words.insert(words.end(), {"-f", "webm"});
-      break;
-    case VideoFormat::gif:
-      words = {"-vf",   "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=sierra2_4a",
-               "-loop", "0",
-               "-f",    "gif"};
-      break;
-  }
-  return words;
-}
 
 class VideoFile : public FrameSink {
  public:
@@ -92,43 +53,8 @@ class VideoFile : public FrameSink {
 
 }  // namespace
 
-Result<VideoFormat> video_format_of(const std::string& path) {
-  const std::size_t dot = path.rfind('.');
-  std::string end = dot == std::string::npos ? "" : path.substr(dot);
-  std::ranges::transform(end, end.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (end == ".mp4") return VideoFormat::mp4;
-  if (end == ".webm") return VideoFormat::webm;
-  if (end == ".gif") return VideoFormat::gif;
-  return Error{
-      ErrorCode::usage,
-      fmt::format("the video's name {} must end in .mp4, .webm or .gif, which says its format.", path)};
-}
-
-double default_fps(VideoFormat format) {
-  return format == VideoFormat::gif ? gif_fps_limit : 60.0;
-}
-
-Status check_video(VideoFormat format, const PictureSize& size, double fps) {
-  if (format == VideoFormat::gif) {
-    if (fps <= gif_fps_limit) return {};
-    return Error{ErrorCode::usage,
-                 fmt::format("a GIF shows at most {} pictures a second, not {}: give --fps 50 or less.",
-                             gif_fps_limit, fps)};
-  }
-  if (size.width % 2 == 0 && size.height % 2 == 0) return {};
-  return Error{
-      ErrorCode::usage,
-      fmt::format("a video stores colour for squares of 2 x 2 pixels, so that --size {}x{} is not "
-                  "possible: give an even width and height, {}x{} say.",
-                  size.width, size.height, size.width + size.width % 2, size.height + size.height % 2)};
-}
-
-Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const PictureSize& size, double fps,
-                                              Overwrite overwrite) {
-  const auto format = video_format_of(path);
-  if (!format) return format.error();
-  if (const Status possible = check_video(*format, size, fps); !possible) return possible.error();
+Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const FilmFormat& format,
+                                              const PictureSize& size, double fps, Overwrite overwrite) {
   auto file = AtomicFile::create(path, overwrite);
   if (!file) return file.error();
   if (file->temporary_path().empty())
@@ -151,8 +77,14 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Pic
                                     "-i",
                                     "pipe:0",
                                     "-an"};
-  const std::vector<std::string> output = encoding(*format);
-  words.insert(words.end(), output.begin(), output.end());
+  if (format.even_sides) {
+    // sRGB in, BT.709 video range out.
+    words.insert(
+        words.end(),
+        {"-vf", "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd,format=yuv420p", "-colorspace",
+         "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv"});
+  }
+  words.insert(words.end(), format.ffmpeg.begin(), format.ffmpeg.end());
   words.push_back("file:" + file->temporary_path());
   auto ffmpeg = ChildProcess::start(words);
   if (!ffmpeg)

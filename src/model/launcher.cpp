@@ -3,14 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/split_mix.h"
+
 namespace aspic {
 namespace {
-
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  return z ^ (z >> 31);
-}
 
 Vec3 point_in(const BoxSettings& box, std::int64_t seed, std::uint64_t first) {
   Vec3 point;
@@ -30,8 +26,8 @@ std::uint64_t launch_step(std::uint64_t n, double interval, double timestep) {
 }  // namespace
 
 double launcher_number(std::int64_t seed, std::uint64_t index) {
-  constexpr std::uint64_t gamma = 0x9e3779b97f4a7c15ull;
-  const std::uint64_t bits = mix(mix(static_cast<std::uint64_t>(seed)) + (index + 1) * gamma);
+  const std::uint64_t start = SplitMix64::mix(static_cast<std::uint64_t>(seed));
+  const std::uint64_t bits = SplitMix64::mix(start + (index + 1) * SplitMix64::gamma);
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 

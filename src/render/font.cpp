@@ -7,9 +7,11 @@
 #include <cmath>
 #include <span>
 
+#include "base/embedded_file.h"
+
 namespace aspic {
 
-std::span<const std::byte> embedded_font();
+std::span<const EmbeddedFile> embedded_fonts();  // generated: one
 
 namespace {
 
@@ -53,7 +55,7 @@ char32_t next_character(std::string_view& text) {
 Font::Font(int pixel_height) : pixel_height_(pixel_height) {
   assert(pixel_height >= 6 && pixel_height <= 256);
   stbtt_fontinfo info;
-  const auto* file = reinterpret_cast<const unsigned char*>(embedded_font().data());
+  const auto* file = reinterpret_cast<const unsigned char*>(embedded_fonts().front().text.data());
   [[maybe_unused]] const int read = stbtt_InitFont(&info, file, stbtt_GetFontOffsetForIndex(file, 0));
   assert(read != 0);
   const float scale = stbtt_ScaleForPixelHeight(&info, static_cast<float>(pixel_height));

@@ -98,7 +98,7 @@ void HighlightPainter::draw_all(const ModelBuffers& model, const gl::Buffer& par
 
 Status HighlightPainter::draw_within(const ModelBuffers& model, const gl::Buffer& particles,
                                      const DrawSettings& draw, const HighlightOptions& options) {
-  if (const Status listed = list(options.marked); !listed) return listed;
+  ASPIC_CHECK(list(options.marked));
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glEnable(GL_DEPTH_TEST);
@@ -115,7 +115,7 @@ Status HighlightPainter::draw_within(const ModelBuffers& model, const gl::Buffer
 Status HighlightPainter::draw_over(const ModelBuffers& model, const gl::Buffer& particles,
                                    const DrawSettings& draw, const HighlightOptions& options,
                                    const render_layout::Frame& frame) {
-  if (const Status listed = list(options.marked); !listed) return listed;
+  ASPIC_CHECK(list(options.marked));
   frame_.upload_items(std::span<const render_layout::Frame>(&frame, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_.id());
   glDisable(GL_DEPTH_TEST);

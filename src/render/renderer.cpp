@@ -347,7 +347,7 @@ Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_
                                    int height, int left, int bottom) {
   Parts& p = *parts_;
   assert(p.drawn_state && width > 0 && height > 0);
-  if (const Status ready = p.prepare_highlight(); !ready) return ready;
+  ASPIC_CHECK(p.prepare_highlight());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(left, bottom, width, height);
   // Marks end where the picture does.

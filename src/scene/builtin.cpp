@@ -1,7 +1,12 @@
-#include "embedded/builtin_scene_files.h"
+#include <span>
+
+#include "base/embedded_file.h"
 #include "scene/load.h"
 
 namespace aspic {
+
+std::span<const EmbeddedFile> builtin_scene_files();  // generated
+
 namespace {
 
 constexpr std::string_view ending = ".toml";
@@ -17,14 +22,14 @@ std::string_view first_comment(std::string_view text) {
 
 std::vector<BuiltinScene> list_builtin_scenes() {
   std::vector<BuiltinScene> scenes;
-  for (const EmbeddedFile& file : builtin_scene_files::embedded_files()) {
+  for (const EmbeddedFile& file : builtin_scene_files()) {
     scenes.push_back({file.name.substr(0, file.name.size() - ending.size()), first_comment(file.text)});
   }
   return scenes;
 }
 
 std::optional<std::string_view> builtin_scene_text(std::string_view name) {
-  return find_embedded(builtin_scene_files::embedded_files(), std::string(name).append(ending));
+  return find_embedded(builtin_scene_files(), std::string(name).append(ending));
 }
 
 }  // namespace aspic

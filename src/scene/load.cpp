@@ -2,13 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
+#include "base/files.h"
 #include "base/printable.h"
 #include "scene/diagnostics.h"
 #include "scene/document.h"
@@ -19,7 +16,7 @@ namespace aspic {
 namespace {
 
 /// Far beyond any scene: keeps a device or a wrong file from filling the memory.
-constexpr std::streamsize largest_file = 64 << 20;
+constexpr std::uint64_t largest_file = 64 << 20;
 
 /// The end of every message about a name that leads nowhere.
 std::string known_scenes(std::string_view name) {
@@ -38,32 +35,6 @@ Result<Scene> with_arguments(reader::Reader reader, std::vector<diagnostics::Sou
 }
 
 }  // namespace
-
-Result<std::string> read_text_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    return Error{ErrorCode::io, fmt::format("{} is a directory, not a file to read", printable_line(path))};
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return Error{ErrorCode::io,
-                 fmt::format("{} cannot be opened: {}", printable_line(path), std::strerror(errno))};
-  }
-  std::string text;
-  char block[1 << 14];
-  while (file.read(block, sizeof block) || file.gcount() > 0) {
-    text.append(block, static_cast<std::size_t>(file.gcount()));
-    if (static_cast<std::streamsize>(text.size()) > largest_file) {
-      return Error{ErrorCode::io,
-                   fmt::format("{} is larger than 64 MiB: that is no scene", printable_line(path))};
-    }
-  }
-  if (file.bad())
-    return Error{ErrorCode::io,
-                 fmt::format("{} cannot be read: {}", printable_line(path), std::strerror(errno))};
-  return text;
-}
 
 Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
                           std::span<const std::string> overrides, const LoadLimits& limits) {
@@ -100,7 +71,7 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
                  fmt::format("'{}' is neither a file nor a built-in scene; {}",
                              printable_line(file_or_builtin), known_scenes(file_or_builtin))};
   }
-  auto text = read_text_file(file_or_builtin);
+  auto text = read_file(file_or_builtin, largest_file);
   if (!text) return text.error();
   return parse_scene(*text, file_or_builtin, overrides, limits);
 }

@@ -37,9 +37,6 @@ Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides
 Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std::string> overrides = {},
                          const LoadLimits& limits = {});
 
-/// The whole of a text file. Error (io): it cannot be read, or is larger than 64 MiB.
-Result<std::string> read_text_file(const std::string& path);
-
 /// A scene that is part of the program.
 struct BuiltinScene {
   std::string_view name;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/text.h"
 #include "model/bodies.h"
 #include "scene/diagnostics.h"
 
@@ -92,13 +93,6 @@ void check_camera(const Scene& scene, Complaints& complaints) {
   complaints.emplace_back("view.camera.target", std::move(nowhere)).other = "view.camera.position";
 }
 
-std::string bytes_text(std::uint64_t bytes) {
-  constexpr double mebi = 1024.0 * 1024.0;
-  const double size = static_cast<double>(bytes);
-  return size < 1024.0 * mebi ? fmt::format("{:.1f} MiB", size / mebi)
-                              : fmt::format("{:.1f} GiB", size / (1024.0 * mebi));
-}
-
 /// The key that decides the size of the scene's largest body.
 std::string largest_body(const Scene& scene) {
   std::string path;
@@ -129,7 +123,7 @@ void check_size(const Scene& scene, std::optional<std::uint64_t> memory_bytes, C
   } else if (memory_bytes && bytes > *memory_bytes) {
     too_large.message =
         fmt::format("{}: they need {} of memory and {} are available; use fewer particles or balls", size,
-                    bytes_text(bytes), bytes_text(*memory_bytes));
+                    human_bytes(bytes), human_bytes(*memory_bytes));
   }
   if (!too_large.message.empty()) complaints.emplace_back(largest_body(scene), std::move(too_large));
 }

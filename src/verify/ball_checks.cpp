@@ -34,8 +34,8 @@ Result<Finding> impact(const Subject& subject) {
     const double h = settings.simulation.timestep;
     settings.balls.push_back({0.5, m1, 0.804 * n - h * v1, v1, {}});
     settings.balls.push_back({0.3, m2, -h * v2, v2, {}});
-    ASPIC_VERIFY_LET(model, build_model(settings));
-    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1));
+    ASPIC_TRY(auto model, build_model(settings));
+    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1));
     const double w1 = 1.0 / m1, w2 = 1.0 / m2, J = -(1.0 + e) * dot(v1 - v2, n) / (w1 + w2);
     const double error = std::max(length(end.ball_velocity[0] - (v1 + (w1 * J) * n)),
                                   length(end.ball_velocity[1] - (v2 - (w2 * J) * n)));
@@ -73,9 +73,9 @@ Result<Finding> crowd_conserves(const Subject& subject) {
   double drift = 0.0, gain = -1.0, lost = 1.0;
   for (const bool spin : {false, true}) {
     for (const double restitution : {0.0, 0.6, 1.0}) {
-      ASPIC_VERIFY_LET(model, crowd(restitution, spin));
-      ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
-      ASPIC_VERIFY_LET(state, run(*solver, 0));
+      ASPIC_TRY(auto model, crowd(restitution, spin));
+      ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
+      ASPIC_TRY(auto state, run(*solver, 0));
       Measures before = measure(model, state);
       const double first = before.kinetic;
       double scale = 0.0;
@@ -83,7 +83,7 @@ Result<Finding> crowd_conserves(const Subject& subject) {
         scale += model.balls[b].mass * length(state.ball_velocity[b]);
       for (std::size_t p = 0; p < model.mass.size(); ++p) scale += model.mass[p] * length(state.velocity[p]);
       for (int step = 0; step < 200; ++step) {
-        ASPIC_VERIFY_LET(next, run(*solver, 1));
+        ASPIC_TRY(auto next, run(*solver, 1));
         const Measures now = measure(model, next);
         drift = std::max(drift, length(now.momentum - before.momentum) / scale);
         gain = std::max(gain, now.kinetic / before.kinetic - 1.0);
@@ -108,8 +108,8 @@ Result<Finding> slope(const Subject& subject, double friction, double share_of_g
   settings.terrain[0].normal = Vec3{s, c, 0.0};
   settings.terrain[0].friction = friction;
   settings.balls.push_back({R, 2.5, {R * s, R * c, 0.0}, {}, {}});
-  ASPIC_VERIFY_LET(model, build_model(settings));
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1000));
+  ASPIC_TRY(auto model, build_model(settings));
+  ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1000));
   const double along = 9.8 * s;
   const double v = std::abs(length(end.ball_velocity[0]) - share_of_gravity * along);
   const double w = std::abs(length(end.ball_angular_velocity[0]) * R - spin_share * along);
@@ -128,8 +128,8 @@ Result<Finding> spin_turns_a_bounce(const Subject& subject) {
     settings.terrain[0].restitution = 0.5;
     const double R = 0.3, omega = 20.0, fall = 4.0;
     settings.balls.push_back({R, 2.0, {0.0, -1.0 + R + 0.002, 0.0}, {0.0, -fall, 0.0}, {0.0, 0.0, omega}});
-    ASPIC_VERIFY_LET(model, build_model(settings));
-    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1));
+    ASPIC_TRY(auto model, build_model(settings));
+    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1));
     const double taken = std::min(2.0 / 7.0 * R * omega, mu * 1.5 * fall);
     worst = std::max({worst, length(end.ball_velocity[0] - Vec3{-taken, 0.5 * fall, 0.0}),
                       R * length(end.ball_angular_velocity[0] - Vec3{0.0, 0.0, omega - 2.5 * taken / R})});
@@ -139,10 +139,10 @@ Result<Finding> spin_turns_a_bounce(const Subject& subject) {
 
 /// Smallest gap between two balls of the built-in pit after 20 s, as a share of their radius.
 Result<Finding> pit_overlap(const Subject& subject) {
-  ASPIC_VERIFY_LET(scene, load_scene("ball-pit"));
-  ASPIC_VERIFY_LET(model, build_model(scene.model));
+  ASPIC_TRY(auto scene, load_scene("ball-pit"));
+  ASPIC_TRY(auto model, build_model(scene.model));
   const auto steps = static_cast<std::uint64_t>(std::lround(20.0 / model.simulation.timestep));
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::single, steps));
+  ASPIC_TRY(auto end, run_reference(subject, model, Precision::single, steps));
   double deepest = 0.0;
   for (std::size_t a = 0; a < model.balls.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
@@ -154,19 +154,28 @@ Result<Finding> pit_overlap(const Subject& subject) {
   return at_most(deepest, 0.1, "of a radius");
 }
 
-/// Steps of a scene on the gpu, by every search, against the reference in single precision.
-Result<Finding> equal_bits(const Subject& subject, const std::string& name, std::uint64_t steps) {
-  ASPIC_VERIFY_LET(scene, load_scene(name));
-  ASPIC_VERIFY_LET(model, build_model(scene.model));
-  ASPIC_VERIFY_LET(expected, run_reference(subject, model, Precision::single, steps));
-  int equal = 0, runs = 0;
-  for (const BallSearch search : {BallSearch::all_pairs, BallSearch::grid}) {
-    GpuOptions options;
-    options.ball_search = search;
-    ASPIC_VERIFY_LET(solver, subject.gpu(model, options));
-    ASPIC_VERIFY_LET(state, run(*solver, steps));
-    ++runs;
-    equal += state_hash(state) == state_hash(expected);
+/// Steps of a scene on a backend, on the gpu by every search, against the reference in single precision.
+Result<Finding> equal_bits(const Subject& subject, const BackendRow& row, const std::string& name,
+                           std::uint64_t steps) {
+  ASPIC_TRY(auto scene, load_scene(name));
+  ASPIC_TRY(auto model, build_model(scene.model));
+  ASPIC_TRY(auto expected, run_reference(subject, model, Precision::single, steps));
+  std::vector<std::unique_ptr<Solver>> solvers;
+  if (!row.needs_context) {
+    ASPIC_TRY(auto solver, subject.other(model, row));
+    solvers.push_back(std::move(solver));
+  } else {
+    for (const BallSearch search : {BallSearch::all_pairs, BallSearch::grid}) {
+      GpuOptions options;
+      options.ball_search = search;
+      ASPIC_TRY(auto solver, subject.gpu(model, options));
+      solvers.push_back(std::move(solver));
+    }
+  }
+  std::size_t equal = 0, runs = solvers.size();
+  for (const auto& solver : solvers) {
+    ASPIC_TRY(auto state, run(*solver, steps));
+    equal += state_hash(state) == state_hash(expected) ? 1 : 0;
   }
   return Finding{equal == runs, fmt::format("{} of {} runs have the reference's hash", equal, runs)};
 }
@@ -195,18 +204,22 @@ void add_ball_checks(std::vector<Check>& checks) {
       at_most_text(64 * epsilon_double * 12.0, "m/s"), true, spin_turns_a_bounce);
   add("pit", "ball-pit after 20 s: deepest overlap of two balls", at_most_text(0.1, "of a radius"), false,
       pit_overlap);
-  checks.push_back({"equality/balls",
-                    "goal-net, penalty and cube-and-balls on the gpu, all pairs and grid, 1,000 steps",
-                    "the reference's hash", false, true, [](const Subject& subject) -> Result<Finding> {
-                      std::string text;
-                      bool passed = true;
-                      for (const char* name : {"goal-net", "penalty", "cube-and-balls"}) {
-                        ASPIC_VERIFY_LET(finding, equal_bits(subject, name, 1000));
-                        passed = passed && finding.passed;
-                        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", name, finding.measured);
-                      }
-                      return Finding{passed, text};
-                    }});
+  for (const BackendRow& row : backends().first(backends().size() - 1)) {
+    checks.push_back({fmt::format("equality/balls/{}", row.name),
+                      fmt::format("goal-net, penalty and cube-and-balls on the {}{}, 1,000 steps", row.name,
+                                  row.needs_context ? ", all pairs and grid" : ""),
+                      "the reference's hash", false, row.needs_context,
+                      [&row](const Subject& subject) -> Result<Finding> {
+                        std::string text;
+                        bool passed = true;
+                        for (const char* name : {"goal-net", "penalty", "cube-and-balls"}) {
+                          ASPIC_TRY(auto finding, equal_bits(subject, row, name, 1000));
+                          passed = passed && finding.passed;
+                          text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", name, finding.measured);
+                        }
+                        return Finding{passed, text};
+                      }});
+  }
 }
 
 }  // namespace aspic::verify

@@ -11,6 +11,7 @@
 #include "base/result.h"
 #include "gpu_solver/gpu_solver.h"
 #include "model/solver.h"
+#include "run/backends.h"
 
 namespace aspic::verify {
 
@@ -21,6 +22,8 @@ struct Subject {
   std::function<Result<std::unique_ptr<Solver>>(const Model&, Precision)> reference;
   /// A device's solver; empty where there is no device.
   std::function<Result<std::unique_ptr<GpuSolver>>(const Model&, const GpuOptions&)> gpu;
+  /// A solver of a backend that is neither of the two, in single precision; never empty.
+  std::function<Result<std::unique_ptr<Solver>>(const Model&, const BackendRow&)> other;
   bool software_device = false;  ///< llvmpipe and its like, where equality of bits is the bound
   std::string program;           ///< the aspic to start as child process
 };

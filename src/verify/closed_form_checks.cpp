@@ -66,7 +66,7 @@ Result<Finding> follows_matrix(const Subject& subject, Integrator integrator, do
   model.simulation.implicit = {50, 500, 1e-16};
   model.spring_classes.push_back({SpringType::structural, stiffness, damping, rest_length, false});
   model.springs.push_back({0, 1, 0});
-  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
+  ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
 
   // Equal masses m on a spring: the distance obeys q̈ = −(2/m)(kq + cq̇).
   const Matrix step = amplification(integrator, static_cast<Real>(model.simulation.timestep), 2 * stiffness,
@@ -74,7 +74,7 @@ Result<Finding> follows_matrix(const Subject& subject, Integrator integrator, do
   const Real q0 = static_cast<Real>(half + half) - rest_length;
   double worst = 0.0;
   for (std::uint64_t n = 100; n <= 10000; n += 100) {
-    ASPIC_VERIFY_LET(now, run(*solver, 100));
+    ASPIC_TRY(auto now, run(*solver, 100));
     const Matrix m = power(step, n);
     const Real q = static_cast<Real>(now.position[0].x) - static_cast<Real>(now.position[1].x) - rest_length;
     const Real rate = static_cast<Real>(now.velocity[0].x) - static_cast<Real>(now.velocity[1].x);

@@ -45,13 +45,13 @@ Result<Drift> drift(const Subject& subject, Integrator integrator, Precision pre
     // method's.
     settings.simulation.implicit.tolerance = precision == Precision::single ? 1e-6 : 1e-15;
   }
-  ASPIC_VERIFY_LET(model, build_model(settings));
+  ASPIC_TRY(auto model, build_model(settings));
   State start = initial_state(model, precision);
   const Vec3 omega = {0.6, 1.0, -0.4};
   for (std::size_t i = 0; i < start.position.size(); ++i) start.velocity[i] = cross(omega, start.position[i]);
-  ASPIC_VERIFY_LET(solver, subject.reference(model, precision));
-  ASPIC_VERIFY_LET(first, run(*solver, 0, &start));
-  ASPIC_VERIFY_LET(last, run(*solver, steps));
+  ASPIC_TRY(auto solver, subject.reference(model, precision));
+  ASPIC_TRY(auto first, run(*solver, 0, &start));
+  ASPIC_TRY(auto last, run(*solver, steps));
   const Totals before = totals(model, first), after = totals(model, last);
   return Drift{length(after.momentum - before.momentum) / before.speed,
                length(after.angular - before.angular) / length(before.angular)};
@@ -74,7 +74,7 @@ void add_conservation_checks(std::vector<Check>& checks) {
                        bounded ? at_most_text(angular_bound) : "no bound"),
            integrator != Integrator::implicit_euler && !exact, false,
            [=](const Subject& subject) -> Result<Finding> {
-             ASPIC_VERIFY_LET(d, drift(subject, integrator, precision));
+             ASPIC_TRY(auto d, drift(subject, integrator, precision));
              const bool kept = !bounded || d.angular <= angular_bound;
              return Finding{d.momentum <= momentum_bound && kept,
                             fmt::format("P {:.3g}, L {:.3g}", d.momentum, d.angular)};

@@ -35,7 +35,7 @@ Result<double> bounce_error(const Subject& subject, Integrator integrator, Conta
   model.simulation.gravity = {0, 0, 0};
   model.terrain[0].mass = mass;
   model.terrain[0].restitution = restitution;
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 100));
+  ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 100));
   return std::abs(end.velocity[0].y / (factor * 5.0) - 1.0);
 }
 
@@ -43,9 +43,9 @@ Result<Finding> bounce(const Subject& subject) {
   double worst = 0.0;
   for (const Integrator integrator : all_integrators) {
     for (const ContactModel contact : both_contact_models) {
-      ASPIC_VERIFY_LET(heavy, bounce_error(subject, integrator, contact,
-                                           std::numeric_limits<double>::infinity(), 0.8, 0.8));
-      ASPIC_VERIFY_LET(light, bounce_error(subject, integrator, contact, 10.0, 1.0, 9.0 / 11.0));
+      ASPIC_TRY(auto heavy, bounce_error(subject, integrator, contact,
+                                         std::numeric_limits<double>::infinity(), 0.8, 0.8));
+      ASPIC_TRY(auto light, bounce_error(subject, integrator, contact, 10.0, 1.0, 9.0 / 11.0));
       worst = std::max({worst, heavy, light});
     }
   }
@@ -56,7 +56,7 @@ Result<Finding> resist(const Subject& subject) {
   double worst = 0.0;
   for (const Integrator integrator : all_integrators) {
     const Model model = particle_on_plane(integrator, ContactModel::course, 0.0, {0, 0, 0});
-    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1000));
+    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1000));
     worst = std::max({worst, length(end.position[0]), length(end.velocity[0])});
   }
   return at_most(worst, 0.0);
@@ -66,7 +66,7 @@ Result<Finding> resist(const Subject& subject) {
 Result<Finding> viscous(const Subject& subject, Integrator integrator) {
   constexpr int steps = 1000;
   const Model model = particle_on_plane(integrator, ContactModel::course, 0.0, {2, 0, 0});
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, steps));
+  ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, steps));
   const double z = -model.simulation.timestep * friction * g;
   double factor = 1 + z;  // also implicit Euler, which holds the contact force of the step's start
   if (integrator == Integrator::midpoint) factor = 1 + z + z * z / 2;
@@ -79,14 +79,14 @@ Result<Finding> viscous(const Subject& subject, Integrator integrator) {
 Result<Finding> sticks(const Subject& subject, Integrator integrator) {
   const Model model =
       particle_on_plane(integrator, ContactModel::coulomb, std::atan(0.99 * friction), {0, 0, 0});
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 3000));
+  ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 3000));
   return at_most(length(end.position[0]), 1e-12, "m");
 }
 
 Result<Finding> slides(const Subject& subject, Integrator integrator) {
   const double angle = std::atan(1.01 * friction);
   const Model model = particle_on_plane(integrator, ContactModel::coulomb, angle, {0, 0, 0});
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 3000));
+  ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 3000));
   const double expected = 3.0 * g * (std::sin(angle) - friction * std::cos(angle));
   return at_most(std::abs(length(end.velocity[0]) / expected - 1), 1e-3);
 }
@@ -102,7 +102,7 @@ Result<Finding> file_order(const Subject& subject) {
       model.terrain.push_back(model.terrain[0]);
       model.terrain[1].normal = {std::sqrt(0.5), std::sqrt(0.5), 0};
       for (Terrain& terrain : model.terrain) terrain.friction = 0.0;
-      ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1));
+      ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1));
       worst = std::max(worst, length(end.velocity[0] - Vec3{0, 4, 0}));
     }
   }
@@ -123,7 +123,7 @@ Result<Finding> projection(const Subject& subject) {
       const bool flat = shape == TerrainShape::plane || shape == TerrainShape::tilted_plane;
       const double away = shape == TerrainShape::bowl ? terrain.radius + 0.5 : terrain.radius - 0.5;
       model.initial_position[0] = terrain.point + (flat ? -0.5 * terrain.normal : away * outward);
-      ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1));
+      ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1));
       worst = std::max(worst, std::abs(signed_distance(terrain, end.position[0])));
       extent = std::max(extent, length(terrain.point) + terrain.radius);
     }

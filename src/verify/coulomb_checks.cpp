@@ -46,7 +46,7 @@ Result<Apexes> apexes(const Subject& subject, Integrator integrator, double e) {
   model.simulation.implicit.tolerance = 1e-14;
   model.terrain.push_back(plane_through_origin(model, {0, 1, 0}));
   model.terrain[0].restitution = e;
-  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
+  ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
   // Past the first apex of all, and with e = 1 some twenty bounces.
   const double fall = std::sqrt(2 * drop_height / g);
   const double duration = fall * (e < 1.0 ? 1 + 2.2 * e : 41.0) + 0.05;
@@ -55,7 +55,7 @@ Result<Apexes> apexes(const Subject& subject, Integrator integrator, double e) {
   std::vector<double> first(phases, 0.0), later(phases, 0.0);
   State before = initial_state(model, Precision::double_);
   for (int step = 0; step < steps; ++step) {
-    ASPIC_VERIFY_LET(now, run(*solver, 1));
+    ASPIC_TRY(auto now, run(*solver, 1));
     for (std::size_t i = 0; i < phases; ++i) {
       if (before.velocity[i].y < -0.05 && now.velocity[i].y > 0) ++bounces[i];
       if (bounces[i] == 1) first[i] = std::max(first[i], now.position[i].y);
@@ -77,7 +77,7 @@ Result<Finding> restitution(const Subject& subject, Integrator integrator) {
   Finding finding{true, ""};
   double above = -1.0;
   for (const double e : {0.2, 0.5, 0.8, 1.0}) {
-    ASPIC_VERIFY_LET(found, apexes(subject, integrator, e));
+    ASPIC_TRY(auto found, apexes(subject, integrator, e));
     finding.passed = finding.passed && found.error <= bound;
     finding.measured += fmt::format("{}{:.2g}", e > 0.2 ? ", " : "", found.error);
     above = std::max(above, found.above);
@@ -101,7 +101,7 @@ Result<Slide> slide(const Subject& subject, Integrator integrator, double degree
   settings.cubes[0].rotation = {{0, 0, 1}, -degrees};
   settings.simulation.integrator = integrator;
   settings.simulation.timestep = usual_step(integrator);
-  ASPIC_VERIFY_LET(model, build_model(settings));
+  ASPIC_TRY(auto model, build_model(settings));
   model.terrain.push_back(plane_through_origin(model, normal));
   model.terrain[0].friction = friction;
   const auto mean = [&](const std::vector<Vec3>& values) {
@@ -109,12 +109,12 @@ Result<Slide> slide(const Subject& subject, Integrator integrator, double degree
     for (const Vec3& value : values) sum += dot(value, down);
     return sum / static_cast<double>(values.size());
   };
-  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
+  ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
   const auto steps = [&](double time) {
     return static_cast<std::uint64_t>(std::lround(time / model.simulation.timestep));
   };
-  ASPIC_VERIFY_LET(early, run(*solver, steps(seconds - 2)));
-  ASPIC_VERIFY_LET(end, run(*solver, steps(2)));
+  ASPIC_TRY(auto early, run(*solver, steps(seconds - 2)));
+  ASPIC_TRY(auto end, run(*solver, steps(2)));
   return Slide{(mean(end.velocity) - mean(early.velocity)) / 2,
                (mean(end.position) - mean(early.position)) / 2};
 }
@@ -124,10 +124,10 @@ Result<Finding> cone(const Subject& subject, Integrator integrator) {
   for (const double degrees : {15.0, 25.0}) {
     const double angle = degrees * std::numbers::pi / 180;
     const double expected = g * (std::sin(angle) - 0.2 * std::cos(angle));
-    ASPIC_VERIFY_LET(found, slide(subject, integrator, degrees, 0.2, 3.0));
+    ASPIC_TRY(auto found, slide(subject, integrator, degrees, 0.2, 3.0));
     worst = std::max(worst, std::abs(found.acceleration / expected - 1));
   }
-  ASPIC_VERIFY_LET(stuck, slide(subject, integrator, 15.0, 0.3, 12.0));
+  ASPIC_TRY(auto stuck, slide(subject, integrator, 15.0, 0.3, 12.0));
   return Finding{worst <= 1e-5 && std::abs(stuck.creep) <= 1e-6,
                  fmt::format("{:.2g}, creep {:.2g} m/s", worst, stuck.creep)};
 }
@@ -144,7 +144,7 @@ Result<Finding> no_adhesion(const Subject& subject) {
     const Model airborne = model;
     model.terrain.push_back(plane_through_origin(model, {0, 1, 0}));
     const auto pulled = [&](const Model& of, double force) -> Result<State> {
-      ASPIC_VERIFY_LET(solver, subject.reference(of, Precision::double_));
+      ASPIC_TRY(auto solver, subject.reference(of, Precision::double_));
       if (!of.terrain.empty()) {
         if (const Status rested = require_good(solver->advance(100)); !rested) return rested.error();
       }
@@ -154,9 +154,9 @@ Result<Finding> no_adhesion(const Subject& subject) {
       if (const Status set = solver->set_pull(pull); !set) return set.error();
       return run(*solver, 200);
     };
-    ASPIC_VERIFY_LET(free, pulled(airborne, strong));
-    ASPIC_VERIFY_LET(lifted, pulled(model, strong));
-    ASPIC_VERIFY_LET(weak, pulled(model, 0.99 * g));
+    ASPIC_TRY(auto free, pulled(airborne, strong));
+    ASPIC_TRY(auto lifted, pulled(model, strong));
+    ASPIC_TRY(auto weak, pulled(model, 0.99 * g));
     lag = std::max({lag, length(lifted.position[0] - free.position[0]) / length(free.position[0]),
                     length(lifted.velocity[0] - free.velocity[0]) / length(free.velocity[0])});
     held = std::max({held, length(weak.position[0]), length(weak.velocity[0])});

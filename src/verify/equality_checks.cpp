@@ -6,8 +6,8 @@
 #include <set>
 
 #include "analysis/compare.h"
+#include "io/child_process.h"
 #include "scene/load.h"
-#include "verify/child_process.h"
 #include "verify/experiments.h"
 #include "verify/textbook.h"
 
@@ -24,11 +24,34 @@ struct Worst {
   bool arithmetic_exact = true;
 };
 
-Status compare_run(const Subject& subject, const Model& model, ForcePath path, std::uint64_t steps,
-                   const State& expected, Worst& worst) {
+/// A solver of any backend but the reference.
+Result<std::unique_ptr<Solver>> make_solver(const Subject& subject, const BackendRow& row, const Model& model,
+                                            ForcePath path) {
+  if (!row.needs_context) return subject.other(model, row);
   GpuOptions options;
   options.force_path = path;
   auto solver = subject.gpu(model, options);
+  if (!solver) return solver.error();
+  return std::unique_ptr<Solver>(std::move(*solver));
+}
+
+/// The force paths of a backend that have bits of their own to show with an integrator.
+std::vector<ForcePath> paths_of(const BackendRow& row, Integrator integrator) {
+  if (row.force_paths.empty()) return {ForcePath::automatic};
+  std::vector<ForcePath> paths(row.force_paths.begin(), row.force_paths.end());
+  if (integrator == Integrator::implicit_euler) std::erase(paths, ForcePath::per_spring);
+  return paths;
+}
+
+/// What the canary found on the device of a solver; null: the solver runs on none.
+const gl::Arithmetic* arithmetic_of(const Solver& solver) {
+  const auto* const gpu = dynamic_cast<const GpuSolver*>(&solver);
+  return gpu ? &gpu->arithmetic() : nullptr;
+}
+
+Status compare_run(const Subject& subject, const BackendRow& row, const Model& model, ForcePath path,
+                   std::uint64_t steps, const State& expected, Worst& worst) {
+  auto solver = make_solver(subject, row, model, path);
   if (!solver) return solver.error();
   const auto end = run(**solver, steps);
   if (!end) return end.error();
@@ -37,13 +60,15 @@ Status compare_run(const Subject& subject, const Model& model, ForcePath path, s
   worst.ulp = std::max({worst.ulp, difference->position.ulp, difference->velocity.ulp});
   worst.absolute = std::max(worst.absolute, difference->largest_absolute());
   ++worst.runs;
-  worst.arithmetic_exact = (*solver)->arithmetic().exact();
   worst.arithmetic.clear();
-  for (const std::string& sentence : (*solver)->arithmetic().sentences()) worst.arithmetic += " " + sentence;
+  if (const gl::Arithmetic* const arithmetic = arithmetic_of(**solver)) {
+    worst.arithmetic_exact = arithmetic->exact();
+    for (const std::string& sentence : arithmetic->sentences()) worst.arithmetic += " " + sentence;
+  }
   return {};
 }
 
-Result<Finding> same_bits(const Subject& subject, Integrator integrator) {
+Result<Finding> same_bits(const Subject& subject, const BackendRow& row, Integrator integrator) {
   const bool solved = integrator == Integrator::implicit_euler;
   const std::uint64_t steps = solved ? implicit_steps : explicit_steps;
   Worst worst;
@@ -51,12 +76,10 @@ Result<Finding> same_bits(const Subject& subject, Integrator integrator) {
     for (const ContactModel contact : both_contact_models) {
       ModelSettings settings = cube_on_terrain(solved ? 4 : 5, shape, integrator, contact);
       if (solved) settings.simulation.timestep = 0.01;
-      ASPIC_VERIFY_LET(model, build_model(settings));
-      ASPIC_VERIFY_LET(expected, run_reference(subject, model, Precision::single, steps));
-      for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
-        if (solved && path == ForcePath::per_spring) continue;
-        if (const Status done = compare_run(subject, model, path, steps, expected, worst); !done)
-          return done.error();
+      ASPIC_TRY(auto model, build_model(settings));
+      ASPIC_TRY(auto expected, run_reference(subject, model, Precision::single, steps));
+      for (const ForcePath path : paths_of(row, integrator)) {
+        ASPIC_CHECK(compare_run(subject, row, model, path, steps, expected, worst));
       }
     }
   }
@@ -75,13 +98,13 @@ Result<State> run_with_hand(Solver& solver, std::uint64_t steps) {
                                         Pull{last, {4.0, 2.0, -3.0}, 900.0, 20.0},
                                         Pull{last / 2, {-2.0, 4.0, 1.0 / 3.0}, 1e4 / 3.0, 0.0}, std::nullopt};
   for (const std::optional<Pull>& pull : inputs) {
-    if (const Status set = solver.set_pull(pull); !set) return set.error();
-    if (const Status good = require_good(solver.advance(steps / 4)); !good) return good.error();
+    ASPIC_CHECK(solver.set_pull(pull));
+    ASPIC_CHECK(require_good(solver.advance(steps / 4)));
   }
   return solver.state();
 }
 
-Result<Finding> same_bits_with_hand(const Subject& subject) {
+Result<Finding> same_bits_with_hand(const Subject& subject, const BackendRow& row) {
   std::uint64_t worst = 0;
   int runs = 0;
   bool exact = true;
@@ -91,18 +114,15 @@ Result<Finding> same_bits_with_hand(const Subject& subject) {
       ModelSettings settings = cube_on_terrain(4, TerrainShape::plane, integrator, contact);
       if (solved) settings.simulation.timestep = 0.01;
       const std::uint64_t steps = solved ? implicit_steps : repeat_steps;
-      ASPIC_VERIFY_LET(model, build_model(settings));
-      ASPIC_VERIFY_LET(reference, subject.reference(model, Precision::single));
-      ASPIC_VERIFY_LET(expected, run_with_hand(*reference, steps));
-      for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
-        if (solved && path == ForcePath::per_spring) continue;
-        GpuOptions options;
-        options.force_path = path;
-        ASPIC_VERIFY_LET(solver, subject.gpu(model, options));
-        ASPIC_VERIFY_LET(end, run_with_hand(*solver, steps));
-        ASPIC_VERIFY_LET(difference, compare_states(end, expected));
+      ASPIC_TRY(auto model, build_model(settings));
+      ASPIC_TRY(auto reference, subject.reference(model, Precision::single));
+      ASPIC_TRY(auto expected, run_with_hand(*reference, steps));
+      for (const ForcePath path : paths_of(row, integrator)) {
+        ASPIC_TRY(auto solver, make_solver(subject, row, model, path));
+        ASPIC_TRY(auto end, run_with_hand(*solver, steps));
+        ASPIC_TRY(auto difference, compare_states(end, expected));
         worst = std::max({worst, difference.position.ulp, difference.velocity.ulp});
-        exact = exact && solver->arithmetic().exact();
+        if (const gl::Arithmetic* const a = arithmetic_of(*solver)) exact = exact && a->exact();
         ++runs;
       }
     }
@@ -168,20 +188,20 @@ Finding one_hash(const std::set<std::string>& hashes, std::size_t runs, const st
 }
 
 Result<Finding> repeated(const Subject& subject, Integrator integrator, std::uint64_t steps) {
-  ASPIC_VERIFY_LET(model, repeat_model(integrator));
+  ASPIC_TRY(auto model, repeat_model(integrator));
   auto solver = subject.gpu(model, {});
   if (!solver) return solver.error();
   const State start = initial_state(model, Precision::single);
   std::set<std::string> hashes;
   for (int i = 0; i < 20; ++i) {
-    ASPIC_VERIFY_LET(end, run(**solver, steps, &start));
+    ASPIC_TRY(auto end, run(**solver, steps, &start));
     hashes.insert(state_hash_text(end));
   }
   return one_hash(hashes, 20, "");
 }
 
 Result<Finding> group_sizes(const Subject& subject) {
-  ASPIC_VERIFY_LET(model, repeat_model(Integrator::runge_kutta_4));
+  ASPIC_TRY(auto model, repeat_model(Integrator::runge_kutta_4));
   std::set<std::string> hashes;
   std::size_t runs = 0;
   for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
@@ -191,7 +211,7 @@ Result<Finding> group_sizes(const Subject& subject) {
       options.group_size = size;
       auto solver = subject.gpu(model, options);
       if (!solver) return solver.error();
-      ASPIC_VERIFY_LET(end, run(**solver, repeat_steps));
+      ASPIC_TRY(auto end, run(**solver, repeat_steps));
       hashes.insert(state_hash_text(end));
       ++runs;
     }
@@ -203,16 +223,16 @@ Result<Finding> driver_threads(const Subject& subject) {
   const std::vector<std::string> overrides = {
       "cube[0].particles-per-edge=6", "cube[0].position=[0.0, 2.0, 0.0]", "cube[0].rotation.angle=20.0",
       "cube[0].rotation.axis=[1.0, 2.0, 3.0]"};
-  ASPIC_VERIFY_LET(scene, load_scene("cube-plane", overrides));
-  ASPIC_VERIFY_LET(model, build_model(scene.model));
-  ASPIC_VERIFY_LET(expected, run_reference(subject, model, Precision::single, repeat_steps));
+  ASPIC_TRY(auto scene, load_scene("cube-plane", overrides));
+  ASPIC_TRY(auto model, build_model(scene.model));
+  ASPIC_TRY(auto expected, run_reference(subject, model, Precision::single, repeat_steps));
   std::vector<std::string> words = {
       "run", "cube-plane", "--backend", "gpu", "--json", "--steps", std::to_string(repeat_steps)};
   for (const std::string& text : overrides) words.insert(words.end(), {"--set", text});
   std::set<std::string> hashes;
   for (const char* threads : {"1", "2", "8"}) {
     // The driver reads its thread count once, at its start: each count is a process of its own.
-    ASPIC_VERIFY_LET(output, output_of(subject.program, words, {{"LP_NUM_THREADS", threads}}));
+    ASPIC_TRY(auto output, output_of(subject.program, words, {{"LP_NUM_THREADS", threads}}));
     const std::string key = "\"state_hash\": \"";
     const std::size_t at = output.find(key);
     if (at == std::string::npos)
@@ -225,20 +245,29 @@ Result<Finding> driver_threads(const Subject& subject) {
 }  // namespace
 
 void add_equality_checks(std::vector<Check>& checks) {
-  for (const Integrator integrator : all_integrators) {
-    const bool solved = integrator == Integrator::implicit_euler;
+  for (const BackendRow& row : backends().first(backends().size() - 1)) {
+    const char* const bound = row.needs_context ? "0 ULP, or the canary's finding on hardware" : "0 ULP";
+    for (const Integrator integrator : all_integrators) {
+      const std::vector<ForcePath> paths = paths_of(row, integrator);
+      checks.push_back(
+          {fmt::format("equality/{}/{}", name_of(integrator), row.name),
+           fmt::format("{} and reference after {} steps through contact: 4 terrains, 2 contact models{}",
+                       row.name, integrator == Integrator::implicit_euler ? implicit_steps : explicit_steps,
+                       row.force_paths.empty() ? ""
+                       : paths.size() == 1     ? fmt::format(", {}", name_of(paths.front()))
+                                               : fmt::format(", {} force paths", paths.size())),
+           bound, integrator == Integrator::explicit_euler, row.needs_context,
+           [&row, integrator](const Subject& subject) { return same_bits(subject, row, integrator); }});
+    }
     checks.push_back(
-        {fmt::format("equality/{}", name_of(integrator)),
-         fmt::format("gpu and reference after {} steps through contact: 4 terrains, 2 contact models, {}",
-                     solved ? implicit_steps : explicit_steps, solved ? "gather" : "2 force paths"),
-         "0 ULP, or the canary's finding on hardware", integrator == Integrator::explicit_euler, true,
-         [=](const Subject& subject) { return same_bits(subject, integrator); }});
+        {fmt::format("equality/pull/{}", row.name),
+         fmt::format("{} and reference while a hand pulls, moves and lets go: every integrator, 2 contact "
+                     "models{}",
+                     row.name,
+                     row.force_paths.empty() ? "" : fmt::format(", {} force paths", row.force_paths.size())),
+         bound, true, row.needs_context,
+         [&row](const Subject& subject) { return same_bits_with_hand(subject, row); }});
   }
-  checks.push_back(
-      {"equality/pull",
-       "gpu and reference while a hand pulls, moves and lets go: every integrator, 2 contact models, "
-       "2 force paths",
-       "0 ULP, or the canary's finding on hardware", true, true, same_bits_with_hand});
   checks.push_back({"equality/force",
                     "spring force of the gpu against double precision, over k(L + r) + c|v|, 1,000 springs",
                     at_most_text(4e-7), true, true, spring_force});

@@ -41,14 +41,6 @@ Model loose_particles(std::vector<Vec3> positions, std::vector<Vec3> velocities,
   return model;
 }
 
-double Noise::operator()() {
-  seed_ += 0x9e3779b97f4a7c15ull;
-  std::uint64_t z = seed_;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
-}
-
 Status require_good(const Result<std::optional<Divergence>>& advanced) {
   if (!advanced) return advanced.error();
   if (!advanced->has_value()) return {};
@@ -58,15 +50,15 @@ Status require_good(const Result<std::optional<Divergence>>& advanced) {
 
 Result<State> run(Solver& solver, std::uint64_t steps, const State* start) {
   if (start != nullptr) {
-    if (const Status loaded = solver.load(*start); !loaded) return loaded.error();
+    ASPIC_CHECK(solver.load(*start));
   }
-  if (const Status good = require_good(solver.advance(steps)); !good) return good.error();
+  ASPIC_CHECK(require_good(solver.advance(steps)));
   return solver.state();
 }
 
 Result<State> run_reference(const Subject& subject, const Model& model, Precision precision,
                             std::uint64_t steps, const State* start) {
-  ASPIC_VERIFY_LET(solver, subject.reference(model, precision));
+  ASPIC_TRY(auto solver, subject.reference(model, precision));
   return run(*solver, steps, start);
 }
 

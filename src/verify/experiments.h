@@ -4,16 +4,11 @@
 #include <cstdint>
 #include <random>
 
+#include "base/split_mix.h"
 #include "model/integrator.h"
 #include "verify/check.h"
 
 namespace aspic::verify {
-
-/// Assigns the value of a Result to a new variable, or returns its error from the enclosing function.
-#define ASPIC_VERIFY_LET(variable, expression)              \
-  auto variable##_result = (expression);                    \
-  if (!variable##_result) return variable##_result.error(); \
-  auto& variable = *variable##_result
 
 inline constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integrator::symplectic_euler,
                                                     Integrator::midpoint, Integrator::runge_kutta_4,
@@ -38,18 +33,18 @@ ModelSettings cube_on_terrain(int particles_per_edge, TerrainShape shape, Integr
 /// Loose particles of mass m without springs; gravity stays the default.
 Model loose_particles(std::vector<Vec3> positions, std::vector<Vec3> velocities, double mass = 1.0);
 
-/// Numbers in [−1, 1), the same on every machine (splitmix64: Steele, Lea, Flood, 2014).
+/// Numbers in [−1, 1), the same on every machine.
 class Noise {
  public:
-  explicit Noise(std::uint64_t seed) : seed_(seed) {}
-  double operator()();
+  explicit Noise(std::uint64_t seed) : random_(seed) {}
+  double operator()() { return 2.0 * random_.share() - 1.0; }
   Vec3 vector() {
     const double x = (*this)(), y = (*this)(), z = (*this)();
     return {x, y, z};
   }
 
  private:
-  std::uint64_t seed_;
+  SplitMix64 random_;
 };
 
 /// The solver after `steps` steps from `start` (the model's own if null).

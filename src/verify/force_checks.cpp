@@ -33,7 +33,7 @@ State shaken(const Model& model, double shift, double speed, std::uint64_t seed)
 }
 
 Result<std::vector<Vec3>> forces(const Subject& subject, const Model& model, const State& state) {
-  ASPIC_VERIFY_LET(next, run_reference(subject, model, Precision::double_, 1, &state));
+  ASPIC_TRY(auto next, run_reference(subject, model, Precision::double_, 1, &state));
   std::vector<Vec3> f;
   for (std::size_t i = 0; i < state.position.size(); ++i) {
     f.push_back((model.mass[i] / probe_step) * (next.velocity[i] - state.velocity[i]));
@@ -46,9 +46,9 @@ double largest_component(const Vec3& v) {
 }
 
 Result<Finding> gradient(const Subject& subject) {
-  ASPIC_VERIFY_LET(model, probe_model());
+  ASPIC_TRY(auto model, probe_model());
   State state = shaken(model, 0.1, 0.0, 3);
-  ASPIC_VERIFY_LET(f, forces(subject, model, state));
+  ASPIC_TRY(auto f, forces(subject, model, state));
   constexpr double delta = 1e-5;
   double worst = 0.0;  // of error over bound
   double worst_error = 0.0;
@@ -81,9 +81,9 @@ Result<Finding> gradient(const Subject& subject) {
 }
 
 Result<Finding> invariance(const Subject& subject) {
-  ASPIC_VERIFY_LET(model, probe_model());
+  ASPIC_TRY(auto model, probe_model());
   const State state = shaken(model, 0.1, 1.0, 5);
-  ASPIC_VERIFY_LET(f, forces(subject, model, state));
+  ASPIC_TRY(auto f, forces(subject, model, state));
   const Vec3 axis = {0.3, -1.0, 0.7}, shift = {11.0, -7.0, 5.0};
   constexpr double angle = 71.0;
   State moved = state;
@@ -93,7 +93,7 @@ Result<Finding> invariance(const Subject& subject) {
     moved.velocity[i] = rotated(state.velocity[i], axis, angle);
     largest = std::max(largest, length(moved.position[i]));
   }
-  ASPIC_VERIFY_LET(g, forces(subject, model, moved));
+  ASPIC_TRY(auto g, forces(subject, model, moved));
   // Moving rounds each coordinate by about 4ε of the largest (rotation, translation), so a spring's vector by
   // η = 8√3·εX and its force by (k + 2|s|/L + 4c|Δv|/L)·η; the probe rounds v' by ε|v'| and divides by h.
   const double eta = 8 * std::sqrt(3.0) * epsilon_double * largest;
@@ -124,8 +124,8 @@ Result<Finding> undeformed(const Subject& subject) {
   settings.simulation.gravity = {0, 0, 0};
   settings.simulation.timestep = probe_step;
   settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
-  ASPIC_VERIFY_LET(model, build_model(settings));
-  ASPIC_VERIFY_LET(f, forces(subject, model, initial_state(model, Precision::double_)));
+  ASPIC_TRY(auto model, build_model(settings));
+  ASPIC_TRY(auto f, forces(subject, model, initial_state(model, Precision::double_)));
   double worst = 0.0;
   for (const Vec3& force_on_particle : f) worst = std::max(worst, length(force_on_particle));
   // At most 32 springs of k = 2,000 N/m, each vector rounded by 4√3·ε of coordinates up to √3·2 m.
@@ -139,7 +139,7 @@ Result<Finding> falls(const Subject& subject) {
     Model model = loose_particles({{0, 0, 0}}, {{0, 0, 0}}, 0.37);
     model.simulation.integrator = integrator;
     model.simulation.implicit.tolerance = 1e-15;
-    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, steps));
+    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, steps));
     worst = std::max(worst, std::abs(end.velocity[0].y / (-9.8 * steps * model.simulation.timestep) - 1));
   }
   // Each step rounds its increment (three operations) and its sum.

@@ -18,21 +18,21 @@ constexpr const char* scenes[] = {"cube-plane", "cube-tilted-plane", "cube-spher
 Result<Finding> bounded(const Subject& subject) {
   ModelSettings settings = cube_settings(5);
   settings.simulation.gravity = {0, 0, 0};
-  ASPIC_VERIFY_LET(explicit_model, build_model(settings));
+  ASPIC_TRY(auto explicit_model, build_model(settings));
   const auto limit = stability_limit(explicit_model, Integrator::explicit_euler).step;
   if (!limit) return Error{ErrorCode::check_failed, "explicit Euler has no limit here"};
   settings.simulation.integrator = Integrator::implicit_euler;
   settings.simulation.timestep = 1000 * *limit;
-  ASPIC_VERIFY_LET(model, build_model(settings));
+  ASPIC_TRY(auto model, build_model(settings));
   State state = initial_state(model, Precision::double_);
   Noise noise(23);
   for (Vec3& x : state.position) x = x + 0.01 * noise.vector();  // 1 % of the spacing of 1 m
   const double energy = measure(model, state).total();
-  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
-  if (const Status loaded = solver->load(state); !loaded) return loaded.error();
+  ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
+  ASPIC_CHECK(solver->load(state));
   double worst = 0.0;
   for (int step = 0; step < 100; ++step) {
-    ASPIC_VERIFY_LET(now, run(*solver, 1));
+    ASPIC_TRY(auto now, run(*solver, 1));
     worst = std::max(worst, measure(model, now).total() / energy);
   }
   return Finding{worst <= 1.0, fmt::format("{:.3g} of the start's energy", worst)};
@@ -44,14 +44,14 @@ struct Solves {
 };
 
 Result<Solves> solve(const Subject& subject, const std::string& scene, ContactModel contact, double h) {
-  ASPIC_VERIFY_LET(loaded, load_scene(scene));
+  ASPIC_TRY(auto loaded, load_scene(scene));
   loaded.model.simulation.integrator = Integrator::implicit_euler;
   loaded.model.simulation.timestep = h;
   loaded.model.contact.model = contact;
-  ASPIC_VERIFY_LET(model, build_model(loaded.model));
-  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::single));
+  ASPIC_TRY(auto model, build_model(loaded.model));
+  ASPIC_TRY(auto solver, subject.reference(model, Precision::single));
   const auto steps = static_cast<std::uint64_t>(std::lround(model.simulation.duration / h));
-  if (const Status good = require_good(solver->advance(steps)); !good) return good.error();
+  ASPIC_CHECK(require_good(solver->advance(steps)));
   const auto statistics = solver->solve_statistics();
   if (!statistics) return Error{ErrorCode::check_failed, "the solver keeps no statistics"};
   return Solves{*statistics, implicit_tolerance(model.simulation.implicit, Precision::single)};
@@ -63,13 +63,13 @@ std::string told(const Solves& s) {
 }
 
 Result<Finding> residual(const Subject& subject, const std::string& scene, ContactModel contact, double h) {
-  ASPIC_VERIFY_LET(solves, solve(subject, scene, contact, h));
+  ASPIC_TRY(auto solves, solve(subject, scene, contact, h));
   return Finding{solves.statistics.worst_residual <= solves.tolerance && solves.statistics.steps > 0,
                  told(solves)};
 }
 
 Result<Finding> never_diverges(const Subject& subject, const std::string& scene) {
-  ASPIC_VERIFY_LET(solves, solve(subject, scene, ContactModel::coulomb, 1.0 / 60));
+  ASPIC_TRY(auto solves, solve(subject, scene, ContactModel::coulomb, 1.0 / 60));
   return Finding{solves.statistics.steps > 0, told(solves)};
 }
 
@@ -77,7 +77,7 @@ Result<Finding> dense(const Subject& subject) {
   ModelSettings settings = cube_settings(4);
   settings.simulation.integrator = Integrator::implicit_euler;
   settings.simulation.timestep = 1.0 / 60;
-  ASPIC_VERIFY_LET(model, build_model(settings));
+  ASPIC_TRY(auto model, build_model(settings));
   double worst = 0.0;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     State state = initial_state(model, Precision::double_);
@@ -87,7 +87,7 @@ Result<Finding> dense(const Subject& subject) {
       state.velocity[i] = noise.vector();
     }
     const Eigen::VectorXd expected = dense_backward_euler(model, state);
-    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 1, &state));
+    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1, &state));
     worst = std::max(worst, (motion_of<double>(end).v - expected).cwiseAbs().maxCoeff());
   }
   return at_most(worst, 1e-8, "m/s");

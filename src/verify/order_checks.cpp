@@ -41,12 +41,12 @@ Result<Finding> order_of(const Subject& subject, Integrator integrator, int orde
   Motion<long double> truth;
   for (int halving = 0; halving <= halvings; ++halving) {
     const double h = first_step / (1 << halving);
-    ASPIC_VERIFY_LET(model, smooth_system(integrator, h));
+    ASPIC_TRY(auto model, smooth_system(integrator, h));
     const State start = deformed(model);
     // hω of the truth is 2e-3 at most: its error, of fourth order, is below 1e-14.
     if (halving == 0) truth = exact_motion(model, start, duration, 4000);
-    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_,
-                                        static_cast<std::uint64_t>(std::lround(duration / h)), &start));
+    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_,
+                                      static_cast<std::uint64_t>(std::lround(duration / h)), &start));
     const Motion<long double> reached = motion_of<long double>(end);
     const double error = static_cast<double>(
         std::sqrt((reached.x - truth.x).squaredNorm() + (reached.v - truth.v).squaredNorm()));

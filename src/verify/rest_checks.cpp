@@ -37,10 +37,10 @@ Result<Model> dropped_cube(int particles_per_edge, const Vec3& centre, Integrato
 }
 
 Result<Finding> comes_to_rest(const Subject& subject, Integrator integrator) {
-  ASPIC_VERIFY_LET(model, dropped_cube(10, {0, 9, 0}, integrator));
+  ASPIC_TRY(auto model, dropped_cube(10, {0, 9, 0}, integrator));
   const std::uint64_t steps = steps_of(model, 10.0);
-  ASPIC_VERIFY_LET(single, run_reference(subject, model, Precision::single, steps));
-  ASPIC_VERIFY_LET(fine, run_reference(subject, model, Precision::double_, steps));
+  ASPIC_TRY(auto single, run_reference(subject, model, Precision::single, steps));
+  ASPIC_TRY(auto fine, run_reference(subject, model, Precision::double_, steps));
   const double v_single = measure(model, single).max_speed, v_double = measure(model, fine).max_speed;
   return Finding{v_single <= bound_single && v_double <= bound_double,
                  fmt::format("{:.2g} and {:.2g} m/s at h = {:.3g} ms", v_single, v_double,
@@ -50,8 +50,8 @@ Result<Finding> comes_to_rest(const Subject& subject, Integrator integrator) {
 /// Turned by 30°, the cube lands on an edge and then rocks to and fro on another: most of its bottom layer
 /// rises and comes down again and again, which is what a rule of contact has to end.
 Result<Finding> rocks_to_rest(const Subject& subject, Integrator integrator) {
-  ASPIC_VERIFY_LET(model, dropped_cube(10, {0, 4, 0}, integrator, 30.0));
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, steps_of(model, 12.0)));
+  ASPIC_TRY(auto model, dropped_cube(10, {0, 4, 0}, integrator, 30.0));
+  ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, steps_of(model, 12.0)));
   return at_most(measure(model, end).max_speed, bound_single, "m/s");
 }
 
@@ -70,8 +70,8 @@ Result<Finding> bottom(const Subject& subject) {
   double worst = 0.0;
   for (const Integrator integrator : all_integrators) {
     for (const Precision precision : {Precision::single, Precision::double_}) {
-      ASPIC_VERIFY_LET(model, dropped_cube(5, {0, 2, 0}, integrator));
-      ASPIC_VERIFY_LET(end, run_reference(subject, model, precision, steps_of(model, 4.0)));
+      ASPIC_TRY(auto model, dropped_cube(5, {0, 2, 0}, integrator));
+      ASPIC_TRY(auto end, run_reference(subject, model, precision, steps_of(model, 4.0)));
       worst = std::max(worst, bottom_layer(model, end));
     }
   }
@@ -99,8 +99,8 @@ Result<Finding> rests_between(const Subject& subject, Integrator integrator, con
   }
   settings.simulation.integrator = integrator;
   settings.simulation.timestep = usual_step(integrator);
-  ASPIC_VERIFY_LET(model, build_model(settings));
-  ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, steps_of(model, 30.0)));
+  ASPIC_TRY(auto model, build_model(settings));
+  ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, steps_of(model, 30.0)));
   double depth = 0.0;
   for (const Vec3& x : end.position) {
     for (const Terrain& terrain : model.terrain) depth = std::max(depth, -signed_distance(terrain, x));
@@ -123,12 +123,12 @@ Result<Rise> energy_rise(const Subject& subject, const Model& model, double dura
       return signed_distance(model.terrain[0], x) < model.contact.epsilon;
     });
   };
-  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
+  ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
   Rise rise;
   bool touched = false, contact = false;
   double least = 0.0;
   for (std::uint64_t step = 0; step < steps_of(model, duration); ++step) {
-    ASPIC_VERIFY_LET(now, run(*solver, 1));
+    ASPIC_TRY(auto now, run(*solver, 1));
     const double energy = measure(model, now).total();
     const bool was_contact = std::exchange(contact, touching(now));
     if (!touched && contact) {

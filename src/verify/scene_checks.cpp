@@ -36,8 +36,8 @@ struct Depth {
 Result<Depth> depth_without_ground(const Subject& subject, const Model& model, std::uint64_t steps) {
   Model airborne = model;
   airborne.terrain.clear();
-  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
-  ASPIC_VERIFY_LET(unhindered, subject.reference(airborne, Precision::double_));
+  ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
+  ASPIC_TRY(auto unhindered, subject.reference(airborne, Precision::double_));
   State now = initial_state(model, Precision::double_);
   double extent = 0.0;
   for (const Vec3& x : now.position) extent = std::max(extent, length(x));
@@ -46,7 +46,7 @@ Result<Depth> depth_without_ground(const Subject& subject, const Model& model, s
   const double rounding = 16 * epsilon_double * extent;
   Depth worst;
   for (std::uint64_t step = 0; step < steps; ++step) {
-    ASPIC_VERIFY_LET(before, run(*unhindered, 1, &now));
+    ASPIC_TRY(auto before, run(*unhindered, 1, &now));
     const double depth = deepest(model, before);
     worst.touched = worst.touched || depth > -model.contact.epsilon;
     if (depth > rounding) {
@@ -54,7 +54,7 @@ Result<Depth> depth_without_ground(const Subject& subject, const Model& model, s
       worst.share = std::max(worst.share, (depth - rounding) / reach);
       worst.metres = std::max(worst.metres, depth);
     }
-    ASPIC_VERIFY_LET(next, run(*solver, 1));
+    ASPIC_TRY(auto next, run(*solver, 1));
     now = std::move(next);
   }
   return worst;
@@ -62,9 +62,9 @@ Result<Depth> depth_without_ground(const Subject& subject, const Model& model, s
 
 Result<Finding> depth(const Subject& subject, const std::string& scene, std::vector<std::string> overrides,
                       std::uint64_t steps) {
-  ASPIC_VERIFY_LET(loaded, load_scene(scene, overrides));
-  ASPIC_VERIFY_LET(model, build_model(loaded.model));
-  ASPIC_VERIFY_LET(worst, depth_without_ground(subject, model, steps));
+  ASPIC_TRY(auto loaded, load_scene(scene, overrides));
+  ASPIC_TRY(auto model, build_model(loaded.model));
+  ASPIC_TRY(auto worst, depth_without_ground(subject, model, steps));
   if (!worst.touched) return Finding{false, "nothing touched the ground"};
   return Finding{worst.share <= 1.0, fmt::format("{:.4f} ({:.3g} mm)", worst.share, 1000 * worst.metres)};
 }
@@ -76,8 +76,8 @@ Result<Finding> course_depth(const Subject& subject) {
   std::string text;
   for (const Integrator integrator : explicit_integrators) {
     settings.simulation.integrator = integrator;
-    ASPIC_VERIFY_LET(model, build_model(settings));
-    ASPIC_VERIFY_LET(end, run_reference(subject, model, Precision::double_, 5000));
+    ASPIC_TRY(auto model, build_model(settings));
+    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 5000));
     text += fmt::format("{}{:.1f}", text.empty() ? "" : ", ", 1000 * std::max(0.0, deepest(model, end)));
   }
   return Finding{true, text + " mm"};

@@ -35,7 +35,7 @@ WorstMode worst_mode(const Model& model) {
 /// Final amplitude over first, of a motion that starts in the mode so small (1e-9 m) that the springs are
 /// linear to nine digits. Infinite after divergence.
 Result<double> growth(const Subject& subject, const Model& model, const WorstMode& mode) {
-  ASPIC_VERIFY_LET(solver, subject.reference(model, Precision::double_));
+  ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
   const State rest = initial_state(model, Precision::double_);
   State state = rest;
   const double scale = 1e-9 / mode.shape.cwiseAbs().maxCoeff();
@@ -44,12 +44,12 @@ Result<double> growth(const Subject& subject, const Model& model, const WorstMod
       state.position[i][axis] += scale * mode.shape[static_cast<Eigen::Index>(3 * i) + axis];
     }
   }
-  if (const Status loaded = solver->load(state); !loaded) return loaded.error();
+  ASPIC_CHECK(solver->load(state));
   double first = 0.0, last = 0.0;
   for (std::uint64_t step = 0; step < steps; ++step) {
     const bool early = step < window, late = step >= steps - window;
     if (early || late) {
-      ASPIC_VERIFY_LET(now, solver->state());
+      ASPIC_TRY(auto now, solver->state());
       double square = 0.0;
       for (std::size_t i = 0; i < now.position.size(); ++i) {
         const Vec3 d = now.position[i] - rest.position[i];
@@ -67,20 +67,20 @@ Result<double> growth(const Subject& subject, const Model& model, const WorstMod
 }
 
 Result<Finding> edge(const Subject& subject, Integrator integrator, double damping) {
-  ASPIC_VERIFY_LET(model, free_cube(integrator, damping));
+  ASPIC_TRY(auto model, free_cube(integrator, damping));
   const WorstMode mode = worst_mode(model);
   const StabilityLimit limit = stability_limit(model, integrator);
   if (!limit.step) return Error{ErrorCode::check_failed, "no stable step was found"};
   model.simulation.timestep = 0.999 * *limit.step;
-  ASPIC_VERIFY_LET(below, growth(subject, model, mode));
+  ASPIC_TRY(auto below, growth(subject, model, mode));
   model.simulation.timestep = 1.005 * *limit.step;
-  ASPIC_VERIFY_LET(above, growth(subject, model, mode));
+  ASPIC_TRY(auto above, growth(subject, model, mode));
   return Finding{below <= 1.0 && above >= 2.0,
                  fmt::format("×{:.3g} below, ×{:.3g} above {:.6f} s", below, above, *limit.step)};
 }
 
 Result<Finding> largest_eigenvalue(const Subject&) {
-  ASPIC_VERIFY_LET(model, free_cube(Integrator::explicit_euler, 60.0));
+  ASPIC_TRY(auto model, free_cube(Integrator::explicit_euler, 60.0));
   const double power = power_iteration(model, 8000).kappa / 2000.0,
                lanczos = largest_stiffness_eigenvalue(model) / 2000.0;
   return Finding{std::abs(power - 16.850) <= 5e-4 && std::abs(lanczos - 16.850) <= 5e-4,

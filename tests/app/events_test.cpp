@@ -49,7 +49,7 @@ bool waited_for(Condition condition) {
 }
 
 /// A film's pictures come one for each step: 0.24 simulated seconds a second, shown at 240 pictures.
-app::KeptState one_picture_a_step(app::FilmFormat format) {
+app::KeptState one_picture_a_step(const FilmFormat* format) {
   app::KeptState kept;
   kept.window = app::WindowPlace{1280, 720, std::array<int, 2>{0, 0}};
   for (const char* name : {"Simulation", "View", "Performance", "Energy"}) kept.layout.sections[name] = false;
@@ -76,7 +76,7 @@ class Events : public Stage {
 
   /// Where widgets stand in a window left like that, found out in a window of our own.
   std::map<std::string, app::Box> widgets(const app::KeptState& kept) {
-    open("cube-plane", {}, app::BackendName::reference, kept);
+    open("cube-plane", {}, "reference", kept);
     auto found = app().gui().widgets();
     view_ = app().viewport();
     close();
@@ -140,7 +140,7 @@ class Events : public Stage {
   std::string title() { return output_of("timeout 20 xdotool getwindowname " + id_); }
   std::string log() { return file("view.log"); }
   std::string file(const std::string& name) {
-    const auto content = read_whole_file((directory() / name).string());
+    const auto content = read_file((directory() / name).string());
     return content.ok() ? *content : "";
   }
   bool exists(const std::string& name) const { return fs::exists(directory() / name); }
@@ -180,7 +180,7 @@ class Events : public Stage {
 };
 
 TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
-  const app::KeptState kept = one_picture_a_step(app::FilmFormat::png);
+  const app::KeptState kept = one_picture_a_step(find_film_format("png"));
   const auto boxes = widgets(kept);
   keep(kept);
   start();
@@ -229,7 +229,7 @@ TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
 }
 
 TEST_F(Events, ClosingWhileAFilmRunsLeavesItWhole) {
-  keep(one_picture_a_step(app::FilmFormat::mp4));
+  keep(one_picture_a_step(find_film_format("mp4")));
   start();
   key("ctrl+r");
   key("period period period period period");
@@ -242,7 +242,7 @@ TEST_F(Events, ClosingWhileAFilmRunsLeavesItWhole) {
 TEST_F(Events, ASignalWhileAFilmRunsLeavesItWhole) {
   int sent = 0;
   for (const int signal : {SIGTERM, SIGINT}) {
-    keep(one_picture_a_step(app::FilmFormat::webm));
+    keep(one_picture_a_step(find_film_format("webm")));
     start();
     key("ctrl+r");
     key("period period period");
@@ -254,7 +254,7 @@ TEST_F(Events, ASignalWhileAFilmRunsLeavesItWhole) {
 }
 
 TEST_F(Events, AnEncoderThatFailsLeavesTheWindowAtWork) {
-  keep(one_picture_a_step(app::FilmFormat::mp4));
+  keep(one_picture_a_step(find_film_format("mp4")));
   const std::string path = std::getenv("PATH");
   fs::create_directory(directory() / "bin");
   std::ofstream(directory() / "bin" / "ffmpeg")

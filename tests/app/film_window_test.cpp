@@ -15,8 +15,6 @@ namespace aspic::test {
 namespace {
 
 namespace fs = std::filesystem;
-using app::BackendName;
-using app::FilmFormat;
 
 /// What a command writes to its standard output; a failure if it ends badly.
 std::string output_of(const std::string& command) {
@@ -48,10 +46,10 @@ class OtherPath {
 class Film : public Stage {
  protected:
   /// A cube that is quick to draw and to step, and falls.
-  void open_small(BackendName backend = BackendName::reference, const std::string& more = "name=\"film\"") {
+  void open_small(std::string_view backend = "reference", const std::string& more = "name=\"film\"") {
     open("cube-plane", {"cube[0].particles-per-edge=4", "view.draw=[\"particles\"]", more}, backend);
   }
-  void record(FilmFormat format, double fps, const std::string& path = "") {
+  void record(const FilmFormat* format, double fps, const std::string& path = "") {
     app().film_settings() = {format, fps, true, path};
     app().start_recording();
     ASSERT_TRUE(app().recording()) << app().notice()->text;
@@ -75,7 +73,7 @@ class Film : public Stage {
     }
   }
   std::string file(const std::string& name) {
-    const auto content = read_whole_file((directory() / name).string());
+    const auto content = read_file((directory() / name).string());
     EXPECT_TRUE(content.ok()) << content.error().message;
     return content.ok() ? *content : "";
   }
@@ -96,7 +94,8 @@ class Film : public Stage {
 TEST_F(Film, TwoSecondsInEveryFilmFormat) {
   open_small();
   press(GLFW_KEY_SPACE);
-  for (const FilmFormat format : {FilmFormat::mp4, FilmFormat::webm, FilmFormat::gif}) {
+  for (const FilmFormat* format :
+       {find_film_format("mp4"), find_film_format("webm"), find_film_format("gif")}) {
     press(GLFW_KEY_R);
     record(format, 10.0, "two");
     const PictureSize size = app().recording()->options().size;
@@ -104,7 +103,7 @@ TEST_F(Film, TwoSecondsInEveryFilmFormat) {
     EXPECT_EQ(simulation().step(), 19u * 100u) << "the motion waits for each picture";
     end_film();
     ASSERT_FALSE(app().notice()->is_error) << app().notice()->text;
-    const std::string name = fmt::format("two.{}", name_of(format));
+    const std::string name = fmt::format("two.{}", format->name);
     EXPECT_THAT(app().notice()->text, testing::HasSubstr(name + " holds 20 pictures, 2.00 s at 10"));
     const std::string found = output_of(
         "ffprobe -v error -count_frames -show_entries "
@@ -123,8 +122,8 @@ TEST_F(Film, TwoSecondsInEveryFilmFormat) {
 TEST_F(Film, DirectoriesOfPictures) {
   open_small();
   press(GLFW_KEY_SPACE);
-  for (const FilmFormat format : {FilmFormat::png, FilmFormat::jpeg}) {
-    const bool png = format == FilmFormat::png;
+  for (const FilmFormat* format : {find_film_format("png"), find_film_format("jpeg")}) {
+    const bool png = format == find_film_format("png");
     const std::string name = png ? "as-png" : "as-jpeg";
     record(format, 10.0, name);
     frames_to_pictures(20);
@@ -142,12 +141,12 @@ TEST_F(Film, DirectoriesOfPictures) {
 }
 
 TEST_F(Film, PicturesDependOnSimulatedTimeAlone) {
-  open_small(BackendName::reference, "simulation.steps-per-frame=1");
+  open_small("reference", "simulation.steps-per-frame=1");
   const auto film = [&](const std::string& name, std::int64_t steps_per_frame) {
     app().set_value(*find_parameter("simulation.steps-per-frame"), 0, Value(steps_per_frame), "");
     frames(2);
     press(GLFW_KEY_R);
-    record(FilmFormat::png, 60.0, name);
+    record(find_film_format("png"), 60.0, name);
     press(GLFW_KEY_SPACE);
     frames_to_pictures(8);
     press(GLFW_KEY_SPACE);
@@ -173,9 +172,9 @@ TEST_F(Film, PicturesDependOnSimulatedTimeAlone) {
 
 TEST_F(Film, TextStandsInThePictureIfWanted) {
   open_small();
-  record(FilmFormat::png, 60.0, "with");
+  record(find_film_format("png"), 60.0, "with");
   end_film();
-  app().film_settings() = {FilmFormat::png, 60.0, false, "without"};
+  app().film_settings() = {find_film_format("png"), 60.0, false, "without"};
   app().start_recording();
   end_film();
   EXPECT_NE(picture("with", 0), picture("without", 0));
@@ -183,7 +182,7 @@ TEST_F(Film, TextStandsInThePictureIfWanted) {
 
 TEST_F(Film, PausesJumpsAndOtherScenesAreFilmedAsShown) {
   open_small();
-  record(FilmFormat::png, 50.0, "film");
+  record(find_film_format("png"), 50.0, "film");
   EXPECT_EQ(app().recording()->pictures(), 1u) << "the start";
   frames(5);
   EXPECT_EQ(app().recording()->pictures(), 1u) << "no time passes, no picture";
@@ -218,7 +217,7 @@ TEST_F(Film, PausesJumpsAndOtherScenesAreFilmedAsShown) {
 TEST_F(Film, RunsOnAtItsOwnPaceOnceTheFilmHasEnded) {
   open_small();
   press(GLFW_KEY_SPACE);
-  record(FilmFormat::png, 10.0, "film");
+  record(find_film_format("png"), 10.0, "film");
   frames(1);
   end_film();
   EXPECT_FALSE(simulation().at_pause_step());
@@ -227,7 +226,7 @@ TEST_F(Film, RunsOnAtItsOwnPaceOnceTheFilmHasEnded) {
 
 TEST_F(Film, KeyAndNamesThatNobodyHasTaken) {
   open_small();
-  app().film_settings().format = FilmFormat::png;
+  app().film_settings().format = find_film_format("png");
   fs::create_directory(directory() / "aspic-cube-plane-0001");
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
   ASSERT_TRUE(app().recording());
@@ -240,7 +239,7 @@ TEST_F(Film, KeyAndNamesThatNobodyHasTaken) {
   EXPECT_EQ(app().recording()->options().path, "aspic-cube-plane-0003");
   end_film();
   std::ofstream(directory() / "taken.mp4") << "precious";
-  app().film_settings() = {FilmFormat::mp4, 60.0, true, "taken"};
+  app().film_settings() = {find_film_format("mp4"), 60.0, true, "taken"};
   app().start_recording();
   EXPECT_FALSE(app().recording());
   EXPECT_TRUE(app().notice()->is_error);
@@ -253,7 +252,7 @@ TEST_F(Film, TheSectionStartsAndEndsIt) {
   click("section/Recording");
   click("record/format");
   click("record/format/gif");
-  EXPECT_EQ(app().film_settings().format, FilmFormat::gif);
+  EXPECT_EQ(app().film_settings().format, find_film_format("gif"));
   EXPECT_EQ(app().film_settings().fps, 50.0) << "no viewer shows more";
   click("record/format");
   click("record/format/jpeg");
@@ -274,7 +273,7 @@ TEST_F(Film, TheSectionStartsAndEndsIt) {
 
 TEST_F(Film, ClosingTheWindowLeavesAWholeFilm) {
   open_small();
-  record(FilmFormat::mp4, 30.0, "film");
+  record(find_film_format("mp4"), 30.0, "film");
   press(GLFW_KEY_SPACE);
   frames_to_pictures(7);
   close();
@@ -287,7 +286,7 @@ TEST_F(Film, WithoutFfmpegThereIsAMessageAndNoFilm) {
   open_small();
   press(GLFW_KEY_SPACE);
   const OtherPath path(directory().string());
-  app().film_settings() = {FilmFormat::mp4, 60.0, true, "film"};
+  app().film_settings() = {find_film_format("mp4"), 60.0, true, "film"};
   app().start_recording();
   EXPECT_FALSE(app().recording());
   ASSERT_TRUE(app().notice() && app().notice()->is_error);
@@ -299,7 +298,7 @@ TEST_F(Film, WithoutFfmpegThereIsAMessageAndNoFilm) {
 TEST_F(Film, AnEncoderThatDiesEndsTheFilmAndNotTheMotion) {
   open_small();
   const OtherPath path(path_with("head -c 100000 >/dev/null; echo out of film >&2; exit 3\n"));
-  record(FilmFormat::mp4, 60.0, "film");
+  record(find_film_format("mp4"), 60.0, "film");
   press(GLFW_KEY_SPACE);
   for (int i = 0; app().recording() || app().films_completing() > 0; ++i) {
     ASSERT_LT(i, 20000);
@@ -316,7 +315,7 @@ TEST_F(Film, AnEncoderThatDiesEndsTheFilmAndNotTheMotion) {
 TEST_F(Film, TheMotionWaitsForASlowEncoderAndNoPictureIsLost) {
   open_small();
   const OtherPath path(path_with("while [ ! -e go ]; do sleep 0.02; done\ncat > \"$out\"\n"));
-  record(FilmFormat::webm, 60.0, "film");
+  record(find_film_format("webm"), 60.0, "film");
   const PictureSize size = app().recording()->options().size;
   press(GLFW_KEY_SPACE);
   for (int i = 0; app().recording()->ready(); ++i) {

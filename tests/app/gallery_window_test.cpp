@@ -34,7 +34,7 @@ class Gallery : public Stage {
   void take(const std::string& name) {
     EXPECT_FALSE(app().notice() && app().notice()->is_error) << app().notice()->text;
     const Image picture = image();
-    const auto file = encode_image(ImageFormat::jpg, {picture.width, picture.height}, picture.rgb);
+    const auto file = encode_jpeg({picture.width, picture.height}, picture.rgb);
     ASSERT_TRUE(file.ok()) << file.error().message;
     EXPECT_GT(file->size(), 60000u);
     const char* const wanted = std::getenv("ASPIC_WINDOW_PICTURES");
@@ -48,7 +48,7 @@ class Gallery : public Stage {
 };
 
 TEST_F(Gallery, CubeInABowlRuns) {
-  open("cube-bowl", {"simulation.steps-per-frame=32"}, app::BackendName::reference);
+  open("cube-bowl", {"simulation.steps-per-frame=32"}, "reference");
   run_to(1450);
   frames(1);
   EXPECT_TRUE(simulation().running());
@@ -58,7 +58,7 @@ TEST_F(Gallery, CubeInABowlRuns) {
 }
 
 TEST_F(Gallery, GoalNetCatchesAShot) {
-  open("goal-net", {}, app::BackendName::reference);
+  open("goal-net", {}, "reference");
   run_to(320);
   press(GLFW_KEY_SPACE);
   frames(30);
@@ -69,7 +69,7 @@ TEST_F(Gallery, StrainOfACubeThatAHandPulls) {
   open("cube-plane",
        {"cube[0].position=[0,1.05,0]", "view.colour=strain", "simulation.steps-per-frame=20",
         "view.camera={position=[8,5,13], target=[0.4,2.0,0]}"},
-       app::BackendName::reference);
+       "reference");
   const Vec3 corner = simulation().snapshot().position[999];
   point_at(corner);
   frames(4);

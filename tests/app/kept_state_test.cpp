@@ -22,7 +22,7 @@ KeptState unusual() {
   s.layout.sections = {{"Scene", false}, {"Recording", true}};
   s.pace = Pace::real_time;
   s.speed = 0.125;
-  s.film_format = FilmFormat::gif;
+  s.film_format = find_film_format("gif");
   s.film_fps = 24.5;
   s.film_text = false;
   s.cameras = {{"cube-plane", {{1.1, 2.2, 3.3}, {0.0, 0.5, 0.0}, 30.0}},

@@ -30,7 +30,7 @@ class Layout : public Stage {
 };
 
 TEST_F(Layout, EveryControlExplainsItself) {
-  open("cube-plane", {}, app::BackendName::reference, with_sections(true));
+  open("cube-plane", {}, "reference", with_sections(true));
   std::size_t keys = 0;
   for (const BuiltinScene& scene : list_builtin_scenes()) {
     app().open(std::string(scene.name));
@@ -57,7 +57,7 @@ TEST_F(Layout, EveryControlExplainsItself) {
 }
 
 TEST_F(Layout, NothingIsCutOffAndNothingOverlaps) {
-  open("cube-and-balls", {}, app::BackendName::reference, with_sections(true));
+  open("cube-and-balls", {}, "reference", with_sections(true));
   for (const auto& [width, height] : {std::pair(1280, 720), std::pair(1920, 1080), std::pair(800, 600)}) {
     resize(width, height);
     for (const double size : {1.0, 1.5, 2.0}) {
@@ -109,20 +109,20 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   const CameraSettings sphere = app().camera().goal();
   app().simulation().pace = app::Pace::real_time;
   app().simulation().speed = 0.5;
-  app().film_settings().format = app::FilmFormat::webm;
+  app().film_settings().format = find_film_format("webm");
   const app::KeptState kept = app().kept_state();
   close();
 
   const auto read = app::read_kept_state(app::to_text(kept));
   ASSERT_TRUE(read.ok()) << read.error().message;
-  open("cube-sphere", {}, std::nullopt, *read);
+  open("cube-sphere", {}, "", *read);
   EXPECT_EQ(app().camera().shown(), sphere) << "to the bit";
   EXPECT_NEAR(app().viewport().left, left, 1e-9);
   EXPECT_TRUE(has("contact.model"));
   EXPECT_TRUE(has("section/Performance"));
   EXPECT_EQ(app().simulation().pace, app::Pace::real_time);
   EXPECT_EQ(app().simulation().speed, 0.5);
-  EXPECT_EQ(app().film_settings().format, app::FilmFormat::webm);
+  EXPECT_EQ(app().film_settings().format, find_film_format("webm"));
   app().open("cube-plane");
   EXPECT_EQ(app().camera().shown(), plane);
   press(GLFW_KEY_HOME);
@@ -138,7 +138,7 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
 TEST_F(Layout, ACameraOfTheCommandLineGoesFirst) {
   app::KeptState kept;
   kept.cameras = {{"cube-plane", {{1, 2, 3}, {0, 0, 0}, 30}}};
-  open("cube-plane", {"view.camera.fov=20"}, std::nullopt, kept);
+  open("cube-plane", {"view.camera.fov=20"}, "", kept);
   EXPECT_EQ(app().camera().shown().fov, 20.0);
 }
 
@@ -159,7 +159,7 @@ TEST_F(Layout, TextAndPanelsGrowTogether) {
 }
 
 TEST_F(Layout, TheSliderChangesTextOnceItIsLetGo) {
-  open("cube-plane", {}, std::nullopt, with_sections(false));
+  open("cube-plane", {}, "", with_sections(false));
   click("section/View");
   const Box slider = box("layout/text-size");
   drag(GLFW_MOUSE_BUTTON_LEFT, slider.centre_x(), slider.centre_y(), 20, 0);
@@ -169,7 +169,7 @@ TEST_F(Layout, TheSliderChangesTextOnceItIsLetGo) {
 }
 
 TEST_F(Layout, CameraPresetsTurnAboutTheTarget) {
-  open("cube-plane", {}, std::nullopt, with_sections(false));
+  open("cube-plane", {}, "", with_sections(false));
   click("section/View");
   const CameraSettings home = app().camera().goal();
   const double distance = length(home.position - home.target);

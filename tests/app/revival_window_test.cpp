@@ -6,7 +6,6 @@
 namespace aspic::test {
 namespace {
 
-using app::BackendName;
 using testing::HasSubstr;
 
 class Revival : public Stage {
@@ -20,7 +19,7 @@ class Revival : public Stage {
 };
 
 TEST_F(Revival, ARunOnTheGpuGoesOnOnTheReferenceFromTheLastCopy) {
-  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, BackendName::gpu);
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "gpu");
   simulation().set_running(true);
   frames_to_step(100);
   app().camera().orbit(0.2, 0.1);
@@ -28,7 +27,7 @@ TEST_F(Revival, ARunOnTheGpuGoesOnOnTheReferenceFromTheLastCopy) {
   const CameraSettings camera = app().camera().goal();
   const std::uint64_t copy = simulation().snapshot().step, step = simulation().step();
   lose_device(0);
-  EXPECT_EQ(simulation().backend(), BackendName::reference);
+  EXPECT_EQ(simulation().backend().name, "reference");
   EXPECT_TRUE(simulation().running()) << "it goes on";
   EXPECT_EQ(simulation().step(), copy);
   EXPECT_LE(copy, step);
@@ -46,18 +45,18 @@ TEST_F(Revival, ARunOnTheGpuGoesOnOnTheReferenceFromTheLastCopy) {
   EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 10));
   // And the gpu of the new window is as good as the old one.
   press(GLFW_KEY_G);
-  EXPECT_EQ(simulation().backend(), BackendName::gpu);
+  EXPECT_EQ(simulation().backend().name, "gpu");
   for (int i = 0; i < 3; ++i) type(U'.');
   EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 13));
 }
 
 TEST_F(Revival, ADeviceLostWithinAStepIsNoticedByTheSolver) {
-  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, BackendName::gpu);
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "gpu");
   simulation().set_running(true);
   frames_to_step(60);
   // The window looks first, the solver next.
   lose_device(1);
-  EXPECT_EQ(simulation().backend(), BackendName::reference);
+  EXPECT_EQ(simulation().backend().name, "reference");
   EXPECT_THAT(notice(), HasSubstr(" s old"));
   frames_to_step(simulation().step() + 20);
   pause();
@@ -65,7 +64,7 @@ TEST_F(Revival, ADeviceLostWithinAStepIsNoticedByTheSolver) {
 }
 
 TEST_F(Revival, ARunOnTheReferenceLosesNothing) {
-  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, BackendName::reference);
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "reference");
   simulation().set_running(true);
   frames_to_step(40);
   const std::uint64_t before = simulation().step();
@@ -78,7 +77,7 @@ TEST_F(Revival, ARunOnTheReferenceLosesNothing) {
 }
 
 TEST_F(Revival, ShadowModeEndsWithTheDevice) {
-  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, BackendName::reference);
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "reference");
   ASSERT_TRUE(simulation().set_shadow(true).ok());
   simulation().set_running(true);
   frames_to_step(30);
@@ -92,27 +91,27 @@ TEST_F(Revival, ShadowModeEndsWithTheDevice) {
 }
 
 TEST_F(Revival, NoMemoryForTheGpuLeavesTheReferenceAtWork) {
-  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, BackendName::reference);
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "reference");
   for (int i = 0; i < 5; ++i) type(U'.');
   const std::string before = hash();
   context().inject_fault(gl::Fault::out_of_memory);
   press(GLFW_KEY_G);
-  EXPECT_EQ(simulation().backend(), BackendName::reference);
+  EXPECT_EQ(simulation().backend().name, "reference");
   EXPECT_TRUE(app().notice() && app().notice()->is_error);
   EXPECT_THAT(notice(), HasSubstr("memory"));
   EXPECT_EQ(hash(), before);
   press(GLFW_KEY_G);
-  EXPECT_EQ(simulation().backend(), BackendName::gpu) << "once there is memory it works";
+  EXPECT_EQ(simulation().backend().name, "gpu") << "once there is memory it works";
   EXPECT_EQ(hash(), before);
 }
 
 TEST_F(Revival, AChangeTheGpuHasNoMemoryForGoesToTheReference) {
-  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, BackendName::gpu);
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "gpu");
   for (int i = 0; i < 5; ++i) type(U'.');
   context().inject_fault(gl::Fault::out_of_memory);
   app().set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -1.0, 0.0}), "");
   frames(2);
-  EXPECT_EQ(simulation().backend(), BackendName::reference);
+  EXPECT_EQ(simulation().backend().name, "reference");
   EXPECT_EQ(simulation().model().simulation.gravity, (Vec3{0.0, -1.0, 0.0})) << "the change holds";
   EXPECT_EQ(simulation().step(), 5u);
   EXPECT_THAT(notice(), HasSubstr("The reference goes on"));

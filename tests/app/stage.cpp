@@ -28,14 +28,20 @@ void Stage::TearDown() {
   std::filesystem::current_path(home_);
 }
 
-void Stage::open(const std::string& scene, std::vector<std::string> overrides,
-                 std::optional<app::BackendName> backend, const app::KeptState& kept) {
+void Stage::open(const std::string& scene, std::vector<std::string> overrides, std::string_view backend) {
+  static const app::KeptState never_closed;
+  open(scene, std::move(overrides), backend, never_closed);
+}
+
+void Stage::open(const std::string& scene, std::vector<std::string> overrides, std::string_view backend,
+                 const app::KeptState& kept) {
   app::WindowServices services;
   services.clipboard = [this] { return clipboard; };
   services.set_clipboard = [this](const std::string& text) { clipboard = text; };
   services.toggle_full_screen = [this] { ++full_screen_toggles; };
   auto made = app::App::create(window_->context(),
-                               {scene, std::move(overrides), backend, kept, full_quality()}, 1.0, services);
+                               {scene, std::move(overrides), find_backend(backend), kept, full_quality()},
+                               1.0, services);
   ASSERT_TRUE(made.ok()) << made.error().message;
   app_ = std::move(*made);
   window_->set_receiver(app_.get());

@@ -27,9 +27,10 @@ class Stage : public ::testing::Test {
   virtual std::array<int, 2> window_size() const { return {1280, 720}; }
   /// Whether pictures are drawn as on hardware.
   virtual bool full_quality() const { return false; }
-  /// Opens the app on a scene; before any other call.
-  void open(const std::string& scene, std::vector<std::string> overrides = {},
-            std::optional<app::BackendName> backend = std::nullopt, const app::KeptState& kept = {});
+  /// Opens the app on a scene, on a backend by its name (empty: automatic); before any other call.
+  void open(const std::string& scene, std::vector<std::string> overrides = {}, std::string_view backend = "");
+  void open(const std::string& scene, std::vector<std::string> overrides, std::string_view backend,
+            const app::KeptState& kept);
 
   /// Ends the app as closing the window does when nothing else is left to do.
   void close() { app_.reset(); }

@@ -27,7 +27,7 @@ class Views : public Stage, public ::testing::WithParamInterface<View> {
 
 TEST_P(Views, AreAsTheyWere) {
   const View& view = GetParam();
-  open(view.scene, {}, app::BackendName::reference);
+  open(view.scene, {}, "reference");
   press(GLFW_KEY_TAB);
   // Long enough for the full resolution.
   frames(30);

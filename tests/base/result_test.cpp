@@ -28,5 +28,33 @@ TEST(Status, IsOkUnlessAnError) {
   EXPECT_FALSE(Status(Error{ErrorCode::usage, "x"}).ok());
 }
 
+Result<std::unique_ptr<int>> half(int number) {
+  if (number % 2 != 0) return Error{ErrorCode::usage, "odd"};
+  return std::make_unique<int>(number / 2);
+}
+
+Result<int> quarter(int number) {
+  ASPIC_TRY(const auto once, half(number));
+  int result = 0;
+  ASPIC_TRY(const auto twice, half(*once));
+  ASPIC_TRY(result, Result<int>(*twice));
+  return result;
+}
+
+Status check_quarter(int number) {
+  ASPIC_CHECK(number > 0 ? Status() : Status(Error{ErrorCode::io, "not above 0"}));
+  if (number < 100) ASPIC_CHECK(quarter(number).ok() ? Status() : Status(quarter(number).error()));
+  return {};
+}
+
+TEST(Try, HandsOnTheValueOrTheError) {
+  EXPECT_EQ(*quarter(12), 3);
+  EXPECT_EQ(quarter(6).error().message, "odd");
+  EXPECT_TRUE(check_quarter(8).ok());
+  EXPECT_TRUE(check_quarter(101).ok());
+  EXPECT_EQ(check_quarter(0).error().code, ErrorCode::io);
+  EXPECT_EQ(check_quarter(3).error().code, ErrorCode::usage);
+}
+
 }  // namespace
 }  // namespace aspic

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/kept_state.h"
+#include "base/files.h"
 #include "fuzz/targets.h"
 #include "io/state_csv.h"
 #include "model/model.h"
@@ -25,7 +26,7 @@ void run_configuration(std::string_view text) {
 
 std::vector<std::string> configuration_seeds() {
   std::vector<std::string> seeds = {"*DeltaT\n0.005 # s\n*NumAtWidth\n8\n*DrawParticle\ntrue\n"};
-  if (const auto text = read_text_file(ASPIC_FUZZ_CONFIGURATION)) seeds.push_back(*text);
+  if (const auto text = read_file(ASPIC_FUZZ_CONFIGURATION)) seeds.push_back(*text);
   return seeds;
 }
 

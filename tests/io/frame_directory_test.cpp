@@ -27,7 +27,7 @@ std::array<int, 2> png_size(const std::string& file) {
 
 TEST(FrameDirectory, NumbersItsPictures) {
   const test::TemporaryDirectory dir;
-  auto sink = open_frame_directory(dir.file("out"), ImageFormat::png, size, Overwrite::refuse);
+  auto sink = open_frame_directory(dir.file("out"), *find_film_format("png"), size, Overwrite::refuse);
   ASSERT_TRUE(sink.ok()) << sink.error().message;
   ASSERT_TRUE((*sink)->write(grey(10)).ok());
   ASSERT_TRUE((*sink)->write(grey(20)).ok());
@@ -38,7 +38,7 @@ TEST(FrameDirectory, NumbersItsPictures) {
 }
 
 TEST(FrameDirectory, WritesJpeg) {
-  const auto content = encode_image(ImageFormat::jpg, size, grey(99));
+  const auto content = encode_jpeg(size, grey(99));
   ASSERT_TRUE(content.ok());
   EXPECT_TRUE(content->starts_with("\xff\xd8\xff"));
 }
@@ -47,13 +47,15 @@ TEST(FrameDirectory, RefusesPicturesOfAnEarlierRun) {
   const test::TemporaryDirectory dir;
   dir.write("frame-000007.jpg", "old");
   dir.write("notes.txt", "mine");
-  const auto refused = open_frame_directory(dir.path().string(), ImageFormat::png, size, Overwrite::refuse);
+  const auto refused =
+      open_frame_directory(dir.path().string(), *find_film_format("png"), size, Overwrite::refuse);
   ASSERT_FALSE(refused.ok());
   EXPECT_THAT(refused.error().message, HasSubstr("frame-000007.jpg"));
   EXPECT_THAT(refused.error().message, HasSubstr("--force"));
   EXPECT_EQ(dir.read("frame-000007.jpg"), "old");
 
-  const auto allowed = open_frame_directory(dir.path().string(), ImageFormat::png, size, Overwrite::allow);
+  const auto allowed =
+      open_frame_directory(dir.path().string(), *find_film_format("png"), size, Overwrite::allow);
   ASSERT_TRUE(allowed.ok());
   EXPECT_EQ(dir.entries(), 1u) << "old pictures go, other files stay";
   EXPECT_EQ(dir.read("notes.txt"), "mine");
@@ -62,10 +64,11 @@ TEST(FrameDirectory, RefusesPicturesOfAnEarlierRun) {
 TEST(FrameDirectory, RefusesWhatIsNoDirectory) {
   const test::TemporaryDirectory dir;
   dir.write("file", "x");
-  const auto file = open_frame_directory(dir.file("file"), ImageFormat::png, size, Overwrite::allow);
+  const auto file = open_frame_directory(dir.file("file"), *find_film_format("png"), size, Overwrite::allow);
   ASSERT_FALSE(file.ok());
   EXPECT_THAT(file.error().message, HasSubstr("is a file"));
-  EXPECT_FALSE(open_frame_directory(dir.file("no/such"), ImageFormat::png, size, Overwrite::allow).ok());
+  EXPECT_FALSE(
+      open_frame_directory(dir.file("no/such"), *find_film_format("png"), size, Overwrite::allow).ok());
 }
 
 }  // namespace

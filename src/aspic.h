@@ -1,0 +1,31 @@
+#pragma once
+// What a program of one's own uses of libaspic: scenes, models and their solvers, measures, files. Link
+// aspic::aspic. No window and no command line is part of it. Fallible calls return a Result (base/result.h).
+
+#include "base/result.h"  // Result, Status, Error
+
+// model: what is simulated, as plain data in SI units
+#include "model/model.h"   // Model, build_model()
+#include "model/solver.h"  // Solver: load(), advance(), state(), set_pull()
+#include "model/state.h"   // State, initial_state(), state_hash_text()
+
+// scene: TOML and back
+#include "scene/load.h"   // load_scene(), parse_scene(), list_builtin_scenes()
+#include "scene/scene.h"  // Scene
+#include "scene/write.h"  // to_toml()
+
+// run: backends and recording
+#include "run/backends.h"   // backends(), make_backend()
+#include "run/outputs.h"    // what a run can write
+#include "run/recorder.h"   // films without a window
+#include "run/run_files.h"  // states, series and checkpoints while a run goes on
+
+// analysis: what a state comes to
+#include "analysis/compare.h"    // compare_states()
+#include "analysis/energy.h"     // measure()
+#include "analysis/stability.h"  // stability_limit()
+
+// io: files
+#include "io/checkpoint.h"  // read_checkpoint(), write_checkpoint()
+#include "io/series_csv.h"  // SeriesWriter
+#include "io/state_csv.h"   // read_state_csv(), write_state_csv()

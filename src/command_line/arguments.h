@@ -1,0 +1,110 @@
+#pragma once
+// The command line as plain data.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/result.h"
+#include "model/state.h"
+#include "run/backends.h"
+#include "run/outputs.h"
+
+namespace aspic {
+
+/// How far a run goes, counted from the scene's start, also when resumed.
+struct RunLength {
+  std::optional<std::uint64_t> steps;
+  std::optional<double> duration;  ///< [s], ≥ 0; rounded to the nearest whole number of steps
+};
+
+struct RunOptions {
+  std::string scene;  ///< empty: that of the checkpoint
+  std::vector<std::string> overrides;
+  BackendChoice backend;
+  bool precision_given = false;
+  RunLength length;
+  std::string resume_file;           ///< empty: none
+  std::vector<StateOutput> outputs;  ///< one for each of state_options()
+  PictureOutput pictures;
+  std::vector<std::string> view;  ///< KEY=VALUE of the scene's view table, for the pictures
+  bool force = false;
+  bool json = false;
+};
+
+struct CompareOptions {
+  std::string scene;
+  std::vector<std::string> overrides;
+  BackendChoice first, second;
+  RunLength length;
+  double tolerance = 0.0;  ///< [m] and [m/s], ≥ 0; 0: every bit the same
+  bool json = false;
+};
+
+enum class BenchTimestep {
+  scene,   ///< the scene's own
+  largest  ///< 0.99 of the largest stable one; a sixtieth of a second with implicit-euler
+};
+
+struct BenchOptions {
+  std::string scene = "cube-plane";
+  std::vector<std::string> overrides;
+  std::vector<BackendChoice> backends;  ///< at least one
+  std::vector<int> sizes;               ///< particles per edge of all cubes; empty: the scene's
+  std::vector<Integrator> integrators;  ///< empty: the scene's
+  BenchTimestep timestep = BenchTimestep::scene;
+  double seconds = 2.0;            ///< per measurement, all repeats together, > 0
+  std::optional<double> duration;  ///< simulated time of each repeat [s], instead of `seconds`
+  int repeats = 5;                 ///< ≥ 1
+  bool json = false;
+};
+
+struct VerifyOptions {
+  bool quick = false;
+  std::vector<std::string> only;  ///< names of checks or groups; empty: all
+  bool require_gpu = false;       ///< rows that found no device fail
+  bool json = false;
+};
+
+struct ViewOptions {
+  std::string scene = "cube-plane";
+  std::vector<std::string> overrides;
+  BackendChoice backend;
+  std::optional<PictureSize>
+      size;  ///< of the window, in the display's units; absent: as it was last, or 1280 × 720
+  std::vector<std::string> words;  ///< the arguments after `view` as they were given
+};
+
+struct SceneListOptions {
+  bool json = false;
+};
+struct SceneShowOptions {
+  std::string scene;
+  std::vector<std::string> overrides;
+};
+struct SceneCheckOptions {
+  std::string scene;
+  std::vector<std::string> overrides;
+  bool json = false;
+};
+struct SceneImportOptions {
+  std::string file;  ///< Configuration.txt of the 2018 framework
+};
+struct InfoOptions {
+  bool json = false;
+};
+/// --help, --version: text for stdout and nothing else to do.
+struct ShowText {
+  std::string text;
+};
+
+using Command =
+    std::variant<ShowText, RunOptions, ViewOptions, CompareOptions, BenchOptions, VerifyOptions,
+                 SceneListOptions, SceneShowOptions, SceneCheckOptions, SceneImportOptions, InfoOptions>;
+
+/// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built
+/// yet.
+Result<Command> parse_arguments(int argc, const char* const* argv);
+
+}  // namespace aspic

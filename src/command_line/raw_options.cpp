@@ -1,0 +1,191 @@
+#include "command_line/raw_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "base/printable.h"
+
+namespace aspic {
+namespace {
+
+Status check_length(const RunLength& length) {
+  if (length.duration && !(std::isfinite(*length.duration) && *length.duration >= 0.0)) {
+    return usage(
+        fmt::format("--duration must be a finite number of seconds, 0 or more, not {}.", *length.duration));
+  }
+  return {};
+}
+
+/// "1280x720". The limits are those that every OpenGL 4.3 device takes.
+Result<PictureSize> parse_size(const std::string& text) {
+  PictureSize size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+    const auto height = std::from_chars(width.ptr + 1, end, size.height);
+    constexpr int least = 16, most = 16384;
+    if (height.ec == std::errc() && height.ptr == end && std::min(size.width, size.height) >= least &&
+        std::max(size.width, size.height) <= most)
+      return size;
+  }
+  return usage(fmt::format(
+      "--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".",
+      printable_line(text)));
+}
+
+Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
+  const auto size = parse_size(raw.size);
+  if (!size) return size.error();
+  pictures.size = *size;
+  const FilmFormat* const images = find_film_format(raw.frames_format);
+  if (!images || !images->is_directory())
+    return usage(fmt::format("--frames-format must be {}, not \"{}\".", film_endings(true),
+                             printable_line(raw.frames_format)));
+  pictures.frames_format = images;
+  if (raw.text != "on" && raw.text != "off")
+    return usage(fmt::format("--text must be on or off, not \"{}\".", printable_line(raw.text)));
+  pictures.text = raw.text == "on" && !raw.no_text;
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  if (pictures.fps && !(positive(*pictures.fps) && *pictures.fps <= 1000.0))
+    return usage(fmt::format("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps));
+  if (!positive(pictures.speed))
+    return usage(fmt::format("--speed must be a finite number above 0, not {}.", pictures.speed));
+  if (pictures.video.empty()) return {};
+  const auto format = video_format_of(pictures.video);
+  if (!format) return format.error();
+  return check_film(**format, pictures.size, frames_per_second(pictures));
+}
+
+/// Whether the backend was named and has force paths to choose from.
+bool has_force_paths(const BackendChoice& choice) {
+  return choice.row && !choice.row->force_paths.empty();
+}
+
+Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
+  std::vector<BackendChoice> backends;
+  for (const std::string& text : raw.bench_backends) {
+    const auto choice = parse_backend(text);
+    if (!choice) return choice.error();
+    const bool open = has_force_paths(*choice) && choice->force_path == ForcePath::automatic;
+    if (!open || raw.bench_force_paths.empty()) {
+      backends.push_back(*choice);
+      continue;
+    }
+    for (const std::string& word : raw.bench_force_paths) {
+      const auto path = parse_force_path(word);
+      if (!path) return path.error();
+      backends.push_back(*choice);
+      backends.back().force_path = *path;
+    }
+  }
+  for (const BackendChoice& choice : backends) {
+    ASPIC_CHECK(check_choice(choice));
+  }
+  return backends;
+}
+
+}  // namespace
+
+Error usage(std::string message) {
+  return {ErrorCode::usage, std::move(message)};
+}
+
+Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
+  const auto row = parse_backend_name(raw.backend);
+  if (!row) return row.error();
+  const auto precision = parse_precision(raw.precision.empty() ? "single" : raw.precision);
+  if (!precision) return precision.error();
+  const auto path = parse_force_path(raw.force_path);
+  if (!path) return path.error();
+  run.backend = {*row, *precision, *path};
+  run.precision_given = !raw.precision.empty();
+  ASPIC_CHECK(check_length(run.length));
+  for (const StateOutput& output : run.outputs) {
+    if (output.every && *output.every < 1)
+      return usage(fmt::format("--{}-every must be 1 or more.", output.option));
+  }
+  if (run.scene.empty() && run.resume_file.empty()) {
+    return usage("aspic run needs a SCENE: a file, or a built-in name from aspic scene list.");
+  }
+  if (run.scene.empty() && !run.overrides.empty()) {
+    return usage(
+        "a resumed run goes on with the scene of its checkpoint, which --set cannot change. Leave --set out, "
+        "or run a scene.");
+  }
+  ASPIC_CHECK(finish_pictures(run.pictures, raw));
+  ASPIC_CHECK(check_choice(run.backend));
+  return Command(std::move(run));
+}
+
+Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
+  const auto path = parse_force_path(raw.force_path);
+  if (!path) return path.error();
+  const auto choose = [&](const std::string& text) -> Result<BackendChoice> {
+    auto choice = parse_backend(text);
+    if (!choice) return choice;
+    if (has_force_paths(*choice) && choice->force_path == ForcePath::automatic) choice->force_path = *path;
+    ASPIC_CHECK(check_choice(*choice));
+    return choice;
+  };
+  const auto first = choose(raw.backends.front());
+  if (!first) return first.error();
+  const auto second = choose(raw.backends.back());
+  if (!second) return second.error();
+  compare.first = *first;
+  compare.second = *second;
+  ASPIC_CHECK(check_length(compare.length));
+  if (!(std::isfinite(compare.tolerance) && compare.tolerance >= 0.0)) {
+    return usage(fmt::format("--tolerance must be a finite number, 0 or more, not {}.", compare.tolerance));
+  }
+  return Command(std::move(compare));
+}
+
+Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
+  const auto row = parse_backend_name(raw.backend);
+  if (!row) return row.error();
+  view.backend.row = *row;
+  ASPIC_CHECK(check_choice(view.backend));
+  if (!raw.window_size.empty()) {
+    const auto size = parse_size(raw.window_size);
+    if (!size) return size.error();
+    view.size = *size;
+  }
+  return Command(std::move(view));
+}
+
+Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
+  auto backends = bench_backends(raw);
+  if (!backends) return backends.error();
+  bench.backends = std::move(*backends);
+  for (const std::string& word : raw.bench_integrators) {
+    const auto known = std::find_if(std::begin(all_integrators), std::end(all_integrators),
+                                    [&](Integrator i) { return name_of(i) == word; });
+    if (known == std::end(all_integrators)) {
+      std::vector<std::string_view> names;
+      for (const Integrator i : all_integrators) names.push_back(name_of(i));
+      return usage(fmt::format("--integrator does not know \"{}\"; allowed: {}.", printable_line(word),
+                               fmt::join(names, ", ")));
+    }
+    bench.integrators.push_back(*known);
+  }
+  if (raw.bench_timestep != "scene" && raw.bench_timestep != "largest") {
+    return usage(
+        fmt::format("--timestep must be scene or largest, not \"{}\".", printable_line(raw.bench_timestep)));
+  }
+  bench.timestep = raw.bench_timestep == "largest" ? BenchTimestep::largest : BenchTimestep::scene;
+  constexpr double longest = 1e6;  // s: eleven days
+  if (!(bench.seconds > 0.0 && bench.seconds <= longest))
+    return usage("--seconds must be a number above 0 and at most 1e6.");
+  if (bench.duration && !(std::isfinite(*bench.duration) && *bench.duration > 0.0)) {
+    return usage("--duration must be a number above 0.");
+  }
+  if (bench.repeats < 1) return usage("--repeats must be 1 or more.");
+  return Command(std::move(bench));
+}
+
+}  // namespace aspic

@@ -1,0 +1,30 @@
+#pragma once
+// From the words the command line parser read to the values the commands take.
+#include <string>
+#include <vector>
+
+#include "command_line/arguments.h"
+
+namespace aspic {
+
+/// What the parser fills in before words become values.
+struct RawOptions {
+  std::string backend = "auto", precision, force_path = "auto";
+  std::vector<std::string> backends = {"gpu", "reference"};
+  std::vector<std::string> bench_backends = {"auto"}, bench_force_paths, bench_integrators;
+  std::string bench_timestep = "scene";
+  std::string window_size, size = "1280x720", frames_format = "png", text = "on";
+  bool no_text = false;
+};
+
+/// An Error of the command line.
+Error usage(std::string message);
+
+// Each completes the options of one command. Errors: usage, with what is allowed; scene_rejected for what is
+// not built yet.
+Result<Command> finish_run(RunOptions run, const RawOptions& raw);
+Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw);
+Result<Command> finish_view(ViewOptions view, const RawOptions& raw);
+Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw);
+
+}  // namespace aspic

@@ -1,0 +1,90 @@
+#include "io/film_format.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "io/frame_directory.h"
+#include "io/video_file.h"
+
+namespace aspic {
+namespace {
+
+constexpr double gif_fps = 50.0;  // the shortest picture that viewers honour: two hundredths of a second
+
+// The index goes in front.
+constexpr const char* mp4[] = {"-c:v", "libx264",   "-preset",    "medium", "-crf",
+                               "18",   "-movflags", "+faststart", "-f",     "mp4"};
+constexpr const char* webm[] = {"-c:v", "libvpx-vp9", "-crf", "28",      "-b:v", "0",  "-deadline",
+                                "good", "-cpu-used",  "4",    "-row-mt", "1",    "-f", "webm"};
+// One palette for all pictures.
+constexpr const char* gif[] = {
+    "-vf",   "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=sierra2_4a",
+    "-loop", "0",
+    "-f",    "gif"};
+
+constexpr FilmFormat table[] = {
+    {"mp4", "MP4 (H.264)", ".mp4", 60.0, 1000.0, true, mp4, nullptr},
+    {"webm", "WebM (VP9)", ".webm", 60.0, 1000.0, true, webm, nullptr},
+    {"gif", "GIF", ".gif", gif_fps, gif_fps, false, gif, nullptr},
+    {"png", "PNG pictures", ".png", 60.0, 1000.0, false, {}, encode_png},
+    {"jpeg", "JPEG pictures", ".jpg", 60.0, 1000.0, false, {}, encode_jpeg},
+};
+
+}  // namespace
+
+std::span<const FilmFormat> film_formats() noexcept {
+  return table;
+}
+
+const FilmFormat* find_film_format(std::string_view word) {
+  std::string name(word.starts_with('.') ? word.substr(1) : word);
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto* const found = std::ranges::find_if(
+      table, [&](const FilmFormat& f) { return f.name == name || f.ending.substr(1) == name; });
+  return found == std::end(table) ? nullptr : found;
+}
+
+std::string film_endings(bool directories) {
+  std::vector<std::string_view> endings;
+  for (const FilmFormat& format : table)
+    if (format.is_directory() == directories) endings.push_back(format.ending.substr(directories ? 1 : 0));
+  const std::string_view last = endings.back();
+  endings.pop_back();
+  return fmt::format("{} or {}", fmt::join(endings, ", "), last);
+}
+
+Result<const FilmFormat*> video_format_of(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  const FilmFormat* const format =
+      dot == std::string::npos ? nullptr : find_film_format(std::string_view(path).substr(dot));
+  if (format && !format->is_directory()) return format;
+  return Error{ErrorCode::usage, fmt::format("the video's name {} must end in {}, which says its format.",
+                                             path, film_endings(false))};
+}
+
+Status check_film(const FilmFormat& format, const PictureSize& size, double fps) {
+  if (fps > format.most_fps) {
+    return Error{ErrorCode::usage,
+                 fmt::format("{0} shows at most {1} pictures a second, not {2}: give --fps {1} or less.",
+                             format.label, format.most_fps, fps)};
+  }
+  if (!format.even_sides || (size.width % 2 == 0 && size.height % 2 == 0)) return {};
+  return Error{
+      ErrorCode::usage,
+      fmt::format("a video stores colour for squares of 2 x 2 pixels, so that --size {}x{} is not "
+                  "possible: give an even width and height, {}x{} say.",
+                  size.width, size.height, size.width + size.width % 2, size.height + size.height % 2)};
+}
+
+Result<std::unique_ptr<FrameSink>> open_film(const FilmFormat& format, const std::string& path,
+                                             const PictureSize& size, double fps, Overwrite overwrite) {
+  ASPIC_CHECK(check_film(format, size, fps));
+  return format.is_directory() ? open_frame_directory(path, format, size, overwrite)
+                               : open_video(path, format, size, fps, overwrite);
+}
+
+}  // namespace aspic

@@ -1,0 +1,49 @@
+#pragma once
+// The table of film formats: everything that any program asks of one is in its row.
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "io/atomic_file.h"
+#include "io/frame_sink.h"
+
+namespace aspic {
+
+/// What pictures become: a video that ffmpeg encodes, or a directory of numbered pictures.
+struct FilmFormat {
+  std::string_view name;    ///< word of options and of files: "mp4"
+  std::string_view label;   ///< for people: "MP4 (H.264)"
+  std::string_view ending;  ///< of the video's file or of each picture, in lower case: ".mp4"
+  double default_fps = 60.0, most_fps = 1000.0;  ///< pictures shown per second
+  bool even_sides = false;              ///< 4:2:0, BT.709: colour is stored for squares of 2 × 2 pixels
+  std::span<const char* const> ffmpeg;  ///< what ffmpeg is told about the output; empty: no video
+  /// One picture (FrameSink::write) as the content of a file; null for videos. Error (io): the encoder
+  /// failed.
+  Result<std::string> (*encode)(const PictureSize& size, std::span<const std::byte> rgb) = nullptr;
+
+  bool is_directory() const { return encode != nullptr; }
+};
+
+/// All formats, videos first; the first is the default.
+std::span<const FilmFormat> film_formats() noexcept;
+
+/// The format with that name, or with that ending, with or without its dot, in any case; null if there is
+/// none.
+const FilmFormat* find_film_format(std::string_view word);
+
+/// The video format that the ending of a file name says. Error (usage): no such ending.
+Result<const FilmFormat*> video_format_of(const std::string& path);
+
+/// Words of all picture formats (directories) or of all videos as their endings: "png or jpg".
+std::string film_endings(bool directories);
+
+/// Whether a film can have this size and rate. Errors (usage): an odd side where the format needs even ones,
+/// with the nearest even size; more pictures a second than the format shows.
+Status check_film(const FilmFormat& format, const PictureSize& size, double fps);
+
+/// Opens a sink: open_video() or open_frame_directory(). Errors: those of check_film() and of the two.
+Result<std::unique_ptr<FrameSink>> open_film(const FilmFormat& format, const std::string& path,
+                                             const PictureSize& size, double fps, Overwrite overwrite);
+
+}  // namespace aspic

@@ -1,0 +1,157 @@
+#include "io/state_sink.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "io/checkpoint.h"
+#include "io/series_csv.h"
+#include "io/state_csv.h"
+
+namespace aspic {
+namespace {
+
+/// "end.csv" with "00000040" for the step: "end-00000040.csv".
+std::string numbered(const std::string& path, const std::string& step) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return fmt::format("{}-{}{}", path.substr(0, path.size() - ending.size()), step, ending);
+}
+
+/// The last state as a table, or a table for each of many steps.
+class StateTables final : public StateSink {
+ public:
+  static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
+                                                 Overwrite overwrite, const RunFacts&) {
+    auto sink = std::make_unique<StateTables>(path, every, overwrite);
+    if (every == 0) {
+      auto file = AtomicFile::create(path, overwrite);
+      if (!file) return file.error();
+      sink->file_ = std::move(*file);
+    }
+    return std::unique_ptr<StateSink>(std::move(sink));
+  }
+  StateTables(const std::string& path, std::uint64_t every, Overwrite overwrite)
+      : StateSink(every > 0 ? numbered(path, "*") : path, every), pattern_(path), overwrite_(overwrite) {}
+
+  Status take(const Sample& sample) override { return every() > 0 ? write(sample.state) : Status(); }
+  Status finish(const Sample& last) override { return write(last.state); }
+
+ private:
+  Status write(const State& state) {
+    if (last_step_ == state.step) return {};
+    if (every() > 0) {
+      auto file = AtomicFile::create(numbered(pattern_, fmt::format("{:08}", state.step)), overwrite_);
+      if (!file) return file.error();
+      file_ = std::move(*file);
+    }
+    last_step_ = state.step;
+    const Status written = write_state_csv(*file_, state);
+    return written ? file_->commit() : written;
+  }
+  std::string pattern_;
+  Overwrite overwrite_;
+  std::optional<AtomicFile> file_;
+  std::optional<std::uint64_t> last_step_;
+};
+
+/// Energies and momentum, a row for each of many steps.
+class Series final : public StateSink {
+ public:
+  static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
+                                                 Overwrite overwrite, const RunFacts& facts) {
+    auto writer = SeriesWriter::create(path, overwrite, facts.integrator == Integrator::implicit_euler);
+    if (!writer) return writer.error();
+    return std::unique_ptr<StateSink>(std::make_unique<Series>(path, every, std::move(*writer)));
+  }
+  Series(const std::string& path, std::uint64_t every, SeriesWriter writer)
+      : StateSink(path, every), writer_(std::move(writer)) {}
+
+  Status take(const Sample& s) override { return writer_.add(s.model, s.state, s.solves); }
+  Status finish(const Sample& last) override {
+    const Status added = take(last);
+    return added ? writer_.finish() : added;
+  }
+
+ private:
+  SeriesWriter writer_;
+};
+
+/// The scene with the last state, or with the newest of many, which replaces the one before.
+class CheckpointFile final : public StateSink {
+ public:
+  static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
+                                                 Overwrite overwrite, const RunFacts& facts) {
+    auto file = AtomicFile::create(path, overwrite);
+    if (!file) return file.error();
+    return std::unique_ptr<StateSink>(
+        std::make_unique<CheckpointFile>(path, every, std::move(*file), facts.scene_toml));
+  }
+  CheckpointFile(const std::string& path, std::uint64_t every, AtomicFile file, std::string scene_toml)
+      : StateSink(path, every), file_(std::move(file)), scene_toml_(std::move(scene_toml)) {}
+
+  Status take(const Sample& sample) override {
+    const bool first = !last_step_;
+    if (first) last_step_ = sample.state.step;
+    return every() > 0 && !first ? write(sample) : Status();
+  }
+  Status finish(const Sample& last) override {
+    return written_ && last_step_ == last.state.step ? Status() : write(last);
+  }
+
+ private:
+  Status write(const Sample& sample) {
+    if (written_) {
+      // What is there now is our own.
+      auto file = AtomicFile::create(path(), Overwrite::allow);
+      if (!file) return file.error();
+      file_ = std::move(*file);
+    }
+    const Checkpoint checkpoint = {ASPIC_VERSION, scene_toml_, sample.model.simulation.timestep,
+                                   sample.state};
+    ASPIC_CHECK(write_checkpoint(file_, checkpoint));
+    last_step_ = sample.state.step;
+    written_ = true;
+    return file_.commit();
+  }
+  AtomicFile file_;
+  std::string scene_toml_;
+  std::optional<std::uint64_t> last_step_;
+  bool written_ = false;
+};
+
+constexpr StateFormat table[] = {
+    {"state", ".csv", "write the final state as CSV",
+     "steps between states: FILE-00000040.csv and so on, from the first to the last", 0, false, false,
+     StateTables::open},
+    {"series", ".csv", "write energies and momentum over time as CSV",
+     "steps between rows of the series, 1 if left out", 1, true, false, Series::open},
+    {"checkpoint", ".aspic", "write scene and final state, to resume from",
+     "steps between checkpoints, each of which replaces the one before", 0, false, true,
+     CheckpointFile::open},
+};
+
+}  // namespace
+
+std::span<const StateFormat> state_formats() {
+  return table;
+}
+
+std::vector<std::string_view> state_options() {
+  std::vector<std::string_view> options;
+  for (const StateFormat& format : table)
+    if (options.empty() || options.back() != format.option) options.push_back(format.option);
+  return options;
+}
+
+const StateFormat& state_format_of(std::string_view option, std::string_view path) {
+  const StateFormat* chosen = nullptr;
+  for (const StateFormat& format : table) {
+    if (format.option != option) continue;
+    if (!chosen || path.ends_with(format.ending)) chosen = &format;
+  }
+  return *chosen;
+}
+
+}  // namespace aspic

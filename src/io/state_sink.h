@@ -1,0 +1,75 @@
+#pragma once
+// Where the states of a run go, and the table of the formats they take.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/atomic_file.h"
+#include "model/implicit.h"
+#include "model/model.h"
+#include "model/state.h"
+
+namespace aspic {
+
+/// What is known of a run before it starts.
+struct RunFacts {
+  std::string scene_toml;  ///< the complete scene, as a checkpoint keeps it
+  Integrator integrator = Integrator::explicit_euler;
+};
+
+/// A state of a run, with what belongs to it.
+struct Sample {
+  const Model& model;
+  const State& state;
+  SolveStatistics solves = {};  ///< of the run so far; zeros unless the integrator is implicit-euler
+};
+
+/// Takes states of a run in the order of their steps. One that is destroyed before finish() leaves nothing
+/// that looks complete, except the files of earlier steps.
+class StateSink {
+ public:
+  StateSink(std::string path, std::uint64_t every) : path_(std::move(path)), every_(every) {}
+  virtual ~StateSink() = default;
+
+  /// Takes the first state of a run and those at multiples of every(). Errors: io; diverged if a number is
+  /// not finite.
+  virtual Status take(const Sample& sample) = 0;
+  /// Takes the last state, which take() may have seen already, and completes the output. Errors as take().
+  virtual Status finish(const Sample& last) = 0;
+
+  /// As the user gave it; with a * in place of the step where it is one of many files.
+  const std::string& path() const { return path_; }
+  /// Steps between the states it wants; 0: the last one alone.
+  std::uint64_t every() const { return every_; }
+
+ private:
+  std::string path_;
+  std::uint64_t every_;
+};
+
+/// A format of states.
+struct StateFormat {
+  std::string_view option;          ///< the kind of output: "state" is the option --state
+  std::string_view ending;          ///< ".csv": of several formats of a kind, the file's name says which
+  std::string_view summary;         ///< what the option does
+  std::string_view every;           ///< what its interval does
+  std::uint64_t default_every = 0;  ///< steps
+  bool over_time = false;           ///< one file with rows of measures for many steps
+  bool holds_scene = false;         ///< it is of use only if the scene says all of the run
+  /// Opens the output, which proves that its place can be written. Errors (io): AtomicFile::create.
+  Result<std::unique_ptr<StateSink>> (*open)(const std::string& path, std::uint64_t every,
+                                             Overwrite overwrite, const RunFacts& facts) = nullptr;
+};
+
+/// All formats; those of one option follow one another, its default first.
+std::span<const StateFormat> state_formats();
+/// The options of the table, each once, in its order.
+std::vector<std::string_view> state_options();
+/// The format of an option, which exists, that a file name's ending asks for; the option's default where no
+/// ending fits.
+const StateFormat& state_format_of(std::string_view option, std::string_view path);
+
+}  // namespace aspic

@@ -1,0 +1,314 @@
+#include "run/backends.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "base/memory.h"
+#include "base/printable.h"
+#include "base/text.h"
+#include "cpu_reference/reference_solver.h"
+
+namespace aspic {
+namespace {
+
+// ---- gpu ----
+
+Result<Backend> make_gpu(const Model& model, const BackendChoice& choice, const SolverHost& host) {
+  Backend backend;
+  gl::Context* context = host.context;
+  if (context == nullptr) {
+    auto made = gl::Context::create_headless();
+    if (!made) return made.error();
+    backend.context = std::move(*made);
+    context = backend.context.get();
+  }
+  auto directory = shader_directory();
+  if (!directory) return directory.error();
+  GpuOptions options;
+  options.force_path = choice.force_path;
+  options.shader_directory = std::move(*directory);
+  options.like = host.like;
+  options.arithmetic = host.arithmetic;
+  auto solver = make_gpu_solver(*context, model, options);
+  if (!solver) return solver.error();
+  backend.gpu = solver->get();
+  backend.device = context->info().renderer;
+  backend.force_path = name_of((*solver)->force_path());
+  backend.solver = std::move(*solver);
+  return backend;
+}
+
+Suitability gpu_suitability(const gl::Context* window) {
+  Suitability result;
+  if (window == nullptr) {
+    gl::ContextOptions options;
+    options.device = gl::DeviceChoice::hardware;
+    auto made = gl::Context::create_headless(options);
+    if (!made) return {false, "no hardware GPU with OpenGL 4.3 was found", made.error().message, nullptr};
+    result.context = std::move(*made);
+    window = result.context.get();
+  }
+  const gl::DeviceInfo& info = window->info();
+  if (info.is_software) {
+    return {false,
+            fmt::format("{} is a software rasteriser, which is used only when asked for with --backend gpu",
+                        info.renderer),
+            "", nullptr};
+  }
+  result.suits = true;
+  result.reason = fmt::format("{} is a hardware GPU with OpenGL 4.3 compute", info.renderer);
+  return result;
+}
+
+// ---- reference ----
+
+/// What it holds at work; under implicit Euler also every spring's Jacobian, of the trial and of the iterate
+/// before.
+Status check_reference_memory(const Model& model, Precision precision) {
+  ModelCounts bodies;
+  bodies.particles = model.particle_count();
+  bodies.balls = model.ball_count();
+  const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
+  std::uint64_t bytes = reference_bytes(bodies, precision);
+  if (model.simulation.integrator == Integrator::implicit_euler) bytes += 2 * 5 * real * model.springs.size();
+  const std::optional<std::uint64_t> memory = available_memory();
+  if (!memory || bytes <= *memory) return {};
+  return Error{
+      ErrorCode::scene_rejected,
+      fmt::format("the reference solver needs {} of memory for this scene and {} are available; use fewer "
+                  "particles or balls",
+                  human_bytes(bytes), human_bytes(*memory))};
+}
+
+Result<Backend> make_reference(const Model& model, const BackendChoice& choice, const SolverHost&) {
+  ASPIC_CHECK(check_reference_memory(model, choice.precision));
+  auto solver = make_reference_solver(model, choice.precision);
+  if (!solver) return solver.error();
+  Backend backend;
+  backend.device = (*solver)->description();
+  backend.solver = std::move(*solver);
+  return backend;
+}
+
+// ---- the table ----
+
+constexpr Precision single_alone[] = {Precision::single};
+constexpr Precision both_precisions[] = {Precision::single, Precision::double_};
+constexpr ForcePath gpu_paths[] = {ForcePath::gather, ForcePath::per_spring};
+
+constexpr BackendRow table[] = {
+    {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, gpu_paths, true, make_gpu,
+     [](const ModelCounts& counts, Integrator integrator, const BackendChoice& choice) {
+       return gpu_bytes(counts, integrator, choice.force_path);
+     },
+     gpu_suitability},
+    {"reference",
+     "reference",
+     "one thread, Eigen, written to be read",
+     both_precisions,
+     {},
+     false,
+     make_reference,
+     [](const ModelCounts& counts, Integrator, const BackendChoice& choice) {
+       return reference_bytes(counts, choice.precision);
+     },
+     [](const gl::Context*) {
+       return Suitability{true, "", "", nullptr};
+     }},
+};
+
+template <class T>
+bool has(std::span<const T> values, T value) {
+  return std::ranges::find(values, value) != values.end();
+}
+
+Error unknown_word(std::string_view what, std::string_view word, std::string_view allowed) {
+  return {ErrorCode::usage,
+          fmt::format("unknown {} \"{}\"; allowed: {}.", what, printable_line(word), allowed)};
+}
+
+/// Names of the rows for which something holds.
+template <class Predicate>
+std::vector<std::string_view> names_where(Predicate holds) {
+  std::vector<std::string_view> names;
+  for (const BackendRow& row : table)
+    if (holds(row)) names.push_back(row.name);
+  return names;
+}
+
+std::string only_those_with(Precision precision) {
+  const auto names = names_where([&](const BackendRow& row) { return has(row.precisions, precision); });
+  return fmt::format("only the {} compute{} in {} precision", fmt::join(names, " and the "),
+                     names.size() == 1 ? "s" : "", name_of(precision));
+}
+
+std::string variant_of(const BackendRow& row, std::string_view force_path, Precision precision) {
+  if (!force_path.empty()) return fmt::format("{}:{}", row.name, force_path);
+  return precision == Precision::double_ ? fmt::format("{}:double", row.name) : std::string(row.name);
+}
+
+}  // namespace
+
+std::span<const BackendRow> backends() {
+  return table;
+}
+
+const BackendRow* find_backend(std::string_view name) {
+  const auto* const found = std::ranges::find(table, name, &BackendRow::name);
+  return found == std::end(table) ? nullptr : found;
+}
+
+const BackendRow& next_backend(const BackendRow& row) {
+  return &row == &backends().back() ? backends().front() : *(&row + 1);
+}
+
+std::string backend_words() {
+  std::string words = "auto";
+  for (const BackendRow& row : table) words += fmt::format(", {}", row.name);
+  return words;
+}
+
+std::string Backend::variant() const {
+  return variant_of(*row, force_path, solver->precision());
+}
+
+Result<std::filesystem::path> shader_directory() {
+  const char* value = std::getenv("ASPIC_SHADER_DIR");
+  if (!value || !*value) return std::filesystem::path();
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(value, ignored)) {
+    return Error{
+        ErrorCode::io,
+        fmt::format("ASPIC_SHADER_DIR names {}, which is no directory: name one laid out as shaders/ "
+                    "of the sources, or unset it.",
+                    printable_line(value))};
+  }
+  return std::filesystem::path(value);
+}
+
+AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Context* window) {
+  AutomaticChoice result;
+  for (const BackendRow& row : table) {
+    const bool able = has(row.precisions, choice.precision);
+    Suitability found = able ? row.suitability(window) : Suitability{};
+    if (!able) found.reason = only_those_with(choice.precision);
+    // The backend that would have come first says why another is taken.
+    if (result.reason.empty() || (found.suits && !found.reason.empty()))
+      result.reason = std::move(found.reason);
+    if (result.detail.empty()) result.detail = std::move(found.detail);
+    if (!found.suits) continue;
+    result.row = &row;
+    result.context = std::move(found.context);
+    break;
+  }
+  return result;
+}
+
+Result<const BackendRow*> parse_backend_name(std::string_view word) {
+  if (word == "auto") return static_cast<const BackendRow*>(nullptr);
+  if (const BackendRow* row = find_backend(word)) return row;
+  return unknown_word("backend", word, backend_words());
+}
+
+Result<Precision> parse_precision(std::string_view word) {
+  if (word == "single") return Precision::single;
+  if (word == "double") return Precision::double_;
+  return unknown_word("precision", word, "single, double");
+}
+
+Result<ForcePath> parse_force_path(std::string_view word) {
+  if (word == "auto") return ForcePath::automatic;
+  for (const ForcePath path : {ForcePath::per_spring, ForcePath::gather, ForcePath::lattice}) {
+    if (word == name_of(path)) return path;
+  }
+  return unknown_word("force path", word, "auto, per-spring, gather, lattice");
+}
+
+Result<BackendChoice> parse_backend(std::string_view text) {
+  BackendChoice choice;
+  const std::size_t colon = text.find(':');
+  const auto row = parse_backend_name(text.substr(0, colon));
+  if (!row) return row.error();
+  choice.row = *row;
+  while (text.find(':') != std::string_view::npos) {
+    text.remove_prefix(text.find(':') + 1);
+    const std::string_view word = text.substr(0, text.find(':'));
+    if (const auto precision = parse_precision(word)) {
+      choice.precision = *precision;
+    } else if (const auto path = parse_force_path(word)) {
+      choice.force_path = *path;
+    } else {
+      return unknown_word("backend option", word, "single, double, auto, per-spring, gather, lattice");
+    }
+  }
+  return choice;
+}
+
+Status check_choice(const BackendChoice& choice) {
+  if (choice.force_path == ForcePath::lattice) {
+    return Error{ErrorCode::scene_rejected,
+                 "the force path lattice is not built yet; use gather or per-spring."};
+  }
+  const auto with_precision =
+      names_where([&](const BackendRow& row) { return has(row.precisions, choice.precision); });
+  if (choice.row && !has(choice.row->precisions, choice.precision)) {
+    return Error{ErrorCode::usage,
+                 fmt::format("the {0} does not compute in {1} precision; for {1} say "
+                             "--backend {2}.",
+                             choice.row->name, name_of(choice.precision), fmt::join(with_precision, " or "))};
+  }
+  if (choice.force_path == ForcePath::automatic) return {};
+  const auto possible = [&](const BackendRow& row) {
+    return has(row.precisions, choice.precision) && has(row.force_paths, choice.force_path);
+  };
+  if (choice.row ? possible(*choice.row) : std::ranges::any_of(table, possible)) return {};
+  const std::string with_path = fmt::format(
+      "{}", fmt::join(names_where([](const BackendRow& row) { return !row.force_paths.empty(); }), " or "));
+  return Error{
+      ErrorCode::usage,
+      fmt::format("a force path belongs to the {0} backend; leave it out or say --backend {0}.", with_path)};
+}
+
+Result<Backend> make_backend(const BackendChoice& choice, const Model& model, const SolverHost& host) {
+  ASPIC_CHECK(check_choice(choice));
+  AutomaticChoice automatic;
+  if (!choice.row) automatic = choose_automatically(choice, host.context);
+  const BackendRow& row = choice.row ? *choice.row : *automatic.row;
+  if (choice.force_path != ForcePath::automatic && !has(row.force_paths, choice.force_path)) {
+    const auto names =
+        names_where([&](const BackendRow& r) { return has(r.force_paths, choice.force_path); });
+    return Error{ErrorCode::no_device,
+                 fmt::format("the force path {0} needs the {1} backend, but {2}. Say --backend {1} to take "
+                             "any device there is.",
+                             name_of(choice.force_path), names.front(), automatic.reason)};
+  }
+  SolverHost place = host;
+  if (automatic.context) place.context = automatic.context.get();
+  auto backend = row.make(model, choice, place);
+  if (!backend) return backend.error();
+  backend->row = &row;
+  if (automatic.context) backend->context = std::move(automatic.context);
+  backend->reason = std::move(automatic.reason);
+  return backend;
+}
+
+std::vector<BackendBytes> bytes_by_backend(const Model& model) {
+  const ModelCounts counts = count(model);
+  const Integrator integrator = model.simulation.integrator;
+  std::vector<BackendBytes> result;
+  for (const BackendRow& row : table) {
+    for (const Precision precision : row.precisions) {
+      const std::span<const ForcePath> paths = row.force_paths;
+      for (std::size_t i = 0; i < std::max<std::size_t>(paths.size(), 1); ++i) {
+        const BackendChoice choice = {&row, precision, paths.empty() ? ForcePath::automatic : paths[i]};
+        const std::string_view path = paths.empty() ? std::string_view() : name_of(paths[i]);
+        result.push_back({variant_of(row, path, precision), row.bytes(counts, integrator, choice)});
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace aspic

@@ -1,0 +1,120 @@
+#include "run/recorder.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <limits>
+
+#include "render/overlay_text.h"
+
+namespace aspic {
+namespace {
+
+/// Half a year at 60 pictures a second: what makes more was not meant.
+constexpr std::uint64_t most_pictures = 1000000000;
+
+}  // namespace
+
+Recorder::Recorder(const PictureOutput& output, const Scene& scene, const Backend& backend,
+                   const FrameSchedule& schedule)
+    : output_(output), scene_(scene), backend_(backend), schedule_(schedule) {}
+
+Recorder::~Recorder() = default;
+
+Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, const Scene& scene,
+                                                   const Backend& backend,
+                                                   std::vector<std::unique_ptr<FrameSink>> sinks,
+                                                   std::uint64_t first_step, std::uint64_t last_step) {
+  const Model& model = backend.solver->model();
+  const double fps = frames_per_second(output);
+  const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, fps, output.speed);
+  if (schedule.count() > most_pictures) {
+    return Error{ErrorCode::usage,
+                 fmt::format("--speed {} and --fps {} make more than {} pictures of this run: choose a "
+                             "larger speed or fewer pictures a second.",
+                             output.speed, fps, most_pictures)};
+  }
+  std::unique_ptr<Recorder> r(new Recorder(output, scene, backend, schedule));
+  r->context_ = backend.context.get();
+  if (!r->context_) {
+    auto context = gl::Context::create_headless();
+    if (!context)
+      return Error{context.error().code,
+                   "pictures need an OpenGL device, if only a software one. " + context.error().message};
+    r->own_context_ = std::move(*context);
+    r->context_ = r->own_context_.get();
+  }
+  const auto directory = shader_directory();
+  if (!directory) return directory.error();
+  RendererOptions look;
+  look.shaders = gl::ShaderLibrary(*directory);
+  auto renderer = Renderer::create(*r->context_, look);
+  if (!renderer) return renderer.error();
+  r->renderer_ = std::move(*renderer);
+  ASPIC_CHECK(r->renderer_->set_model(model));
+  FilmOptions film = {sinks.front()->path(), fps, output.size};
+  auto recording = Recording::start(*r->context_, std::move(sinks), std::move(film));
+  if (!recording) return recording.error();
+  r->recording_ = std::move(*recording);
+  return r;
+}
+
+const std::string& Recorder::device() const {
+  return context_->info().renderer;
+}
+
+FrameTimes Recorder::times() const {
+  FrameTimes times = recording_->times();
+  times.simulate = simulate_seconds_;
+  times.draw = draw_seconds_;
+  return times;
+}
+
+std::uint64_t Recorder::next_step() const {
+  return next_frame_ < schedule_.count() ? schedule_.step_of(next_frame_)
+                                         : std::numeric_limits<std::uint64_t>::max();
+}
+
+Status Recorder::reach(Solver& solver, std::uint64_t step) {
+  std::uint64_t copies = 0;
+  for (; next_step() == step; ++next_frame_) ++copies;
+  return copies > 0 ? draw(solver, step, copies) : Status();
+}
+
+Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) {
+  recording_->wait_until_ready();
+  // Nothing but an error completes the film before its end.
+  if (recording_->completed()) return recording_->result();
+  const auto before = std::chrono::steady_clock::now();
+  DeviceState drawn_state;
+  if (backend_.gpu && !own_context_) {
+    drawn_state = {&backend_.gpu->particles(), &backend_.gpu->balls(), backend_.gpu->first_ball(), step};
+  } else {
+    const auto state = solver.state();
+    if (!state) return state.error();
+    const auto uploaded = renderer_->upload(*state);
+    if (!uploaded) return uploaded.error();
+    drawn_state = *uploaded;
+  }
+  PictureOptions picture;
+  picture.view = scene_.view;
+  picture.legend = output_.text;
+  if (output_.text)
+    picture.text =
+        overlay_lines(scene_.model, static_cast<double>(step) * solver.model().simulation.timestep);
+  const Status drawn = renderer_->draw(output_.size.width, output_.size.height, drawn_state, picture);
+  if (!drawn) return drawn;
+  draw_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  last_shown_ = step;
+  return recording_->add(renderer_->picture(), copies);
+}
+
+Status Recorder::finish(Solver& solver, std::uint64_t step) {
+  if (recording_->pictures() == 0 || last_shown_ != step) {
+    ASPIC_CHECK(draw(solver, step, 1));
+  }
+  recording_->end();
+  return recording_->result();
+}
+
+}  // namespace aspic

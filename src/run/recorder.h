@@ -1,0 +1,63 @@
+#pragma once
+// Pictures of a run while it runs, without a window.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "io/frame_schedule.h"
+#include "render/renderer.h"
+#include "run/backends.h"
+#include "run/outputs.h"
+#include "run/recording.h"
+#include "scene/scene.h"
+
+namespace aspic {
+
+class Recorder {
+ public:
+  /// Draws in the backend's context where it has one, else in a headless one of its own; the sinks have the
+  /// size of `output`. Everything given by reference must outlive the recorder. Errors: no_device,
+  /// scene_rejected (no device memory), io (a shader file).
+  static Result<std::unique_ptr<Recorder>> create(const PictureOutput& output, const Scene& scene,
+                                                  const Backend& backend,
+                                                  std::vector<std::unique_ptr<FrameSink>> sinks,
+                                                  std::uint64_t first_step, std::uint64_t last_step);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// The step that the next picture shows; after the last one, a step that no run reaches.
+  std::uint64_t next_step() const;
+  /// The solver is at `step` ≤ next_step(): draws every picture that shows it. Error: also that of the
+  /// encoder, as soon as it is known.
+  Status reach(Solver& solver, std::uint64_t step);
+  /// The run ended at `step`, perhaps early: its state is in the last picture, and the outputs are completed.
+  Status finish(Solver& solver, std::uint64_t step);
+  /// After finish(): the names of the completed outputs.
+  std::vector<std::string> written() { return recording_->written(); }
+
+  void add_simulation(double seconds) { simulate_seconds_ += seconds; }
+  FrameTimes times() const;
+  /// GL_RENDERER of what draws.
+  const std::string& device() const;
+
+ private:
+  Recorder(const PictureOutput& output, const Scene& scene, const Backend& backend,
+           const FrameSchedule& schedule);
+  Status draw(Solver& solver, std::uint64_t step, std::uint64_t copies);
+
+  PictureOutput output_;
+  const Scene& scene_;
+  const Backend& backend_;
+  FrameSchedule schedule_;
+  std::uint64_t next_frame_ = 0, last_shown_ = 0;
+  double simulate_seconds_ = 0.0, draw_seconds_ = 0.0;
+  std::unique_ptr<gl::Context> own_context_;
+  gl::Context* context_ = nullptr;
+  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<Recording> recording_;
+};
+
+}  // namespace aspic

@@ -1,0 +1,179 @@
+#include "run/recording.h"
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+
+namespace aspic {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What waits for the encoder at most: room for its hiccups, little next to a simulation.
+constexpr std::size_t most_waiting_bytes = std::size_t{128} << 20;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What the encoder's thread does: an exception would end the program.
+template <class Work>
+Status guarded(const Work& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::io, "The film could not be written: there is not enough memory."};
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Recording>> Recording::start(gl::Context& context,
+                                                    std::vector<std::unique_ptr<FrameSink>> sinks,
+                                                    FilmOptions options) {
+  auto ring = gl::PixelRing::create(context, options.size.width, options.size.height);
+  if (!ring) return ring.error();
+  return std::unique_ptr<Recording>(new Recording(std::move(*ring), std::move(sinks), std::move(options)));
+}
+
+Recording::Recording(gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>> sinks, FilmOptions options)
+    : options_(std::move(options)), ring_(std::move(ring)), sinks_(std::move(sinks)) {
+  const std::size_t bytes =
+      3 * static_cast<std::size_t>(options_.size.width) * static_cast<std::size_t>(options_.size.height);
+  most_waiting_ = std::clamp<std::size_t>(most_waiting_bytes / bytes, 2, 64);
+  thread_ = std::thread([this] { encode(); });
+}
+
+Recording::~Recording() {
+  {
+    const std::lock_guard lock(mutex_);
+    abandoned_ = !ended_;
+    no_more_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool Recording::ready() const {
+  const std::lock_guard lock(mutex_);
+  return waiting_.size() < most_waiting_ || completed_;
+}
+
+void Recording::wait_until_ready() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.size() < most_waiting_ || completed_; });
+}
+
+Status Recording::hand_on() {
+  Picture picture;
+  picture.copies = copies_.front();
+  copies_.pop_front();
+  const auto before = Clock::now();
+  ASPIC_CHECK(ring_.take(picture.pixels));
+  read_seconds_ += seconds_since(before);
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(picture));
+  }
+  changed_.notify_all();
+  return {};
+}
+
+Status Recording::add(const gl::Framebuffer& picture, std::uint64_t copies) {
+  if (ring_.full()) {
+    ASPIC_CHECK(hand_on());
+  }
+  ring_.submit(picture);
+  copies_.push_back(copies);
+  pictures_ += copies;
+  return {};
+}
+
+Status Recording::progress() {
+  return ring_.pending() > 0 ? hand_on() : Status();
+}
+
+void Recording::end() {
+  if (ended_) return;
+  ended_ = true;
+  while (ring_.pending() > 0 && hand_on()) {
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    no_more_ = true;
+  }
+  changed_.notify_all();
+}
+
+bool Recording::completed() const {
+  const std::lock_guard lock(mutex_);
+  return completed_;
+}
+
+Status Recording::result() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return completed_; });
+  return result_;
+}
+
+std::vector<std::string> Recording::written() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return completed_; });
+  return written_;
+}
+
+FrameTimes Recording::times() const {
+  const std::lock_guard lock(mutex_);
+  FrameTimes times;
+  times.frames = pictures_;
+  times.read = read_seconds_;
+  times.encode = encode_seconds_;
+  return times;
+}
+
+Status Recording::write(const Picture& picture) {
+  for (std::uint64_t i = 0; i < picture.copies; ++i) {
+    for (const auto& sink : sinks_) ASPIC_CHECK(sink->write(picture.pixels));
+  }
+  return {};
+}
+
+void Recording::encode() {
+  Status result;
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return !waiting_.empty() || no_more_; });
+    if (abandoned_ || waiting_.empty()) break;
+    const Picture picture = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    changed_.notify_all();
+    const auto before = Clock::now();
+    result = guarded([&] { return write(picture); });
+    const double took = seconds_since(before);
+    lock.lock();
+    encode_seconds_ += took;
+    if (!result) break;
+  }
+  const bool complete = result && !abandoned_;
+  lock.unlock();
+  std::vector<std::string> written;
+  for (std::size_t i = 0; complete && i < sinks_.size(); ++i) {
+    const Status finished = guarded([&]() -> Status {
+      ASPIC_CHECK(sinks_[i]->finish());
+      written.push_back(sinks_[i]->path());
+      return {};
+    });
+    if (result) result = finished;
+  }
+  sinks_.clear();
+  lock.lock();
+  waiting_.clear();
+  result_ = result;
+  written_ = std::move(written);
+  completed_ = true;
+  lock.unlock();
+  changed_.notify_all();
+}
+
+}  // namespace aspic

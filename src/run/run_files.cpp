@@ -1,0 +1,91 @@
+#include "run/run_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+namespace aspic {
+namespace {
+
+Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOutput& pictures) {
+  std::vector<std::pair<std::string, std::string>> files = {{"video", pictures.video}};
+  for (const StateOutput& output : states) files.emplace_back(output.option, output.path);
+  std::erase_if(files, [](const auto& file) { return file.second.empty(); });
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t j = i + 1; j < files.size(); ++j) {
+      std::error_code failed_a, failed_b;
+      const auto a = std::filesystem::weakly_canonical(std::filesystem::absolute(files[i].second), failed_a);
+      const auto b = std::filesystem::weakly_canonical(std::filesystem::absolute(files[j].second), failed_b);
+      // Devices may take several outputs one after the other.
+      if (failed_a || failed_b || a != b || a.native().starts_with("/dev/")) continue;
+      return Error{ErrorCode::usage, fmt::format("--{} and --{} both name {}: give each file its own name.",
+                                                 files[i].first, files[j].first, files[i].second)};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
+                                const RunFacts& facts, Overwrite overwrite) {
+  ASPIC_CHECK(refuse_duplicates(states, pictures));
+  RunFiles files;
+  for (const StateOutput& output : states) {
+    if (output.path.empty()) continue;
+    const StateFormat& format = state_format_of(output.option, output.path);
+    auto sink = format.open(output.path, output.every.value_or(format.default_every), overwrite, facts);
+    if (!sink) return sink.error();
+    files.sinks_.push_back(std::move(*sink));
+  }
+  const auto add = [&](const FilmFormat& format, const std::string& path) -> Status {
+    auto sink = open_film(format, path, pictures.size, frames_per_second(pictures), overwrite);
+    if (!sink) return sink.error();
+    files.frame_sinks_.push_back(std::move(*sink));
+    return {};
+  };
+  if (!pictures.frames.empty()) {
+    ASPIC_CHECK(add(*pictures.frames_format, pictures.frames));
+  }
+  if (!pictures.video.empty()) {
+    const auto format = video_format_of(pictures.video);
+    if (!format) return format.error();
+    ASPIC_CHECK(add(**format, pictures.video));
+  }
+  return files;
+}
+
+std::uint64_t RunFiles::next_step(std::uint64_t step) const {
+  std::uint64_t next = std::numeric_limits<std::uint64_t>::max();
+  for (const auto& sink : sinks_)
+    if (sink->every() > 0) next = std::min(next, step + (sink->every() - step % sink->every()));
+  return next;
+}
+
+Status RunFiles::take(const Sample& sample) {
+  const bool first = !std::exchange(begun_, true);
+  for (const auto& sink : sinks_) {
+    if (!first && (sink->every() == 0 || sample.state.step % sink->every() != 0)) continue;
+    ASPIC_CHECK(sink->take(sample));
+  }
+  return {};
+}
+
+Status RunFiles::finish(const Sample& last) {
+  Status first;
+  for (auto& sink : sinks_) {
+    const Status finished = sink->finish(last);
+    if (finished)
+      written_.push_back(sink->path());
+    else if (first)
+      first = finished;
+    sink.reset();
+  }
+  sinks_.clear();
+  return first;
+}
+
+}  // namespace aspic

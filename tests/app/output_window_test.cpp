@@ -1,0 +1,111 @@
+// States, series and checkpoints written from the window.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "app/stage.h"
+#include "cpu_reference/reference_solver.h"
+#include "io/atomic_file.h"
+#include "io/checkpoint.h"
+#include "io/series_csv.h"
+#include "io/state_csv.h"
+#include "scene/load.h"
+
+namespace aspic::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Output : public Stage {
+ protected:
+  /// A small cube in the middle of its fall, paused; the section is open.
+  void open_falling(const char* backend) {
+    open("cube-plane", {"cube[0].particles-per-edge=4", "view.draw=[\"particles\"]"}, backend);
+    for (const char* section : {"View", "Performance", "Energy"}) click(std::string("section/") + section);
+    click("section/Recording");
+    press(GLFW_KEY_SPACE);
+    frames_to_step(40);
+    press(GLFW_KEY_SPACE);
+    ASSERT_TRUE(simulation().settle().ok());
+  }
+  void save(const std::string& widget) {
+    click("save/" + widget);
+    click("save/" + widget + "/write");
+    ASSERT_TRUE(app().notice());
+  }
+  std::string path(const std::string& name) const { return (directory() / name).string(); }
+};
+
+class OutputOn : public Output, public testing::WithParamInterface<const char*> {};
+
+TEST_P(OutputOn, AStateReadsBackToItsHash) {
+  open_falling(GetParam());
+  save("state.csv");
+  EXPECT_FALSE(app().notice()->is_error) << app().notice()->text;
+  const auto state = read_state_csv(path("aspic-cube-plane-0001.csv"), Precision::single);
+  ASSERT_TRUE(state.ok()) << state.error().message;
+  EXPECT_EQ(state_hash_text(*state), state_hash_text(simulation().snapshot()));
+  EXPECT_EQ(state_hash_text(*state), reference_hash(app().editor().scene(), simulation().step()));
+}
+
+TEST_P(OutputOn, ACheckpointGoesOnAsTheWindowDoes) {
+  open_falling(GetParam());
+  save("checkpoint.aspic");
+  const auto checkpoint = read_checkpoint(path("aspic-cube-plane-0001.aspic"));
+  ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message;
+  EXPECT_EQ(checkpoint->state.step, simulation().step());
+  const auto scene = parse_scene(checkpoint->scene, "checkpoint");
+  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  const auto model = build_model(scene->model);
+  ASSERT_TRUE(model.ok());
+  const auto solver = make_reference_solver(*model, Precision::single);
+  ASSERT_TRUE(solver.ok());
+  ASSERT_TRUE((*solver)->load(checkpoint->state).ok());
+  for (int i = 0; i < 10; ++i) type(U'.');
+  ASSERT_TRUE((*solver)->advance(10).ok());
+  EXPECT_EQ(state_hash_text(*(*solver)->state()), state_hash_text(simulation().snapshot()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Output, OutputOn, testing::Values("reference", "gpu"),
+                         [](const auto& backend) { return std::string(backend.param); });
+
+TEST_F(Output, ASeriesHasARowForEachPointOfThePlot) {
+  open_falling("reference");
+  save("series.csv");
+  const auto text = read_file(path("aspic-cube-plane-0001.csv"));
+  ASSERT_TRUE(text.ok()) << text.error().message;
+  EXPECT_THAT(*text, testing::StartsWith(std::string(series_csv_header) + "\n0,0,"));
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(*text, '\n')), simulation().energies().size() + 1);
+  EXPECT_GT(simulation().energies().size(), 1u);
+}
+
+TEST_F(Output, WhatExistsIsKeptAndTheNextNameIsFree) {
+  open_falling("reference");
+  std::ofstream(directory() / "aspic-cube-plane-0001.csv") << "precious";
+  save("state.csv");
+  EXPECT_EQ(*read_file(path("aspic-cube-plane-0001.csv")), "precious");
+  EXPECT_TRUE(read_state_csv(path("aspic-cube-plane-0002.csv"), Precision::single).ok());
+  click("save/state.csv");
+  click("save/state.csv/path");
+  for (const char32_t c : U"aspic-cube-plane-0001.csv") {
+    if (c != 0) type(c);
+  }
+  click("save/state.csv/write");
+  EXPECT_TRUE(app().notice()->is_error);
+  EXPECT_EQ(*read_file(path("aspic-cube-plane-0001.csv")), "precious");
+}
+
+TEST_F(Output, ACheckpointIsRefusedWhereHandsAddedBodies) {
+  open_falling("reference");
+  app().throw_ball();
+  frames(2);
+  save("checkpoint.aspic");
+  EXPECT_TRUE(app().notice()->is_error);
+  EXPECT_THAT(app().notice()->text, HasSubstr("thrown"));
+  EXPECT_FALSE(std::filesystem::exists(directory() / "aspic-cube-plane-0001.aspic"));
+  save("state.csv");
+  EXPECT_FALSE(app().notice()->is_error) << app().notice()->text;
+}
+
+}  // namespace
+}  // namespace aspic::test

@@ -1,0 +1,84 @@
+// The table of backends, and choosing by it.
+#include "run/backends.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "scene/load.h"
+
+namespace aspic {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Backends, AreGoneRoundByTheirOrder) {
+  std::set<std::string_view> seen;
+  const BackendRow* row = &backends().front();
+  for (std::size_t i = 0; i < backends().size(); ++i, row = &next_backend(*row)) {
+    EXPECT_TRUE(seen.insert(row->name).second) << row->name;
+    EXPECT_EQ(find_backend(row->name), row);
+  }
+  EXPECT_EQ(row, &backends().front());
+  EXPECT_EQ(reference_backend().name, "reference");
+  EXPECT_EQ(find_backend("tpu"), nullptr);
+}
+
+TEST(Backends, AnUnknownWordIsAnsweredWithAllNames) {
+  const auto parsed = parse_backend_name("tpu");
+  ASSERT_FALSE(parsed.ok());
+  EXPECT_EQ(parsed.error().code, ErrorCode::usage);
+  for (const BackendRow& row : backends())
+    EXPECT_THAT(parsed.error().message, HasSubstr(std::string(row.name)));
+  EXPECT_EQ(*parse_backend_name("auto"), nullptr);
+}
+
+TEST(Backends, WhatARowLacksIsRefusedBeforeAnyWork) {
+  for (const BackendRow& row : backends()) {
+    const bool has_double = std::ranges::find(row.precisions, Precision::double_) != row.precisions.end();
+    EXPECT_EQ(check_choice({&row, Precision::double_, ForcePath::automatic}).ok(), has_double) << row.name;
+    EXPECT_EQ(check_choice({&row, Precision::single, ForcePath::gather}).ok(), !row.force_paths.empty())
+        << row.name;
+  }
+  EXPECT_FALSE(check_choice({nullptr, Precision::double_, ForcePath::gather}).ok());
+}
+
+TEST(Backends, AutoTakesTheFirstThatHasThePrecision) {
+  const AutomaticChoice choice = choose_automatically({nullptr, Precision::double_, ForcePath::automatic});
+  ASSERT_NE(choice.row, nullptr);
+  for (const BackendRow& row : backends()) {
+    if (std::ranges::find(row.precisions, Precision::double_) == row.precisions.end()) continue;
+    EXPECT_EQ(choice.row, &row);
+    break;
+  }
+  EXPECT_THAT(choice.reason, HasSubstr("double precision"));
+}
+
+TEST(Backends, EveryVariantTellsItsBytes) {
+  const auto scene = load_scene("cube-plane");
+  ASSERT_TRUE(scene.ok());
+  const auto model = build_model(scene->model);
+  ASSERT_TRUE(model.ok());
+  std::set<std::string> names;
+  for (const BackendBytes& bytes : bytes_by_backend(*model)) {
+    EXPECT_GT(bytes.bytes, 24 * model->particle_count()) << bytes.backend;
+    EXPECT_TRUE(names.insert(bytes.backend).second) << bytes.backend;
+    EXPECT_TRUE(parse_backend(bytes.backend).ok()) << bytes.backend;
+  }
+}
+
+TEST(Backends, ASolverSaysWhatItIs) {
+  const auto scene = load_scene("cube-plane");
+  ASSERT_TRUE(scene.ok());
+  const auto model = build_model(scene->model);
+  ASSERT_TRUE(model.ok());
+  const auto backend = make_backend({&reference_backend(), Precision::double_, ForcePath::automatic}, *model);
+  ASSERT_TRUE(backend.ok()) << backend.error().message;
+  EXPECT_EQ(backend->variant(), "reference:double");
+  EXPECT_EQ(backend->row, &reference_backend());
+  EXPECT_EQ(backend->gpu, nullptr);
+}
+
+}  // namespace
+}  // namespace aspic

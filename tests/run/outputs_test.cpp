@@ -1,0 +1,115 @@
+// The files of a run: when each wants a state, and what is left of them.
+#include "run/outputs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cpu_reference/reference_solver.h"
+#include "io/checkpoint.h"
+#include "io/state_csv.h"
+#include "run/run_files.h"
+#include "scene/load.h"
+#include "scene/write.h"
+#include "support/temporary_directory.h"
+
+namespace aspic {
+namespace {
+
+class Outputs : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::vector<std::string> small = {"cube[0].particles-per-edge=3"};
+    scene_ = load_scene("cube-plane", small).value();
+    model_ = build_model(scene_.model).value();
+    solver_ = make_reference_solver(model_, Precision::single).value();
+  }
+  Result<RunFiles> open(const std::vector<StateOutput>& outputs, Overwrite overwrite = Overwrite::refuse) {
+    return RunFiles::open(outputs, {}, {to_toml(scene_), scene_.model.simulation.integrator}, overwrite);
+  }
+  /// Runs as far as the files want, to `last`.
+  Status run(RunFiles& files, std::uint64_t last) {
+    auto state = solver_->state();
+    ASPIC_CHECK(files.take({model_, *state}));
+    for (std::uint64_t step = 0; step < last;) {
+      const std::uint64_t next = std::min(files.next_step(step), last);
+      visited_.push_back(next);
+      EXPECT_TRUE(solver_->advance(next - step).ok());
+      step = next;
+      state = solver_->state();
+      ASPIC_CHECK(files.take({model_, *state}));
+    }
+    return {};
+  }
+  State state() { return solver_->state().value(); }
+
+  test::TemporaryDirectory dir_;
+  Scene scene_;
+  Model model_;
+  std::unique_ptr<Solver> solver_;
+  std::vector<std::uint64_t> visited_;
+};
+
+TEST_F(Outputs, EachHasItsOwnInterval) {
+  auto files = open({{"state", dir_.file("s.csv"), 10}, {"series", dir_.file("e.csv"), 4}});
+  ASSERT_TRUE(files.ok()) << files.error().message;
+  ASSERT_TRUE(run(*files, 22).ok());
+  EXPECT_THAT(visited_, testing::ElementsAre(4, 8, 10, 12, 16, 20, 22));
+  ASSERT_TRUE(files->finish({model_, state()}).ok());
+  for (const char* name : {"s-00000000.csv", "s-00000010.csv", "s-00000020.csv", "s-00000022.csv"})
+    EXPECT_TRUE(read_state_csv(dir_.file(name), Precision::single).ok()) << name;
+  EXPECT_EQ(dir_.entries(), 5u);
+  EXPECT_THAT(files->written(), testing::ElementsAre(dir_.file("s-*.csv"), dir_.file("e.csv")));
+  const std::string rows = dir_.read("e.csv");
+  EXPECT_EQ(std::ranges::count(rows, '\n'), 8);  // header, 0, 4, …, 20, 22
+}
+
+TEST_F(Outputs, ACheckpointIsReplacedByTheNext) {
+  auto files = open({{"checkpoint", dir_.file("c"), 10}});
+  ASSERT_TRUE(files.ok());
+  ASSERT_TRUE(run(*files, 25).ok());
+  auto checkpoint = read_checkpoint(dir_.file("c"));
+  ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message;
+  EXPECT_EQ(checkpoint->state.step, 20u);
+  ASSERT_TRUE(files->finish({model_, state()}).ok());
+  checkpoint = read_checkpoint(dir_.file("c"));
+  ASSERT_TRUE(checkpoint.ok());
+  EXPECT_EQ(checkpoint->state.step, 25u);
+  EXPECT_EQ(state_hash_text(checkpoint->state), state_hash_text(state()));
+  EXPECT_EQ(dir_.entries(), 1u);
+}
+
+TEST_F(Outputs, WithoutAnIntervalTheLastStateAloneIsWritten) {
+  auto files = open({{"state", dir_.file("s.csv"), {}}, {"checkpoint", dir_.file("c"), {}}});
+  ASSERT_TRUE(files.ok());
+  ASSERT_TRUE(run(*files, 7).ok());
+  EXPECT_THAT(visited_, testing::ElementsAre(7));
+  ASSERT_TRUE(files->finish({model_, state()}).ok());
+  EXPECT_EQ(state_hash_text(*read_state_csv(dir_.file("s.csv"), Precision::single)),
+            state_hash_text(state()));
+  EXPECT_EQ(read_checkpoint(dir_.file("c"))->state.step, 7u);
+  EXPECT_THAT(files->written(), testing::ElementsAre(dir_.file("s.csv"), dir_.file("c")));
+}
+
+TEST_F(Outputs, OneNameForTwoFilesIsRefused) {
+  const auto files = open({{"state", dir_.file("x"), {}}, {"series", dir_.file("x"), {}}});
+  ASSERT_FALSE(files.ok());
+  EXPECT_EQ(files.error().code, ErrorCode::usage);
+  EXPECT_THAT(files.error().message, testing::HasSubstr("--state and --series"));
+}
+
+TEST(FilmFormats, AreFoundByNameAndEnding) {
+  for (const FilmFormat& format : film_formats()) {
+    EXPECT_EQ(find_film_format(format.name), &format);
+    EXPECT_EQ(find_film_format(format.ending), &format);
+    EXPECT_EQ(video_format_of(std::string("a").append(format.ending)).ok(), !format.is_directory());
+    EXPECT_FALSE(check_film(format, {64, 64}, 2.0 * format.most_fps).ok());
+    EXPECT_EQ(check_film(format, {63, 64}, 10.0).ok(), !format.even_sides);
+  }
+  EXPECT_EQ(find_film_format("MP4"), find_film_format(".mp4"));
+  EXPECT_EQ(find_film_format(""), nullptr);
+  EXPECT_EQ(find_film_format("avi"), nullptr);
+  EXPECT_EQ(film_endings(false), ".mp4, .webm or .gif");
+}
+
+}  // namespace
+}  // namespace aspic
