@@ -107,10 +107,12 @@ ChildProcess::End ChildProcess::finish() {
   End end;
   if (pid_ <= 0) return end;
   int status = 0;
-  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  pid_t waited = -1;
+  while ((waited = ::waitpid(pid_, &status, 0)) < 0 && errno == EINTR) {
   }
   exchange_running(pid_, 0);
   pid_ = -1;
+  if (waited < 0) return end;  // end_child_processes() has waited for it: how it ended is not known
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   return end;
