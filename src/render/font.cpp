@@ -6,9 +6,6 @@
 #include <new>
 #include <span>
 
-<<<<<<< HEAD
-#include "base/embedded_file.h"
-=======
 // Compiled here rather than linked from libstb, which leaves out a glyph for which there is no memory: here that is
 // an exception.
 #define STB_TRUETYPE_IMPLEMENTATION
@@ -16,7 +13,8 @@
 #define STBTT_malloc(size, context) ((void)(context), ::operator new(size))
 #define STBTT_free(memory, context) ((void)(context), ::operator delete(memory))
 #include <stb_truetype.h>
->>>>>>> main
+
+#include "base/embedded_file.h"
 
 namespace aspic {
 
