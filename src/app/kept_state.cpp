@@ -201,6 +201,8 @@ Result<KeptState> read_kept_state(const std::string& text) {
   for (const FilmFormat f : film_formats) formats.emplace_back(name_of(f));
   taker.take(recording, "format", formats, format);
   state.film_format = film_formats[format];
+  // The default may be more than the kind of film shows.
+  state.film_fps = std::min(state.film_fps, most_fps(state.film_format));
   taker.take(recording, "fps", state.film_fps, 1.0, most_fps(state.film_format));
   taker.take(recording, "parameters", state.film_text);
   take_cameras(taker, root, state);
