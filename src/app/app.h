@@ -237,7 +237,7 @@ class App final : public EventReceiver {
   int drag_button_ = -1;
   bool drag_pans_ = false;
   std::optional<Hovered> hovered_;
-  std::optional<IncidentSprings> incident_;  // of the model with that number
+  std::optional<SpringFinder> incident_;  // of the model with that number
   std::uint64_t incident_model_ = 0;
   /// What was asked about a place of a picture.
   struct Question {

@@ -14,10 +14,10 @@
 #include "app/setup.h"
 #include "app/worker.h"
 #include "base/result.h"
+#include "device/device_state.h"
 #include "gpu/context.h"
 #include "gpu_solver/gpu_solver.h"
 #include "model/solver.h"
-#include "render/device_state.h"
 #include "run/backends.h"
 #include "scene/scene.h"
 
@@ -141,7 +141,7 @@ class Simulation {
   /// The gpu's own state to draw; nothing where the state is the snapshot.
   std::optional<DeviceState> device_state() const {
     if (!engine_.gpu) return std::nullopt;
-    return DeviceState{&engine_.gpu->particles(), &engine_.gpu->balls(), engine_.gpu->first_ball(), step_};
+    return engine_.gpu->device_state();
   }
   /// Changes whenever what there is to draw did.
   std::uint64_t picture_number() const { return picture_number_; }
