@@ -29,10 +29,9 @@ constexpr float glyph_shape = 0.0f, panel_shape = 1.0f, scale_shape = 2.0f;
 
 Result<OverlayPainter> OverlayPainter::create(gl::Context& context, const gl::ShaderLibrary& library) {
   OverlayPainter painter(context);
-  auto program = gl::Program::graphics(context, library,
-                                       {.vertex = "render/overlay.vert", .fragment = "render/overlay.frag"});
-  if (!program) return program.error();
-  painter.program_ = std::move(*program);
+  ASPIC_TRY(painter.program_,
+            gl::Program::graphics(context, library,
+                                  {.vertex = "render/overlay.vert", .fragment = "render/overlay.frag"}));
   return painter;
 }
 
@@ -154,9 +153,7 @@ Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<Ov
 
   const std::uint64_t bytes = pending_.size() * sizeof(Vertex);
   if (vertices_.bytes() < bytes) {
-    auto buffer = gl::Buffer::create(*context_, "overlay", 2 * bytes);
-    if (!buffer) return buffer.error();
-    vertices_ = std::move(*buffer);
+    ASPIC_TRY(vertices_, gl::Buffer::create(*context_, "overlay", 2 * bytes));
   }
   vertices_.upload_items(std::span<const Vertex>(pending_));
   const gl::Attribute attributes[] = {{0, &vertices_, 4, sizeof(Vertex), 0},

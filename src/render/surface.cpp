@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include "render/software_rasteriser.h"
+
 namespace aspic {
 namespace {
 
@@ -64,10 +66,10 @@ Surface make_surface(const Model& model) {
         inside ? faces_of(body, std::numeric_limits<int>::max()) : std::vector<Quad>();
     surface.parts.push_back(add_triangles(quads, surface.indices));
     all.insert(all.end(), quads.begin(), quads.end());
-    const bool fine = std::ranges::max(body.lattice) - 1 > Surface::coarse_quads;
-    surface.coarse_parts.push_back(inside && fine
-                                       ? add_triangles(faces_of(body, Surface::coarse_quads), surface.indices)
-                                       : surface.parts.back());
+    const bool fine = std::ranges::max(body.lattice) - 1 > software::coarse_quads;
+    surface.coarse_parts.push_back(
+        inside && fine ? add_triangles(faces_of(body, software::coarse_quads), surface.indices)
+                       : surface.parts.back());
   }
   std::vector<std::uint32_t> quads_at(model.particle_count(), 0);
   for (const Quad& q : all)
