@@ -6,11 +6,12 @@
 namespace aspic {
 
 struct RenderPrograms {
-  gl::Program bounds, balls_turn, light_boxes, normals, quantity;             ///< kernels
-  gl::Program light_surface, light_particles, light_springs, light_balls;     ///< into light maps
-  gl::Program thickness, jelly_far, jelly, particles, springs, balls, posts;  ///< bodies
-  gl::Program plane, shadowed_plane, sphere, glass, sky;                      ///< surroundings
-  gl::Program present;                                                        ///< into a window
+  gl::Program bounds, balls_turn, light_boxes, normals, quantity;          ///< kernels
+  gl::Program light_surface, light_particles, light_springs, light_balls;  ///< into light maps
+  gl::Program thickness, jelly_far, jelly, particles, springs, balls, rods,
+      sheet;                                              ///< bodies
+  gl::Program plane, shadowed_plane, sphere, glass, sky;  ///< surroundings
+  gl::Program present;                                    ///< into a window
 
   /// Errors: those of Program::compute and Program::graphics.
   static Result<RenderPrograms> create(gl::Context& context, const gl::ShaderLibrary& library);

@@ -1,4 +1,4 @@
-#include "model/cube.h"
+#include "model/bodies.h"
 #include "model/solver.h"
 #include "scene/parameter_rows.h"
 
@@ -7,11 +7,15 @@ namespace {
 
 using namespace rows;
 
+/// The key `pinned` of a kind of body, with the names that the kind knows.
+Parameter pins(std::string_view body, Parameter p) {
+  const auto list_key = [](const BodyRow& row) { return row.list.key; };
+  p.pins = std::ranges::find(body_rows(), body, list_key)->pins;
+  p.words = p.pins->words();
+  return p;
+}
+
 std::vector<Parameter> cube_rows() {
-  Parameter pinned =
-      row("cube[].pinned", FIELD(model.cubes[i].pinned),
-          "Particles that never move: faces, corners such as left-top-front, or local indices.");
-  for (const CubeFace& face : cube_faces) pinned.words.push_back(face.name);
   return {
       fixed(row("cube[].particles-per-edge", "", {2, 512}, FIELD(model.cubes[i].particles_per_edge),
                 "Particles n along each edge, n³ in all.")),
@@ -48,7 +52,9 @@ std::vector<Parameter> cube_rows() {
              "Young's modulus E along an axis, from which k = E·s/7.3125 at spacing s.")),
       of(material, row("cube[].material.damping-ratio", "", {0.0, 1e6}, MATERIAL(damping_ratio),
                        "Damping ratio ζ, from which c = 2ζ√(k·m/2).")),
-      fixed(pinned),
+      fixed(pins("cube", row("cube[].pinned", FIELD(model.cubes[i].pinned),
+                             "Particles that never move: faces, corners such as left-top-front, or local "
+                             "indices."))),
   };
 }
 
