@@ -6,6 +6,8 @@ set(scene_files
     cube-bowl.toml
     goal-net.toml
     penalty.toml
+    flag.toml
+    curtain.toml
     ball-pit.toml
     cube-and-balls.toml
     large-cube.toml)

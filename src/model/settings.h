@@ -142,6 +142,20 @@ struct GoalNetSettings {
   static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
 };
 
+/// A rectangular cloth: w × h particles, in the x–y plane before it is turned.
+struct ClothSettings {
+  std::array<int, 2> particles = {24, 16};  ///< w, h along its width (x) and height (y), each ≥ 2
+  std::array<double, 2> size = {3.0, 2.0};  ///< width, height [m], each > 0
+  Vec3 position = {0.0, 3.0, 0.0};          ///< of the centre [m]
+  RotationSettings rotation = {{0.0, 1.0, 0.0}, 0.0};
+  Vec3 velocity = {0.0, 0.0, 0.0};  ///< [m/s]
+  double particle_mass = 0.02;      ///< m [kg], > 0
+  SpringSettings structural = {400.0, 0.8}, shear = {200.0, 0.4}, bending = {20.0, 0.04};
+  PinnedSettings pinned;
+
+  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
+};
+
 /// A ball: a solid sphere, inertia 2/5·m·R².
 struct BallSettings {
   double radius = 0.3;                      ///< R [m], > 0
@@ -184,12 +198,13 @@ struct ModelSettings {
   std::vector<TerrainSettings> terrain;
   std::vector<CubeSettings> cubes;
   std::vector<GoalNetSettings> goal_nets;
+  std::vector<ClothSettings> cloths;
   std::vector<BallSettings> balls;
   std::vector<LauncherSettings> launchers;
 };
 
 /// Every kind of body, in the order in which the model makes them and files list them.
-inline constexpr BodyRow (*body_kinds[])() = {&CubeSettings::row, &GoalNetSettings::row, &BallSettings::row,
-                                              &LauncherSettings::row};
+inline constexpr BodyRow (*body_kinds[])() = {&CubeSettings::row, &GoalNetSettings::row, &ClothSettings::row,
+                                              &BallSettings::row, &LauncherSettings::row};
 
 }  // namespace aspic
