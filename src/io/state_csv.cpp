@@ -69,20 +69,25 @@ std::optional<std::array<std::string_view, field_count>> split(std::string_view 
 
 }  // namespace
 
-Status write_state_csv(AtomicFile& file, const State& state) {
+Status check_finite(const State& state, const std::string& path) {
   for (std::size_t i = 0; i < state.position.size(); ++i) {
     if (!finite(state.position[i]) || !finite(state.velocity[i])) {
       return Error{ErrorCode::diverged,
-                   fmt::format("{} was not written: particle {} is not a finite number.", file.path(), i)};
+                   fmt::format("{} was not written: particle {} is not a finite number.", path, i)};
     }
   }
   for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
     if (!finite(state.ball_position[b]) || !finite(state.ball_velocity[b]) ||
         !finite(state.ball_angular_velocity[b])) {
       return Error{ErrorCode::diverged,
-                   fmt::format("{} was not written: ball {} is not a finite number.", file.path(), b)};
+                   fmt::format("{} was not written: ball {} is not a finite number.", path, b)};
     }
   }
+  return {};
+}
+
+Status write_state_csv(AtomicFile& file, const State& state) {
+  ASPIC_CHECK(check_finite(state, file.path()));
   ASPIC_CHECK(file.write(fmt::format("{}\n", state_csv_header)));
   fmt::memory_buffer line;
   for (std::size_t i = 0; i < state.position.size(); ++i) {
