@@ -158,10 +158,11 @@ StabilityLimit bounded_limit(BodyAnalysis& analysis, Integrator integrator) {
 
 StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
   const LinearisedBody& body = analysis.body();
-  if (integrator == Integrator::implicit_euler || !body.has_springs()) return {infinity, true};
+  const IntegratorRow& row = row_of(integrator);
+  if (row.solved() || !body.has_springs()) return {infinity, true};
   if (body.proportional()) return proportional_limit(analysis, integrator);
-  if (integrator == Integrator::symplectic_euler) return symplectic_limit(analysis);
-  if (analysis.small()) return dense_limit(analysis, integrator);
+  if (row.drift == Drift::new_velocity) return symplectic_limit(analysis);
+  if (analysis.small() && !row.mode_limit) return dense_limit(analysis, integrator);
   return bounded_limit(analysis, integrator);
 }
 
@@ -192,7 +193,7 @@ std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const
 }
 
 bool certainly_stable(const Model& model, Integrator integrator, double timestep) {
-  if (integrator == Integrator::implicit_euler) return true;
+  if (row_of(integrator).solved()) return true;
   std::uint32_t covered = 0;
   for (const Body& body : model.bodies) {
     covered += body.particle_count;
@@ -218,7 +219,7 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
 }
 
 StabilityLimit stability_limit(const Model& model, Integrator integrator, StabilityEffort effort) {
-  if (integrator == Integrator::implicit_euler) return {infinity, true};
+  if (row_of(integrator).solved()) return {infinity, true};
   return stability_limits(model, {&integrator, 1}, effort).front();
 }
 

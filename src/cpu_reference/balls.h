@@ -78,11 +78,9 @@ class Balls {
   using Counts = std::vector<std::uint32_t>;
 
   BallPhase<T> fly(std::uint64_t step, const BallPhase<T>& start) const {
-    // Backward Euler of free flight is symplectic Euler: the force does not depend on where it is evaluated,
-    // and the course model's contact force is held at (x, v).
-    const Integrator integrator = model_.simulation.integrator == Integrator::implicit_euler
-                                      ? Integrator::symplectic_euler
-                                      : model_.simulation.integrator;
+    // The force does not depend on where it is evaluated, and the course model's contact force is held at
+    // (x, v).
+    const Integrator integrator = free_flight_row(model_.simulation.integrator).integrator;
     const Phase<T> flown =
         explicit_step(integrator, *this, Phase<T>{start.x, start.v}, model_.simulation.timestep);
     BallPhase<T> end = start;

@@ -116,13 +116,7 @@ ModelCounts predict_counts(const ModelSettings& settings);
 /// Bytes a Model with these counts holds.
 std::uint64_t model_bytes(const ModelCounts& counts);
 
-/// Every integrator, in the order of spec §2.6.
-inline constexpr Integrator all_integrators[] = {
-    Integrator::explicit_euler, Integrator::symplectic_euler, Integrator::midpoint,
-    Integrator::runge_kutta_4,  Integrator::implicit_euler,   Integrator::implicit_euler_one_pass};
-
 /// Names as they stand in scene files and reports.
-std::string_view name_of(Integrator integrator);
 std::string_view name_of(ContactModel model);
 std::string_view name_of(SpringType type);
 std::string_view name_of(TerrainShape shape);

@@ -8,19 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "model/integrator.h"
 #include "model/vec3.h"
 
 namespace aspic {
-
-/// Time integration methods, spec §2.6.
-enum class Integrator {
-  explicit_euler,
-  symplectic_euler,
-  midpoint,
-  runge_kutta_4,
-  implicit_euler,
-  implicit_euler_one_pass
-};
 
 /// Contact models, spec §2.5.
 enum class ContactModel { coulomb, course };

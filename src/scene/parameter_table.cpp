@@ -23,9 +23,15 @@ std::vector<Parameter> root_rows() {
   };
 }
 
+std::vector<std::string_view> integrator_words() {
+  std::vector<std::string_view> words;
+  for (const IntegratorRow& row : integrator_table) words.push_back(row.name);
+  return words;
+}
+
 std::vector<Parameter> simulation_rows() {
   return {
-      word("simulation.integrator", words_of(Integrator::implicit_euler_one_pass),
+      word("simulation.integrator", integrator_words(),
            FIELD(model.simulation.integrator), "Time integration method."),
       number("simulation.timestep", "s", {0.0, 1.0, true}, FIELD(model.simulation.timestep), "Time step h."),
       number("simulation.duration", "s", {0.0, longest}, FIELD(model.simulation.duration),
