@@ -1,4 +1,4 @@
-// The Coulomb contact rule: src/cpu_reference/coulomb.h in GLSL. Expects terrain.glsl's gap and bounce_speed.
+// The Coulomb contact rule: src/cpu_reference/coulomb.h in GLSL. Expects what terrain.glsl has before it.
 
 // |g|h: what a step of free fall gains [m/s].
 float fall_speed() {
@@ -69,7 +69,7 @@ float bounced_speed(uint t, float m, float d_0, float drop, float u_0, float du,
 // Normal speed at the end of a step from distance d_0 with normal speed u_0 to d, u: u unless the ground acts.
 float speed_after_contact(uint t, float m, float d_0, float u_0, float d, float u) {
   bool resting = rests(d_0, u_0);
-  if (!(d < 0.0 || resting)) return u;
+  if (!(u < 0.0 && (d < 0.0 || resting))) return u;
   precise float c = least_normal_speed(d_0);
   if (!(u < c)) return u;
   if (resting) return c;
@@ -78,21 +78,29 @@ float speed_after_contact(uint t, float m, float d_0, float u_0, float d, float 
   return u_after;
 }
 
+// By how much [m] a body that rests on the ground has risen too far in a step to distance d and normal speed u.
+float undue_rise(float d_0, float u_0, float d, float u) {
+  if (!rests(d_0, u_0)) return 0.0;
+  precise float rise = (d - d_0) - time_step * (u > 0.0 ? u : 0.0);
+  return rise > 0.0 ? rise : 0.0;
+}
+
 // The end of a step that began at x_0, v_0.
 void respond_coulomb(uint t, float m, vec3 x_0, vec3 v_0, inout precise vec3 x, inout precise vec3 v) {
+  if (!(distance_to(t, x) < epsilon)) return;
   precise vec4 g = gap(t, x);
+  precise vec4 g_0 = gap(t, x_0);
   precise float u = dot3(v, g.xyz);
-  if (g.w < epsilon && u < 0.0) {
-    precise vec4 g_0 = gap(t, x_0);
-    precise float u_after = speed_after_contact(t, m, g_0.w, dot3(v_0, g_0.xyz), g.w, u);
-    if (u_after > u) {
-      precise vec3 v_t = v - u * g.xyz;
-      v = rubbed(v_t, terrains[t].friction * (u_after - u)) + u_after * g.xyz;
-      if (u_after == 0.0 && g.w > g_0.w) {
-        x = x - (g.w - g_0.w) * g.xyz;
-        g = gap(t, x);
-      }
-    }
+  precise float u_0 = dot3(v_0, g_0.xyz);
+  precise float u_after = speed_after_contact(t, m, g_0.w, u_0, g.w, u);
+  if (u_after > u) {
+    precise vec3 v_t = v - u * g.xyz;
+    v = rubbed(v_t, terrains[t].friction * (u_after - u)) + u_after * g.xyz;
+  }
+  precise float rise = undue_rise(g_0.w, u_0, g.w, u_after);
+  if (rise > 0.0) {
+    x = x - rise * g.xyz;
+    g = gap(t, x);
   }
   if (g.w < 0.0) x = x - g.w * g.xyz;
 }

@@ -16,6 +16,15 @@ vec4 gap(uint t, vec3 x) {
   return vec4(bowl ? -outward : outward, d);
 }
 
+// d alone, the same bits as gap's: most bodies are far from the ground.
+float distance_to(uint t, vec3 x) {
+  precise vec3 e = x - terrains[t].point.xyz;
+  if (terrains[t].shape == SHAPE_PLANE) return dot3(terrains[t].normal.xyz, e);
+  precise float L = norm3(e);
+  precise float d = terrains[t].shape == SHAPE_BOWL ? terrains[t].point.w - L : L - terrains[t].point.w;
+  return d;
+}
+
 // B(u) = max(0, (m − e·M)/(m + M)·u), −e·u for M = ∞
 float bounce_speed(uint t, float m, float u) {
   precise float factor = -terrains[t].restitution;
@@ -63,8 +72,9 @@ vec3 with_ground_reaction(Particle start, vec3 f_in) {
   precise vec3 f = f_in;
   precise float hw = time_step * start.position.w;
   for (uint t = 0u; t < terrain_count; ++t) {
+    if (!(distance_to(t, start.position.xyz) < epsilon)) continue;
     precise vec4 g_0 = gap(t, start.position.xyz);
-    if (!(g_0.w < epsilon) || !rests(g_0.w, dot3(start.velocity.xyz, g_0.xyz))) continue;
+    if (!rests(g_0.w, dot3(start.velocity.xyz, g_0.xyz))) continue;
     f = with_reaction(terrains[t].friction, g_0.xyz, least_normal_speed(g_0.w), hw, start.velocity.xyz, f);
   }
   return f;

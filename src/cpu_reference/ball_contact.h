@@ -2,7 +2,7 @@
 // Contact of balls, spec §2.7: with terrain, with each other and with particles. Every expression has one
 // order of operations, which the kernels follow (shaders/compute/ball_contact.glsl). A pair is evaluated from
 // each of its two sides, since exchanging the bodies negates vectors exactly but for the signs of zeros.
-#include "cpu_reference/contact.h"
+#include "cpu_reference/coulomb.h"
 
 namespace aspic::reference {
 
@@ -25,10 +25,9 @@ struct BallBody {
 /// What contact among balls and particles needs beside the bodies.
 template <class T>
 struct BallRules {
-  T epsilon;        ///< ε [m]
-  T resting_speed;  ///< max(ε, 2|g|h) [m/s]
-  T restitution;    ///< e of balls and particles
-  T friction;       ///< μ_b
+  ContactConstants<T> contact;
+  T restitution;  ///< e of balls and particles
+  T friction;     ///< μ_b
   bool spin;
 };
 
@@ -58,41 +57,82 @@ T friction_impulse(const Vector<T>& s, T normal_impulse, T friction, T complianc
   return limit < stop ? limit : stop;
 }
 
-/// A ball against one terrain at the end of a step that began at x0, v0. As a particle with its surface in
-/// place of its centre; with spin, friction acts where the surfaces touch and turns the ball.
+/// Friction where the surfaces touch, of a terrain whose normal impulse raised the normal speed by `gain`: it
+/// changes the tangential velocity v_t and turns the ball.
 template <class T>
-void respond_ball(const Ground<T>& ground, ContactModel model, const BallRules<T>& rules,
-                  const BallBody<T>& ball, const Vector<T>& x0, const Vector<T>& v0, Vector<T>& x,
-                  Vector<T>& v, Vector<T>& omega) {
-  const bool coulomb = model == ContactModel::coulomb;
+void rub_ball(const BallBody<T>& ball, T friction, T gain, const Vector<T>& n, Vector<T>& v_t,
+              Vector<T>& omega) {
+  const Vector<T> s = v_t - ball.radius * cross3<T>(omega, n);
+  Vector<T> t;
+  const T J_t = friction_impulse<T>(s, ball.mass * gain, friction, ball.inverse_mass + ball.slip, t);
+  v_t = v_t - (ball.inverse_mass * J_t) * t;
+  omega = omega + (ball.turn * J_t) * cross3<T>(n, t);
+}
+
+/// A ball against one terrain at the end of a step, by the course model: as a particle with its surface in
+/// place of its centre; with spin, friction is added.
+template <class T>
+void respond_ball_course(const Ground<T>& ground, const BallRules<T>& rules, const BallBody<T>& ball,
+                         const Vector<T>& x, Vector<T>& v, Vector<T>& omega) {
+  const Gap<T> g = ball_gap<T>(ground, ball.radius, x);
+  const T u = dot3<T>(v, g.n);
+  if (!(g.d < rules.contact.epsilon && u < T(0))) return;
+  const T u_after = bounce_speed<T>(ground, ball.mass, u);
+  Vector<T> v_t = v - u * g.n;
+  if (rules.spin) rub_ball<T>(ball, ground.friction, u_after - u, g.n, v_t, omega);
+  v = v_t + u_after * g.n;
+}
+
+/// f [N] on a ball with the reaction of ground on which it rests at the start (x0, v0) of the step. Without
+/// spin it holds friction as on a particle. With spin the normal part alone: friction acts where the surfaces
+/// touch, at the step's end.
+template <class T>
+Vector<T> with_ball_reaction(const Ground<T>& ground, const BallRules<T>& rules, const BallBody<T>& ball,
+                             const Vector<T>& x0, const Vector<T>& v0, const Vector<T>& f) {
+  const Gap<T> g = ball_gap<T>(ground, ball.radius, x0);
+  if (!rests<T>(rules.contact, g.d, dot3<T>(v0, g.n))) return f;
+  return with_reaction<T>(rules.spin ? T(0) : ground.friction, g.n, least_normal_speed<T>(rules.contact, g.d),
+                          rules.contact.step * ball.inverse_mass, v0, f);
+}
+
+/// A ball against one terrain at the end of a step that began at x0, v0, by the Coulomb model: as a particle
+/// with its surface in place of its centre. With spin, f is the force in the step's evaluations, gravity and
+/// the reactions of the terrains before, to which this one's is added: what the reaction gave to the normal
+/// speed counts as normal impulse for friction.
+template <class T>
+void respond_ball_coulomb(const Ground<T>& ground, const BallRules<T>& rules, const BallBody<T>& ball,
+                          const Vector<T>& x0, const Vector<T>& v0, Vector<T>& f, Vector<T>& x, Vector<T>& v,
+                          Vector<T>& omega) {
+  const Gap<T> g0 = ball_gap<T>(ground, ball.radius, x0);
+  const T u0 = dot3<T>(v0, g0.n);
+  T given = T(0);
+  if (rules.spin) {
+    const Vector<T> before = f;
+    f = with_ball_reaction<T>(ground, rules, ball, x0, v0, before);
+    given = (rules.contact.step * ball.inverse_mass) * dot3<T>(f - before, g0.n);
+  }
   Gap<T> g = ball_gap<T>(ground, ball.radius, x);
   const T u = dot3<T>(v, g.n);
-  if (g.d < rules.epsilon && u < T(0)) {
-    const T approach = -dot3<T>(v0, g.n);
-    const bool bounces = !coulomb || approach > rules.resting_speed;
-    const T u_after = bounces ? bounce_speed<T>(ground, ball.mass, u) : T(0);
-    const T du = u_after - u;
+  const T u_after = g.d < rules.contact.epsilon
+                        ? speed_after_contact<T>(ground, rules.contact, ball.mass, g0.d, u0, g.d, u)
+                        : u;
+  const T gain = (u_after - u) + given;
+  if (gain > T(0)) {
     Vector<T> v_t = v - u * g.n;
     if (rules.spin) {
-      const Vector<T> s = v_t - ball.radius * cross3<T>(omega, g.n);
-      Vector<T> t;
-      const T J_t = friction_impulse<T>(s, ball.mass * du, ground.friction, ball.inverse_mass + ball.slip, t);
-      v_t = v_t - (ball.inverse_mass * J_t) * t;
-      omega = omega + (ball.turn * J_t) * cross3<T>(g.n, t);
-    } else if (coulomb) {
-      const T slip = norm3<T>(v_t);
-      if (slip > T(0)) {
-        const T kept = T(1) - (ground.friction * du) / slip;
-        v_t = kept > T(0) ? Vector<T>(kept * v_t) : Vector<T>(Vector<T>::Zero());
-      }
+      rub_ball<T>(ball, ground.friction, gain, g.n, v_t, omega);
+    } else {
+      v_t = rubbed<T>(v_t, ground.friction * gain);
     }
     v = v_t + u_after * g.n;
-    if (coulomb && u_after == T(0) && v_t.x() == T(0) && v_t.y() == T(0) && v_t.z() == T(0)) {
-      x = x0;
-      g = ball_gap<T>(ground, ball.radius, x);
-    }
   }
-  if (coulomb && g.d < T(0)) x = x - g.d * g.n;
+  if (!(g.d < rules.contact.epsilon)) return;
+  const T rise = undue_rise<T>(rules.contact, g0.d, u0, g.d, u_after);
+  if (rise > T(0)) {
+    x = x - rise * g.n;
+    g = ball_gap<T>(ground, ball.radius, x);
+  }
+  if (g.d < T(0)) x = x - g.d * g.n;
 }
 
 /// Two bodies as one of them sees it: e = its centre − the other's, `reach` = the sum of the radii. Where the
@@ -120,7 +160,7 @@ Impulse<T> impact(const BallRules<T>& rules, const Vector<T>& n, const Vector<T>
                   const Vector<T>& rolling, T weight, T slip_weight) {
   const T u = dot3<T>(dv, n);
   const T approach = -dot3<T>(dv0, n);
-  const T e = approach < rules.resting_speed ? T(0) : rules.restitution;
+  const T e = approach < rules.contact.resting_speed ? T(0) : rules.restitution;
   const T J = ((T(1) + e) * -u) / weight;
   Impulse<T> result = {J * n, Vector<T>::Zero()};
   if (!rules.spin) return result;

@@ -27,9 +27,8 @@ class Balls {
   explicit Balls(const Model& model)
       : model_(model),
         gravity_(rounded<T>(model.simulation.gravity)),
-        rules_{static_cast<T>(model.contact.epsilon), static_cast<T>(resting_speed(model)),
-               static_cast<T>(model.contact.ball_restitution), static_cast<T>(model.contact.ball_friction),
-               model.contact.spin} {
+        rules_{ContactConstants<T>(model), static_cast<T>(model.contact.ball_restitution),
+               static_cast<T>(model.contact.ball_friction), model.contact.spin} {
     for (const Ball& ball : model.balls) {
       bodies_.emplace_back(ball);
       largest_radius_ = std::max(largest_radius_, static_cast<double>(bodies_.back().radius));
@@ -37,23 +36,6 @@ class Balls {
     for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
     for (std::uint32_t i = 0; i < model.particle_count(); ++i)
       particle_weight_.push_back(static_cast<T>(model.inverse_mass[i]));
-  }
-
-  /// a(x, v) of every ball [m/s²]: gravity, and the course model's contact force.
-  Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
-    Field<T> a(3, x.cols());
-    for (Eigen::Index b = 0; b < x.cols(); ++b) {
-      const BallBody<T>& ball = bodies_[static_cast<std::size_t>(b)];
-      Vector<T> f = ball.mass * gravity_;
-      if (model_.contact.model == ContactModel::course) {
-        for (const Ground<T>& ground : grounds_) {
-          f = with_contact_force<T>(ground, rules_.epsilon, ball_gap<T>(ground, ball.radius, x.col(b)),
-                                    v.col(b), f);
-        }
-      }
-      a.col(b) = ball.inverse_mass * f;
-    }
-    return a;
   }
 
   /// One step of all balls launched by step number `step`, from `start`; particles went from `particle_start`
@@ -77,20 +59,48 @@ class Balls {
   };
   using Counts = std::vector<std::uint32_t>;
 
+  /// The forces of one step from `start`: gravity, then what every terrain adds.
+  struct Flight {
+    const Balls& balls;
+    const BallPhase<T>& start;
+
+    /// a(x, v) of every ball [m/s²].
+    Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
+      const bool course = balls.model_.contact.model == ContactModel::course;
+      Field<T> a(3, x.cols());
+      for (Eigen::Index b = 0; b < x.cols(); ++b) {
+        const BallBody<T>& ball = balls.bodies_[static_cast<std::size_t>(b)];
+        Vector<T> f = ball.mass * balls.gravity_;
+        for (const Ground<T>& ground : balls.grounds_) {
+          f = course ? with_contact_force<T>(ground, balls.rules_.contact.epsilon,
+                                             ball_gap<T>(ground, ball.radius, x.col(b)), v.col(b), f)
+                     : with_ball_reaction<T>(ground, balls.rules_, ball, start.x.col(b), start.v.col(b), f);
+        }
+        a.col(b) = ball.inverse_mass * f;
+      }
+      return a;
+    }
+  };
+
   BallPhase<T> fly(std::uint64_t step, const BallPhase<T>& start) const {
     // The force does not depend on where it is evaluated, and the course model's contact force is held at
     // (x, v).
     const Integrator integrator = free_flight_row(model_.simulation.integrator).integrator;
-    const Phase<T> flown =
-        explicit_step(integrator, *this, Phase<T>{start.x, start.v}, model_.simulation.timestep);
+    const Phase<T> flown = explicit_step(integrator, Flight{*this, start}, Phase<T>{start.x, start.v},
+                                         model_.simulation.timestep);
     BallPhase<T> end = start;
     for (Eigen::Index b = 0; b < start.x.cols(); ++b) {
       const auto ball = static_cast<std::size_t>(b);
       if (!model_.balls[ball].launched(step)) continue;
       Vector<T> x = flown.x.col(b), v = flown.v.col(b), omega = start.omega.col(b);
+      Vector<T> f = bodies_[ball].mass * gravity_;
       for (const Ground<T>& ground : grounds_) {
-        respond_ball<T>(ground, model_.contact.model, rules_, bodies_[ball], start.x.col(b), start.v.col(b),
-                        x, v, omega);
+        if (model_.contact.model == ContactModel::course) {
+          respond_ball_course<T>(ground, rules_, bodies_[ball], x, v, omega);
+        } else {
+          respond_ball_coulomb<T>(ground, rules_, bodies_[ball], start.x.col(b), start.v.col(b), f, x, v,
+                                  omega);
+        }
       }
       end.x.col(b) = x;
       end.v.col(b) = v;
@@ -135,7 +145,7 @@ void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const
     });
     for (; at != along_x.end() && static_cast<double>(at->first) <= to; ++at) take(at->second);
   };
-  const double margin = static_cast<double>(rules_.epsilon);
+  const double margin = static_cast<double>(rules_.contact.epsilon);
 
   ball_ball_.clear();
   for (const auto& [x, own] : along_x) {
@@ -143,7 +153,7 @@ void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const
       if (own == other) return;
       const Vector<T> e = balls.x.col(own) - balls.x.col(other);
       const Gap<T> g = pair_gap<T>(e, body(own).radius + body(other).radius, own < other);
-      if (g.d < rules_.epsilon) ball_ball_.push_back({own, other, g});
+      if (g.d < rules_.contact.epsilon) ball_ball_.push_back({own, other, g});
     });
   }
   ball_particle_.clear();
@@ -153,7 +163,7 @@ void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const
     candidates(particles.x(0, p), largest_radius_ + margin, [&](std::uint32_t b) {
       const Vector<T> e = particles.x.col(p) - balls.x.col(b), back = balls.x.col(b) - particles.x.col(p);
       const Gap<T> g = pair_gap<T>(e, body(b).radius, true);
-      if (!(g.d < rules_.epsilon)) return;
+      if (!(g.d < rules_.contact.epsilon)) return;
       particle_ball_.push_back({p, b, g});
       ball_particle_.push_back({b, p, pair_gap<T>(back, body(b).radius, false)});
     });

@@ -35,6 +35,16 @@ struct Gap {
   Vector<T> n;
 };
 
+/// d alone, the same bits as gap's: most bodies are far from the ground.
+template <class T>
+T distance(const Ground<T>& ground, const Vector<T>& x) {
+  const Vector<T> e = x - ground.point;
+  if (ground.shape == TerrainShape::plane || ground.shape == TerrainShape::tilted_plane)
+    return dot3<T>(ground.normal, e);
+  const T L = norm3<T>(e);
+  return ground.shape == TerrainShape::bowl ? ground.radius - L : L - ground.radius;
+}
+
 template <class T>
 Gap<T> gap(const Ground<T>& ground, const Vector<T>& x) {
   const Vector<T> e = x - ground.point;

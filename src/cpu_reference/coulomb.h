@@ -86,7 +86,7 @@ template <class T>
 T speed_after_contact(const Ground<T>& ground, const ContactConstants<T>& contact, T m, T d0, T u0, T d,
                       T u) {
   const bool resting = rests<T>(contact, d0, u0);
-  if (!(d < T(0) || resting)) return u;
+  if (!(u < T(0) && (d < T(0) || resting))) return u;
   const T c = least_normal_speed<T>(contact, d0);
   if (!(u < c)) return u;
   if (resting) return c;
@@ -94,24 +94,34 @@ T speed_after_contact(const Ground<T>& ground, const ContactConstants<T>& contac
   return bounced_speed<T>(ground, contact, m, d0, d0 - d, u0, u - u0, (d - d0) / contact.step);
 }
 
+/// By how much [m] a body that rests on the ground has risen too far in a step to distance d and normal speed
+/// u: beyond d0 + h·max(u, 0). So a stopped body stays where it was, also where the integrator's position
+/// lags behind its velocity. Continuous in u: no rounding decides whether a body rises.
+template <class T>
+T undue_rise(const ContactConstants<T>& contact, T d0, T u0, T d, T u) {
+  if (!rests<T>(contact, d0, u0)) return T(0);
+  const T rise = (d - d0) - contact.step * (u > T(0) ? u : T(0));
+  return rise > T(0) ? rise : T(0);
+}
+
 /// The end of a step that began at x0, v0: what rests or arrives gets the speed above, friction is bounded by
-/// the normal impulse, a stopped particle does not rise, and none stays below the surface.
+/// the normal impulse, what rests rises no faster than it moves, and nothing stays below the surface.
 template <class T>
 void respond_coulomb(const Ground<T>& ground, const ContactConstants<T>& contact, T m, const Vector<T>& x0,
                      const Vector<T>& v0, Vector<T>& x, Vector<T>& v) {
+  if (!(distance<T>(ground, x) < contact.epsilon)) return;
   Gap<T> g = gap<T>(ground, x);
-  const T u = dot3<T>(v, g.n);
-  if (g.d < contact.epsilon && u < T(0)) {
-    const Gap<T> g0 = gap<T>(ground, x0);
-    const T u_after = speed_after_contact<T>(ground, contact, m, g0.d, dot3<T>(v0, g0.n), g.d, u);
-    if (u_after > u) {
-      const Vector<T> v_t = v - u * g.n;
-      v = rubbed<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n;
-      if (u_after == T(0) && g.d > g0.d) {
-        x = x - (g.d - g0.d) * g.n;
-        g = gap<T>(ground, x);
-      }
-    }
+  const Gap<T> g0 = gap<T>(ground, x0);
+  const T u = dot3<T>(v, g.n), u0 = dot3<T>(v0, g0.n);
+  const T u_after = speed_after_contact<T>(ground, contact, m, g0.d, u0, g.d, u);
+  if (u_after > u) {
+    const Vector<T> v_t = v - u * g.n;
+    v = rubbed<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n;
+  }
+  const T rise = undue_rise<T>(contact, g0.d, u0, g.d, u_after);
+  if (rise > T(0)) {
+    x = x - rise * g.n;
+    g = gap<T>(ground, x);
   }
   if (g.d < T(0)) x = x - g.d * g.n;
 }

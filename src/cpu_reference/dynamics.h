@@ -93,8 +93,8 @@ class Dynamics {
     if (model_.contact.model == ContactModel::course) return contacts;
     for (const Ground<T>& ground : grounds_) {
       for (Eigen::Index i = 0; i < x0.cols(); ++i) {
+        if (!(distance<T>(ground, x0.col(i)) < contact_.epsilon) || inverse_mass_[i] == T(0)) continue;
         const Gap<T> g = gap<T>(ground, x0.col(i));
-        if (!(g.d < contact_.epsilon) || inverse_mass_[i] == T(0)) continue;
         if (!rests<T>(contact_, g.d, dot3<T>(v0.col(i), g.n))) continue;
         contacts.push_back({i, ground.friction, least_normal_speed<T>(contact_, g.d),
                             contact_.step * inverse_mass_[i], g.n, v0.col(i)});

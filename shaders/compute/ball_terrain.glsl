@@ -1,0 +1,73 @@
+// A ball and a terrain: src/cpu_reference/ball_contact.h in GLSL.
+#include "compute/terrain.glsl"
+
+vec4 ball_gap(uint t, float radius, vec3 x) {
+  precise vec4 g = gap(t, x);
+  g.w = g.w - radius;
+  return g;
+}
+
+// Friction where the surfaces touch, of a terrain whose normal impulse raised the normal speed by `gain`.
+void rub_ball(uint t, Ball start, BallBody body, float gain, vec3 n, inout precise vec3 v_t,
+              inout precise vec3 omega) {
+  precise vec3 s = v_t - start.position.w * cross3(omega, n);
+  precise vec4 rub = friction_impulse(s, body.ball_mass * gain, terrains[t].friction,
+                                      body.ball_inverse_mass + start.start_velocity.w);
+  v_t = v_t - (body.ball_inverse_mass * rub.w) * rub.xyz;
+  omega = omega + (start.spin.w * rub.w) * cross3(n, rub.xyz);
+}
+
+void respond_ball_course(uint t, Ball start, BallBody body, vec3 x, inout precise vec3 v, inout precise vec3 omega) {
+  precise vec4 g = ball_gap(t, start.position.w, x);
+  precise float u = dot3(v, g.xyz);
+  if (!(g.w < epsilon && u < 0.0)) return;
+  precise float u_after = bounce_speed(t, body.ball_mass, u);
+  precise vec3 v_t = v - u * g.xyz;
+  if (ball_spin != 0u) rub_ball(t, start, body, u_after - u, g.xyz, v_t, omega);
+  v = v_t + u_after * g.xyz;
+}
+
+// f [N] with the reaction of ground on which the ball rests at the start of the step; with spin its normal part alone.
+vec3 with_ball_reaction(uint t, Ball start, BallBody body, vec3 f) {
+  precise vec4 g = ball_gap(t, start.position.w, start.position.xyz);
+  if (!rests(g.w, dot3(start.velocity.xyz, g.xyz))) return f;
+  precise float friction = ball_spin != 0u ? 0.0 : terrains[t].friction;
+  precise float hw = time_step * body.ball_inverse_mass;
+  precise vec3 sum = with_reaction(friction, g.xyz, least_normal_speed(g.w), hw, start.velocity.xyz, f);
+  return sum;
+}
+
+// The end of a step. With spin, f is the force in the step's evaluations so far: gravity, reactions of terrains before.
+void respond_ball_coulomb(uint t, Ball start, BallBody body, inout precise vec3 f, inout precise vec3 x,
+                          inout precise vec3 v, inout precise vec3 omega) {
+  precise float R = start.position.w;
+  precise vec4 g_0 = ball_gap(t, R, start.position.xyz);
+  precise float u_0 = dot3(start.velocity.xyz, g_0.xyz);
+  precise float given = 0.0;
+  if (ball_spin != 0u) {
+    precise vec3 before = f;
+    f = with_ball_reaction(t, start, body, before);
+    given = (time_step * body.ball_inverse_mass) * dot3(f - before, g_0.xyz);
+  }
+  precise vec4 g = ball_gap(t, R, x);
+  precise float u = dot3(v, g.xyz);
+  precise float u_after = u;
+  if (g.w < epsilon) u_after = speed_after_contact(t, body.ball_mass, g_0.w, u_0, g.w, u);
+  precise float gain = (u_after - u) + given;
+  if (gain > 0.0) {
+    precise vec3 v_t = v - u * g.xyz;
+    if (ball_spin != 0u) {
+      rub_ball(t, start, body, gain, g.xyz, v_t, omega);
+    } else {
+      v_t = rubbed(v_t, terrains[t].friction * gain);
+    }
+    v = v_t + u_after * g.xyz;
+  }
+  if (!(g.w < epsilon)) return;
+  precise float rise = undue_rise(g_0.w, u_0, g.w, u_after);
+  if (rise > 0.0) {
+    x = x - rise * g.xyz;
+    g = ball_gap(t, R, x);
+  }
+  if (g.w < 0.0) x = x - g.w * g.xyz;
+}
