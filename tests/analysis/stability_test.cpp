@@ -14,10 +14,6 @@
 namespace aspic {
 namespace {
 
-constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integrator::symplectic_euler,
-                                             Integrator::midpoint, Integrator::runge_kutta_4,
-                                             Integrator::implicit_euler_one_pass};
-
 CubeSettings cube_settings(int n) {
   CubeSettings cube;
   cube.particles_per_edge = n;
@@ -32,8 +28,8 @@ Model model_of(const CubeSettings& cube) {
   return std::move(model).value();
 }
 
-/// Step matrix of an integrator for the whole linearised model, built column by column with dense K and C: an
-/// independent statement of spec §2.6 whose spectral radius decides stability.
+/// Spectral radius of the step matrix of an integrator for the whole linearised model, its stages applied to
+/// dense K and C.
 double spectral_radius(const Model& model, Integrator integrator, double h) {
   const auto dof = static_cast<Eigen::Index>(3 * model.particle_count());
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(dof, dof), c = k;
@@ -59,27 +55,20 @@ double spectral_radius(const Model& model, Integrator integrator, double h) {
     if (model.inverse_mass[static_cast<std::size_t>(i / 3)] == 0.0) a(i, dof + i) = 0.0;
   }
   const Eigen::MatrixXd z = h * a, one = Eigen::MatrixXd::Identity(2 * dof, 2 * dof);
-  Eigen::MatrixXd step;
-  switch (integrator) {
-    case Integrator::explicit_euler:
-      step = one + z;
-      break;
-    case Integrator::midpoint:
-      step = one + z + z * z / 2.0;
-      break;
-    case Integrator::implicit_euler_one_pass:
-      step = one + z + z * z;
-      break;
-    case Integrator::symplectic_euler: {
-      Eigen::MatrixXd kick = one, drift = one;
-      kick.bottomRows(dof) += z.bottomRows(dof);
-      drift.topRows(dof) += z.topRows(dof);
-      step = drift * kick;
-      break;
+  const IntegratorRow& method = row_of(integrator);
+  Eigen::MatrixXd at = one, sum = Eigen::MatrixXd::Zero(2 * dof, 2 * dof);
+  for (const Stage& s : method.stages) {
+    const Eigen::MatrixXd slope = z * at;
+    sum += s.weight / method.divisor * slope;
+    Eigen::MatrixXd next = one + s.advance * slope;
+    if (method.drift == Drift::mean_velocity) {
+      const Eigen::MatrixXd mean = 0.5 * (at.bottomRows(dof) + next.bottomRows(dof));
+      next.topRows(dof) = one.topRows(dof) + s.advance * h * mean;
     }
-    default:
-      step = one + z + z * z / 2.0 + z * z * z / 6.0 + z * z * z * z / 24.0;
+    at = next;
   }
+  Eigen::MatrixXd step = one + sum;
+  if (method.drift == Drift::new_velocity) step.topRows(dof) = one.topRows(dof) + h * step.bottomRows(dof);
   return step.eigenvalues().cwiseAbs().maxCoeff();
 }
 

@@ -236,9 +236,7 @@ TEST(Balls, CentresThatCoincidePartAlongY) {
 }
 
 TEST(Balls, FlyByEveryIntegratorsFormula) {
-  for (const Integrator integrator :
-       {Integrator::explicit_euler, Integrator::symplectic_euler, Integrator::midpoint,
-        Integrator::runge_kutta_4, Integrator::implicit_euler, Integrator::implicit_euler_one_pass}) {
+  for (const Integrator integrator : all_integrators) {
     ModelSettings settings;
     settings.simulation.integrator = integrator;
     settings.simulation.timestep = 0.01;

@@ -73,15 +73,11 @@ class Rest : public testing::TestWithParam<Integrator> {
     return settings;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Explicit, Rest,
-                         testing::Values(Integrator::explicit_euler, Integrator::symplectic_euler,
-                                         Integrator::midpoint, Integrator::runge_kutta_4,
-                                         Integrator::implicit_euler_one_pass),
-                         [](const auto& instance) {
-                           std::string name(name_of(instance.param));
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Explicit, Rest, testing::ValuesIn(explicit_integrators), [](const auto& instance) {
+  std::string name(name_of(instance.param));
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 TEST_P(Rest, ACubeOnTheGround) {
   for (const Precision precision : {Precision::single, Precision::double_}) {
