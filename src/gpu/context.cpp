@@ -4,6 +4,7 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "gpu/program_cache.h"
 
@@ -13,6 +14,21 @@ namespace {
 constexpr std::size_t max_messages = 256;
 /// A lost context may have an error for every call.
 constexpr int most_errors = 64;
+
+// Of KHR_robustness, core since OpenGL 4.5.
+constexpr GLenum reset_notification_strategy = 0x8256;
+constexpr GLint lose_context_on_reset = 0x8252;
+constexpr GLenum context_lost = 0x0507;
+
+bool has_extension(std::string_view name) {
+  GLint count = 0;
+  glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+  for (GLint i = 0; i < count; ++i) {
+    const GLubyte* found = glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i));
+    if (found && name == reinterpret_cast<const char*>(found)) return true;
+  }
+  return false;
+}
 
 Severity severity_of(GLenum severity) {
   switch (severity) {
@@ -46,21 +62,22 @@ Result<std::unique_ptr<Context>> Context::adopt_current(Loader loader) {
                     GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version),
                     reinterpret_cast<const char*>(glGetString(GL_RENDERER)))};
   std::unique_ptr<Context> context(new Context);
-  context->start("window");
+  context->start("window", loader);
   return context;
 }
 
-void Context::start(std::string platform) {
+void Context::start(std::string platform, Loader loader) {
   info_ = query_device_info();
   info_.platform = std::move(platform);
 
   GLint flags = 0;
   glGetIntegerv(GL_CONTEXT_FLAGS, &flags);
   info_.debug = (flags & GL_CONTEXT_FLAG_DEBUG_BIT) != 0;
-  if (GLAD_GL_KHR_robustness && glGetGraphicsResetStatus) {
-    GLint strategy = GL_NO_RESET_NOTIFICATION;
-    glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
-    info_.robust = strategy == GL_LOSE_CONTEXT_ON_RESET;
+  if (has_extension("GL_KHR_robustness")) {
+    reset_status_ = reinterpret_cast<GLenum (*)()>(loader("glGetGraphicsResetStatus"));
+    GLint strategy = 0;
+    glGetIntegerv(reset_notification_strategy, &strategy);
+    info_.robust = reset_status_ && strategy == lose_context_on_reset;
   }
   if (!info_.debug) return;
 
@@ -96,7 +113,7 @@ void Context::clear_messages() {
 bool Context::lost() {
   if (lost_) return true;
   lost_ =
-      dead_ || strikes(Fault::lost_context) || (info_.robust && glGetGraphicsResetStatus() != GL_NO_ERROR);
+      dead_ || strikes(Fault::lost_context) || (info_.robust && reset_status_() != GL_NO_ERROR);
   return lost_;
 }
 
@@ -107,7 +124,7 @@ bool Context::ran_out_of_memory() {
     if (error == GL_NO_ERROR) break;
     if (error == GL_OUT_OF_MEMORY) {
       found = true;
-    } else if (error != GL_CONTEXT_LOST) {
+    } else if (error != context_lost) {
       receive({Severity::high, error, fmt::format("GL error 0x{:04x}", error)});
     }
   }

@@ -137,7 +137,7 @@ class Context {
   friend class Pass;
   friend class EglContextMaker;
   Context();
-  void start(std::string platform);
+  void start(std::string platform, Loader loader);
   void receive(DebugMessage message);
   /// Whether an injected fault's time has come; it has only one.
   bool strikes(Fault fault);
@@ -148,6 +148,7 @@ class Context {
   void* context_ = nullptr;
   DeviceInfo info_;
   bool lost_ = false;
+  unsigned int (*reset_status_)() = nullptr;  // glGetGraphicsResetStatus of a robust context
   bool dead_ = false;                                   // by an injected loss at a dispatch
   std::array<std::optional<std::uint64_t>, 3> faults_;  // by Fault: chances left to let pass
   std::uint64_t dispatches_ = 0;

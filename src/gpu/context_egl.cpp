@@ -285,7 +285,7 @@ class EglContextMaker {
       why = fmt::format("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
       return nullptr;
     }
-    context->start(candidate.name);
+    context->start(candidate.name, eglGetProcAddress);
     return context;
   }
 

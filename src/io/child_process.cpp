@@ -80,9 +80,11 @@ int spawn(const std::vector<std::string>& arguments, const Streams& streams, cha
 
 ChildProcess::End wait_for(pid_t pid) {
   int status = 0;
-  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  pid_t waited = -1;
+  while ((waited = ::waitpid(pid, &status, 0)) < 0 && errno == EINTR) {
   }
   ChildProcess::End end;
+  if (waited < 0) return end;  // end_child_processes() has waited for it: how it ended is not known
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   return end;

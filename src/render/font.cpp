@@ -1,11 +1,18 @@
 #include "render/font.h"
 
-#include <stb_truetype.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <new>
 #include <span>
+
+// Compiled here rather than linked from libstb, which leaves out a glyph for which there is no memory: here that is
+// an exception.
+#define STB_TRUETYPE_IMPLEMENTATION
+#define STBTT_STATIC
+#define STBTT_malloc(size, context) ((void)(context), ::operator new(size))
+#define STBTT_free(memory, context) ((void)(context), ::operator delete(memory))
+#include <stb_truetype.h>
 
 #include "base/embedded_file.h"
 

@@ -100,7 +100,9 @@ TEST(CompareGl, SolvesThatOverflowDivergeAlike) {
       for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
       const auto run = aspic(words);
       EXPECT_EQ(run.exit_code, 5) << run.err;
-      EXPECT_THAT(run.err, testing::HasSubstr("is no longer a finite number"));
+      // Which of the two it becomes is the solve's affair; what leaves must be numbers, the same on each backend.
+      EXPECT_THAT(run.err, testing::AnyOf(testing::HasSubstr("is no longer a finite number"),
+                                          testing::HasSubstr("became faster than 1000 m/s")));
       for (const std::string& text : {run.out, dir.read("e.csv"), dir.read("s.csv")}) {
         EXPECT_EQ(text.find("nan"), std::string::npos) << text;
         EXPECT_EQ(text.find("inf,"), std::string::npos) << text;

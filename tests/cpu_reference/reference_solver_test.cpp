@@ -70,6 +70,7 @@ TEST(ReferenceSolver, TooFastIsDivergenceAndNamesTheLowestParticle) {
 // acceleration can hold, so that the first residual is infinite and no iterate is better.
 TEST(ReferenceSolver, ASolveWhoseResidualIsNotFiniteIsDivergence) {
   ModelSettings settings = test::cube_on_plane(3);
+  settings.terrain.clear();  // with the ground in the equation the solve takes steps that raise the residual
   settings.simulation.integrator = Integrator::implicit_euler;
   settings.cubes[0].particle_mass = 1.9e-38;
   settings.cubes[0].structural.stiffness = 1e12;

@@ -42,7 +42,7 @@ std::vector<std::string> seeds() {
   std::vector<std::string> made = {
       "0:12(5): error: syntax error\n\0#include \"a.glsl\"\nvoid main() {}\n\0#include \"b.glsl\"\n\0int b;\n\0"s,
       "0(3) : error C1008: undefined variable\nERROR: 0:2: 'x' : undeclared\n\0#include \"a.glsl\"\n#include \"c.glsl\"\n\0float a;\0\0"s};
-  for (const gl::EmbeddedShader& shader : gl::embedded_shaders())
+  for (const EmbeddedFile& shader : embedded_shaders())
     if (shader.text.size() < 2048) made.push_back("0:1(1): error: x\n\0"s + std::string(shader.text));
   return made;
 }

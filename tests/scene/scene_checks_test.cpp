@@ -104,7 +104,7 @@ TEST(CheckScene, FindsASceneInWhichNothingMoves) {
 TEST(CheckScene, BlamesTheLargestBodyForTheMemory) {
   Scene scene = full_scene();
   scene.model.cubes.emplace_back().particles_per_edge = 40;
-  const std::uint64_t needed = model_bytes(predict_counts(scene.model));
+  const std::uint64_t needed = run_bytes(predict_counts(scene.model));
   EXPECT_TRUE(check_scene(scene, needed).empty());
   EXPECT_THAT(paths_of(check_scene(scene, needed - 1)), ElementsAre("cube[1].particles-per-edge"));
   scene.model.launchers[0].count = 1000000;
