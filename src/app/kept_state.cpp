@@ -197,6 +197,8 @@ Result<KeptState> read_kept_state(const std::string& text) {
   for (const FilmFormat& f : film_formats()) formats.emplace_back(f.name);
   taker.take(recording, "format", formats, format);
   state.film_format = &film_formats()[format];
+  // The default may be more than the kind of film shows.
+  state.film_fps = std::min(state.film_fps, state.film_format->most_fps);
   taker.take(recording, "fps", state.film_fps, 1.0, state.film_format->most_fps);
   taker.take(recording, "parameters", state.film_text);
   take_cameras(taker, root, state);

@@ -51,8 +51,8 @@ void add_knob(TubeMesh& mesh, const Vec3& centre, double radius) {
 }
 
 void add_frame(TubeMesh& mesh, const Model& model, const Body& net) {
-  const auto [nw, nh, nl] = net.lattice;
   const auto corner = [&](bool front, bool top, bool right) {
+    const auto [nw, nh, nl] = net.lattice;
     const auto index = net_index(net.lattice, front ? nw - 1 : 0, top ? nh - 1 : 0, right ? nl - 1 : 0);
     return model.initial_position[net.first_particle + *index];
   };
