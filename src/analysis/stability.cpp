@@ -186,7 +186,7 @@ StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
   if (!std::isfinite(body.eigenvalue_bound(1.0, 0.0)) || !std::isfinite(body.eigenvalue_bound(0.0, 1.0)))
     return {0.0, false};
   if (body.proportional()) return proportional_limit(analysis, integrator);
-  if (row.drift == Drift::new_velocity) return symplectic_limit(analysis);
+  if (integrator == Integrator::symplectic_euler) return symplectic_limit(analysis);
   if (analysis.small() && !row.mode_limit) return dense_limit(analysis, integrator);
   return bounded_limit(analysis, integrator);
 }

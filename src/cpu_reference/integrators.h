@@ -73,13 +73,19 @@ Phase<T> runge_kutta_4(const Forces& dynamics, const Phase<T>& s, double step) {
 template <class T, class Forces>
 Phase<T> explicit_step(Integrator integrator, const Forces& dynamics, const Phase<T>& s, double step) {
   using Method = Phase<T> (*)(const Forces&, const Phase<T>&, double);
-  constexpr std::pair<Integrator, Method> methods[] = {
+  static constexpr std::pair<Integrator, Method> methods[] = {
       {Integrator::explicit_euler, explicit_euler<T, Forces>},
       {Integrator::symplectic_euler, symplectic_euler<T, Forces>},
       {Integrator::midpoint, midpoint<T, Forces>},
       {Integrator::runge_kutta_4, runge_kutta_4<T, Forces>},
       {Integrator::implicit_euler_one_pass, implicit_euler_one_pass<T, Forces>},
   };
+  static_assert(std::all_of(explicit_integrators.begin(), explicit_integrators.end(),
+                            [](Integrator wanted) {
+                              return std::any_of(std::begin(methods), std::end(methods),
+                                                 [=](const auto& row) { return row.first == wanted; });
+                            }),
+                "every staged method of the table has its formula here");
   const auto method = std::find_if(std::begin(methods), std::end(methods),
                                    [=](const auto& row) { return row.first == integrator; });
   assert(method != std::end(methods));

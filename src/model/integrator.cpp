@@ -84,6 +84,15 @@ int force_evaluations_per_step(Integrator integrator) {
   return static_cast<int>(row_of(integrator).stages.size());
 }
 
+double free_fall_lead(Integrator integrator) {
+  const IntegratorRow& row = free_flight_row(integrator);
+  if (row.drift == Drift::new_velocity) return 1.0;
+  double lead = 0.0;
+  for (std::size_t s = 1; s < row.stages.size(); ++s)
+    lead += row.stages[s].weight * row.stages[s - 1].advance;
+  return lead / row.divisor;
+}
+
 const IntegratorRow& free_flight_row(Integrator integrator) {
   return row_of(row_of(integrator).solved() ? Integrator::symplectic_euler : integrator);
 }

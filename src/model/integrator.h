@@ -10,6 +10,7 @@
 // where sums run in stage order over the stages whose weight is not zero. U_s is V_s unless `drift` says
 // otherwise. Source: Butcher, Numerical Methods for Ordinary Differential Equations, 2016, §230, for methods
 // whose stages each need only the one before (Kutta's third-order method, which needs two, does not fit).
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -53,6 +54,9 @@ struct IntegratorRow {
   std::span<const Stage> stages;  ///< none: backward Euler, which is solved, not staged
   double divisor;                 ///< of the weights
   Drift drift;
+  /// Whether central forces leave angular momentum alone: where each force is paired with the positions that
+  /// it was computed at.
+  bool keeps_angular_momentum;
   StepMatrix (*step_matrix)(long double h, long double kappa, long double gamma);
   /// Absent where the stages make a polynomial of hλ, from which the limit follows
   /// (analysis/amplification.h).
@@ -83,15 +87,16 @@ double no_limit(double kappa, double gamma);
 /// In the order in which lists show them.
 inline constexpr std::array integrator_table = {
     IntegratorRow{Integrator::explicit_euler, "explicit-euler", "explicit Euler", 1,
-                  integrator_rows::one_stage, 1.0, Drift::stage_velocity, integrator_rows::explicit_euler,
-                  nullptr, "Euler, 1768"},
+                  integrator_rows::one_stage, 1.0, Drift::stage_velocity, false,
+                  integrator_rows::explicit_euler, nullptr, "Euler, 1768"},
     IntegratorRow{Integrator::symplectic_euler, "symplectic-euler", "symplectic Euler", 1,
-                  integrator_rows::one_stage, 1.0, Drift::new_velocity, integrator_rows::symplectic_euler,
-                  integrator_rows::symplectic_euler_limit, "Hairer, Lubich, Wanner, 2006"},
+                  integrator_rows::one_stage, 1.0, Drift::new_velocity, true,
+                  integrator_rows::symplectic_euler, integrator_rows::symplectic_euler_limit,
+                  "Hairer, Lubich, Wanner, 2006"},
     IntegratorRow{Integrator::midpoint, "midpoint", "midpoint", 2, integrator_rows::midpoint, 1.0,
-                  Drift::stage_velocity, integrator_rows::midpoint_rule, nullptr, "Runge, 1895"},
+                  Drift::stage_velocity, false, integrator_rows::midpoint_rule, nullptr, "Runge, 1895"},
     IntegratorRow{Integrator::runge_kutta_4, "runge-kutta-4", "Runge–Kutta 4", 4, integrator_rows::kutta, 6.0,
-                  Drift::stage_velocity, integrator_rows::runge_kutta_4, nullptr, "Kutta, 1901"},
+                  Drift::stage_velocity, false, integrator_rows::runge_kutta_4, nullptr, "Kutta, 1901"},
     IntegratorRow{Integrator::implicit_euler,
                   "implicit-euler",
                   "implicit Euler",
@@ -99,11 +104,12 @@ inline constexpr std::array integrator_table = {
                   {},
                   1.0,
                   Drift::new_velocity,
+                  false,
                   integrator_rows::implicit_euler,
                   integrator_rows::no_limit,
                   "Baraff and Witkin, 1998"},
     IntegratorRow{Integrator::implicit_euler_one_pass, "implicit-euler-one-pass", "implicit Euler, one pass",
-                  1, integrator_rows::one_pass, 1.0, Drift::stage_velocity,
+                  1, integrator_rows::one_pass, 1.0, Drift::stage_velocity, false,
                   integrator_rows::implicit_euler_one_pass, nullptr, "the 2021 assignment"},
 };
 
@@ -112,6 +118,8 @@ const IntegratorRow& row_of(Integrator integrator);
 
 /// Largest number of stages in the table; the kernels' stage table has as many places.
 inline constexpr std::size_t max_stages = 4;
+static_assert(std::all_of(integrator_table.begin(), integrator_table.end(),
+                          [](const IntegratorRow& row) { return row.stages.size() <= max_stages; }));
 
 namespace integrator_rows {
 
@@ -141,6 +149,9 @@ std::string_view name_of(Integrator integrator);
 
 /// Force evaluations one step takes (explicit methods); 0 for a solved one.
 int force_evaluations_per_step(Integrator integrator);
+
+/// x' = x + h·v + lead·h²·a under a constant acceleration a; ½ is exact.
+double free_fall_lead(Integrator integrator);
 
 /// The staged method that moves a body no spring holds: backward Euler of free flight is symplectic Euler.
 const IntegratorRow& free_flight_row(Integrator integrator);

@@ -7,18 +7,14 @@
 
 #include "cpu_reference/phase.h"
 #include "model/integrator.h"
+#include "support/integrator_names.h"
 #include "support/model_building.h"
 
 namespace aspic::reference {
 namespace {
 
 class EveryMethod : public testing::TestWithParam<Integrator> {};
-INSTANTIATE_TEST_SUITE_P(Explicit, EveryMethod, testing::ValuesIn(explicit_integrators),
-                         [](const auto& instance) {
-                           std::string name(name_of(instance.param));
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Explicit, EveryMethod, testing::ValuesIn(explicit_integrators), test::by_integrator);
 
 // Free fall: v_n = v_0 + n·h·g for all; the position sums depend on which velocity a method moves with.
 TEST_P(EveryMethod, FreeFallFollowsItsOwnRecurrence) {
@@ -29,13 +25,8 @@ TEST_P(EveryMethod, FreeFallFollowsItsOwnRecurrence) {
   const int n = 1000;
   for (int step = 0; step < n; ++step) s = explicit_step(GetParam(), dynamics, s, h);
   // A step adds h·v + h²·g·(what the velocities that move it are ahead of v, in steps) to y.
-  const IntegratorRow& method = row_of(GetParam());
-  double ahead = method.drift == Drift::new_velocity ? 1.0 : 0.0;
-  if (method.drift != Drift::new_velocity) {
-    for (std::size_t stage = 1; stage < method.stages.size(); ++stage)
-      ahead += method.stages[stage].weight / method.divisor * method.stages[stage - 1].advance;
-  }
-  const double g_terms = n * (n - 1) / 2.0 + n * ahead;  // y_n = y_0 + n·h·v_0 + h²·g·(this)
+  const double lead = free_fall_lead(GetParam());
+  const double g_terms = n * (n - 1) / 2.0 + n * lead;  // y_n = y_0 + n·h·v_0 + h²·g·(this)
   const double eps = n * 2.3e-16 * 10.0;                 // a rounding per step of numbers up to 10
   EXPECT_NEAR(s.x(1, 0), 2.0 + n * h * 4.0 + h * h * g * g_terms, eps);
   EXPECT_NEAR(s.v(1, 0), 4.0 + n * h * g, eps);

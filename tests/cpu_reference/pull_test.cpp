@@ -10,6 +10,7 @@
 #include "cpu_reference/phase.h"
 #include "cpu_reference/reference_solver.h"
 #include "model/integrator.h"
+#include "support/integrator_names.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -62,11 +63,7 @@ class PullClosedForm : public testing::TestWithParam<Integrator> {
     return largest;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Every, PullClosedForm, testing::ValuesIn(all_integrators), [](const auto& instance) {
-  std::string name(name_of(instance.param));
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Every, PullClosedForm, testing::ValuesIn(all_integrators), test::by_integrator);
 
 // Positions up to 3 m are rounded in each of 500 steps and feed a force of 30 N/m over h; an implicit solve
 // ends at a residual of 1e-15 m/s or where rounding ends it.

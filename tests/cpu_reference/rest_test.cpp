@@ -11,6 +11,7 @@
 #include "cpu_reference/reference_solver.h"
 #include "model/pull.h"
 #include "model/terrain.h"
+#include "support/integrator_names.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -73,11 +74,7 @@ class Rest : public testing::TestWithParam<Integrator> {
     return settings;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Explicit, Rest, testing::ValuesIn(explicit_integrators), [](const auto& instance) {
-  std::string name(name_of(instance.param));
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Explicit, Rest, testing::ValuesIn(explicit_integrators), test::by_integrator);
 
 TEST_P(Rest, ACubeOnTheGround) {
   for (const Precision precision : {Precision::single, Precision::double_}) {
