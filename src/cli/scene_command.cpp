@@ -15,14 +15,6 @@
 #include "scene/write.h"
 
 namespace aspic::cli {
-namespace {
-
-constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integrator::symplectic_euler,
-                                             Integrator::midpoint, Integrator::runge_kutta_4,
-                                             Integrator::implicit_euler_one_pass};
-
-}  // namespace
-
 Status scene_list_command(const SceneListOptions& options) {
   const std::vector<BuiltinScene> scenes = list_builtin_scenes();
   if (options.json) {

@@ -79,7 +79,7 @@ class ReferenceSolver final : public Solver {
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     const double h = model_.simulation.timestep;
-    const bool solved = model_.simulation.integrator == Integrator::implicit_euler;
+    const bool solved = row_of(model_.simulation.integrator).solved();
     for (std::uint64_t n = 0; n < steps && !divergence_; ++n) {
       SolveReport report;
       Phase<T> next = solved ? implicit_.step(phase_, report)
@@ -103,7 +103,7 @@ class ReferenceSolver final : public Solver {
   }
 
   std::optional<SolveStatistics> solve_statistics() override {
-    if (model_.simulation.integrator != Integrator::implicit_euler) return std::nullopt;
+    if (!row_of(model_.simulation.integrator).solved()) return std::nullopt;
     return statistics_;
   }
 

@@ -35,7 +35,7 @@ TEST_F(Layout, UniformBlockMatchesTheDriver) {
   EXPECT_UNIFORM_AT(terrain_count);
   EXPECT_UNIFORM_AT(contact_model);
   EXPECT_UNIFORM_AT(class_bits);
-  EXPECT_UNIFORM_AT(position_from_new_velocity);
+  EXPECT_UNIFORM_AT(drift);
   EXPECT_UNIFORM_AT(ball_count);
   EXPECT_UNIFORM_AT(stages[0].advance);
   EXPECT_UNIFORM_AT(stages[0].weight);
