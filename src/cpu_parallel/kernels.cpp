@@ -49,13 +49,12 @@ HWY_INLINE Vector chosen(Mask mask, const Vector& yes, const Vector& no) {
           hn::IfThenElse(mask, yes.z, no.z)};
 }
 
-/// The bits of `lanes` particles from `lane` on.
+/// The bits of `lanes` particles from `lane` on, a multiple of `lanes`.
 HWY_INLINE Mask mask_of(const std::uint16_t& word, std::size_t lane) {
-  std::uint8_t bytes[8] = {};
-  const auto bits = static_cast<std::uint16_t>(word >> lane);
-  bytes[0] = static_cast<std::uint8_t>(bits);
-  bytes[1] = static_cast<std::uint8_t>(bits >> 8);
-  return hn::LoadMaskBits(tag, bytes);
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&word);  // little-endian
+  if constexpr (lanes >= 8) return hn::LoadMaskBits(tag, bytes + lane / 8);
+  const std::uint8_t bits[8] = {static_cast<std::uint8_t>(word >> lane)};
+  return hn::LoadMaskBits(tag, bits);
 }
 
 /// What a spring takes off the force on its particle: ((s·q)·e), or `nothing` where it has no length or is
