@@ -15,7 +15,8 @@ constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integra
                                              Integrator::midpoint, Integrator::runge_kutta_4,
                                              Integrator::implicit_euler_one_pass};
 
-/// Steps ẍ = −κx − γẋ by the formulas of spec §2.6, written out: the growth of the norm after many steps.
+/// Steps ẍ = −κx − γẋ by the formulas of docs/physics.md, section 3, written out: the growth of the norm
+/// after many steps.
 double growth(Integrator integrator, double kappa, double gamma, double h, int steps) {
   double x = 1.0, v = kappa > 0.0 ? 0.3 * std::sqrt(kappa) : 1.0;
   const double scale = kappa > 0.0 ? std::sqrt(kappa) : 1.0;

@@ -33,7 +33,7 @@ Model model_of(const CubeSettings& cube) {
 }
 
 /// Step matrix of an integrator for the whole linearised model, built column by column with dense K and C: an
-/// independent statement of spec §2.6 whose spectral radius decides stability.
+/// independent statement of docs/physics.md, section 3, whose spectral radius decides stability.
 double spectral_radius(const Model& model, Integrator integrator, double h) {
   const auto dof = static_cast<Eigen::Index>(3 * model.particle_count());
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(dof, dof), c = k;
@@ -83,7 +83,7 @@ double spectral_radius(const Model& model, Integrator integrator, double h) {
   return step.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-// Figures of spec §2.6, given there to four digits.
+// Figures of docs/physics.md, section 3, given there to four digits.
 TEST(Stability, DefaultCubeHasThePublishedEigenvalueAndSteps) {
   const Model model = model_of(cube_settings(10));
   EXPECT_NEAR(largest_stiffness_eigenvalue(model) / 2000.0, 16.850, 0.0005);
