@@ -53,7 +53,7 @@
 #define FREE_LINE 2.0
 #define FREE_NONE 3.0
 
-// Elements of one block of a reduction, and the group size of every kernel that takes part in one (spec §2.9).
+// Elements of one block of a reduction, and the group size of every kernel that takes part in one (docs/determinism.md).
 #define REDUCTION_BLOCK 256
 
 // How a solve ended: SolveEnd in src/model/implicit.h.

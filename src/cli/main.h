@@ -2,8 +2,8 @@
 
 namespace aspic::cli {
 
-/// The program: parses the command line, runs the command, tells errors on stderr. Returns the exit code of
-/// spec §4.
+/// The program: parses the command line, runs the command, reports errors on stderr. Returns an exit code of
+/// docs/commands.md.
 int main(int argc, const char* const* argv);
 
 }  // namespace aspic::cli

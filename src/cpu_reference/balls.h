@@ -1,5 +1,5 @@
 #pragma once
-// What balls do in a step, spec §2.7: free flight with the scene's integrator, terrain, each other,
+// What balls do in a step (docs/balls.md): free flight with the scene's integrator, terrain, each other,
 // particles, and last the position phase.
 //
 // A phase is Jacobi's: all of its pairs are computed from the velocities the phase before left, with every

@@ -1,5 +1,5 @@
 #pragma once
-// The reference's vector types, and the two reductions whose order of operations spec §2.9 fixes.
+// The reference's vector types, and the two reductions whose order of operations docs/determinism.md fixes.
 #include <Eigen/Core>
 #include <cmath>
 #include <vector>

@@ -29,9 +29,9 @@ struct State {
   friend bool operator==(const State&, const State&) = default;
 };
 
-/// 64-bit FNV-1a of the little-endian values (x, v of every particle, then x, v, ω of every
-/// ball, in index order) in the state's own
-/// precision, spec §2.9.
+/// 64-bit FNV-1a (docs/files.md) of the little-endian values in the state's own precision:
+/// x, v of every particle,
+/// then x, v, ω of every ball, in index order.
 std::uint64_t state_hash(const State& state);
 
 /// The hash as 16 lower-case hexadecimal digits.
