@@ -53,30 +53,26 @@ Result<Comparison> compare_steps(std::array<Backend, 2>& backends, std::uint64_t
   Comparison result;
   ProgressBar bar(steps);
   for (std::uint64_t step = 0;; ++step) {
-    auto first = backends[0].solver->state();
-    if (!first) return first.error();
-    const auto second = backends[1].solver->state();
-    if (!second) return second.error();
-    const auto difference = compare_states(*first, *second);
-    if (!difference) return difference.error();
+    ASPIC_TRY(auto first, backends[0].solver->state());
+    ASPIC_TRY(const auto second, backends[1].solver->state());
+    ASPIC_TRY(const auto difference, compare_states(first, second));
     // States of two precisions with equal single-precision values still differ where a number does.
-    if (!result.first_difference && (!difference->identical() || difference->largest_absolute() > 0.0)) {
+    if (!result.first_difference && (!difference.identical() || difference.largest_absolute() > 0.0)) {
       result.first_difference = step;
     }
-    result.position.take(difference->position, step);
-    result.velocity.take(difference->velocity, step);
-    result.ball_position.take(difference->ball_position, step);
-    result.ball_velocity.take(difference->ball_velocity, step);
-    result.ball_angular_velocity.take(difference->ball_angular_velocity, step);
-    result.hash = {state_hash_text(*first), state_hash_text(*second)};
+    result.position.take(difference.position, step);
+    result.velocity.take(difference.velocity, step);
+    result.ball_position.take(difference.ball_position, step);
+    result.ball_velocity.take(difference.ball_velocity, step);
+    result.ball_angular_velocity.take(difference.ball_angular_velocity, step);
+    result.hash = {state_hash_text(first), state_hash_text(second)};
     result.steps = step;
     result.interrupted = interrupt.interrupted();
     if (step == steps || result.interrupted) return result;
 
     for (std::size_t i = 0; i < backends.size(); ++i) {
-      const auto advanced = backends[i].solver->advance(1);
-      if (!advanced) return advanced.error();
-      result.divergence[i] = *advanced;
+      ASPIC_TRY(const auto advanced, backends[i].solver->advance(1));
+      result.divergence[i] = advanced;
     }
     if (result.divergence[0] || result.divergence[1]) return result;
     bar.update(step + 1);
@@ -150,42 +146,35 @@ Status print_result(const CompareOptions& options, const Scene& scene, const std
 
 Status compare_command(const CompareOptions& options) {
   const InterruptGuard interrupt;
-  const auto scene = load_scene(options.scene, options.overrides);
-  if (!scene) return scene.error();
-  const auto steps = steps_of(options.length, scene->model.simulation);
-  if (!steps) return steps.error();
-  const auto model = build_model(scene->model);
-  if (!model) return model.error();
+  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
+  ASPIC_TRY(const auto steps, steps_of(options.length, scene.model.simulation));
+  ASPIC_TRY(const auto model, build_model(scene.model));
 
   std::array<Backend, 2> backends;
   for (std::size_t i = 0; i < backends.size(); ++i) {
     BackendChoice choice = i == 0 ? options.first : options.second;
-    auto backend = make_backend(choice, *model);
-    if (!backend) return backend.error();
-    backends[i] = std::move(*backend);
+    ASPIC_TRY(auto backend, make_backend(choice, model));
+    backends[i] = std::move(backend);
   }
-  const auto result = compare_steps(backends, *steps, interrupt);
-  if (!result) return result.error();
+  ASPIC_TRY(const auto result, compare_steps(backends, steps, interrupt));
   const bool within =
-      options.tolerance == 0.0 ? !result->first_difference : result->largest_absolute() <= options.tolerance;
-  ASPIC_CHECK(print_result(options, *scene, backends, *result, within));
-  if (result->interrupted) {
-    return Error{ErrorCode::interrupted, fmt::format("interrupted at step {} of {}.", result->steps, *steps)};
+      options.tolerance == 0.0 ? !result.first_difference : result.largest_absolute() <= options.tolerance;
+  ASPIC_CHECK(print_result(options, scene, backends, result, within));
+  if (result.interrupted) {
+    return fail(ErrorCode::interrupted, "interrupted at step {} of {}.", result.steps, steps);
   }
-  const auto& [first, second] = result->divergence;
+  const auto& [first, second] = result.divergence;
   if (first && second && first->step == second->step) {
-    return Error{ErrorCode::diverged, fmt::format("both diverged in step {} ({} and {}).", first->step,
-                                                  body_text(*first), body_text(*second))};
+    return fail(ErrorCode::diverged, "both diverged in step {} ({} and {}).", first->step, body_text(*first),
+                body_text(*second));
   }
   if (first || second) {
-    return Error{ErrorCode::diverged,
-                 fmt::format("{} alone diverged, in step {} ({}).", backends[first ? 0 : 1].variant(),
-                             (first ? *first : *second).step, body_text(first ? *first : *second))};
+    return fail(ErrorCode::diverged, "{} alone diverged, in step {} ({}).", backends[first ? 0 : 1].variant(),
+                (first ? *first : *second).step, body_text(first ? *first : *second));
   }
   if (!within) {
-    return Error{ErrorCode::check_failed,
-                 fmt::format("{} and {} differ by more than the tolerance {}.", backends[0].variant(),
-                             backends[1].variant(), options.tolerance)};
+    return fail(ErrorCode::check_failed, "{} and {} differ by more than the tolerance {}.",
+                backends[0].variant(), backends[1].variant(), options.tolerance);
   }
   return {};
 }

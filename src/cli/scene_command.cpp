@@ -38,33 +38,28 @@ Status scene_list_command(const SceneListOptions& options) {
 }
 
 Status scene_show_command(const SceneShowOptions& options) {
-  const auto scene = load_scene(options.scene, options.overrides);
-  if (!scene) return scene.error();
-  return print_data(to_toml(*scene));
+  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
+  return print_data(to_toml(scene));
 }
 
 Status scene_import_command(const SceneImportOptions& options) {
-  const auto text = read_file(options.file);
-  if (!text) return text.error();
-  const auto imported = import_configuration(*text, options.file);
-  if (!imported) return imported.error();
-  for (const std::string& note : imported->notes) print_warning(note);
-  return print_data(imported_toml(*imported, options.file));
+  ASPIC_TRY(const auto text, read_file(options.file));
+  ASPIC_TRY(const auto imported, import_configuration(text, options.file));
+  for (const std::string& note : imported.notes) print_warning(note);
+  return print_data(imported_toml(imported, options.file));
 }
 
 Status scene_check_command(const SceneCheckOptions& options) {
   const InterruptGuard interrupt;
-  const auto scene = load_scene(options.scene, options.overrides);
-  if (!scene) return scene.error();
-  const auto model = build_model(scene->model);
-  if (!model) return model.error();
-  const ModelCounts counts = count(*model);
-  const Integrator own = model->simulation.integrator;
-  const double timestep = model->simulation.timestep;
+  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
+  ASPIC_TRY(const auto model, build_model(scene.model));
+  const ModelCounts counts = count(model);
+  const Integrator own = model.simulation.integrator;
+  const double timestep = model.simulation.timestep;
   std::vector<StabilityLimit> limits;
   {
     ProgressBar bar(100, "stable steps: part");
-    limits = stability_limits(*model, explicit_integrators, StabilityEffort::thorough, [&](double share) {
+    limits = stability_limits(model, explicit_integrators, StabilityEffort::thorough, [&](double share) {
       bar.update(static_cast<std::uint64_t>(100.0 * share));
       return !interrupt.interrupted();
     });
@@ -75,14 +70,14 @@ Status scene_check_command(const SceneCheckOptions& options) {
 
   if (options.json) {
     JsonObject bytes, steps;
-    for (const BackendBytes& backend : bytes_by_backend(*model))
+    for (const BackendBytes& backend : bytes_by_backend(model))
       bytes.emplace_back(backend.backend, backend.bytes);
     for (std::size_t i = 0; i < limits.size(); ++i) {
       steps.emplace_back(std::string(name_of(explicit_integrators[i])),
                          JsonObject{{"step", limits[i].step ? JsonValue(*limits[i].step) : JsonValue(0.0)},
                                     {"exact", limits[i].exact}});
     }
-    const Status printed = print_data(to_json({{"scene", scene->name},
+    const Status printed = print_data(to_json({{"scene", scene.name},
                                                {"particles", counts.particles},
                                                {"pinned", counts.pinned},
                                                {"springs", JsonObject{{"structural", counts.structural},
@@ -96,12 +91,12 @@ Status scene_check_command(const SceneCheckOptions& options) {
                                                {"stable_steps", steps}}));
     if (!printed) return printed;
   } else {
-    std::string text = fmt::format("scene        {}\n", scene->name);
+    std::string text = fmt::format("scene        {}\n", scene.name);
     text += fmt::format("particles    {}, {} of them pinned\n", counts.particles, counts.pinned);
     text += fmt::format("springs      {} ({} structural, {} shear, {} bending)\n", counts.springs(),
                         counts.structural, counts.shear, counts.bending);
     text += fmt::format("balls        {}\n", counts.balls);
-    for (const BackendBytes& backend : bytes_by_backend(*model)) {
+    for (const BackendBytes& backend : bytes_by_backend(model)) {
       text += fmt::format("memory       {:<24} {:>10}\n", backend.backend, human_bytes(backend.bytes));
     }
     for (std::size_t i = 0; i < limits.size(); ++i) {

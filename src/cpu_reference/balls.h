@@ -176,7 +176,8 @@ void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     if (model_.balls[b].launched(step) && balls.x.col(b).allFinite()) present_.push_back(b);
   }
-  const BallSearch<T> search(balls.x, present_, largest_radius_ + static_cast<double>(rules_.contact.epsilon));
+  const BallSearch<T> search(balls.x, present_,
+                             largest_radius_ + static_cast<double>(rules_.contact.epsilon));
   ball_ball_.clear();
   auto next = present_.begin();
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {

@@ -151,11 +151,10 @@ namespace {
 
 constexpr std::string_view damaged =
     "the checkpoint is damaged or cut short, and resuming from it would give a wrong result. Use another "
-    "copy, or run "
-    "the scene again.";
+    "copy, or run the scene again.";
 
 Error error_in(const std::string& name, std::string_view what) {
-  return {ErrorCode::io, fmt::format("{}: {}", printable_line(name), what)};
+  return fail(ErrorCode::io, "{}: {}", printable_line(name), what);
 }
 
 /// What the first bytes alone tell.
@@ -174,7 +173,7 @@ bool is_version_text(std::string_view text) {
 
 Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& name) {
   const auto error = [&](std::string_view what) { return error_in(name, what); };
-  if (const Status known = check_magic(bytes, name); !known) return known.error();
+  ASPIC_CHECK(check_magic(bytes, name));
   Decoder in(bytes);
   in.take(magic.size());
   const auto version = static_cast<std::uint32_t>(in.get(4));
@@ -227,8 +226,7 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
 
 Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint) {
   if (const auto bad = first_not_finite(checkpoint.state)) {
-    return Error{ErrorCode::diverged,
-                 fmt::format("{} was not written: {} is not a finite number.", file.path(), *bad)};
+    return fail(ErrorCode::diverged, "{} was not written: {} is not a finite number.", file.path(), *bad);
   }
   return file.write(encode_checkpoint(checkpoint));
 }
@@ -236,40 +234,36 @@ Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint) {
 Status check_against_scene(const Checkpoint& checkpoint, const ModelSettings& scene,
                            const std::string& name) {
   if (checkpoint.timestep != scene.simulation.timestep) {
-    return error_in(
-        name, fmt::format("the checkpoint was made at a time step of {} s, but the scene in it says {} s: "
-                          "it was tampered with. Use another copy, or run the scene again.",
-                          checkpoint.timestep, scene.simulation.timestep));
+    return error_in(name,
+                    fmt::format("the checkpoint was made at a time step of {} s, but the scene in it says {} "
+                                "s: it was tampered with. Use another copy, or run the scene again.",
+                                checkpoint.timestep, scene.simulation.timestep));
   }
   const ModelCounts counts = predict_counts(scene);
   const State& state = checkpoint.state;
   if (counts.particles != state.position.size() || counts.balls != state.ball_position.size()) {
-    return Error{
-        ErrorCode::scene_rejected,
-        fmt::format(
-            "{}: the checkpoint holds {} particles and {} balls, but the scene in it has {} and {}: it "
-            "was tampered with. Use another copy, or run the scene again.",
-            printable_line(name), state.position.size(), state.ball_position.size(), counts.particles,
-            counts.balls)};
+    return fail(ErrorCode::scene_rejected,
+                "{}: the checkpoint holds {} particles and {} balls, but the scene in it has {} and {}: it "
+                "was tampered with. Use another copy, or run the scene again.",
+                printable_line(name), state.position.size(), state.ball_position.size(), counts.particles,
+                counts.balls);
   }
   return {};
 }
 
 Result<Checkpoint> read_checkpoint(const std::string& path) {
   // The first bytes come first: what is no checkpoint needs no memory to be refused.
-  const auto start = read_regular_file(path, magic.size());
-  if (!start) return start.error();
-  if (const Status known = check_magic(start->content, path); !known) return known.error();
+  ASPIC_TRY(const auto start, read_regular_file(path, magic.size()));
+  ASPIC_CHECK(check_magic(start.content, path));
   // Once as bytes, and as doubles whatever the precision in the file.
   const std::optional<std::uint64_t> memory = available_memory();
-  if (memory && start->size > *memory / 3) {
+  if (memory && start.size > *memory / 3) {
     return error_in(
         path, fmt::format("the checkpoint has {} bytes, too many for the {} bytes of memory that are free.",
-                          start->size, *memory));
+                          start.size, *memory));
   }
-  const auto bytes = read_regular_file(path, start->size);
-  if (!bytes) return bytes.error();
-  return decode_checkpoint(bytes->content, path);
+  ASPIC_TRY(const auto bytes, read_regular_file(path, start.size));
+  return decode_checkpoint(bytes.content, path);
 }
 
 }  // namespace aspic

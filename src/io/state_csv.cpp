@@ -72,15 +72,14 @@ std::optional<std::array<std::string_view, field_count>> split(std::string_view 
 Status write_state_csv(AtomicFile& file, const State& state) {
   for (std::size_t i = 0; i < state.position.size(); ++i) {
     if (!finite(state.position[i]) || !finite(state.velocity[i])) {
-      return Error{ErrorCode::diverged,
-                   fmt::format("{} was not written: particle {} is not a finite number.", file.path(), i)};
+      return fail(ErrorCode::diverged, "{} was not written: particle {} is not a finite number.", file.path(),
+                  i);
     }
   }
   for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
     if (!finite(state.ball_position[b]) || !finite(state.ball_velocity[b]) ||
         !finite(state.ball_angular_velocity[b])) {
-      return Error{ErrorCode::diverged,
-                   fmt::format("{} was not written: ball {} is not a finite number.", file.path(), b)};
+      return fail(ErrorCode::diverged, "{} was not written: ball {} is not a finite number.", file.path(), b);
     }
   }
   ASPIC_CHECK(file.write(fmt::format("{}\n", state_csv_header)));
@@ -109,11 +108,10 @@ Status write_state_csv(AtomicFile& file, const State& state) {
 Result<State> parse_state_csv(std::string_view text, const std::string& name, Precision precision) {
   Lines lines(text);
   const auto error = [&](const std::string& what) {
-    return Error{ErrorCode::io, fmt::format("{}:{}: {}", name, lines.number(), what)};
+    return fail(ErrorCode::io, "{}:{}: {}", name, lines.number(), what);
   };
   const auto header = lines.next();
-  if (!header)
-    return Error{ErrorCode::io, fmt::format("{}: empty; a state starts with {}", name, state_csv_header)};
+  if (!header) return fail(ErrorCode::io, "{}: empty; a state starts with {}", name, state_csv_header);
   if (*header != state_csv_header) return error(fmt::format("the header must be {}", state_csv_header));
 
   State state;
@@ -145,9 +143,8 @@ Result<State> parse_state_csv(std::string_view text, const std::string& name, Pr
 }
 
 Result<State> read_state_csv(const std::string& path, Precision precision) {
-  const auto text = read_file(path);
-  if (!text) return text.error();
-  return parse_state_csv(*text, path, precision);
+  ASPIC_TRY(const auto text, read_file(path));
+  return parse_state_csv(text, path, precision);
 }
 
 }  // namespace aspic
