@@ -8,7 +8,7 @@
 #include "analysis/stability.h"
 #include "analysis/stability_text.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
+#include "cli/json.h"
 #include "io/console.h"
 #include "io/interrupt.h"
 #include "model/integrator.h"
@@ -124,28 +124,26 @@ Result<Measurement> measure_case(const BenchOptions& options, const Scene& scene
   return m;
 }
 
-JsonObject to_json_object(const Measurement& m) {
-  JsonObject object = {{"backend", m.backend},
-                       {"force_path", m.force_path.empty() ? JsonValue() : JsonValue(m.force_path)},
-                       {"renderer", m.device},
-                       {"integrator", name_of(m.integrator)},
-                       {"size", static_cast<std::uint64_t>(m.size)},
-                       {"particles", m.particles},
-                       {"springs", m.springs},
-                       {"bytes", m.bytes},
-                       {"timestep", m.timestep},
-                       {"steps", m.steps},
-                       {"diverged", m.divergence.has_value()}};
+Json to_json(const Measurement& m) {
+  Json object = {{"backend", m.backend},
+                 {"force_path", or_null(m.force_path)},
+                 {"renderer", m.device},
+                 {"integrator", name_of(m.integrator)},
+                 {"size", m.size},
+                 {"particles", m.particles},
+                 {"springs", m.springs},
+                 {"bytes", m.bytes},
+                 {"timestep", m.timestep},
+                 {"steps", m.steps},
+                 {"diverged", m.divergence.has_value()}};
   if (!m.divergence) {
-    JsonArray seconds;
-    for (const double s : m.seconds) seconds.emplace_back(s);
-    object.insert(object.end(), {{"seconds", seconds},
-                                 {"median_seconds", m.median()},
-                                 {"spread", m.spread()},
-                                 {"steps_per_second", m.steps_per_second()},
-                                 {"evaluations_per_step", m.evaluations_per_step},
-                                 {"spring_evaluations_per_second", m.spring_evaluations_per_second()},
-                                 {"seconds_per_simulated_second", m.seconds_per_simulated_second()}});
+    object.update({{"seconds", m.seconds},
+                   {"median_seconds", m.median()},
+                   {"spread", m.spread()},
+                   {"steps_per_second", m.steps_per_second()},
+                   {"evaluations_per_step", m.evaluations_per_step},
+                   {"spring_evaluations_per_second", m.spring_evaluations_per_second()},
+                   {"seconds_per_simulated_second", m.seconds_per_simulated_second()}});
   }
   return object;
 }
@@ -193,11 +191,11 @@ Status bench_command(const BenchOptions& options) {
     }
   }
   if (options.json) {
-    JsonArray rows;
-    for (const Measurement& m : measurements) rows.emplace_back(to_json_object(m));
-    return print_data(to_json({{"version", ASPIC_VERSION},
+    Json rows = Json::array();
+    for (const Measurement& m : measurements) rows.push_back(to_json(m));
+    return print_data(to_text({{"version", ASPIC_VERSION},
                                {"scene", loaded.name},
-                               {"repeats", static_cast<std::uint64_t>(options.repeats)},
+                               {"repeats", options.repeats},
                                {"measurements", rows}}));
   }
   std::string text = fmt::format("{}, {} repeats each, medians\n", loaded.name, options.repeats);

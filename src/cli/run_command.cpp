@@ -10,7 +10,7 @@
 #include "analysis/stability.h"
 #include "analysis/stability_text.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
+#include "cli/json.h"
 #include "command_line/number_checks.h"
 #include "io/checkpoint.h"
 #include "io/console.h"
@@ -112,7 +112,7 @@ struct Outcome {
   }
 };
 
-JsonObject to_json_object(const SolveStatistics& s) {
+Json to_json(const SolveStatistics& s) {
   return {{"converged", s.converged},         {"stagnated", s.stagnated},
           {"not_converged", s.not_converged}, {"newton_iterations", s.newton_iterations},
           {"cg_iterations", s.cg_iterations}, {"worst_residual", s.worst_residual}};
@@ -185,24 +185,26 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, st
   return outcome;
 }
 
-JsonObject to_json_object(const Divergence& divergence, double timestep) {
-  return {{"step", divergence.step},
-          {"time", static_cast<double>(divergence.step) * timestep},
-          divergence.residual
-              ? std::pair<std::string, JsonValue>("residual", true)
-              : std::pair<std::string, JsonValue>(divergence.ball ? "ball" : "particle", divergence.particle),
-          {"finite", divergence.finite}};
+Json to_json(const Divergence& d, double timestep) {
+  Json json = {{"step", d.step}, {"time", static_cast<double>(d.step) * timestep}};
+  if (d.residual) {
+    json["residual"] = true;
+  } else {
+    json[d.ball ? "ball" : "particle"] = d.particle;
+  }
+  json["finite"] = d.finite;
+  return json;
 }
 
-JsonValue to_json_value(const Recorder* recorder) {
-  if (!recorder) return nullptr;
-  const FrameTimes t = recorder->times();
-  return JsonObject{{"count", t.frames},
-                    {"device", recorder->device()},
-                    {"seconds_per_frame", JsonObject{{"simulate", t.per_frame(t.simulate)},
-                                                     {"draw", t.per_frame(t.draw)},
-                                                     {"read", t.per_frame(t.read)},
-                                                     {"encode", t.per_frame(t.encode)}}}};
+Json to_json(const Recorder& recorder) {
+  const FrameTimes t = recorder.times();
+  return {{"count", t.frames},
+          {"device", recorder.device()},
+          {"seconds_per_frame",
+           {{"simulate", t.per_frame(t.simulate)},
+            {"draw", t.per_frame(t.draw)},
+            {"read", t.per_frame(t.read)},
+            {"encode", t.per_frame(t.encode)}}}};
 }
 
 /// One line on stderr: pictures are by the way, the summary on stdout is the run's.
@@ -222,10 +224,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
   const std::string hash = state_hash_text(state);
   if (options.json) {
-    JsonArray written;
-    for (const std::string& file : files) written.emplace_back(file);
-    const auto or_null = [](const std::string& text) { return text.empty() ? JsonValue() : JsonValue(text); };
-    return print_data(to_json({
+    return print_data(to_text({
         {"scene", scene.name},
         {"backend", backend.row->name},
         {"backend_reason", or_null(backend.reason)},
@@ -235,7 +234,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"integrator", name_of(model.simulation.integrator)},
         {"timestep", model.simulation.timestep},
         {"particles", model.particle_count()},
-        {"springs", std::uint64_t{model.springs.size()}},
+        {"springs", model.springs.size()},
         {"balls", model.ball_count()},
         {"first_step", outcome.first_step},
         {"steps", state.step},
@@ -243,20 +242,18 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"wall_seconds", outcome.wall_seconds},
         {"steps_per_second", outcome.steps_per_second()},
         {"state_hash", hash},
-        {"diverged", outcome.divergence
-                         ? JsonValue(to_json_object(*outcome.divergence, model.simulation.timestep))
-                         : JsonValue()},
+        {"diverged", outcome.divergence ? to_json(*outcome.divergence, model.simulation.timestep) : Json()},
         {"interrupted", outcome.interrupted},
-        {"implicit_solves", outcome.solves ? JsonValue(to_json_object(*outcome.solves)) : JsonValue()},
-        {"energies", JsonObject{{"kinetic", m.kinetic},
-                                {"elastic", m.elastic},
-                                {"gravitational", m.gravitational},
-                                {"total", m.total()}}},
-        {"momentum", JsonArray{m.momentum.x, m.momentum.y, m.momentum.z}},
+        {"implicit_solves", outcome.solves ? to_json(*outcome.solves) : Json()},
+        {"energies", Json{{"kinetic", m.kinetic},
+                          {"elastic", m.elastic},
+                          {"gravitational", m.gravitational},
+                          {"total", m.total()}}},
+        {"momentum", Json{m.momentum.x, m.momentum.y, m.momentum.z}},
         {"max_speed", m.max_speed},
         {"min_height", m.min_height},
-        {"pictures", to_json_value(recorder)},
-        {"files", written},
+        {"pictures", recorder ? to_json(*recorder) : Json()},
+        {"files", files},
     }));
   }
   std::string text = fmt::format("scene        {} ({} particles, {} springs{})\n", scene.name,

@@ -7,7 +7,7 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
+#include "cli/json.h"
 #include "io/console.h"
 #include "io/interrupt.h"
 #include "scene/import_configuration.h"
@@ -26,11 +26,10 @@ constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integra
 Status scene_list_command(const SceneListOptions& options) {
   const std::vector<BuiltinScene> scenes = list_builtin_scenes();
   if (options.json) {
-    JsonArray array;
-    for (const BuiltinScene& scene : scenes) {
-      array.emplace_back(JsonObject{{"name", scene.name}, {"description", scene.description}});
-    }
-    return print_data(to_json({{"scenes", array}}));
+    Json array = Json::array();
+    for (const BuiltinScene& scene : scenes)
+      array.push_back({{"name", scene.name}, {"description", scene.description}});
+    return print_data(to_text({{"scenes", array}}));
   }
   std::string text;
   for (const BuiltinScene& scene : scenes) text += fmt::format("{:<20} {}\n", scene.name, scene.description);
@@ -69,27 +68,24 @@ Status scene_check_command(const SceneCheckOptions& options) {
                  "interrupted before the stable steps were known; nothing was printed."};
 
   if (options.json) {
-    JsonObject bytes, steps;
-    for (const BackendBytes& backend : bytes_by_backend(model))
-      bytes.emplace_back(backend.backend, backend.bytes);
+    Json bytes, steps;
+    for (const BackendBytes& backend : bytes_by_backend(model)) bytes[backend.backend] = backend.bytes;
     for (std::size_t i = 0; i < limits.size(); ++i) {
-      steps.emplace_back(std::string(name_of(explicit_integrators[i])),
-                         JsonObject{{"step", limits[i].step ? JsonValue(*limits[i].step) : JsonValue(0.0)},
-                                    {"exact", limits[i].exact}});
+      steps[std::string(name_of(explicit_integrators[i]))] = {{"step", limits[i].step.value_or(0.0)},
+                                                              {"exact", limits[i].exact}};
     }
-    const Status printed = print_data(to_json({{"scene", scene.name},
-                                               {"particles", counts.particles},
-                                               {"pinned", counts.pinned},
-                                               {"springs", JsonObject{{"structural", counts.structural},
-                                                                      {"shear", counts.shear},
-                                                                      {"bending", counts.bending},
-                                                                      {"total", counts.springs()}}},
-                                               {"balls", counts.balls},
-                                               {"bytes", bytes},
-                                               {"integrator", name_of(own)},
-                                               {"timestep", timestep},
-                                               {"stable_steps", steps}}));
-    if (!printed) return printed;
+    ASPIC_CHECK(print_data(to_text({{"scene", scene.name},
+                                    {"particles", counts.particles},
+                                    {"pinned", counts.pinned},
+                                    {"springs", Json{{"structural", counts.structural},
+                                                     {"shear", counts.shear},
+                                                     {"bending", counts.bending},
+                                                     {"total", counts.springs()}}},
+                                    {"balls", counts.balls},
+                                    {"bytes", bytes},
+                                    {"integrator", name_of(own)},
+                                    {"timestep", timestep},
+                                    {"stable_steps", steps}})));
   } else {
     std::string text = fmt::format("scene        {}\n", scene.name);
     text += fmt::format("particles    {}, {} of them pinned\n", counts.particles, counts.pinned);

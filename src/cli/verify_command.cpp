@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/json_report.h"
+#include "cli/json.h"
 #include "gpu/context.h"
 #include "io/console.h"
 #include "verify/check.h"
@@ -67,20 +67,20 @@ std::string table(const std::vector<Row>& rows, const std::string& device, doubl
 Status print_rows(const VerifyOptions& options, const std::vector<Row>& rows, const std::string& device,
                   double seconds) {
   if (!options.json) return print_text(table(rows, device, seconds));
-  JsonArray array;
+  Json array = Json::array();
   for (const Row& row : rows) {
-    array.emplace_back(JsonObject{{"name", row.name},
-                                  {"claim", row.claim},
-                                  {"bound", row.bound},
-                                  {"measured", row.measured},
-                                  {"verdict", row.verdict == Verdict::failed ? "fail" : name_of(row.verdict)},
-                                  {"seconds", row.seconds}});
+    array.push_back({{"name", row.name},
+                     {"claim", row.claim},
+                     {"bound", row.bound},
+                     {"measured", row.measured},
+                     {"verdict", row.verdict == Verdict::failed ? "fail" : name_of(row.verdict)},
+                     {"seconds", row.seconds}});
   }
-  return print_data(to_json({{"version", ASPIC_VERSION},
+  return print_data(to_text({{"version", ASPIC_VERSION},
                              {"device", device},
-                             {"passed", std::uint64_t{count(rows, Verdict::passed)}},
-                             {"failed", std::uint64_t{count(rows, Verdict::failed)}},
-                             {"not_run", std::uint64_t{count(rows, Verdict::not_run)}},
+                             {"passed", count(rows, Verdict::passed)},
+                             {"failed", count(rows, Verdict::failed)},
+                             {"not_run", count(rows, Verdict::not_run)},
                              {"seconds", seconds},
                              {"rows", array}}));
 }

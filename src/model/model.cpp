@@ -64,15 +64,14 @@ Result<Model> build_model(const ModelSettings& settings) {
 State initial_state(const Model& model, Precision precision) {
   State state;
   state.precision = precision;
-  state.position.reserve(model.initial_position.size());
-  state.velocity.reserve(model.initial_velocity.size());
-  for (const Vec3& x : model.initial_position) state.position.push_back(rounded_to(x, precision));
-  for (const Vec3& v : model.initial_velocity) state.velocity.push_back(rounded_to(v, precision));
+  state.position = model.initial_position;
+  state.velocity = model.initial_velocity;
   for (const Ball& ball : model.balls) {
-    state.ball_position.push_back(rounded_to(ball.initial_position, precision));
-    state.ball_velocity.push_back(rounded_to(ball.initial_velocity, precision));
-    state.ball_angular_velocity.push_back(rounded_to(ball.initial_angular_velocity, precision));
+    state.ball_position.push_back(ball.initial_position);
+    state.ball_velocity.push_back(ball.initial_velocity);
+    state.ball_angular_velocity.push_back(ball.initial_angular_velocity);
   }
+  for_each_vector(state, [&](Vec3& v) { v = rounded_to(v, precision); });
   return state;
 }
 

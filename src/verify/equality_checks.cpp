@@ -53,7 +53,7 @@ Status compare_run(const Subject& subject, const BackendRow& row, const Model& m
   ASPIC_TRY(auto solver, make_solver(subject, row, model, path));
   ASPIC_TRY(const auto end, run(*solver, steps));
   ASPIC_TRY(const auto difference, compare_states(end, expected));
-  worst.ulp = std::max({worst.ulp, difference.position.ulp, difference.velocity.ulp});
+  worst.ulp = std::max(worst.ulp, difference.largest_ulp());
   worst.absolute = std::max(worst.absolute, difference.largest_absolute());
   ++worst.runs;
   worst.arithmetic.clear();
@@ -117,7 +117,7 @@ Result<Finding> same_bits_with_hand(const Subject& subject, const BackendRow& ro
         ASPIC_TRY(auto solver, make_solver(subject, row, model, path));
         ASPIC_TRY(auto end, run_with_hand(*solver, steps));
         ASPIC_TRY(auto difference, compare_states(end, expected));
-        worst = std::max({worst, difference.position.ulp, difference.velocity.ulp});
+        worst = std::max(worst, difference.largest_ulp());
         if (const gl::Arithmetic* const a = arithmetic_of(*solver)) exact = exact && a->exact();
         ++runs;
       }
