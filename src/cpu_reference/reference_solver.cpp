@@ -46,9 +46,8 @@ class ReferenceSolver final : public Solver {
   }
 
   Status set_pull(const std::optional<Pull>& pull) override {
-    const auto taken = rounded_pull(model_, pull, precision());
-    if (!taken) return taken.error();
-    dynamics_.set_pull(*taken);
+    ASPIC_TRY(const auto taken, rounded_pull(model_, pull, precision()));
+    dynamics_.set_pull(taken);
     return {};
   }
 
@@ -129,10 +128,10 @@ Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precis
     }
     return std::unique_ptr<Solver>(std::make_unique<reference::ReferenceSolver<double>>(model));
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("no memory left for the reference solver of {} particles ({} bytes): use fewer "
-                             "particles-per-edge",
-                             model.particle_count(), reference_bytes(reference::bodies(model), precision))};
+    return fail(
+        ErrorCode::scene_rejected,
+        "no memory left for the reference solver of {} particles ({} bytes): use fewer particles-per-edge",
+        model.particle_count(), reference_bytes(reference::bodies(model), precision));
   }
 }
 

@@ -166,14 +166,12 @@ double allowed(const Model& model, const Rise& rise) {
 Result<Finding> gains_nothing(const Subject& subject, Integrator integrator) {
   Finding finding{true, ""};
   const auto drop = [&](double height, double angle, double timestep, bool bounded) -> Status {
-    auto model = dropped_cube(10, {0, height, 0}, integrator, angle);
-    if (!model) return model.error();
-    model->simulation.timestep = timestep;
-    const auto rise = energy_rise(subject, *model, 5.0);
-    if (!rise) return rise.error();
-    const double most = allowed(*model, *rise);
-    finding.passed = finding.passed && (!bounded || rise->above_least <= most);
-    finding.measured += fmt::format("{}{:.3g}", finding.measured.empty() ? "" : ", ", rise->above_least);
+    ASPIC_TRY(auto model, dropped_cube(10, {0, height, 0}, integrator, angle));
+    model.simulation.timestep = timestep;
+    ASPIC_TRY(const auto rise, energy_rise(subject, model, 5.0));
+    const double most = allowed(model, rise);
+    finding.passed = finding.passed && (!bounded || rise.above_least <= most);
+    finding.measured += fmt::format("{}{:.3g}", finding.measured.empty() ? "" : ", ", rise.above_least);
     if (free_fall_gain(integrator) > 0.0) finding.measured += fmt::format(" of {:.3g}", most);
     return {};
   };
@@ -182,12 +180,12 @@ Result<Finding> gains_nothing(const Subject& subject, Integrator integrator) {
   const StabilityLimit limit = stability_limit(at_rest, integrator);
   if (!limit.step) return Error{ErrorCode::check_failed, "no stable step was found"};
   const bool near_limit = h > 0.95 * *limit.step;
-  if (const Status run = drop(9, 0, h, true); !run) return run.error();
-  if (const Status run = drop(4, 30, near_limit ? 0.9 * h : h, true); !run) return run.error();
+  ASPIC_CHECK(drop(9, 0, h, true));
+  ASPIC_CHECK(drop(4, 30, near_limit ? 0.9 * h : h, true));
   finding.measured += " J";
   if (near_limit) {
     finding.measured += "; turned at 1 ms";
-    if (const Status run = drop(4, 30, h, false); !run) return run.error();
+    ASPIC_CHECK(drop(4, 30, h, false));
     finding.measured += " J";
   }
   return finding;
@@ -197,13 +195,12 @@ Result<Finding> gains_nothing(const Subject& subject, Integrator integrator) {
 
 void add_rest_checks(std::vector<Check>& checks) {
   for (const Integrator integrator : all_integrators) {
-    checks.push_back(
-        {fmt::format("rest/{}", name_of(integrator)),
-         "the default cube, dropped on the plane (Coulomb), 10 s later: fastest particle in single "
-         "and double precision",
-         fmt::format("≤ {:.0g} and {:.0g} m/s", bound_single, bound_double),
-         integrator == Integrator::symplectic_euler, false,
-         [=](const Subject& subject) { return comes_to_rest(subject, integrator); }});
+    checks.push_back({fmt::format("rest/{}", name_of(integrator)),
+                      "the default cube, dropped on the plane (Coulomb), 10 s later: fastest particle in "
+                      "single and double precision",
+                      fmt::format("≤ {:.0g} and {:.0g} m/s", bound_single, bound_double),
+                      integrator == Integrator::symplectic_euler, false,
+                      [=](const Subject& subject) { return comes_to_rest(subject, integrator); }});
   }
   for (const Integrator integrator : all_integrators) {
     checks.push_back({fmt::format("rest/turned/{}", name_of(integrator)),
