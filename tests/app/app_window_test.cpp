@@ -5,7 +5,6 @@
 #include <fstream>
 #include <set>
 
-#include "app/shortcuts.h"
 #include "app/stage.h"
 #include "io/atomic_file.h"
 #include "render/camera.h"
