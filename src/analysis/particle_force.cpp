@@ -41,11 +41,11 @@ Vec3 after_contact(const Terrain& terrain, double epsilon, const Vec3& x, const 
 
 }  // namespace
 
-IncidentSprings::IncidentSprings(const Model& model) {
+SpringFinder::SpringFinder(const Model& model) {
   for (const Spring& spring : model.springs) widest_ = std::max(widest_, spring.b - spring.a);
 }
 
-std::vector<std::uint32_t> IncidentSprings::of(const Model& model, std::uint32_t particle) const {
+std::vector<std::uint32_t> SpringFinder::of(const Model& model, std::uint32_t particle) const {
   const std::uint32_t first_end = particle - std::min(particle, widest_);
   const auto first = std::ranges::lower_bound(model.springs, first_end, {}, &Spring::a);
   std::vector<std::uint32_t> found;
@@ -55,13 +55,13 @@ std::vector<std::uint32_t> IncidentSprings::of(const Model& model, std::uint32_t
   return found;
 }
 
-ParticleForce particle_force(const Model& model, const IncidentSprings& incident, const State& state,
+ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
                              std::uint32_t particle, const std::optional<Pull>& pull) {
   assert(check_sizes(model, state) && particle < model.particle_count());
   const Vec3 &x = state.position[particle], &v = state.velocity[particle];
   ParticleForce force;
   force.gravity = force.net = model.mass[particle] * model.simulation.gravity;
-  for (const std::uint32_t index : incident.of(model, particle)) {
+  for (const std::uint32_t index : springs.of(model, particle)) {
     const Spring& spring = model.springs[index];
     const std::uint32_t other = spring.a == particle ? spring.b : spring.a;
     const Vec3 f = spring_force(model.spring_classes[spring.spring_class], x, v, state.position[other],

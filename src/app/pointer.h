@@ -71,7 +71,7 @@ class Pointer {
   double pressed_time_ = -1e9, pressed_x_ = 0.0, pressed_y_ = 0.0;  // the last press that was no double one
   std::optional<Hovered> hovered_;
   std::optional<Question> asked_;
-  std::optional<IncidentSprings> incident_;  // of the model with that number
+  std::optional<SpringFinder> incident_;  // of the model with that number
   std::uint64_t incident_model_ = 0;
 };
 

@@ -15,10 +15,10 @@
 #include "app/setup.h"
 #include "app/worker.h"
 #include "base/result.h"
+#include "device/device_state.h"
 #include "gpu/context.h"
 #include "gpu_solver/gpu_solver.h"
 #include "model/solver.h"
-#include "render/device_state.h"
 #include "run/backends.h"
 #include "scene/scene.h"
 

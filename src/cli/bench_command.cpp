@@ -181,8 +181,9 @@ Status bench_command(const BenchOptions& options) {
     for (const Integrator integrator : integrators) {
       scene.model.simulation.integrator = integrator;
       for (const BackendChoice& choice : options.backends) {
-        if (choice.force_path == ForcePath::per_spring && integrator == Integrator::implicit_euler) {
-          print_message("implicit-euler has no per-spring path: left out.");
+        if (!works_with(choice.force_path, integrator)) {
+          print_message(
+              fmt::format("{} has no {} path: left out.", name_of(integrator), name_of(choice.force_path)));
           continue;
         }
         ASPIC_TRY(auto measured, measure_case(options, scene, choice, interrupt));

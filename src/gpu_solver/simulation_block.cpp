@@ -2,19 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 
+#include "device/particles.h"
 #include "gpu_solver/ball_passes.h"
+#include "model/incident_springs.h"
 #include "model/integrator.h"
 #include "model/solver.h"
 
 namespace aspic {
 namespace {
-
-layout::vec4 rounded(const Vec3& v, double w) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
 
 layout::Terrain block_of(const Terrain& t) {
   layout::Terrain block{};
@@ -68,11 +65,6 @@ void fill_stages(layout::Simulation& block, const IntegratorRow& method, double 
 
 }  // namespace
 
-std::uint32_t class_bits(const Model& model) {
-  const auto classes = static_cast<std::uint32_t>(model.spring_classes.size());
-  return classes < 2 ? 0u : static_cast<std::uint32_t>(std::bit_width(classes - 1));
-}
-
 Result<layout::Simulation> simulation_block(const Model& model) {
   if (model.spring_classes.size() > MAX_SPRING_CLASSES || model.terrain.size() > MAX_TERRAINS) {
     return Error{
@@ -110,11 +102,8 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.max_without_progress_on_ground = max_without_progress_on_ground;
   block.least_turn = static_cast<float>(least_turn);
   block.least_wedge = static_cast<float>(least_wedge);
-  for (std::size_t c = 0; c < model.spring_classes.size(); ++c) {
-    const SpringClass& s = model.spring_classes[c];
-    block.spring_classes[c] = {static_cast<float>(s.stiffness), static_cast<float>(s.damping),
-                               static_cast<float>(s.rest_length), s.cord ? 1u : 0u};
-  }
+  for (std::size_t c = 0; c < model.spring_classes.size(); ++c)
+    block.spring_classes[c] = rounded(model.spring_classes[c]);
   for (std::size_t t = 0; t < model.terrain.size(); ++t) block.terrains[t] = block_of(model.terrain[t]);
   return block;
 }

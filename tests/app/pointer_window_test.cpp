@@ -80,7 +80,7 @@ TEST_P(PointerOn, TellsForceMassAndPins) {
   frames(2);
   const Model& model = simulation().model();
   const State& state = simulation().snapshot();
-  const IncidentSprings incident(model);
+  const SpringFinder incident(model);
   for (const std::uint32_t particle : {999u, 909u}) {  // two corners of the face towards the eye
     point_at(state.position[particle]);
     const auto& h = app().pointer.hovered();

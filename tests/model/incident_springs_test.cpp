@@ -1,8 +1,7 @@
-#include "gpu_solver/topology.h"
+#include "model/incident_springs.h"
 
 #include <gtest/gtest.h>
 
-#include "gpu_solver/simulation_block.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -16,9 +15,10 @@ Model two_cubes() {
   return test::build(settings);
 }
 
-TEST(Topology, RowsListEverySpringOnceAtEachEndInAscendingNeighbourOrder) {
+TEST(IncidentSpringsOfAModel, ListEverySpringOnceAtEachEndInAscendingNeighbourOrder) {
   const Model model = two_cubes();
-  const IncidentSprings by_neighbour = *neighbours_of(model), by_spring = springs_of(model);
+  const IncidentSprings by_neighbour = *incident_springs(model, IncidentWords::neighbours),
+                        by_spring = *incident_springs(model, IncidentWords::springs);
   ASSERT_EQ(by_neighbour.words.size(), 2 * model.springs.size());
   ASSERT_EQ(by_neighbour.start, by_spring.start);
   const std::uint32_t bits = class_bits(model);
@@ -40,29 +40,21 @@ TEST(Topology, RowsListEverySpringOnceAtEachEndInAscendingNeighbourOrder) {
     }
   }
   for (const int times : seen) EXPECT_EQ(times, 2);
+  std::uint32_t most = 0;
+  for (std::size_t i = 0; i + 1 < by_spring.start.size(); ++i)
+    most = std::max(most, by_spring.start[i + 1] - by_spring.start[i]);
+  EXPECT_EQ(highest_degree(model), most);
 }
 
-TEST(Topology, PackedSpringsKeepBothEndsAndTheClass) {
+TEST(PackedSprings, KeepBothEndsAndTheClass) {
   const Model model = two_cubes();
   const auto packed = *packed_springs(model);
   ASSERT_EQ(packed.size(), model.springs.size());
   for (std::size_t s = 0; s < packed.size(); ++s) {
-    EXPECT_EQ(packed[s].x, model.springs[s].a);
-    EXPECT_EQ(packed[s].y >> 3, model.springs[s].b);
-    EXPECT_EQ(packed[s].y & 7u, model.springs[s].spring_class);
+    EXPECT_EQ(packed[s][0], model.springs[s].a);
+    EXPECT_EQ(packed[s][1] >> 3, model.springs[s].b);
+    EXPECT_EQ(packed[s][1] & 7u, model.springs[s].spring_class);
   }
-}
-
-TEST(SimulationBlock, RefusesWhatItCannotHold) {
-  ModelSettings settings = test::cube_on_plane(2);
-  settings.terrain.resize(MAX_TERRAINS + 1);
-  EXPECT_EQ(simulation_block(test::build(settings)).error().code, ErrorCode::scene_rejected);
-  settings.terrain.resize(MAX_TERRAINS);
-  EXPECT_TRUE(simulation_block(test::build(settings)).ok());
-  settings.cubes.resize(MAX_SPRING_CLASSES / 4, settings.cubes[0]);
-  EXPECT_TRUE(simulation_block(test::build(settings)).ok());
-  settings.cubes.resize(MAX_SPRING_CLASSES / 4 + 1, settings.cubes[0]);
-  EXPECT_EQ(simulation_block(test::build(settings)).error().code, ErrorCode::scene_rejected);
 }
 
 }  // namespace
