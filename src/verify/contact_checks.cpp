@@ -21,8 +21,8 @@ Model particle_on_plane(Integrator integrator, ContactModel contact, double slop
   model.simulation.implicit.tolerance = 1e-15;
   model.contact.model = contact;
   TerrainSettings plane;
-  plane.point = Vec3{0, 0, 0};
-  plane.normal = Vec3{std::sin(slope_angle), std::cos(slope_angle), 0};
+  plane.geometry["point"] = Vec3{0, 0, 0};
+  plane.geometry["normal"] = Vec3{std::sin(slope_angle), std::cos(slope_angle), 0};
   model.terrain.push_back(make_terrain(plane, model.contact));
   return model;
 }
@@ -99,8 +99,9 @@ Result<Finding> file_order(const Subject& subject) {
     for (const ContactModel contact : both_contact_models) {
       Model model = particle_on_plane(integrator, contact, 0.0, {0, -5, 0});
       model.simulation.gravity = {0, 0, 0};
-      model.terrain.push_back(model.terrain[0]);
-      model.terrain[1].normal = {std::sqrt(0.5), std::sqrt(0.5), 0};
+      const TerrainSettings slope = {
+          .geometry = {{"point", Vec3{}}, {"normal", Vec3{std::sqrt(0.5), std::sqrt(0.5), 0}}}};
+      model.terrain.push_back(make_terrain(slope, model.contact));
       for (Terrain& terrain : model.terrain) terrain.friction = 0.0;
       ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1));
       worst = std::max(worst, length(end.velocity[0] - Vec3{0, 4, 0}));
@@ -111,24 +112,20 @@ Result<Finding> file_order(const Subject& subject) {
 
 /// A particle that starts half a metre below a surface ends its first step on it.
 Result<Finding> projection(const Subject& subject) {
-  double worst = 0.0, extent = 0.0;
+  double worst = 0.0, largest = 0.0;
   for (const Integrator integrator : all_integrators) {
-    for (const TerrainShape shape : all_terrains) {
+    for (const TerrainShapeRow& shape : terrain_shapes) {
       Model model = particle_on_plane(integrator, ContactModel::coulomb, 0.0, {0, 0, 0});
-      TerrainSettings settings;
-      settings.shape = shape;
-      const Terrain terrain = make_terrain(settings, model.contact);
+      const Terrain terrain = make_terrain({.shape = shape.value}, model.contact);
       model.terrain = {terrain};
-      const Vec3 outward = Vec3{0.48, 0.6, 0.64};
-      const bool flat = shape == TerrainShape::plane || shape == TerrainShape::tilted_plane;
-      const double away = shape == TerrainShape::bowl ? terrain.radius + 0.5 : terrain.radius - 0.5;
-      model.initial_position[0] = terrain.point + (flat ? -0.5 * terrain.normal : away * outward);
+      const auto [d, n] = terrain_gap(terrain, shape.drop);
+      model.initial_position[0] = shape.drop - (d + 0.5) * n;
       ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1));
       worst = std::max(worst, std::abs(signed_distance(terrain, end.position[0])));
-      extent = std::max(extent, length(terrain.point) + terrain.radius);
+      largest = std::max(largest, extent(terrain));
     }
   }
-  return Finding{worst <= 16 * epsilon_double * extent, fmt::format("{:.3g} m", worst)};
+  return Finding{worst <= 16 * epsilon_double * largest, fmt::format("{:.3g} m", worst)};
 }
 
 }  // namespace

@@ -92,8 +92,8 @@ Result<Finding> rests_between(const Subject& subject, Integrator integrator, con
   settings.cubes[0].rotation = {{1.0, 0.3, 0.2}, 20.0};
   for (const Vec3& normal : planes.normals) {
     TerrainSettings plane;
-    plane.point = planes.point;
-    plane.normal = normal;
+    plane.geometry["point"] = planes.point;
+    plane.geometry["normal"] = normal;
     plane.friction = planes.friction;
     settings.terrain.push_back(plane);
   }

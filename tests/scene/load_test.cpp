@@ -215,10 +215,7 @@ TEST(Builtin, ScenesLoadAndBuild) {
     // No particle starts in the ground.
     for (const Vec3& x : model->initial_position) {
       for (const Terrain& t : model->terrain)
-        ASSERT_GT(t.shape == TerrainShape::bowl     ? t.radius - length(x - t.point)
-                  : t.shape == TerrainShape::sphere ? length(x - t.point) - t.radius
-                                                    : dot(t.normal, x - t.point),
-                  0.05);
+        ASSERT_GT(signed_distance(t, x), 0.05);
     }
   }
   EXPECT_THAT(names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
