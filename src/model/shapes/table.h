@@ -5,13 +5,15 @@
 #include "model/shapes/plane.h"
 #include "model/shapes/sphere.h"
 #include "model/shapes/tilted_plane.h"
+#include "model/shapes/torus.h"
 
 /// Enumerator and struct of every shape, in the order in which they are listed for users.
 #define ASPIC_TERRAIN_SHAPES(SHAPE) \
   SHAPE(plane, Plane)               \
   SHAPE(tilted_plane, TiltedPlane)  \
   SHAPE(sphere, Sphere)             \
-  SHAPE(bowl, Bowl)
+  SHAPE(bowl, Bowl)                 \
+  SHAPE(torus, Torus)
 
 namespace aspic {
 
