@@ -50,5 +50,29 @@ TEST(Torus, HasNormalsOnItsAxisAndOnItsRing) {
   EXPECT_EQ(terrain_gap(torus, {1, 2, -1}).n, -axis);
 }
 
+// The plane y = 0 over the bowl around (2, 6.364, 1) of radius 9.
+TEST(PlaneWithHole, IsThePlaneOrTheBowlWhicheverIsFurther) {
+  const Terrain hole = make_terrain({.shape = TerrainShape::plane_with_hole}, {});
+  const auto on_plane = terrain_gap(hole, {20, -0.5, 1});
+  EXPECT_EQ(on_plane.d, -0.5);
+  EXPECT_EQ(on_plane.n, (Vec3{0, 1, 0}));
+  const auto in_bowl = terrain_gap(hole, {2, -2, 1});
+  EXPECT_DOUBLE_EQ(in_bowl.d, 9.0 - 8.364);
+  EXPECT_EQ(in_bowl.n, (Vec3{0, 1, 0}));
+  const auto at_wall = terrain_gap(hole, {2.0 + 6.0, -0.5, 1});
+  EXPECT_DOUBLE_EQ(at_wall.d, 9.0 - std::hypot(6.0, 6.864));
+  EXPECT_LT(at_wall.n.x, 0.0) << "inwards";
+  // Both distances 1: the plane's normal counts.
+  const TerrainSettings level = {.shape = TerrainShape::plane_with_hole,
+                                 .geometry = {{"centre", Vec3{0, 1, 0}}, {"radius", 4.0}}};
+  const auto tie = terrain_gap(make_terrain(level, {}), {3, 1, 0});
+  EXPECT_EQ(tie.d, 1.0);
+  EXPECT_EQ(tie.n, (Vec3{0, 1, 0}));
+  // The bowl's centre counts for nothing but a direction.
+  const auto centre = terrain_gap(make_terrain(level, {}), {0, 1, 0});
+  EXPECT_EQ(centre.d, 4.0);
+  EXPECT_EQ(centre.n, (Vec3{0, 1, 0}));
+}
+
 }  // namespace
 }  // namespace aspic

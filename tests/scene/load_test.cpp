@@ -218,7 +218,7 @@ TEST(Builtin, ScenesLoadAndBuild) {
     }
   }
   EXPECT_THAT(
-      names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus",
+      names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus", "cube-hole",
                                   "goal-net", "penalty", "ball-pit", "cube-and-balls", "large-cube"));
 }
 
