@@ -77,7 +77,7 @@ TEST(TerrainShapes, NormalIsTheGradientOfTheDistance) {
     for (const Vec3& x : points_near(row)) {
       const auto [d, n] = terrain_gap(terrain, x);
       EXPECT_EQ(d, signed_distance(terrain, x)) << row.name;
-      EXPECT_NEAR(length(n), 1.0, 1e-15) << row.name;
+      EXPECT_NEAR(length(n), 1.0, 8 * 2.3e-16) << row.name;
       Vec3 gradient;
       for (int axis = 0; axis < 3; ++axis) {
         Vec3 to = x, from = x;

@@ -53,6 +53,13 @@ struct FlatPart {
 
 namespace shapes {
 
+/// Two unit vectors at right angles to the unit vector n and to each other.
+inline std::array<Vec3, 2> directions_across(const Vec3& n) {
+  const Vec3 first = cross(n, std::abs(n.y) < 0.9 ? Vec3{0.0, 1.0, 0.0} : Vec3{0.0, 0.0, 1.0});
+  const Vec3 unit = first / length(first);
+  return {unit, cross(n, unit)};
+}
+
 /// What a shape has unless its file says otherwise.
 struct Shape {
   /// The unbounded flat part of the surface: FlatPart(const Geometry<double>&).

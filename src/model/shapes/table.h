@@ -3,15 +3,19 @@
 // but its kernel, a file shaders/shapes/NAME.glsl with NAME_distance() and NAME_gap(), and two lines here.
 #include "model/shapes/bowl.h"
 #include "model/shapes/plane.h"
+#include "model/shapes/plane_with_hole.h"
 #include "model/shapes/sphere.h"
 #include "model/shapes/tilted_plane.h"
+#include "model/shapes/torus.h"
 
 /// Enumerator and struct of every shape, in the order in which they are listed for users.
 #define ASPIC_TERRAIN_SHAPES(SHAPE) \
   SHAPE(plane, Plane)               \
   SHAPE(tilted_plane, TiltedPlane)  \
   SHAPE(sphere, Sphere)             \
-  SHAPE(bowl, Bowl)
+  SHAPE(bowl, Bowl)                 \
+  SHAPE(torus, Torus)               \
+  SHAPE(plane_with_hole, PlaneWithHole)
 
 namespace aspic {
 
