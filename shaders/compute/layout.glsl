@@ -5,6 +5,7 @@
 #define MAX_STAGES 4
 #define MAX_SPRING_CLASSES 256
 #define MAX_TERRAINS 64
+#define GEOMETRY_SIZE 3  // vectors, and numbers, of a shape: geometry_size in src/model/shapes/shape.h
 
 // Vectors of the OWN block, each an array over particles.
 #define OWN_BASE 0u       // v' of the accepted Newton iterate [m/s]
@@ -96,10 +97,6 @@
 #define DRIFT_NEW_VELOCITY 1u
 #define DRIFT_MEAN_VELOCITY 2u
 
-#define SHAPE_PLANE 0u
-#define SHAPE_SPHERE 1u
-#define SHAPE_BOWL 2u
-
 #define CONTACT_COULOMB 0u
 #define CONTACT_COURSE 1u
 
@@ -159,13 +156,12 @@ struct Stage {
 };
 
 struct Terrain {
-  vec4 point;     // a point of the plane or the centre [m]; w: radius [m]
-  vec4 normal;    // unit normal, planes only; w: unused
+  vec4 geometry[GEOMETRY_SIZE];  // xyz: vectors in the order of the shape's keys; w: numbers in theirs
   float mass;         // M [kg], if movable
   float restitution;  // e
   float friction;     // μ
   uint movable;       // 1: M is finite
-  uint shape;         // SHAPE_…
+  uint shape;         // row of the table in src/model/shapes/table.h
   uint padding0, padding1, padding2;
 };
 

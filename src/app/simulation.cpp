@@ -221,7 +221,7 @@ Status Simulation::fall_back(const Error& error) {
 std::optional<DeviceState> Simulation::device_state() const {
   const GpuSolver* const gpu = engines_.leader().gpu;
   if (!gpu) return std::nullopt;
-  return DeviceState{&gpu->particles(), &gpu->balls(), gpu->first_ball(), step_};
+  return gpu->device_state();
 }
 
 // ---- hands ----

@@ -15,24 +15,13 @@ namespace {
 
 layout::Terrain block_of(const Terrain& t) {
   layout::Terrain block{};
-  block.point = rounded(t.point, t.radius);
-  block.normal = rounded(t.normal, 0.0);
+  for (std::size_t k = 0; k < geometry_size; ++k)
+    block.geometry[k] = rounded(t.geometry.vectors[k], t.geometry.numbers[k]);
+  block.shape = static_cast<std::uint32_t>(t.shape);
   block.movable = std::isfinite(t.mass) ? 1u : 0u;
   block.mass = block.movable ? static_cast<float>(t.mass) : 0.0f;
   block.restitution = static_cast<float>(t.restitution);
   block.friction = static_cast<float>(t.friction);
-  switch (t.shape) {
-    case TerrainShape::plane:
-    case TerrainShape::tilted_plane:
-      block.shape = SHAPE_PLANE;
-      break;
-    case TerrainShape::sphere:
-      block.shape = SHAPE_SPHERE;
-      break;
-    case TerrainShape::bowl:
-      block.shape = SHAPE_BOWL;
-      break;
-  }
   return block;
 }
 

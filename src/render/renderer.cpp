@@ -126,6 +126,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
 Status Renderer::set_model(const Model& model) {
   auto buffers = ModelBuffers::create(*parts_->context, model);
   if (!buffers) return buffers.error();
+  ASPIC_CHECK(parts_->terrain.set_terrain(*parts_->context, model.terrain));
   parts_->buffers.reset();
   parts_->buffers.emplace(std::move(*buffers));
   parts_->model = &model;

@@ -7,6 +7,7 @@
 
 #include "analysis/compare.h"
 #include "io/child_process.h"
+#include "model/terrain.h"
 #include "scene/load.h"
 #include "verify/experiments.h"
 #include "verify/textbook.h"
@@ -69,9 +70,9 @@ Result<Finding> same_bits(const Subject& subject, const BackendRow& row, Integra
   const bool solved = row_of(integrator).solved();
   const std::uint64_t steps = solved ? implicit_steps : explicit_steps;
   Worst worst;
-  for (const TerrainShape shape : all_terrains) {
+  for (const TerrainShapeRow& shape : terrain_shapes) {
     for (const ContactModel contact : both_contact_models) {
-      ModelSettings settings = cube_on_terrain(solved ? 4 : 5, shape, integrator, contact);
+      ModelSettings settings = cube_on_terrain(solved ? 4 : 5, shape.value, integrator, contact);
       if (solved) settings.simulation.timestep = 0.01;
       ASPIC_TRY(auto model, build_model(settings));
       ASPIC_TRY(auto expected, run_reference(subject, model, Precision::single, steps));

@@ -52,7 +52,7 @@ TEST_F(Panels, ScenesAreChosenByClick) {
   EXPECT_EQ(simulation().model().terrain.front().shape, TerrainShape::sphere);
   click("terrain/bowl");
   EXPECT_EQ(simulation().model().terrain.front().shape, TerrainShape::bowl);
-  EXPECT_EQ(simulation().model().terrain.front().point, (Vec3{2, 7, 1}));
+  EXPECT_EQ(simulation().model().terrain.front().geometry.vectors[0], (Vec3{2, 7, 1}));
   click("scene/undo");
   EXPECT_EQ(simulation().model().terrain.front().shape, TerrainShape::sphere);
   click("scene/redo");

@@ -84,8 +84,8 @@ TEST_F(BallsOnTheDevice, ACubeBetweenTerrains) {
   settings.contact.ball_restitution = 0.4;
   TerrainSettings sphere;
   sphere.shape = TerrainShape::sphere;
-  sphere.centre = Vec3{3.0, -1.0, 0.0};
-  sphere.radius = 1.5;
+  sphere.geometry["centre"] = Vec3{3.0, -1.0, 0.0};
+  sphere.geometry["radius"] = 1.5;
   settings.terrain.push_back(sphere);
   settings.balls.push_back({1.0, 40.0, {0.3, 5.0, 0.1}, {0.0, -4.0, 0.0}, {1.0, 9.0, -4.0}});
   settings.balls.push_back({0.5, 2.0, {3.2, 3.0, 0.3}, {0.0, -4.0, 0.0}, {}});
@@ -105,8 +105,8 @@ TEST_F(BallsOnTheDevice, AtRestInACornerUnderEveryIntegrator) {
       settings.contact.spin = spin;
       for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, -0.1}, Vec3{0.0, 0.1, 1.0}}) {
         TerrainSettings side;
-        side.point = Vec3{};
-        side.normal = normal;
+        side.geometry["point"] = Vec3{};
+        side.geometry["normal"] = normal;
         side.restitution = 0.3;
         settings.terrain.push_back(side);
       }
