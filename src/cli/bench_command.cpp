@@ -111,8 +111,7 @@ Result<Measurement> measure_case(const BenchOptions& options, const Scene& scene
     ASPIC_TRY(const auto steps, steps_of({std::nullopt, options.duration}, model.simulation));
     m.steps = std::max<std::uint64_t>(1, steps);
   } else {
-    ASPIC_TRY(const auto steps, steps_for(solver, options.seconds / options.repeats, m));
-    m.steps = steps;
+    ASPIC_TRY(m.steps, steps_for(solver, options.seconds / options.repeats, m));
   }
   for (int repeat = 0; repeat < options.repeats && !m.divergence; ++repeat) {
     if (interrupt.interrupted()) return Error{ErrorCode::interrupted, "interrupted; nothing was printed."};

@@ -26,8 +26,7 @@ class StateTables final : public StateSink {
                                                  Overwrite overwrite, const RunFacts&) {
     auto sink = std::make_unique<StateTables>(path, every, overwrite);
     if (every == 0) {
-      ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
-      sink->file_ = std::move(file);
+      ASPIC_TRY(sink->file_, AtomicFile::create(path, overwrite));
     }
     return std::unique_ptr<StateSink>(std::move(sink));
   }
@@ -41,9 +40,7 @@ class StateTables final : public StateSink {
   Status write(const State& state) {
     if (last_step_ == state.step) return {};
     if (every() > 0) {
-      ASPIC_TRY(auto file,
-                AtomicFile::create(numbered(pattern_, fmt::format("{:08}", state.step)), overwrite_));
-      file_ = std::move(file);
+      ASPIC_TRY(file_, AtomicFile::create(numbered(pattern_, fmt::format("{:08}", state.step)), overwrite_));
     }
     last_step_ = state.step;
     const Status written = write_state_csv(*file_, state);
@@ -102,8 +99,7 @@ class CheckpointFile final : public StateSink {
   Status write(const Sample& sample) {
     if (written_) {
       // What is there now is our own.
-      ASPIC_TRY(auto file, AtomicFile::create(path(), Overwrite::allow));
-      file_ = std::move(file);
+      ASPIC_TRY(file_, AtomicFile::create(path(), Overwrite::allow));
     }
     const Checkpoint checkpoint = {ASPIC_VERSION, scene_toml_, sample.model.simulation.timestep,
                                    sample.state};
