@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/stability_text.h"
+#include "analysis/stability.h"
 #include "app/panels.h"
 #include "app/shortcuts.h"
 #include "run/backends.h"

@@ -11,7 +11,7 @@
 
 #include "app/app.h"
 #include "io/atomic_file.h"
-#include "io/frame_directory.h"
+#include "io/film_format.h"
 #include "render/camera.h"
 #include "render/overlay_text.h"
 #include "run/outputs.h"

@@ -7,7 +7,7 @@
 #include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
-#include "base/text.h"
+#include "base/printable.h"
 
 namespace aspic::app {
 

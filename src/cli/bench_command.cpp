@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "analysis/stability.h"
-#include "analysis/stability_text.h"
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "io/console.h"
-#include "io/interrupt.h"
+#include "io/program.h"
 #include "model/integrator.h"
 #include "scene/load.h"
 
@@ -159,7 +157,7 @@ std::string table_line(const Measurement& m) {
 
 }  // namespace
 
-Status bench_command(const BenchOptions& options) {
+Status execute(const BenchOptions& options) {
   const InterruptGuard interrupt;
   std::vector<Measurement> measurements;
   ASPIC_TRY(auto loaded, load_scene(options.scene, options.overrides));

@@ -7,8 +7,7 @@
 #include "analysis/compare.h"
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "io/console.h"
-#include "io/interrupt.h"
+#include "io/program.h"
 #include "scene/load.h"
 
 namespace aspic::cli {
@@ -142,7 +141,7 @@ Status print_result(const CompareOptions& options, const Scene& scene, const std
 
 }  // namespace
 
-Status compare_command(const CompareOptions& options) {
+Status execute(const CompareOptions& options) {
   const InterruptGuard interrupt;
   ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
   ASPIC_TRY(const auto steps, steps_of(options.length, scene.model.simulation));

@@ -8,12 +8,10 @@
 
 #include "analysis/energy.h"
 #include "analysis/stability.h"
-#include "analysis/stability_text.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "io/checkpoint.h"
-#include "io/console.h"
-#include "io/interrupt.h"
+#include "io/program.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
 #include "scene/load.h"
@@ -318,7 +316,7 @@ Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings
   return static_cast<std::uint64_t>(steps);
 }
 
-Status run_command(const RunOptions& options) {
+Status execute(const RunOptions& options) {
   const InterruptGuard interrupt;
   ASPIC_TRY(auto start, load_start(options));
   ASPIC_TRY(const auto steps, steps_of(options.length, start.scene.model.simulation));

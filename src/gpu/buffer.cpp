@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/text.h"
+#include "base/printable.h"
 
 namespace aspic::gl {
 namespace {

@@ -14,7 +14,6 @@
 
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/text.h"
 #include "gpu/context.h"
 #include "gpu/device_info.h"
 #include "gpu/program_cache.h"

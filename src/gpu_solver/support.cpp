@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "base/text.h"
+#include "base/printable.h"
 #include "gpu/loop_bound.h"
 
 namespace aspic {

@@ -7,7 +7,6 @@
 
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/text.h"
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic {
