@@ -15,8 +15,8 @@ if(ASPIC_FUZZ)
   target_link_options(aspic_rules INTERFACE -fsanitize=address,undefined)
 endif()
 if(ASPIC_SANITIZE)
-  target_compile_options(aspic_rules INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-  target_link_options(aspic_rules INTERFACE -fsanitize=address,undefined)
+  target_compile_options(aspic_rules INTERFACE -fsanitize=${ASPIC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(aspic_rules INTERFACE -fsanitize=${ASPIC_SANITIZE})
 endif()
 
 # aspic_library(NAME SOURCES a.cpp … DEPENDS target …): one room of the library. Rooms name the rooms they use; their objects

@@ -41,7 +41,7 @@ rows() {
 }
 
 unnoticed=0
-echo "| fault | file | noticed by |"
+echo "| fault | file | detected by |"
 echo "|---|---|---|"
 while IFS=$'\t' read -r name file change checks; do
   [[ $name == \#* || -z $name ]] && continue

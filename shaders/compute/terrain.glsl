@@ -1,4 +1,4 @@
-// Terrain and contact of spec §2.4 and §2.5.
+// Terrain and contact (docs/physics.md, section 5).
 
 // xyz: unit normal towards the free side; w: signed distance [m], positive on the free side.
 vec4 gap(uint t, vec3 x) {

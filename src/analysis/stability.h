@@ -1,5 +1,6 @@
 #pragma once
-// The largest stable time step of the explicit integrators, from the scene's own linearisation (spec §2.6).
+// The largest stable time step of the explicit integrators, from the scene's own linearisation
+// (docs/physics.md, section 3).
 #include <functional>
 #include <optional>
 #include <span>

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "analysis/stability.h"
 #include "base/files.h"
@@ -14,13 +13,6 @@
 #include "scene/write.h"
 
 namespace aspic::cli {
-namespace {
-
-constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integrator::symplectic_euler,
-                                             Integrator::midpoint, Integrator::runge_kutta_4,
-                                             Integrator::implicit_euler_one_pass};
-
-}  // namespace
 
 Status execute(const SceneListOptions& options) {
   const std::vector<BuiltinScene> scenes = list_builtin_scenes();

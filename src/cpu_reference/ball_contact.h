@@ -1,7 +1,7 @@
 #pragma once
-// Contact of balls, spec §2.7: with terrain, with each other and with particles. Every expression has one
-// order of operations, which the kernels follow (shaders/compute/ball_contact.glsl). A pair is evaluated from
-// each of its two sides, since exchanging the bodies negates vectors exactly but for the signs of zeros.
+// Contact of balls (docs/balls.md): with terrain, with each other and with particles. Every expression has
+// one order of operations, which the kernels follow (shaders/compute/ball_contact.glsl). A pair is evaluated
+// from each of its two sides, since exchanging the bodies negates vectors exactly but for the signs of zeros.
 #include "cpu_reference/coulomb.h"
 
 namespace aspic::reference {

@@ -1,5 +1,5 @@
 #pragma once
-// Terrain and contact of spec §2.4 and §2.5, for one particle and one terrain.
+// Terrain and contact (docs/physics.md, section 5) for one particle and one terrain.
 #include "cpu_reference/vectors.h"
 #include "model/model.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a device computes as IEEE 754 says (spec §2.9), found out by asking it.
+// Whether a device computes as IEEE 754 says (docs/determinism.md), found out by asking it.
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -7,7 +7,7 @@
 
 namespace aspic {
 
-/// How a step's solve ended, spec §2.6.
+/// How a step's solve ended (docs/physics.md, section 4).
 enum class SolveEnd : std::uint32_t { converged = 0, stagnated = 1, not_converged = 2 };
 
 /// One step's solve.

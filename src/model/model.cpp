@@ -147,24 +147,6 @@ std::uint64_t run_bytes(const ModelCounts& counts) {
   return model_bytes(counts) + 2 * state + state / 2;
 }
 
-std::string_view name_of(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::explicit_euler:
-      return "explicit-euler";
-    case Integrator::symplectic_euler:
-      return "symplectic-euler";
-    case Integrator::midpoint:
-      return "midpoint";
-    case Integrator::runge_kutta_4:
-      return "runge-kutta-4";
-    case Integrator::implicit_euler:
-      return "implicit-euler";
-    case Integrator::implicit_euler_one_pass:
-      return "implicit-euler-one-pass";
-  }
-  return "";
-}
-
 std::string_view name_of(ContactModel model) {
   return std::ranges::find(contact_models, model, &Named<ContactModel>::value)->name;
 }

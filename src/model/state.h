@@ -48,9 +48,9 @@ void for_each_vector(AnyState& state, const F& f) {
 /// The first body with a number that is not finite, in words: `particle 7`, `ball 2`; nothing if all are.
 std::optional<std::string> first_not_finite(const State& state);
 
-/// 64-bit FNV-1a of the little-endian values (x, v of every particle, then x, v, ω of every
-/// ball, in index order) in the state's own
-/// precision, spec §2.9.
+/// 64-bit FNV-1a (docs/files.md) of the little-endian values in the state's own precision:
+/// x, v of every particle,
+/// then x, v, ω of every ball, in index order.
 std::uint64_t state_hash(const State& state);
 
 /// The hash as 16 lower-case hexadecimal digits.

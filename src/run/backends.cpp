@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/printable.h"
+#include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic {
@@ -57,6 +58,16 @@ Suitability gpu_suitability(const gl::Context* window) {
   return result;
 }
 
+// ---- cpu ----
+
+Result<Backend> make_cpu(const Model& model, const BackendChoice&, const SolverHost&) {
+  ASPIC_TRY(auto solver, make_cpu_solver(model));
+  Backend backend;
+  backend.device = solver->description();
+  backend.solver = std::move(solver);
+  return backend;
+}
+
 // ---- reference ----
 
 /// What it holds at work; under implicit Euler also every spring's Jacobian, of the trial and of the iterate
@@ -97,6 +108,19 @@ constexpr BackendRow table[] = {
        return gpu_bytes(counts, integrator, choice.force_path);
      },
      gpu_suitability},
+    {"cpu",
+     "CPU",
+     "threads and vector instructions",
+     single_alone,
+     {},
+     false,
+     make_cpu,
+     [](const ModelCounts& counts, Integrator integrator, const BackendChoice&) {
+       return cpu_bytes(counts, integrator);
+     },
+     [](const gl::Context*) {
+       return Suitability{true, "", "", nullptr};
+     }},
     {"reference",
      "reference",
      "one thread, Eigen, written to be read",

@@ -38,7 +38,7 @@ Result<std::unique_ptr<Solver>> make_solver(const Subject& subject, const Backen
 std::vector<ForcePath> paths_of(const BackendRow& row, Integrator integrator) {
   if (row.force_paths.empty()) return {ForcePath::automatic};
   std::vector<ForcePath> paths(row.force_paths.begin(), row.force_paths.end());
-  if (integrator == Integrator::implicit_euler) std::erase(paths, ForcePath::per_spring);
+  if (row_of(integrator).solved()) std::erase(paths, ForcePath::per_spring);
   return paths;
 }
 
@@ -65,7 +65,7 @@ Status compare_run(const Subject& subject, const BackendRow& row, const Model& m
 }
 
 Result<Finding> same_bits(const Subject& subject, const BackendRow& row, Integrator integrator) {
-  const bool solved = integrator == Integrator::implicit_euler;
+  const bool solved = row_of(integrator).solved();
   const std::uint64_t steps = solved ? implicit_steps : explicit_steps;
   Worst worst;
   for (const TerrainShape shape : all_terrains) {
@@ -105,7 +105,7 @@ Result<Finding> same_bits_with_hand(const Subject& subject, const BackendRow& ro
   int runs = 0;
   bool exact = true;
   for (const Integrator integrator : all_integrators) {
-    const bool solved = integrator == Integrator::implicit_euler;
+    const bool solved = row_of(integrator).solved();
     for (const ContactModel contact : both_contact_models) {
       ModelSettings settings = cube_on_terrain(4, TerrainShape::plane, integrator, contact);
       if (solved) settings.simulation.timestep = 0.01;
@@ -171,7 +171,7 @@ Result<Finding> spring_force(const Subject& subject) {
 
 Result<Model> repeat_model(Integrator integrator) {
   ModelSettings settings = cube_on_terrain(5, TerrainShape::plane, integrator, ContactModel::coulomb);
-  if (integrator == Integrator::implicit_euler) settings.simulation.timestep = 0.01;
+  if (row_of(integrator).solved()) settings.simulation.timestep = 0.01;
   return build_model(settings);
 }
 
@@ -244,7 +244,7 @@ void add_equality_checks(std::vector<Check>& checks) {
       checks.push_back(
           {fmt::format("equality/{}/{}", name_of(integrator), row.name),
            fmt::format("{} and reference after {} steps through contact: 4 terrains, 2 contact models{}",
-                       row.name, integrator == Integrator::implicit_euler ? implicit_steps : explicit_steps,
+                       row.name, row_of(integrator).solved() ? implicit_steps : explicit_steps,
                        row.force_paths.empty() ? ""
                        : paths.size() == 1     ? fmt::format(", {}", name_of(paths.front()))
                                                : fmt::format(", {} force paths", paths.size())),

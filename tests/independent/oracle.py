@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """An independent double-precision reading of Aspic's physics, for cubes on terrain.
 
-Written from the specification alone and sharing no code with the product, so that a misreading there
+Written from the description in docs/ alone and sharing no code with the product, so that a misreading there
 cannot hide behind the same misreading here. Sums are taken in any order: compare within a tolerance.
 Shapes: x, v and f are (particles, 3); d, u and m are (particles,). Units are SI.
 """

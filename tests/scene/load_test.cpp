@@ -20,7 +20,7 @@ using testing::StartsWith;
 
 const std::string smallest = "schema = 1\n[[cube]]\n";
 
-// The numbers are those of the format's specification, written out once more.
+// The numbers are those of docs/scene-reference.md, written out once more.
 TEST(Defaults, AreThoseOfTheFormat) {
   const Scene s = test::parsed("schema = 1\n[[terrain]]\n[[cube]]\n");
   const ModelSettings& m = s.model;
@@ -225,7 +225,7 @@ TEST(Builtin, ScenesLoadAndBuild) {
                                           "goal-net", "penalty", "ball-pit", "cube-and-balls", "large-cube"));
 }
 
-// Spec §2.6: limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.
+// Limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.
 TEST(Builtin, LargeCubeStepsBelowItsStabilityLimit) {
   const auto scene = load_scene("large-cube");
   ASSERT_TRUE(scene.ok());
