@@ -30,8 +30,7 @@ class StateFiles final : public StateSink {
                                                  Overwrite overwrite, const RunFacts&) {
     auto sink = std::make_unique<StateFiles>(path, every, overwrite, Writer);
     if (every == 0) {
-      ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
-      sink->file_ = std::move(file);
+      ASPIC_TRY(sink->file_, AtomicFile::create(path, overwrite));
     }
     return std::unique_ptr<StateSink>(std::move(sink));
   }
@@ -48,9 +47,7 @@ class StateFiles final : public StateSink {
   Status write(const Sample& sample) {
     if (last_step_ == sample.state.step) return {};
     if (every() > 0) {
-      ASPIC_TRY(auto file,
-                AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
-      file_ = std::move(file);
+      ASPIC_TRY(file_, AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
     }
     last_step_ = sample.state.step;
     ASPIC_CHECK(writer_(*file_, sample));
@@ -110,8 +107,7 @@ class CheckpointFile final : public StateSink {
   Status write(const Sample& sample) {
     if (written_) {
       // What is there now is our own.
-      ASPIC_TRY(auto file, AtomicFile::create(path(), Overwrite::allow));
-      file_ = std::move(file);
+      ASPIC_TRY(file_, AtomicFile::create(path(), Overwrite::allow));
     }
     const Checkpoint checkpoint = {ASPIC_VERSION, scene_toml_, sample.model.simulation.timestep,
                                    sample.state};
