@@ -73,7 +73,8 @@ std::optional<Places> places_of(std::string_view name) {
 
 Result<std::vector<bool>> pinned_particles(const CubeSettings& cube) {
   const int n = cube.particles_per_edge;
-  std::vector<bool> pinned(static_cast<std::size_t>(n) * n * n, false);
+  const auto edge = static_cast<std::size_t>(n);
+  std::vector<bool> pinned(edge * edge * edge, false);
   for (const std::string& name : cube.pinned.names) {
     const auto places = places_of(name);
     if (!places) {
