@@ -18,7 +18,7 @@ declare -A meaning=(
 if [[ " $* " == *" --help "* || " $* " == *" -h "* ]]; then
   echo "scripts/check.sh [STEP …]   runs the steps named, or all in this order:"
   for step in "${steps[@]}"; do printf '  %-8s %s\n' "$step" "${meaning[$step]}"; done
-  echo "Builds are kept in build/STEP's preset; the first run takes an hour or more on two cores."
+  echo "Builds are kept in build/; the first run takes an hour or more on two cores."
   exit
 fi
 chosen=("${@:-${steps[@]}}")
@@ -65,7 +65,7 @@ step_tidy() {
 }
 
 step_clang() { build clang; }
-step_odr() { build lto; }
+step_odr() { build odr; }
 step_asan() { build asan && test_in asan -LE 'independent|slow'; }
 step_tsan() { build tsan && test_in tsan; }
 
