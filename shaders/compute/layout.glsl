@@ -126,6 +126,10 @@
 #define KERNEL_BALL_PARTICLES 10u
 #define KERNEL_COUNT 11u
 
+#define DRIFT_STAGE_VELOCITY 0u  // Drift in src/model/integrator.h
+#define DRIFT_NEW_VELOCITY 1u
+#define DRIFT_MEAN_VELOCITY 2u
+
 #define SHAPE_PLANE 0u
 #define SHAPE_SPHERE 1u
 #define SHAPE_BOWL 2u
@@ -293,7 +297,7 @@ layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
   uint terrain_count;
   uint contact_model;         // CONTACT_…
   uint class_bits;            // low bits of a gather word that hold the spring class
-  uint position_from_new_velocity;  // 1: symplectic Euler
+  uint drift;                 // DRIFT_…: the velocity that moves positions
   uint max_newton;            // implicit Euler: src/model/implicit.h
   uint max_cg;
   float time_step;            // h [s]

@@ -181,12 +181,13 @@ StabilityLimit bounded_limit(BodyAnalysis& analysis, Integrator integrator) {
 
 StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
   const LinearisedBody& body = analysis.body();
-  if (integrator == Integrator::implicit_euler || !body.has_springs()) return {infinity, true};
+  const IntegratorRow& row = row_of(integrator);
+  if (row.solved() || !body.has_springs()) return {infinity, true};
   if (!std::isfinite(body.eigenvalue_bound(1.0, 0.0)) || !std::isfinite(body.eigenvalue_bound(0.0, 1.0)))
     return {0.0, false};
   if (body.proportional()) return proportional_limit(analysis, integrator);
   if (integrator == Integrator::symplectic_euler) return symplectic_limit(analysis);
-  if (analysis.small()) return dense_limit(analysis, integrator);
+  if (analysis.small() && !row.mode_limit) return dense_limit(analysis, integrator);
   return bounded_limit(analysis, integrator);
 }
 
@@ -238,7 +239,7 @@ std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const
 constexpr int most_looks = 50;
 
 bool certainly_stable(const Model& model, Integrator integrator, double timestep) {
-  if (integrator == Integrator::implicit_euler) return true;
+  if (row_of(integrator).solved()) return true;
   std::uint32_t covered = 0;
   double known_kappa = 0.0, known_ratio = 0.0;  // of the body before: cubes are often alike
   std::optional<StabilityLimit> known;
@@ -275,7 +276,7 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
 
 StabilityLimit stability_limit(const Model& model, Integrator integrator, StabilityEffort effort,
                                const StabilityWatch& watch) {
-  if (integrator == Integrator::implicit_euler) return {infinity, true};
+  if (row_of(integrator).solved()) return {infinity, true};
   return stability_limits(model, {&integrator, 1}, effort, watch).front();
 }
 

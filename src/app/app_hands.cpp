@@ -144,7 +144,7 @@ void App::begin_pull() {
   pull.particle = particle;
   pull.anchor = pull_plane_ = hovered_->position;
   pull.stiffness = 2.0 * hands_.strength * (stiffest > 0.0 ? stiffest : 100.0 * m);
-  const bool explicit_method = staged_method(model.simulation.integrator) != nullptr;
+  const bool explicit_method = !row_of(model.simulation.integrator).solved();
   if (explicit_method) pull.stiffness = std::min(pull.stiffness, 0.01 * m / (h * h));
   pull.damping = 2.0 * std::sqrt(pull.stiffness * m);
   if (explicit_method) pull.damping = std::min(pull.damping, 0.1 * m / h);

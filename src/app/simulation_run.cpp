@@ -379,7 +379,7 @@ void Simulation::add_sample(const State& state, const Measures& measures) {
 }
 
 std::optional<double> Simulation::spring_evaluations_per_second() const {
-  if (!staged_method(model_->simulation.integrator)) return std::nullopt;
+  if (row_of(model_->simulation.integrator).solved()) return std::nullopt;
   return steps_per_second_ * static_cast<double>(model_->springs.size()) *
          force_evaluations_per_step(model_->simulation.integrator);
 }

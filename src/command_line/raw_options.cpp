@@ -39,9 +39,8 @@ Result<PictureSize> parse_size(const std::string& text) {
 }
 
 Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
-  const auto size = parse_size(raw.size);
-  if (!size) return size.error();
-  pictures.size = *size;
+  ASPIC_TRY(const auto size, parse_size(raw.size));
+  pictures.size = size;
   const FilmFormat* const images = find_film_format(raw.frames_format);
   if (!images || !images->is_directory())
     return usage(fmt::format("--frames-format must be {}, not \"{}\".", film_endings(true),
@@ -56,9 +55,8 @@ Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
   if (!positive(pictures.speed))
     return usage(fmt::format("--speed must be a finite number above 0, not {}.", pictures.speed));
   if (pictures.video.empty()) return {};
-  const auto format = video_format_of(pictures.video);
-  if (!format) return format.error();
-  return check_film(**format, pictures.size, frames_per_second(pictures));
+  ASPIC_TRY(const auto format, video_format_of(pictures.video));
+  return check_film(*format, pictures.size, frames_per_second(pictures));
 }
 
 /// Whether the backend was named and has force paths to choose from.
@@ -69,18 +67,16 @@ bool has_force_paths(const BackendChoice& choice) {
 Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
   std::vector<BackendChoice> backends;
   for (const std::string& text : raw.bench_backends) {
-    const auto choice = parse_backend(text);
-    if (!choice) return choice.error();
-    const bool open = has_force_paths(*choice) && choice->force_path == ForcePath::automatic;
+    ASPIC_TRY(const auto choice, parse_backend(text));
+    const bool open = has_force_paths(choice) && choice.force_path == ForcePath::automatic;
     if (!open || raw.bench_force_paths.empty()) {
-      backends.push_back(*choice);
+      backends.push_back(choice);
       continue;
     }
     for (const std::string& word : raw.bench_force_paths) {
-      const auto path = parse_force_path(word);
-      if (!path) return path.error();
-      backends.push_back(*choice);
-      backends.back().force_path = *path;
+      ASPIC_TRY(const auto path, parse_force_path(word));
+      backends.push_back(choice);
+      backends.back().force_path = path;
     }
   }
   for (const BackendChoice& choice : backends) {
@@ -96,13 +92,10 @@ Error usage(std::string message) {
 }
 
 Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
-  const auto row = parse_backend_name(raw.backend);
-  if (!row) return row.error();
-  const auto precision = parse_precision(raw.precision.empty() ? "single" : raw.precision);
-  if (!precision) return precision.error();
-  const auto path = parse_force_path(raw.force_path);
-  if (!path) return path.error();
-  run.backend = {*row, *precision, *path};
+  ASPIC_TRY(const auto row, parse_backend_name(raw.backend));
+  ASPIC_TRY(const auto precision, parse_precision(raw.precision.empty() ? "single" : raw.precision));
+  ASPIC_TRY(const auto path, parse_force_path(raw.force_path));
+  run.backend = {row, precision, path};
   run.precision_given = !raw.precision.empty();
   ASPIC_CHECK(check_length(run.length));
   for (const StateOutput& output : run.outputs) {
@@ -123,21 +116,18 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
 }
 
 Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
-  const auto path = parse_force_path(raw.force_path);
-  if (!path) return path.error();
+  ASPIC_TRY(const auto path, parse_force_path(raw.force_path));
   const auto choose = [&](const std::string& text) -> Result<BackendChoice> {
     auto choice = parse_backend(text);
     if (!choice) return choice;
-    if (has_force_paths(*choice) && choice->force_path == ForcePath::automatic) choice->force_path = *path;
+    if (has_force_paths(*choice) && choice->force_path == ForcePath::automatic) choice->force_path = path;
     ASPIC_CHECK(check_choice(*choice));
     return choice;
   };
-  const auto first = choose(raw.backends.front());
-  if (!first) return first.error();
-  const auto second = choose(raw.backends.back());
-  if (!second) return second.error();
-  compare.first = *first;
-  compare.second = *second;
+  ASPIC_TRY(const auto first, choose(raw.backends.front()));
+  ASPIC_TRY(const auto second, choose(raw.backends.back()));
+  compare.first = first;
+  compare.second = second;
   ASPIC_CHECK(check_length(compare.length));
   if (!(std::isfinite(compare.tolerance) && compare.tolerance >= 0.0)) {
     return usage(fmt::format("--tolerance must be a finite number, 0 or more, not {}.", compare.tolerance));
@@ -146,22 +136,19 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
 }
 
 Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
-  const auto row = parse_backend_name(raw.backend);
-  if (!row) return row.error();
-  view.backend.row = *row;
+  ASPIC_TRY(const auto row, parse_backend_name(raw.backend));
+  view.backend.row = row;
   ASPIC_CHECK(check_choice(view.backend));
   if (!raw.window_size.empty()) {
-    const auto size = parse_size(raw.window_size);
-    if (!size) return size.error();
-    view.size = *size;
+    ASPIC_TRY(const auto size, parse_size(raw.window_size));
+    view.size = size;
   }
   return Command(std::move(view));
 }
 
 Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
-  auto backends = bench_backends(raw);
-  if (!backends) return backends.error();
-  bench.backends = std::move(*backends);
+  ASPIC_TRY(auto backends, bench_backends(raw));
+  bench.backends = std::move(backends);
   for (const std::string& word : raw.bench_integrators) {
     const auto known = std::find_if(std::begin(all_integrators), std::end(all_integrators),
                                     [&](Integrator i) { return name_of(i) == word; });

@@ -109,15 +109,4 @@ void Buffer::clear() {
   glClearBufferData(target, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
 }
 
-void Buffer::copy_from(const Buffer& source, std::uint64_t bytes, std::uint64_t source_offset,
-                       std::uint64_t offset) {
-  assert(source_offset <= source.bytes_ && bytes <= source.bytes_ - source_offset);
-  assert(offset <= bytes_ && bytes <= bytes_ - offset);
-  if (bytes == 0) return;
-  glBindBuffer(source_target, source.id_);
-  glBindBuffer(target, id_);
-  glCopyBufferSubData(source_target, target, static_cast<GLintptr>(source_offset),
-                      static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
-}
-
 }  // namespace aspic::gl

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <utility>
 
 namespace aspic::gl {
 namespace {
@@ -59,10 +58,12 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
   context.forget_errors();
   Texture texture;
   texture.settings_ = settings;
-  glGenTextures(1, &texture.id_);
+  GLuint id = 0;
+  glGenTextures(1, &id);
+  texture.name_ = Name(id, [](std::uint32_t owned) { glDeleteTextures(1, &owned); });
   const GLenum target = target_of(settings);
   const Storage storage = storage_of(settings.format);
-  glBindTexture(target, texture.id_);
+  glBindTexture(target, id);
   if (settings.samples > 1) {
     glTexStorage2DMultisample(target, settings.samples, storage.internal, settings.width, settings.height,
                               GL_TRUE);
@@ -85,27 +86,8 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
                              context.info().renderer, name, settings.width, settings.height, settings.samples,
                              settings.samples == 1 ? "" : "s", error)};
   if (context.info().debug && !name.empty())
-    glObjectLabel(GL_TEXTURE, texture.id_, static_cast<GLsizei>(name.size()), name.data());
+    glObjectLabel(GL_TEXTURE, id, static_cast<GLsizei>(name.size()), name.data());
   return texture;
-}
-
-Texture::~Texture() {
-  release();
-}
-
-Texture::Texture(Texture&& other) noexcept : id_(std::exchange(other.id_, 0)), settings_(other.settings_) {}
-
-Texture& Texture::operator=(Texture&& other) noexcept {
-  if (this == &other) return *this;
-  release();
-  id_ = std::exchange(other.id_, 0);
-  settings_ = other.settings_;
-  return *this;
-}
-
-void Texture::release() {
-  if (id_) glDeleteTextures(1, &id_);
-  id_ = 0;
 }
 
 void Texture::upload(std::span<const std::byte> texels) {
@@ -113,7 +95,7 @@ void Texture::upload(std::span<const std::byte> texels) {
   assert(storage.upload_bytes > 0 && settings_.samples == 1);
   assert(texels.size() == storage.upload_bytes * static_cast<std::size_t>(settings_.width) *
                               static_cast<std::size_t>(settings_.height));
-  glBindTexture(GL_TEXTURE_2D, id_);
+  glBindTexture(GL_TEXTURE_2D, id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, settings_.width, settings_.height, storage.format, GL_UNSIGNED_BYTE,
                   texels.data());
@@ -121,13 +103,13 @@ void Texture::upload(std::span<const std::byte> texels) {
 
 void Texture::generate_mipmaps() {
   assert(settings_.mipmaps);
-  glBindTexture(GL_TEXTURE_2D, id_);
+  glBindTexture(GL_TEXTURE_2D, id());
   glGenerateMipmap(GL_TEXTURE_2D);
 }
 
 void Texture::bind(std::uint32_t unit) const {
   glActiveTexture(GL_TEXTURE0 + unit);
-  glBindTexture(target_of(settings_), id_);
+  glBindTexture(target_of(settings_), id());
   glActiveTexture(GL_TEXTURE0);
 }
 

@@ -29,14 +29,9 @@ constexpr std::uint64_t steps_per_look = 256;
 constexpr Reader anyone = Reader::compute_pass | Reader::vertex_draw | Reader::read_back | Reader::copy;
 
 /// Whether the method's sums outlive a stage, so that memory must hold them.
-bool keeps_sums(const StagedMethod& method) {
+bool keeps_sums(const IntegratorRow& method) {
   return std::any_of(method.stages.begin(), method.stages.end() - 1,
                      [](const Stage& s) { return s.weight != 0.0; });
-}
-
-/// Backward Euler without springs is symplectic Euler.
-const StagedMethod* method_of(Integrator integrator) {
-  return staged_method(integrator == Integrator::implicit_euler ? Integrator::symplectic_euler : integrator);
 }
 
 class ComputeSolver final : public GpuSolver {
@@ -120,16 +115,15 @@ Status ComputeSolver::build(const GpuOptions& options) {
 }
 
 Status ComputeSolver::build_buffers(const GpuOptions& options) {
-  const StagedMethod* method = method_of(model_.simulation.integrator);
+  const IntegratorRow& method = free_flight_row(model_.simulation.integrator);
   auto block = simulation_block(model_);
   if (!block) return block.error();
-  stages_ = static_cast<std::uint32_t>(method->stages.size());
+  stages_ = static_cast<std::uint32_t>(method.stages.size());
 
   const std::uint64_t state_bytes = std::uint64_t{model_.particle_count()} * sizeof(layout::Particle);
   for (Buffer& state : states_)
     ASPIC_ASSIGN_OR_RETURN(state, Buffer::create(context_, "particle state", state_bytes));
-  ASPIC_ASSIGN_OR_RETURN(sums_,
-                         Buffer::create(context_, "stage sums", keeps_sums(*method) ? state_bytes : 0));
+  ASPIC_ASSIGN_OR_RETURN(sums_, Buffer::create(context_, "stage sums", keeps_sums(method) ? state_bytes : 0));
   ASPIC_ASSIGN_OR_RETURN(
       simulation_, Buffer::of(context_, "simulation constants",
                               std::span<const layout::Simulation>(&*block, 1), gl::BufferKind::uniform));
@@ -331,7 +325,7 @@ std::uint64_t gpu_bytes(const ModelCounts& counts, Integrator integrator, ForceP
            sizeof(layout::Simulation) + sizeof(layout::Pull) + sizeof(layout::Solve) +
            blocks * sizeof(layout::vec4) + 4 * (counts.particles + 1) + 8 * counts.springs();
   }
-  const std::uint64_t states = keeps_sums(*method_of(integrator)) ? 4 : 3;
+  const std::uint64_t states = keeps_sums(free_flight_row(integrator)) ? 4 : 3;
   std::uint64_t bytes = ball_bytes(counts) + states * counts.particles * sizeof(layout::Particle) +
                         sizeof(layout::Simulation) + sizeof(layout::Pull) + sizeof(layout::Control) +
                         4 * (counts.particles + 1) + 8 * counts.springs();

@@ -39,7 +39,19 @@ layout::Terrain block_of(const Terrain& t) {
   return block;
 }
 
-void fill_stages(layout::Simulation& block, const StagedMethod& method, double h) {
+std::uint32_t drift_word(Drift drift) {
+  switch (drift) {
+    case Drift::new_velocity:
+      return DRIFT_NEW_VELOCITY;
+    case Drift::mean_velocity:
+      return DRIFT_MEAN_VELOCITY;
+    case Drift::stage_velocity:
+      break;
+  }
+  return DRIFT_STAGE_VELOCITY;
+}
+
+void fill_stages(layout::Simulation& block, const IntegratorRow& method, double h) {
   bool accumulate = false;
   for (std::size_t s = 0; s < method.stages.size(); ++s) {
     const Stage& stage = method.stages[s];
@@ -51,7 +63,7 @@ void fill_stages(layout::Simulation& block, const StagedMethod& method, double h
     accumulate = accumulate || stage.weight != 0.0;
   }
   block.step_scale = static_cast<float>(h / method.divisor);
-  block.position_from_new_velocity = method.position_from_new_velocity ? 1u : 0u;
+  block.drift = drift_word(method.drift);
 }
 
 }  // namespace
@@ -79,11 +91,8 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.terrain_count = static_cast<std::uint32_t>(model.terrain.size());
   block.contact_model = model.contact.model == ContactModel::coulomb ? CONTACT_COULOMB : CONTACT_COURSE;
   block.class_bits = class_bits(model);
-  // Implicit Euler stages nothing but its balls, whose backward Euler is symplectic Euler.
-  const bool implicit_euler = model.simulation.integrator == Integrator::implicit_euler;
-  fill_stages(block,
-              *staged_method(implicit_euler ? Integrator::symplectic_euler : model.simulation.integrator),
-              model.simulation.timestep);
+  // A solved method stages nothing but its balls.
+  fill_stages(block, free_flight_row(model.simulation.integrator), model.simulation.timestep);
   fill_balls(block, model);
   const ImplicitSettings& implicit = model.simulation.implicit;
   block.time_step = static_cast<float>(model.simulation.timestep);

@@ -64,11 +64,10 @@ std::string follow_links(const std::string& path) {
 }
 
 Error already_exists(const std::string& path) {
-  return {
+  return fail(
       ErrorCode::io,
-      fmt::format(
-          "{} exists already and was left as it is. Choose another name, or allow overwriting with --force.",
-          printable_line(path))};
+      "{} exists already and was left as it is. Choose another name, or allow overwriting with --force.",
+      printable_line(path));
 }
 
 }  // namespace
@@ -138,8 +137,7 @@ void AtomicFile::discard() noexcept {
 }
 
 Status AtomicFile::write(std::string_view text) {
-  if (descriptor_ < 0)
-    return Error{ErrorCode::io, fmt::format("{} was discarded after an earlier error.", path_)};
+  if (descriptor_ < 0) return fail(ErrorCode::io, "{} was discarded after an earlier error.", path_);
   buffer_ += text;
   return buffer_.size() >= buffer_size ? flush() : Status{};
 }
@@ -175,8 +173,7 @@ Status AtomicFile::give_final_name() {
 }
 
 Status AtomicFile::commit() {
-  if (descriptor_ < 0)
-    return Error{ErrorCode::io, fmt::format("{} was discarded after an earlier error.", path_)};
+  if (descriptor_ < 0) return fail(ErrorCode::io, "{} was discarded after an earlier error.", path_);
   ASPIC_CHECK(flush());
   const bool device = temporary_.empty();
   if (!device && ::fsync(descriptor_) != 0) {

@@ -23,8 +23,7 @@ namespace {
 constexpr int failed = static_cast<int>(ErrorCode::io);
 constexpr std::string_view no_memory =
     "aspic: there is not enough memory. Use a smaller scene or picture, close other programs, or raise the "
-    "limit of "
-    "this process (ulimit -v). Nothing incomplete was left behind.\n";
+    "limit of this process (ulimit -v). Nothing incomplete was left behind.\n";
 
 /// Writes without allocating, also from a signal handler.
 void write_plainly(std::string_view text) {
@@ -51,9 +50,8 @@ void on_fatal_signal(int number) {
   write_plainly({digits.data() + (number < 10 ? 1 : 0), number < 10 ? 1u : 2u});
   write_plainly(
       ", in a driver or in aspic itself; its temporary files were removed. If little memory or stack is left "
-      "(ulimit "
-      "-v, ulimit -s), allow more; if a graphics driver is at fault, --backend reference does without "
-      "one.\n");
+      "(ulimit -v, ulimit -s), allow more; if a graphics driver is at fault, --backend reference does "
+      "without one.\n");
   ::signal(number, SIG_DFL);
   ::raise(number);
 }

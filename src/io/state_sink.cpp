@@ -26,9 +26,8 @@ class StateTables final : public StateSink {
                                                  Overwrite overwrite, const RunFacts&) {
     auto sink = std::make_unique<StateTables>(path, every, overwrite);
     if (every == 0) {
-      auto file = AtomicFile::create(path, overwrite);
-      if (!file) return file.error();
-      sink->file_ = std::move(*file);
+      ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
+      sink->file_ = std::move(file);
     }
     return std::unique_ptr<StateSink>(std::move(sink));
   }
@@ -42,9 +41,9 @@ class StateTables final : public StateSink {
   Status write(const State& state) {
     if (last_step_ == state.step) return {};
     if (every() > 0) {
-      auto file = AtomicFile::create(numbered(pattern_, fmt::format("{:08}", state.step)), overwrite_);
-      if (!file) return file.error();
-      file_ = std::move(*file);
+      ASPIC_TRY(auto file,
+                AtomicFile::create(numbered(pattern_, fmt::format("{:08}", state.step)), overwrite_));
+      file_ = std::move(file);
     }
     last_step_ = state.step;
     const Status written = write_state_csv(*file_, state);
@@ -61,9 +60,9 @@ class Series final : public StateSink {
  public:
   static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
                                                  Overwrite overwrite, const RunFacts& facts) {
-    auto writer = SeriesWriter::create(path, overwrite, facts.integrator == Integrator::implicit_euler);
-    if (!writer) return writer.error();
-    return std::unique_ptr<StateSink>(std::make_unique<Series>(path, every, std::move(*writer)));
+    ASPIC_TRY(auto writer,
+              SeriesWriter::create(path, overwrite, facts.integrator == Integrator::implicit_euler));
+    return std::unique_ptr<StateSink>(std::make_unique<Series>(path, every, std::move(writer)));
   }
   Series(const std::string& path, std::uint64_t every, SeriesWriter writer)
       : StateSink(path, every), writer_(std::move(writer)) {}
@@ -83,10 +82,9 @@ class CheckpointFile final : public StateSink {
  public:
   static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
                                                  Overwrite overwrite, const RunFacts& facts) {
-    auto file = AtomicFile::create(path, overwrite);
-    if (!file) return file.error();
+    ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
     return std::unique_ptr<StateSink>(
-        std::make_unique<CheckpointFile>(path, every, std::move(*file), facts.scene_toml));
+        std::make_unique<CheckpointFile>(path, every, std::move(file), facts.scene_toml));
   }
   CheckpointFile(const std::string& path, std::uint64_t every, AtomicFile file, std::string scene_toml)
       : StateSink(path, every), file_(std::move(file)), scene_toml_(std::move(scene_toml)) {}
@@ -104,9 +102,8 @@ class CheckpointFile final : public StateSink {
   Status write(const Sample& sample) {
     if (written_) {
       // What is there now is our own.
-      auto file = AtomicFile::create(path(), Overwrite::allow);
-      if (!file) return file.error();
-      file_ = std::move(*file);
+      ASPIC_TRY(auto file, AtomicFile::create(path(), Overwrite::allow));
+      file_ = std::move(file);
     }
     const Checkpoint checkpoint = {ASPIC_VERSION, scene_toml_, sample.model.simulation.timestep,
                                    sample.state};

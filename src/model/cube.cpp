@@ -78,11 +78,10 @@ Result<std::vector<bool>> pinned_particles(const CubeSettings& cube) {
   for (const std::string& name : cube.pinned.names) {
     const auto places = places_of(name);
     if (!places) {
-      return Error{
-          ErrorCode::scene_rejected,
-          fmt::format("pinned: \"{}\" is neither a face (top, bottom, left, right, front, back) nor a corner "
-                      "(three faces joined by hyphens, such as left-top-front)",
-                      name)};
+      return fail(ErrorCode::scene_rejected,
+                  "pinned: \"{}\" is neither a face (top, bottom, left, right, front, back) nor a corner "
+                  "(three faces joined by hyphens, such as left-top-front)",
+                  name);
     }
     const auto along = [&](std::size_t axis, int at) {
       return (*places)[axis] == Place::anywhere || at == ((*places)[axis] == Place::last ? n - 1 : 0);
@@ -98,9 +97,8 @@ Result<std::vector<bool>> pinned_particles(const CubeSettings& cube) {
   }
   for (const std::int64_t index : cube.pinned.indices) {
     if (index < 0 || index >= std::ssize(pinned)) {
-      return Error{
-          ErrorCode::scene_rejected,
-          fmt::format("pinned: index {} is not in the cube; allowed: 0 … {}", index, pinned.size() - 1)};
+      return fail(ErrorCode::scene_rejected, "pinned: index {} is not in the cube; allowed: 0 … {}", index,
+                  pinned.size() - 1);
     }
     pinned[static_cast<std::size_t>(index)] = true;
   }
@@ -141,8 +139,7 @@ SpringSettings material_springs(const MaterialSettings& material, int particles_
 Status add_cube(Model& model, const CubeSettings& cube) {
   const int n = cube.particles_per_edge;
   const double s = cube.edge_length / (n - 1);
-  const auto pinned = pinned_particles(cube);
-  if (!pinned) return pinned.error();
+  ASPIC_TRY(const auto pinned, pinned_particles(cube));
 
   SpringSettings structural = cube.structural, shear = cube.shear, bending = cube.bending;
   double mass = cube.particle_mass;
@@ -153,7 +150,7 @@ Status add_cube(Model& model, const CubeSettings& cube) {
 
   Body body;
   body.first_particle = model.particle_count();
-  body.particle_count = static_cast<std::uint32_t>(pinned->size());
+  body.particle_count = static_cast<std::uint32_t>(pinned.size());
   body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());
   body.class_count = class_count;
   body.lattice = {n, n, n};
@@ -177,9 +174,9 @@ Status add_cube(Model& model, const CubeSettings& cube) {
       for (int k = 0; k < n; ++k, ++local) {
         const Vec3 from_centre = {i * s - half, j * s - half, k * s - half};
         model.initial_position.push_back(cube.position + turned(from_centre));
-        model.initial_velocity.push_back((*pinned)[local] ? Vec3{} : cube.velocity);
+        model.initial_velocity.push_back((pinned)[local] ? Vec3{} : cube.velocity);
         model.mass.push_back(mass);
-        model.inverse_mass.push_back((*pinned)[local] ? 0.0 : 1.0 / mass);
+        model.inverse_mass.push_back((pinned)[local] ? 0.0 : 1.0 / mass);
         const auto a = static_cast<std::uint32_t>(body.first_particle + local);
         for (const Offset& o : offsets) {
           if (i + o.di >= n || j + o.dj < 0 || j + o.dj >= n || k + o.dk < 0 || k + o.dk >= n) continue;

@@ -123,13 +123,7 @@ std::uint64_t model_bytes(const ModelCounts& counts);
 /// a solver in single precision. For memory checks before anything is allocated.
 std::uint64_t run_bytes(const ModelCounts& counts);
 
-/// Every integrator, in the order in which they are listed for users.
-inline constexpr Integrator all_integrators[] = {
-    Integrator::explicit_euler, Integrator::symplectic_euler, Integrator::midpoint,
-    Integrator::runge_kutta_4,  Integrator::implicit_euler,   Integrator::implicit_euler_one_pass};
-
 /// Names as they stand in scene files and reports.
-std::string_view name_of(Integrator integrator);
 std::string_view name_of(ContactModel model);
 std::string_view name_of(SpringType type);
 std::string_view name_of(TerrainShape shape);

@@ -9,19 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "model/integrator.h"
 #include "model/vec3.h"
 
 namespace aspic {
-
-/// Time integration methods.
-enum class Integrator {
-  explicit_euler,
-  symplectic_euler,
-  midpoint,
-  runge_kutta_4,
-  implicit_euler,
-  implicit_euler_one_pass
-};
 
 /// Contact models.
 enum class ContactModel { coulomb, course };

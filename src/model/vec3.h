@@ -35,6 +35,9 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 inline double length(const Vec3& a) {
   return std::sqrt(dot(a, a));
 }
+inline bool is_finite(const Vec3& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 /// Turns vectors about `axis` (any length but zero) by `angle_degrees`, right-handed (Rodrigues, 1840).
 class Rotation {

@@ -29,10 +29,10 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
   const double fps = frames_per_second(output);
   const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, fps, output.speed);
   if (schedule.count() > most_pictures) {
-    return Error{ErrorCode::usage,
-                 fmt::format("--speed {} and --fps {} make more than {} pictures of this run: choose a "
-                             "larger speed or fewer pictures a second.",
-                             output.speed, fps, most_pictures)};
+    return fail(ErrorCode::usage,
+                "--speed {} and --fps {} make more than {} pictures of this run: choose a larger speed or "
+                "fewer pictures a second.",
+                output.speed, fps, most_pictures);
   }
   std::unique_ptr<Recorder> r(new Recorder(output, scene, backend, schedule));
   r->context_ = backend.context.get();
@@ -44,18 +44,15 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
     r->own_context_ = std::move(*context);
     r->context_ = r->own_context_.get();
   }
-  const auto directory = shader_directory();
-  if (!directory) return directory.error();
+  ASPIC_TRY(const auto directory, shader_directory());
   RendererOptions look;
-  look.shaders = gl::ShaderLibrary(*directory);
-  auto renderer = Renderer::create(*r->context_, look);
-  if (!renderer) return renderer.error();
-  r->renderer_ = std::move(*renderer);
+  look.shaders = gl::ShaderLibrary(directory);
+  ASPIC_TRY(auto renderer, Renderer::create(*r->context_, look));
+  r->renderer_ = std::move(renderer);
   ASPIC_CHECK(r->renderer_->set_model(model));
   FilmOptions film = {sinks.front()->path(), fps, output.size};
-  auto recording = Recording::start(*r->context_, std::move(sinks), std::move(film));
-  if (!recording) return recording.error();
-  r->recording_ = std::move(*recording);
+  ASPIC_TRY(auto recording, Recording::start(*r->context_, std::move(sinks), std::move(film)));
+  r->recording_ = std::move(recording);
   return r;
 }
 
@@ -90,11 +87,9 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   if (backend_.gpu && !own_context_) {
     drawn_state = {&backend_.gpu->particles(), &backend_.gpu->balls(), backend_.gpu->first_ball(), step};
   } else {
-    const auto state = solver.state();
-    if (!state) return state.error();
-    const auto uploaded = renderer_->upload(*state);
-    if (!uploaded) return uploaded.error();
-    drawn_state = *uploaded;
+    ASPIC_TRY(const auto state, solver.state());
+    ASPIC_TRY(const auto uploaded, renderer_->upload(state));
+    drawn_state = uploaded;
   }
   PictureOptions picture;
   picture.view = scene_.view;
@@ -110,9 +105,7 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
 }
 
 Status Recorder::finish(Solver& solver, std::uint64_t step) {
-  if (recording_->pictures() == 0 || last_shown_ != step) {
-    ASPIC_CHECK(draw(solver, step, 1));
-  }
+  if (recording_->pictures() == 0 || last_shown_ != step) ASPIC_CHECK(draw(solver, step, 1));
   recording_->end();
   return recording_->result();
 }

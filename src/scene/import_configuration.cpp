@@ -207,14 +207,13 @@ class Importer {
 
 Result<ImportedConfiguration> import_configuration(std::string_view text, const std::string& file_name) {
   if (text.find('\0') != std::string_view::npos) {
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("{}: this is no text but a binary file; give the framework's Configuration.txt",
-                             printable_line(file_name))};
+    return fail(ErrorCode::scene_rejected,
+                "{}: this is no text but a binary file; give the framework's Configuration.txt",
+                printable_line(file_name));
   }
-  auto ground = load_scene("penalty");
-  if (!ground) return ground.error();
-  ground->name = "imported";
-  return Importer(file_name, std::move(*ground)).read(text);
+  ASPIC_TRY(auto ground, load_scene("penalty"));
+  ground.name = "imported";
+  return Importer(file_name, std::move(ground)).read(text);
 }
 
 std::string imported_toml(const ImportedConfiguration& imported, const std::string& file_name) {

@@ -64,16 +64,13 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
     // A path was meant if it looks like one; any other word was meant as a name.
     if (file_or_builtin.find_first_of("/.") != std::string::npos) {
       const std::string stem = std::filesystem::path(file_or_builtin).stem().string();
-      return Error{ErrorCode::io,
-                   fmt::format("{}: no such file; {}", printable_line(file_or_builtin), known_scenes(stem))};
+      return fail(ErrorCode::io, "{}: no such file; {}", printable_line(file_or_builtin), known_scenes(stem));
     }
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("'{}' is neither a file nor a built-in scene; {}",
-                             printable_line(file_or_builtin), known_scenes(file_or_builtin))};
+    return fail(ErrorCode::scene_rejected, "'{}' is neither a file nor a built-in scene; {}",
+                printable_line(file_or_builtin), known_scenes(file_or_builtin));
   }
-  auto text = read_file(file_or_builtin, largest_file);
-  if (!text) return text.error();
-  return parse_scene(*text, file_or_builtin, overrides, limits);
+  ASPIC_TRY(auto text, read_file(file_or_builtin, largest_file));
+  return parse_scene(text, file_or_builtin, overrides, limits);
 }
 
 }  // namespace aspic

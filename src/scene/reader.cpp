@@ -286,10 +286,10 @@ std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes)
     const std::vector<std::string> others = explicit_keys(c);
     if (others.empty()) continue;
     const std::vector<std::string_view> names(others.begin(), others.end());
-    problems.push_back({material->second.key,
-                        fmt::format("a cube has either 'material' or the masses and springs it decides, not "
-                                    "both; leave out 'material' or {}",
-                                    diagnostics::list_text(names, false))});
+    problems.push_back(
+        {material->second.key, fmt::format("a cube has either 'material' or the masses and springs it "
+                                           "decides, not both; leave out 'material' or {}",
+                                           diagnostics::list_text(names, false))});
   }
   for (const SceneComplaint& complaint : check_scene(scene_, memory_bytes)) {
     if ((complaint.of_key || !has_problem(complaint.path)) && !has_problem(complaint.other))

@@ -73,10 +73,11 @@ void check_boxes(const Scene& scene, Complaints& complaints) {
   const auto check = [&](std::string_view key, std::size_t i, const BoxSettings& box) {
     for (int axis = 0; axis < 3; ++axis) {
       if (box.min[axis] <= box.max[axis]) continue;
-      Complaint no_box = {fmt::format("'launcher.{}' is no box: its min has the {} {} and its max {}; min "
-                                      "must not exceed max",
-                                      key, "xyz"[axis], box.min[axis], box.max[axis]),
-                          {}};
+      Complaint no_box = {
+          fmt::format(
+              "'launcher.{}' is no box: its min has the {} {} and its max {}; min must not exceed max", key,
+              "xyz"[axis], box.min[axis], box.max[axis]),
+          {}};
       complaints.emplace_back(fmt::format("launcher[{}].{}", i, key), std::move(no_box));
     }
   };

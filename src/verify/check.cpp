@@ -18,9 +18,8 @@ Subject product(gl::Context* context, std::string program) {
     return make_reference_solver(model, precision);
   };
   subject.other = [](const Model& model, const BackendRow& row) -> Result<std::unique_ptr<Solver>> {
-    auto backend = make_backend({&row}, model);
-    if (!backend) return backend.error();
-    return std::move(backend->solver);
+    ASPIC_TRY(auto backend, make_backend({&row}, model));
+    return std::move(backend.solver);
   };
   if (context != nullptr) {
     subject.gpu = [context](const Model& model, const GpuOptions& options) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/amplification.h"
 #include "model/terrain.h"
 #include "verify/experiments.h"
 
@@ -68,11 +69,12 @@ Result<Finding> viscous(const Subject& subject, Integrator integrator) {
   const Model model = particle_on_plane(integrator, ContactModel::course, 0.0, {2, 0, 0});
   ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, steps));
   const double z = -model.simulation.timestep * friction * g;
-  double factor = 1 + z;  // also implicit Euler, which holds the contact force of the step's start
-  if (integrator == Integrator::midpoint) factor = 1 + z + z * z / 2;
-  if (integrator == Integrator::runge_kutta_4)
-    factor = 1 + z + z * z / 2 + z * z * z / 6 + z * z * z * z / 24;
-  if (integrator == Integrator::implicit_euler_one_pass) factor = 1 + z + z * z;
+  double factor = 1 + z;  // of a solved method, which holds the contact force of the step's start
+  if (!row_of(integrator).solved()) {
+    const auto r = amplification_polynomial(row_of(integrator));
+    factor = 0.0;
+    for (std::size_t i = r.size(); i-- > 0;) factor = factor * z + r[i];
+  }
   return at_most(std::abs(end.velocity[0].x / (2 * std::pow(factor, steps)) - 1), 4 * steps * epsilon_double);
 }
 

@@ -44,14 +44,12 @@ Model loose_particles(std::vector<Vec3> positions, std::vector<Vec3> velocities,
 Status require_good(const Result<std::optional<Divergence>>& advanced) {
   if (!advanced) return advanced.error();
   if (!advanced->has_value()) return {};
-  return Error{ErrorCode::check_failed,
-               fmt::format("diverged in step {} at particle {}", (*advanced)->step, (*advanced)->particle)};
+  return fail(ErrorCode::check_failed, "diverged in step {} at particle {}", (*advanced)->step,
+              (*advanced)->particle);
 }
 
 Result<State> run(Solver& solver, std::uint64_t steps, const State* start) {
-  if (start != nullptr) {
-    ASPIC_CHECK(solver.load(*start));
-  }
+  if (start != nullptr) ASPIC_CHECK(solver.load(*start));
   ASPIC_CHECK(require_good(solver.advance(steps)));
   return solver.state();
 }

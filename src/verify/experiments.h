@@ -10,12 +10,6 @@
 
 namespace aspic::verify {
 
-inline constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integrator::symplectic_euler,
-                                                    Integrator::midpoint, Integrator::runge_kutta_4,
-                                                    Integrator::implicit_euler_one_pass};
-inline constexpr std::array all_integrators = {
-    Integrator::explicit_euler, Integrator::symplectic_euler,        Integrator::midpoint,
-    Integrator::runge_kutta_4,  Integrator::implicit_euler_one_pass, Integrator::implicit_euler};
 inline constexpr std::array all_terrains = {TerrainShape::plane, TerrainShape::tilted_plane,
                                             TerrainShape::sphere, TerrainShape::bowl};
 inline constexpr std::array both_contact_models = {ContactModel::coulomb, ContactModel::course};

@@ -8,8 +8,8 @@
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
 #include "io/series_csv.h"
-#include "io/state_csv.h"
 #include "scene/load.h"
+#include "support/state_csv_reader.h"
 
 namespace aspic::test {
 namespace {
@@ -42,7 +42,7 @@ TEST_P(OutputOn, AStateReadsBackToItsHash) {
   open_falling(GetParam());
   save("state.csv");
   EXPECT_FALSE(app().notice()->is_error) << app().notice()->text;
-  const auto state = read_state_csv(path("aspic-cube-plane-0001.csv"), Precision::single);
+  const auto state = test::read_state_csv(path("aspic-cube-plane-0001.csv"), Precision::single);
   ASSERT_TRUE(state.ok()) << state.error().message;
   EXPECT_EQ(state_hash_text(*state), state_hash_text(simulation().snapshot()));
   EXPECT_EQ(state_hash_text(*state), reference_hash(app().editor().scene(), simulation().step()));
@@ -84,7 +84,7 @@ TEST_F(Output, WhatExistsIsKeptAndTheNextNameIsFree) {
   std::ofstream(directory() / "aspic-cube-plane-0001.csv") << "precious";
   save("state.csv");
   EXPECT_EQ(*read_file(path("aspic-cube-plane-0001.csv")), "precious");
-  EXPECT_TRUE(read_state_csv(path("aspic-cube-plane-0002.csv"), Precision::single).ok());
+  EXPECT_TRUE(test::read_state_csv(path("aspic-cube-plane-0002.csv"), Precision::single).ok());
   click("save/state.csv");
   click("save/state.csv/path");
   for (const char32_t c : U"aspic-cube-plane-0001.csv") {

@@ -108,13 +108,9 @@ TEST(BallsOnTheGround, SpinTurnsABounce) {
   }
 }
 
-constexpr Integrator every_integrator[] = {
-    Integrator::explicit_euler, Integrator::symplectic_euler,        Integrator::midpoint,
-    Integrator::runge_kutta_4,  Integrator::implicit_euler_one_pass, Integrator::implicit_euler};
-
 // A ball dropped from 1 m: its first apex is e² of that, then it comes to rest and stays there to the bit.
 TEST(BallsOnTheGround, BounceByRestitutionAndComeToRest) {
-  for (const Integrator integrator : every_integrator) {
+  for (const Integrator integrator : all_integrators) {
     for (const bool spin : {true, false}) {
       ModelSettings settings;
       settings.simulation.integrator = integrator;
@@ -148,7 +144,7 @@ TEST(BallsOnTheGround, BounceByRestitutionAndComeToRest) {
 TEST(BallsOnTheGround, RollOnUnderEveryIntegrator) {
   const double R = 0.4, along = 9.8 * 0.5, t = 1.0;
   const double rounding = 1000 * 16 * epsilon * 5.0;
-  for (const Integrator integrator : every_integrator) {
+  for (const Integrator integrator : all_integrators) {
     ModelSettings level;
     level.simulation.integrator = integrator;
     level.terrain.emplace_back();

@@ -11,6 +11,7 @@
 #include "cpu_reference/reference_solver.h"
 #include "model/pull.h"
 #include "model/terrain.h"
+#include "support/integrator_names.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -73,15 +74,7 @@ class Rest : public testing::TestWithParam<Integrator> {
     return settings;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Explicit, Rest,
-                         testing::Values(Integrator::explicit_euler, Integrator::symplectic_euler,
-                                         Integrator::midpoint, Integrator::runge_kutta_4,
-                                         Integrator::implicit_euler_one_pass),
-                         [](const auto& instance) {
-                           std::string name(name_of(instance.param));
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Explicit, Rest, testing::ValuesIn(explicit_integrators), test::by_integrator);
 
 TEST_P(Rest, ACubeOnTheGround) {
   for (const Precision precision : {Precision::single, Precision::double_}) {
