@@ -166,7 +166,8 @@ Status bench_command(const BenchOptions& options) {
   ASPIC_TRY(auto loaded, load_scene(options.scene, options.overrides));
   std::vector<int> sizes = options.sizes;
   if (!sizes.empty() && loaded.model.cubes.empty()) {
-    return fail(ErrorCode::usage, "--size sets particles-per-edge of cubes, and {} has none.", loaded.name);
+    return fail(ErrorCode::usage, "--size sets the particles-per-edge of cubes, but {} has no cube.",
+                loaded.name);
   }
   if (sizes.empty()) sizes.push_back(0);
   std::vector<Integrator> integrators = options.integrators;
@@ -182,7 +183,7 @@ Status bench_command(const BenchOptions& options) {
       scene.model.simulation.integrator = integrator;
       for (const BackendChoice& choice : options.backends) {
         if (choice.force_path == ForcePath::per_spring && integrator == Integrator::implicit_euler) {
-          print_message("implicit-euler has no per-spring path: left out.");
+          print_message("skipped implicit-euler on the force path per-spring, which it does not have.");
           continue;
         }
         ASPIC_TRY(auto measured, measure_case(options, scene, choice, interrupt));

@@ -5,11 +5,11 @@
 
 namespace aspic::cli {
 
-/// Simulates; writes the files asked for. Errors beside those of its parts: diverged and interrupted, both
-/// after the files are closed whole.
+/// Simulates; writes the files asked for. Errors in addition to those of its parts: diverged and interrupted,
+/// both after the files are complete.
 Status run_command(const RunOptions& options);
 
-/// Becomes the window program, aspic-view beside this one. Error (no_device): it is not there.
+/// Becomes the window program, aspic-view, installed next to this one. Error (no_device): it is not there.
 Status view_command(const ViewOptions& options);
 
 /// Steps two backends side by side. Error (check_failed): they differ by more than the tolerance.
@@ -24,7 +24,7 @@ Status verify_command(const VerifyOptions& options);
 Status scene_list_command(const SceneListOptions& options);
 Status scene_show_command(const SceneShowOptions& options);
 Status scene_check_command(const SceneCheckOptions& options);
-/// The scene goes to stdout; what it does not carry is told there in comments and on stderr.
+/// The scene goes to stdout; what it cannot carry is listed there in comments and on stderr.
 Status scene_import_command(const SceneImportOptions& options);
 
 /// Never fails for want of a GPU: says so instead.

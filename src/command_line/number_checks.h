@@ -5,8 +5,8 @@
 
 namespace aspic {
 
-/// Largest number of steps: beyond 2⁵³ time, which is step·h in double precision, no longer tells steps
-/// apart.
+/// Largest number of steps: beyond 2⁵³ time, which is step·h in double precision, no longer tells
+/// steps apart.
 inline constexpr std::uint64_t most_steps = std::uint64_t{1} << 53;
 
 /// Whether the text is a whole number from 0 to `most`, digits alone; if so it is left without leading zeros.

@@ -214,7 +214,7 @@ void ComputeSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
 Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
   while (steps > 0 && !divergence_) {
     if (steps_since_ >
-        0x7fffffffu) {  // the kernels count steps in 32 bits: begin anew, no step is under way here
+        0x7fffffffu) {  // the kernels count steps in 32 bits: restart, no step is in progress here
       base_step_ += steps_since_;
       steps_since_ = 0;
       balls_.set_base_step(base_step_);

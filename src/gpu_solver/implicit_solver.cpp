@@ -222,7 +222,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
   bool measure = profiler_ != nullptr;
   while (steps > 0 && !divergence_) {
     if (solve_.step >
-        0x7fffffffu) {  // the device counts steps in 32 bits: begin anew, no step is under way here
+        0x7fffffffu) {  // the device counts steps in 32 bits: restart, no step is in progress here
       base_step_ += solve_.step;
       solve_.step = 0;
       balls_.set_base_step(base_step_);

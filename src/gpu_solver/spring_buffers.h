@@ -1,6 +1,6 @@
 #pragma once
 // The springs of a model on the device. Nothing writes them once they are made, so solvers of one context may
-// share them: a solver built anew for another stiffness needs no new ones.
+// share them: a solver rebuilt for another stiffness needs no new ones.
 #include <cstdint>
 #include <memory>
 

@@ -42,7 +42,8 @@ Status check_device(gl::Context& context, ErrorCode memory_code) {
   if (!context.ran_out_of_memory()) return {};
   return Error{
       memory_code,
-      fmt::format("The device {} ran out of memory at work, with {} ({} bytes) held in buffers. Make the "
+      fmt::format("The device {} ran out of memory during the computation, with {} ({} bytes) held in "
+                  "buffers. Make the "
                   "scene smaller, close other programs that use the device, or choose --backend reference.",
                   context.info().renderer, human_bytes(context.bytes_held()), context.bytes_held())};
 }

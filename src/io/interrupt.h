@@ -1,5 +1,5 @@
 #pragma once
-// Ctrl-C and SIGTERM as a flag that long work polls between batches, so that files are closed whole.
+// Ctrl-C and SIGTERM as a flag that long work polls between batches, so that files are completed.
 
 namespace aspic {
 

@@ -19,7 +19,7 @@ struct TubeMesh {
   std::vector<std::uint32_t> indices;          ///< three per triangle, anticlockwise from outside
 };
 
-/// The tubes of all goal nets, where their pinned particles stand at the start. Their radius is a fiftieth of
+/// The tubes of all goal nets, where their pinned particles are at the start. Their radius is a fiftieth of
 /// the net's least side: 4 cm for a net 2 m deep.
 TubeMesh goal_post_mesh(const Model& model);
 
