@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::int64_t version = 1;
-constexpr double slowest = 1.0 / 1024.0, fastest = 1024.0;
 constexpr const char* paces[] = {"steps-per-frame", "real-time"};
 
 std::optional<double> number_of(const toml::node& node) {
@@ -191,7 +190,7 @@ Result<KeptState> read_kept_state(const std::string& text) {
   std::size_t pace = 0, format = 0;
   taker.take(simulation, "pace", paces, pace);
   state.pace = static_cast<Pace>(pace);
-  taker.take(simulation, "speed", state.speed, slowest, fastest);
+  taker.take(simulation, "speed", state.speed, slowest_speed, fastest_speed);
   const toml::table* const recording = taker.find<toml::table>(&root, "recording");
   std::vector<std::string> formats;
   for (const FilmFormat& f : film_formats()) formats.emplace_back(f.name);

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 
-#include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "base/text.h"
 
 namespace aspic::app {
 
-void draw_timeline(App& app, const Box& box) {
-  const Simulation& s = app.simulation();
+void draw_timeline(Gui& gui, const Simulation& s, RunControl& run, const Box& box) {
   const History& history = s.history();
-  const double scale = app.gui().scale();
+  const double scale = gui.scale();
   const auto at = [](double x, double y) { return ImVec2(static_cast<float>(x), static_cast<float>(y)); };
   ImGui::SetNextWindowPos(at(box.left, box.top));
   ImGui::SetNextWindowSize(at(box.right - box.left, box.bottom - box.top));
@@ -28,7 +26,7 @@ void draw_timeline(App& app, const Box& box) {
   ImGui::SetNextItemWidth(-1.0f);
   const bool moved = ImGui::SliderScalar("##history", ImGuiDataType_Double, &now, &first, &last, text.c_str(),
                                          ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp);
-  app.gui().mark("timeline");
+  gui.mark("timeline");
   const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
   tooltip(fmt::format(
               "The run so far, {} of at most 512 MiB: drag to go to any step, paused. Steps between the "
@@ -46,7 +44,7 @@ void draw_timeline(App& app, const Box& box) {
   }
   ImGui::End();
   ImGui::PopStyleVar();
-  if (moved && last > first) app.go_to(now);
+  if (moved && last > first) run.go_to(now);
 }
 
 }  // namespace aspic::app

@@ -166,8 +166,7 @@ Status bench_command(const BenchOptions& options) {
   ASPIC_TRY(auto loaded, load_scene(options.scene, options.overrides));
   std::vector<int> sizes = options.sizes;
   if (!sizes.empty() && loaded.model.cubes.empty()) {
-    return fail(ErrorCode::usage, "--size sets the particles-per-edge of cubes, but {} has no cube.",
-                loaded.name);
+    return fail(ErrorCode::usage, "--size sets particles-per-edge of cubes, and {} has none.", loaded.name);
   }
   if (sizes.empty()) sizes.push_back(0);
   std::vector<Integrator> integrators = options.integrators;
@@ -182,8 +181,9 @@ Status bench_command(const BenchOptions& options) {
     for (const Integrator integrator : integrators) {
       scene.model.simulation.integrator = integrator;
       for (const BackendChoice& choice : options.backends) {
-        if (choice.force_path == ForcePath::per_spring && integrator == Integrator::implicit_euler) {
-          print_message("skipped implicit-euler on the force path per-spring, which it does not have.");
+        if (!works_with(choice.force_path, integrator)) {
+          print_message(
+              fmt::format("{} has no {} path: left out.", name_of(integrator), name_of(choice.force_path)));
           continue;
         }
         ASPIC_TRY(auto measured, measure_case(options, scene, choice, interrupt));

@@ -223,6 +223,10 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
   const std::string hash = state_hash_text(state);
   if (options.json) {
+    // Not within the list: g++ 12 destroys what it has not made yet when memory runs out in a list with `?:`.
+    const Json diverged = outcome.divergence ? to_json(*outcome.divergence, model.simulation.timestep) : Json();
+    const Json solves = outcome.solves ? to_json(*outcome.solves) : Json();
+    const Json pictures = recorder ? to_json(*recorder) : Json();
     return print_data(to_text({
         {"scene", scene.name},
         {"backend", backend.row->name},
@@ -241,9 +245,9 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"wall_seconds", outcome.wall_seconds},
         {"steps_per_second", outcome.steps_per_second()},
         {"state_hash", hash},
-        {"diverged", outcome.divergence ? to_json(*outcome.divergence, model.simulation.timestep) : Json()},
+        {"diverged", diverged},
         {"interrupted", outcome.interrupted},
-        {"implicit_solves", outcome.solves ? to_json(*outcome.solves) : Json()},
+        {"implicit_solves", solves},
         {"energies", Json{{"kinetic", m.kinetic},
                           {"elastic", m.elastic},
                           {"gravitational", m.gravitational},
@@ -251,7 +255,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"momentum", Json{m.momentum.x, m.momentum.y, m.momentum.z}},
         {"max_speed", m.max_speed},
         {"min_height", m.min_height},
-        {"pictures", recorder ? to_json(*recorder) : Json()},
+        {"pictures", pictures},
         {"files", files},
     }));
   }

@@ -192,7 +192,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   c->add_option("--backend", raw.backend, backend_words())->capture_default_str()->type_name("NAME");
   c->add_option("--precision", raw.precision, "single or double (reference only); default single")
       ->type_name("NAME");
-  c->add_option("--force-path", raw.force_path, "auto, per-spring, gather, lattice (gpu only)")
+  c->add_option("--force-path", raw.force_path, force_path_words() + " (gpu only)")
       ->capture_default_str()
       ->type_name("NAME");
   add_length(*c, run.length);

@@ -61,7 +61,7 @@ Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
 
 /// Whether the backend was named and has force paths to choose from.
 bool has_force_paths(const BackendChoice& choice) {
-  return choice.row && !choice.row->force_paths.empty();
+  return choice.row && !choice.row->force_paths().empty();
 }
 
 Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {

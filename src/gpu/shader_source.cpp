@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/printable.h"
+#include "model/terrain.h"
 
 namespace aspic::gl {
 namespace {
@@ -60,6 +61,24 @@ Result<std::string> read_shader_file(const std::filesystem::path& file) {
   return text;
 }
 
+/// shapes/all.glsl: the kernels of all terrain shapes, and the choice among them by terrains[t].shape.
+std::string shape_choice() {
+  std::string includes, distance, gap;
+  for (const TerrainShapeRow& row : terrain_shapes) {
+    const auto id = static_cast<unsigned>(row.value);
+    includes += fmt::format("#include \"shapes/{}.glsl\"\n", row.kernel);
+    distance += fmt::format("  if (terrains[t].shape == {}u) return {}_distance(t, x);\n", id, row.kernel);
+    gap += fmt::format("  if (terrains[t].shape == {}u) return {}_gap(t, x);\n", id, row.kernel);
+  }
+  return fmt::format(
+      "{}\n"
+      "// Signed distance [m], positive on the free side: the same bits as gap's.\n"
+      "float distance_to(uint t, vec3 x) {{\n{}  return 0.0;\n}}\n\n"
+      "// xyz: unit normal towards the free side; w: signed distance [m].\n"
+      "vec4 gap(uint t, vec3 x) {{\n{}  return vec4(0.0);\n}}\n",
+      includes, distance, gap);
+}
+
 }  // namespace
 
 /// A flattening under way: the shader so far, and the files that lead to the present one.
@@ -92,6 +111,7 @@ Result<std::string> ShaderLibrary::read(std::string_view path) const {
     if (std::filesystem::exists(file, ignored)) return read_shader_file(file);
   }
   if (const auto text = find_embedded(embedded_shaders(), path)) return std::string(*text);
+  if (path == "shapes/all.glsl") return shape_choice();
   return Error{
       ErrorCode::io,
       fmt::format("There is no shader file \"{}\"{}. Paths are relative to shaders/.", path,

@@ -12,8 +12,8 @@
 #include "gpu/pass_profiler.h"
 #include "gpu/program_cache.h"
 #include "gpu_solver/gpu_solver.h"
+#include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"
-#include "gpu_solver/support.h"
 
 namespace aspic {
 
@@ -44,8 +44,8 @@ class BallPasses {
   };
 
   /// Makes buffers and passes; nothing at all for a model without balls. Errors as make_gpu_solver.
-  Status build(gl::Context& context, const Model& model, const gl::ShaderLibrary& library,
-               const KernelOptions& kernels, const Surroundings& surroundings, BallSearch search);
+  Status build(gl::Context& context, const Model& model, const KernelOptions& kernels,
+               const Surroundings& surroundings, BallSearch search);
 
   bool any() const { return count_ > 0; }
 
@@ -102,7 +102,7 @@ class BallPasses {
     gl::Reader last;
   };
   bool wanted(Kernel kernel) const;
-  Status build_buffers(gl::Context& context);
+  Status build_buffers();
   Status allot(std::uint64_t list_words, std::uint64_t items);
   void reset_work();
   void mark(Kernel kernel) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "device/device_state.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/framebuffer.h"
@@ -12,7 +13,6 @@
 #include "model/model.h"
 #include "model/state.h"
 #include "render/camera.h"
-#include "render/device_state.h"
 #include "render/highlight.h"
 #include "render/overlay.h"
 #include "render/picker.h"

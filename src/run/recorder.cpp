@@ -85,7 +85,7 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   const auto before = std::chrono::steady_clock::now();
   DeviceState drawn_state;
   if (backend_.gpu && !own_context_) {
-    drawn_state = {&backend_.gpu->particles(), &backend_.gpu->balls(), backend_.gpu->first_ball(), step};
+    drawn_state = backend_.gpu->device_state();
   } else {
     ASPIC_TRY(const auto state, solver.state());
     ASPIC_TRY(const auto uploaded, renderer_->upload(state));

@@ -40,7 +40,7 @@ struct Range {
   bool min_excluded = false;
 };
 
-/// When a key has a meaning. Geometry belongs to the shapes whose defaults hold it (terrain_shapes); keys of
+/// When a key has a meaning. Geometry belongs to the shapes that have the key (terrain_shapes); keys of
 /// explicit springs and of a material exclude each other by what the cube is made of.
 enum class Belonging { always, geometry, explicit_springs, material };
 
@@ -66,11 +66,11 @@ struct Parameter {
 
   /// Whether the key may be absent, and clear() makes it so; for the other keys clear() is illegal.
   bool can_be_absent() const { return erase != nullptr; }
-  void clear(Scene& scene, std::size_t index) const { erase(scene, index); }
+  void clear(Scene& scene, std::size_t index) const { erase(*this, scene, index); }
 
   std::optional<Value> (*read)(const Parameter&, const Scene&, std::size_t) = nullptr;  ///< for get()
   void (*write)(const Parameter&, Scene&, std::size_t, const Value&) = nullptr;         ///< for set()
-  void (*erase)(Scene&, std::size_t) = nullptr;                                         ///< for clear()
+  void (*erase)(const Parameter&, Scene&, std::size_t) = nullptr;                       ///< for clear()
 };
 
 /// The table, in the order in which files are written.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "model/bodies.h"
-#include "model/terrain.h"
 
 namespace aspic::reader {
 namespace {
@@ -124,12 +123,7 @@ std::vector<Position> elements_of(const toml::node& node, std::uint32_t source) 
 
 /// A legal value of a key of terrain geometry.
 Value some_geometry(const Parameter& p) {
-  Scene scene;
-  for (const TerrainShapeRow& row : terrain_shapes) {
-    scene.model.terrain = {row.defaults};
-    if (const auto value = p.get(scene, 0)) return *value;
-  }
-  return {};
+  return p.type == ParameterType::number ? Value(1.0) : Value(Vec3{0.0, 1.0, 0.0});
 }
 
 }  // namespace

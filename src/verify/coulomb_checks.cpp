@@ -22,8 +22,8 @@ double usual_step(Integrator integrator) {
 
 Terrain plane_through_origin(const Model& model, const Vec3& normal) {
   TerrainSettings settings;
-  settings.point = Vec3{0, 0, 0};
-  settings.normal = normal;
+  settings.geometry["point"] = Vec3{0, 0, 0};
+  settings.geometry["normal"] = normal;
   return make_terrain(settings, model.contact);
 }
 

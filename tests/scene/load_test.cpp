@@ -214,15 +214,12 @@ TEST(Builtin, ScenesLoadAndBuild) {
     EXPECT_EQ(sizes, expected_sizes(names.back())) << names.back();
     // No particle starts in the ground.
     for (const Vec3& x : model->initial_position) {
-      for (const Terrain& t : model->terrain)
-        ASSERT_GT(t.shape == TerrainShape::bowl     ? t.radius - length(x - t.point)
-                  : t.shape == TerrainShape::sphere ? length(x - t.point) - t.radius
-                                                    : dot(t.normal, x - t.point),
-                  0.05);
+      for (const Terrain& t : model->terrain) ASSERT_GT(signed_distance(t, x), 0.05);
     }
   }
-  EXPECT_THAT(names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
-                                          "goal-net", "penalty", "ball-pit", "cube-and-balls", "large-cube"));
+  EXPECT_THAT(
+      names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus", "cube-hole",
+                                  "goal-net", "penalty", "ball-pit", "cube-and-balls", "large-cube"));
 }
 
 // Limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.
