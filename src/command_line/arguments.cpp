@@ -157,7 +157,7 @@ void add_pictures(CLI::App& command, RunOptions& run, RawOptions& raw) {
   command.add_option("--size", raw.size, "size of the pictures in pixels")
       ->capture_default_str()
       ->type_name("WxH");
-  command.add_option("--text", raw.text, "facts written on the pictures: on or off")
+  command.add_option("--text", raw.text, "text on the pictures: on or off")
       ->capture_default_str()
       ->type_name("on|off");
   command.add_flag("--no-text", raw.no_text, "the same as --text off");
@@ -200,7 +200,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add_outputs(*c, run.outputs);
   add_pictures(*c, run, raw);
   c->add_option("--resume", run.resume_file,
-                "go on from a checkpoint; --steps and --duration count from its start")
+                "continue from a checkpoint; --steps and --duration count from its start")
       ->type_name("FILE");
   c->add_flag("--force", run.force, "overwrite files");
   c->add_flag("--json", run.json, "summary on stdout as JSON");
@@ -213,12 +213,11 @@ CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
   c->add_option("scene", view.scene, "scene file or built-in name")
       ->type_name("SCENE")
       ->capture_default_str();
-  c->add_option("--backend", raw.backend, backend_words() + "; G changes it in the window")
+  c->add_option("--backend", raw.backend, backend_words() + "; G switches it in the window")
       ->capture_default_str()
       ->type_name("NAME");
   add_overrides(*c, view.overrides);
-  c->add_option("--size", raw.window_size, "size of the window; as it was last left, if absent")
-      ->type_name("WxH");
+  c->add_option("--size", raw.window_size, "size of the window; default: its last size")->type_name("WxH");
   c->footer(view_examples);
   return c;
 }
@@ -226,12 +225,13 @@ CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
 CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
   CLI::App* c = app.add_subcommand("compare", "Run two backends side by side, step by step");
   c->add_option("scene", compare.scene, "scene file or built-in name")->type_name("SCENE")->required();
-  c->add_option("--backends", raw.backends, "the two, options after colons: gpu:per-spring,reference:double")
+  c->add_option("--backends", raw.backends,
+                "the two backends, options after colons: gpu:per-spring,reference:double")
       ->delimiter(',')
       ->expected(2)
       ->type_name("A,B")
       ->capture_default_str();
-  c->add_option("--force-path", raw.force_path, "force path of gpu backends that name none")
+  c->add_option("--force-path", raw.force_path, "force path of gpu backends without their own")
       ->type_name("NAME");
   add_length(*c, compare.length);
   add_overrides(*c, compare.overrides);
@@ -255,7 +255,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->capture_default_str();
-  c->add_option("--force-path", raw.bench_force_paths, "of gpu backends that name none; repeatable")
+  c->add_option("--force-path", raw.bench_force_paths, "of gpu backends without their own; repeatable")
       ->type_name("NAME")
       ->allow_extra_args(false);
   c->add_option("--size", bench.sizes, "particles per edge of the scene's cubes; repeatable")
@@ -290,12 +290,12 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
 CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
   CLI::App* c =
       app.add_subcommand("verify", "Check physics and equivalence on this machine, as a table of figures");
-  c->add_flag("--quick", verify.quick, "only checks that are done in seconds");
+  c->add_flag("--quick", verify.quick, "only checks that take seconds");
   c->add_option("--only", verify.only, "one check or group, e.g. order or rest/midpoint; repeatable")
       ->type_name("NAME")
       ->allow_extra_args(false);
   c->add_flag("--require-gpu", verify.require_gpu,
-              "fail where a check finds no GL device, instead of leaving it out");
+              "fail if a check finds no GL device, instead of skipping it");
   c->add_flag("--json", verify.json, "the table on stdout as JSON");
   c->footer(verify_examples);
   return c;
@@ -328,7 +328,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   CLI::App* list_command = scene->add_subcommand("list", "The built-in scenes");
   list_command->add_flag("--json", list.json, "as JSON");
   CLI::App* show_command =
-      scene->add_subcommand("show", "Print a scene as complete TOML, every default spelt out");
+      scene->add_subcommand("show", "Print a scene as complete TOML, with every default");
   show_command->add_option("scene", show.scene, "scene file or built-in name")
       ->type_name("SCENE")
       ->required();
@@ -363,7 +363,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const CLI::App& command = named_command(app);
     const auto extras = command.remaining();
-    // Where a command is missing, CLI11 reports that before the word that stands in its place.
+    // Where a command is missing, CLI11 reports that before the word in its place.
     const bool command_missing =
         command.get_require_subcommand_min() > 0 && command.get_subcommands().empty();
     if (!extras.empty()) return unexpected_word(command, extras.front());

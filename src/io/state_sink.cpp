@@ -123,10 +123,9 @@ constexpr StateFormat table[] = {
      "steps between states: FILE-00000040.csv and so on, from the first to the last", 0, false, false,
      StateTables::open},
     {"series", ".csv", "write energies and momentum over time as CSV",
-     "steps between rows of the series, 1 if left out", 1, true, false, Series::open},
+     "steps between rows of the series; default 1", 1, true, false, Series::open},
     {"checkpoint", ".aspic", "write scene and final state, to resume from",
-     "steps between checkpoints, each of which replaces the one before", 0, false, true,
-     CheckpointFile::open},
+     "steps between checkpoints, each replacing the previous one", 0, false, true, CheckpointFile::open},
 };
 
 }  // namespace

@@ -46,14 +46,14 @@ enum class Belonging { always, geometry, explicit_springs, material };
 
 /// One key.
 struct Parameter {
-  std::string_view path;  ///< `simulation.timestep`, `cube[].shear.stiffness`; [] stands for an index
+  std::string_view path;  ///< `simulation.timestep`, `cube[].shear.stiffness`; [] is an index
   ParameterType type = ParameterType::number;
   std::string_view unit;                ///< empty: a pure number or not a number
   Range range;                          ///< integer, number, vector, counts
   std::vector<std::string_view> words;  ///< word, words: those allowed; pinned: the faces
   Belonging belonging = Belonging::always;
   bool direction = false;        ///< vector: any length but zero
-  bool live = true;              ///< may change while the simulation runs, without starting anew
+  bool live = true;              ///< may change while the simulation runs, without a restart
   std::string_view when_absent;  ///< what an absent value means; empty: the default is a value
   std::string_view meaning;      ///< one sentence
 
