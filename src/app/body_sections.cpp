@@ -70,8 +70,8 @@ void all_keys_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
 void add_cube(Gui& gui, SceneControl& scene) {
   const bool any = !scene.scene().model.cubes.empty();
   if (!button(gui, "cube/add", "Add a cube",
-              any ? "One more cube like the last, above it. Restarts the simulation.\n\nScene key: [[cube]]"
-                  : "A cube with default values. Restarts the simulation.\n\nScene key: [[cube]]",
+              any ? "Adds a cube like the last one, above it. Restarts the simulation.\n\nScene key: [[cube]]"
+                  : "Adds a cube with default values. Restarts the simulation.\n\nScene key: [[cube]]",
               true, -1.0f))
     return;
   Scene changed = scene.scene();
@@ -87,8 +87,8 @@ void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
   const std::string note = memory_note(scene.scene().model);
   edit(gui, scene, "cube[].particles-per-edge", cube, {{}, note});
   edit(gui, scene, "cube[].position", cube, {"Offset"});
-  edit(gui, scene, "cube[].rotation.axis", cube, {"Turn axis"});
-  edit(gui, scene, "cube[].rotation.angle", cube, {"Turn angle"});
+  edit(gui, scene, "cube[].rotation.axis", cube, {"Rotation axis"});
+  edit(gui, scene, "cube[].rotation.angle", cube, {"Rotation angle"});
 }
 
 void bodies_section(Gui& gui, SceneControl& scene) {
@@ -96,7 +96,7 @@ void bodies_section(Gui& gui, SceneControl& scene) {
   for (std::size_t i = 0; i < count; ++i) {
     const bool last_body = body_count(scene.scene().model) == 1;
     if (element_line(gui, fmt::format("cube {}", i), fmt::format("cube/{}/remove", i),
-                     last_body ? "The scene's last body stays: without one, nothing would move."
+                     last_body ? "The last body cannot be removed: without one, nothing would move."
                                : "Removes this cube. Restarts the simulation.\n\nScene key: [[cube]]",
                      !last_body)) {
       Scene changed = scene.scene();
@@ -220,7 +220,7 @@ void terrain(Gui& gui, SceneControl& scene, std::size_t index) {
   const TerrainShape shape = scene.scene().model.terrain[index].shape;
   if (element_line(gui, fmt::format("terrain {}, {}", index, name_of(shape)),
                    fmt::format("terrain/{}/remove", index),
-                   "Removes this terrain. The motion goes on.\n\nScene key: [[terrain]]", true)) {
+                   "Removes this terrain. The motion continues.\n\nScene key: [[terrain]]", true)) {
     Scene changed = scene.scene();
     changed.model.terrain.erase(changed.model.terrain.begin() + static_cast<std::ptrdiff_t>(index));
     return scene.apply(std::move(changed), "remove terrain");
@@ -238,9 +238,8 @@ void contact_section(Gui& gui, SceneControl& scene) {
   }
   for (std::size_t i = 0; i < scene.scene().model.terrain.size(); ++i) terrain(gui, scene, i);
   if (!button(gui, "terrain/add", "Add a terrain",
-              "One more terrain, a plane at its default place. Several act in the order of the file. The "
-              "motion goes "
-              "on.\n\nScene key: [[terrain]]",
+              "Adds a terrain, a plane at its default place. Terrains act in file order. The motion "
+              "continues.\n\nScene key: [[terrain]]",
               true, -1.0f))
     return;
   Scene changed = scene.scene();

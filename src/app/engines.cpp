@@ -42,7 +42,7 @@ Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup
   auto model = std::make_unique<Model>(std::move(*built));
   auto leader = make(*model, *like.leader().row, like.gpu());
   if (!leader && Engines::in_context(like.leader())) {
-    message = fmt::format("{} The reference goes on.", leader.error().message);
+    message = fmt::format("{} The reference takes over.", leader.error().message);
     leader = make(*model, reference_backend(), nullptr);
   } else if (leader && like.shadowed()) {
     auto shadow = make(*model, *like.shadow().row, like.gpu());

@@ -14,7 +14,7 @@ namespace {
 std::string result_text(Recording& film) {
   const FilmOptions& options = film.options();
   if (const Status result = film.result(); !result) return result.error().message;
-  return fmt::format("{} holds {} pictures, {:.2f} s at {:g} a second.", options.path, film.pictures(),
+  return fmt::format("{} holds {} pictures, {:.2f} s at {:g} per second.", options.path, film.pictures(),
                      film.seconds(), options.fps);
 }
 
@@ -42,7 +42,7 @@ void Film::start() {
   if (format.is_directory() && std::filesystem::exists(options.path, unknown) &&
       !std::filesystem::is_empty(options.path, unknown)) {
     return messages_.error(
-        fmt::format("{} exists already and is not an empty directory. Choose another name for the pictures.",
+        fmt::format("{} already exists and is not an empty directory. Choose another name for the pictures.",
                     options.path));
   }
   auto sink = open_film(format, options.path, options.size, options.fps, Overwrite::refuse);
@@ -104,7 +104,7 @@ void Film::report_completed() {
     if (film->result())
       messages_.info(result_text(*film));
     else
-      messages_.error(result_text(*film) + " The simulation goes on without a film.");
+      messages_.error(result_text(*film) + " The simulation continues without a film.");
     return true;
   });
 }

@@ -99,17 +99,17 @@ void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
   figure("Steps", s.running() ? short_number(s.pacer().steps_per_second()) + "/s" : "paused",
          "Time steps per second.");
   const auto evaluations = s.spring_evaluations_per_second();
-  figure(
-      "Spring evaluations",
-      !s.running()  ? "paused"
-      : evaluations ? short_number(*evaluations) + "/s"
-                    : "varies",
-      "Springs × force evaluations of a step × steps per second. Implicit Euler has no fixed number a step.");
+  figure("Spring evaluations",
+         !s.running()  ? "paused"
+         : evaluations ? short_number(*evaluations) + "/s"
+                       : "varies",
+         "Springs × force evaluations of a step × steps per second. Implicit Euler has no fixed number per "
+         "step.");
   figure("Real-time factor", s.running() ? fmt::format("{:.3g}", s.real_time_factor()) : "paused",
          "Simulated seconds per second.");
   figure("Pictures",
          fmt::format("{:.0f}/s, {:.1f} ms each", picture.pictures_per_second(), 1e3 * picture.draw_seconds()),
-         "Pictures per second, and how long the program took over the last one.");
+         "Pictures per second, and the time for the last one.");
   if (device.is_software) {
     figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * picture.resolution()),
            "A software rasteriser draws: pictures are coarser while something moves.");
@@ -141,7 +141,7 @@ void energy_section(Gui& gui, const std::deque<EnergySample>& samples) {
   show("energy/plot", energy_curves, "J",
        "Energies of the run over time [J]. The gravitational one is zero at the origin.");
   show("energy/momentum", momentum_curves, "N·s",
-       "Momentum Σ m·v of all that moves over time [N·s], by axis and as a whole.");
+       "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude.");
 }
 
 }  // namespace aspic::app

@@ -31,7 +31,7 @@ struct Heading {
 using Parts = const PanelParts&;
 constexpr Heading left_sections[] = {
     {"Scene", [](Parts p) { scene_section(p.gui, p.scene); }, true,
-     "Scenes, terrain, and what to do with the scene as a whole."},
+     "Scenes and terrain; opening, saving and reloading."},
     {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene); }, true,
      "Motion, integrator, time step, pace and gravity."},
     {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene); }, false,
@@ -41,7 +41,7 @@ constexpr Heading left_sections[] = {
     {"Contact", [](Parts p) { contact_section(p.gui, p.scene); }, false,
      "Contact model, restitution, friction, and the terrain's own values."},
     {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); }, false,
-     "Balls thrown by hand, and how hard hands pull."}};
+     "Balls thrown by hand, and the strength of pulls."}};
 constexpr Heading right_sections[] = {
     {"View", [](Parts p) { view_section(p.gui, p.scene, p.view.camera, p.picture.shadows, p.layout); }, true,
      "What is drawn, its colours, the camera, and the size of text."},
@@ -53,11 +53,11 @@ constexpr Heading right_sections[] = {
      },
      false, "Films of the scene; its states, energies and checkpoints as files."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); }, true,
-     "How fast simulation and pictures are, and by what."},
+     "Speed of simulation and drawing, and the devices used."},
     {"Energy", [](Parts p) { energy_section(p.gui, p.simulation.samples().energies()); }, true,
      "Energies and momentum over time."},
     {"Shadow", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); }, false,
-     "Another backend alongside, and how far the two are apart."}};
+     "A second backend on the same run, and how far the two differ."}};
 
 ImVec2 at(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};
@@ -133,8 +133,8 @@ class FloatingPanel {
 void divergence_buttons(Gui& gui, const Simulation& simulation, RunControl& run, Messages& messages) {
   const auto& stable = run.stable_step();
   if (stable && stable->step && std::isfinite(*stable->step)) {
-    if (button(gui, "diverged/stable", "Take a stable step",
-               "Steps back, and sets the time step to 0.95 of the estimate."))
+    if (button(gui, "diverged/stable", "Use a stable step",
+               "Steps back and sets the time step to 0.95 of the estimate."))
       run.take_stable_step();
     ImGui::SameLine();
   }
@@ -142,11 +142,11 @@ void divergence_buttons(Gui& gui, const Simulation& simulation, RunControl& run,
     const std::string back =
         fmt::format("Back to t = {:.3f} s", simulation.history().time(simulation.before_trouble()));
     if (button(gui, "diverged/back", back.c_str(),
-               "A while before it happened, with the values the scene had then."))
+               "Returns to shortly before the divergence, with the values that the scene had then."))
       run.back_before_divergence();
     ImGui::SameLine();
   }
-  if (command_button(gui, "diverged/reset", "Reset", "Back to the scene's start.", "reset to the start"))
+  if (command_button(gui, "diverged/reset", "Reset", "Returns to the scene's start.", "reset to the start"))
     messages.dismiss();
   ImGui::SameLine();
 }

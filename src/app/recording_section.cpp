@@ -19,7 +19,7 @@ void format_widget(Gui& gui, FilmSettings& film) {
   const bool open = ImGui::BeginCombo("##format", film.format->label.data());
   gui.mark("record/format");
   const char* const help =
-      "What the film becomes: a file (mp4, webm and GIF need the program ffmpeg), or a directory of numbered "
+      "Output of the film: a file (mp4, webm and GIF need the program ffmpeg), or a directory of numbered "
       "pictures.";
   tooltip(help);
   if (!open) return;
@@ -39,8 +39,8 @@ void rate_widget(Gui& gui, FilmSettings& film) {
                     ImGuiSliderFlags_AlwaysClamp);
   gui.mark("record/fps");
   tooltip(
-      fmt::format("Pictures that the film shows in a second, 1 … {:g} in this format. Each shows the state "
-                  "speed/rate seconds of simulated time after the one before.\nDrag to change, Ctrl+click "
+      fmt::format("Pictures per second of the film, 1 … {:g} in this format. Each shows the state speed/rate "
+                  "seconds of simulated time after the previous one.\nDrag to change, Ctrl+click "
                   "to type.",
                   most));
 }
@@ -53,8 +53,8 @@ void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
   if (ImGui::InputTextWithHint("##film", hint.c_str(), text.data(), text.size())) film.path = text.data();
   gui.mark("record/path");
   tooltip(
-      fmt::format("Where the film goes; left empty, {}. The format gives the ending. What exists is never "
-                  "overwritten.",
+      fmt::format("Name of the film; if left empty, {}. The format determines the extension. Existing files "
+                  "are never overwritten.",
                   hint));
 }
 
@@ -109,7 +109,7 @@ void state_files(Gui& gui, const StateFiles& files) {
     const bool entered = ImGui::InputTextWithHint("##path", hint.c_str(), path.data(), path.size(),
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
     gui.mark("{}/path", name);
-    tooltip(fmt::format("The file to write; if left empty, {}. One that exists is not overwritten.", hint));
+    tooltip(fmt::format("The file to write; if left empty, {}. Existing files are not overwritten.", hint));
     ImGui::SameLine();
     if (button(gui, (name + "/write").c_str(), "Write", "Writes the file.") || entered) {
       files.save(format, path.data());

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/stability_text.h"
+#include "analysis/stability.h"
 
 namespace aspic::app {
 
 void RunControl::toggle() {
   if (simulation_.divergence())
-    messages_.error("The simulation has diverged. Take the stable step, step back or reset first.");
+    messages_.error("The simulation has diverged. Use the stable step, step back or reset first.");
   else
     simulation_.set_running(!simulation_.running());
 }
@@ -83,7 +83,7 @@ void RunControl::watch_divergence() {
   stable_ = stability_limit(model, s.integrator, StabilityEffort::quick);
   messages_.error(fmt::format(
       "The simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is {} s; {}. "
-      "Shown is the last good step.",
+      "The last good step is shown.",
       divergence->step, static_cast<double>(divergence->step) * s.timestep, body_text(*divergence),
       fault_text(*divergence), s.timestep, stability_sentence(s.integrator, *stable_)));
 }

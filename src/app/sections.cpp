@@ -25,7 +25,7 @@ bool holds(std::string_view text, std::string_view word) {
 void terrain_button(Gui& gui, SceneControl& scenes, const TerrainShapeRow& row, float width) {
   const std::string name = fmt::format("terrain/{}", row.name), label(row.title);
   const std::string help =
-      fmt::format("Makes the first terrain a {} where its defaults put it. The motion goes on.", label);
+      fmt::format("Turns the first terrain into a {} at its default place. The motion continues.", label);
   if (!button(gui, name.c_str(), label.c_str(), help, true, width)) return;
   Scene scene = scenes.scene();
   if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
@@ -42,10 +42,10 @@ void terrain_button(Gui& gui, SceneControl& scenes, const TerrainShapeRow& row, 
 void scene_buttons(Gui& gui, SceneControl& scene) {
   static constexpr const char* popup = "Save scene as";
   const float third = share_of_line(3);
-  command_button(gui, "scene/reload", "Reload", "Reads the file again; changes made here are dropped.",
+  command_button(gui, "scene/reload", "Reload", "Reloads the file; changes made here are discarded.",
                  "reload the scene", true, third);
   ImGui::SameLine();
-  command_button(gui, "scene/reset", "Reset", "Back to the scene's start.", "reset to the start", true,
+  command_button(gui, "scene/reset", "Reset", "Returns to the scene's start.", "reset to the start", true,
                  third);
   ImGui::SameLine();
   if (button(gui, "scene/save", "Save as…", "Writes the scene as it is now, with this camera.", true, third))
@@ -55,7 +55,7 @@ void scene_buttons(Gui& gui, SceneControl& scene) {
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16.0f);
   const bool entered =
       ImGui::InputText("##path", path.data(), path.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-  tooltip("The file to write. One that exists is not overwritten.");
+  tooltip("The file to write. Existing files are not overwritten.");
   ImGui::SameLine();
   if (button(gui, "scene/save/write", "Write", "Writes the file.") || entered) {
     scene.save_as(path.data());
@@ -72,7 +72,7 @@ void scene_section(Gui& gui, SceneControl& scene) {
   ImGui::InputTextWithHint("##search", "search scenes", filter.InputBuf, sizeof filter.InputBuf);
   gui.mark("scene/search");
   tooltip(
-      "Shows scenes whose name or description holds this. A scene file is opened by dropping it on the "
+      "Shows scenes whose name or description contains this. A scene file is opened by dropping it on the "
       "window.");
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
     const std::string_view word = filter.InputBuf;
@@ -108,17 +108,17 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
   command_button(gui, "simulation/run", s.running() ? "Pause" : "Start", "Starts or pauses the motion.",
                  "start or pause", !diverged, third);
   ImGui::SameLine();
-  command_button(gui, "simulation/step", "Step", "One time step; pauses first.", "single step", !diverged,
-                 third);
+  command_button(gui, "simulation/step", "Step", "Takes one time step; pauses first.", "single step",
+                 !diverged, third);
   ImGui::SameLine();
-  command_button(gui, "simulation/reset", "Reset", "Back to the scene's start.", "reset to the start", true,
-                 third);
+  command_button(gui, "simulation/reset", "Reset", "Returns to the scene's start.", "reset to the start",
+                 true, third);
   const std::string other = fmt::format("Switch to {}", next_backend(s.backend()).title);
   command_button(gui, "simulation/backend", other.c_str(),
-                 "Carries the state over to the other solver, to the bit.", "other backend", true, half);
+                 "Switches to the other solver; the state keeps every bit.", "other backend", true, half);
   ImGui::SameLine();
   command_button(gui, "simulation/back", "Step back",
-                 "One time step back; the bar below the picture goes to any step since the start.",
+                 "Goes back one time step; the bar below the picture goes to any step since the start.",
                  "step back", s.can_step_back(), half);
   edit(gui, scene, "simulation.integrator");
   edit(gui, scene, "simulation.timestep", 0, {"Time step"});
@@ -129,7 +129,7 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
   if (ImGui::Combo("##pace", &pace, paces, 2)) pacer.pace = static_cast<Pace>(pace);
   gui.mark("simulation/pace");
   tooltip(
-      "How fast simulated time passes: a fixed number of steps for each picture, or as fast as time itself. "
+      "How fast simulated time passes: a fixed number of steps for each picture, or real time. "
       "Where "
       "the solver cannot keep up, the factor in the status line says so.");
   if (pacer.pace == Pace::steps_per_frame) edit(gui, scene, "simulation.steps-per-frame");

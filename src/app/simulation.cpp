@@ -213,7 +213,7 @@ Status Simulation::fall_back(const Error& error) {
   if (snapshot_.step >= history_.stretch(stretch_).first && snapshot_.step < step_)
     history_.truncate({stretch_, snapshot_.step});
   message_ = fmt::format(
-      "{} The reference goes on from the last copy, {:.2f} s old (t = {:.6g} s; {} steps are done again).",
+      "{} The reference continues from the last copy, {:.2f} s old (t = {:.6g} s; {} steps are repeated).",
       error.message, age, static_cast<double>(snapshot_.step) * model().simulation.timestep, lost);
   return load(State(snapshot_));
 }

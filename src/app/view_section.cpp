@@ -23,12 +23,15 @@ struct Preset {
   Vec3 from;
 };
 const Preset presets[] = {
-    {"camera/front", "Front", "Looks along −z, at the target from the front; the distance stays.", {0, 0, 1}},
-    {"camera/side", "Side", "Looks along −x, at the target from the right; the distance stays.", {1, 0, 0}},
-    {"camera/top", "Top", "Looks down on the target; the distance stays.", {0, 1, 0}},
+    {"camera/front",
+     "Front",
+     "Looks along −z, at the target from the front, at the same distance.",
+     {0, 0, 1}},
+    {"camera/side", "Side", "Looks along −x, at the target from the right, at the same distance.", {1, 0, 0}},
+    {"camera/top", "Top", "Looks down on the target, at the same distance.", {0, 1, 0}},
     {"camera/isometric",
      "Isometric",
-     "Looks at the target along (−1, −1, −1); the distance stays.",
+     "Looks at the target along (−1, −1, −1), at the same distance.",
      {1, 1, 1}},
 };
 
@@ -39,15 +42,15 @@ void camera_buttons(Gui& gui, CameraControl& camera) {
     const Preset& p = presets[i];
     if (button(gui, p.name, p.label, p.help, true, half)) camera.look_from(p.from);
   }
-  command_button(gui, "camera/home", "Scene's", "To the scene's own camera.", "reset the camera", true, half);
+  command_button(gui, "camera/home", "Scene's", "Returns to the scene's own camera.", "reset the camera",
+                 true, half);
   ImGui::SameLine();
-  command_button(gui, "camera/frame", "Frame bodies",
-                 "Comes near or backs off until all bodies are in the picture.", "frame the bodies", true,
-                 half);
-  command_button(gui, "camera/copy", "Copy", "The camera as text, a line for [view] of a scene file.",
+  command_button(gui, "camera/frame", "Frame bodies", "Moves the camera until all bodies are in the picture.",
+                 "frame the bodies", true, half);
+  command_button(gui, "camera/copy", "Copy", "Copies the camera as text, a line for [view] of a scene file.",
                  "copy the camera as text", true, half);
   ImGui::SameLine();
-  command_button(gui, "camera/paste", "Paste", "Takes a camera from the clipboard.", "paste a camera", true,
+  command_button(gui, "camera/paste", "Paste", "Sets the camera from the clipboard.", "paste a camera", true,
                  half);
 }
 
@@ -81,7 +84,8 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& sh
   edit_camera(gui, camera, "view.camera.fov", "Field of view");
   text_size(gui, layout);
   if (button(gui, "layout/reset", "Reset layout",
-             "Resets panels, their widths and the size of text to their defaults. Scene and camera stay.",
+             "Resets panels, their widths and the size of text to their defaults. Scene and camera are "
+             "unchanged.",
              true, -1.0f)) {
     layout = Layout();
     gui.set_text_size(1.0);

@@ -100,7 +100,7 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
   }
   if (run.scene.empty() && !run.overrides.empty()) {
     return usage(
-        "a resumed run goes on with the scene of its checkpoint, which --set cannot change. Leave --set out, "
+        "a resumed run continues the scene of its checkpoint, which --set cannot change. Omit --set, "
         "or run a scene.");
   }
   ASPIC_CHECK(finish_pictures(run.pictures, raw));

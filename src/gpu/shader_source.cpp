@@ -51,7 +51,7 @@ Result<std::string> read_shader_file(const std::filesystem::path& file) {
   };
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
-    return error("is a directory, a device or a pipe, and no file");
+    return error("is a directory, a device or a pipe, not a file");
   std::ifstream stream(file, std::ios::binary);
   std::string text(static_cast<std::size_t>(largest_shader_file) + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -146,7 +146,7 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
 
   if (work.open.size() == deepest_include) {
     return Error{ErrorCode::io,
-                 fmt::format("{}:{}: more than {} includes are inside each other. Include the files from "
+                 fmt::format("{}:{}: includes are nested more than {} deep. Include the files from "
                              "fewer levels.",
                              files[static_cast<std::size_t>(work.open.back().file)], work.open.back().line,
                              deepest_include)};
@@ -164,8 +164,7 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
     if (directive(line, "version"))
       return Error{
           ErrorCode::io,
-          fmt::format("{}: #version is put in front of every shader by the program. Remove the line.",
-                      work.chain())};
+          fmt::format("{}: the program adds #version to every shader. Remove the line.", work.chain())};
     const auto include = directive(line, "include");
     if (!include) {
       work.put(file, number, line);

@@ -145,7 +145,7 @@ std::uint64_t model_bytes(const ModelCounts& counts);
 /// a solver in single precision. For memory checks before anything is allocated.
 std::uint64_t run_bytes(const ModelCounts& counts);
 
-/// Names as they stand in scene files and reports.
+/// Names in scene files and reports.
 std::string_view name_of(ContactModel model);
 std::string_view name_of(SpringType type);
 std::string_view name_of(TerrainShape shape);

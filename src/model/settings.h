@@ -1,6 +1,7 @@
 #pragma once
-// What a scene says about physics: plain data, SI units. Legal ranges and one-sentence meanings stand in the
-// parameter table (scene/parameters.cpp), which feeds the parser, --set, `scene show` and the documentation.
+// What a scene says about physics: plain data, SI units. Legal ranges and one-sentence meanings are in the
+// parameter table (scene/parameter_table.cpp), which feeds the parser, --set, `scene show` and the
+// documentation.
 #include <array>
 #include <cstdint>
 #include <limits>

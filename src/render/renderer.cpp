@@ -321,7 +321,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
   p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
-  // Last of what is opaque: only where nothing else stands.
+  // The last opaque part: only where there is nothing else.
   p.nothing.bind();
   glUseProgram(p.programs.sky.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);

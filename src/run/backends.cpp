@@ -188,7 +188,7 @@ Result<std::filesystem::path> shader_directory() {
   std::error_code ignored;
   if (!std::filesystem::is_directory(value, ignored)) {
     return fail(ErrorCode::io,
-                "ASPIC_SHADER_DIR names {}, which is no directory: name one laid out as shaders/ of the "
+                "ASPIC_SHADER_DIR is {}, which is not a directory: use one laid out like shaders/ in the "
                 "sources, or unset it.",
                 printable_line(value));
   }
@@ -255,7 +255,7 @@ Status check_choice(const BackendChoice& choice) {
   const auto with_precision =
       names_where([&](const BackendRow& row) { return has(row.precisions, choice.precision); });
   if (choice.row && !has(choice.row->precisions, choice.precision)) {
-    return fail(ErrorCode::usage, "the {0} does not compute in {1} precision; for {1} say --backend {2}.",
+    return fail(ErrorCode::usage, "the {0} does not compute in {1} precision; for {1} use --backend {2}.",
                 choice.row->name, name_of(choice.precision), fmt::join(with_precision, " or "));
   }
   if (choice.force_path == ForcePath::automatic) return {};
@@ -265,7 +265,7 @@ Status check_choice(const BackendChoice& choice) {
   if (choice.row ? possible(*choice.row) : std::ranges::any_of(table, possible)) return {};
   const std::string with_path = fmt::format(
       "{}", fmt::join(names_where([](const BackendRow& row) { return !row.force_paths().empty(); }), " or "));
-  return fail(ErrorCode::usage, "a force path belongs to the {0} backend; leave it out or say --backend {0}.",
+  return fail(ErrorCode::usage, "a force path belongs to the {0} backend; omit it or use --backend {0}.",
               with_path);
 }
 
@@ -276,10 +276,9 @@ Result<Backend> make_backend(const BackendChoice& choice, const Model& model, co
   const BackendRow& row = choice.row ? *choice.row : *automatic.row;
   if (choice.force_path != ForcePath::automatic && !has_path(row, choice.force_path)) {
     const auto names = names_where([&](const BackendRow& r) { return has_path(r, choice.force_path); });
-    return fail(
-        ErrorCode::no_device,
-        "the force path {0} needs the {1} backend, but {2}. Say --backend {1} to take any device there is.",
-        name_of(choice.force_path), names.front(), automatic.reason);
+    return fail(ErrorCode::no_device,
+                "the force path {0} needs the {1} backend, but {2}. Use --backend {1} to accept any device.",
+                name_of(choice.force_path), names.front(), automatic.reason);
   }
   SolverHost place = host;
   if (automatic.context) place.context = automatic.context.get();

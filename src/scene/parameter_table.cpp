@@ -25,7 +25,7 @@ std::vector<Parameter> root_rows() {
   schema.write = [](const Parameter&, Scene&, std::size_t, const Value&) {};
   return {
       fixed(schema),
-      fixed(absent("the file's name without ending",
+      fixed(absent("the file's name without extension",
                    row("name", FIELD(name), "Title of the scene in windows and reports."))),
   };
 }
@@ -36,17 +36,17 @@ std::vector<Parameter> simulation_rows() {
                             "Time integration method."),
       row("simulation.timestep", "s", {0.0, 1.0, true}, FIELD(model.simulation.timestep), "Time step h."),
       row("simulation.duration", "s", {0.0, longest}, FIELD(model.simulation.duration),
-          "Simulated time of a run for which neither steps nor duration are asked."),
+          "Simulated time of a run when neither --steps nor --duration is given."),
       row("simulation.gravity", "m/s²", within(1e4), FIELD(model.simulation.gravity),
           "Gravitational acceleration g."),
       row("simulation.steps-per-frame", "", {1, 100000}, FIELD(model.simulation.steps_per_frame),
           "Time steps between two pictures in the window."),
       row("simulation.implicit.newton-iterations", "", {1, 1000},
           FIELD(model.simulation.implicit.newton_iterations),
-          "Most Newton iterations of one implicit Euler step."),
+          "Largest number of Newton iterations in an implicit Euler step."),
       row("simulation.implicit.cg-iterations", "", {1, 100000},
           FIELD(model.simulation.implicit.cg_iterations),
-          "Most conjugate gradient iterations within one Newton iteration."),
+          "Largest number of conjugate gradient iterations in a Newton iteration."),
       absent("0.0001 in single precision, 1e-9 in double",
              row("simulation.implicit.tolerance", "m/s", {0.0, 1.0, true},
                  FIELD(model.simulation.implicit.tolerance),
@@ -63,9 +63,9 @@ std::vector<Parameter> contact_rows() {
           "Distance within which a particle may rest on the ground, and the least approach speed that "
           "bounces."),
       row("contact.restitution", "", fraction, FIELD(model.contact.restitution),
-          "Part of the approach speed that a bounce gives back, for every terrain without its own."),
+          "Coefficient of restitution of terrains that do not set their own."),
       row("contact.friction", "", friction, FIELD(model.contact.friction),
-          "Friction coefficient of every terrain without its own."),
+          "Friction coefficient of terrains that do not set their own."),
       row("contact.ball-restitution", "", fraction, FIELD(model.contact.ball_restitution),
           "Restitution between balls, and between balls and particles."),
       row("contact.ball-friction", "", friction, FIELD(model.contact.ball_friction),
@@ -138,9 +138,9 @@ std::vector<Parameter> view_rows() {
                        "Parts of the bodies that are drawn: surface, particles, springs by type.");
   draw.words = {"solid", "particles", "structural", "shear", "bending"};
   return {
-      row("view.camera.position", "m", within(far), FIELD(view.camera.position), "Position of the eye."),
+      row("view.camera.position", "m", within(far), FIELD(view.camera.position), "Position of the camera."),
       row("view.camera.target", "m", within(far), FIELD(view.camera.target),
-          "Point in the middle of the picture."),
+          "Point at the centre of the picture."),
       row("view.camera.fov", "°", {1.0, 179.0}, FIELD(view.camera.fov), "Vertical field of view."),
       draw,
       word<view_colours>("view.colour", FIELD(view.colour), "What the colours of bodies mean."),

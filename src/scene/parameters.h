@@ -48,7 +48,7 @@ enum class Belonging { always, geometry, explicit_springs, material };
 
 /// One key.
 struct Parameter {
-  std::string_view path;  ///< `simulation.timestep`, `cube[].shear.stiffness`; [] stands for an index
+  std::string_view path;  ///< `simulation.timestep`, `cube[].shear.stiffness`; [] is an index
   ParameterType type = ParameterType::number;
   std::string_view unit;                ///< empty: a pure number or not a number
   Range range;                          ///< integer, number, vector, counts, numbers
@@ -57,7 +57,7 @@ struct Parameter {
   const PinNames* pins = nullptr;       ///< pinned: what may be named
   Belonging belonging = Belonging::always;
   bool direction = false;        ///< vector: any length but zero
-  bool live = true;              ///< may change while the simulation runs, without starting anew
+  bool live = true;              ///< may change while the simulation runs, without a restart
   std::string_view when_absent;  ///< what an absent value means; empty: the default is a value
   std::string_view meaning;      ///< one sentence
 

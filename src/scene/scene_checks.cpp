@@ -80,8 +80,8 @@ void check_boxes(const Scene& scene, Complaints& complaints) {
       if (box.min[axis] <= box.max[axis]) continue;
       Complaint no_box = {
           fmt::format(
-              "'launcher.{}' is no box: its min has the {} {} and its max {}; min must not exceed max", key,
-              "xyz"[axis], box.min[axis], box.max[axis]),
+              "'launcher.{}' is not a box: its min has the {} {} and its max {}; min must not exceed max",
+              key, "xyz"[axis], box.min[axis], box.max[axis]),
           {}};
       complaints.emplace_back(fmt::format("launcher[{}].{}", i, key), std::move(no_box));
     }
@@ -95,7 +95,7 @@ void check_boxes(const Scene& scene, Complaints& complaints) {
 void check_camera(const Scene& scene, Complaints& complaints) {
   const CameraSettings& camera = scene.view.camera;
   if (length(camera.position - camera.target) > 0.0) return;
-  Complaint nowhere = {"the camera's position and target are the same point: it looks nowhere", {}};
+  Complaint nowhere = {"the camera's position and target are the same point, so it has no direction", {}};
   complaints.emplace_back("view.camera.target", std::move(nowhere)).other = "view.camera.position";
 }
 

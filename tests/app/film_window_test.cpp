@@ -306,7 +306,7 @@ TEST_F(Film, AnEncoderThatDiesEndsTheFilmAndNotTheMotion) {
   }
   ASSERT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("out of film"));
-  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("goes on"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("continues without a film"));
   EXPECT_TRUE(simulation().running());
   frames_to_step(simulation().step() + 100);
   EXPECT_FALSE(exists("film.mp4"));

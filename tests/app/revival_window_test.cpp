@@ -33,7 +33,7 @@ TEST_F(Revival, ARunOnTheGpuGoesOnOnTheReferenceFromTheLastCopy) {
   EXPECT_LE(copy, step);
   frames(1);
   EXPECT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
-  EXPECT_THAT(notice(), HasSubstr("reference goes on from the last copy"));
+  EXPECT_THAT(notice(), HasSubstr("reference continues from the last copy"));
   EXPECT_THAT(notice(), HasSubstr(" s old"));
   frames_to_step(copy + 50);
   pause();
@@ -114,7 +114,7 @@ TEST_F(Revival, AChangeTheGpuHasNoMemoryForGoesToTheReference) {
   EXPECT_EQ(simulation().backend().name, "reference");
   EXPECT_EQ(simulation().model().simulation.gravity, (Vec3{0.0, -1.0, 0.0})) << "the change holds";
   EXPECT_EQ(simulation().step(), 5u);
-  EXPECT_THAT(notice(), HasSubstr("The reference goes on"));
+  EXPECT_THAT(notice(), HasSubstr("The reference takes over"));
 }
 
 }  // namespace
