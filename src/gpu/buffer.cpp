@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/text.h"
+#include "base/printable.h"
 
 namespace aspic::gl {
 namespace {
@@ -27,12 +27,11 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
       std::min<std::uint64_t>(storage ? limits.storage_block_bytes : limits.uniform_block_bytes,
                               std::numeric_limits<GLsizeiptr>::max());
   if (bytes > limit)
-    return Error{
-        ErrorCode::scene_rejected,
-        fmt::format("The {} buffer \"{}\" needs {} ({} bytes), but {} takes blocks of {} ({} bytes) at most. "
-                    "Make the scene smaller, or choose another device or backend.",
-                    storage ? "storage" : "uniform", name, human_bytes(bytes), bytes, context.info().renderer,
-                    human_bytes(limit), limit)};
+    return fail(ErrorCode::scene_rejected,
+                "The {} buffer \"{}\" needs {} ({} bytes), but {} takes blocks of {} ({} bytes) at most. "
+                "Make the scene smaller, or choose another device or backend.",
+                storage ? "storage" : "uniform", name, human_bytes(bytes), bytes, context.info().renderer,
+                human_bytes(limit), limit);
 
   // An error from before would be taken for this allocation's; on debug contexts the message was kept.
   context.forget_errors();
@@ -45,12 +44,11 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
   const GLenum error = context.strikes(Fault::out_of_memory) ? GL_OUT_OF_MEMORY : glGetError();
   if (error != GL_NO_ERROR && context.lost()) return context.lost_error();
   if (error != GL_NO_ERROR)
-    return Error{
-        ErrorCode::scene_rejected,
-        fmt::format("{} has no memory for the {} buffer \"{}\" of {} ({} bytes), with {} held already (GL "
-                    "error 0x{:04x}). Make the scene smaller, or close other programs that use the device.",
-                    context.info().renderer, storage ? "storage" : "uniform", name, human_bytes(bytes), bytes,
-                    human_bytes(context.bytes_held()), error)};
+    return fail(ErrorCode::scene_rejected,
+                "{} has no memory for the {} buffer \"{}\" of {} ({} bytes), with {} held already (GL "
+                "error 0x{:04x}). Make the scene smaller, or close other programs that use the device.",
+                context.info().renderer, storage ? "storage" : "uniform", name, human_bytes(bytes), bytes,
+                human_bytes(context.bytes_held()), error);
   if (context.info().debug && !name.empty())
     glObjectLabel(GL_BUFFER, buffer.id_, static_cast<GLsizei>(name.size()), name.data());
   buffer.bytes_ = bytes;
@@ -107,17 +105,6 @@ void Buffer::clear() {
   if (bytes_ == 0) return;
   glBindBuffer(target, id_);
   glClearBufferData(target, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
-}
-
-void Buffer::copy_from(const Buffer& source, std::uint64_t bytes, std::uint64_t source_offset,
-                       std::uint64_t offset) {
-  assert(source_offset <= source.bytes_ && bytes <= source.bytes_ - source_offset);
-  assert(offset <= bytes_ && bytes <= bytes_ - offset);
-  if (bytes == 0) return;
-  glBindBuffer(source_target, source.id_);
-  glBindBuffer(target, id_);
-  glCopyBufferSubData(source_target, target, static_cast<GLintptr>(source_offset),
-                      static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
 }
 
 }  // namespace aspic::gl

@@ -55,9 +55,6 @@ class Buffer {
   void download(std::span<std::byte> data, std::uint64_t offset = 0) const;
   /// Sets every byte to zero, on the device.
   void clear();
-  /// Copies `bytes` from another buffer, on the device. Passes that wrote `source` need Reader::copy.
-  void copy_from(const Buffer& source, std::uint64_t bytes, std::uint64_t source_offset = 0,
-                 std::uint64_t offset = 0);
 
   /// upload() of items, from item `first` on.
   template <class T>

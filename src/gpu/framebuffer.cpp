@@ -4,7 +4,6 @@
 #include <glad/gl.h>
 
 #include <cassert>
-#include <utility>
 
 namespace aspic::gl {
 
@@ -14,8 +13,10 @@ Result<Framebuffer> Framebuffer::create(Context& context, const Texture* colour,
   Framebuffer result;
   result.width_ = any.width();
   result.height_ = any.height();
-  glGenFramebuffers(1, &result.id_);
-  glBindFramebuffer(GL_FRAMEBUFFER, result.id_);
+  GLuint id = 0;
+  glGenFramebuffers(1, &id);
+  result.name_ = Name(id, [](std::uint32_t owned) { glDeleteFramebuffers(1, &owned); });
+  glBindFramebuffer(GL_FRAMEBUFFER, id);
   if (colour) glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, colour->id(), 0);
   if (depth) glFramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth->id(), 0);
   if (!colour) {
@@ -24,43 +25,22 @@ Result<Framebuffer> Framebuffer::create(Context& context, const Texture* colour,
   }
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
-    return Error{ErrorCode::no_device,
-                 fmt::format("{} cannot draw into an image of {} x {} pixels with {} sample{} (framebuffer "
-                             "status 0x{:04x}).",
-                             context.info().renderer, any.width(), any.height(), any.settings().samples,
-                             any.settings().samples == 1 ? "" : "s", status)};
+    return fail(ErrorCode::no_device,
+                "{} cannot draw into an image of {} x {} pixels with {} sample{} (framebuffer "
+                "status 0x{:04x}).",
+                context.info().renderer, any.width(), any.height(), any.settings().samples,
+                any.settings().samples == 1 ? "" : "s", status);
   return result;
 }
 
-Framebuffer::~Framebuffer() {
-  release();
-}
-
-Framebuffer::Framebuffer(Framebuffer&& other) noexcept
-    : id_(std::exchange(other.id_, 0)), width_(other.width_), height_(other.height_) {}
-
-Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
-  if (this == &other) return *this;
-  release();
-  id_ = std::exchange(other.id_, 0);
-  width_ = other.width_;
-  height_ = other.height_;
-  return *this;
-}
-
-void Framebuffer::release() {
-  if (id_) glDeleteFramebuffers(1, &id_);
-  id_ = 0;
-}
-
 void Framebuffer::bind() const {
-  glBindFramebuffer(GL_FRAMEBUFFER, id_);
+  glBindFramebuffer(GL_FRAMEBUFFER, id());
   glViewport(0, 0, width_, height_);
 }
 
 void Framebuffer::copy_colour_from(const Framebuffer& source) const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id_);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id_);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
   const bool same = source.width_ == width_ && source.height_ == height_;
   glBlitFramebuffer(0, 0, source.width_, source.height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
                     same ? GL_NEAREST : GL_LINEAR);

@@ -17,25 +17,18 @@ class Framebuffer {
   /// Error (no_device): the driver cannot draw into this combination.
   static Result<Framebuffer> create(Context& context, const Texture* colour, const Texture* depth);
 
-  ~Framebuffer();
-  Framebuffer(Framebuffer&& other) noexcept;
-  Framebuffer& operator=(Framebuffer&& other) noexcept;
-  Framebuffer(const Framebuffer&) = delete;
-  Framebuffer& operator=(const Framebuffer&) = delete;
-
   /// Draws go here from now on, to the whole of it.
   void bind() const;
   /// Copies the colour of `source`: resolves samples where it has more than one (sizes must agree then),
   /// filters linearly where sizes differ. Does not bind.
   void copy_colour_from(const Framebuffer& source) const;
 
-  std::uint32_t id() const { return id_; }
+  std::uint32_t id() const { return name_.id(); }
   int width() const { return width_; }
   int height() const { return height_; }
 
  private:
-  void release();
-  std::uint32_t id_ = 0;
+  Name name_;
   int width_ = 0, height_ = 0;
 };
 

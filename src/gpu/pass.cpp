@@ -36,7 +36,7 @@ std::uint32_t barrier_bits(Reader readers) {
 }
 
 void barrier(Reader readers) {
-  if (const std::uint32_t bits = barrier_bits(readers)) glMemoryBarrier(bits);
+  glMemoryBarrier(barrier_bits(readers));
 }
 
 GroupCount groups_for(std::uint32_t count, std::uint32_t group_size) {

@@ -11,19 +11,18 @@ namespace aspic::gl {
 
 /// Who reads a pass's output next: this picks the memory barrier. Combine with `|` where several may.
 enum class Reader : std::uint32_t {
-  later_barrier = 0,      ///< an independent pass follows at once, whose barrier covers this one's writes too
   compute_pass = 1 << 0,  ///< storage blocks of a following pass or shader
   uniform = 1 << 1,       ///< a uniform block
   vertex_draw = 1 << 2,   ///< vertex attributes or indices of a draw
   indirect = 1 << 3,      ///< arguments of an indirect dispatch or draw
   read_back = 1 << 4,     ///< Buffer::download, or mapping
-  copy = 1 << 5           ///< Buffer::copy_from, upload or clear
+  copy = 1 << 5           ///< Buffer::upload or clear
 };
 constexpr Reader operator|(Reader a, Reader b) {
   return static_cast<Reader>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
 
-/// The bits glMemoryBarrier takes for these readers; 0 for later_barrier alone.
+/// The bits glMemoryBarrier takes for these readers.
 std::uint32_t barrier_bits(Reader readers);
 
 /// Makes what passes before wrote visible to these readers: for one who did not dispatch them himself.
@@ -75,10 +74,6 @@ class Pass {
                          std::span<const Binding> extra = {}) const;
 
   const Program& program() const { return *program_; }
-  /// Its own bindings, which may be exchanged between dispatches.
-  std::vector<Binding>& bindings() { return bindings_; }
-  const std::vector<Binding>& bindings() const { return bindings_; }
-  Reader readers() const { return readers_; }
 
  private:
   void prepare(std::span<const Binding> extra) const;

@@ -1,14 +1,14 @@
 #pragma once
-// A compute or graphics program: compiled, linked, checked and asked about its blocks.
+// A compute or graphics program: compiled, linked and checked.
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "base/result.h"
 #include "gpu/context.h"
+#include "gpu/name.h"
 #include "gpu/shader_source.h"
 
 namespace aspic::gl {
@@ -44,12 +44,6 @@ class Program {
   static Result<Program> graphics(Context& context, const ShaderLibrary& library,
                                   const GraphicsStages& stages, std::span<const Define> defines = {});
 
-  ~Program();
-  Program(Program&& other) noexcept;
-  Program& operator=(Program&& other) noexcept;
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-
   /// Set the uniform at an explicit `layout(location = …)`; no need for the program to be in use.
   void set(int location, std::uint32_t value) const;
   void set(int location, std::int32_t value) const;
@@ -57,44 +51,19 @@ class Program {
   void set(int location, const std::array<float, 3>& value) const;
   void set(int location, const std::array<float, 4>& value) const;
 
-  std::uint32_t id() const { return id_; }
+  std::uint32_t id() const { return name_.id(); }
   /// The context it was made in; not of an empty handle.
   Context& context() const { return *context_; }
   /// The path it was compiled from; of a graphics program, the fragment shader's.
   const std::string& path() const { return path_; }
   /// Invocations per group along x, y, z, as its layout says; all 0 for a graphics program.
   const std::array<std::uint32_t, 3>& group_size() const { return group_size_; }
-  /// Active storage blocks.
-  int storage_block_count() const { return storage_blocks_; }
-
-  // Reflection, for the layout tests. Names as glGetProgramResourceIndex has them; nothing for an inactive
-  // name.
-
-  std::optional<int> storage_block_binding(std::string_view block) const;
-  std::optional<int> uniform_block_binding(std::string_view block) const;
-  /// Least bytes a buffer bound to the block must have; an unsized array counts one element.
-  std::optional<int> storage_block_data_size(std::string_view block) const;
-  std::optional<int> uniform_block_data_size(std::string_view block) const;
-  /// Offset of a member of a storage block, e.g. "Block.items[0].velocity" [bytes].
-  std::optional<int> buffer_variable_offset(std::string_view name) const;
-  /// Stride of an array of basic type, e.g. "Block.values[0]"; 0 for what is no array [bytes].
-  std::optional<int> buffer_variable_array_stride(std::string_view name) const;
-  /// Stride of the outermost array that the member lies in, e.g. of structs [bytes].
-  std::optional<int> buffer_variable_top_level_stride(std::string_view name) const;
-  /// Offset of a member of a uniform block, e.g. "Block.classes[0].stiffness" [bytes].
-  std::optional<int> uniform_offset(std::string_view name) const;
-  std::optional<int> uniform_array_stride(std::string_view name) const;
-  /// Location of a uniform outside blocks.
-  std::optional<int> uniform_location(std::string_view name) const;
 
  private:
-  std::optional<int> property(std::uint32_t interface, std::string_view name, std::uint32_t property) const;
-  void release();
   Context* context_ = nullptr;
-  std::uint32_t id_ = 0;
+  Name name_;
   std::string path_;
   std::array<std::uint32_t, 3> group_size_ = {};
-  int storage_blocks_ = 0;
 };
 
 }  // namespace aspic::gl

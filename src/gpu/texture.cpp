@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <utility>
 
 namespace aspic::gl {
 namespace {
@@ -45,24 +44,26 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (settings.width < 1 || settings.height < 1 || settings.width > largest || settings.height > largest)
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("The image \"{}\" of {} x {} pixels cannot be made: {} takes 1 to {} along each "
-                             "side. Choose another picture size.",
-                             name, settings.width, settings.height, context.info().renderer, largest)};
+    return fail(ErrorCode::scene_rejected,
+                "The image \"{}\" of {} x {} pixels cannot be made: {} takes 1 to {} along each "
+                "side. Choose another picture size.",
+                name, settings.width, settings.height, context.info().renderer, largest);
   if (settings.samples > 1) {
     GLint most = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     if (settings.samples > most)
-      return Error{ErrorCode::no_device, fmt::format("{} takes at most {} samples per pixel, not {}.",
-                                                     context.info().renderer, most, settings.samples)};
+      return fail(ErrorCode::no_device, "{} takes at most {} samples per pixel, not {}.",
+                  context.info().renderer, most, settings.samples);
   }
   context.forget_errors();
   Texture texture;
   texture.settings_ = settings;
-  glGenTextures(1, &texture.id_);
+  GLuint id = 0;
+  glGenTextures(1, &id);
+  texture.name_ = Name(id, [](std::uint32_t owned) { glDeleteTextures(1, &owned); });
   const GLenum target = target_of(settings);
   const Storage storage = storage_of(settings.format);
-  glBindTexture(target, texture.id_);
+  glBindTexture(target, id);
   if (settings.samples > 1) {
     glTexStorage2DMultisample(target, settings.samples, storage.internal, settings.width, settings.height,
                               GL_TRUE);
@@ -79,33 +80,14 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
   const GLenum error = context.strikes(Fault::out_of_memory) ? GL_OUT_OF_MEMORY : glGetError();
   if (error != GL_NO_ERROR && context.lost()) return context.lost_error();
   if (error != GL_NO_ERROR)
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("{} has no memory for the image \"{}\" of {} x {} pixels with {} sample{} (GL "
-                             "error 0x{:04x}). Choose a smaller picture.",
-                             context.info().renderer, name, settings.width, settings.height, settings.samples,
-                             settings.samples == 1 ? "" : "s", error)};
+    return fail(ErrorCode::scene_rejected,
+                "{} has no memory for the image \"{}\" of {} x {} pixels with {} sample{} (GL "
+                "error 0x{:04x}). Choose a smaller picture.",
+                context.info().renderer, name, settings.width, settings.height, settings.samples,
+                settings.samples == 1 ? "" : "s", error);
   if (context.info().debug && !name.empty())
-    glObjectLabel(GL_TEXTURE, texture.id_, static_cast<GLsizei>(name.size()), name.data());
+    glObjectLabel(GL_TEXTURE, id, static_cast<GLsizei>(name.size()), name.data());
   return texture;
-}
-
-Texture::~Texture() {
-  release();
-}
-
-Texture::Texture(Texture&& other) noexcept : id_(std::exchange(other.id_, 0)), settings_(other.settings_) {}
-
-Texture& Texture::operator=(Texture&& other) noexcept {
-  if (this == &other) return *this;
-  release();
-  id_ = std::exchange(other.id_, 0);
-  settings_ = other.settings_;
-  return *this;
-}
-
-void Texture::release() {
-  if (id_) glDeleteTextures(1, &id_);
-  id_ = 0;
 }
 
 void Texture::upload(std::span<const std::byte> texels) {
@@ -113,7 +95,7 @@ void Texture::upload(std::span<const std::byte> texels) {
   assert(storage.upload_bytes > 0 && settings_.samples == 1);
   assert(texels.size() == storage.upload_bytes * static_cast<std::size_t>(settings_.width) *
                               static_cast<std::size_t>(settings_.height));
-  glBindTexture(GL_TEXTURE_2D, id_);
+  glBindTexture(GL_TEXTURE_2D, id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, settings_.width, settings_.height, storage.format, GL_UNSIGNED_BYTE,
                   texels.data());
@@ -121,13 +103,13 @@ void Texture::upload(std::span<const std::byte> texels) {
 
 void Texture::generate_mipmaps() {
   assert(settings_.mipmaps);
-  glBindTexture(GL_TEXTURE_2D, id_);
+  glBindTexture(GL_TEXTURE_2D, id());
   glGenerateMipmap(GL_TEXTURE_2D);
 }
 
 void Texture::bind(std::uint32_t unit) const {
   glActiveTexture(GL_TEXTURE0 + unit);
-  glBindTexture(target_of(settings_), id_);
+  glBindTexture(target_of(settings_), id());
   glActiveTexture(GL_TEXTURE0);
 }
 

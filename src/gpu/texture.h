@@ -7,6 +7,7 @@
 
 #include "base/result.h"
 #include "gpu/context.h"
+#include "gpu/name.h"
 
 namespace aspic::gl {
 
@@ -42,12 +43,6 @@ class Texture {
   /// cannot take that many samples).
   static Result<Texture> create(Context& context, std::string name, const TextureSettings& settings);
 
-  ~Texture();
-  Texture(Texture&& other) noexcept;
-  Texture& operator=(Texture&& other) noexcept;
-  Texture(const Texture&) = delete;
-  Texture& operator=(const Texture&) = delete;
-
   /// Writes level 0, rows from the bottom up without padding: width·height texels of 1 (r8) or 4 (srgba8)
   /// bytes. No other format may be uploaded.
   void upload(std::span<const std::byte> texels);
@@ -55,14 +50,13 @@ class Texture {
   /// Binds it to a texture unit, for a sampler of that binding number.
   void bind(std::uint32_t unit) const;
 
-  std::uint32_t id() const { return id_; }
+  std::uint32_t id() const { return name_.id(); }
   int width() const { return settings_.width; }
   int height() const { return settings_.height; }
   const TextureSettings& settings() const { return settings_; }
 
  private:
-  void release();
-  std::uint32_t id_ = 0;
+  Name name_;
   TextureSettings settings_;
 };
 

@@ -3,14 +3,15 @@
 #include <glad/gl.h>
 
 #include <cassert>
-#include <utility>
 
 namespace aspic::gl {
 
 VertexArray VertexArray::create(std::span<const Attribute> attributes, const Buffer* indices) {
   VertexArray result;
-  glGenVertexArrays(1, &result.id_);
-  glBindVertexArray(result.id_);
+  GLuint id = 0;
+  glGenVertexArrays(1, &id);
+  result.name_ = Name(id, [](std::uint32_t owned) { glDeleteVertexArrays(1, &owned); });
+  glBindVertexArray(id);
   for (const Attribute& a : attributes) {
     assert(a.buffer && a.components >= 1 && a.components <= 4);
     glBindBuffer(GL_ARRAY_BUFFER, a.buffer->id());
@@ -24,19 +25,8 @@ VertexArray VertexArray::create(std::span<const Attribute> attributes, const Buf
   return result;
 }
 
-VertexArray::~VertexArray() {
-  if (id_) glDeleteVertexArrays(1, &id_);
-}
-
-VertexArray::VertexArray(VertexArray&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
-
-VertexArray& VertexArray::operator=(VertexArray&& other) noexcept {
-  std::swap(id_, other.id_);
-  return *this;
-}
-
 void VertexArray::bind() const {
-  glBindVertexArray(id_);
+  glBindVertexArray(id());
 }
 
 }  // namespace aspic::gl

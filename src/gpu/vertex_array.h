@@ -4,6 +4,7 @@
 #include <span>
 
 #include "gpu/buffer.h"
+#include "gpu/name.h"
 
 namespace aspic::gl {
 
@@ -26,17 +27,11 @@ class VertexArray {
   /// shader then makes its vertices from gl_VertexID.
   static VertexArray create(std::span<const Attribute> attributes, const Buffer* indices = nullptr);
 
-  ~VertexArray();
-  VertexArray(VertexArray&& other) noexcept;
-  VertexArray& operator=(VertexArray&& other) noexcept;
-  VertexArray(const VertexArray&) = delete;
-  VertexArray& operator=(const VertexArray&) = delete;
-
   void bind() const;
-  std::uint32_t id() const { return id_; }
+  std::uint32_t id() const { return name_.id(); }
 
  private:
-  std::uint32_t id_ = 0;
+  Name name_;
 };
 
 }  // namespace aspic::gl

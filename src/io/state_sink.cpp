@@ -31,9 +31,7 @@ class StateFiles final : public StateSink {
                                                  Overwrite overwrite, const RunFacts&) {
     auto sink = std::make_unique<StateFiles>(path, every, overwrite, Writer);
     if (every == 0) {
-      auto file = AtomicFile::create(path, overwrite);
-      if (!file) return file.error();
-      sink->file_ = std::move(*file);
+      ASPIC_TRY(sink->file_, AtomicFile::create(path, overwrite));
     }
     return std::unique_ptr<StateSink>(std::move(sink));
   }
@@ -50,9 +48,7 @@ class StateFiles final : public StateSink {
   Status write(const Sample& sample) {
     if (last_step_ == sample.state.step) return {};
     if (every() > 0) {
-      auto file = AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_);
-      if (!file) return file.error();
-      file_ = std::move(*file);
+      ASPIC_TRY(file_, AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
     }
     last_step_ = sample.state.step;
     ASPIC_CHECK(writer_(*file_, sample));
@@ -70,9 +66,9 @@ class Series final : public StateSink {
  public:
   static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
                                                  Overwrite overwrite, const RunFacts& facts) {
-    auto writer = SeriesWriter::create(path, overwrite, facts.integrator == Integrator::implicit_euler);
-    if (!writer) return writer.error();
-    return std::unique_ptr<StateSink>(std::make_unique<Series>(path, every, std::move(*writer)));
+    ASPIC_TRY(auto writer,
+              SeriesWriter::create(path, overwrite, facts.integrator == Integrator::implicit_euler));
+    return std::unique_ptr<StateSink>(std::make_unique<Series>(path, every, std::move(writer)));
   }
   Series(const std::string& path, std::uint64_t every, SeriesWriter writer)
       : StateSink(path, every), writer_(std::move(writer)) {}
@@ -92,10 +88,9 @@ class CheckpointFile final : public StateSink {
  public:
   static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
                                                  Overwrite overwrite, const RunFacts& facts) {
-    auto file = AtomicFile::create(path, overwrite);
-    if (!file) return file.error();
+    ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
     return std::unique_ptr<StateSink>(
-        std::make_unique<CheckpointFile>(path, every, std::move(*file), facts.scene_toml));
+        std::make_unique<CheckpointFile>(path, every, std::move(file), facts.scene_toml));
   }
   CheckpointFile(const std::string& path, std::uint64_t every, AtomicFile file, std::string scene_toml)
       : StateSink(path, every), file_(std::move(file)), scene_toml_(std::move(scene_toml)) {}
@@ -113,9 +108,7 @@ class CheckpointFile final : public StateSink {
   Status write(const Sample& sample) {
     if (written_) {
       // What is there now is our own.
-      auto file = AtomicFile::create(path(), Overwrite::allow);
-      if (!file) return file.error();
-      file_ = std::move(*file);
+      ASPIC_TRY(file_, AtomicFile::create(path(), Overwrite::allow));
     }
     const Checkpoint checkpoint = {ASPIC_VERSION, scene_toml_, sample.model.simulation.timestep,
                                    sample.state};

@@ -99,8 +99,7 @@ SpringSettings material_springs(const MaterialSettings& material, int particles_
 Status add_cube(Model& model, const CubeSettings& cube) {
   const int n = cube.particles_per_edge;
   const double s = cube.edge_length / (n - 1);
-  const auto pinned = pinned_particles(pins, cube.pinned, {n, n, n});
-  if (!pinned) return pinned.error();
+  ASPIC_TRY(const auto pinned, pinned_particles(pins, cube.pinned, {n, n, n}));
 
   SpringSettings structural = cube.structural, shear = cube.shear, bending = cube.bending;
   double mass = cube.particle_mass;
@@ -111,7 +110,7 @@ Status add_cube(Model& model, const CubeSettings& cube) {
 
   Body body;
   body.first_particle = model.particle_count();
-  body.particle_count = static_cast<std::uint32_t>(pinned->size());
+  body.particle_count = static_cast<std::uint32_t>(pinned.size());
   body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());
   body.class_count = class_count;
   body.cubic = true;
@@ -135,9 +134,9 @@ Status add_cube(Model& model, const CubeSettings& cube) {
       for (int k = 0; k < n; ++k, ++local) {
         const Vec3 from_centre = {i * s - half, j * s - half, k * s - half};
         model.initial_position.push_back(cube.position + turned(from_centre));
-        model.initial_velocity.push_back((*pinned)[local] ? Vec3{} : cube.velocity);
+        model.initial_velocity.push_back((pinned)[local] ? Vec3{} : cube.velocity);
         model.mass.push_back(mass);
-        model.inverse_mass.push_back((*pinned)[local] ? 0.0 : 1.0 / mass);
+        model.inverse_mass.push_back((pinned)[local] ? 0.0 : 1.0 / mass);
         const auto a = static_cast<std::uint32_t>(body.first_particle + local);
         for (const Offset& o : offsets) {
           if (i + o.di >= n || j + o.dj < 0 || j + o.dj >= n || k + o.dk < 0 || k + o.dk >= n) continue;

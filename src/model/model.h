@@ -31,13 +31,11 @@ struct Spring {
   friend bool operator==(const Spring&, const Spring&) = default;
 };
 
-/// A resting surface. Planes use point and normal, spheres and bowls use point (the centre) and
-/// radius.
+/// A resting surface; by default the plane y = 0.
 struct Terrain {
   TerrainShape shape = TerrainShape::plane;
-  Vec3 point;                                             ///< a point of the plane, or the centre [m]
-  Vec3 normal = {0.0, 1.0, 0.0};                          ///< unit, towards the free side (planes only)
-  double radius = 0.0;                                    ///< R [m] (sphere and bowl only)
+  /// Places [m], unit directions and lengths [m].
+  Geometry<double> geometry = {.vectors = {Vec3{}, Vec3{0.0, 1.0, 0.0}}};
   double mass = std::numeric_limits<double>::infinity();  ///< M [kg]
   double restitution = 0.8;                               ///< e
   double friction = 0.3;                                  ///< μ
@@ -147,13 +145,7 @@ std::uint64_t model_bytes(const ModelCounts& counts);
 /// a solver in single precision. For memory checks before anything is allocated.
 std::uint64_t run_bytes(const ModelCounts& counts);
 
-/// Every integrator, in the order in which they are listed for users.
-inline constexpr Integrator all_integrators[] = {
-    Integrator::explicit_euler, Integrator::symplectic_euler, Integrator::midpoint,
-    Integrator::runge_kutta_4,  Integrator::implicit_euler,   Integrator::implicit_euler_one_pass};
-
-/// Names as they stand in scene files and reports.
-std::string_view name_of(Integrator integrator);
+/// Names in scene files and reports.
 std::string_view name_of(ContactModel model);
 std::string_view name_of(SpringType type);
 std::string_view name_of(TerrainShape shape);

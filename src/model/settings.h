@@ -1,27 +1,21 @@
 #pragma once
-// What a scene says about physics: plain data, SI units. Legal ranges and one-sentence meanings stand in the
-// parameter table (scene/parameters.cpp), which feeds the parser, --set, `scene show` and the documentation.
+// What a scene says about physics: plain data, SI units. Legal ranges and one-sentence meanings are in the
+// parameter table (scene/parameter_table.cpp), which feeds the parser, --set, `scene show` and the
+// documentation.
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "model/integrator.h"
+#include "model/shapes/table.h"
 #include "model/vec3.h"
 
 namespace aspic {
-
-/// Time integration methods.
-enum class Integrator {
-  explicit_euler,
-  symplectic_euler,
-  midpoint,
-  runge_kutta_4,
-  implicit_euler,
-  implicit_euler_one_pass
-};
 
 /// Contact models.
 enum class ContactModel { coulomb, course };
@@ -38,8 +32,6 @@ inline constexpr Named<ContactModel> contact_models[] = {{ContactModel::coulomb,
                                                          {ContactModel::course, "course"}};
 
 enum class SpringType { structural, shear, bending };
-
-enum class TerrainShape { plane, tilted_plane, sphere, bowl };
 
 /// Limits of the implicit Euler solve.
 struct ImplicitSettings {
@@ -71,11 +63,9 @@ struct ContactSettings {
 /// contact values.
 struct TerrainSettings {
   TerrainShape shape = TerrainShape::plane;
-  std::optional<Vec3> point = {};     ///< [m], plane and tilted plane
-  std::optional<Vec3> normal = {};    ///< any length but zero, plane and tilted plane
-  std::optional<Vec3> centre = {};    ///< [m], sphere and bowl
-  std::optional<double> radius = {};  ///< [m], > 0, sphere and bowl
-  std::optional<double> mass = {};    ///< M [kg], > 0; absent: infinite
+  /// By key, of the kind that the key has: shapes say which keys they have.
+  std::map<std::string, GeometryValue, std::less<>> geometry = {};
+  std::optional<double> mass = {};  ///< M [kg], > 0; absent: infinite
   std::optional<double> restitution = {};
   std::optional<double> friction = {};
 };

@@ -8,7 +8,7 @@
 
 namespace aspic {
 
-/// What the block tells beside model and camera.
+/// What the block holds besides model and camera.
 struct FrameContent {
   ViewSettings view;
   QuantityRange range = {};  ///< ends of the colour scale

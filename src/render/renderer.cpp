@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "device/particles.h"
 #include "gpu/pass.h"
 #include "render/frame_block.h"
 #include "render/light_maps.h"
@@ -27,6 +28,22 @@ constexpr double reach_share = 0.30;
 
 std::array<float, 4> with(const Colour& c, double w) {
   return {c[0], c[1], c[2], static_cast<float>(w)};
+}
+
+/// Whether a colour shows what a particle's springs do.
+bool shows_springs(ViewColour colour) {
+  return colour == ViewColour::strain || colour == ViewColour::force;
+}
+
+/// Uploads into a buffer that is made, or made larger, as needed.
+template <class T>
+Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const std::vector<T>& items) {
+  const std::uint64_t bytes = sizeof(T) * items.size();
+  if (buffer.id() == 0 || buffer.bytes() < bytes) {
+    ASPIC_TRY(buffer, gl::Buffer::create(context, name, bytes));
+  }
+  buffer.upload_items(std::span<const T>(items));
+  return {};
 }
 
 void draw_elements(GLenum mode, std::uint32_t first, std::uint32_t count) {
@@ -70,7 +87,7 @@ struct Renderer::Parts {
   Status prepare_highlight();
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
-  bool needs_springs(const ViewSettings& view) const;
+  bool needs_lines(const ViewSettings& view) const;
   void draw_thickness(const gl::Buffer& particles) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
   void draw_springs(const gl::Buffer& particles, const DrawSettings& draw, ViewColour mode) const;
@@ -115,6 +132,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
 Status Renderer::set_model(const Model& model) {
   auto buffers = ModelBuffers::create(*parts_->context, model);
   if (!buffers) return buffers.error();
+  ASPIC_CHECK(parts_->terrain.set_terrain(*parts_->context, model.terrain));
   parts_->buffers.reset();
   parts_->buffers.emplace(std::move(*buffers));
   parts_->model = &model;
@@ -126,10 +144,9 @@ Status Renderer::set_model(const Model& model) {
 Result<DeviceState> Renderer::upload(const State& state) {
   Parts& p = *parts_;
   assert(p.model);
-  Status status = ModelBuffers::upload(*p.context, *p.model, state, p.uploaded);
-  if (status) status = BallBuffers::upload(*p.context, *p.model, state, p.uploaded_balls);
-  if (!status) return status.error();
-  return DeviceState{&p.uploaded, &p.uploaded_balls, 0, state.step};
+  ASPIC_CHECK(refill(*p.context, p.uploaded, "particles to draw", packed_particles(*p.model, state)));
+  ASPIC_CHECK(refill(*p.context, p.uploaded_balls, "balls to draw", packed_balls(*p.model, state)));
+  return DeviceState{&p.uploaded, &p.uploaded_balls, 0, state.step, nullptr};
 }
 
 Status Renderer::Parts::prepare_targets(int width, int height) {
@@ -155,16 +172,15 @@ void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
 }
 
-bool Renderer::Parts::needs_springs(const ViewSettings& view) const {
-  return has(SurfaceStyle::cords) || view.draw.structural || view.draw.shear || view.draw.bending ||
-         view.colour >= ViewColour::strain;
+bool Renderer::Parts::needs_lines(const ViewSettings& view) const {
+  return has(SurfaceStyle::cords) || view.draw.structural || view.draw.shear || view.draw.bending;
 }
 
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
   const gl::Buffer& particles = *state.particles;
   buffers->compute_light_boxes(programs, state);
   if (options.view.draw.solid && buffers->has_skin()) buffers->compute_normals(programs, particles);
-  if (options.view.colour >= ViewColour::strain) buffers->compute_quantity(programs, particles);
+  if (options.view.colour >= ViewColour::strain) buffers->compute_quantity(programs, state);
   if (options.shadows)
     lights.render(programs, *buffers, state, options.view.draw);
   else
@@ -273,11 +289,12 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   Parts& p = *parts_;
   assert(p.model && state.particles);
   const gl::Buffer& particles = *state.particles;
-  assert(particles.bytes() >= std::uint64_t{particle_stride} * p.model->particle_count());
+  assert(particles.bytes() >= sizeof(layout::Particle) * p.model->particle_count());
   Status ready = p.prepare_targets(width, height);
   if (ready && options.highlight) ready = p.prepare_highlight();
   const ViewSettings& view = options.view;
-  if (ready && p.needs_springs(view)) ready = p.buffers->prepare_springs(*p.context, *p.model);
+  if (ready && p.needs_lines(view)) ready = p.buffers->prepare_lines(*p.context, *p.model);
+  if (ready && shows_springs(view.colour)) ready = p.buffers->prepare_incident(*p.context, *p.model, state);
   if (!ready) return ready;
   p.buffers->use_coarse_skin(options.coarse_skin);
   const Camera camera(view.camera, width, height);
@@ -304,7 +321,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
   p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
-  // Last of what is opaque: only where nothing else stands.
+  // The last opaque part: only where there is nothing else.
   p.nothing.bind();
   glUseProgram(p.programs.sky.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/text.h"
+#include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic {
@@ -19,24 +19,20 @@ Result<Backend> make_gpu(const Model& model, const BackendChoice& choice, const 
   Backend backend;
   gl::Context* context = host.context;
   if (context == nullptr) {
-    auto made = gl::Context::create_headless();
-    if (!made) return made.error();
-    backend.context = std::move(*made);
+    ASPIC_TRY(backend.context, gl::Context::create_headless());
     context = backend.context.get();
   }
-  auto directory = shader_directory();
-  if (!directory) return directory.error();
+  ASPIC_TRY(auto directory, shader_directory());
   GpuOptions options;
   options.force_path = choice.force_path;
-  options.shader_directory = std::move(*directory);
-  options.like = host.like;
+  options.shader_directory = std::move(directory);
+  options.share_springs_of = host.share_springs_of;
   options.arithmetic = host.arithmetic;
-  auto solver = make_gpu_solver(*context, model, options);
-  if (!solver) return solver.error();
-  backend.gpu = solver->get();
+  ASPIC_TRY(auto solver, make_gpu_solver(*context, model, options));
+  backend.gpu = solver.get();
   backend.device = context->info().renderer;
-  backend.force_path = name_of((*solver)->force_path());
-  backend.solver = std::move(*solver);
+  backend.force_path = name_of(solver->force_path());
+  backend.solver = std::move(solver);
   return backend;
 }
 
@@ -62,6 +58,16 @@ Suitability gpu_suitability(const gl::Context* window) {
   return result;
 }
 
+// ---- cpu ----
+
+Result<Backend> make_cpu(const Model& model, const BackendChoice&, const SolverHost&) {
+  ASPIC_TRY(auto solver, make_cpu_solver(model));
+  Backend backend;
+  backend.device = solver->description();
+  backend.solver = std::move(solver);
+  return backend;
+}
+
 // ---- reference ----
 
 /// What it holds at work; under implicit Euler also every spring's Jacobian, of the trial and of the iterate
@@ -75,20 +81,18 @@ Status check_reference_memory(const Model& model, Precision precision) {
   if (model.simulation.integrator == Integrator::implicit_euler) bytes += 2 * 5 * real * model.springs.size();
   const std::optional<std::uint64_t> memory = available_memory();
   if (!memory || bytes <= *memory) return {};
-  return Error{
-      ErrorCode::scene_rejected,
-      fmt::format("the reference solver needs {} of memory for this scene and {} are available; use fewer "
-                  "particles or balls",
-                  human_bytes(bytes), human_bytes(*memory))};
+  return fail(ErrorCode::scene_rejected,
+              "the reference solver needs {} of memory for this scene and {} are available; use fewer "
+              "particles or balls",
+              human_bytes(bytes), human_bytes(*memory));
 }
 
 Result<Backend> make_reference(const Model& model, const BackendChoice& choice, const SolverHost&) {
   ASPIC_CHECK(check_reference_memory(model, choice.precision));
-  auto solver = make_reference_solver(model, choice.precision);
-  if (!solver) return solver.error();
+  ASPIC_TRY(auto solver, make_reference_solver(model, choice.precision));
   Backend backend;
-  backend.device = (*solver)->description();
-  backend.solver = std::move(*solver);
+  backend.device = solver->description();
+  backend.solver = std::move(solver);
   return backend;
 }
 
@@ -96,20 +100,21 @@ Result<Backend> make_reference(const Model& model, const BackendChoice& choice, 
 
 constexpr Precision single_alone[] = {Precision::single};
 constexpr Precision both_precisions[] = {Precision::single, Precision::double_};
-constexpr ForcePath gpu_paths[] = {ForcePath::gather, ForcePath::per_spring};
 
 constexpr BackendRow table[] = {
-    {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, gpu_paths, true, make_gpu,
+    {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, built_force_paths, true, make_gpu,
      [](const ModelCounts& counts, Integrator integrator, const BackendChoice& choice) {
        return gpu_bytes(counts, integrator, choice.force_path);
      },
      gpu_suitability},
-    {"reference",
-     "reference",
-     "one thread, Eigen, written to be read",
-     both_precisions,
-     {},
-     false,
+    {"cpu", "CPU", "threads and vector instructions", single_alone, nullptr, false, make_cpu,
+     [](const ModelCounts& counts, Integrator integrator, const BackendChoice&) {
+       return cpu_bytes(counts, integrator);
+     },
+     [](const gl::Context*) {
+       return Suitability{true, "", "", nullptr};
+     }},
+    {"reference", "reference", "one thread, Eigen, written to be read", both_precisions, nullptr, false,
      make_reference,
      [](const ModelCounts& counts, Integrator, const BackendChoice& choice) {
        return reference_bytes(counts, choice.precision);
@@ -124,9 +129,12 @@ bool has(std::span<const T> values, T value) {
   return std::ranges::find(values, value) != values.end();
 }
 
+bool has_path(const BackendRow& row, ForcePath path) {
+  return std::ranges::any_of(row.force_paths(), [&](const ForcePathRow& p) { return p.path == path; });
+}
+
 Error unknown_word(std::string_view what, std::string_view word, std::string_view allowed) {
-  return {ErrorCode::usage,
-          fmt::format("unknown {} \"{}\"; allowed: {}.", what, printable_line(word), allowed)};
+  return fail(ErrorCode::usage, "unknown {} \"{}\"; allowed: {}.", what, printable_line(word), allowed);
 }
 
 /// Names of the rows for which something holds.
@@ -179,11 +187,10 @@ Result<std::filesystem::path> shader_directory() {
   if (!value || !*value) return std::filesystem::path();
   std::error_code ignored;
   if (!std::filesystem::is_directory(value, ignored)) {
-    return Error{
-        ErrorCode::io,
-        fmt::format("ASPIC_SHADER_DIR names {}, which is no directory: name one laid out as shaders/ "
-                    "of the sources, or unset it.",
-                    printable_line(value))};
+    return fail(ErrorCode::io,
+                "ASPIC_SHADER_DIR is {}, which is not a directory: use one laid out like shaders/ in the "
+                "sources, or unset it.",
+                printable_line(value));
   }
   return std::filesystem::path(value);
 }
@@ -220,18 +227,15 @@ Result<Precision> parse_precision(std::string_view word) {
 
 Result<ForcePath> parse_force_path(std::string_view word) {
   if (word == "auto") return ForcePath::automatic;
-  for (const ForcePath path : {ForcePath::per_spring, ForcePath::gather, ForcePath::lattice}) {
-    if (word == name_of(path)) return path;
-  }
-  return unknown_word("force path", word, "auto, per-spring, gather, lattice");
+  for (const ForcePathRow& row : force_paths())
+    if (word == row.name) return row.path;
+  return unknown_word("force path", word, force_path_words());
 }
 
 Result<BackendChoice> parse_backend(std::string_view text) {
   BackendChoice choice;
   const std::size_t colon = text.find(':');
-  const auto row = parse_backend_name(text.substr(0, colon));
-  if (!row) return row.error();
-  choice.row = *row;
+  ASPIC_TRY(choice.row, parse_backend_name(text.substr(0, colon)));
   while (text.find(':') != std::string_view::npos) {
     text.remove_prefix(text.find(':') + 1);
     const std::string_view word = text.substr(0, text.find(':'));
@@ -240,35 +244,29 @@ Result<BackendChoice> parse_backend(std::string_view text) {
     } else if (const auto path = parse_force_path(word)) {
       choice.force_path = *path;
     } else {
-      return unknown_word("backend option", word, "single, double, auto, per-spring, gather, lattice");
+      return unknown_word("backend option", word, "single, double, " + force_path_words());
     }
   }
   return choice;
 }
 
 Status check_choice(const BackendChoice& choice) {
-  if (choice.force_path == ForcePath::lattice) {
-    return Error{ErrorCode::scene_rejected,
-                 "the force path lattice is not built yet; use gather or per-spring."};
-  }
+  ASPIC_CHECK(check_built(choice.force_path));
   const auto with_precision =
       names_where([&](const BackendRow& row) { return has(row.precisions, choice.precision); });
   if (choice.row && !has(choice.row->precisions, choice.precision)) {
-    return Error{ErrorCode::usage,
-                 fmt::format("the {0} does not compute in {1} precision; for {1} say "
-                             "--backend {2}.",
-                             choice.row->name, name_of(choice.precision), fmt::join(with_precision, " or "))};
+    return fail(ErrorCode::usage, "the {0} does not compute in {1} precision; for {1} use --backend {2}.",
+                choice.row->name, name_of(choice.precision), fmt::join(with_precision, " or "));
   }
   if (choice.force_path == ForcePath::automatic) return {};
   const auto possible = [&](const BackendRow& row) {
-    return has(row.precisions, choice.precision) && has(row.force_paths, choice.force_path);
+    return has(row.precisions, choice.precision) && has_path(row, choice.force_path);
   };
   if (choice.row ? possible(*choice.row) : std::ranges::any_of(table, possible)) return {};
   const std::string with_path = fmt::format(
-      "{}", fmt::join(names_where([](const BackendRow& row) { return !row.force_paths.empty(); }), " or "));
-  return Error{
-      ErrorCode::usage,
-      fmt::format("a force path belongs to the {0} backend; leave it out or say --backend {0}.", with_path)};
+      "{}", fmt::join(names_where([](const BackendRow& row) { return !row.force_paths().empty(); }), " or "));
+  return fail(ErrorCode::usage, "a force path belongs to the {0} backend; omit it or use --backend {0}.",
+              with_path);
 }
 
 Result<Backend> make_backend(const BackendChoice& choice, const Model& model, const SolverHost& host) {
@@ -276,21 +274,18 @@ Result<Backend> make_backend(const BackendChoice& choice, const Model& model, co
   AutomaticChoice automatic;
   if (!choice.row) automatic = choose_automatically(choice, host.context);
   const BackendRow& row = choice.row ? *choice.row : *automatic.row;
-  if (choice.force_path != ForcePath::automatic && !has(row.force_paths, choice.force_path)) {
-    const auto names =
-        names_where([&](const BackendRow& r) { return has(r.force_paths, choice.force_path); });
-    return Error{ErrorCode::no_device,
-                 fmt::format("the force path {0} needs the {1} backend, but {2}. Say --backend {1} to take "
-                             "any device there is.",
-                             name_of(choice.force_path), names.front(), automatic.reason)};
+  if (choice.force_path != ForcePath::automatic && !has_path(row, choice.force_path)) {
+    const auto names = names_where([&](const BackendRow& r) { return has_path(r, choice.force_path); });
+    return fail(ErrorCode::no_device,
+                "the force path {0} needs the {1} backend, but {2}. Use --backend {1} to accept any device.",
+                name_of(choice.force_path), names.front(), automatic.reason);
   }
   SolverHost place = host;
   if (automatic.context) place.context = automatic.context.get();
-  auto backend = row.make(model, choice, place);
-  if (!backend) return backend.error();
-  backend->row = &row;
-  if (automatic.context) backend->context = std::move(automatic.context);
-  backend->reason = std::move(automatic.reason);
+  ASPIC_TRY(auto backend, row.make(model, choice, place));
+  backend.row = &row;
+  if (automatic.context) backend.context = std::move(automatic.context);
+  backend.reason = std::move(automatic.reason);
   return backend;
 }
 
@@ -300,12 +295,13 @@ std::vector<BackendBytes> bytes_by_backend(const Model& model) {
   std::vector<BackendBytes> result;
   for (const BackendRow& row : table) {
     for (const Precision precision : row.precisions) {
-      const std::span<const ForcePath> paths = row.force_paths;
-      for (std::size_t i = 0; i < std::max<std::size_t>(paths.size(), 1); ++i) {
-        const BackendChoice choice = {&row, precision, paths.empty() ? ForcePath::automatic : paths[i]};
-        const std::string_view path = paths.empty() ? std::string_view() : name_of(paths[i]);
-        result.push_back({variant_of(row, path, precision), row.bytes(counts, integrator, choice)});
-      }
+      const auto add = [&](const ForcePathRow* path) {
+        const BackendChoice choice = {&row, precision, path ? path->path : ForcePath::automatic};
+        result.push_back(
+            {variant_of(row, path ? path->name : "", precision), row.bytes(counts, integrator, choice)});
+      };
+      if (row.force_paths().empty()) add(nullptr);
+      for (const ForcePathRow& path : row.force_paths()) add(&path);
     }
   }
   return result;

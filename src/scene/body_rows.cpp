@@ -23,13 +23,12 @@ std::vector<Parameter> cube_rows() {
                 "Edge of the undeformed cube.")),
       fixed(row("cube[].position", "m", within(far), FIELD(model.cubes[i].position),
                 "Centre of the cube at the start.")),
-      fixed(direction(
-          row("cube[].rotation.axis", FIELD(model.cubes[i].rotation.axis),
-              "Axis through the centre about which the cube is turned; its length does not matter."))),
+      fixed(direction(row("cube[].rotation.axis", FIELD(model.cubes[i].rotation.axis),
+                          "Rotation axis through the centre; its length does not matter."))),
       fixed(row("cube[].rotation.angle", "°", {-36000.0, 36000.0}, FIELD(model.cubes[i].rotation.angle),
-                "Angle of that turn, right-handed.")),
+                "Rotation angle, right-handed.")),
       fixed(row("cube[].velocity", "m/s", within(divergence_speed), FIELD(model.cubes[i].velocity),
-                "Velocity of the particles that are not pinned at the start.")),
+                "Initial velocity of the particles that are not pinned.")),
       of(springs, row("cube[].particle-mass", "kg", {0.0, heaviest, true},
                       FIELD(model.cubes[i].particle_mass), "Mass m of each particle.")),
       of(springs,
@@ -82,7 +81,7 @@ std::vector<Parameter> net_rows() {
       row("goal-net[].bending.damping", "N·s/m", damping, FIELD(model.goal_nets[i].bending.damping),
           "Damping c of the springs between particles two steps apart."),
       row("goal-net[].cord", FIELD(model.goal_nets[i].cord),
-          "Whether its springs resist stretch only, as cord does."),
+          "Whether its springs resist stretch only, like a cord."),
   };
 }
 
@@ -138,12 +137,13 @@ std::vector<Parameter> ball_rows() {
 std::vector<Parameter> launcher_rows() {
   return {
       fixed(row("launcher[].seed", "", {0, 1e15}, FIELD(model.launchers[i].seed),
-                "Start of the random sequence: the same seed throws the same balls.")),
-      fixed(row("launcher[].count", "", {0, 10000000}, FIELD(model.launchers[i].count), "Balls it throws.")),
+                "Seed of the random sequence: the same seed throws the same balls.")),
+      fixed(row("launcher[].count", "", {0, 10000000}, FIELD(model.launchers[i].count),
+                "Number of balls it throws.")),
       fixed(row("launcher[].interval", "s", {0.0, longest}, FIELD(model.launchers[i].interval),
                 "Time between two balls; the first comes at the start.")),
       fixed(row("launcher[].from.min", "m", within(far), FIELD(model.launchers[i].from.min),
-                "Lower corner of the box in which balls start.")),
+                "Lower corner of the box of starting points.")),
       fixed(row("launcher[].from.max", "m", within(far), FIELD(model.launchers[i].from.max),
                 "Upper corner of that box.")),
       fixed(row("launcher[].towards.min", "m", within(far), FIELD(model.launchers[i].towards.min),
@@ -151,7 +151,7 @@ std::vector<Parameter> launcher_rows() {
       fixed(row("launcher[].towards.max", "m", within(far), FIELD(model.launchers[i].towards.max),
                 "Upper corner of that box.")),
       fixed(row("launcher[].speed-factor", "1/s", {0.0, 1e6}, FIELD(model.launchers[i].speed_factor),
-                "Velocity is this times the way from start to target.")),
+                "Velocity per distance from start to target.")),
       fixed(row("launcher[].ball.radius", "m", positive_length, FIELD(model.launchers[i].ball.radius),
                 "Radius of its balls.")),
       fixed(row("launcher[].ball.mass", "kg", {0.0, heaviest, true}, FIELD(model.launchers[i].ball.mass),

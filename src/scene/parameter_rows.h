@@ -114,7 +114,7 @@ Parameter row(std::string_view path, std::string_view unit, const Range& range, 
   using Field = std::remove_cvref_t<decltype(Access{}(std::declval<Scene&>(), std::size_t{}))>;
   if constexpr (requires(Field field) { field.reset(); }) {
     p.type = type_of<typename Field::value_type>();
-    p.erase = [](Scene& scene, std::size_t index) { Access{}(scene, index).reset(); };
+    p.erase = [](const Parameter&, Scene& scene, std::size_t index) { Access{}(scene, index).reset(); };
   } else {
     p.type = type_of<Field>();
   }
@@ -198,10 +198,8 @@ inline constexpr Range damping = {0.0, 1e9};
     return chosen->field;                                                        \
   }
 
-inline constexpr auto geometry = Belonging::geometry;
 inline constexpr auto springs = Belonging::explicit_springs;
 inline constexpr auto material = Belonging::material;
-inline constexpr std::string_view of_shape = "by shape";
 
 }  // namespace aspic::rows
 

@@ -16,19 +16,13 @@ namespace {
 /// Shorter directions lose their digits when their length is squared.
 constexpr double shortest_direction = 1e-100;
 
-/// Every shape with its default geometry, in the order of the table.
-const Scene& default_terrain() {
-  static const Scene scene = [] {
-    Scene all;
-    for (const TerrainShapeRow& row : terrain_shapes) all.model.terrain.push_back(row.defaults);
-    return all;
-  }();
-  return scene;
+/// The shape's key behind a row of the table; nullptr if the shape does not have it.
+const GeometryKey* geometry_key(const Parameter& p, TerrainShape shape) {
+  return aspic::geometry_key(shape, p.path.substr(p.path.rfind('.') + 1));
 }
 
-/// The default of a geometry key; nothing if the shape does not have it.
-std::optional<Value> default_geometry(const Parameter& p, TerrainShape shape) {
-  return p.read(p, default_terrain(), static_cast<std::size_t>(&terrain_row(shape) - terrain_shapes));
+Value value_of(const GeometryValue& value) {
+  return std::visit([](const auto& x) { return Value(x); }, value);
 }
 
 /// The list an indexed path leads into, or nullptr.
@@ -86,7 +80,7 @@ std::optional<Value> Parameter::get(const Scene& scene, std::size_t index) const
   if (!applies(*this, scene, index)) return std::nullopt;
   std::optional<Value> value = read(*this, scene, index);
   if (!value && belonging == Belonging::geometry)
-    return default_geometry(*this, scene.model.terrain[index].shape);
+    return value_of(geometry_key(*this, scene.model.terrain[index].shape)->value);
   return value;
 }
 
@@ -149,7 +143,7 @@ bool applies(const Parameter& parameter, const Scene& scene, std::size_t index) 
 }
 
 bool belongs_to_shape(const Parameter& parameter, TerrainShape shape) {
-  return parameter.belonging != Belonging::geometry || default_geometry(parameter, shape).has_value();
+  return parameter.belonging != Belonging::geometry || geometry_key(parameter, shape) != nullptr;
 }
 
 std::size_t index_count(const Parameter& parameter, const Scene& scene) {
@@ -223,8 +217,8 @@ std::string default_text(const Parameter& p) {
   if (p.belonging == Belonging::geometry) {
     std::string text;
     for (const TerrainShapeRow& row : terrain_shapes) {
-      if (const auto value = default_geometry(p, row.value))
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, toml_value(*value));
+      if (const GeometryKey* key = geometry_key(p, row.value))
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, toml_value(value_of(key->value)));
     }
     return text;
   }

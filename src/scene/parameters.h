@@ -42,13 +42,13 @@ struct Range {
   bool min_excluded = false;
 };
 
-/// When a key has a meaning. Geometry belongs to the shapes whose defaults hold it (terrain_shapes); keys of
+/// When a key has a meaning. Geometry belongs to the shapes that have the key (terrain_shapes); keys of
 /// explicit springs and of a material exclude each other by what the cube is made of.
 enum class Belonging { always, geometry, explicit_springs, material };
 
 /// One key.
 struct Parameter {
-  std::string_view path;  ///< `simulation.timestep`, `cube[].shear.stiffness`; [] stands for an index
+  std::string_view path;  ///< `simulation.timestep`, `cube[].shear.stiffness`; [] is an index
   ParameterType type = ParameterType::number;
   std::string_view unit;                ///< empty: a pure number or not a number
   Range range;                          ///< integer, number, vector, counts, numbers
@@ -57,7 +57,7 @@ struct Parameter {
   const PinNames* pins = nullptr;       ///< pinned: what may be named
   Belonging belonging = Belonging::always;
   bool direction = false;        ///< vector: any length but zero
-  bool live = true;              ///< may change while the simulation runs, without starting anew
+  bool live = true;              ///< may change while the simulation runs, without a restart
   std::string_view when_absent;  ///< what an absent value means; empty: the default is a value
   std::string_view meaning;      ///< one sentence
 
@@ -70,11 +70,11 @@ struct Parameter {
 
   /// Whether the key may be absent, and clear() makes it so; for the other keys clear() is illegal.
   bool can_be_absent() const { return erase != nullptr; }
-  void clear(Scene& scene, std::size_t index) const { erase(scene, index); }
+  void clear(Scene& scene, std::size_t index) const { erase(*this, scene, index); }
 
   std::optional<Value> (*read)(const Parameter&, const Scene&, std::size_t) = nullptr;  ///< for get()
   void (*write)(const Parameter&, Scene&, std::size_t, const Value&) = nullptr;         ///< for set()
-  void (*erase)(Scene&, std::size_t) = nullptr;                                         ///< for clear()
+  void (*erase)(const Parameter&, Scene&, std::size_t) = nullptr;                       ///< for clear()
 };
 
 /// The table, in the order in which files are written.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "model/bodies.h"
-#include "model/terrain.h"
 
 namespace aspic::reader {
 namespace {
@@ -137,12 +136,7 @@ std::vector<Position> elements_of(const toml::node& node, std::uint32_t source) 
 
 /// A legal value of a key of terrain geometry.
 Value some_geometry(const Parameter& p) {
-  Scene scene;
-  for (const TerrainShapeRow& row : terrain_shapes) {
-    scene.model.terrain = {row.defaults};
-    if (const auto value = p.get(scene, 0)) return *value;
-  }
-  return {};
+  return p.type == ParameterType::number ? Value(1.0) : Value(Vec3{0.0, 1.0, 0.0});
 }
 
 }  // namespace
@@ -299,10 +293,10 @@ std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes)
     const std::vector<std::string> others = explicit_keys(c);
     if (others.empty()) continue;
     const std::vector<std::string_view> names(others.begin(), others.end());
-    problems.push_back({material->second.key,
-                        fmt::format("a cube has either 'material' or the masses and springs it decides, not "
-                                    "both; leave out 'material' or {}",
-                                    diagnostics::list_text(names, false))});
+    problems.push_back(
+        {material->second.key, fmt::format("a cube has either 'material' or the masses and springs it "
+                                           "decides, not both; leave out 'material' or {}",
+                                           diagnostics::list_text(names, false))});
   }
   for (const SceneComplaint& complaint : check_scene(scene_, memory_bytes)) {
     if ((complaint.of_key || !has_problem(complaint.path)) && !has_problem(complaint.other))

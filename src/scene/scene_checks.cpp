@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "base/text.h"
+#include "base/printable.h"
 #include "model/bodies.h"
 #include "scene/diagnostics.h"
 
@@ -78,10 +78,11 @@ void check_boxes(const Scene& scene, Complaints& complaints) {
   const auto check = [&](std::string_view key, std::size_t i, const BoxSettings& box) {
     for (int axis = 0; axis < 3; ++axis) {
       if (box.min[axis] <= box.max[axis]) continue;
-      Complaint no_box = {fmt::format("'launcher.{}' is no box: its min has the {} {} and its max {}; min "
-                                      "must not exceed max",
-                                      key, "xyz"[axis], box.min[axis], box.max[axis]),
-                          {}};
+      Complaint no_box = {
+          fmt::format(
+              "'launcher.{}' is not a box: its min has the {} {} and its max {}; min must not exceed max",
+              key, "xyz"[axis], box.min[axis], box.max[axis]),
+          {}};
       complaints.emplace_back(fmt::format("launcher[{}].{}", i, key), std::move(no_box));
     }
   };
@@ -94,7 +95,7 @@ void check_boxes(const Scene& scene, Complaints& complaints) {
 void check_camera(const Scene& scene, Complaints& complaints) {
   const CameraSettings& camera = scene.view.camera;
   if (length(camera.position - camera.target) > 0.0) return;
-  Complaint nowhere = {"the camera's position and target are the same point: it looks nowhere", {}};
+  Complaint nowhere = {"the camera's position and target are the same point, so it has no direction", {}};
   complaints.emplace_back("view.camera.target", std::move(nowhere)).other = "view.camera.position";
 }
 

@@ -85,7 +85,7 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
     if (!open.empty() && open.back().name != head) close();
     const auto value = p.get(scene, index);
     if (!value) {
-      // Told as a comment, so that the file shows everything that could be said.
+      // Written as a comment, so that the file shows every key there is.
       if (dot == std::string_view::npos && applies(p, scene, index)) {
         lines.push_back({fmt::format("# {}: {}", rest, p.when_absent), ""});
       }

@@ -12,13 +12,13 @@ LISTS = {"[[terrain]]": "terrain[0].", "[[cube]]": "cube[0].", "[[goal-net]]": "
          "[[ball]]": "ball[0].",
          "[[launcher]]": "launcher[0].", "[simulation]": "simulation.", "[contact]": "contact."}
 NUMBER = re.compile(r"^(three numbers \[x, y, z\], each |two numbers \[along x, y\], each |a number )(> 0 and ≤ |)(\S+)(?: … (\S+))?")
+PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "scene-reference.md")
 
 
 def ranges():
     """(path, components or 0, least, largest) of every number in the reference."""
-    page = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "scene-reference.md")
     prefix = None
-    for line in read(page).decode().splitlines():
+    for line in read(PAGE).decode().splitlines():
         heading = re.match(r"## `(\[.*\])`", line)
         if heading:
             prefix = LISTS.get(heading.group(1))
@@ -67,7 +67,15 @@ SCENES = {"cube[0].": "cube-plane", "goal-net[0].": "goal-net", "cloth[0].": "fl
           "terrain[0].": "cube-plane", "simulation.": "cube-plane", "contact.": "cube-and-balls"}
 SMALL = {"cube-plane": TINY, "goal-net": ["--set", "goal-net[0].particles=[3,3,3]"], "flag": ["--set", "cloth[0].particles=[3,3]"], "cube-and-balls": TINY,
          "penalty": ["--set", "goal-net[0].particles=[3,3,3]", "--set", "launcher[0].count=4"]}
-METHODS = ["explicit-euler", "runge-kutta-4", "implicit-euler", "implicit-euler-one-pass", "symplectic-euler", "midpoint"]
+
+
+def methods():
+    """Every integrator the reference of scenes has."""
+    row = next(line for line in read(PAGE).decode().splitlines() if line.startswith("| `integrator` |"))
+    return re.findall(r'"([a-z0-9-]+)"', row.split("|")[3])
+
+
+METHODS = methods()
 
 
 def one_at_a_time(attack):

@@ -26,7 +26,6 @@ TEST(GroupsFor, CoverTheItemsWithinTheLimits) {
 }
 
 TEST(BarrierBits, FollowFromTheReaders) {
-  EXPECT_EQ(barrier_bits(Reader::later_barrier), 0u);
   EXPECT_EQ(barrier_bits(Reader::compute_pass), GLbitfield{GL_SHADER_STORAGE_BARRIER_BIT});
   EXPECT_EQ(barrier_bits(Reader::uniform), GLbitfield{GL_UNIFORM_BARRIER_BIT});
   EXPECT_EQ(barrier_bits(Reader::vertex_draw),

@@ -3,10 +3,13 @@
 #include "gpu/pass.h"
 #include "gpu/program_cache.h"
 #include "support/gl_fixture.h"
+#include "support/program_reflection.h"
 #include "support/temporary_directory.h"
 
 namespace aspic::gl {
 namespace {
+
+using aspic::testing::Reflection;
 
 using ::testing::HasSubstr;
 
@@ -26,7 +29,7 @@ TEST_F(ProgramGl, RefusesNineStorageBlocksAndTakesEight) {
   EXPECT_THAT(nine.error().message, HasSubstr("Block8"));
   const auto eight = compile("nine_blocks.comp", {{"EIGHT", "1"}});
   ASSERT_TRUE(eight.ok()) << eight.error().message;
-  EXPECT_EQ(eight->storage_block_count(), 8);
+  EXPECT_EQ(Reflection(*eight).storage_block_count(), 8);
 }
 
 TEST_F(ProgramGl, CompileErrorsNameOurFileAndLine) {
@@ -50,24 +53,24 @@ TEST_F(ProgramGl, TellsItsLayout) {
   const auto program = compile("layout.comp", {{"ASPIC_GROUP_SIZE", "32"}});
   ASSERT_TRUE(program.ok()) << program.error().message;
   EXPECT_EQ(program->group_size(), (std::array<std::uint32_t, 3>{32, 1, 1}));
-  EXPECT_EQ(program->storage_block_binding("Items"), 3);
-  EXPECT_EQ(program->uniform_block_binding("Classes"), 5);
-  EXPECT_EQ(program->storage_block_binding("Absent"), std::nullopt);
+  EXPECT_EQ(Reflection(*program).storage_block_binding("Items"), 3);
+  EXPECT_EQ(Reflection(*program).uniform_block_binding("Classes"), 5);
+  EXPECT_EQ(Reflection(*program).storage_block_binding("Absent"), std::nullopt);
   // std430: the array of four floats is packed from byte 4, the struct aligned to 16 and rounded up to 32
   // bytes.
-  EXPECT_EQ(program->buffer_variable_offset("header"), 0);
-  EXPECT_EQ(program->buffer_variable_offset("weights[0]"), 4);
-  EXPECT_EQ(program->buffer_variable_array_stride("weights[0]"), 4);
-  EXPECT_EQ(program->buffer_variable_offset("items[0].position"), 32);
-  EXPECT_EQ(program->buffer_variable_offset("items[0].mass"), 48);
-  EXPECT_EQ(program->buffer_variable_offset("items[0].flags"), 52);
-  EXPECT_EQ(program->buffer_variable_top_level_stride("items[0].flags"), 32);
-  EXPECT_EQ(program->storage_block_data_size("Items"), 64);
+  EXPECT_EQ(Reflection(*program).buffer_variable_offset("header"), 0);
+  EXPECT_EQ(Reflection(*program).buffer_variable_offset("weights[0]"), 4);
+  EXPECT_EQ(Reflection(*program).buffer_variable_array_stride("weights[0]"), 4);
+  EXPECT_EQ(Reflection(*program).buffer_variable_offset("items[0].position"), 32);
+  EXPECT_EQ(Reflection(*program).buffer_variable_offset("items[0].mass"), 48);
+  EXPECT_EQ(Reflection(*program).buffer_variable_offset("items[0].flags"), 52);
+  EXPECT_EQ(Reflection(*program).buffer_variable_top_level_stride("items[0].flags"), 32);
+  EXPECT_EQ(Reflection(*program).storage_block_data_size("Items"), 64);
   // std140: array elements are rounded up to 16 bytes.
-  EXPECT_EQ(program->uniform_offset("factors[0]"), 16);
-  EXPECT_EQ(program->uniform_array_stride("factors[0]"), 16);
-  EXPECT_EQ(program->uniform_block_data_size("Classes"), 64);
-  EXPECT_EQ(program->uniform_location("gravity"), 4);
+  EXPECT_EQ(Reflection(*program).uniform_offset("factors[0]"), 16);
+  EXPECT_EQ(Reflection(*program).uniform_array_stride("factors[0]"), 16);
+  EXPECT_EQ(Reflection(*program).uniform_block_data_size("Classes"), 64);
+  EXPECT_EQ(Reflection(*program).uniform_location("gravity"), 4);
 }
 
 TEST_F(ProgramGl, SetsUniformsOfEachKind) {

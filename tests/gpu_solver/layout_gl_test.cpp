@@ -4,9 +4,12 @@
 #include "gpu/shader_source.h"
 #include "gpu_solver/layout.h"
 #include "support/gl_fixture.h"
+#include "support/program_reflection.h"
 
 namespace aspic {
 namespace {
+
+using aspic::testing::Reflection;
 
 class Layout : public aspic::testing::GlTest {
  protected:
@@ -18,14 +21,15 @@ class Layout : public aspic::testing::GlTest {
 };
 
 #define EXPECT_UNIFORM_AT(member) \
-  EXPECT_EQ(p.uniform_offset(#member), static_cast<int>(offsetof(layout::Simulation, member)))
+  EXPECT_EQ(Reflection(p).uniform_offset(#member), static_cast<int>(offsetof(layout::Simulation, member)))
 
 // Members a kernel does not use may be inactive; sum_springs uses all but the spring classes, gather has
 // those.
 TEST_F(Layout, UniformBlockMatchesTheDriver) {
   const gl::Program p = program("compute/gather.comp");
-  EXPECT_EQ(p.uniform_block_binding("Simulation"), BINDING_SIMULATION);
-  EXPECT_EQ(p.uniform_block_data_size("Simulation"), static_cast<int>(sizeof(layout::Simulation)));
+  EXPECT_EQ(Reflection(p).uniform_block_binding("Simulation"), BINDING_SIMULATION);
+  EXPECT_EQ(Reflection(p).uniform_block_data_size("Simulation"),
+            static_cast<int>(sizeof(layout::Simulation)));
   EXPECT_UNIFORM_AT(gravity);
   EXPECT_UNIFORM_AT(epsilon);
   EXPECT_UNIFORM_AT(resting_speed);
@@ -35,7 +39,7 @@ TEST_F(Layout, UniformBlockMatchesTheDriver) {
   EXPECT_UNIFORM_AT(terrain_count);
   EXPECT_UNIFORM_AT(contact_model);
   EXPECT_UNIFORM_AT(class_bits);
-  EXPECT_UNIFORM_AT(position_from_new_velocity);
+  EXPECT_UNIFORM_AT(drift);
   EXPECT_UNIFORM_AT(ball_count);
   EXPECT_UNIFORM_AT(stages[0].advance);
   EXPECT_UNIFORM_AT(stages[0].weight);
@@ -46,8 +50,7 @@ TEST_F(Layout, UniformBlockMatchesTheDriver) {
   EXPECT_UNIFORM_AT(spring_classes[0].damping);
   EXPECT_UNIFORM_AT(spring_classes[0].rest_length);
   EXPECT_UNIFORM_AT(spring_classes[255].cord);
-  EXPECT_UNIFORM_AT(terrains[0].point);
-  EXPECT_UNIFORM_AT(terrains[0].normal);
+  EXPECT_UNIFORM_AT(terrains[0].geometry[0]);
   EXPECT_UNIFORM_AT(terrains[0].mass);
   EXPECT_UNIFORM_AT(terrains[0].restitution);
   EXPECT_UNIFORM_AT(terrains[0].friction);
@@ -59,102 +62,114 @@ TEST_F(Layout, PullBlockMatchesTheDriver) {
   for (const char* path : {"compute/gather.comp", "compute/sum_springs.comp", "compute/implicit_begin.comp",
                            "compute/implicit_evaluate.comp", "compute/implicit_apply.comp"}) {
     const gl::Program p = program(path);
-    EXPECT_EQ(p.uniform_block_binding("PullBlock"), BINDING_PULL) << path;
-    EXPECT_EQ(p.uniform_block_data_size("PullBlock"), static_cast<int>(sizeof(layout::Pull))) << path;
-    EXPECT_EQ(p.uniform_offset("pull.anchor"), 0) << path;
-    EXPECT_EQ(p.uniform_offset("pull.stiffness"), static_cast<int>(offsetof(layout::Pull, stiffness)))
+    EXPECT_EQ(Reflection(p).uniform_block_binding("PullBlock"), BINDING_PULL) << path;
+    EXPECT_EQ(Reflection(p).uniform_block_data_size("PullBlock"), static_cast<int>(sizeof(layout::Pull)))
         << path;
-    EXPECT_EQ(p.uniform_offset("pull.damping"), static_cast<int>(offsetof(layout::Pull, damping))) << path;
-    EXPECT_EQ(p.uniform_offset("pull.particle"), static_cast<int>(offsetof(layout::Pull, particle))) << path;
+    EXPECT_EQ(Reflection(p).uniform_offset("pull.anchor"), 0) << path;
+    EXPECT_EQ(Reflection(p).uniform_offset("pull.stiffness"),
+              static_cast<int>(offsetof(layout::Pull, stiffness)))
+        << path;
+    EXPECT_EQ(Reflection(p).uniform_offset("pull.damping"), static_cast<int>(offsetof(layout::Pull, damping)))
+        << path;
+    EXPECT_EQ(Reflection(p).uniform_offset("pull.particle"),
+              static_cast<int>(offsetof(layout::Pull, particle)))
+        << path;
   }
 }
 
 TEST_F(Layout, StorageBlocksMatchTheDriver) {
   const gl::Program gather = program("compute/gather.comp");
-  EXPECT_EQ(gather.storage_block_binding("StartState"), BINDING_START_STATE);
-  EXPECT_EQ(gather.storage_block_binding("StageState"), BINDING_STAGE_STATE);
-  EXPECT_EQ(gather.storage_block_binding("OutState"), BINDING_OUT_STATE);
-  EXPECT_EQ(gather.storage_block_binding("StageSums"), BINDING_STAGE_SUMS);
-  EXPECT_EQ(gather.storage_block_binding("IncidentStart"), BINDING_INCIDENT_START);
-  EXPECT_EQ(gather.storage_block_binding("Incident"), BINDING_INCIDENT);
-  EXPECT_EQ(gather.storage_block_binding("ControlBlock"), BINDING_CONTROL);
-  EXPECT_EQ(gather.storage_block_data_size("ControlBlock"), static_cast<int>(sizeof(layout::Control)));
-  EXPECT_EQ(gather.buffer_variable_offset("control.bad_step"),
+  EXPECT_EQ(Reflection(gather).storage_block_binding("StartState"), BINDING_START_STATE);
+  EXPECT_EQ(Reflection(gather).storage_block_binding("StageState"), BINDING_STAGE_STATE);
+  EXPECT_EQ(Reflection(gather).storage_block_binding("OutState"), BINDING_OUT_STATE);
+  EXPECT_EQ(Reflection(gather).storage_block_binding("StageSums"), BINDING_STAGE_SUMS);
+  EXPECT_EQ(Reflection(gather).storage_block_binding("IncidentStart"), BINDING_INCIDENT_START);
+  EXPECT_EQ(Reflection(gather).storage_block_binding("Incident"), BINDING_INCIDENT);
+  EXPECT_EQ(Reflection(gather).storage_block_binding("ControlBlock"), BINDING_CONTROL);
+  EXPECT_EQ(Reflection(gather).storage_block_data_size("ControlBlock"),
+            static_cast<int>(sizeof(layout::Control)));
+  EXPECT_EQ(Reflection(gather).buffer_variable_offset("control.bad_step"),
             static_cast<int>(offsetof(layout::Control, bad_step)));
-  EXPECT_EQ(gather.buffer_variable_offset("control.bad_particle"),
+  EXPECT_EQ(Reflection(gather).buffer_variable_offset("control.bad_particle"),
             static_cast<int>(offsetof(layout::Control, bad_particle)));
   for (const char* block : {"start_state", "stage_state", "out_state", "stage_sums"}) {
     const std::string name(block);
-    EXPECT_EQ(gather.buffer_variable_offset(name + "[0].position"), 0) << name;
-    EXPECT_EQ(gather.buffer_variable_offset(name + "[0].velocity"),
+    EXPECT_EQ(Reflection(gather).buffer_variable_offset(name + "[0].position"), 0) << name;
+    EXPECT_EQ(Reflection(gather).buffer_variable_offset(name + "[0].velocity"),
               static_cast<int>(offsetof(layout::Particle, velocity)))
         << name;
-    EXPECT_EQ(gather.buffer_variable_top_level_stride(name + "[0].velocity"),
+    EXPECT_EQ(Reflection(gather).buffer_variable_top_level_stride(name + "[0].velocity"),
               static_cast<int>(sizeof(layout::Particle)))
         << name;
   }
   const gl::Program forces = program("compute/spring_forces.comp");
-  EXPECT_EQ(forces.storage_block_binding("Springs"), BINDING_SPRINGS);
-  EXPECT_EQ(forces.buffer_variable_array_stride("springs[0]"), static_cast<int>(sizeof(layout::uvec2)));
-  EXPECT_EQ(forces.storage_block_binding("SpringForces"), BINDING_SPRING_FORCES);
-  EXPECT_EQ(forces.buffer_variable_array_stride("spring_forces[0]"), static_cast<int>(sizeof(layout::vec4)));
+  EXPECT_EQ(Reflection(forces).storage_block_binding("Springs"), BINDING_SPRINGS);
+  EXPECT_EQ(Reflection(forces).buffer_variable_array_stride("springs[0]"),
+            static_cast<int>(sizeof(layout::uvec2)));
+  EXPECT_EQ(Reflection(forces).storage_block_binding("SpringForces"), BINDING_SPRING_FORCES);
+  EXPECT_EQ(Reflection(forces).buffer_variable_array_stride("spring_forces[0]"),
+            static_cast<int>(sizeof(layout::vec4)));
 }
 
 TEST_F(Layout, BallBlocksMatchTheDriver) {
   const gl::Program fly = program("compute/ball_fly.comp");
-  EXPECT_EQ(fly.storage_block_binding("Balls"), BINDING_BALLS);
-  EXPECT_EQ(fly.storage_block_binding("BallBodies"), BINDING_BALL_BODIES);
-  EXPECT_EQ(fly.buffer_variable_offset("balls[0].velocity"),
+  EXPECT_EQ(Reflection(fly).storage_block_binding("Balls"), BINDING_BALLS);
+  EXPECT_EQ(Reflection(fly).storage_block_binding("BallBodies"), BINDING_BALL_BODIES);
+  EXPECT_EQ(Reflection(fly).buffer_variable_offset("balls[0].velocity"),
             static_cast<int>(offsetof(layout::Ball, velocity)));
-  EXPECT_EQ(fly.buffer_variable_offset("balls[0].spin"), static_cast<int>(offsetof(layout::Ball, spin)));
-  EXPECT_EQ(fly.buffer_variable_offset("balls[0].start_velocity"),
+  EXPECT_EQ(Reflection(fly).buffer_variable_offset("balls[0].spin"),
+            static_cast<int>(offsetof(layout::Ball, spin)));
+  EXPECT_EQ(Reflection(fly).buffer_variable_offset("balls[0].start_velocity"),
             static_cast<int>(offsetof(layout::Ball, start_velocity)));
-  EXPECT_EQ(fly.buffer_variable_top_level_stride("balls[0].spin"), static_cast<int>(sizeof(layout::Ball)));
-  EXPECT_EQ(fly.buffer_variable_offset("bodies[0].launch_step"),
+  EXPECT_EQ(Reflection(fly).buffer_variable_top_level_stride("balls[0].spin"),
+            static_cast<int>(sizeof(layout::Ball)));
+  EXPECT_EQ(Reflection(fly).buffer_variable_offset("bodies[0].launch_step"),
             static_cast<int>(offsetof(layout::BallBody, launch_step)));
-  EXPECT_EQ(fly.buffer_variable_top_level_stride("bodies[0].launch_step"),
+  EXPECT_EQ(Reflection(fly).buffer_variable_top_level_stride("bodies[0].launch_step"),
             static_cast<int>(sizeof(layout::BallBody)));
   const gl::Program exchange = program("compute/ball_exchange.comp");
-  EXPECT_EQ(exchange.storage_block_binding("StateA"), BINDING_STATE_A);
-  EXPECT_EQ(exchange.storage_block_binding("StateB"), BINDING_STATE_B);
-  EXPECT_EQ(exchange.storage_block_binding("TouchesBlock"), BINDING_BALL_TOUCHES);
-  EXPECT_EQ(exchange.storage_block_binding("ItemsBlock"), BINDING_BALL_ITEMS);
-  EXPECT_EQ(exchange.storage_block_binding("WorkBlock"), BINDING_BALL_WORK);
-  EXPECT_EQ(exchange.buffer_variable_offset("touches[0].items"),
+  EXPECT_EQ(Reflection(exchange).storage_block_binding("StateA"), BINDING_STATE_A);
+  EXPECT_EQ(Reflection(exchange).storage_block_binding("StateB"), BINDING_STATE_B);
+  EXPECT_EQ(Reflection(exchange).storage_block_binding("TouchesBlock"), BINDING_BALL_TOUCHES);
+  EXPECT_EQ(Reflection(exchange).storage_block_binding("ItemsBlock"), BINDING_BALL_ITEMS);
+  EXPECT_EQ(Reflection(exchange).storage_block_binding("WorkBlock"), BINDING_BALL_WORK);
+  EXPECT_EQ(Reflection(exchange).buffer_variable_offset("touches[0].items"),
             static_cast<int>(offsetof(layout::BallTouches, items)));
-  EXPECT_EQ(exchange.buffer_variable_top_level_stride("touches[0].list"),
+  EXPECT_EQ(Reflection(exchange).buffer_variable_top_level_stride("touches[0].list"),
             static_cast<int>(sizeof(layout::BallTouches)));
-  EXPECT_EQ(exchange.buffer_variable_offset("items[0].overlaps[0]"),
+  EXPECT_EQ(Reflection(exchange).buffer_variable_offset("items[0].overlaps[0]"),
             static_cast<int>(offsetof(layout::BallItem, overlaps)));
-  EXPECT_EQ(exchange.buffer_variable_offset("items[0].turning"),
+  EXPECT_EQ(Reflection(exchange).buffer_variable_offset("items[0].turning"),
             static_cast<int>(offsetof(layout::BallItem, turning)));
-  EXPECT_EQ(exchange.buffer_variable_top_level_stride("items[0].turning"),
+  EXPECT_EQ(Reflection(exchange).buffer_variable_top_level_stride("items[0].turning"),
             static_cast<int>(sizeof(layout::BallItem)));
-  EXPECT_EQ(exchange.buffer_variable_offset("lists[0]"), static_cast<int>(sizeof(layout::BallWork)));
+  EXPECT_EQ(Reflection(exchange).buffer_variable_offset("lists[0]"),
+            static_cast<int>(sizeof(layout::BallWork)));
   const gl::Program near = program("compute/ball_near.comp");
-  EXPECT_EQ(near.uniform_location("sought"), LOCATION_BALL_KIND);
-  EXPECT_EQ(exchange.uniform_location("ball_phase"), LOCATION_BALL_PHASE);
-  EXPECT_EQ(exchange.uniform_location("ball_parity"), LOCATION_BALL_PARITY);
-  EXPECT_EQ(exchange.uniform_offset("ball_restitution"),
+  EXPECT_EQ(Reflection(near).uniform_location("sought"), LOCATION_BALL_KIND);
+  EXPECT_EQ(Reflection(exchange).uniform_location("ball_phase"), LOCATION_BALL_PHASE);
+  EXPECT_EQ(Reflection(exchange).uniform_location("ball_parity"), LOCATION_BALL_PARITY);
+  EXPECT_EQ(Reflection(exchange).uniform_offset("ball_restitution"),
             static_cast<int>(offsetof(layout::Simulation, ball_restitution)));
-  EXPECT_EQ(exchange.uniform_offset("ball_friction"),
+  EXPECT_EQ(Reflection(exchange).uniform_offset("ball_friction"),
             static_cast<int>(offsetof(layout::Simulation, ball_friction)));
   const gl::Program insert = program("compute/ball_insert.comp");
-  EXPECT_EQ(insert.storage_block_binding("BallGrid"), BINDING_BALL_GRID);
-  EXPECT_EQ(insert.uniform_offset("bucket_mask"),
+  EXPECT_EQ(Reflection(insert).storage_block_binding("BallGrid"), BINDING_BALL_GRID);
+  EXPECT_EQ(Reflection(insert).uniform_offset("bucket_mask"),
             static_cast<int>(offsetof(layout::Simulation, bucket_mask)));
   const gl::Program clear = program("compute/ball_clear.comp");
-  EXPECT_EQ(clear.uniform_offset("mark_shift"), static_cast<int>(offsetof(layout::Simulation, mark_shift)));
-  EXPECT_EQ(clear.buffer_variable_offset("work.item_groups[0]"),
+  EXPECT_EQ(Reflection(clear).uniform_offset("mark_shift"),
+            static_cast<int>(offsetof(layout::Simulation, mark_shift)));
+  EXPECT_EQ(Reflection(clear).buffer_variable_offset("work.item_groups[0]"),
             static_cast<int>(offsetof(layout::BallWork, item_groups)));
 }
 
 TEST_F(Layout, UniformLocationsAndBlockCounts) {
   for (const char* path : {"compute/gather.comp", "compute/sum_springs.comp"}) {
     const gl::Program p = program(path);
-    EXPECT_EQ(p.uniform_location("step_index"), LOCATION_STEP);
-    EXPECT_EQ(p.uniform_location("stage_index"), LOCATION_STAGE);
-    EXPECT_LE(p.storage_block_count(), gl::max_storage_blocks);
+    EXPECT_EQ(Reflection(p).uniform_location("step_index"), LOCATION_STEP);
+    EXPECT_EQ(Reflection(p).uniform_location("stage_index"), LOCATION_STAGE);
+    EXPECT_LE(Reflection(p).storage_block_count(), gl::max_storage_blocks);
   }
 }
 

@@ -1,19 +1,25 @@
 // Kernels loop no more often than every device is sure to do: at the bound they are right, past it they are
 // named.
+#include <glad/gl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "cpu_reference/reference_solver.h"
+#include "device/particles.h"
 #include "gpu/loop_bound.h"
 #include "gpu/pass.h"
 #include "gpu/program.h"
 #include "gpu/shader_source.h"
 #include "gpu_solver/gpu_solver.h"
+#include "render/layout.h"
 #include "render/model_buffers.h"
+#include "render/programs.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 #include "support/temporary_directory.h"
@@ -171,8 +177,8 @@ TEST_F(LoopBounds, OfTerrains) {
       while (settings.terrain.size() < 64) {
         TerrainSettings sphere;
         sphere.shape = TerrainShape::sphere;
-        sphere.centre = Vec3{0.1 * static_cast<double>(settings.terrain.size()), -2.0, 0.0};
-        sphere.radius = 1.0 + 0.01 * static_cast<double>(settings.terrain.size() % 5);
+        sphere.geometry["centre"] = Vec3{0.1 * static_cast<double>(settings.terrain.size()), -2.0, 0.0};
+        sphere.geometry["radius"] = 1.0 + 0.01 * static_cast<double>(settings.terrain.size() % 5);
         settings.terrain.push_back(sphere);
       }
       settings.balls.push_back({0.5, 2.0, {3.0, -0.4, 0.0}, {-1.0, -1.0, 0.0}, {}});
@@ -212,10 +218,94 @@ TEST_F(LoopBounds, OfPictures) {
     const Model model = hub(springs);
     auto buffers = ModelBuffers::create(context(), model);
     ASSERT_TRUE(buffers.ok()) << buffers.error().message;
-    const Status ready = buffers->prepare_springs(context(), model);
+    const Status ready = buffers->prepare_incident(context(), model, {});
     EXPECT_EQ(ready.ok(), springs == gl::max_rounds);
     EXPECT_THAT(ready.ok() ? named("quantity") : ready.error().message, HasSubstr(named("quantity")));
   }
+}
+
+/// A frame block for `particles` that shows `mode`, lights looking along z and along x.
+gl::Buffer frame_of(gl::Context& context, std::uint32_t particles, std::uint32_t mode) {
+  render_layout::Frame frame{};
+  frame.lights[LIGHT_SUN] = glm::mat4(1.0f);
+  frame.lights[LIGHT_SKY] = glm::mat4(0.0f);  // the world's y, z, x are the light's x, y, z
+  frame.lights[LIGHT_SKY][1][0] = frame.lights[LIGHT_SKY][2][1] = frame.lights[LIGHT_SKY][0][2] = 1.0f;
+  frame.particle_count = particles;
+  frame.colour_mode = mode;
+  return std::move(gl::Buffer::of(context, "frame", std::span<const render_layout::Frame>(&frame, 1),
+                                  gl::BufferKind::uniform))
+      .value();
+}
+
+// One group, whose invocations take as many particles for both lights as a kernel may take rounds. What lies
+// farthest out comes in their last round.
+TEST_F(LoopBounds, OfTheBoxOfAllParticles) {
+  const std::uint32_t group = 64, rounds = gl::max_rounds / LIGHTS, particles = group * rounds;
+  ASSERT_TRUE(gl::check_loop("bounds", "particles", std::uint64_t{LIGHTS} * rounds).ok());
+  const std::array<float, 3> lowest = {-3.25f, -1.5f, -7.125f}, highest = {2.75f, 11.5f, 0.0625f};
+  std::vector<std::array<float, 8>> items(particles, {0.5f, 0.25f, -0.125f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f});
+  for (std::size_t c = 0; c < 3; ++c) {
+    items[particles - 1 - c][c] = lowest[c];
+    items[particles - group + c][c] = highest[c];
+  }
+  const auto state =
+      std::move(gl::Buffer::of(context(), "particles", std::span<const std::array<float, 8>>(items))).value();
+  const gl::Buffer frame = frame_of(context(), particles, COLOUR_MATERIAL);
+  std::array<render_layout::Bounds, LIGHTS> found;
+  found.fill({glm::uvec4(0xffffffffu), glm::uvec4(0u)});
+  const auto bounds =
+      std::move(gl::Buffer::of(context(), "bounds", std::span<const render_layout::Bounds>(found))).value();
+  const auto programs = RenderPrograms::create(context(), gl::ShaderLibrary());
+  ASSERT_TRUE(programs.ok()) << programs.error().message;
+  ASSERT_EQ(programs->bounds.group_size()[0], group);
+  gl::Pass(programs->bounds,
+           {{BINDING_PARTICLES, &state},
+            {BINDING_BOUNDS, &bounds},
+            {BINDING_FRAME, &frame, gl::BufferKind::uniform}},
+           gl::Reader::read_back)
+      .dispatch_for(group);
+  const auto ordered = [](float value) {  // shaders/render/bounds.glsl
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+  };
+  const auto boxes = bounds.download_items<render_layout::Bounds>(LIGHTS);
+  for (int c = 0; c < 3; ++c) {
+    const auto world = static_cast<std::size_t>(c), turned = static_cast<std::size_t>((c + 1) % 3);
+    EXPECT_EQ(boxes[LIGHT_SUN].lower[c], ordered(lowest[world]));
+    EXPECT_EQ(boxes[LIGHT_SUN].upper[c], ordered(highest[world]));
+    EXPECT_EQ(boxes[LIGHT_SKY].lower[c], ordered(lowest[turned]));
+    EXPECT_EQ(boxes[LIGHT_SKY].upper[c], ordered(highest[turned]));
+  }
+}
+
+// As many springs at one particle as a kernel may take rounds, of which the last pulls hardest by far.
+TEST_F(LoopBounds, OfTheForceThatIsDrawn) {
+  const Model model = hub(gl::max_rounds);
+  State state = initial_state(model, Precision::single);
+  state.position.back() = {0.0, 1e6, 0.0};
+  Vec3 sum;
+  double others = 0.0;
+  for (std::size_t p = 1; p < state.position.size(); ++p) {
+    const double L = length(state.position[p]);
+    sum = sum + ((L - 1.0) / L) * state.position[p];  // k = 1 N/m, r = 1 m
+    if (p < gl::max_rounds) others += std::abs(L - 1.0);
+  }
+  const auto items = packed_particles(model, state);
+  const auto particles =
+      std::move(gl::Buffer::of(context(), "particles", std::span<const layout::Particle>(items))).value();
+  const DeviceState shown = {.particles = &particles};
+  auto buffers = std::move(ModelBuffers::create(context(), model)).value();
+  ASSERT_TRUE(buffers.prepare_incident(context(), model, shown).ok());
+  const auto programs = RenderPrograms::create(context(), gl::ShaderLibrary());
+  ASSERT_TRUE(programs.ok()) << programs.error().message;
+  const gl::Buffer frame = frame_of(context(), model.particle_count(), COLOUR_FORCE);
+  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
+  buffers.compute_quantity(*programs, shown);
+  const auto force = static_cast<double>(buffers.quantity().download_items<float>(1).front());
+  // Each addition rounds what the others have come to; the last spring's force and the result take a few
+  // more.
+  EXPECT_NEAR(force, length(sum), 0x1p-24 * (gl::max_rounds * others + 8 * length(sum)));
+  EXPECT_GT(length(sum), 100 * others);
 }
 
 }  // namespace

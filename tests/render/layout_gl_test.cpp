@@ -4,9 +4,12 @@
 #include "gpu/program.h"
 #include "render/layout.h"
 #include "support/gl_fixture.h"
+#include "support/program_reflection.h"
 
 namespace aspic {
 namespace {
+
+using aspic::testing::Reflection;
 
 class RenderLayout : public testing::GlTest {};
 
@@ -17,30 +20,33 @@ TEST_F(RenderLayout, FrameBlockMatchesTheDriver) {
                             {.vertex = "render/terrain.vert", .fragment = "render/terrain.frag"}, plane);
   ASSERT_TRUE(program.ok()) << program.error().message;
   using render_layout::Frame;
-  EXPECT_EQ(program->uniform_block_binding("Frame"), BINDING_FRAME);
-  EXPECT_EQ(program->uniform_block_data_size("Frame"), static_cast<int>(sizeof(Frame)));
-  EXPECT_EQ(program->uniform_offset("view_projection"), static_cast<int>(offsetof(Frame, view_projection)));
-  EXPECT_EQ(program->uniform_offset("lights[0]"), static_cast<int>(offsetof(Frame, lights)));
-  EXPECT_EQ(program->uniform_offset("eye"), static_cast<int>(offsetof(Frame, eye)));
-  EXPECT_EQ(program->uniform_offset("sun"), static_cast<int>(offsetof(Frame, sun)));
-  EXPECT_EQ(program->uniform_offset("shadow_tint"), static_cast<int>(offsetof(Frame, shadow_tint)));
-  EXPECT_EQ(program->uniform_offset("shadow_spheres[0]"), static_cast<int>(offsetof(Frame, shadow_spheres)));
-  EXPECT_EQ(program->uniform_offset("shadow_sphere_count"),
+  EXPECT_EQ(Reflection(*program).uniform_block_binding("Frame"), BINDING_FRAME);
+  EXPECT_EQ(Reflection(*program).uniform_block_data_size("Frame"), static_cast<int>(sizeof(Frame)));
+  EXPECT_EQ(Reflection(*program).uniform_offset("view_projection"),
+            static_cast<int>(offsetof(Frame, view_projection)));
+  EXPECT_EQ(Reflection(*program).uniform_offset("lights[0]"), static_cast<int>(offsetof(Frame, lights)));
+  EXPECT_EQ(Reflection(*program).uniform_offset("eye"), static_cast<int>(offsetof(Frame, eye)));
+  EXPECT_EQ(Reflection(*program).uniform_offset("sun"), static_cast<int>(offsetof(Frame, sun)));
+  EXPECT_EQ(Reflection(*program).uniform_offset("shadow_tint"),
+            static_cast<int>(offsetof(Frame, shadow_tint)));
+  EXPECT_EQ(Reflection(*program).uniform_offset("shadow_spheres[0]"),
+            static_cast<int>(offsetof(Frame, shadow_spheres)));
+  EXPECT_EQ(Reflection(*program).uniform_offset("shadow_sphere_count"),
             static_cast<int>(offsetof(Frame, shadow_sphere_count)));
-  EXPECT_EQ(program->uniform_block_binding("LightBoxes"), BINDING_LIGHT_BOXES);
-  EXPECT_EQ(program->uniform_block_data_size("LightBoxes"),
+  EXPECT_EQ(Reflection(*program).uniform_block_binding("LightBoxes"), BINDING_LIGHT_BOXES);
+  EXPECT_EQ(Reflection(*program).uniform_block_data_size("LightBoxes"),
             static_cast<int>(LIGHTS * sizeof(render_layout::LightBox)));
 }
 
 TEST_F(RenderLayout, LightBoxesMatchTheDriver) {
   const auto program = gl::Program::compute(context(), gl::ShaderLibrary(), "render/light_boxes.comp");
   ASSERT_TRUE(program.ok()) << program.error().message;
-  EXPECT_EQ(program->storage_block_binding("LightBoxes"), BINDING_LIGHT_BOXES_OUT);
-  EXPECT_EQ(program->buffer_variable_offset("light_boxes[0].depth"),
+  EXPECT_EQ(Reflection(*program).storage_block_binding("LightBoxes"), BINDING_LIGHT_BOXES_OUT);
+  EXPECT_EQ(Reflection(*program).buffer_variable_offset("light_boxes[0].depth"),
             static_cast<int>(offsetof(render_layout::LightBox, depth)));
-  EXPECT_EQ(program->buffer_variable_top_level_stride("light_boxes[0].centre"),
+  EXPECT_EQ(Reflection(*program).buffer_variable_top_level_stride("light_boxes[0].centre"),
             static_cast<int>(sizeof(render_layout::LightBox)));
-  EXPECT_EQ(program->buffer_variable_offset("bounds[0].upper"),
+  EXPECT_EQ(Reflection(*program).buffer_variable_offset("bounds[0].upper"),
             static_cast<int>(offsetof(render_layout::Bounds, upper)));
 }
 

@@ -104,7 +104,7 @@ TEST(Set, TakesTheFormsOfTheFormat) {
   EXPECT_EQ(s.model.contact.model, ContactModel::course);
   EXPECT_EQ(s.model.cubes[0].pinned.names, std::vector<std::string>{"top"});
   EXPECT_EQ(s.model.cubes[0].pinned.indices, std::vector<std::int64_t>{3});
-  EXPECT_EQ(s.model.terrain[0].normal, (Vec3{0.0, 1.0, 0.0}));
+  EXPECT_EQ(s.model.terrain[0].geometry.at("normal"), GeometryValue(Vec3{0.0, 1.0, 0.0}));
   EXPECT_EQ(s.model.terrain[0].mass, 10.0);
   EXPECT_EQ(s.view.colour, ViewColour::strain);
   EXPECT_EQ(s.name, "two words");
@@ -151,7 +151,7 @@ TEST(Set, ANewShapeDropsTheFilesOtherGeometry) {
   const Scene s =
       test::parsed("schema = 1\n[[cube]]\n[[terrain]]\npoint = [0, 5, 0]\n", {"terrain[0].shape=bowl"});
   EXPECT_EQ(s.model.terrain[0].shape, TerrainShape::bowl);
-  EXPECT_FALSE(s.model.terrain[0].point.has_value());
+  EXPECT_TRUE(s.model.terrain[0].geometry.empty());
   EXPECT_THAT(test::rejection(base, {"terrain[0].shape=bowl", "terrain[0].point=[0,5,0]"}),
               HasSubstr("a bowl has no 'point'"));
 }

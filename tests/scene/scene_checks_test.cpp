@@ -90,7 +90,7 @@ TEST(CheckScene, NamesThePathOfEveryWrongValue) {
 TEST(CheckScene, FindsWhatOnlyTheWholeShows) {
   Scene scene = full_scene();
   scene.model.terrain[0].shape = TerrainShape::bowl;
-  scene.model.terrain[0].normal = Vec3{0.0, 1.0, 0.0};
+  scene.model.terrain[0].geometry["normal"] = Vec3{0.0, 1.0, 0.0};
   scene.model.launchers[0].towards.min.y = 7.0;
   scene.view.camera.position = scene.view.camera.target;
   const auto complaints = check_scene(scene);
@@ -131,11 +131,11 @@ TEST(WithOverrides, ChangesASceneWithoutText) {
 TEST(WithOverrides, TreatsTheScenesValuesAsTheFiles) {
   Scene scene = full_scene();
   scene.name = "made";
-  scene.model.terrain[0].point = Vec3{0.0, 5.0, 0.0};
+  scene.model.terrain[0].geometry["point"] = Vec3{0.0, 5.0, 0.0};
   scene.model.cubes[0].material.emplace();
   const auto round = with_overrides(scene, std::vector<std::string>{"terrain[0].shape=sphere"});
   ASSERT_TRUE(round.ok()) << round.error().message;
-  EXPECT_FALSE(round->model.terrain[0].point.has_value());
+  EXPECT_TRUE(round->model.terrain[0].geometry.empty());
   const auto springs = with_overrides(scene, std::vector<std::string>{"cube[0].shear.stiffness=1"});
   ASSERT_FALSE(springs.ok());
   EXPECT_THAT(springs.error().message,
