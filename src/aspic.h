@@ -28,4 +28,4 @@
 // io: files
 #include "io/checkpoint.h"  // read_checkpoint(), write_checkpoint()
 #include "io/series_csv.h"  // SeriesWriter
-#include "io/state_csv.h"   // read_state_csv(), write_state_csv()
+#include "io/state_csv.h"   // write_state_csv()

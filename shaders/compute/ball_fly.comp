@@ -28,14 +28,17 @@ void fly(Ball ball, BallBody body, out precise vec3 end_x, out precise vec3 end_
       slope_x = sum_x + slope_x;
       slope_v = sum_v + slope_v;
     }
-    sum_x = slope_x;
-    sum_v = slope_v;
+    if (stage.weight != 0.0) {
+      sum_x = slope_x;
+      sum_v = slope_v;
+    }
     if (stage.last != 0u) break;
-    x = x_0 + stage.advance * v;
-    v = v_0 + stage.advance * a;
+    precise vec3 next_v = v_0 + stage.advance * a;
+    x = x_0 + stage.advance * (drift == DRIFT_MEAN_VELOCITY ? 0.5 * (v + next_v) : v);
+    v = next_v;
   }
   end_v = v_0 + step_scale * sum_v;
-  end_x = x_0 + step_scale * (position_from_new_velocity != 0u ? end_v : sum_x);
+  end_x = x_0 + step_scale * (drift == DRIFT_NEW_VELOCITY ? end_v : sum_x);
 }
 
 void main() {

@@ -25,7 +25,7 @@ bool finite(vec3 a) {
   return all(notEqual(exponent, uvec3(0x7f800000u)));
 }
 
-// Divergence (spec §2.8): NO_STEP if x, v are sane, else particle i's word for the lowest-particle search:
+// Divergence (docs/physics.md, section 6): NO_STEP if x, v are sane, else particle i's word for the lowest-particle search:
 // 2·i, + 1 if the numbers are finite and only too fast.
 uint divergence_word(uint i, vec3 x, vec3 v) {
   bool all_finite = finite(x) && finite(v);

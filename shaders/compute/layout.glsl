@@ -5,6 +5,7 @@
 #define MAX_STAGES 4
 #define MAX_SPRING_CLASSES 256
 #define MAX_TERRAINS 64
+#define GEOMETRY_SIZE 3  // vectors, and numbers, of a shape: geometry_size in src/model/shapes/shape.h
 
 // Vectors of the OWN block, each an array over particles.
 #define OWN_BASE 0u       // v' of the accepted Newton iterate [m/s]
@@ -26,7 +27,7 @@
 #define FREE_LINE 2.0
 #define FREE_NONE 3.0
 
-// Elements of one block of a reduction, and the group size of every kernel that takes part in one (spec §2.9).
+// Elements of one block of a reduction, and the group size of every kernel that takes part in one (docs/determinism.md).
 #define REDUCTION_BLOCK 256
 
 // How a solve ended: SolveEnd in src/model/implicit.h.
@@ -92,9 +93,9 @@
 #define KERNEL_BALL_PARTICLES 10u
 #define KERNEL_COUNT 11u
 
-#define SHAPE_PLANE 0u
-#define SHAPE_SPHERE 1u
-#define SHAPE_BOWL 2u
+#define DRIFT_STAGE_VELOCITY 0u  // Drift in src/model/integrator.h
+#define DRIFT_NEW_VELOCITY 1u
+#define DRIFT_MEAN_VELOCITY 2u
 
 #define CONTACT_COULOMB 0u
 #define CONTACT_COURSE 1u
@@ -155,13 +156,12 @@ struct Stage {
 };
 
 struct Terrain {
-  vec4 point;     // a point of the plane or the centre [m]; w: radius [m]
-  vec4 normal;    // unit normal, planes only; w: unused
+  vec4 geometry[GEOMETRY_SIZE];  // xyz: vectors in the order of the shape's keys; w: numbers in theirs
   float mass;         // M [kg], if movable
   float restitution;  // e
   float friction;     // μ
   uint movable;       // 1: M is finite
-  uint shape;         // SHAPE_…
+  uint shape;         // row of the table in src/model/shapes/table.h
   uint padding0, padding1, padding2;
 };
 
@@ -240,7 +240,7 @@ layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
   uint terrain_count;
   uint contact_model;         // CONTACT_…
   uint class_bits;            // low bits of a gather word that hold the spring class
-  uint position_from_new_velocity;  // 1: symplectic Euler
+  uint drift;                 // DRIFT_…: the velocity that moves positions
   uint max_newton;            // implicit Euler: src/model/implicit.h
   uint max_cg;
   float time_step;            // h [s]

@@ -1,4 +1,4 @@
-// The damped spring of spec §2.3: force on the end at x_a, v_a from the end at x_b, v_b.
+// The damped spring (docs/physics.md, section 1): force on the end at x_a, v_a from the end at x_b, v_b.
 //   e = x_a − x_b,  L = |e|,  q = 1/L,  s = k(L − r) + c(((v_a − v_b)·e)·q),  f = −((s·q)·e)
 // xyz: force [N], w: s [N]. A spring of no length and a cord that hangs slack pull nowhere. Exchanging the ends
 // negates e and v_a − v_b exactly, so the force is exactly opposite and either end may evaluate it.

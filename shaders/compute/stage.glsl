@@ -11,7 +11,7 @@ layout(std430, binding = BINDING_STAGE_SUMS) restrict buffer StageSums { Particl
 
 void finish_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
   precise vec3 v = start.velocity.xyz + step_scale * slope_v;
-  precise vec3 x = start.position.xyz + step_scale * (position_from_new_velocity != 0u ? v : slope_x);
+  precise vec3 x = start.position.xyz + step_scale * (drift == DRIFT_NEW_VELOCITY ? v : slope_x);
   respond(start, x, v);
   // With balls in the scene the step is not at its end yet: the last of their kernels looks.
   uint bad = ball_count == 0u ? divergence_word(i, x, v) : NO_STEP;
@@ -47,7 +47,8 @@ void finish_stage(uint i, Particle p, vec3 f_springs) {
     return;
   }
   if (stage.weight != 0.0) stage_sums[i] = Particle(vec4(slope_x, 0.0), vec4(slope_v, 0.0));
-  precise vec3 next_x = start.position.xyz + stage.advance * p.velocity.xyz;
   precise vec3 next_v = start.velocity.xyz + stage.advance * a;
+  precise vec3 moves = drift == DRIFT_MEAN_VELOCITY ? 0.5 * (p.velocity.xyz + next_v) : p.velocity.xyz;
+  precise vec3 next_x = start.position.xyz + stage.advance * moves;
   out_state[i] = Particle(vec4(next_x, start.position.w), vec4(next_v, start.velocity.w));
 }

@@ -31,11 +31,11 @@
 #define LOCATION_RADIUS 3         // of spheres and springs [m]
 #define LOCATION_PLANE_POINT 4
 #define LOCATION_PLANE_NORMAL 5
-#define LOCATION_SPHERE 6         // centre, radius
 #define LOCATION_SIDE 7
 #define LOCATION_FIRST 8          // of balls, particles or terrains: the first
 #define LOCATION_ELAPSED 9        // since the picture before [s]
 #define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it stands for the particle
+#define LOCATION_TERRAIN 12       // DrawnTerrain: its geometry, three vec4, and shape
 #define LOCATION_MARK 11          // MARK_…, least radius [pixels], opacity, whether to encode as sRGB
 
 // Lights that the bodies keep off: the sun, and the sky straight above.

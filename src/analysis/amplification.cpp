@@ -1,17 +1,14 @@
 #include "analysis/amplification.h"
 
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-
-#include "model/integrator.h"
 
 namespace aspic {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int max_degree = max_stages;
+constexpr std::size_t max_degree = max_stages;
 
 // Every method of the table loses stability well inside this |z|: a polynomial of degree 4 with R ≈ eᶻ cannot
 // stay bounded further out. Largest reach along any ray: 2.83 (fourth-order Runge–Kutta on the imaginary
@@ -19,20 +16,8 @@ constexpr int max_degree = max_stages;
 constexpr double search_radius = 4.0;
 constexpr int search_steps = 800;
 
-/// Coefficients of R(z): the table's stages applied to y' = λy, z = hλ.
-std::array<double, max_degree + 1> amplification_polynomial(const StagedMethod& method) {
-  std::array<double, max_degree + 1> stage = {1.0}, result = {1.0};
-  for (const Stage& s : method.stages) {
-    for (std::size_t i = 0; i < max_degree; ++i) result[i + 1] += s.weight / method.divisor * stage[i];
-    std::array<double, max_degree + 1> next = {1.0};
-    for (std::size_t i = 0; i < max_degree; ++i) next[i + 1] = s.advance * stage[i];
-    stage = next;
-  }
-  return result;
-}
-
 /// Coefficients of |R(ρ·e^{iθ})|² − 1 as a polynomial in ρ.
-std::array<double, 2 * max_degree + 1> growth_along_ray(const StagedMethod& method, double angle) {
+std::array<double, 2 * max_degree + 1> growth_along_ray(const IntegratorRow& method, double angle) {
   const auto r = amplification_polynomial(method);
   std::array<double, 2 * max_degree + 1> growth = {};
   for (std::size_t n = 0; n < r.size(); ++n) {
@@ -51,12 +36,23 @@ std::array<double, 2 * max_degree + 1> growth_along_ray(const StagedMethod& meth
 
 }  // namespace
 
+std::array<double, max_stages + 1> amplification_polynomial(const IntegratorRow& method) {
+  std::array<double, max_degree + 1> stage = {1.0}, result = {1.0};
+  for (const Stage& s : method.stages) {
+    for (std::size_t i = 0; i < max_degree; ++i) result[i + 1] += s.weight / method.divisor * stage[i];
+    std::array<double, max_degree + 1> next = {1.0};
+    for (std::size_t i = 0; i < max_degree; ++i) next[i + 1] = s.advance * stage[i];
+    stage = next;
+  }
+  return result;
+}
+
 std::optional<double> eigenvalue_limit(Integrator integrator, std::complex<double> lambda) {
-  const StagedMethod* method = staged_method(integrator);
-  assert(method != nullptr && !method->position_from_new_velocity);
+  const IntegratorRow& method = row_of(integrator);
+  assert(!method.mode_limit);
   const double size = std::abs(lambda);
   if (size == 0.0) return infinity;
-  const auto growth = growth_along_ray(*method, std::arg(lambda));
+  const auto growth = growth_along_ray(method, std::arg(lambda));
   std::size_t lowest = 1;
   while (lowest < growth.size() && growth[lowest] == 0.0) ++lowest;
   if (lowest == growth.size()) return infinity;
@@ -86,15 +82,13 @@ std::optional<double> eigenvalue_limit(Integrator integrator, std::complex<doubl
 
 std::optional<double> mode_limit(Integrator integrator, double kappa, double gamma) {
   assert(!(kappa < 0.0) && !(gamma < 0.0));
-  if (integrator == Integrator::implicit_euler || (kappa == 0.0 && gamma == 0.0)) return infinity;
+  const IntegratorRow& row = row_of(integrator);
+  if (row.solved() || (kappa == 0.0 && gamma == 0.0)) return infinity;
   // The limit as either grows beyond all bounds; NaN is the quotient or product of such values.
   if (!std::isfinite(kappa) || !std::isfinite(gamma)) return 0.0;
+  if (row.mode_limit) return row.mode_limit(kappa, gamma);
   // 4κ/γ² decides between real and complex roots; written with √ so that large κ and γ do not overflow.
   const double root_kappa = std::sqrt(kappa);
-  if (integrator == Integrator::symplectic_euler) {
-    // (−γ + √(γ² + 4κ))/κ without its cancellation for small κ.
-    return 4.0 / (gamma + std::hypot(gamma, 2.0 * root_kappa));
-  }
   if (gamma < 2.0 * root_kappa) {
     const double imaginary = std::sqrt((root_kappa - 0.5 * gamma) * (root_kappa + 0.5 * gamma));
     return eigenvalue_limit(integrator, {-0.5 * gamma, imaginary});

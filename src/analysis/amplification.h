@@ -1,22 +1,26 @@
 #pragma once
 // How an integrator amplifies one mode of damped oscillation, ẍ + γẋ + κx = 0, and up to which step it does
 // not grow.
+#include <array>
 #include <complex>
 #include <optional>
 
-#include "model/settings.h"
+#include "model/integrator.h"
 
 namespace aspic {
+
+/// Coefficients of R(z), lowest first: the stages applied to y' = λy, z = hλ. For velocities it holds for
+/// every staged method where forces do not depend on positions.
+std::array<double, max_stages + 1> amplification_polynomial(const IntegratorRow& method);
 
 /// Largest h with |R(h'λ)| ≤ 1 for all h' in (0, h], where R is the amplification polynomial of a staged
 /// (Runge–Kutta) method and λ [1/s] an eigenvalue with Re λ ≤ 0; infinite for λ = 0; nothing where the mode
 /// grows at any step. Source: Hairer and Wanner, Solving Ordinary Differential Equations II, 1996, §IV.2. Not
-/// for symplectic or implicit Euler.
+/// for methods whose row has a mode_limit.
 std::optional<double> eigenvalue_limit(Integrator integrator, std::complex<double> lambda);
 
 /// The same for both eigenvalues of a mode of stiffness per mass κ [1/s²] ≥ 0 and damping per mass γ [1/s] ≥
-/// 0, for every integrator. Symplectic Euler: (−γ + √(γ² + 4κ))/κ, from the Jury criterion on its step
-/// matrix. Implicit Euler: infinite. κ or γ that overflowed, to infinity or NaN: 0.
+/// 0, for every integrator. κ or γ that overflowed, to infinity or NaN: 0, unless the method is solved.
 std::optional<double> mode_limit(Integrator integrator, double kappa, double gamma);
 
 }  // namespace aspic

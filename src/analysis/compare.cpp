@@ -53,14 +53,14 @@ std::uint64_t ulp_distance(double a, double b) {
 
 Result<StateDifference> compare_states(const State& a, const State& b) {
   if (a.position.size() != b.position.size()) {
-    return Error{ErrorCode::usage,
-                 fmt::format("The states have {} and {} particles: only states of one scene can be compared.",
-                             a.position.size(), b.position.size())};
+    return fail(ErrorCode::usage,
+                "The states have {} and {} particles: only states of one scene can be compared.",
+                a.position.size(), b.position.size());
   }
   if (a.ball_position.size() != b.ball_position.size()) {
-    return Error{ErrorCode::usage,
-                 fmt::format("The states have {} and {} balls: only states of one scene can be compared.",
-                             a.ball_position.size(), b.ball_position.size())};
+    return fail(ErrorCode::usage,
+                "The states have {} and {} balls: only states of one scene can be compared.",
+                a.ball_position.size(), b.ball_position.size());
   }
   const bool in_double = a.precision == Precision::double_ && b.precision == Precision::double_;
   return StateDifference{compare(a.position, b.position, in_double),

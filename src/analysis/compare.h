@@ -22,9 +22,10 @@ struct StateDifference {
   QuantityDifference ball_position, ball_velocity, ball_angular_velocity;  ///< [m], [m/s], [rad/s]
 
   /// Whether every bit is the same: −0 and +0 differ.
-  bool identical() const {
-    return position.ulp == 0 && velocity.ulp == 0 && ball_position.ulp == 0 && ball_velocity.ulp == 0 &&
-           ball_angular_velocity.ulp == 0;
+  bool identical() const { return largest_ulp() == 0; }
+  std::uint64_t largest_ulp() const {
+    return std::max(
+        {position.ulp, velocity.ulp, ball_position.ulp, ball_velocity.ulp, ball_angular_velocity.ulp});
   }
   double largest_absolute() const {
     return std::max({position.absolute, velocity.absolute, ball_position.absolute, ball_velocity.absolute,

@@ -20,21 +20,11 @@ Vec3 spring_force(const SpringClass& spring, const Vec3& xa, const Vec3& va, con
   return -(s * q) * e;
 }
 
-/// The unit normal towards the free side.
-Vec3 normal_at(const Terrain& terrain, const Vec3& x) {
-  if (terrain.shape == TerrainShape::plane || terrain.shape == TerrainShape::tilted_plane)
-    return terrain.normal;
-  const Vec3 e = x - terrain.point;
-  const double away = length(e);
-  if (away == 0.0) return {0.0, 1.0, 0.0};
-  return (terrain.shape == TerrainShape::bowl ? -1.0 / away : 1.0 / away) * e;
-}
-
 /// What is left of f after the course model's contact with one terrain.
 Vec3 after_contact(const Terrain& terrain, double epsilon, const Vec3& x, const Vec3& v, const Vec3& f) {
-  const Vec3 n = normal_at(terrain, x);
+  const auto [d, n] = terrain_gap(terrain, x);
   const double u = dot(v, n), along = dot(f, n);
-  if (!(signed_distance(terrain, x) < epsilon && std::abs(u) < epsilon && along < 0.0)) return f;
+  if (!(d < epsilon && std::abs(u) < epsilon && along < 0.0)) return f;
   const Vec3 slip = v - u * n;
   return (f - along * n) + (terrain.friction * along) * slip;
 }

@@ -24,7 +24,7 @@ class SpringFinder {
   std::uint32_t widest_ = 0;  // largest b − a
 };
 
-/// Forces on one particle at a state [N], spec §2.3 to §2.5.
+/// Forces on one particle at a state [N] (docs/physics.md, sections 1 and 5).
 struct ParticleForce {
   Vec3 gravity;  ///< m·g
   Vec3 springs;  ///< sum over its springs

@@ -1,5 +1,7 @@
 #include "analysis/stability.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -173,7 +175,7 @@ StabilityLimit bounded_limit(BodyAnalysis& analysis, Integrator integrator) {
     }
   };
   scan_unit_interval(60, [&](double share) { visit(share * kappa_max); });
-  analysis.work().spend(120 * 41 * work_of_mode);
+  analysis.work().spend(std::uint64_t{120} * 41 * work_of_mode);
   least = smaller(least, of_mode(integrator, 0.0, gamma_max));
   least.exact = false;
   return least;
@@ -181,12 +183,13 @@ StabilityLimit bounded_limit(BodyAnalysis& analysis, Integrator integrator) {
 
 StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
   const LinearisedBody& body = analysis.body();
-  if (integrator == Integrator::implicit_euler || !body.has_springs()) return {infinity, true};
+  const IntegratorRow& row = row_of(integrator);
+  if (row.solved() || !body.has_springs()) return {infinity, true};
   if (!std::isfinite(body.eigenvalue_bound(1.0, 0.0)) || !std::isfinite(body.eigenvalue_bound(0.0, 1.0)))
     return {0.0, false};
   if (body.proportional()) return proportional_limit(analysis, integrator);
   if (integrator == Integrator::symplectic_euler) return symplectic_limit(analysis);
-  if (analysis.small()) return dense_limit(analysis, integrator);
+  if (analysis.small() && !row.mode_limit) return dense_limit(analysis, integrator);
   return bounded_limit(analysis, integrator);
 }
 
@@ -238,7 +241,7 @@ std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const
 constexpr int most_looks = 50;
 
 bool certainly_stable(const Model& model, Integrator integrator, double timestep) {
-  if (integrator == Integrator::implicit_euler) return true;
+  if (row_of(integrator).solved()) return true;
   std::uint32_t covered = 0;
   double known_kappa = 0.0, known_ratio = 0.0;  // of the body before: cubes are often alike
   std::optional<StabilityLimit> known;
@@ -268,14 +271,14 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
       known_ratio = ratio;
     }
     const StabilityLimit& least = *known;
-    if (body.spacing <= 0.0 || !least.step || timestep > *least.step) return false;
+    if (!body.cubic || !least.step || timestep > *least.step) return false;
   }
   return covered == model.particle_count();
 }
 
 StabilityLimit stability_limit(const Model& model, Integrator integrator, StabilityEffort effort,
                                const StabilityWatch& watch) {
-  if (integrator == Integrator::implicit_euler) return {infinity, true};
+  if (row_of(integrator).solved()) return {infinity, true};
   return stability_limits(model, {&integrator, 1}, effort, watch).front();
 }
 
@@ -288,6 +291,40 @@ double largest_stiffness_eigenvalue(const Model& model) {
         largest, body.largest_eigenvalue(1.0, 0.0, thorough.tolerance, thorough.iterations, work).value);
   }
   return largest;
+}
+
+bool exceeds(double timestep, const StabilityLimit& limit) {
+  return !limit.step || timestep > *limit.step;
+}
+
+std::string stability_figure(const StabilityLimit& limit) {
+  if (!limit.step) return limit.exact ? "none" : "none is certain";
+  if (*limit.step == 0.0) return "none is certain";
+  if (std::isinf(*limit.step)) return "any";
+  return fmt::format("{}{:.4g} s", limit.exact ? "" : "at least ", *limit.step);
+}
+
+std::string stability_sentence(Integrator integrator, const StabilityLimit& limit) {
+  if (!limit.step) {
+    return fmt::format(
+        "no step is {}stable for {}, whose undamped springs gain energy at any; give the springs damping, or "
+        "take symplectic-euler or runge-kutta-4",
+        limit.exact ? "" : "certainly ", name_of(integrator));
+  }
+  if (std::isinf(*limit.step)) return fmt::format("nothing limits the step of {}", name_of(integrator));
+  if (*limit.step == 0.0) {
+    return fmt::format(
+        "no step is certainly stable for {}: the springs are stiffer for their masses than double precision "
+        "can express",
+        name_of(integrator));
+  }
+  return fmt::format("the largest stable one for {} is {}{}", name_of(integrator),
+                     limit.exact ? "estimated at " : "", stability_figure(limit));
+}
+
+std::string unstable_sentence(double timestep, Integrator integrator, const StabilityLimit& limit) {
+  return fmt::format("the time step {} s {} stable: {}.", timestep, limit.exact ? "is not" : "may not be",
+                     stability_sentence(integrator, limit));
 }
 
 }  // namespace aspic

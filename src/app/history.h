@@ -1,6 +1,6 @@
 #pragma once
 // The run so far, so that any of its steps can be had again: keyframes, and the inputs between them. Steps
-// between two keyframes are simulated once more, which gives the same bits (spec §2.9).
+// between two keyframes are simulated once more, which gives the same bits (docs/determinism.md).
 #include <cstdint>
 #include <deque>
 #include <optional>

@@ -11,7 +11,6 @@
 #include <cstring>
 
 #include "base/printable.h"
-#include "base/text.h"
 
 namespace aspic {
 namespace {
@@ -46,9 +45,9 @@ std::string_view remedy(int error_number) {
 }  // namespace
 
 Error file_error(std::string_view verb, const std::string& path, int error_number) {
-  return {ErrorCode::io, fmt::format("Cannot {} {}: {}. {}", verb,
-                                     path.empty() ? "a file without a name" : printable_line(path),
-                                     std::strerror(error_number), remedy(error_number))};
+  return fail(ErrorCode::io, "Cannot {} {}: {}. {}", verb,
+              path.empty() ? "a file without a name" : printable_line(path), std::strerror(error_number),
+              remedy(error_number));
 }
 
 namespace {
@@ -78,12 +77,12 @@ Result<std::string> read_and_close(int descriptor, std::uint64_t most, const std
 Result<std::string> read_file(const std::string& path, std::uint64_t most_bytes) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return file_error("read", path, errno);
-  // One byte more tells a file that is too large.
+  // One byte more reveals a file that is too large.
   constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
   auto content = read_and_close(descriptor, most_bytes == all ? all : most_bytes + 1, path);
   if (content && content->size() > most_bytes) {
-    return Error{ErrorCode::io, fmt::format("{} is larger than {}, the most that is read of such a file.",
-                                            printable_line(path), human_bytes(most_bytes))};
+    return fail(ErrorCode::io, "{} is larger than {}, the limit for such a file.", printable_line(path),
+                human_bytes(most_bytes));
   }
   return content;
 }
@@ -98,14 +97,12 @@ Result<FileStart> read_regular_file(const std::string& path, std::uint64_t most)
     const int reason = known ? EISDIR : errno;
     ::close(descriptor);
     if (!known || S_ISDIR(present.st_mode)) return file_error("read", path, reason);
-    return Error{ErrorCode::io,
-                 fmt::format("Cannot read {}: it is a device or a pipe, which may have no end. Give the "
-                             "name of a file.",
-                             printable_line(path))};
+    return fail(ErrorCode::io,
+                "Cannot read {}: it is a device or a pipe, which may have no end. Give the name of a file.",
+                printable_line(path));
   }
-  auto content = read_and_close(descriptor, most, path);
-  if (!content) return content.error();
-  return FileStart{std::move(*content), static_cast<std::uint64_t>(present.st_size)};
+  ASPIC_TRY(auto content, read_and_close(descriptor, most, path));
+  return FileStart{std::move(content), static_cast<std::uint64_t>(present.st_size)};
 }
 
 }  // namespace aspic

@@ -1,5 +1,7 @@
 #pragma once
 // A value or the sentence that says why there is none. Every fallible call of the project returns one.
+#include <fmt/core.h>
+
 #include <cassert>
 #include <optional>
 #include <string>
@@ -19,11 +21,17 @@ enum class ErrorCode {
   interrupted = 130    ///< Ctrl-C
 };
 
-/// An error: its code, and one or more whole sentences that say where, what and how to mend it.
+/// An error: its code, and one or more complete sentences that say where, what and how to fix it.
 struct Error {
   ErrorCode code;
   std::string message;
 };
+
+/// An error with a formatted message: `return fail(ErrorCode::io, "{} is empty.", path);`.
+template <class... T>
+Error fail(ErrorCode code, fmt::format_string<T...> message, T&&... arguments) {
+  return {code, fmt::format(message, std::forward<T>(arguments)...)};
+}
 
 /// Either a T or an Error. To pass an error on: ASPIC_TRY, ASPIC_CHECK.
 template <class T>

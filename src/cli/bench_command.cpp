@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "analysis/stability.h"
-#include "analysis/stability_text.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
-#include "io/console.h"
-#include "io/interrupt.h"
+#include "cli/json.h"
+#include "io/program.h"
 #include "model/integrator.h"
 #include "scene/load.h"
 
@@ -51,9 +49,8 @@ Result<double> chosen_timestep(const BenchOptions& options, const Model& model) 
   if (model.simulation.integrator == Integrator::implicit_euler) return 1.0 / 60.0;
   const StabilityLimit limit = stability_limit(model, model.simulation.integrator, StabilityEffort::quick);
   if (!limit.step) {
-    return Error{
-        ErrorCode::scene_rejected,
-        fmt::format("--timestep largest: {}.", stability_sentence(model.simulation.integrator, limit))};
+    return fail(ErrorCode::scene_rejected, "--timestep largest: {}.",
+                stability_sentence(model.simulation.integrator, limit));
   }
   return std::isfinite(*limit.step) ? 0.99 * *limit.step : own;
 }
@@ -62,23 +59,20 @@ Result<double> chosen_timestep(const BenchOptions& options, const Model& model) 
 Result<double> time_run(Solver& solver, std::uint64_t steps, Measurement& m) {
   ASPIC_CHECK(solver.load(initial_state(solver.model(), solver.precision())));
   const auto start = Clock::now();
-  const auto advanced = solver.advance(steps);
-  if (!advanced) return advanced.error();
-  const auto state = solver.state();
-  if (!state) return state.error();
-  m.divergence = *advanced;
+  ASPIC_TRY(const auto advanced, solver.advance(steps));
+  ASPIC_TRY(const auto state, solver.state());
+  m.divergence = advanced;
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 /// Steps that take about `seconds`, found by doubling.
 Result<std::uint64_t> steps_for(Solver& solver, double seconds, Measurement& m) {
   for (std::uint64_t steps = 1;; steps *= 2) {
-    const auto took = time_run(solver, steps, m);
-    if (!took) return took.error();
+    ASPIC_TRY(const auto took, time_run(solver, steps, m));
     if (m.divergence || steps > (std::uint64_t{1} << 40)) return steps;
-    if (*took > seconds / 4) {
-      return std::max<std::uint64_t>(
-          1, static_cast<std::uint64_t>(static_cast<double>(steps) * seconds / *took));
+    if (took > seconds / 4) {
+      return std::max<std::uint64_t>(1,
+                                     static_cast<std::uint64_t>(static_cast<double>(steps) * seconds / took));
     }
   }
 }
@@ -95,67 +89,58 @@ double evaluations_per_step(Solver& solver, std::uint64_t steps) {
 Result<Measurement> measure_case(const BenchOptions& options, const Scene& scene, const BackendChoice& choice,
                                  const InterruptGuard& interrupt) {
   ModelSettings settings = scene.model;
-  auto model = build_model(settings);
-  if (!model) return model.error();
-  const auto timestep = chosen_timestep(options, *model);
-  if (!timestep) return timestep.error();
-  model->simulation.timestep = *timestep;
-  auto backend = make_backend(choice, *model);
-  if (!backend) return backend.error();
-  Solver& solver = *backend->solver;
+  ASPIC_TRY(auto model, build_model(settings));
+  ASPIC_TRY(const auto timestep, chosen_timestep(options, model));
+  model.simulation.timestep = timestep;
+  ASPIC_TRY(auto backend, make_backend(choice, model));
+  Solver& solver = *backend.solver;
 
   Measurement m;
-  m.backend = backend->row->name;
-  m.force_path = backend->force_path;
-  m.device = backend->device;
-  m.integrator = model->simulation.integrator;
+  m.backend = backend.row->name;
+  m.force_path = backend.force_path;
+  m.device = backend.device;
+  m.integrator = model.simulation.integrator;
   m.size = settings.cubes.empty() ? 0 : settings.cubes.front().particles_per_edge;
-  m.particles = model->particle_count();
-  m.springs = model->springs.size();
+  m.particles = model.particle_count();
+  m.springs = model.springs.size();
   m.bytes = solver.bytes();
-  m.timestep = *timestep;
+  m.timestep = timestep;
   if (options.duration) {
-    const auto steps = steps_of({std::nullopt, options.duration}, model->simulation);
-    if (!steps) return steps.error();
-    m.steps = std::max<std::uint64_t>(1, *steps);
+    ASPIC_TRY(const auto steps, steps_of({std::nullopt, options.duration}, model.simulation));
+    m.steps = std::max<std::uint64_t>(1, steps);
   } else {
-    const auto steps = steps_for(solver, options.seconds / options.repeats, m);
-    if (!steps) return steps.error();
-    m.steps = *steps;
+    ASPIC_TRY(m.steps, steps_for(solver, options.seconds / options.repeats, m));
   }
   for (int repeat = 0; repeat < options.repeats && !m.divergence; ++repeat) {
     if (interrupt.interrupted()) return Error{ErrorCode::interrupted, "interrupted; nothing was printed."};
-    const auto took = time_run(solver, m.steps, m);
-    if (!took) return took.error();
-    m.seconds.push_back(*took);
+    ASPIC_TRY(const auto took, time_run(solver, m.steps, m));
+    m.seconds.push_back(took);
   }
   m.evaluations_per_step = evaluations_per_step(solver, m.steps);
   std::sort(m.seconds.begin(), m.seconds.end());
   return m;
 }
 
-JsonObject to_json_object(const Measurement& m) {
-  JsonObject object = {{"backend", m.backend},
-                       {"force_path", m.force_path.empty() ? JsonValue() : JsonValue(m.force_path)},
-                       {"renderer", m.device},
-                       {"integrator", name_of(m.integrator)},
-                       {"size", static_cast<std::uint64_t>(m.size)},
-                       {"particles", m.particles},
-                       {"springs", m.springs},
-                       {"bytes", m.bytes},
-                       {"timestep", m.timestep},
-                       {"steps", m.steps},
-                       {"diverged", m.divergence.has_value()}};
+Json to_json(const Measurement& m) {
+  Json object = {{"backend", m.backend},
+                 {"force_path", or_null(m.force_path)},
+                 {"renderer", m.device},
+                 {"integrator", name_of(m.integrator)},
+                 {"size", m.size},
+                 {"particles", m.particles},
+                 {"springs", m.springs},
+                 {"bytes", m.bytes},
+                 {"timestep", m.timestep},
+                 {"steps", m.steps},
+                 {"diverged", m.divergence.has_value()}};
   if (!m.divergence) {
-    JsonArray seconds;
-    for (const double s : m.seconds) seconds.emplace_back(s);
-    object.insert(object.end(), {{"seconds", seconds},
-                                 {"median_seconds", m.median()},
-                                 {"spread", m.spread()},
-                                 {"steps_per_second", m.steps_per_second()},
-                                 {"evaluations_per_step", m.evaluations_per_step},
-                                 {"spring_evaluations_per_second", m.spring_evaluations_per_second()},
-                                 {"seconds_per_simulated_second", m.seconds_per_simulated_second()}});
+    object.update({{"seconds", m.seconds},
+                   {"median_seconds", m.median()},
+                   {"spread", m.spread()},
+                   {"steps_per_second", m.steps_per_second()},
+                   {"evaluations_per_step", m.evaluations_per_step},
+                   {"spring_evaluations_per_second", m.spring_evaluations_per_second()},
+                   {"seconds_per_simulated_second", m.seconds_per_simulated_second()}});
   }
   return object;
 }
@@ -172,50 +157,47 @@ std::string table_line(const Measurement& m) {
 
 }  // namespace
 
-Status bench_command(const BenchOptions& options) {
+Status execute(const BenchOptions& options) {
   const InterruptGuard interrupt;
   std::vector<Measurement> measurements;
-  auto loaded = load_scene(options.scene, options.overrides);
-  if (!loaded) return loaded.error();
+  ASPIC_TRY(auto loaded, load_scene(options.scene, options.overrides));
   std::vector<int> sizes = options.sizes;
-  if (!sizes.empty() && loaded->model.cubes.empty()) {
-    return Error{ErrorCode::usage,
-                 fmt::format("--size sets particles-per-edge of cubes, and {} has none.", loaded->name)};
+  if (!sizes.empty() && loaded.model.cubes.empty()) {
+    return fail(ErrorCode::usage, "--size sets the particles-per-edge of cubes, but {} has no cube.",
+                loaded.name);
   }
   if (sizes.empty()) sizes.push_back(0);
   std::vector<Integrator> integrators = options.integrators;
-  if (integrators.empty()) integrators.push_back(loaded->model.simulation.integrator);
+  if (integrators.empty()) integrators.push_back(loaded.model.simulation.integrator);
   for (const int size : sizes) {
     // Through the parser, so that a size out of range or past the memory is refused as in a file.
     std::vector<std::string> overrides;
-    for (std::size_t c = 0; size > 0 && c < loaded->model.cubes.size(); ++c) {
+    for (std::size_t c = 0; size > 0 && c < loaded.model.cubes.size(); ++c) {
       overrides.push_back(fmt::format("cube[{}].particles-per-edge={}", c, size));
     }
-    auto scene = with_overrides(*loaded, overrides);
-    if (!scene) return scene.error();
+    ASPIC_TRY(auto scene, with_overrides(loaded, overrides));
     for (const Integrator integrator : integrators) {
-      scene->model.simulation.integrator = integrator;
+      scene.model.simulation.integrator = integrator;
       for (const BackendChoice& choice : options.backends) {
         if (!works_with(choice.force_path, integrator)) {
-          print_message(
-              fmt::format("{} has no {} path: left out.", name_of(integrator), name_of(choice.force_path)));
+          print_message(fmt::format("skipped {} on the force path {}, which it does not have.",
+                                    name_of(integrator), name_of(choice.force_path)));
           continue;
         }
-        auto measured = measure_case(options, *scene, choice, interrupt);
-        if (!measured) return measured.error();
-        measurements.push_back(std::move(*measured));
+        ASPIC_TRY(auto measured, measure_case(options, scene, choice, interrupt));
+        measurements.push_back(std::move(measured));
       }
     }
   }
   if (options.json) {
-    JsonArray rows;
-    for (const Measurement& m : measurements) rows.emplace_back(to_json_object(m));
-    return print_data(to_json({{"version", ASPIC_VERSION},
-                               {"scene", loaded->name},
-                               {"repeats", static_cast<std::uint64_t>(options.repeats)},
+    Json rows = Json::array();
+    for (const Measurement& m : measurements) rows.push_back(to_json(m));
+    return print_data(to_text({{"version", ASPIC_VERSION},
+                               {"scene", loaded.name},
+                               {"repeats", options.repeats},
                                {"measurements", rows}}));
   }
-  std::string text = fmt::format("{}, {} repeats each, medians\n", loaded->name, options.repeats);
+  std::string text = fmt::format("{}, {} repeats each, medians\n", loaded.name, options.repeats);
   std::vector<std::string> devices;
   for (const Measurement& m : measurements) {
     const std::string device = fmt::format("{}: {}\n", m.backend, m.device);

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
-#include "cli/json_report.h"
+#include "cli/json.h"
 #include "gpu/canary.h"
-#include "io/console.h"
 
 namespace aspic::cli {
 namespace {
@@ -12,26 +11,25 @@ std::string_view kind_of(const gl::EglDevice& device) {
   return device.software ? "software" : "hardware";
 }
 
-JsonValue to_json_value(const gl::DeviceInfo& info) {
+Json to_json(const gl::DeviceInfo& info) {
   const gl::DeviceLimits& l = info.limits;
-  const auto triple = [](const std::array<std::uint32_t, 3>& v) { return JsonArray{v[0], v[1], v[2]}; };
-  return JsonObject{{"vendor", info.vendor},
-                    {"renderer", info.renderer},
-                    {"version", info.version},
-                    {"glsl_version", info.glsl_version},
-                    {"platform", info.platform},
-                    {"software", info.is_software},
-                    {"robust", info.robust},
-                    {"limits", JsonObject{{"storage_block_bytes", l.storage_block_bytes},
-                                          {"uniform_block_bytes", l.uniform_block_bytes},
-                                          {"compute_storage_blocks", l.compute_storage_blocks},
-                                          {"vertex_storage_blocks", l.vertex_storage_blocks},
-                                          {"group_invocations", l.group_invocations},
-                                          {"group_count", triple(l.group_count)},
-                                          {"group_size", triple(l.group_size)},
-                                          {"shared_bytes", l.shared_bytes},
-                                          {"storage_offset_alignment", l.storage_offset_alignment},
-                                          {"uniform_offset_alignment", l.uniform_offset_alignment}}}};
+  return {{"vendor", info.vendor},
+          {"renderer", info.renderer},
+          {"version", info.version},
+          {"glsl_version", info.glsl_version},
+          {"platform", info.platform},
+          {"software", info.is_software},
+          {"robust", info.robust},
+          {"limits", Json{{"storage_block_bytes", l.storage_block_bytes},
+                          {"uniform_block_bytes", l.uniform_block_bytes},
+                          {"compute_storage_blocks", l.compute_storage_blocks},
+                          {"vertex_storage_blocks", l.vertex_storage_blocks},
+                          {"group_invocations", l.group_invocations},
+                          {"group_count", l.group_count},
+                          {"group_size", l.group_size},
+                          {"shared_bytes", l.shared_bytes},
+                          {"storage_offset_alignment", l.storage_offset_alignment},
+                          {"uniform_offset_alignment", l.uniform_offset_alignment}}}};
 }
 
 /// What the canary kernel finds out about the device's arithmetic, and what is done about it.
@@ -45,7 +43,7 @@ std::vector<std::string> arithmetic_sentences(gl::Context& context) {
 
 }  // namespace
 
-Status info_command(const InfoOptions& options) {
+Status execute(const InfoOptions& options) {
   const std::vector<gl::EglDevice> devices = gl::list_devices();
   AutomaticChoice automatic = choose_automatically({});
   const std::string_view chosen = automatic.row->name;
@@ -63,28 +61,23 @@ Status info_command(const InfoOptions& options) {
   const std::vector<std::string> arithmetic =
       context ? arithmetic_sentences(*context) : std::vector<std::string>{};
   if (options.json) {
-    JsonArray list, sentences;
-    for (const std::string& sentence : arithmetic) sentences.emplace_back(sentence);
-    for (const gl::EglDevice& device : devices) {
-      list.emplace_back(JsonObject{
-          {"index", std::uint64_t(device.index)}, {"name", device.name}, {"software", device.software}});
-    }
-    JsonArray rows;
+    Json list = Json::array(), rows = Json::array();
+    for (const gl::EglDevice& device : devices)
+      list.push_back({{"index", device.index}, {"name", device.name}, {"software", device.software}});
     for (const BackendRow& row : backends()) {
-      JsonArray precisions;
-      for (const Precision precision : row.precisions) precisions.emplace_back(name_of(precision));
-      rows.emplace_back(JsonObject{{"name", row.name}, {"summary", row.summary}, {"precisions", precisions}});
+      Json precisions;
+      for (const Precision precision : row.precisions) precisions.push_back(name_of(precision));
+      rows.push_back({{"name", row.name}, {"summary", row.summary}, {"precisions", precisions}});
     }
-    return print_data(
-        to_json({{"version", ASPIC_VERSION},
-                 {"backends", rows},
-                 {"devices", list},
-                 {"gpu", context ? to_json_value(context->info()) : JsonValue()},
-                 {"gpu_error", context ? JsonValue() : JsonValue(no_context)},
-                 {"arithmetic", sentences},
-                 {"auto", chosen},
-                 {"auto_reason", automatic.reason},
-                 {"auto_detail", automatic.detail.empty() ? JsonValue() : JsonValue(automatic.detail)}}));
+    return print_data(to_text({{"version", ASPIC_VERSION},
+                               {"backends", rows},
+                               {"devices", list},
+                               {"gpu", context ? to_json(context->info()) : Json()},
+                               {"gpu_error", context ? Json() : Json(no_context)},
+                               {"arithmetic", arithmetic},
+                               {"auto", chosen},
+                               {"auto_reason", automatic.reason},
+                               {"auto_detail", or_null(automatic.detail)}}));
   }
   std::string text = "aspic " ASPIC_VERSION "\n\nBackends\n";
   for (const BackendRow& row : backends()) text += fmt::format("  {:<10} {}\n", row.name, row.summary);

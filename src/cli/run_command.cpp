@@ -8,13 +8,10 @@
 
 #include "analysis/energy.h"
 #include "analysis/stability.h"
-#include "analysis/stability_text.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
-#include "command_line/number_checks.h"
+#include "cli/json.h"
 #include "io/checkpoint.h"
-#include "io/console.h"
-#include "io/interrupt.h"
+#include "io/program.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
 #include "scene/load.h"
@@ -61,46 +58,39 @@ bool asks_for_checkpoint(const RunOptions& options) {
 Result<Start> load_start(const RunOptions& options) {
   Start start;
   if (options.resume_file.empty()) {
-    auto scene = load_scene(options.scene, options.overrides);
-    if (!scene) return scene.error();
-    if (asks_for_checkpoint(options)) start.scene_toml = to_toml(*scene);
-    if (!options.view.empty()) scene = with_overrides(std::move(*scene), overrides_of(options.view));
-    if (!scene) return scene.error();
-    start.scene = std::move(*scene);
+    ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides));
+    if (asks_for_checkpoint(options)) start.scene_toml = to_toml(scene);
+    if (!options.view.empty()) {
+      ASPIC_TRY(scene, with_overrides(std::move(scene), overrides_of(options.view)));
+    }
+    start.scene = std::move(scene);
     return start;
   }
-  auto checkpoint = read_checkpoint(options.resume_file);
-  if (!checkpoint) return checkpoint.error();
-  auto scene = parse_scene(checkpoint->scene, options.resume_file, overrides_of(options.view));
+  ASPIC_TRY(auto checkpoint, read_checkpoint(options.resume_file));
+  auto scene = parse_scene(checkpoint.scene, options.resume_file, overrides_of(options.view));
   if (!scene) {
-    return Error{
-        scene.error().code,
-        fmt::format("the scene inside the checkpoint, written by aspic {}, is not accepted by aspic {}:\n{}",
-                    checkpoint->program_version, ASPIC_VERSION, scene.error().message)};
+    return fail(scene.error().code,
+                "the scene inside the checkpoint, written by aspic {}, is not accepted by aspic {}:\n{}",
+                checkpoint.program_version, ASPIC_VERSION, scene.error().message);
   }
-  if (const Status fits = check_against_scene(*checkpoint, scene->model, options.resume_file); !fits)
-    return fits.error();
+  ASPIC_CHECK(check_against_scene(checkpoint, scene->model, options.resume_file));
   if (!options.scene.empty()) {
-    const auto given = load_scene(options.scene, options.overrides);
-    if (!given) return given.error();
-    const std::string text = to_toml(*given);
-    if (text != checkpoint->scene) {
-      return Error{
-          ErrorCode::scene_rejected,
-          fmt::format("{} continues another scene than {}. They differ first at\n{}\nLeave SCENE and --set "
-                      "out to go on "
-                      "with the checkpoint's scene, or leave --resume out to start the changed one anew.",
-                      options.resume_file, options.scene, first_difference(checkpoint->scene, text))};
+    ASPIC_TRY(const auto given, load_scene(options.scene, options.overrides));
+    const std::string text = to_toml(given);
+    if (text != checkpoint.scene) {
+      return fail(ErrorCode::scene_rejected,
+                  "{} belongs to a different scene than {}. They first differ at\n{}\nOmit SCENE and --set "
+                  "to continue the checkpoint's scene, or omit --resume to start the changed scene.",
+                  options.resume_file, options.scene, first_difference(checkpoint.scene, text));
     }
   }
-  if (options.precision_given && options.backend.precision != checkpoint->state.precision) {
-    return Error{ErrorCode::usage,
-                 fmt::format("{} was written in {} precision: resume it without --precision.",
-                             options.resume_file, name_of(checkpoint->state.precision))};
+  if (options.precision_given && options.backend.precision != checkpoint.state.precision) {
+    return fail(ErrorCode::usage, "{} was written in {} precision: resume it without --precision.",
+                options.resume_file, name_of(checkpoint.state.precision));
   }
   start.scene = std::move(*scene);
-  start.scene_toml = std::move(checkpoint->scene);
-  start.state = std::move(checkpoint->state);
+  start.scene_toml = std::move(checkpoint.scene);
+  start.state = std::move(checkpoint.state);
   return start;
 }
 
@@ -118,7 +108,7 @@ struct Outcome {
   }
 };
 
-JsonObject to_json_object(const SolveStatistics& s) {
+Json to_json(const SolveStatistics& s) {
   return {{"converged", s.converged},         {"stagnated", s.stagnated},
           {"not_converged", s.not_converged}, {"newton_iterations", s.newton_iterations},
           {"cg_iterations", s.cg_iterations}, {"worst_residual", s.worst_residual}};
@@ -142,36 +132,30 @@ class BatchSize {
 Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, std::uint64_t last_step,
                          const InterruptGuard& interrupt) {
   const Model& model = solver.model();
-  auto state = solver.state();
-  if (!state) return state.error();
+  ASPIC_TRY(auto state, solver.state());
   Outcome outcome;
-  outcome.first_step = state->step;
+  outcome.first_step = state.step;
   outcome.last_step = last_step;
   const auto solves = [&] { return solver.solve_statistics().value_or(SolveStatistics{}); };
-  ASPIC_CHECK(files.take({model, *state, solves()}));
+  ASPIC_CHECK(files.take({model, state, solves()}));
 
   ProgressBar bar(last_step);
   BatchSize batch;
-  std::uint64_t step = state->step;
+  std::uint64_t step = state.step;
   const auto started = Clock::now();
-  if (recorder) {
-    ASPIC_CHECK(recorder->reach(solver, step));
-  }
+  if (recorder) ASPIC_CHECK(recorder->reach(solver, step));
   while (step < last_step && !outcome.divergence && !(outcome.interrupted = interrupt.interrupted())) {
     std::uint64_t count = std::min(batch.next(), last_step - step);
     const std::uint64_t wanted = files.next_step(step);
     count = std::min(count, wanted - step);
     if (recorder) count = std::min(count, recorder->next_step() - step);
     const auto before = Clock::now();
-    const auto advanced = solver.advance(count);
-    if (!advanced) return advanced.error();
-    outcome.divergence = *advanced;
+    ASPIC_TRY(outcome.divergence, solver.advance(count));
     if (outcome.divergence) break;
     step += count;
     if (step == wanted) {
-      state = solver.state();
-      if (!state) return state.error();
-      ASPIC_CHECK(files.take({model, *state, solves()}));
+      ASPIC_TRY(state, solver.state());
+      ASPIC_CHECK(files.take({model, state, solves()}));
     }
     if (recorder) {
       recorder->add_simulation(std::chrono::duration<double>(Clock::now() - before).count());
@@ -180,52 +164,51 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, st
     batch.took(count, std::chrono::duration<double>(Clock::now() - before).count());
     bar.update(step);
   }
-  state = solver.state();  // waits for the device, so that the time below is that of finished work
-  if (!state) return state.error();
+  ASPIC_TRY(state, solver.state());  // waits for the device: the time below is that of finished work
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started).count(); };
   outcome.wall_seconds = seconds();
-  if (const auto bad = first_not_finite(measure(model, *state))) {
-    return Error{ErrorCode::diverged,
-                 fmt::format("{} of step {} is not a finite number; the outputs were not completed.", *bad,
-                             state->step)};
+  if (const auto bad = first_not_finite(measure(model, state))) {
+    return fail(ErrorCode::diverged, "{} of step {} is not a finite number; the outputs were not completed.",
+                *bad, state.step);
   }
   if (recorder) {
-    outcome.pictured = recorder->finish(solver, state->step);
+    outcome.pictured = recorder->finish(solver, state.step);
     outcome.wall_seconds = seconds();
   }
-  outcome.state = std::move(*state);
+  outcome.state = std::move(state);
   outcome.solves = solver.solve_statistics();
   return outcome;
 }
 
-JsonObject to_json_object(const Divergence& divergence, double timestep) {
-  return {{"step", divergence.step},
-          {"time", static_cast<double>(divergence.step) * timestep},
-          divergence.residual
-              ? std::pair<std::string, JsonValue>("residual", true)
-              : std::pair<std::string, JsonValue>(divergence.ball ? "ball" : "particle", divergence.particle),
-          {"finite", divergence.finite}};
+Json to_json(const Divergence& d, double timestep) {
+  Json json = {{"step", d.step}, {"time", static_cast<double>(d.step) * timestep}};
+  if (d.residual) {
+    json["residual"] = true;
+  } else {
+    json[d.ball ? "ball" : "particle"] = d.particle;
+  }
+  json["finite"] = d.finite;
+  return json;
 }
 
-JsonValue to_json_value(const Recorder* recorder) {
-  if (!recorder) return nullptr;
-  const FrameTimes t = recorder->times();
-  return JsonObject{{"count", t.frames},
-                    {"device", recorder->device()},
-                    {"seconds_per_frame", JsonObject{{"simulate", t.per_frame(t.simulate)},
-                                                     {"draw", t.per_frame(t.draw)},
-                                                     {"read", t.per_frame(t.read)},
-                                                     {"encode", t.per_frame(t.encode)}}}};
+Json to_json(const Recorder& recorder) {
+  const FrameTimes t = recorder.times();
+  return {{"count", t.frames},
+          {"device", recorder.device()},
+          {"seconds_per_frame",
+           {{"simulate", t.per_frame(t.simulate)},
+            {"draw", t.per_frame(t.draw)},
+            {"read", t.per_frame(t.read)},
+            {"encode", t.per_frame(t.encode)}}}};
 }
 
 /// One line on stderr: pictures are by the way, the summary on stdout is the run's.
 void print_frame_times(const Recorder& recorder) {
   const FrameTimes t = recorder.times();
   const auto ms = [&](double seconds) { return 1000.0 * t.per_frame(seconds); };
-  print_message(
-      fmt::format("{} pictures on {}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, "
-                  "encode {:.1f} ms.",
-                  t.frames, recorder.device(), ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
+  print_message(fmt::format(
+      "{} pictures on {}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, encode {:.1f} ms.",
+      t.frames, recorder.device(), ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
 }
 
 Status print_summary(const RunOptions& options, const Scene& scene, const Model& model,
@@ -236,10 +219,11 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
   const std::string hash = state_hash_text(state);
   if (options.json) {
-    JsonArray written;
-    for (const std::string& file : files) written.emplace_back(file);
-    const auto or_null = [](const std::string& text) { return text.empty() ? JsonValue() : JsonValue(text); };
-    return print_data(to_json({
+    // Not within the list: g++ 12 destroys what it has not made yet when memory runs out in a list with `?:`.
+    const Json diverged = outcome.divergence ? to_json(*outcome.divergence, model.simulation.timestep) : Json();
+    const Json solves = outcome.solves ? to_json(*outcome.solves) : Json();
+    const Json pictures = recorder ? to_json(*recorder) : Json();
+    return print_data(to_text({
         {"scene", scene.name},
         {"backend", backend.row->name},
         {"backend_reason", or_null(backend.reason)},
@@ -249,7 +233,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"integrator", name_of(model.simulation.integrator)},
         {"timestep", model.simulation.timestep},
         {"particles", model.particle_count()},
-        {"springs", std::uint64_t{model.springs.size()}},
+        {"springs", model.springs.size()},
         {"balls", model.ball_count()},
         {"first_step", outcome.first_step},
         {"steps", state.step},
@@ -257,20 +241,18 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"wall_seconds", outcome.wall_seconds},
         {"steps_per_second", outcome.steps_per_second()},
         {"state_hash", hash},
-        {"diverged", outcome.divergence
-                         ? JsonValue(to_json_object(*outcome.divergence, model.simulation.timestep))
-                         : JsonValue()},
+        {"diverged", diverged},
         {"interrupted", outcome.interrupted},
-        {"implicit_solves", outcome.solves ? JsonValue(to_json_object(*outcome.solves)) : JsonValue()},
-        {"energies", JsonObject{{"kinetic", m.kinetic},
-                                {"elastic", m.elastic},
-                                {"gravitational", m.gravitational},
-                                {"total", m.total()}}},
-        {"momentum", JsonArray{m.momentum.x, m.momentum.y, m.momentum.z}},
+        {"implicit_solves", solves},
+        {"energies", Json{{"kinetic", m.kinetic},
+                          {"elastic", m.elastic},
+                          {"gravitational", m.gravitational},
+                          {"total", m.total()}}},
+        {"momentum", Json{m.momentum.x, m.momentum.y, m.momentum.z}},
         {"max_speed", m.max_speed},
         {"min_height", m.min_height},
-        {"pictures", to_json_value(recorder)},
-        {"files", written},
+        {"pictures", pictures},
+        {"files", files},
     }));
   }
   std::string text = fmt::format("scene        {} ({} particles, {} springs{})\n", scene.name,
@@ -279,7 +261,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   text += fmt::format("backend      {}{}, {} precision{}\n", backend.row->name,
                       backend.force_path.empty() ? "" : ", force path " + backend.force_path,
                       name_of(state.precision),
-                      backend.reason.empty() ? "" : fmt::format("; chosen since {}", backend.reason));
+                      backend.reason.empty() ? "" : fmt::format(" (auto: {})", backend.reason));
   text += fmt::format("device       {}\n", backend.device);
   text += fmt::format("integrator   {}, time step {} s\n", name_of(model.simulation.integrator),
                       model.simulation.timestep);
@@ -294,8 +276,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
     const SolveStatistics& s = *outcome.solves;
     text += fmt::format(
         "solves       {} converged, {} stagnated, {} not converged; worst residual {:.3g} m/s; {} Newton and "
-        "{} "
-        "conjugate gradient iterations\n",
+        "{} conjugate gradient iterations\n",
         s.converged, s.stagnated, s.not_converged, s.worst_residual, s.newton_iterations, s.cg_iterations);
   }
   text += fmt::format("state hash   {}\n", hash);
@@ -318,12 +299,11 @@ Error divergence_error(const Model& model, const Outcome& outcome, const Interru
   const StabilityLimit stable = stability_limit(model, model.simulation.integrator, StabilityEffort::quick,
                                                 [&](double) { return !interrupt.interrupted(); });
   const double h = model.simulation.timestep;
-  return {ErrorCode::diverged,
-          fmt::format("the simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is "
-                      "{} s; {}. The last good "
-                      "step is {}; every output holds that state.",
-                      d.step, static_cast<double>(d.step) * h, body_text(d), fault_text(d), h,
-                      stability_sentence(model.simulation.integrator, stable), outcome.state.step)};
+  return fail(ErrorCode::diverged,
+              "the simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is {} s; {}. The last "
+              "good step is {}; every output holds that state.",
+              d.step, static_cast<double>(d.step) * h, body_text(d), fault_text(d), h,
+              stability_sentence(model.simulation.integrator, stable), outcome.state.step);
 }
 
 }  // namespace
@@ -333,69 +313,56 @@ Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings
   const double duration = length.duration.value_or(simulation.duration);
   const double steps = std::round(duration / simulation.timestep);
   if (!(steps <= static_cast<double>(most_steps))) {
-    return Error{ErrorCode::usage,
-                 fmt::format("{} s at a time step of {} s are more steps than can be counted.", duration,
-                             simulation.timestep)};
+    return fail(ErrorCode::usage, "{} s at a time step of {} s are more steps than can be counted.", duration,
+                simulation.timestep);
   }
   return static_cast<std::uint64_t>(steps);
 }
 
-Status run_command(const RunOptions& options) {
+Status execute(const RunOptions& options) {
   const InterruptGuard interrupt;
-  auto start = load_start(options);
-  if (!start) return start.error();
-  const auto steps = steps_of(options.length, start->scene.model.simulation);
-  if (!steps) return steps.error();
-  if (start->state && start->state->step > *steps) {
-    return Error{ErrorCode::usage, fmt::format("{} is at step {} already, and the run is to end at step {}: "
-                                               "--steps and --duration count from the "
-                                               "scene's start.",
-                                               options.resume_file, start->state->step, *steps)};
+  ASPIC_TRY(auto start, load_start(options));
+  ASPIC_TRY(const auto steps, steps_of(options.length, start.scene.model.simulation));
+  if (start.state && start.state->step > steps) {
+    return fail(ErrorCode::usage,
+                "{} is already at step {}, but the run is to end at step {}; --steps and --duration count "
+                "from the scene's start.",
+                options.resume_file, start.state->step, steps);
   }
-  const RunFacts facts = {start->scene_toml, start->scene.model.simulation.integrator};
-  auto files = RunFiles::open(options.outputs, options.pictures, facts,
-                              options.force ? Overwrite::allow : Overwrite::refuse);
-  if (!files) return files.error();
-  const auto model = build_model(start->scene.model);
-  if (!model) return model.error();
+  const RunFacts facts = {start.scene_toml, start.scene.model.simulation.integrator};
+  ASPIC_TRY(auto files, RunFiles::open(options.outputs, options.pictures, facts,
+                                       options.force ? Overwrite::allow : Overwrite::refuse));
+  ASPIC_TRY(const auto model, build_model(start.scene.model));
 
   BackendChoice choice = options.backend;
-  if (start->state) choice.precision = start->state->precision;
-  auto backend = make_backend(choice, *model);
-  if (!backend) return backend.error();
-  if (start->state) {
-    ASPIC_CHECK(backend->solver->load(*start->state));
-  }
-  warn_if_unstable(*model, interrupt);
+  if (start.state) choice.precision = start.state->precision;
+  ASPIC_TRY(auto backend, make_backend(choice, model));
+  if (start.state) ASPIC_CHECK(backend.solver->load(*start.state));
+  warn_if_unstable(model, interrupt);
 
   std::unique_ptr<Recorder> recorder;
   if (options.pictures.any()) {
-    auto made = Recorder::create(options.pictures, start->scene, *backend, files->take_frame_sinks(),
-                                 start->state ? start->state->step : 0, *steps);
-    if (!made) return made.error();
-    recorder = std::move(*made);
+    ASPIC_TRY(recorder, Recorder::create(options.pictures, start.scene, backend, files.take_frame_sinks(),
+                                         start.state ? start.state->step : 0, steps));
   }
-  auto outcome = simulate(*backend->solver, *files, recorder.get(), *steps, interrupt);
-  if (!outcome) return outcome.error();
-  const Status finished =
-      files->finish({*model, outcome->state, outcome->solves.value_or(SolveStatistics{})});
+  ASPIC_TRY(auto outcome, simulate(*backend.solver, files, recorder.get(), steps, interrupt));
+  const Status finished = files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
   std::vector<std::string> written = recorder ? recorder->written() : std::vector<std::string>{};
-  written.insert(written.end(), files->written().begin(), files->written().end());
+  written.insert(written.end(), files.written().begin(), files.written().end());
   const Status summary =
-      print_summary(options, start->scene, *model, *backend, *outcome, written, recorder.get());
+      print_summary(options, start.scene, model, backend, outcome, written, recorder.get());
   if (recorder) print_frame_times(*recorder);
-  if (!outcome->pictured) return outcome->pictured;
+  if (!outcome.pictured) return outcome.pictured;
   if (!finished) return finished;
   if (!summary) return summary;
-  if (outcome->divergence) return divergence_error(*model, *outcome, interrupt);
-  if (outcome->interrupted) {
+  if (outcome.divergence) return divergence_error(model, outcome, interrupt);
+  if (outcome.interrupted) {
     const auto checkpoint = std::ranges::find(options.outputs, "checkpoint", &StateOutput::option);
-    return Error{
-        ErrorCode::interrupted,
-        fmt::format("interrupted at step {} of {}; all files are whole.{}", outcome->state.step, *steps,
-                    checkpoint == options.outputs.end() || checkpoint->path.empty()
-                        ? ""
-                        : fmt::format(" Go on with aspic run --resume {}.", checkpoint->path))};
+    return fail(ErrorCode::interrupted, "interrupted at step {} of {}; all files were completed.{}",
+                outcome.state.step, steps,
+                checkpoint == options.outputs.end() || checkpoint->path.empty()
+                    ? ""
+                    : fmt::format(" Resume with aspic run --resume {}.", checkpoint->path));
   }
   return {};
 }

@@ -1,70 +1,55 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
-#include "analysis/stability_text.h"
+#include "analysis/stability.h"
 #include "base/files.h"
-#include "base/text.h"
+#include "base/printable.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
-#include "io/console.h"
-#include "io/interrupt.h"
+#include "cli/json.h"
+#include "io/program.h"
 #include "scene/import_configuration.h"
 #include "scene/load.h"
 #include "scene/write.h"
 
 namespace aspic::cli {
-namespace {
 
-constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integrator::symplectic_euler,
-                                             Integrator::midpoint, Integrator::runge_kutta_4,
-                                             Integrator::implicit_euler_one_pass};
-
-}  // namespace
-
-Status scene_list_command(const SceneListOptions& options) {
+Status execute(const SceneListOptions& options) {
   const std::vector<BuiltinScene> scenes = list_builtin_scenes();
   if (options.json) {
-    JsonArray array;
-    for (const BuiltinScene& scene : scenes) {
-      array.emplace_back(JsonObject{{"name", scene.name}, {"description", scene.description}});
-    }
-    return print_data(to_json({{"scenes", array}}));
+    Json array = Json::array();
+    for (const BuiltinScene& scene : scenes)
+      array.push_back({{"name", scene.name}, {"description", scene.description}});
+    return print_data(to_text({{"scenes", array}}));
   }
   std::string text;
   for (const BuiltinScene& scene : scenes) text += fmt::format("{:<20} {}\n", scene.name, scene.description);
   return print_data(text);
 }
 
-Status scene_show_command(const SceneShowOptions& options) {
-  const auto scene = load_scene(options.scene, options.overrides);
-  if (!scene) return scene.error();
-  return print_data(to_toml(*scene));
+Status execute(const SceneShowOptions& options) {
+  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
+  return print_data(to_toml(scene));
 }
 
-Status scene_import_command(const SceneImportOptions& options) {
-  const auto text = read_file(options.file);
-  if (!text) return text.error();
-  const auto imported = import_configuration(*text, options.file);
-  if (!imported) return imported.error();
-  for (const std::string& note : imported->notes) print_warning(note);
-  return print_data(imported_toml(*imported, options.file));
+Status execute(const SceneImportOptions& options) {
+  ASPIC_TRY(const auto text, read_file(options.file));
+  ASPIC_TRY(const auto imported, import_configuration(text, options.file));
+  for (const std::string& note : imported.notes) print_warning(note);
+  return print_data(imported_toml(imported, options.file));
 }
 
-Status scene_check_command(const SceneCheckOptions& options) {
+Status execute(const SceneCheckOptions& options) {
   const InterruptGuard interrupt;
-  const auto scene = load_scene(options.scene, options.overrides);
-  if (!scene) return scene.error();
-  const auto model = build_model(scene->model);
-  if (!model) return model.error();
-  const ModelCounts counts = count(*model);
-  const Integrator own = model->simulation.integrator;
-  const double timestep = model->simulation.timestep;
+  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
+  ASPIC_TRY(const auto model, build_model(scene.model));
+  const ModelCounts counts = count(model);
+  const Integrator own = model.simulation.integrator;
+  const double timestep = model.simulation.timestep;
   std::vector<StabilityLimit> limits;
   {
     ProgressBar bar(100, "stable steps: part");
-    limits = stability_limits(*model, explicit_integrators, StabilityEffort::thorough, [&](double share) {
+    limits = stability_limits(model, explicit_integrators, StabilityEffort::thorough, [&](double share) {
       bar.update(static_cast<std::uint64_t>(100.0 * share));
       return !interrupt.interrupted();
     });
@@ -74,34 +59,31 @@ Status scene_check_command(const SceneCheckOptions& options) {
                  "interrupted before the stable steps were known; nothing was printed."};
 
   if (options.json) {
-    JsonObject bytes, steps;
-    for (const BackendBytes& backend : bytes_by_backend(*model))
-      bytes.emplace_back(backend.backend, backend.bytes);
+    Json bytes, steps;
+    for (const BackendBytes& backend : bytes_by_backend(model)) bytes[backend.backend] = backend.bytes;
     for (std::size_t i = 0; i < limits.size(); ++i) {
-      steps.emplace_back(std::string(name_of(explicit_integrators[i])),
-                         JsonObject{{"step", limits[i].step ? JsonValue(*limits[i].step) : JsonValue(0.0)},
-                                    {"exact", limits[i].exact}});
+      steps[std::string(name_of(explicit_integrators[i]))] = {{"step", limits[i].step.value_or(0.0)},
+                                                              {"exact", limits[i].exact}};
     }
-    const Status printed = print_data(to_json({{"scene", scene->name},
-                                               {"particles", counts.particles},
-                                               {"pinned", counts.pinned},
-                                               {"springs", JsonObject{{"structural", counts.structural},
-                                                                      {"shear", counts.shear},
-                                                                      {"bending", counts.bending},
-                                                                      {"total", counts.springs()}}},
-                                               {"balls", counts.balls},
-                                               {"bytes", bytes},
-                                               {"integrator", name_of(own)},
-                                               {"timestep", timestep},
-                                               {"stable_steps", steps}}));
-    if (!printed) return printed;
+    ASPIC_CHECK(print_data(to_text({{"scene", scene.name},
+                                    {"particles", counts.particles},
+                                    {"pinned", counts.pinned},
+                                    {"springs", Json{{"structural", counts.structural},
+                                                     {"shear", counts.shear},
+                                                     {"bending", counts.bending},
+                                                     {"total", counts.springs()}}},
+                                    {"balls", counts.balls},
+                                    {"bytes", bytes},
+                                    {"integrator", name_of(own)},
+                                    {"timestep", timestep},
+                                    {"stable_steps", steps}})));
   } else {
-    std::string text = fmt::format("scene        {}\n", scene->name);
+    std::string text = fmt::format("scene        {}\n", scene.name);
     text += fmt::format("particles    {}, {} of them pinned\n", counts.particles, counts.pinned);
     text += fmt::format("springs      {} ({} structural, {} shear, {} bending)\n", counts.springs(),
                         counts.structural, counts.shear, counts.bending);
     text += fmt::format("balls        {}\n", counts.balls);
-    for (const BackendBytes& backend : bytes_by_backend(*model)) {
+    for (const BackendBytes& backend : bytes_by_backend(model)) {
       text += fmt::format("memory       {:<24} {:>10}\n", backend.backend, human_bytes(backend.bytes));
     }
     for (std::size_t i = 0; i < limits.size(); ++i) {

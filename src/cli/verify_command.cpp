@@ -5,9 +5,8 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/json_report.h"
+#include "cli/json.h"
 #include "gpu/context.h"
-#include "io/console.h"
 #include "verify/check.h"
 
 namespace aspic::cli {
@@ -17,15 +16,7 @@ using verify::Row;
 using verify::Verdict;
 
 std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::passed:
-      return "pass";
-    case Verdict::failed:
-      return "FAIL";
-    case Verdict::not_run:
-      break;
-  }
-  return "not run";
+  return verdict == Verdict::passed ? "pass" : verdict == Verdict::failed ? "FAIL" : "not run";
 }
 
 std::size_t count(const std::vector<Row>& rows, Verdict verdict) {
@@ -67,34 +58,33 @@ std::string table(const std::vector<Row>& rows, const std::string& device, doubl
 Status print_rows(const VerifyOptions& options, const std::vector<Row>& rows, const std::string& device,
                   double seconds) {
   if (!options.json) return print_text(table(rows, device, seconds));
-  JsonArray array;
+  Json array = Json::array();
   for (const Row& row : rows) {
-    array.emplace_back(JsonObject{{"name", row.name},
-                                  {"claim", row.claim},
-                                  {"bound", row.bound},
-                                  {"measured", row.measured},
-                                  {"verdict", row.verdict == Verdict::failed ? "fail" : name_of(row.verdict)},
-                                  {"seconds", row.seconds}});
+    array.push_back({{"name", row.name},
+                     {"claim", row.claim},
+                     {"bound", row.bound},
+                     {"measured", row.measured},
+                     {"verdict", row.verdict == Verdict::failed ? "fail" : name_of(row.verdict)},
+                     {"seconds", row.seconds}});
   }
-  return print_data(to_json({{"version", ASPIC_VERSION},
+  return print_data(to_text({{"version", ASPIC_VERSION},
                              {"device", device},
-                             {"passed", std::uint64_t{count(rows, Verdict::passed)}},
-                             {"failed", std::uint64_t{count(rows, Verdict::failed)}},
-                             {"not_run", std::uint64_t{count(rows, Verdict::not_run)}},
+                             {"passed", count(rows, Verdict::passed)},
+                             {"failed", count(rows, Verdict::failed)},
+                             {"not_run", count(rows, Verdict::not_run)},
                              {"seconds", seconds},
                              {"rows", array}}));
 }
 
 }  // namespace
 
-Status verify_command(const VerifyOptions& options) {
-  const auto checks = verify::select(verify::battery(), options.only, options.quick);
-  if (!checks) return checks.error();
+Status execute(const VerifyOptions& options) {
+  ASPIC_TRY(const auto checks, verify::select(verify::battery(), options.only, options.quick));
 
   std::unique_ptr<gl::Context> context;
   std::string device = "none";
   const bool wanted =
-      std::any_of(checks->begin(), checks->end(), [](const verify::Check& check) { return check.needs_gpu; });
+      std::any_of(checks.begin(), checks.end(), [](const verify::Check& check) { return check.needs_gpu; });
   if (wanted) {
     auto made = gl::Context::create_headless();
     if (made) {
@@ -113,20 +103,18 @@ Status verify_command(const VerifyOptions& options) {
   const auto started = std::chrono::steady_clock::now();
   std::vector<Row> rows;
   {
-    ProgressBar bar(checks->size(), "check");
-    rows = verify::evaluate_all(*checks, subject, [&](std::size_t done) { bar.update(done); });
+    ProgressBar bar(checks.size(), "check");
+    rows = verify::evaluate_all(checks, subject, [&](std::size_t done) { bar.update(done); });
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   ASPIC_CHECK(print_rows(options, rows, device, seconds));
 
   const std::size_t failed = count(rows, Verdict::failed), not_run = count(rows, Verdict::not_run);
-  if (failed > 0)
-    return Error{ErrorCode::check_failed, fmt::format("{} of {} checks failed.", failed, rows.size())};
+  if (failed > 0) return fail(ErrorCode::check_failed, "{} of {} checks failed.", failed, rows.size());
   if (not_run > 0 && options.require_gpu) {
-    return Error{
-        ErrorCode::check_failed,
-        fmt::format("{} of {} checks were not run for want of a GL device, and --require-gpu was given.",
-                    not_run, rows.size())};
+    return fail(ErrorCode::check_failed,
+                "{} of {} checks were not run because there is no GL device, and --require-gpu was given.",
+                not_run, rows.size());
   }
   return {};
 }

@@ -10,7 +10,7 @@
 namespace aspic::cli {
 
 // The window is a program of its own, so that this one starts on machines without X libraries.
-Status view_command(const ViewOptions& options) {
+Status execute(const ViewOptions& options) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   const std::string program = (self.parent_path() / "aspic-view").string();
@@ -20,15 +20,14 @@ Status view_command(const ViewOptions& options) {
   execv(program.c_str(), words.data());
   const int reason = errno;
   if (reason == ENOENT)
-    return Error{
-        ErrorCode::no_device,
-        fmt::format("There is no {}: this aspic was built without the window. Install libglfw3-dev and "
-                    "libimgui-dev and build again; aspic run SCENE --video FILE.mp4 needs no window.",
-                    program)};
-  return Error{ErrorCode::no_device,
-               fmt::format("{} cannot be started: {}. Its libraries may be missing; aspic run "
-                           "SCENE --video FILE.mp4 needs no window.",
-                           program, std::strerror(reason))};
+    return fail(ErrorCode::no_device,
+                "There is no {}: this aspic was built without the window. Install libglfw3-dev and "
+                "libimgui-dev and build again; aspic run SCENE --video FILE.mp4 needs no window.",
+                program);
+  return fail(ErrorCode::no_device,
+              "{} cannot be started: {}. Its libraries may be missing; aspic run SCENE --video FILE.mp4 "
+              "needs no window.",
+              program, std::strerror(reason));
 }
 
 }  // namespace aspic::cli

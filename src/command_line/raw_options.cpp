@@ -15,8 +15,7 @@ namespace {
 
 Status check_length(const RunLength& length) {
   if (length.duration && !(std::isfinite(*length.duration) && *length.duration >= 0.0)) {
-    return usage(
-        fmt::format("--duration must be a finite number of seconds, 0 or more, not {}.", *length.duration));
+    return usage("--duration must be a finite number of seconds, 0 or more, not {}.", *length.duration);
   }
   return {};
 }
@@ -33,32 +32,29 @@ Result<PictureSize> parse_size(const std::string& text) {
         std::max(size.width, size.height) <= most)
       return size;
   }
-  return usage(fmt::format(
-      "--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".",
-      printable_line(text)));
+  return usage("--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".",
+               printable_line(text));
 }
 
 Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
-  const auto size = parse_size(raw.size);
-  if (!size) return size.error();
-  pictures.size = *size;
+  ASPIC_TRY(const auto size, parse_size(raw.size));
+  pictures.size = size;
   const FilmFormat* const images = find_film_format(raw.frames_format);
   if (!images || !images->is_directory())
-    return usage(fmt::format("--frames-format must be {}, not \"{}\".", film_endings(true),
-                             printable_line(raw.frames_format)));
+    return usage("--frames-format must be {}, not \"{}\".", film_endings(true),
+                 printable_line(raw.frames_format));
   pictures.frames_format = images;
   if (raw.text != "on" && raw.text != "off")
-    return usage(fmt::format("--text must be on or off, not \"{}\".", printable_line(raw.text)));
+    return usage("--text must be on or off, not \"{}\".", printable_line(raw.text));
   pictures.text = raw.text == "on" && !raw.no_text;
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (pictures.fps && !(positive(*pictures.fps) && *pictures.fps <= 1000.0))
-    return usage(fmt::format("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps));
+    return usage("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps);
   if (!positive(pictures.speed))
-    return usage(fmt::format("--speed must be a finite number above 0, not {}.", pictures.speed));
+    return usage("--speed must be a finite number above 0, not {}.", pictures.speed);
   if (pictures.video.empty()) return {};
-  const auto format = video_format_of(pictures.video);
-  if (!format) return format.error();
-  return check_film(**format, pictures.size, frames_per_second(pictures));
+  ASPIC_TRY(const auto format, video_format_of(pictures.video));
+  return check_film(*format, pictures.size, frames_per_second(pictures));
 }
 
 /// Whether the backend was named and has force paths to choose from.
@@ -69,18 +65,16 @@ bool has_force_paths(const BackendChoice& choice) {
 Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
   std::vector<BackendChoice> backends;
   for (const std::string& text : raw.bench_backends) {
-    const auto choice = parse_backend(text);
-    if (!choice) return choice.error();
-    const bool open = has_force_paths(*choice) && choice->force_path == ForcePath::automatic;
+    ASPIC_TRY(const auto choice, parse_backend(text));
+    const bool open = has_force_paths(choice) && choice.force_path == ForcePath::automatic;
     if (!open || raw.bench_force_paths.empty()) {
-      backends.push_back(*choice);
+      backends.push_back(choice);
       continue;
     }
     for (const std::string& word : raw.bench_force_paths) {
-      const auto path = parse_force_path(word);
-      if (!path) return path.error();
-      backends.push_back(*choice);
-      backends.back().force_path = *path;
+      ASPIC_TRY(const auto path, parse_force_path(word));
+      backends.push_back(choice);
+      backends.back().force_path = path;
     }
   }
   for (const BackendChoice& choice : backends) {
@@ -91,30 +85,22 @@ Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
 
 }  // namespace
 
-Error usage(std::string message) {
-  return {ErrorCode::usage, std::move(message)};
-}
-
 Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
-  const auto row = parse_backend_name(raw.backend);
-  if (!row) return row.error();
-  const auto precision = parse_precision(raw.precision.empty() ? "single" : raw.precision);
-  if (!precision) return precision.error();
-  const auto path = parse_force_path(raw.force_path);
-  if (!path) return path.error();
-  run.backend = {*row, *precision, *path};
+  ASPIC_TRY(const auto row, parse_backend_name(raw.backend));
+  ASPIC_TRY(const auto precision, parse_precision(raw.precision.empty() ? "single" : raw.precision));
+  ASPIC_TRY(const auto path, parse_force_path(raw.force_path));
+  run.backend = {row, precision, path};
   run.precision_given = !raw.precision.empty();
   ASPIC_CHECK(check_length(run.length));
   for (const StateOutput& output : run.outputs) {
-    if (output.every && *output.every < 1)
-      return usage(fmt::format("--{}-every must be 1 or more.", output.option));
+    if (output.every && *output.every < 1) return usage("--{}-every must be 1 or more.", output.option);
   }
   if (run.scene.empty() && run.resume_file.empty()) {
     return usage("aspic run needs a SCENE: a file, or a built-in name from aspic scene list.");
   }
   if (run.scene.empty() && !run.overrides.empty()) {
     return usage(
-        "a resumed run goes on with the scene of its checkpoint, which --set cannot change. Leave --set out, "
+        "a resumed run continues the scene of its checkpoint, which --set cannot change. Omit --set, "
         "or run a scene.");
   }
   ASPIC_CHECK(finish_pictures(run.pictures, raw));
@@ -123,59 +109,49 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
 }
 
 Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
-  const auto path = parse_force_path(raw.force_path);
-  if (!path) return path.error();
+  ASPIC_TRY(const auto path, parse_force_path(raw.force_path));
   const auto choose = [&](const std::string& text) -> Result<BackendChoice> {
     auto choice = parse_backend(text);
     if (!choice) return choice;
-    if (has_force_paths(*choice) && choice->force_path == ForcePath::automatic) choice->force_path = *path;
+    if (has_force_paths(*choice) && choice->force_path == ForcePath::automatic) choice->force_path = path;
     ASPIC_CHECK(check_choice(*choice));
     return choice;
   };
-  const auto first = choose(raw.backends.front());
-  if (!first) return first.error();
-  const auto second = choose(raw.backends.back());
-  if (!second) return second.error();
-  compare.first = *first;
-  compare.second = *second;
+  ASPIC_TRY(const auto first, choose(raw.backends.front()));
+  ASPIC_TRY(const auto second, choose(raw.backends.back()));
+  compare.first = first;
+  compare.second = second;
   ASPIC_CHECK(check_length(compare.length));
   if (!(std::isfinite(compare.tolerance) && compare.tolerance >= 0.0)) {
-    return usage(fmt::format("--tolerance must be a finite number, 0 or more, not {}.", compare.tolerance));
+    return usage("--tolerance must be a finite number, 0 or more, not {}.", compare.tolerance);
   }
   return Command(std::move(compare));
 }
 
 Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
-  const auto row = parse_backend_name(raw.backend);
-  if (!row) return row.error();
-  view.backend.row = *row;
+  ASPIC_TRY(view.backend.row, parse_backend_name(raw.backend));
   ASPIC_CHECK(check_choice(view.backend));
   if (!raw.window_size.empty()) {
-    const auto size = parse_size(raw.window_size);
-    if (!size) return size.error();
-    view.size = *size;
+    ASPIC_TRY(view.size, parse_size(raw.window_size));
   }
   return Command(std::move(view));
 }
 
 Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
-  auto backends = bench_backends(raw);
-  if (!backends) return backends.error();
-  bench.backends = std::move(*backends);
+  ASPIC_TRY(bench.backends, bench_backends(raw));
   for (const std::string& word : raw.bench_integrators) {
     const auto known = std::find_if(std::begin(all_integrators), std::end(all_integrators),
                                     [&](Integrator i) { return name_of(i) == word; });
     if (known == std::end(all_integrators)) {
       std::vector<std::string_view> names;
       for (const Integrator i : all_integrators) names.push_back(name_of(i));
-      return usage(fmt::format("--integrator does not know \"{}\"; allowed: {}.", printable_line(word),
-                               fmt::join(names, ", ")));
+      return usage("--integrator does not know \"{}\"; allowed: {}.", printable_line(word),
+                   fmt::join(names, ", "));
     }
     bench.integrators.push_back(*known);
   }
   if (raw.bench_timestep != "scene" && raw.bench_timestep != "largest") {
-    return usage(
-        fmt::format("--timestep must be scene or largest, not \"{}\".", printable_line(raw.bench_timestep)));
+    return usage("--timestep must be scene or largest, not \"{}\".", printable_line(raw.bench_timestep));
   }
   bench.timestep = raw.bench_timestep == "largest" ? BenchTimestep::largest : BenchTimestep::scene;
   constexpr double longest = 1e6;  // s: eleven days

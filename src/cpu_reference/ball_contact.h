@@ -1,7 +1,7 @@
 #pragma once
-// Contact of balls, spec §2.7: with terrain, with each other and with particles. Every expression has one
-// order of operations, which the kernels follow (shaders/compute/ball_contact.glsl). A pair is evaluated from
-// each of its two sides, since exchanging the bodies negates vectors exactly but for the signs of zeros.
+// Contact of balls (docs/balls.md): with terrain, with each other and with particles. Every expression has
+// one order of operations, which the kernels follow (shaders/compute/ball_contact.glsl). A pair is evaluated
+// from each of its two sides, since exchanging the bodies negates vectors exactly but for the signs of zeros.
 #include "cpu_reference/coulomb.h"
 
 namespace aspic::reference {
@@ -22,7 +22,7 @@ struct BallBody {
         slip(static_cast<T>(b.radius * b.radius / b.inertia())) {}
 };
 
-/// What contact among balls and particles needs beside the bodies.
+/// What contact among balls and particles needs besides the bodies.
 template <class T>
 struct BallRules {
   ContactConstants<T> contact;

@@ -1,5 +1,5 @@
 #pragma once
-// What balls do in a step, spec §2.7: free flight with the scene's integrator, terrain, each other,
+// What balls do in a step (docs/balls.md): free flight with the scene's integrator, terrain, each other,
 // particles, and last the position phase.
 //
 // A phase is Jacobi's: all of its pairs are computed from the velocities the phase before left, with every
@@ -92,11 +92,9 @@ class Balls {
   };
 
   BallPhase<T> fly(std::uint64_t step, const BallPhase<T>& start) const {
-    // Backward Euler of free flight is symplectic Euler: the force does not depend on where it is evaluated,
-    // and the course model's contact force is held at (x, v).
-    const Integrator integrator = model_.simulation.integrator == Integrator::implicit_euler
-                                      ? Integrator::symplectic_euler
-                                      : model_.simulation.integrator;
+    // The force does not depend on where it is evaluated, and the course model's contact force is held at
+    // (x, v).
+    const Integrator integrator = free_flight_row(model_.simulation.integrator).integrator;
     const Phase<T> flown = explicit_step(integrator, Flight{*this, start}, Phase<T>{start.x, start.v},
                                          model_.simulation.timestep);
     BallPhase<T> end = start;
@@ -176,7 +174,8 @@ void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     if (model_.balls[b].launched(step) && balls.x.col(b).allFinite()) present_.push_back(b);
   }
-  const BallSearch<T> search(balls.x, present_, largest_radius_ + static_cast<double>(rules_.contact.epsilon));
+  const BallSearch<T> search(balls.x, present_,
+                             largest_radius_ + static_cast<double>(rules_.contact.epsilon));
   ball_ball_.clear();
   auto next = present_.begin();
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {

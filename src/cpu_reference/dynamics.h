@@ -33,6 +33,12 @@ struct RestingContact {
   Vector<T> n, v0;  ///< the ground's normal and the velocity [m/s] at the start of the step
 };
 
+/// The force f [N] on the particle with the ground's reaction.
+template <class T>
+Vector<T> with_reaction(const RestingContact<T>& at, const Vector<T>& f) {
+  return with_reaction<T>(at.friction, at.n, at.least_speed, at.hw, at.v0, f);
+}
+
 template <class T>
 class Dynamics {
  public:
@@ -89,35 +95,43 @@ class Dynamics {
   /// w·f [m/s²]
   Field<T> weighed(const Field<T>& f) const { return f * inverse_mass_.matrix().asDiagonal(); }
 
-  /// The Coulomb model: every contact of a particle with ground on which it rests at the state (x0, v0),
-  /// terrains of a particle in file order. None in the course model.
-  std::vector<RestingContact<T>> resting_contacts(const Field<T>& x0, const Field<T>& v0) const {
-    std::vector<RestingContact<T>> contacts;
-    if (model_.contact.model == ContactModel::course) return contacts;
+  /// The Coulomb model: appends every contact of particle i with ground on which it rests at (x0, v0), in
+  /// file order. None in the course model.
+  void find_resting(Eigen::Index i, const Vector<T>& x0, const Vector<T>& v0,
+                    std::vector<RestingContact<T>>& contacts) const {
+    if (model_.contact.model == ContactModel::course || inverse_mass_[i] == T(0)) return;
     for (const Ground<T>& ground : grounds_) {
-      for (Eigen::Index i = 0; i < x0.cols(); ++i) {
-        if (!(distance<T>(ground, x0.col(i)) < contact_.epsilon) || inverse_mass_[i] == T(0)) continue;
-        const Gap<T> g = gap<T>(ground, x0.col(i));
-        if (!rests<T>(contact_, g.d, dot3<T>(v0.col(i), g.n))) continue;
-        contacts.push_back({i, ground.friction, least_normal_speed<T>(contact_, g.d),
-                            contact_.step * inverse_mass_[i], g.n, v0.col(i)});
-      }
+      if (!(distance<T>(ground, x0) < contact_.epsilon)) continue;
+      const Gap<T> g = gap<T>(ground, x0);
+      if (!rests<T>(contact_, g.d, dot3<T>(v0, g.n))) continue;
+      contacts.push_back({i, ground.friction, least_normal_speed<T>(contact_, g.d),
+                          contact_.step * inverse_mass_[i], g.n, v0});
     }
-    return contacts;
   }
 
-  /// Terrain response at the end of a step from (x0, v0) to (x, v); terrains act in file order.
+  /// The course model: the force f [N] on a particle that is not pinned with what every terrain adds.
+  Vector<T> with_contact(const Vector<T>& x, const Vector<T>& v, Vector<T> f) const {
+    for (const Ground<T>& ground : grounds_) f = with_contact_force<T>(ground, contact_.epsilon, x, v, f);
+    return f;
+  }
+
+  /// Terrain response on particle i at the end of a step from (x0, v0) to (x, v); terrains act in file order.
+  void respond(Eigen::Index i, const Vector<T>& x0, const Vector<T>& v0, Vector<T>& x, Vector<T>& v) const {
+    if (inverse_mass_[i] == T(0)) return;
+    for (const Ground<T>& ground : grounds_) {
+      if (model_.contact.model == ContactModel::coulomb) {
+        respond_coulomb<T>(ground, contact_, mass_[i], x0, v0, x, v);
+      } else {
+        respond_course<T>(ground, contact_.epsilon, mass_[i], x, v);
+      }
+    }
+  }
+
+  /// The same on all particles.
   void respond(const Field<T>& x0, const Field<T>& v0, Field<T>& x, Field<T>& v) const {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-      if (inverse_mass_[i] == T(0)) continue;
       Vector<T> xi = x.col(i), vi = v.col(i);
-      for (const Ground<T>& ground : grounds_) {
-        if (model_.contact.model == ContactModel::coulomb) {
-          respond_coulomb<T>(ground, contact_, mass_[i], x0.col(i), v0.col(i), xi, vi);
-        } else {
-          respond_course<T>(ground, contact_.epsilon, mass_[i], xi, vi);
-        }
-      }
+      respond(i, x0.col(i), v0.col(i), xi, vi);
       x.col(i) = xi;
       v.col(i) = vi;
     }
@@ -144,10 +158,7 @@ class Dynamics {
 
   void add_contact_force(const Field<T>& x, const Field<T>& v, Field<T>& f) const {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-      if (inverse_mass_[i] == T(0)) continue;
-      for (const Ground<T>& ground : grounds_) {
-        f.col(i) = with_contact_force<T>(ground, contact_.epsilon, x.col(i), v.col(i), f.col(i));
-      }
+      if (inverse_mass_[i] != T(0)) f.col(i) = with_contact(x.col(i), v.col(i), f.col(i));
     }
   }
 
@@ -165,16 +176,15 @@ class Dynamics {
 template <class T>
 class StepDynamics {
  public:
-  StepDynamics(const Dynamics<T>& dynamics, const Field<T>& x0, const Field<T>& v0)
-      : dynamics_(dynamics), resting_(dynamics.resting_contacts(x0, v0)) {}
+  StepDynamics(const Dynamics<T>& dynamics, const Field<T>& x0, const Field<T>& v0) : dynamics_(dynamics) {
+    for (Eigen::Index i = 0; i < x0.cols(); ++i) dynamics.find_resting(i, x0.col(i), v0.col(i), resting_);
+  }
 
   /// a(x, v) [m/s²] at any stage of the step.
   Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
     Field<T> f = dynamics_.force(x, v);
-    for (const RestingContact<T>& at : resting_) {
-      f.col(at.particle) =
-          with_reaction<T>(at.friction, at.n, at.least_speed, at.hw, at.v0, f.col(at.particle));
-    }
+    for (const RestingContact<T>& at : resting_)
+      f.col(at.particle) = with_reaction<T>(at, f.col(at.particle));
     return dynamics_.weighed(f);
   }
 

@@ -1,6 +1,11 @@
 #pragma once
-// The explicit integrators of spec §2.6, each as its textbook writes it. `h` is the time step [s].
+// The explicit integrators (docs/physics.md, section 3), each as its textbook writes it. `h` is the time step [s].
 // `dynamics.acceleration(x, v)` gives a(x, v) of all particles, or of all balls.
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <utility>
+
 #include "cpu_reference/dynamics.h"
 
 namespace aspic::reference {
@@ -63,23 +68,57 @@ Phase<T> runge_kutta_4(const Forces& dynamics, const Phase<T>& s, double step) {
           s.v + sixth_h * (((k1_v + two * k2_v) + two * k3_v) + k4_v)};
 }
 
-/// One step of an explicit method, before the terrain's response. `integrator` is not implicit_euler.
+/// Heun's third-order method: stages at 0, h/3 and 2h/3, x' = x + h/4·(k₁ + 3k₃), the same for v (Heun,
+/// 1900).
+template <class T, class Forces>
+Phase<T> heun_3(const Forces& dynamics, const Phase<T>& s, double step) {
+  const T third_h = static_cast<T>(step * (1.0 / 3)), two_thirds_h = static_cast<T>(step * (2.0 / 3)),
+          quarter_h = static_cast<T>(step / 4);
+  const Field<T> k1_x = s.v;
+  const Field<T> k1_v = dynamics.acceleration(s.x, s.v);
+  const Field<T> k2_x = s.v + third_h * k1_v;
+  const Field<T> k2_v = dynamics.acceleration(s.x + third_h * k1_x, k2_x);
+  const Field<T> k3_x = s.v + two_thirds_h * k2_v;
+  const Field<T> k3_v = dynamics.acceleration(s.x + two_thirds_h * k2_x, k3_x);
+  const T three = 3;
+  return {s.x + quarter_h * (k1_x + three * k3_x), s.v + quarter_h * (k1_v + three * k3_v)};
+}
+
+/// x' = x + h/2·(v + v₁), v₁ = v + h·a(x, v);  v' = v + h/2·(a(x, v) + a(x', v₁)): velocity Verlet with the
+/// velocity predicted for dampers (Groot and Warren, J. Chem. Phys. 107, 4423, 1997, λ = 1).
+template <class T, class Forces>
+Phase<T> velocity_verlet(const Forces& dynamics, const Phase<T>& s, double step) {
+  const T h = static_cast<T>(step), half_h = static_cast<T>(step / 2);
+  const Field<T> a = dynamics.acceleration(s.x, s.v);
+  const Field<T> v_1 = s.v + h * a;
+  const Field<T> x = s.x + half_h * (s.v + v_1);
+  return {x, s.v + half_h * (a + dynamics.acceleration(x, v_1))};
+}
+
+/// One step of an explicit method, before the terrain's response. Precondition: `integrator` is one of
+/// explicit_integrators.
 template <class T, class Forces>
 Phase<T> explicit_step(Integrator integrator, const Forces& dynamics, const Phase<T>& s, double step) {
-  switch (integrator) {
-    case Integrator::symplectic_euler:
-      return symplectic_euler(dynamics, s, step);
-    case Integrator::midpoint:
-      return midpoint(dynamics, s, step);
-    case Integrator::runge_kutta_4:
-      return runge_kutta_4(dynamics, s, step);
-    case Integrator::implicit_euler_one_pass:
-      return implicit_euler_one_pass(dynamics, s, step);
-    case Integrator::explicit_euler:
-    case Integrator::implicit_euler:
-      break;
-  }
-  return explicit_euler(dynamics, s, step);
+  using Method = Phase<T> (*)(const Forces&, const Phase<T>&, double);
+  static constexpr std::pair<Integrator, Method> methods[] = {
+      {Integrator::explicit_euler, explicit_euler<T, Forces>},
+      {Integrator::symplectic_euler, symplectic_euler<T, Forces>},
+      {Integrator::midpoint, midpoint<T, Forces>},
+      {Integrator::runge_kutta_4, runge_kutta_4<T, Forces>},
+      {Integrator::implicit_euler_one_pass, implicit_euler_one_pass<T, Forces>},
+      {Integrator::heun_3, heun_3<T, Forces>},
+      {Integrator::velocity_verlet, velocity_verlet<T, Forces>},
+  };
+  static_assert(std::all_of(explicit_integrators.begin(), explicit_integrators.end(),
+                            [](Integrator wanted) {
+                              return std::any_of(std::begin(methods), std::end(methods),
+                                                 [=](const auto& row) { return row.first == wanted; });
+                            }),
+                "every staged method of the table has its formula here");
+  const auto method = std::find_if(std::begin(methods), std::end(methods),
+                                   [=](const auto& row) { return row.first == integrator; });
+  assert(method != std::end(methods));
+  return method->second(dynamics, s, step);
 }
 
 }  // namespace aspic::reference

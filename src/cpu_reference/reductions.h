@@ -1,6 +1,6 @@
 #pragma once
-// Reductions as trees over fixed blocks of 256 elements (spec §2.9): the sum of n numbers does not depend on
-// how many threads or work groups shared the work, on any backend.
+// Reductions as trees over fixed blocks of 256 elements (docs/determinism.md): the sum of n numbers does not
+// depend on how many threads or work groups shared the work, on any backend.
 #include <cstddef>
 #include <vector>
 

@@ -7,37 +7,12 @@
 #include <utility>
 
 #include "cpu_reference/balls.h"
+#include "cpu_reference/divergence.h"
 #include "cpu_reference/implicit_euler.h"
 
 namespace aspic {
 namespace reference {
 namespace {
-
-/// Lowest particle, else lowest ball, that is not finite or too fast, if any; else the solve's residual.
-template <class T>
-std::optional<Divergence> find_divergence(const Model& model, const Phase<T>& phase,
-                                          const BallPhase<T>& balls, const SolveReport& report,
-                                          std::uint64_t step) {
-  const T limit = static_cast<T>(divergence_speed * divergence_speed);
-  for (Eigen::Index i = 0; i < phase.x.cols(); ++i) {
-    const Vector<T> v = phase.v.col(i);
-    const bool finite = phase.x.col(i).allFinite() && v.allFinite();
-    if (!finite || dot3<T>(v, v) > limit)
-      return Divergence{step, static_cast<std::uint32_t>(i), finite, false};
-  }
-  for (Eigen::Index b = 0; b < balls.x.cols(); ++b) {
-    const Vector<T> v = balls.v.col(b);
-    // An energy is measured in double precision, where the square of any ω in single precision is finite.
-    const double spinning = balls.omega.col(b).template cast<double>().squaredNorm() *
-                            model.balls[static_cast<std::size_t>(b)].inertia();
-    const bool finite = balls.x.col(b).allFinite() && v.allFinite() && balls.omega.col(b).allFinite() &&
-                        std::isfinite(spinning);
-    if (!finite || dot3<T>(v, v) > limit)
-      return Divergence{step, static_cast<std::uint32_t>(b), finite, true};
-  }
-  if (!std::isfinite(report.residual)) return Divergence{step, 0, false, false, true};
-  return std::nullopt;
-}
 
 /// Particles and balls alone: counting springs by type takes a walk over all of them.
 ModelCounts bodies(const Model& model) {
@@ -71,15 +46,14 @@ class ReferenceSolver final : public Solver {
   }
 
   Status set_pull(const std::optional<Pull>& pull) override {
-    const auto taken = rounded_pull(model_, pull, precision());
-    if (!taken) return taken.error();
-    dynamics_.set_pull(*taken);
+    ASPIC_TRY(const auto taken, rounded_pull(model_, pull, precision()));
+    dynamics_.set_pull(taken);
     return {};
   }
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     const double h = model_.simulation.timestep;
-    const bool solved = model_.simulation.integrator == Integrator::implicit_euler;
+    const bool solved = row_of(model_.simulation.integrator).solved();
     for (std::uint64_t n = 0; n < steps && !divergence_; ++n) {
       SolveReport report;
       Phase<T> next = solved ? implicit_.step(phase_, report)
@@ -92,7 +66,11 @@ class ReferenceSolver final : public Solver {
       }
       BallPhase<T> next_balls;
       if (model_.ball_count() > 0) next_balls = balls_.step(step_, ball_phase_, phase_, next);
-      divergence_ = find_divergence(model_, next, next_balls, report, step_ + 1);
+      divergence_ = find_divergence<T>(
+          model_, [&](Eigen::Index i) { return Vector<T>(next.x.col(i)); },
+          [&](Eigen::Index i) { return Vector<T>(next.v.col(i)); }, next_balls, step_ + 1);
+      if (!divergence_ && !std::isfinite(report.residual))
+        divergence_ = Divergence{step_ + 1, 0, false, false, true};
       if (divergence_) break;
       if (solved) statistics_.add(report);
       std::swap(phase_, next);
@@ -103,7 +81,7 @@ class ReferenceSolver final : public Solver {
   }
 
   std::optional<SolveStatistics> solve_statistics() override {
-    if (model_.simulation.integrator != Integrator::implicit_euler) return std::nullopt;
+    if (!row_of(model_.simulation.integrator).solved()) return std::nullopt;
     return statistics_;
   }
 
@@ -120,22 +98,10 @@ class ReferenceSolver final : public Solver {
   }
 
  private:
-  static Field<T> field(const std::vector<Vec3>& vectors) {
-    Field<T> f(3, static_cast<Eigen::Index>(vectors.size()));
-    for (Eigen::Index i = 0; i < f.cols(); ++i) f.col(i) = rounded<T>(vectors[static_cast<std::size_t>(i)]);
-    return f;
-  }
-  static std::vector<Vec3> columns(const Field<T>& f) {
-    std::vector<Vec3> vectors;
-    vectors.reserve(static_cast<std::size_t>(f.cols()));
-    for (Eigen::Index i = 0; i < f.cols(); ++i) vectors.push_back({f(0, i), f(1, i), f(2, i)});
-    return vectors;
-  }
-
   void set(const State& state) {
-    phase_ = {field(state.position), field(state.velocity)};
-    ball_phase_ = {field(state.ball_position), field(state.ball_velocity),
-                   field(state.ball_angular_velocity)};
+    phase_ = {field<T>(state.position), field<T>(state.velocity)};
+    ball_phase_ = {field<T>(state.ball_position), field<T>(state.ball_velocity),
+                   field<T>(state.ball_angular_velocity)};
     step_ = state.step;
     divergence_.reset();
     statistics_ = {};
@@ -162,10 +128,10 @@ Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precis
     }
     return std::unique_ptr<Solver>(std::make_unique<reference::ReferenceSolver<double>>(model));
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("no memory left for the reference solver of {} particles ({} bytes): use fewer "
-                             "particles-per-edge",
-                             model.particle_count(), reference_bytes(reference::bodies(model), precision))};
+    return fail(
+        ErrorCode::scene_rejected,
+        "no memory left for the reference solver of {} particles ({} bytes): use fewer particles-per-edge",
+        model.particle_count(), reference_bytes(reference::bodies(model), precision));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// The readable solver: one thread, Eigen, written to be read beside spec §2. It proves the others right.
+// The readable solver: one thread, Eigen, written to be read next to docs/physics.md. It proves the others
+// right.
 #include <memory>
 
 #include "model/solver.h"

@@ -1,5 +1,5 @@
 #pragma once
-// The damped spring of spec §2.3.
+// The damped spring (docs/physics.md, section 1).
 #include "cpu_reference/vectors.h"
 #include "model/model.h"
 

@@ -1,7 +1,8 @@
 #pragma once
-// The reference's vector types, and the two reductions whose order of operations spec §2.9 fixes.
+// The reference's vector types, and the two reductions whose order of operations docs/determinism.md fixes.
 #include <Eigen/Core>
 #include <cmath>
+#include <vector>
 
 #include "model/vec3.h"
 
@@ -40,6 +41,23 @@ Vector<T> cross3(const Vector<T>& a, const Vector<T>& b) {
 template <class T>
 Vector<T> rounded(const Vec3& v) {
   return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
+}
+
+/// Columns from vectors, each component rounded.
+template <class T>
+Field<T> field(const std::vector<Vec3>& vectors) {
+  Field<T> f(3, static_cast<Eigen::Index>(vectors.size()));
+  for (Eigen::Index i = 0; i < f.cols(); ++i) f.col(i) = rounded<T>(vectors[static_cast<std::size_t>(i)]);
+  return f;
+}
+
+/// Vectors from columns, exactly.
+template <class T>
+std::vector<Vec3> columns(const Field<T>& f) {
+  std::vector<Vec3> vectors;
+  vectors.reserve(static_cast<std::size_t>(f.cols()));
+  for (Eigen::Index i = 0; i < f.cols(); ++i) vectors.push_back({f(0, i), f(1, i), f(2, i)});
+  return vectors;
 }
 
 }  // namespace aspic::reference

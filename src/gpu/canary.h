@@ -1,5 +1,5 @@
 #pragma once
-// Whether a device computes as IEEE 754 says (spec §2.9), found out by asking it.
+// Whether a device computes as IEEE 754 says (docs/determinism.md), found out by asking it.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -64,8 +64,8 @@ struct Arithmetic {
   std::vector<Define> defines;  ///< ASPIC_CORRECT_DIV, ASPIC_CORRECT_SQRT, ASPIC_FUSED_FMA, as needed
   /// Kernels compiled with `defines` give the reference's bits wherever no denormal occurs.
   bool exact() const { return corrected ? corrected->all_exact() : device.all_exact(); }
-  /// Whole sentences for `aspic info`: what is exact, what differs and with which operands, and what is done
-  /// about it.
+  /// Complete sentences for `aspic info`: what is exact, what differs and with which operands, and what is
+  /// done about it.
   std::vector<std::string> sentences() const;
 };
 

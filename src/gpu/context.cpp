@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "base/text.h"
+#include "base/printable.h"
 #include "gpu/program_cache.h"
 
 namespace aspic::gl {
@@ -139,7 +139,7 @@ void Context::forget_errors() {
 Error Context::lost_error() const {
   return {
       ErrorCode::no_device,
-      fmt::format("The device {} was reset or lost, and all that it held with it. Run again from the last "
+      fmt::format("The device {} was reset or lost, with everything it held. Resume from the last "
                   "checkpoint, or choose --backend reference.",
                   info_.renderer)};
 }

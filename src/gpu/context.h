@@ -41,7 +41,7 @@ struct ContextOptions {
 /// A device that EGL lists, before any context exists on it.
 struct EglDevice {
   int index = 0;          ///< its place in EGL's list: what DeviceChoice::index and ASPIC_EGL_DEVICE take
-  std::string name;       ///< renderer, DRM node or vendor, whatever the driver tells
+  std::string name;       ///< renderer, DRM node or vendor, as the driver reports it
   bool software = false;  ///< EGL_MESA_device_software
 };
 

@@ -14,7 +14,6 @@
 
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/text.h"
 #include "gpu/context.h"
 #include "gpu/device_info.h"
 #include "gpu/program_cache.h"
@@ -124,12 +123,11 @@ Result<Choice> choose(const ContextOptions& options) {
   else if (wish == "surfaceless" || wish == "default")
     choice.platform = wish;
   else
-    return Error{
-        ErrorCode::no_device,
-        fmt::format("The environment variable ASPIC_EGL_DEVICE is \"{}\", which names no device. Allowed are "
-                    "automatic, hardware, software, surfaceless, default, or an index of the list that "
-                    "aspic info prints.",
-                    printable_line(wish))};
+    return fail(ErrorCode::no_device,
+                "The environment variable ASPIC_EGL_DEVICE is \"{}\", which names no device. Allowed are "
+                "automatic, hardware, software, surfaceless, default, or an index of the list that "
+                "aspic info prints.",
+                printable_line(wish));
   return choice;
 }
 
@@ -142,11 +140,10 @@ Result<std::vector<Candidate>> candidates(const Choice& choice) {
   if (choice.device == DeviceChoice::index && choice.platform.empty()) {
     const auto i = static_cast<std::size_t>(choice.index);
     if (choice.index < 0 || i >= devices.size())
-      return Error{
-          ErrorCode::no_device,
-          fmt::format("EGL device {} was asked for, but EGL lists {} device{}. Choose an index of the list "
-                      "that aspic info prints.",
-                      choice.index, devices.size(), devices.size() == 1 ? "" : "s")};
+      return fail(ErrorCode::no_device,
+                  "EGL device {} was asked for, but EGL lists {} device{}. Choose an index of the list "
+                  "that aspic info prints.",
+                  choice.index, devices.size(), devices.size() == 1 ? "" : "s");
     add_device(i, Demand::anything);
     return result;
   }
@@ -249,7 +246,7 @@ class EglContextMaker {
     const EGLDisplay display = candidate.platform
                                    ? eglGetPlatformDisplay(candidate.platform, candidate.native, nullptr)
                                    : eglGetDisplay(EGL_DEFAULT_DISPLAY);
-    // A display is never terminated: EGL hands out the same one to every asker in the process.
+    // A display is never terminated: EGL returns the same one to every caller in the process.
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
       why = fmt::format("cannot be opened ({})", egl_error());
       return nullptr;
@@ -259,12 +256,12 @@ class EglContextMaker {
       return nullptr;
     }
     if (!eglBindAPI(EGL_OPENGL_API)) {
-      why = fmt::format("knows no desktop OpenGL ({})", egl_error());
+      why = fmt::format("has no desktop OpenGL ({})", egl_error());
       return nullptr;
     }
     const EGLContext egl_context = create_context(display, options_);
     if (egl_context == EGL_NO_CONTEXT) {
-      why = fmt::format("gives no OpenGL 4.3 core context ({})", egl_error());
+      why = fmt::format("provides no OpenGL 4.3 core context ({})", egl_error());
       return nullptr;
     }
     std::unique_ptr<Context> context(new Context);
@@ -308,22 +305,19 @@ Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& 
     if (auto context = maker.attempt(candidate, why)) return context;
     tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, why);
   }
-  return Error{
-      ErrorCode::no_device,
-      fmt::format("No usable OpenGL 4.3 core device was found without a display. Tried: {}. Install the "
-                  "graphics card's OpenGL driver with its EGL part, or Mesa's software rasteriser "
-                  "(apt install libegl1 libegl-mesa0 libgl1-mesa-dri), or use --backend reference.",
-                  tried.empty() ? "nothing, EGL offers no platform" : tried)};
+  return fail(ErrorCode::no_device,
+              "No usable OpenGL 4.3 core device was found without a display. Tried: {}. Install the "
+              "graphics card's OpenGL driver with its EGL part, or Mesa's software rasteriser "
+              "(apt install libegl1 libegl-mesa0 libgl1-mesa-dri), or use --backend reference.",
+              tried.empty() ? "nothing, EGL offers no platform" : tried);
 }
 
 Status Context::make_current() {
   if (!context_) return {};
   if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return {};
-  return Error{
-      ErrorCode::no_device,
-      fmt::format(
-          "The OpenGL context on {} cannot be made current ({}). It may be current on another thread.",
-          info_.platform, egl_error())};
+  return fail(ErrorCode::no_device,
+              "The OpenGL context on {} cannot be made current ({}). It may be current on another thread.",
+              info_.platform, egl_error());
 }
 
 Context::~Context() {

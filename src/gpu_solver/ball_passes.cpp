@@ -175,7 +175,7 @@ Status BallPasses::grow() {
     error.message = fmt::format(
         "The balls of the scene touch in more places than the device {} has room for: {} words of lists and "
         "{} "
-        "blocks of 256 candidates are wanted. {} Start fewer balls in one place, or use --backend reference.",
+        "blocks of 256 candidates are needed. {} Start fewer balls in one place, or use --backend reference.",
         context_->info().renderer, list_words, items, error.message);
     return error;
   }

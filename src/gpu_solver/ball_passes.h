@@ -23,7 +23,7 @@ std::uint32_t grid_buckets(std::uint32_t balls);
 /// Whether `automatic` takes the grid: with fewer balls, trying all of them costs less than keeping a grid.
 bool grid_pays(std::uint32_t balls);
 
-/// A mark stands for 2^shift blocks of particles: the least shift with which all balls' marks take 16 MiB or
+/// A mark represents 2^shift blocks of particles: the least shift with which all balls' marks take 16 MiB or
 /// less (shaders/compute/ball_grid.glsl).
 std::uint32_t mark_shift(std::uint32_t balls, std::uint32_t particles);
 
@@ -75,7 +75,7 @@ class BallPasses {
 
   /// What a reader calls the passes, in their order.
   static std::vector<std::string> pass_names();
-  /// Tells `profiler` of each dispatch, counting kinds from `first` on; null ends that.
+  /// Reports each dispatch to `profiler`, counting kinds from `first` on; null ends this.
   void set_profiler(gl::PassProfiler* profiler, std::size_t first) {
     profiler_ = profiler;
     first_kind_ = first;

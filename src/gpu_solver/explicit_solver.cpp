@@ -17,14 +17,9 @@ using gl::ReadBy;
 constexpr std::uint64_t steps_per_look = 256;
 
 /// Whether the method's sums outlive a stage, so that memory must hold them.
-bool keeps_sums(const StagedMethod& method) {
+bool keeps_sums(const IntegratorRow& method) {
   return std::any_of(method.stages.begin(), method.stages.end() - 1,
                      [](const Stage& s) { return s.weight != 0.0; });
-}
-
-/// Backward Euler without springs is symplectic Euler.
-const StagedMethod& method_of(Integrator integrator) {
-  return *staged_method(integrator == Integrator::implicit_euler ? Integrator::symplectic_euler : integrator);
 }
 
 class ExplicitSolver final : public DeviceSolver {
@@ -33,7 +28,7 @@ class ExplicitSolver final : public DeviceSolver {
   ExplicitSolver(gl::Context& context, const Model& model, const ForcePathRow& path)
       : DeviceSolver(context, model, path, 3,
                      {std::string(path.spring_title), std::string(path.particle_title)}),
-        method_(method_of(model.simulation.integrator)) {}
+        method_(free_flight_row(model.simulation.integrator)) {}
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
 
@@ -46,7 +41,7 @@ class ExplicitSolver final : public DeviceSolver {
   void queue_step(std::uint32_t step_index, bool last_of_queue);
   Result<layout::Control> read_control();
 
-  const StagedMethod& method_;
+  const IntegratorRow& method_;
   Buffer sums_, control_, forces_;
   std::optional<gl::Pass> spring_pass_, particle_pass_;  // of each stage
 };
@@ -157,7 +152,7 @@ Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, co
 }
 
 std::uint64_t explicit_bytes(const ModelCounts& counts, Integrator integrator) {
-  const std::uint64_t states = keeps_sums(method_of(integrator)) ? 4 : 3;
+  const std::uint64_t states = keeps_sums(free_flight_row(integrator)) ? 4 : 3;
   return states * counts.particles * sizeof(layout::Particle) + sizeof(layout::Control);
 }
 

@@ -4,11 +4,13 @@
 #include <cstddef>
 
 #include "device/layout.h"
+#include "model/shapes/shape.h"
 
 namespace aspic::layout {
 
 #include "compute/layout.glsl"
 
+static_assert(GEOMETRY_SIZE == geometry_size);
 static_assert(sizeof(BallTouches) == 32 && offsetof(BallTouches, items) == 28);
 static_assert(sizeof(BallItem) == 128 && offsetof(BallItem, acts) == 32 && offsetof(BallItem, linear) == 96);
 static_assert(sizeof(BallWork) == 64 && offsetof(BallWork, word_groups) == 16);
@@ -17,14 +19,14 @@ static_assert(offsetof(Simulation, ball_count) == 116 && offsetof(Simulation, ba
 static_assert(sizeof(Stage) == 16 && sizeof(Control) == 16);
 static_assert(sizeof(Pull) == 32 && offsetof(Pull, stiffness) == 16 && offsetof(Pull, particle) == 24);
 static_assert(sizeof(Solve) == 160 && offsetof(Solve, lambda) == 64 && offsetof(Solve, converged) == 120);
-static_assert(sizeof(Terrain) == 64 && offsetof(Terrain, mass) == 32 && offsetof(Terrain, shape) == 48);
+static_assert(sizeof(Terrain) == 80 && offsetof(Terrain, mass) == 48 && offsetof(Terrain, shape) == 64);
 static_assert(offsetof(Simulation, epsilon) == 16 && offsetof(Simulation, particle_count) == 32);
 static_assert(offsetof(Simulation, class_bits) == 48 && offsetof(Simulation, time_step) == 64);
 static_assert(offsetof(Simulation, stages) == 144);
 static_assert(offsetof(Simulation, spring_classes) == 208);
 static_assert(offsetof(Simulation, terrains) == 208 + 16 * MAX_SPRING_CLASSES);
 // OpenGL 4.3 guarantees uniform blocks of 16 KiB.
-static_assert(sizeof(Simulation) == 208 + 16 * MAX_SPRING_CLASSES + 64 * MAX_TERRAINS &&
+static_assert(sizeof(Simulation) == 208 + 16 * MAX_SPRING_CLASSES + 80 * MAX_TERRAINS &&
               sizeof(Simulation) <= 16384);
 
 }  // namespace aspic::layout

@@ -15,28 +15,29 @@ namespace {
 
 layout::Terrain block_of(const Terrain& t) {
   layout::Terrain block{};
-  block.point = rounded(t.point, t.radius);
-  block.normal = rounded(t.normal, 0.0);
+  for (std::size_t k = 0; k < geometry_size; ++k)
+    block.geometry[k] = rounded(t.geometry.vectors[k], t.geometry.numbers[k]);
+  block.shape = static_cast<std::uint32_t>(t.shape);
   block.movable = std::isfinite(t.mass) ? 1u : 0u;
   block.mass = block.movable ? static_cast<float>(t.mass) : 0.0f;
   block.restitution = static_cast<float>(t.restitution);
   block.friction = static_cast<float>(t.friction);
-  switch (t.shape) {
-    case TerrainShape::plane:
-    case TerrainShape::tilted_plane:
-      block.shape = SHAPE_PLANE;
-      break;
-    case TerrainShape::sphere:
-      block.shape = SHAPE_SPHERE;
-      break;
-    case TerrainShape::bowl:
-      block.shape = SHAPE_BOWL;
-      break;
-  }
   return block;
 }
 
-void fill_stages(layout::Simulation& block, const StagedMethod& method, double h) {
+std::uint32_t drift_word(Drift drift) {
+  switch (drift) {
+    case Drift::new_velocity:
+      return DRIFT_NEW_VELOCITY;
+    case Drift::mean_velocity:
+      return DRIFT_MEAN_VELOCITY;
+    case Drift::stage_velocity:
+      break;
+  }
+  return DRIFT_STAGE_VELOCITY;
+}
+
+void fill_stages(layout::Simulation& block, const IntegratorRow& method, double h) {
   bool accumulate = false;
   for (std::size_t s = 0; s < method.stages.size(); ++s) {
     const Stage& stage = method.stages[s];
@@ -48,7 +49,7 @@ void fill_stages(layout::Simulation& block, const StagedMethod& method, double h
     accumulate = accumulate || stage.weight != 0.0;
   }
   block.step_scale = static_cast<float>(h / method.divisor);
-  block.position_from_new_velocity = method.position_from_new_velocity ? 1u : 0u;
+  block.drift = drift_word(method.drift);
 }
 
 }  // namespace
@@ -71,11 +72,8 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.terrain_count = static_cast<std::uint32_t>(model.terrain.size());
   block.contact_model = model.contact.model == ContactModel::coulomb ? CONTACT_COULOMB : CONTACT_COURSE;
   block.class_bits = class_bits(model);
-  // Implicit Euler stages nothing but its balls, whose backward Euler is symplectic Euler.
-  const bool implicit_euler = model.simulation.integrator == Integrator::implicit_euler;
-  fill_stages(block,
-              *staged_method(implicit_euler ? Integrator::symplectic_euler : model.simulation.integrator),
-              model.simulation.timestep);
+  // A solved method stages nothing but its balls.
+  fill_stages(block, free_flight_row(model.simulation.integrator), model.simulation.timestep);
   fill_balls(block, model);
   const ImplicitSettings& implicit = model.simulation.implicit;
   block.time_step = static_cast<float>(model.simulation.timestep);

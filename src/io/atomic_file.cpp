@@ -64,11 +64,9 @@ std::string follow_links(const std::string& path) {
 }
 
 Error already_exists(const std::string& path) {
-  return {
-      ErrorCode::io,
-      fmt::format(
-          "{} exists already and was left as it is. Choose another name, or allow overwriting with --force.",
-          printable_line(path))};
+  return fail(ErrorCode::io,
+              "{} already exists and was not changed. Choose another name, or overwrite it with --force.",
+              printable_line(path));
 }
 
 }  // namespace
@@ -137,9 +135,18 @@ void AtomicFile::discard() noexcept {
   forget_temporary(std::exchange(slot_, -1));
 }
 
+Error AtomicFile::give_up(int reason) {
+  discard();
+  return file_error("write", path_, reason);
+}
+
+Status AtomicFile::require_open() const {
+  if (descriptor_ >= 0) return {};
+  return fail(ErrorCode::io, "{} was discarded after an earlier error.", path_);
+}
+
 Status AtomicFile::write(std::string_view text) {
-  if (descriptor_ < 0)
-    return Error{ErrorCode::io, fmt::format("{} was discarded after an earlier error.", path_)};
+  ASPIC_CHECK(require_open());
   buffer_ += text;
   return buffer_.size() >= buffer_size ? flush() : Status{};
 }
@@ -150,9 +157,7 @@ Status AtomicFile::flush() {
     if (written >= 0) {
       done += static_cast<std::size_t>(written);
     } else if (errno != EINTR) {
-      const Error error = file_error("write", path_, errno);
-      discard();
-      return error;
+      return give_up(errno);
     }
   }
   buffer_.clear();
@@ -175,20 +180,11 @@ Status AtomicFile::give_final_name() {
 }
 
 Status AtomicFile::commit() {
-  if (descriptor_ < 0)
-    return Error{ErrorCode::io, fmt::format("{} was discarded after an earlier error.", path_)};
+  ASPIC_CHECK(require_open());
   ASPIC_CHECK(flush());
   const bool device = temporary_.empty();
-  if (!device && ::fsync(descriptor_) != 0) {
-    const Error error = file_error("write", path_, errno);
-    discard();
-    return error;
-  }
-  if (::close(std::exchange(descriptor_, -1)) != 0) {
-    const Error error = file_error("write", path_, errno);
-    discard();
-    return error;
-  }
+  if (!device && ::fsync(descriptor_) != 0) return give_up(errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) return give_up(errno);
   if (device) return {};
   if (const Status named = give_final_name(); !named) {
     discard();

@@ -22,23 +22,24 @@ constexpr std::string_view magic =
     "\x89"
     "ASPIC\r\n\x1a\n";
 
-class Encoder {
- public:
-  void add_bytes(std::string_view bytes) { out_ += bytes; }
-  void add(std::uint64_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i)
-      out_.push_back(static_cast<char>(static_cast<unsigned char>(value >> (8 * i))));
-  }
-  void add_text(std::string_view text) {
-    add(text.size(), 8);
-    out_ += text;
-  }
-  std::string take() { return std::move(out_); }
-  const std::string& bytes() const { return out_; }
+/// The lowest `bytes` bytes of a value, little-endian.
+void append(std::string& out, std::uint64_t value, int bytes) {
+  for (int i = 0; i < bytes; ++i)
+    out.push_back(static_cast<char>(static_cast<unsigned char>(value >> (8 * i))));
+}
 
- private:
-  std::string out_;
-};
+void append_text(std::string& out, std::string_view text) {
+  append(out, text.size(), 8);
+  out += text;
+}
+
+void append_number(std::string& out, double value, Precision precision) {
+  if (precision == Precision::single) {
+    append(out, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
+  } else {
+    append(out, std::bit_cast<std::uint64_t>(value), 8);
+  }
+}
 
 /// Reads little-endian values; past the end it gives zeros and remembers the failure.
 class Decoder {
@@ -78,89 +79,45 @@ std::uint64_t checksum(std::string_view bytes) {
   return hash.value();
 }
 
-void add_number(Encoder& out, double value, Precision precision) {
-  if (precision == Precision::single) {
-    out.add(std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
-  } else {
-    out.add(std::bit_cast<std::uint64_t>(value), 8);
-  }
-}
-
-void add_vector(Encoder& out, const Vec3& v, Precision precision) {
-  for (int axis = 0; axis < 3; ++axis) add_number(out, v[axis], precision);
-}
-
 double get_number(Decoder& in, Precision precision) {
   if (precision == Precision::single) return std::bit_cast<float>(static_cast<std::uint32_t>(in.get(4)));
   return std::bit_cast<double>(in.get(8));
-}
-
-Vec3 get_vector(Decoder& in, Precision precision) {
-  const double x = get_number(in, precision);
-  const double y = get_number(in, precision);
-  const double z = get_number(in, precision);
-  return {x, y, z};
-}
-
-/// The first particle or ball that is not finite, in words.
-std::optional<std::string> first_not_finite(const State& state) {
-  const auto finite = [](const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
-    if (!finite(state.position[i]) || !finite(state.velocity[i])) return fmt::format("particle {}", i);
-  }
-  for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
-    if (!finite(state.ball_position[b]) || !finite(state.ball_velocity[b]) ||
-        !finite(state.ball_angular_velocity[b])) {
-      return fmt::format("ball {}", b);
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace
 
 std::string encode_checkpoint(const Checkpoint& checkpoint) {
   const State& state = checkpoint.state;
-  Encoder out;
-  out.add_bytes(magic);
-  out.add(checkpoint_version, 4);
-  out.add(state.precision == Precision::single ? 4 : 8, 4);
-  out.add(state.step, 8);
-  out.add(std::bit_cast<std::uint64_t>(checkpoint.timestep), 8);
-  out.add(state_hash(state), 8);
-  out.add_text(checkpoint.program_version);
-  out.add_text(checkpoint.scene);
-  out.add(state.position.size(), 8);
-  out.add(state.ball_position.size(), 8);
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
-    add_vector(out, state.position[i], state.precision);
-    add_vector(out, state.velocity[i], state.precision);
-  }
-  for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
-    add_vector(out, state.ball_position[b], state.precision);
-    add_vector(out, state.ball_velocity[b], state.precision);
-    add_vector(out, state.ball_angular_velocity[b], state.precision);
-  }
-  out.add(checksum(out.bytes()), 8);
-  return out.take();
+  std::string out(magic);
+  append(out, checkpoint_version, 4);
+  append(out, state.precision == Precision::single ? 4 : 8, 4);
+  append(out, state.step, 8);
+  append(out, std::bit_cast<std::uint64_t>(checkpoint.timestep), 8);
+  append(out, state_hash(state), 8);
+  append_text(out, checkpoint.program_version);
+  append_text(out, checkpoint.scene);
+  append(out, state.position.size(), 8);
+  append(out, state.ball_position.size(), 8);
+  for_each_vector(state, [&](const Vec3& v) {
+    for (int axis = 0; axis < 3; ++axis) append_number(out, v[axis], state.precision);
+  });
+  append(out, checksum(out), 8);
+  return out;
 }
 
 namespace {
 
 constexpr std::string_view damaged =
     "the checkpoint is damaged or cut short, and resuming from it would give a wrong result. Use another "
-    "copy, or run "
-    "the scene again.";
+    "copy, or run the scene again.";
 
 Error error_in(const std::string& name, std::string_view what) {
-  return {ErrorCode::io, fmt::format("{}: {}", printable_line(name), what)};
+  return fail(ErrorCode::io, "{}: {}", printable_line(name), what);
 }
 
 /// What the first bytes alone tell.
 Status check_magic(std::string_view bytes, const std::string& name) {
-  if (bytes.empty()) return error_in(name, "the file is empty, so it is no checkpoint.");
+  if (bytes.empty()) return error_in(name, "the file is empty.");
   if (magic.starts_with(bytes.substr(0, magic.size()))) return {};
   return error_in(name, "this is not a checkpoint of aspic. Give a file that aspic run --checkpoint wrote.");
 }
@@ -174,7 +131,7 @@ bool is_version_text(std::string_view text) {
 
 Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& name) {
   const auto error = [&](std::string_view what) { return error_in(name, what); };
-  if (const Status known = check_magic(bytes, name); !known) return known.error();
+  ASPIC_CHECK(check_magic(bytes, name));
   Decoder in(bytes);
   in.take(magic.size());
   const auto version = static_cast<std::uint32_t>(in.get(4));
@@ -210,25 +167,21 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
     return error(damaged);
   checkpoint.program_version = program_version;
   checkpoint.scene = scene;
-  state.position.reserve(particles);
-  state.velocity.reserve(particles);
-  for (std::uint64_t i = 0; i < particles; ++i) {
-    state.position.push_back(get_vector(in, state.precision));
-    state.velocity.push_back(get_vector(in, state.precision));
-  }
-  for (std::uint64_t b = 0; b < balls; ++b) {
-    state.ball_position.push_back(get_vector(in, state.precision));
-    state.ball_velocity.push_back(get_vector(in, state.precision));
-    state.ball_angular_velocity.push_back(get_vector(in, state.precision));
-  }
+  state.position.resize(particles);
+  state.velocity.resize(particles);
+  state.ball_position.resize(balls);
+  state.ball_velocity.resize(balls);
+  state.ball_angular_velocity.resize(balls);
+  for_each_vector(state, [&](Vec3& v) {
+    for (int axis = 0; axis < 3; ++axis) v[axis] = get_number(in, state.precision);
+  });
   if (state_hash(state) != hash || first_not_finite(state)) return error(damaged);
   return checkpoint;
 }
 
 Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint) {
   if (const auto bad = first_not_finite(checkpoint.state)) {
-    return Error{ErrorCode::diverged,
-                 fmt::format("{} was not written: {} is not a finite number.", file.path(), *bad)};
+    return fail(ErrorCode::diverged, "{} was not written: {} is not a finite number.", file.path(), *bad);
   }
   return file.write(encode_checkpoint(checkpoint));
 }
@@ -236,40 +189,36 @@ Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint) {
 Status check_against_scene(const Checkpoint& checkpoint, const ModelSettings& scene,
                            const std::string& name) {
   if (checkpoint.timestep != scene.simulation.timestep) {
-    return error_in(
-        name, fmt::format("the checkpoint was made at a time step of {} s, but the scene in it says {} s: "
-                          "it was tampered with. Use another copy, or run the scene again.",
-                          checkpoint.timestep, scene.simulation.timestep));
+    return error_in(name,
+                    fmt::format("the checkpoint was made at a time step of {} s, but the scene in it says {} "
+                                "s: it was tampered with. Use another copy, or run the scene again.",
+                                checkpoint.timestep, scene.simulation.timestep));
   }
   const ModelCounts counts = predict_counts(scene);
   const State& state = checkpoint.state;
   if (counts.particles != state.position.size() || counts.balls != state.ball_position.size()) {
-    return Error{
-        ErrorCode::scene_rejected,
-        fmt::format(
-            "{}: the checkpoint holds {} particles and {} balls, but the scene in it has {} and {}: it "
-            "was tampered with. Use another copy, or run the scene again.",
-            printable_line(name), state.position.size(), state.ball_position.size(), counts.particles,
-            counts.balls)};
+    return fail(ErrorCode::scene_rejected,
+                "{}: the checkpoint holds {} particles and {} balls, but the scene in it has {} and {}: it "
+                "was tampered with. Use another copy, or run the scene again.",
+                printable_line(name), state.position.size(), state.ball_position.size(), counts.particles,
+                counts.balls);
   }
   return {};
 }
 
 Result<Checkpoint> read_checkpoint(const std::string& path) {
   // The first bytes come first: what is no checkpoint needs no memory to be refused.
-  const auto start = read_regular_file(path, magic.size());
-  if (!start) return start.error();
-  if (const Status known = check_magic(start->content, path); !known) return known.error();
+  ASPIC_TRY(const auto start, read_regular_file(path, magic.size()));
+  ASPIC_CHECK(check_magic(start.content, path));
   // Once as bytes, and as doubles whatever the precision in the file.
   const std::optional<std::uint64_t> memory = available_memory();
-  if (memory && start->size > *memory / 3) {
+  if (memory && start.size > *memory / 3) {
     return error_in(
         path, fmt::format("the checkpoint has {} bytes, too many for the {} bytes of memory that are free.",
-                          start->size, *memory));
+                          start.size, *memory));
   }
-  const auto bytes = read_regular_file(path, start->size);
-  if (!bytes) return bytes.error();
-  return decode_checkpoint(bytes->content, path);
+  ASPIC_TRY(const auto bytes, read_regular_file(path, start.size));
+  return decode_checkpoint(bytes.content, path);
 }
 
 }  // namespace aspic

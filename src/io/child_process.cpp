@@ -16,8 +16,6 @@
 #include <cstring>
 #include <utility>
 
-extern char** environ;
-
 namespace aspic {
 namespace {
 
@@ -33,7 +31,7 @@ void exchange_running(pid_t from, pid_t to) {
 }
 
 Error start_error(const std::string& program, int reason) {
-  return {ErrorCode::io, fmt::format("{} cannot be started: {}.", program, std::strerror(reason))};
+  return fail(ErrorCode::io, "{} cannot be started: {}.", program, std::strerror(reason));
 }
 
 /// Ends of the child's three streams; negative: /dev/null.
@@ -99,7 +97,7 @@ std::vector<std::string> environment_with(const std::vector<std::pair<std::strin
     });
     if (!changed) result.push_back(text);
   }
-  for (const auto& [name, value] : changes) result.push_back(name + "=" + value);
+  for (const auto& [name, value] : changes) result.push_back(fmt::format("{}={}", name, value));
   return result;
 }
 

@@ -17,7 +17,7 @@ struct FilmFormat {
   std::string_view ending;  ///< of the video's file or of each picture, in lower case: ".mp4"
   double default_fps = 60.0, most_fps = 1000.0;  ///< pictures shown per second
   bool even_sides = false;              ///< 4:2:0, BT.709: colour is stored for squares of 2 × 2 pixels
-  std::span<const char* const> ffmpeg;  ///< what ffmpeg is told about the output; empty: no video
+  std::span<const char* const> ffmpeg;  ///< ffmpeg's options for the output; empty: no video
   /// One picture (FrameSink::write) as the content of a file; null for videos. Error (io): the encoder
   /// failed.
   Result<std::string> (*encode)(const PictureSize& size, std::span<const std::byte> rgb) = nullptr;
@@ -45,5 +45,23 @@ Status check_film(const FilmFormat& format, const PictureSize& size, double fps)
 /// Opens a sink: open_video() or open_frame_directory(). Errors: those of check_film() and of the two.
 Result<std::unique_ptr<FrameSink>> open_film(const FilmFormat& format, const std::string& path,
                                              const PictureSize& size, double fps, Overwrite overwrite);
+
+/// One picture as the content of a file. JPEG has quality 92. Error (io): the encoder gave nothing.
+Result<std::string> encode_png(const PictureSize& size, std::span<const std::byte> rgb);
+Result<std::string> encode_jpeg(const PictureSize& size, std::span<const std::byte> rgb);
+
+/// A sink of files frame-000000.png, … in `directory`, which is made if its parent exists. Every file appears
+/// whole or not at all. Errors (io): the directory cannot be made or written to; it has frame-… pictures
+/// already and `overwrite` is refuse. With allow, those are removed first, so that pictures of two runs never
+/// stand side by side.
+Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& directory,
+                                                        const FilmFormat& format, const PictureSize& size,
+                                                        Overwrite overwrite);
+
+/// A sink that pipes pictures to ffmpeg, which writes to a temporary file beside `path`; it gets its name
+/// when ffmpeg has ended well. The format is a video's. Errors (io): the file exists, its place cannot be
+/// written, it is no file, or ffmpeg is missing, which names the Debian package.
+Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const FilmFormat& format,
+                                              const PictureSize& size, double fps, Overwrite overwrite);
 
 }  // namespace aspic

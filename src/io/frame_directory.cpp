@@ -1,5 +1,3 @@
-#include "io/frame_directory.h"
-
 #include <fmt/format.h>
 #include <stb_image_write.h>
 #include <sys/stat.h>
@@ -11,6 +9,8 @@
 #include <cerrno>
 #include <filesystem>
 #include <vector>
+
+#include "io/film_format.h"
 
 namespace aspic {
 namespace {
@@ -47,9 +47,8 @@ Result<std::string> encoded(std::string_view format, const PictureSize& size,
     static_cast<std::string*>(into)->append(static_cast<const char*>(data), static_cast<std::size_t>(bytes));
   };
   if (write(append, content) == 0 || content.empty())
-    return Error{ErrorCode::io,
-                 fmt::format("A picture of {} x {} pixels could not be encoded as {}: not enough memory.",
-                             size.width, size.height, format)};
+    return fail(ErrorCode::io, "A picture of {} x {} pixels could not be encoded as {}: not enough memory.",
+                size.width, size.height, format);
   return content;
 }
 
@@ -59,13 +58,11 @@ class FrameDirectory : public FrameSink {
       : directory_(std::move(directory)), format_(format), size_(size) {}
 
   Status write(std::span<const std::byte> rgb) override {
-    const auto content = format_.encode(size_, rgb);
-    if (!content) return content.error();
+    ASPIC_TRY(const auto content, format_.encode(size_, rgb));
     const std::string name = fmt::format("{}/frame-{:06}{}", directory_, next_, format_.ending);
-    auto file = AtomicFile::create(name, Overwrite::refuse);
-    if (!file) return file.error();
-    ASPIC_CHECK(file->write(*content));
-    ASPIC_CHECK(file->commit());
+    ASPIC_TRY(auto file, AtomicFile::create(name, Overwrite::refuse));
+    ASPIC_CHECK(file.write(content));
+    ASPIC_CHECK(file.commit());
     ++next_;
     return {};
   }
@@ -102,18 +99,16 @@ Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& direc
   struct stat present = {};
   if (::stat(directory.c_str(), &present) != 0) return file_error("read the directory", directory, errno);
   if (!S_ISDIR(present.st_mode))
-    return Error{ErrorCode::io,
-                 fmt::format("{} is a file, but pictures need a directory. Choose another name.", directory)};
+    return fail(ErrorCode::io, "{} is a file, but pictures need a directory. Choose another name.",
+                directory);
   if (::access(directory.c_str(), W_OK | X_OK) != 0) return file_error("write into", directory, errno);
-  const auto frames = frames_in(directory);
-  if (!frames) return frames.error();
-  if (!frames->empty() && overwrite == Overwrite::refuse)
-    return Error{
-        ErrorCode::io,
-        fmt::format("{} holds pictures already ({} and others) and was left as it is. Choose "
-                    "another directory, or allow replacing them with --force.",
-                    directory, std::min_element(frames->begin(), frames->end())->filename().string())};
-  for (const fs::path& frame : *frames)
+  ASPIC_TRY(const auto frames, frames_in(directory));
+  if (!frames.empty() && overwrite == Overwrite::refuse)
+    return fail(ErrorCode::io,
+                "{} already contains pictures ({} and others) and was not changed. Choose another directory, "
+                "or replace them with --force.",
+                directory, std::min_element(frames.begin(), frames.end())->filename().string());
+  for (const fs::path& frame : frames)
     if (::unlink(frame.c_str()) != 0) return file_error("remove", frame.string(), errno);
   return std::unique_ptr<FrameSink>(std::make_unique<FrameDirectory>(directory, format, size));
 }

@@ -23,8 +23,7 @@ namespace {
 constexpr int failed = static_cast<int>(ErrorCode::io);
 constexpr std::string_view no_memory =
     "aspic: there is not enough memory. Use a smaller scene or picture, close other programs, or raise the "
-    "limit of "
-    "this process (ulimit -v). Nothing incomplete was left behind.\n";
+    "limit of this process (ulimit -v). Nothing incomplete was left behind.\n";
 
 /// Writes without allocating, also from a signal handler.
 void write_plainly(std::string_view text) {
@@ -47,13 +46,12 @@ void on_fatal_signal(int number) {
   end_child_processes();
   remove_temporary_files();
   std::array<char, 2> digits = {static_cast<char>('0' + number / 10), static_cast<char>('0' + number % 10)};
-  write_plainly("aspic: a fault ended the program by signal ");
+  write_plainly("aspic: the program was ended by signal ");
   write_plainly({digits.data() + (number < 10 ? 1 : 0), number < 10 ? 1u : 2u});
   write_plainly(
       ", in a driver or in aspic itself; its temporary files were removed. If little memory or stack is left "
-      "(ulimit "
-      "-v, ulimit -s), allow more; if a graphics driver is at fault, --backend reference does without "
-      "one.\n");
+      "(ulimit -v, ulimit -s), allow more; if a graphics driver is at fault, --backend reference needs "
+      "none.\n");
   ::signal(number, SIG_DFL);
   ::raise(number);
 }
@@ -64,15 +62,15 @@ void on_fatal_signal(int number) {
   remove_temporary_files();
   try {
     if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
-    write_plainly("aspic: a fault of the program ended it.\n");
+    write_plainly("aspic: an internal error ended the program.\n");
   } catch (const std::bad_alloc&) {
     write_plainly(no_memory);
   } catch (const std::exception& exception) {
-    write_plainly("aspic: this failed unexpectedly: ");
+    write_plainly("aspic: unexpected error: ");
     write_plainly(exception.what());
     write_plainly("\n");
   } catch (...) {
-    write_plainly("aspic: a fault of the program ended it.\n");
+    write_plainly("aspic: an internal error ended the program.\n");
   }
   ::_exit(failed);
 }
@@ -96,6 +94,19 @@ void handle_signals() {
   std::set_terminate(on_terminate);
 }
 
+// A signal handler can reach nothing but static storage.
+volatile sig_atomic_t signal_count = 0;
+struct sigaction old_interrupt, old_terminate, old_file_size;
+
+void on_signal(int number) {
+  signal_count = signal_count + 1;
+  if (signal_count < 2) return;
+  end_child_processes();  // one that runs on could make its file after all
+  remove_temporary_files();
+  ::signal(number, SIG_DFL);
+  ::raise(number);  // delivered when this handler returns and the signal is unblocked
+}
+
 }  // namespace
 
 int run_program(const std::function<int()>& work) {
@@ -108,7 +119,7 @@ int run_program(const std::function<int()>& work) {
   } catch (const std::exception& exception) {
     try {
       print_message(
-          fmt::format("this failed unexpectedly: {}. Nothing incomplete was left behind.", exception.what()));
+          fmt::format("unexpected error: {}. Nothing incomplete was left behind.", exception.what()));
     } catch (const std::bad_alloc&) {
       write_plainly(no_memory);
     }
@@ -116,6 +127,28 @@ int run_program(const std::function<int()>& work) {
   end_child_processes();
   remove_temporary_files();
   return failed;
+}
+
+InterruptGuard::InterruptGuard() {
+  signal_count = 0;
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGINT, &action, &old_interrupt);
+  ::sigaction(SIGTERM, &action, &old_terminate);
+  action.sa_handler = SIG_IGN;
+  ::sigaction(SIGXFSZ, &action, &old_file_size);
+}
+
+InterruptGuard::~InterruptGuard() {
+  ::sigaction(SIGINT, &old_interrupt, nullptr);
+  ::sigaction(SIGTERM, &old_terminate, nullptr);
+  ::sigaction(SIGXFSZ, &old_file_size, nullptr);
+}
+
+bool InterruptGuard::interrupted() const {
+  return signal_count > 0;
 }
 
 }  // namespace aspic

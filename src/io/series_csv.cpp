@@ -5,12 +5,9 @@
 namespace aspic {
 
 Result<SeriesWriter> SeriesWriter::create(const std::string& path, Overwrite overwrite, bool solves) {
-  auto file = AtomicFile::create(path, overwrite);
-  if (!file) return file.error();
-  const Status header =
-      file->write(fmt::format("{}{}\n", series_csv_header, solves ? series_csv_solve_header : ""));
-  if (!header) return header.error();
-  return SeriesWriter(std::move(*file), solves);
+  ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
+  ASPIC_CHECK(file.write(fmt::format("{}{}\n", series_csv_header, solves ? series_csv_solve_header : "")));
+  return SeriesWriter(std::move(file), solves);
 }
 
 Status SeriesWriter::add(const Model& model, const State& state, const SolveStatistics& solves) {
@@ -21,8 +18,7 @@ Status SeriesWriter::add(const Model& model, const State& state, const SolveStat
 
 Status SeriesWriter::add(std::uint64_t step, double time, const Measures& m, const SolveStatistics& solves) {
   if (const auto bad = first_not_finite(m)) {
-    return Error{ErrorCode::diverged,
-                 fmt::format("{}: {} of step {} is not a finite number.", file_.path(), *bad, step)};
+    return fail(ErrorCode::diverged, "{}: {} of step {} is not a finite number.", file_.path(), *bad, step);
   }
   has_row_ = true;
   last_step_ = step;

@@ -2,152 +2,47 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <iterator>
-#include <optional>
 
 namespace aspic {
-namespace {
 
-constexpr std::size_t field_count = 11;
-
-void append_number(fmt::memory_buffer& out, double value, Precision precision) {
-  out.push_back(',');
-  if (precision == Precision::single) {
-    fmt::format_to(std::back_inserter(out), "{}", static_cast<float>(value));
-  } else {
-    fmt::format_to(std::back_inserter(out), "{}", value);
-  }
+Status check_finite(const State& state, const std::string& path) {
+  if (const auto bad = first_not_finite(state))
+    return fail(ErrorCode::diverged, "{} was not written: {} is not a finite number.", path, *bad);
+  return {};
 }
-
-bool finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-template <class T>
-std::optional<double> parse_as(std::string_view text) {
-  T value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return static_cast<double>(value);
-}
-
-/// Walks through lines; tolerates a missing last line end and carriage returns.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : rest_(text) {}
-
-  std::optional<std::string_view> next() {
-    if (rest_.empty()) return std::nullopt;
-    ++number_;
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    return line;
-  }
-  std::size_t number() const { return number_; }
-
- private:
-  std::string_view rest_;
-  std::size_t number_ = 0;
-};
-
-/// The fields of a line; nothing if there are not exactly field_count.
-std::optional<std::array<std::string_view, field_count>> split(std::string_view line) {
-  std::array<std::string_view, field_count> fields;
-  for (std::size_t i = 0; i < field_count; ++i) {
-    const std::size_t comma = line.find(',');
-    if ((comma == std::string_view::npos) != (i + 1 == field_count)) return std::nullopt;
-    fields[i] = line.substr(0, comma);
-    line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
-  }
-  return fields;
-}
-
-}  // namespace
 
 Status write_state_csv(AtomicFile& file, const State& state) {
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
-    if (!finite(state.position[i]) || !finite(state.velocity[i])) {
-      return Error{ErrorCode::diverged,
-                   fmt::format("{} was not written: particle {} is not a finite number.", file.path(), i)};
-    }
-  }
-  for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
-    if (!finite(state.ball_position[b]) || !finite(state.ball_velocity[b]) ||
-        !finite(state.ball_angular_velocity[b])) {
-      return Error{ErrorCode::diverged,
-                   fmt::format("{} was not written: ball {} is not a finite number.", file.path(), b)};
-    }
-  }
+  ASPIC_CHECK(check_finite(state, file.path()));
   ASPIC_CHECK(file.write(fmt::format("{}\n", state_csv_header)));
   fmt::memory_buffer line;
+  const auto append = [&](const Vec3& v) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (state.precision == Precision::single) {
+        fmt::format_to(std::back_inserter(line), ",{}", static_cast<float>(v[axis]));
+      } else {
+        fmt::format_to(std::back_inserter(line), ",{}", v[axis]);
+      }
+    }
+  };
   for (std::size_t i = 0; i < state.position.size(); ++i) {
     line.clear();
     fmt::format_to(std::back_inserter(line), "particle,{}", i);
-    for (int axis = 0; axis < 3; ++axis) append_number(line, state.position[i][axis], state.precision);
-    for (int axis = 0; axis < 3; ++axis) append_number(line, state.velocity[i][axis], state.precision);
+    append(state.position[i]);
+    append(state.velocity[i]);
     line.append(std::string_view(",0,0,0\n"));
     ASPIC_CHECK(file.write({line.data(), line.size()}));
   }
   for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
     line.clear();
     fmt::format_to(std::back_inserter(line), "ball,{}", b);
-    for (const std::vector<Vec3>* part :
-         {&state.ball_position, &state.ball_velocity, &state.ball_angular_velocity}) {
-      for (int axis = 0; axis < 3; ++axis) append_number(line, (*part)[b][axis], state.precision);
-    }
+    append(state.ball_position[b]);
+    append(state.ball_velocity[b]);
+    append(state.ball_angular_velocity[b]);
     line.push_back('\n');
     ASPIC_CHECK(file.write({line.data(), line.size()}));
   }
   return {};
-}
-
-Result<State> parse_state_csv(std::string_view text, const std::string& name, Precision precision) {
-  Lines lines(text);
-  const auto error = [&](const std::string& what) {
-    return Error{ErrorCode::io, fmt::format("{}:{}: {}", name, lines.number(), what)};
-  };
-  const auto header = lines.next();
-  if (!header)
-    return Error{ErrorCode::io, fmt::format("{}: empty; a state starts with {}", name, state_csv_header)};
-  if (*header != state_csv_header) return error(fmt::format("the header must be {}", state_csv_header));
-
-  State state;
-  state.precision = precision;
-  while (const auto line = lines.next()) {
-    const auto fields = split(*line);
-    if (!fields) return error(fmt::format("expected {} fields separated by commas", field_count));
-    const bool ball = (*fields)[0] == "ball";
-    if (!ball && (*fields)[0] != "particle")
-      return error(fmt::format("unknown kind \"{}\"; allowed: particle, ball", (*fields)[0]));
-    if (!ball && !state.ball_position.empty()) return error("particles stand before balls");
-    const std::size_t expected = ball ? state.ball_position.size() : state.position.size();
-    if ((*fields)[1] != std::to_string(expected)) {
-      return error(fmt::format("expected index {}, found \"{}\"", expected, (*fields)[1]));
-    }
-    std::array<double, 9> values = {};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::string_view field = (*fields)[i + 2];
-      const auto value = precision == Precision::single ? parse_as<float>(field) : parse_as<double>(field);
-      if (!value)
-        return error(fmt::format("\"{}\" is not a finite number of {} precision", field, name_of(precision)));
-      values[i] = *value;
-    }
-    (ball ? state.ball_position : state.position).push_back({values[0], values[1], values[2]});
-    (ball ? state.ball_velocity : state.velocity).push_back({values[3], values[4], values[5]});
-    if (ball) state.ball_angular_velocity.push_back({values[6], values[7], values[8]});
-  }
-  return state;
-}
-
-Result<State> read_state_csv(const std::string& path, Precision precision) {
-  const auto text = read_file(path);
-  if (!text) return text.error();
-  return parse_state_csv(*text, path, precision);
 }
 
 }  // namespace aspic

@@ -1,10 +1,9 @@
-#include "io/video_file.h"
-
 #include <fmt/format.h>
 
 #include <optional>
 
 #include "io/child_process.h"
+#include "io/film_format.h"
 
 namespace aspic {
 namespace {
@@ -36,9 +35,9 @@ class VideoFile : public FrameSink {
       const std::string said = ffmpeg_->last_lines(6);
       path_ = file_->path();
       reason_ = fmt::format(
-          "the video {} could not be made: ffmpeg {}{}{}Check the disk and that ffmpeg has the encoder "
-          "(the Debian package ffmpeg has it), or write numbered pictures instead (--frames).",
-          path_, how, said.empty() ? " without a word." : fmt::format(" and said\n{}", said),
+          "the video {} could not be made: ffmpeg {}{}{}Check the disk and that ffmpeg has the encoder (the "
+          "Debian package ffmpeg has it), or write numbered pictures instead (--frames).",
+          path_, how, said.empty() ? " without a message." : fmt::format(" and said\n{}", said),
           said.empty() ? " " : "");
       ffmpeg_.reset();
       file_.reset();  // removes the temporary file
@@ -55,10 +54,9 @@ class VideoFile : public FrameSink {
 
 Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const FilmFormat& format,
                                               const PictureSize& size, double fps, Overwrite overwrite) {
-  auto file = AtomicFile::create(path, overwrite);
-  if (!file) return file.error();
-  if (file->temporary_path().empty())
-    return Error{ErrorCode::io, fmt::format("{} is a device or a pipe, but a video needs a file.", path)};
+  ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
+  if (file.temporary_path().empty())
+    return fail(ErrorCode::io, "{} is a device or a pipe, but a video needs a file.", path);
   std::vector<std::string> words = {"ffmpeg",
                                     "-hide_banner",
                                     "-nostdin",
@@ -85,15 +83,14 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Fil
          "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv"});
   }
   words.insert(words.end(), format.ffmpeg.begin(), format.ffmpeg.end());
-  words.push_back("file:" + file->temporary_path());
+  words.push_back("file:" + file.temporary_path());
   auto ffmpeg = ChildProcess::start(words);
   if (!ffmpeg)
-    return Error{
-        ErrorCode::io,
-        fmt::format("the video {} cannot be made: {} Videos need the program ffmpeg on PATH: install it with "
-                    "apt install ffmpeg, or write numbered pictures instead (--frames).",
-                    path, ffmpeg.error().message)};
-  return std::unique_ptr<FrameSink>(std::make_unique<VideoFile>(std::move(*file), std::move(*ffmpeg)));
+    return fail(ErrorCode::io,
+                "the video {} cannot be made: {} Videos need the program ffmpeg on PATH: install it with apt "
+                "install ffmpeg, or write numbered pictures instead (--frames).",
+                path, ffmpeg.error().message);
+  return std::unique_ptr<FrameSink>(std::make_unique<VideoFile>(std::move(file), std::move(*ffmpeg)));
 }
 
 }  // namespace aspic

@@ -1,44 +1,119 @@
 #include "model/integrator.h"
 
-#include <array>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
 
 namespace aspic {
+namespace integrator_rows {
 namespace {
 
-constexpr std::array<Stage, 1> euler_stages = {{{0.0, 1.0}}};
-constexpr std::array<Stage, 2> midpoint_stages = {{{0.5, 0.0}, {0.0, 1.0}}};
-constexpr std::array<Stage, 2> one_pass_stages = {{{1.0, 0.0}, {0.0, 1.0}}};
-constexpr std::array<Stage, 4> runge_kutta_4_stages = {{{0.5, 1.0}, {0.5, 2.0}, {1.0, 2.0}, {0.0, 1.0}}};
+StepMatrix operator*(const StepMatrix& m, const StepMatrix& n) {
+  return {m[0] * n[0] + m[1] * n[2], m[0] * n[1] + m[1] * n[3], m[2] * n[0] + m[3] * n[2],
+          m[2] * n[1] + m[3] * n[3]};
+}
+StepMatrix operator+(const StepMatrix& m, const StepMatrix& n) {
+  return {m[0] + n[0], m[1] + n[1], m[2] + n[2], m[3] + n[3]};
+}
+StepMatrix operator*(long double s, const StepMatrix& m) {
+  return {s * m[0], s * m[1], s * m[2], s * m[3]};
+}
 
-constexpr StagedMethod explicit_euler = {euler_stages, 1.0, false};
-constexpr StagedMethod symplectic_euler = {euler_stages, 1.0, true};
-constexpr StagedMethod midpoint = {midpoint_stages, 1.0, false};
-constexpr StagedMethod one_pass = {one_pass_stages, 1.0, false};
-constexpr StagedMethod runge_kutta_4 = {runge_kutta_4_stages, 6.0, false};
+constexpr StepMatrix one = {1, 0, 0, 1};
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Z = h·A of ẏ = A·y, y = (q, q̇).
+StepMatrix scaled(long double h, long double kappa, long double gamma) {
+  return {0, h, -h * kappa, -h * gamma};
+}
 
 }  // namespace
 
-const StagedMethod* staged_method(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::explicit_euler:
-      return &explicit_euler;
-    case Integrator::symplectic_euler:
-      return &symplectic_euler;
-    case Integrator::midpoint:
-      return &midpoint;
-    case Integrator::runge_kutta_4:
-      return &runge_kutta_4;
-    case Integrator::implicit_euler_one_pass:
-      return &one_pass;
-    case Integrator::implicit_euler:
-      break;
-  }
-  return nullptr;
+StepMatrix explicit_euler(long double h, long double kappa, long double gamma) {
+  return one + scaled(h, kappa, gamma);
+}
+
+StepMatrix symplectic_euler(long double h, long double kappa, long double gamma) {
+  return StepMatrix{1, h, 0, 1} * StepMatrix{1, 0, -h * kappa, 1 - h * gamma};
+}
+
+StepMatrix midpoint_rule(long double h, long double kappa, long double gamma) {
+  const StepMatrix z = scaled(h, kappa, gamma);
+  return one + z + 0.5L * (z * z);
+}
+
+StepMatrix runge_kutta_4(long double h, long double kappa, long double gamma) {
+  const StepMatrix z = scaled(h, kappa, gamma), z2 = z * z;
+  return one + z + 0.5L * z2 + 1.0L / 6 * (z2 * z) + 1.0L / 24 * (z2 * z2);
+}
+
+StepMatrix implicit_euler_one_pass(long double h, long double kappa, long double gamma) {
+  const StepMatrix z = scaled(h, kappa, gamma);
+  return one + z + z * z;
+}
+
+StepMatrix heun_3(long double h, long double kappa, long double gamma) {
+  const StepMatrix z = scaled(h, kappa, gamma), z2 = z * z;
+  return one + z + 0.5L * z2 + 1.0L / 6 * (z2 * z);
+}
+
+StepMatrix velocity_verlet(long double h, long double kappa, long double gamma) {
+  const long double p = h * gamma, q = h * h * kappa;
+  return {1 - q / 2, h * (1 - p / 2), (-q + q * q / 4 + p * q / 2) / h,
+          1 - p + p * p / 2 - q / 2 + p * q / 4};
+}
+
+StepMatrix implicit_euler(long double h, long double kappa, long double gamma) {
+  const long double determinant = 1 + h * gamma + h * h * kappa;
+  return 1 / determinant * StepMatrix{1 + h * gamma, h, -h * kappa, 1};
+}
+
+double symplectic_euler_limit(double kappa, double gamma) {
+  // (−γ + √(γ² + 4κ))/κ without its cancellation for small κ.
+  return 4.0 / (gamma + std::hypot(gamma, 2.0 * std::sqrt(kappa)));
+}
+
+double velocity_verlet_limit(double kappa, double gamma) {
+  // An eigenvalue leaves at 1 where hγ = 2, or before that at −1 where h²(κ − γ²) + 2hγ = 4.
+  const double root_kappa = std::sqrt(kappa);
+  if (root_kappa <= gamma) return 2.0 / gamma;
+  const double small = std::sqrt(3.0) * gamma, large = 2.0 * root_kappa;
+  return 4.0 / (gamma + std::sqrt(large - small) * std::sqrt(large + small));
+}
+
+double no_limit(double, double) {
+  return infinity;
+}
+
+}  // namespace integrator_rows
+
+const IntegratorRow& row_of(Integrator integrator) {
+  const auto row = std::find_if(integrator_table.begin(), integrator_table.end(),
+                                [=](const IntegratorRow& r) { return r.integrator == integrator; });
+  assert(row != integrator_table.end());
+  return *row;
+}
+
+std::string_view name_of(Integrator integrator) {
+  return row_of(integrator).name;
 }
 
 int force_evaluations_per_step(Integrator integrator) {
-  const StagedMethod* method = staged_method(integrator);
-  return method ? static_cast<int>(method->stages.size()) : 0;
+  return static_cast<int>(row_of(integrator).stages.size());
+}
+
+double free_fall_lead(Integrator integrator) {
+  const IntegratorRow& row = free_flight_row(integrator);
+  if (row.drift == Drift::new_velocity) return 1.0;
+  double lead = 0.0;
+  for (std::size_t s = 1; s < row.stages.size(); ++s)
+    lead += row.stages[s].weight * row.stages[s - 1].advance;
+  return lead / row.divisor;
+}
+
+const IntegratorRow& free_flight_row(Integrator integrator) {
+  return row_of(row_of(integrator).solved() ? Integrator::symplectic_euler : integrator);
 }
 
 }  // namespace aspic

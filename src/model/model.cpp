@@ -31,10 +31,10 @@ Result<Model> build_model(const ModelSettings& settings) {
   const ModelCounts predicted = predict_counts(settings);
   // CSR words hold a spring's two ends: 2·springs and all particles must be addressable by 32 bits.
   if (2 * predicted.springs() > 0xffffffffull || predicted.particles + predicted.balls > 0x7fffffffull) {
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("the scene has {} particles, {} springs and {} balls: more than 32-bit indices "
-                             "can name; use fewer particles-per-edge",
-                             predicted.particles, predicted.springs(), predicted.balls)};
+    return fail(ErrorCode::scene_rejected,
+                "the scene has {} particles, {} springs and {} balls: more than 32-bit indices can name; use "
+                "fewer particles-per-edge",
+                predicted.particles, predicted.springs(), predicted.balls);
   }
   Model model;
   model.simulation = settings.simulation;
@@ -42,8 +42,7 @@ Result<Model> build_model(const ModelSettings& settings) {
   model.contact = settings.contact;
   for (const TerrainSettings& terrain : settings.terrain) {
     Terrain made = make_terrain(terrain, settings.contact);
-    made.point = without_negative_zero(made.point);
-    made.normal = without_negative_zero(made.normal);
+    for (Vec3& v : made.geometry.vectors) v = without_negative_zero(v);
     model.terrain.push_back(made);
   }
   model.mass.reserve(predicted.particles);
@@ -55,7 +54,7 @@ Result<Model> build_model(const ModelSettings& settings) {
   for (const BodyRow& body : body_rows()) {
     for (std::size_t i = 0; i < body.list.size(settings); ++i) {
       if (const Status added = body.add(model, settings, i); !added)
-        return Error{added.error().code, fmt::format("{}[{}].{}", body.list.key, i, added.error().message)};
+        return fail(added.error().code, "{}[{}].{}", body.list.key, i, added.error().message);
     }
   }
   return model;
@@ -64,27 +63,26 @@ Result<Model> build_model(const ModelSettings& settings) {
 State initial_state(const Model& model, Precision precision) {
   State state;
   state.precision = precision;
-  state.position.reserve(model.initial_position.size());
-  state.velocity.reserve(model.initial_velocity.size());
-  for (const Vec3& x : model.initial_position) state.position.push_back(rounded_to(x, precision));
-  for (const Vec3& v : model.initial_velocity) state.velocity.push_back(rounded_to(v, precision));
+  state.position = model.initial_position;
+  state.velocity = model.initial_velocity;
   for (const Ball& ball : model.balls) {
-    state.ball_position.push_back(rounded_to(ball.initial_position, precision));
-    state.ball_velocity.push_back(rounded_to(ball.initial_velocity, precision));
-    state.ball_angular_velocity.push_back(rounded_to(ball.initial_angular_velocity, precision));
+    state.ball_position.push_back(ball.initial_position);
+    state.ball_velocity.push_back(ball.initial_velocity);
+    state.ball_angular_velocity.push_back(ball.initial_angular_velocity);
   }
+  for_each_vector(state, [&](Vec3& v) { v = rounded_to(v, precision); });
   return state;
 }
 
 Status check_sizes(const Model& model, const State& state) {
   if (state.position.size() != model.particle_count() || state.velocity.size() != model.particle_count()) {
-    return Error{ErrorCode::usage, fmt::format("the state has {} particles, the scene has {}",
-                                               state.position.size(), model.particle_count())};
+    return fail(ErrorCode::usage, "the state has {} particles, the scene has {}", state.position.size(),
+                model.particle_count());
   }
   if (state.ball_position.size() != model.ball_count() || state.ball_velocity.size() != model.ball_count() ||
       state.ball_angular_velocity.size() != model.ball_count()) {
-    return Error{ErrorCode::usage, fmt::format("the state has {} balls, the scene has {}",
-                                               state.ball_position.size(), model.ball_count())};
+    return fail(ErrorCode::usage, "the state has {} balls, the scene has {}", state.ball_position.size(),
+                model.ball_count());
   }
   return {};
 }
@@ -146,24 +144,6 @@ std::uint64_t model_bytes(const ModelCounts& counts) {
 std::uint64_t run_bytes(const ModelCounts& counts) {
   const std::uint64_t state = counts.particles * 2 * sizeof(Vec3) + counts.balls * 3 * sizeof(Vec3);
   return model_bytes(counts) + 2 * state + state / 2;
-}
-
-std::string_view name_of(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::explicit_euler:
-      return "explicit-euler";
-    case Integrator::symplectic_euler:
-      return "symplectic-euler";
-    case Integrator::midpoint:
-      return "midpoint";
-    case Integrator::runge_kutta_4:
-      return "runge-kutta-4";
-    case Integrator::implicit_euler:
-      return "implicit-euler";
-    case Integrator::implicit_euler_one_pass:
-      return "implicit-euler-one-pass";
-  }
-  return "";
 }
 
 std::string_view name_of(ContactModel model) {

@@ -24,9 +24,8 @@ Result<std::optional<Pull>> rounded_pull(const Model& model, const std::optional
                                          Precision precision) {
   if (!pull) return std::optional<Pull>();
   if (pull->particle >= model.particle_count()) {
-    return Error{ErrorCode::usage,
-                 fmt::format("particle {} cannot be pulled: the scene has {} particles, counted from 0",
-                             pull->particle, model.particle_count())};
+    return fail(ErrorCode::usage, "particle {} cannot be pulled: the scene has {} particles, counted from 0",
+                pull->particle, model.particle_count());
   }
   Pull taken = *pull;
   for (int axis = 0; axis < 3; ++axis) taken.anchor[axis] = rounded(pull->anchor[axis], precision);
@@ -35,16 +34,16 @@ Result<std::optional<Pull>> rounded_pull(const Model& model, const std::optional
   for (const double value :
        {taken.anchor.x, taken.anchor.y, taken.anchor.z, taken.stiffness, taken.damping}) {
     if (std::isfinite(value)) continue;
-    return Error{ErrorCode::usage,
-                 fmt::format("the pull on particle {} has a number that is not finite in {} precision: "
-                             "anchor ({}, {}, {}) m, stiffness {} N/m, damping {} N·s/m",
-                             pull->particle, name_of(precision), pull->anchor.x, pull->anchor.y,
-                             pull->anchor.z, pull->stiffness, pull->damping)};
+    return fail(ErrorCode::usage,
+                "the pull on particle {} has a number that is not finite in {} precision: anchor ({}, {}, "
+                "{}) m, stiffness {} N/m, damping {} N·s/m",
+                pull->particle, name_of(precision), pull->anchor.x, pull->anchor.y, pull->anchor.z,
+                pull->stiffness, pull->damping);
   }
   if (taken.stiffness < 0.0 || taken.damping < 0.0) {
-    return Error{ErrorCode::usage, fmt::format("the pull on particle {} has stiffness {} N/m and damping {} "
-                                               "N·s/m: neither may be negative",
-                                               pull->particle, pull->stiffness, pull->damping)};
+    return fail(ErrorCode::usage,
+                "the pull on particle {} has stiffness {} N/m and damping {} N·s/m: neither may be negative",
+                pull->particle, pull->stiffness, pull->damping);
   }
   return std::optional<Pull>(taken);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The State of a run: what changes from step to step, and nothing else.
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,9 +30,27 @@ struct State {
   friend bool operator==(const State&, const State&) = default;
 };
 
-/// 64-bit FNV-1a of the little-endian values (x, v of every particle, then x, v, ω of every
-/// ball, in index order) in the state's own
-/// precision, spec §2.9.
+/// Calls f with every vector of a state (State or const State) in the order of its hash and its files: x, v
+/// of every particle, then x, v, ω of every ball, in index order.
+template <class AnyState, class F>
+void for_each_vector(AnyState& state, const F& f) {
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    f(state.position[i]);
+    f(state.velocity[i]);
+  }
+  for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
+    f(state.ball_position[b]);
+    f(state.ball_velocity[b]);
+    f(state.ball_angular_velocity[b]);
+  }
+}
+
+/// The first body with a number that is not finite, in words: `particle 7`, `ball 2`; nothing if all are.
+std::optional<std::string> first_not_finite(const State& state);
+
+/// 64-bit FNV-1a (docs/files.md) of the little-endian values in the state's own precision:
+/// x, v of every particle,
+/// then x, v, ω of every ball, in index order.
 std::uint64_t state_hash(const State& state);
 
 /// The hash as 16 lower-case hexadecimal digits.

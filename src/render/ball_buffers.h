@@ -22,7 +22,7 @@ class BallBuffers {
   static Result<BallBuffers> create(gl::Context& context, const Model& model);
 
   /// Turns the balls to where they are at state.step, and adds those in sight to the box of each light. Going
-  /// back in time starts anew, from no turn at all. The frame block must be bound.
+  /// back in time starts again, unturned. The frame block must be bound.
   void prepare(const RenderPrograms& programs, const DeviceState& state, const gl::Buffer& bounds);
 
   /// Draws what has been launched, lit; light maps must be in their places.

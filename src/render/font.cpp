@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <new>
 #include <span>
 
@@ -97,7 +98,8 @@ Font::Font(int pixel_height) : pixel_height_(pixel_height) {
     atlas_.resize(static_cast<std::size_t>(atlas_width_) * static_cast<std::size_t>(y + shelf));
     if (glyph.width > 0 && glyph.height > 0) {
       assert(glyph.height <= shelf);
-      auto* out = reinterpret_cast<unsigned char*>(atlas_.data()) + y * atlas_width_ + glyph.atlas_x;
+      auto* out = reinterpret_cast<unsigned char*>(atlas_.data()) +
+                  static_cast<std::ptrdiff_t>(y) * atlas_width_ + glyph.atlas_x;
       stbtt_MakeGlyphBitmap(&info, out, glyph.width, glyph.height, atlas_width_, scale, scale, index);
     }
     glyphs_[character] = glyph;

@@ -31,10 +31,9 @@ std::array<float, 4> four(const Vec3& v, float w) {
 Result<std::unique_ptr<HighlightPainter>> HighlightPainter::create(gl::Context& context,
                                                                    const gl::ShaderLibrary& library) {
   std::unique_ptr<HighlightPainter> p(new HighlightPainter(context));
-  auto marks = gl::Program::graphics(context, library,
-                                     {"render/particles.vert", "render/marks.frag", "render/marks.geom"});
-  if (!marks) return marks.error();
-  p->marks_ = std::move(*marks);
+  ASPIC_TRY(p->marks_,
+            gl::Program::graphics(context, library,
+                                  {"render/particles.vert", "render/marks.frag", "render/marks.geom"}));
   ASPIC_TRY(p->pull_,
             gl::Program::graphics(context, library,
                                   {"render/particles.vert", "render/marks.frag", "render/pull.geom"}));

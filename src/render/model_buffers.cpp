@@ -36,7 +36,7 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
   }
   for (const Body& body : model.bodies)
     for (std::uint32_t c = 0; c < body.class_count; ++c)
-      runs[body.first_class + c].net = body.surface == BodySurface::springs;
+      runs[body.first_class + c].cords = body.style == SurfaceStyle::cords;
   std::vector<std::uint32_t> next;
   for (const SpringRun& run : runs) next.push_back(run.first_index);
   std::vector<std::uint32_t> pairs(first);
@@ -82,7 +82,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   fill(b.light_boxes_, "light boxes", std::vector<render_layout::LightBox>(LIGHTS));
   if (!fill.status()) return fill.status().error();
   ASPIC_TRY(b.balls_, BallBuffers::create(context, model));
-  ASPIC_TRY(b.posts_, GoalPosts::create(context, model));
+  ASPIC_TRY(b.rods_, Rods::create(context, model));
   return b;
 }
 

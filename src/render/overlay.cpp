@@ -38,12 +38,12 @@ Result<OverlayPainter> OverlayPainter::create(gl::Context& context, const gl::Sh
 Status OverlayPainter::prepare_font(int pixel_height) {
   if (font_ && font_->pixel_height() == pixel_height) return {};
   auto font = std::make_unique<Font>(pixel_height);
-  auto texture = gl::Texture::create(
-      *context_, "glyphs",
-      {.format = gl::TexelFormat::r8, .width = font->atlas_width(), .height = font->atlas_height()});
-  if (!texture) return texture.error();
-  texture->upload(font->atlas());
-  glyphs_ = std::move(*texture);
+  ASPIC_TRY(auto texture, gl::Texture::create(*context_, "glyphs",
+                                              {.format = gl::TexelFormat::r8,
+                                               .width = font->atlas_width(),
+                                               .height = font->atlas_height()}));
+  texture.upload(font->atlas());
+  glyphs_ = std::move(texture);
   font_ = std::move(font);
   return {};
 }
@@ -144,8 +144,7 @@ Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<Ov
                             const Legend& legend) {
   if (lines.empty() && legend.empty()) return {};
   const int wanted = static_cast<int>(std::lround(picture.height() / 42.0));
-  const Status font = prepare_font(std::clamp(wanted, 11, 256));
-  if (!font) return font;
+  ASPIC_CHECK(prepare_font(std::clamp(wanted, 11, 256)));
   pending_.clear();
   if (!lines.empty()) facts(lines);
   if (!legend.empty())

@@ -11,25 +11,6 @@
 namespace aspic {
 namespace {
 
-/// "explicit-euler" as people write it.
-std::string_view title_of(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::explicit_euler:
-      return "explicit Euler";
-    case Integrator::symplectic_euler:
-      return "symplectic Euler";
-    case Integrator::midpoint:
-      return "midpoint";
-    case Integrator::runge_kutta_4:
-      return "Runge–Kutta 4";
-    case Integrator::implicit_euler:
-      return "implicit Euler";
-    case Integrator::implicit_euler_one_pass:
-      return "implicit Euler, one pass";
-  }
-  return "";
-}
-
 std::string triple(const Vec3& v) {
   return fmt::format("({}, {}, {})", short_number(v.x), short_number(v.y), short_number(v.z));
 }
@@ -61,7 +42,7 @@ std::string short_number(double value) {
 std::vector<OverlayLine> overlay_lines(const ModelSettings& settings, double time) {
   std::vector<OverlayLine> lines;
   lines.push_back({"terrain", terrain_names(settings.terrain)});
-  lines.push_back({"integrator", std::string(title_of(settings.simulation.integrator))});
+  lines.push_back({"integrator", std::string(row_of(settings.simulation.integrator).title)});
   lines.push_back({"time step h", short_number(1000.0 * settings.simulation.timestep) + " ms"});
   if (!settings.cubes.empty()) {
     const CubeSettings& cube = settings.cubes.front();

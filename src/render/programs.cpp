@@ -10,6 +10,8 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   };
   const gl::Define plane[] = {{"PLANE", "1"}, {"UNSHADOWED_PLANE", "1"}};
   const gl::Define shadowed_plane[] = {{"PLANE", "1"}, {"SHADOWED_PLANE", "1"}};
+  const gl::Define cut_plane[] = {{"PLANE", "1"}, {"UNSHADOWED_PLANE", "1"}, {"CUT_PLANE", "1"}};
+  const gl::Define shadowed_cut_plane[] = {{"PLANE", "1"}, {"SHADOWED_PLANE", "1"}, {"CUT_PLANE", "1"}};
 
   ASPIC_TRY(p.bounds, kernel("render/bounds.comp"));
   ASPIC_TRY(p.balls_turn, kernel("render/balls.comp"));
@@ -30,10 +32,14 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
             drawing({"render/particles.vert", "render/particles.frag", "render/particles.geom"}));
   ASPIC_TRY(p.springs, drawing({"render/springs.vert", "render/springs.frag", "render/springs.geom"}));
   ASPIC_TRY(p.balls, drawing({"render/balls.vert", "render/balls.frag", "render/balls.geom"}));
-  ASPIC_TRY(p.posts, drawing({"render/posts.vert", "render/posts.frag"}));
+  ASPIC_TRY(p.rods, drawing({"render/rods.vert", "render/rods.frag"}));
+  ASPIC_TRY(p.sheet, drawing({"render/jelly.vert", "render/sheet.frag"}));
   ASPIC_TRY(p.plane, drawing({"render/terrain.vert", "render/terrain.frag"}, plane));
   ASPIC_TRY(p.shadowed_plane, drawing({"render/terrain.vert", "render/terrain.frag"}, shadowed_plane));
-  ASPIC_TRY(p.sphere, drawing({"render/terrain.vert", "render/terrain.frag"}));
+  ASPIC_TRY(p.cut_plane, drawing({"render/terrain.vert", "render/terrain.frag"}, cut_plane));
+  ASPIC_TRY(p.shadowed_cut_plane,
+            drawing({"render/terrain.vert", "render/terrain.frag"}, shadowed_cut_plane));
+  ASPIC_TRY(p.solid, drawing({"render/terrain.vert", "render/terrain.frag"}));
   ASPIC_TRY(p.glass, drawing({"render/terrain.vert", "render/glass.frag"}));
   ASPIC_TRY(p.sky, drawing({"render/screen.vert", "render/sky.frag"}));
   ASPIC_TRY(p.present, drawing({"render/screen.vert", "render/present.frag"}));

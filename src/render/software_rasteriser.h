@@ -5,7 +5,7 @@
 namespace aspic::software {
 
 /// Quads along an edge of a coarse skin at most (PictureOptions::coarse_skin): triangles cost time there.
-inline constexpr int coarse_quads = 16;
+inline constexpr std::uint32_t coarse_quads = 16;
 
 /// Invocations that find the particles' bounds; more particles are shared out among them: atomics cost time
 /// there.

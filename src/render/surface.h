@@ -7,7 +7,8 @@
 
 namespace aspic {
 
-/// Triangles over global particle indices. They turn anticlockwise seen from outside the undeformed body.
+/// Triangles over global particle indices. They turn anticlockwise seen from outside the undeformed
+/// body, or from the side that an open surface turns to.
 struct Surface {
   struct Part {
     std::uint32_t first_index = 0, index_count = 0;  ///< of one body, into `indices`
@@ -23,7 +24,7 @@ struct Surface {
   std::vector<std::uint32_t> fan_vertex, fan_start, fan;
 };
 
-/// The six faces of every cube. Bodies without an inside have no triangles.
+/// The patches of every body. A body without a surface has no triangles.
 Surface make_surface(const Model& model);
 
 }  // namespace aspic

@@ -7,9 +7,8 @@ namespace aspic {
 Result<DrawableImage> DrawableImage::create(gl::Context& context, const std::string& name,
                                             const gl::TextureSettings& settings, bool with_depth) {
   DrawableImage image;
-  auto colour = gl::Texture::create(context, name, settings);
-  if (!colour) return colour.error();
-  image.colour = std::move(*colour);
+  ASPIC_TRY(auto colour, gl::Texture::create(context, name, settings));
+  image.colour = std::move(colour);
   if (with_depth) {
     gl::TextureSettings depth = settings;
     depth.format = gl::TexelFormat::depth32f;

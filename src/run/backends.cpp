@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/text.h"
+#include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic {
@@ -19,24 +19,20 @@ Result<Backend> make_gpu(const Model& model, const BackendChoice& choice, const 
   Backend backend;
   gl::Context* context = host.context;
   if (context == nullptr) {
-    auto made = gl::Context::create_headless();
-    if (!made) return made.error();
-    backend.context = std::move(*made);
+    ASPIC_TRY(backend.context, gl::Context::create_headless());
     context = backend.context.get();
   }
-  auto directory = shader_directory();
-  if (!directory) return directory.error();
+  ASPIC_TRY(auto directory, shader_directory());
   GpuOptions options;
   options.force_path = choice.force_path;
-  options.shader_directory = std::move(*directory);
+  options.shader_directory = std::move(directory);
   options.share_springs_of = host.share_springs_of;
   options.arithmetic = host.arithmetic;
-  auto solver = make_gpu_solver(*context, model, options);
-  if (!solver) return solver.error();
-  backend.gpu = solver->get();
+  ASPIC_TRY(auto solver, make_gpu_solver(*context, model, options));
+  backend.gpu = solver.get();
   backend.device = context->info().renderer;
-  backend.force_path = name_of((*solver)->force_path());
-  backend.solver = std::move(*solver);
+  backend.force_path = name_of(solver->force_path());
+  backend.solver = std::move(solver);
   return backend;
 }
 
@@ -62,6 +58,16 @@ Suitability gpu_suitability(const gl::Context* window) {
   return result;
 }
 
+// ---- cpu ----
+
+Result<Backend> make_cpu(const Model& model, const BackendChoice&, const SolverHost&) {
+  ASPIC_TRY(auto solver, make_cpu_solver(model));
+  Backend backend;
+  backend.device = solver->description();
+  backend.solver = std::move(solver);
+  return backend;
+}
+
 // ---- reference ----
 
 /// What it holds at work; under implicit Euler also every spring's Jacobian, of the trial and of the iterate
@@ -75,20 +81,18 @@ Status check_reference_memory(const Model& model, Precision precision) {
   if (model.simulation.integrator == Integrator::implicit_euler) bytes += 2 * 5 * real * model.springs.size();
   const std::optional<std::uint64_t> memory = available_memory();
   if (!memory || bytes <= *memory) return {};
-  return Error{
-      ErrorCode::scene_rejected,
-      fmt::format("the reference solver needs {} of memory for this scene and {} are available; use fewer "
-                  "particles or balls",
-                  human_bytes(bytes), human_bytes(*memory))};
+  return fail(ErrorCode::scene_rejected,
+              "the reference solver needs {} of memory for this scene and {} are available; use fewer "
+              "particles or balls",
+              human_bytes(bytes), human_bytes(*memory));
 }
 
 Result<Backend> make_reference(const Model& model, const BackendChoice& choice, const SolverHost&) {
   ASPIC_CHECK(check_reference_memory(model, choice.precision));
-  auto solver = make_reference_solver(model, choice.precision);
-  if (!solver) return solver.error();
+  ASPIC_TRY(auto solver, make_reference_solver(model, choice.precision));
   Backend backend;
-  backend.device = (*solver)->description();
-  backend.solver = std::move(*solver);
+  backend.device = solver->description();
+  backend.solver = std::move(solver);
   return backend;
 }
 
@@ -103,6 +107,13 @@ constexpr BackendRow table[] = {
        return gpu_bytes(counts, integrator, choice.force_path);
      },
      gpu_suitability},
+    {"cpu", "CPU", "threads and vector instructions", single_alone, nullptr, false, make_cpu,
+     [](const ModelCounts& counts, Integrator integrator, const BackendChoice&) {
+       return cpu_bytes(counts, integrator);
+     },
+     [](const gl::Context*) {
+       return Suitability{true, "", "", nullptr};
+     }},
     {"reference", "reference", "one thread, Eigen, written to be read", both_precisions, nullptr, false,
      make_reference,
      [](const ModelCounts& counts, Integrator, const BackendChoice& choice) {
@@ -123,8 +134,7 @@ bool has_path(const BackendRow& row, ForcePath path) {
 }
 
 Error unknown_word(std::string_view what, std::string_view word, std::string_view allowed) {
-  return {ErrorCode::usage,
-          fmt::format("unknown {} \"{}\"; allowed: {}.", what, printable_line(word), allowed)};
+  return fail(ErrorCode::usage, "unknown {} \"{}\"; allowed: {}.", what, printable_line(word), allowed);
 }
 
 /// Names of the rows for which something holds.
@@ -177,11 +187,10 @@ Result<std::filesystem::path> shader_directory() {
   if (!value || !*value) return std::filesystem::path();
   std::error_code ignored;
   if (!std::filesystem::is_directory(value, ignored)) {
-    return Error{
-        ErrorCode::io,
-        fmt::format("ASPIC_SHADER_DIR names {}, which is no directory: name one laid out as shaders/ "
-                    "of the sources, or unset it.",
-                    printable_line(value))};
+    return fail(ErrorCode::io,
+                "ASPIC_SHADER_DIR is {}, which is not a directory: use one laid out like shaders/ in the "
+                "sources, or unset it.",
+                printable_line(value));
   }
   return std::filesystem::path(value);
 }
@@ -226,9 +235,7 @@ Result<ForcePath> parse_force_path(std::string_view word) {
 Result<BackendChoice> parse_backend(std::string_view text) {
   BackendChoice choice;
   const std::size_t colon = text.find(':');
-  const auto row = parse_backend_name(text.substr(0, colon));
-  if (!row) return row.error();
-  choice.row = *row;
+  ASPIC_TRY(choice.row, parse_backend_name(text.substr(0, colon)));
   while (text.find(':') != std::string_view::npos) {
     text.remove_prefix(text.find(':') + 1);
     const std::string_view word = text.substr(0, text.find(':'));
@@ -248,10 +255,8 @@ Status check_choice(const BackendChoice& choice) {
   const auto with_precision =
       names_where([&](const BackendRow& row) { return has(row.precisions, choice.precision); });
   if (choice.row && !has(choice.row->precisions, choice.precision)) {
-    return Error{ErrorCode::usage,
-                 fmt::format("the {0} does not compute in {1} precision; for {1} say "
-                             "--backend {2}.",
-                             choice.row->name, name_of(choice.precision), fmt::join(with_precision, " or "))};
+    return fail(ErrorCode::usage, "the {0} does not compute in {1} precision; for {1} use --backend {2}.",
+                choice.row->name, name_of(choice.precision), fmt::join(with_precision, " or "));
   }
   if (choice.force_path == ForcePath::automatic) return {};
   const auto possible = [&](const BackendRow& row) {
@@ -260,9 +265,8 @@ Status check_choice(const BackendChoice& choice) {
   if (choice.row ? possible(*choice.row) : std::ranges::any_of(table, possible)) return {};
   const std::string with_path = fmt::format(
       "{}", fmt::join(names_where([](const BackendRow& row) { return !row.force_paths().empty(); }), " or "));
-  return Error{
-      ErrorCode::usage,
-      fmt::format("a force path belongs to the {0} backend; leave it out or say --backend {0}.", with_path)};
+  return fail(ErrorCode::usage, "a force path belongs to the {0} backend; omit it or use --backend {0}.",
+              with_path);
 }
 
 Result<Backend> make_backend(const BackendChoice& choice, const Model& model, const SolverHost& host) {
@@ -272,18 +276,16 @@ Result<Backend> make_backend(const BackendChoice& choice, const Model& model, co
   const BackendRow& row = choice.row ? *choice.row : *automatic.row;
   if (choice.force_path != ForcePath::automatic && !has_path(row, choice.force_path)) {
     const auto names = names_where([&](const BackendRow& r) { return has_path(r, choice.force_path); });
-    return Error{ErrorCode::no_device,
-                 fmt::format("the force path {0} needs the {1} backend, but {2}. Say --backend {1} to take "
-                             "any device there is.",
-                             name_of(choice.force_path), names.front(), automatic.reason)};
+    return fail(ErrorCode::no_device,
+                "the force path {0} needs the {1} backend, but {2}. Use --backend {1} to accept any device.",
+                name_of(choice.force_path), names.front(), automatic.reason);
   }
   SolverHost place = host;
   if (automatic.context) place.context = automatic.context.get();
-  auto backend = row.make(model, choice, place);
-  if (!backend) return backend.error();
-  backend->row = &row;
-  if (automatic.context) backend->context = std::move(automatic.context);
-  backend->reason = std::move(automatic.reason);
+  ASPIC_TRY(auto backend, row.make(model, choice, place));
+  backend.row = &row;
+  if (automatic.context) backend.context = std::move(automatic.context);
+  backend.reason = std::move(automatic.reason);
   return backend;
 }
 

@@ -29,10 +29,10 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
   const double fps = frames_per_second(output);
   const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, fps, output.speed);
   if (schedule.count() > most_pictures) {
-    return Error{ErrorCode::usage,
-                 fmt::format("--speed {} and --fps {} make more than {} pictures of this run: choose a "
-                             "larger speed or fewer pictures a second.",
-                             output.speed, fps, most_pictures)};
+    return fail(ErrorCode::usage,
+                "--speed {} and --fps {} make more than {} pictures of this run: choose a larger speed or "
+                "fewer pictures per second.",
+                output.speed, fps, most_pictures);
   }
   std::unique_ptr<Recorder> r(new Recorder(output, scene, backend, schedule));
   r->context_ = backend.context.get();
@@ -40,22 +40,17 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
     auto context = gl::Context::create_headless();
     if (!context)
       return Error{context.error().code,
-                   "pictures need an OpenGL device, if only a software one. " + context.error().message};
+                   "pictures need an OpenGL device; a software one is enough. " + context.error().message};
     r->own_context_ = std::move(*context);
     r->context_ = r->own_context_.get();
   }
-  const auto directory = shader_directory();
-  if (!directory) return directory.error();
+  ASPIC_TRY(const auto directory, shader_directory());
   RendererOptions look;
-  look.shaders = gl::ShaderLibrary(*directory);
-  auto renderer = Renderer::create(*r->context_, look);
-  if (!renderer) return renderer.error();
-  r->renderer_ = std::move(*renderer);
+  look.shaders = gl::ShaderLibrary(directory);
+  ASPIC_TRY(r->renderer_, Renderer::create(*r->context_, look));
   ASPIC_CHECK(r->renderer_->set_model(model));
   FilmOptions film = {sinks.front()->path(), fps, output.size};
-  auto recording = Recording::start(*r->context_, std::move(sinks), std::move(film));
-  if (!recording) return recording.error();
-  r->recording_ = std::move(*recording);
+  ASPIC_TRY(r->recording_, Recording::start(*r->context_, std::move(sinks), std::move(film)));
   return r;
 }
 
@@ -90,11 +85,8 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   if (backend_.gpu && !own_context_) {
     drawn_state = backend_.gpu->device_state();
   } else {
-    const auto state = solver.state();
-    if (!state) return state.error();
-    const auto uploaded = renderer_->upload(*state);
-    if (!uploaded) return uploaded.error();
-    drawn_state = *uploaded;
+    ASPIC_TRY(const auto state, solver.state());
+    ASPIC_TRY(drawn_state, renderer_->upload(state));
   }
   PictureOptions picture;
   picture.view = scene_.view;
@@ -102,17 +94,14 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   if (output_.text)
     picture.text =
         overlay_lines(scene_.model, static_cast<double>(step) * solver.model().simulation.timestep);
-  const Status drawn = renderer_->draw(output_.size.width, output_.size.height, drawn_state, picture);
-  if (!drawn) return drawn;
+  ASPIC_CHECK(renderer_->draw(output_.size.width, output_.size.height, drawn_state, picture));
   draw_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   last_shown_ = step;
   return recording_->add(renderer_->picture(), copies);
 }
 
 Status Recorder::finish(Solver& solver, std::uint64_t step) {
-  if (recording_->pictures() == 0 || last_shown_ != step) {
-    ASPIC_CHECK(draw(solver, step, 1));
-  }
+  if (recording_->pictures() == 0 || last_shown_ != step) ASPIC_CHECK(draw(solver, step, 1));
   recording_->end();
   return recording_->result();
 }

@@ -31,9 +31,8 @@ Status guarded(const Work& work) {
 Result<std::unique_ptr<Recording>> Recording::start(gl::Context& context,
                                                     std::vector<std::unique_ptr<FrameSink>> sinks,
                                                     FilmOptions options) {
-  auto ring = gl::PixelRing::create(context, options.size.width, options.size.height);
-  if (!ring) return ring.error();
-  return std::unique_ptr<Recording>(new Recording(std::move(*ring), std::move(sinks), std::move(options)));
+  ASPIC_TRY(auto ring, gl::PixelRing::create(context, options.size.width, options.size.height));
+  return std::unique_ptr<Recording>(new Recording(std::move(ring), std::move(sinks), std::move(options)));
 }
 
 Recording::Recording(gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>> sinks, FilmOptions options)
@@ -80,9 +79,7 @@ Status Recording::hand_on() {
 }
 
 Status Recording::add(const gl::Framebuffer& picture, std::uint64_t copies) {
-  if (ring_.full()) {
-    ASPIC_CHECK(hand_on());
-  }
+  if (ring_.full()) ASPIC_CHECK(hand_on());
   ring_.submit(picture);
   copies_.push_back(copies);
   pictures_ += copies;

@@ -21,8 +21,8 @@ Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOu
       const auto b = std::filesystem::weakly_canonical(std::filesystem::absolute(files[j].second), failed_b);
       // Devices may take several outputs one after the other.
       if (failed_a || failed_b || a != b || a.native().starts_with("/dev/")) continue;
-      return Error{ErrorCode::usage, fmt::format("--{} and --{} both name {}: give each file its own name.",
-                                                 files[i].first, files[j].first, files[i].second)};
+      return fail(ErrorCode::usage, "--{} and --{} both name {}: give each file its own name.",
+                  files[i].first, files[j].first, files[i].second);
     }
   }
   return {};
@@ -37,23 +37,19 @@ Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const Pi
   for (const StateOutput& output : states) {
     if (output.path.empty()) continue;
     const StateFormat& format = state_format_of(output.option, output.path);
-    auto sink = format.open(output.path, output.every.value_or(format.default_every), overwrite, facts);
-    if (!sink) return sink.error();
-    files.sinks_.push_back(std::move(*sink));
+    ASPIC_TRY(auto sink,
+              format.open(output.path, output.every.value_or(format.default_every), overwrite, facts));
+    files.sinks_.push_back(std::move(sink));
   }
   const auto add = [&](const FilmFormat& format, const std::string& path) -> Status {
-    auto sink = open_film(format, path, pictures.size, frames_per_second(pictures), overwrite);
-    if (!sink) return sink.error();
-    files.frame_sinks_.push_back(std::move(*sink));
+    ASPIC_TRY(auto sink, open_film(format, path, pictures.size, frames_per_second(pictures), overwrite));
+    files.frame_sinks_.push_back(std::move(sink));
     return {};
   };
-  if (!pictures.frames.empty()) {
-    ASPIC_CHECK(add(*pictures.frames_format, pictures.frames));
-  }
+  if (!pictures.frames.empty()) ASPIC_CHECK(add(*pictures.frames_format, pictures.frames));
   if (!pictures.video.empty()) {
-    const auto format = video_format_of(pictures.video);
-    if (!format) return format.error();
-    ASPIC_CHECK(add(**format, pictures.video));
+    ASPIC_TRY(const auto format, video_format_of(pictures.video));
+    ASPIC_CHECK(add(*format, pictures.video));
   }
   return files;
 }

@@ -1,6 +1,6 @@
-#include "scene/nesting.h"
-
 #include <fmt/format.h>
+
+#include "scene/document.h"
 
 namespace aspic::document {
 namespace {
@@ -75,9 +75,9 @@ class Scanner {
     if (c == '[' || c == '{') {
       if (++depth_ > deepest_nesting)
         return Problem{
-            here_, fmt::format("more than {} arrays and tables are inside each other here: no scene is that "
-                               "deep",
-                               deepest_nesting)};
+            here_,
+            fmt::format("more than {} arrays and tables are inside each other here: no scene is that deep",
+                        deepest_nesting)};
     }
     if ((c == ']' || c == '}') && depth_ > 0) --depth_;
     if (c == '[' || c == ']' || c == '{' || c == '}' || c == ',' || c == '=' || c == '\n') dots_ = 0;

@@ -97,11 +97,9 @@ class Argument {
     const char* const quote = is_bare_word(value) ? "\"" : "";
     auto parsed = document::parse(fmt::format("{0}={1}{2}{1}", stand_in, quote, value), source_);
     if (const auto* problem = std::get_if<Problem>(&parsed)) {
-      fail(
-          column,
-          fmt::format("the value is neither a TOML value nor a single word; text with spaces needs quotation "
-                      "marks inside the argument: '{}=\"…\"' ({})",
-                      text_.substr(0, equals), problem->message));
+      fail(column, fmt::format("the value is neither a TOML value nor a single word; text with spaces needs "
+                               "quotation marks inside the argument: '{}=\"…\"' ({})",
+                               text_.substr(0, equals), problem->message));
       return false;
     }
     table_ = std::move(std::get<toml::table>(parsed));
@@ -230,11 +228,10 @@ void resolve_material(Reader& reader, std::size_t cube, bool had_material) {
                          [](const Position& a, const Position& b) { return a.source < b.source; }),
                 "a cube has either a material or masses and springs: --set gives both");
   } else if (set_explicit) {
-    reader.fail(
-        *set_explicit,
-        "this cube is made of a material, which decides its masses and springs; set material.density, "
-        "material.youngs-modulus or material.damping-ratio, or all of particle-mass, structural, shear "
-        "and bending with stiffness and damping");
+    reader.fail(*set_explicit,
+                "this cube is made of a material, which decides its masses and springs; set "
+                "material.density, material.youngs-modulus or material.damping-ratio, or all of "
+                "particle-mass, structural, shear and bending with stiffness and damping");
   } else if (!set_material) {
     return;
   }

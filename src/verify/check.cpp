@@ -18,9 +18,8 @@ Subject product(gl::Context* context, std::string program) {
     return make_reference_solver(model, precision);
   };
   subject.other = [](const Model& model, const BackendRow& row) -> Result<std::unique_ptr<Solver>> {
-    auto backend = make_backend({&row}, model);
-    if (!backend) return backend.error();
-    return std::move(backend->solver);
+    ASPIC_TRY(auto backend, make_backend({&row}, model));
+    return std::move(backend.solver);
   };
   if (context != nullptr) {
     subject.gpu = [context](const Model& model, const GpuOptions& options) {
@@ -44,6 +43,7 @@ std::vector<Check> battery() {
   add_rest_checks(checks);
   add_scene_checks(checks);
   add_implicit_checks(checks);
+  add_body_checks(checks);
   add_ball_checks(checks);
   add_equality_checks(checks);
   return checks;
@@ -56,7 +56,7 @@ Result<std::vector<Check>> select(std::vector<Check> checks, std::span<const std
   for (const std::string& name : names) {
     if (std::any_of(checks.begin(), checks.end(), [&](const Check& c) { return meant(c, name); })) continue;
     std::string message = fmt::format(
-        "no check is called \"{}\". A name stands for itself and for all below it; the checks:", name);
+        "no check is called \"{}\". A name selects itself and everything below it; the checks:", name);
     for (const Check& check : checks) message += "\n  " + check.name;
     return Error{ErrorCode::usage, message};
   }

@@ -7,6 +7,7 @@
 
 #include "analysis/compare.h"
 #include "io/child_process.h"
+#include "model/terrain.h"
 #include "scene/load.h"
 #include "verify/experiments.h"
 #include "verify/textbook.h"
@@ -30,9 +31,8 @@ Result<std::unique_ptr<Solver>> make_solver(const Subject& subject, const Backen
   if (!row.needs_context) return subject.other(model, row);
   GpuOptions options;
   options.force_path = path;
-  auto solver = subject.gpu(model, options);
-  if (!solver) return solver.error();
-  return std::unique_ptr<Solver>(std::move(*solver));
+  ASPIC_TRY(auto solver, subject.gpu(model, options));
+  return std::unique_ptr<Solver>(std::move(solver));
 }
 
 /// The force paths of a backend that have bits of their own to show with an integrator.
@@ -52,17 +52,14 @@ const gl::Arithmetic* arithmetic_of(const Solver& solver) {
 
 Status compare_run(const Subject& subject, const BackendRow& row, const Model& model, ForcePath path,
                    std::uint64_t steps, const State& expected, Worst& worst) {
-  auto solver = make_solver(subject, row, model, path);
-  if (!solver) return solver.error();
-  const auto end = run(**solver, steps);
-  if (!end) return end.error();
-  const auto difference = compare_states(*end, expected);
-  if (!difference) return difference.error();
-  worst.ulp = std::max({worst.ulp, difference->position.ulp, difference->velocity.ulp});
-  worst.absolute = std::max(worst.absolute, difference->largest_absolute());
+  ASPIC_TRY(auto solver, make_solver(subject, row, model, path));
+  ASPIC_TRY(const auto end, run(*solver, steps));
+  ASPIC_TRY(const auto difference, compare_states(end, expected));
+  worst.ulp = std::max(worst.ulp, difference.largest_ulp());
+  worst.absolute = std::max(worst.absolute, difference.largest_absolute());
   ++worst.runs;
   worst.arithmetic.clear();
-  if (const gl::Arithmetic* const arithmetic = arithmetic_of(**solver)) {
+  if (const gl::Arithmetic* const arithmetic = arithmetic_of(*solver)) {
     worst.arithmetic_exact = arithmetic->exact();
     for (const std::string& sentence : arithmetic->sentences()) worst.arithmetic += " " + sentence;
   }
@@ -70,12 +67,12 @@ Status compare_run(const Subject& subject, const BackendRow& row, const Model& m
 }
 
 Result<Finding> same_bits(const Subject& subject, const BackendRow& row, Integrator integrator) {
-  const bool solved = integrator == Integrator::implicit_euler;
+  const bool solved = row_of(integrator).solved();
   const std::uint64_t steps = solved ? implicit_steps : explicit_steps;
   Worst worst;
-  for (const TerrainShape shape : all_terrains) {
+  for (const TerrainShapeRow& shape : terrain_shapes) {
     for (const ContactModel contact : both_contact_models) {
-      ModelSettings settings = cube_on_terrain(solved ? 4 : 5, shape, integrator, contact);
+      ModelSettings settings = cube_on_terrain(solved ? 4 : 5, shape.value, integrator, contact);
       if (solved) settings.simulation.timestep = 0.01;
       ASPIC_TRY(auto model, build_model(settings));
       ASPIC_TRY(auto expected, run_reference(subject, model, Precision::single, steps));
@@ -110,7 +107,7 @@ Result<Finding> same_bits_with_hand(const Subject& subject, const BackendRow& ro
   int runs = 0;
   bool exact = true;
   for (const Integrator integrator : all_integrators) {
-    const bool solved = integrator == Integrator::implicit_euler;
+    const bool solved = row_of(integrator).solved();
     for (const ContactModel contact : both_contact_models) {
       ModelSettings settings = cube_on_terrain(4, TerrainShape::plane, integrator, contact);
       if (solved) settings.simulation.timestep = 0.01;
@@ -122,7 +119,7 @@ Result<Finding> same_bits_with_hand(const Subject& subject, const BackendRow& ro
         ASPIC_TRY(auto solver, make_solver(subject, row, model, path));
         ASPIC_TRY(auto end, run_with_hand(*solver, steps));
         ASPIC_TRY(auto difference, compare_states(end, expected));
-        worst = std::max({worst, difference.position.ulp, difference.velocity.ulp});
+        worst = std::max(worst, difference.largest_ulp());
         if (const gl::Arithmetic* const a = arithmetic_of(*solver)) exact = exact && a->exact();
         ++runs;
       }
@@ -158,15 +155,13 @@ Result<Finding> spring_force(const Subject& subject) {
   const State start = initial_state(model, Precision::single);
   const auto f = force(model, motion_of<double>(start));
   GpuOptions options;
-  auto solver = subject.gpu(model, options);
-  if (!solver) return solver.error();
-  const auto end = run(**solver, 1, &start);
-  if (!end) return end.error();
+  ASPIC_TRY(auto solver, subject.gpu(model, options));
+  ASPIC_TRY(const auto end, run(*solver, 1, &start));
   double worst = 0.0;
   for (int i = 0; i < pairs; ++i) {
     // The end at rest: v' = h·f exactly, so f = v'/h.
     const auto a = static_cast<std::size_t>(2 * i), b = a + 1;
-    const Vec3 read = (1 / model.simulation.timestep) * end->velocity[b];
+    const Vec3 read = (1 / model.simulation.timestep) * end.velocity[b];
     const double L = length(start.position[a] - start.position[b]);
     const double scale = 2000.0 * (L + 0.5) + 60.0 * length(start.velocity[a] - start.velocity[b]);
     for (int axis = 0; axis < 3; ++axis) {
@@ -178,7 +173,7 @@ Result<Finding> spring_force(const Subject& subject) {
 
 Result<Model> repeat_model(Integrator integrator) {
   ModelSettings settings = cube_on_terrain(5, TerrainShape::plane, integrator, ContactModel::coulomb);
-  if (integrator == Integrator::implicit_euler) settings.simulation.timestep = 0.01;
+  if (row_of(integrator).solved()) settings.simulation.timestep = 0.01;
   return build_model(settings);
 }
 
@@ -190,12 +185,11 @@ Finding one_hash(const std::set<std::string>& hashes, std::size_t runs, const st
 
 Result<Finding> repeated(const Subject& subject, Integrator integrator, std::uint64_t steps) {
   ASPIC_TRY(auto model, repeat_model(integrator));
-  auto solver = subject.gpu(model, {});
-  if (!solver) return solver.error();
+  ASPIC_TRY(auto solver, subject.gpu(model, {}));
   const State start = initial_state(model, Precision::single);
   std::set<std::string> hashes;
   for (int i = 0; i < 20; ++i) {
-    ASPIC_TRY(auto end, run(**solver, steps, &start));
+    ASPIC_TRY(auto end, run(*solver, steps, &start));
     hashes.insert(state_hash_text(end));
   }
   return one_hash(hashes, 20, "");
@@ -210,9 +204,8 @@ Result<Finding> group_sizes(const Subject& subject) {
       GpuOptions options;
       options.force_path = path.path;
       options.group_size = size;
-      auto solver = subject.gpu(model, options);
-      if (!solver) return solver.error();
-      ASPIC_TRY(auto end, run(**solver, repeat_steps));
+      ASPIC_TRY(auto solver, subject.gpu(model, options));
+      ASPIC_TRY(auto end, run(*solver, repeat_steps));
       hashes.insert(state_hash_text(end));
       ++runs;
     }
@@ -253,7 +246,7 @@ void add_equality_checks(std::vector<Check>& checks) {
       checks.push_back(
           {fmt::format("equality/{}/{}", name_of(integrator), row.name),
            fmt::format("{} and reference after {} steps through contact: 4 terrains, 2 contact models{}",
-                       row.name, integrator == Integrator::implicit_euler ? implicit_steps : explicit_steps,
+                       row.name, row_of(integrator).solved() ? implicit_steps : explicit_steps,
                        row.force_paths().empty() ? ""
                        : paths.size() == 1       ? fmt::format(", {}", name_of(paths.front()))
                                                  : fmt::format(", {} force paths", paths.size())),
@@ -263,8 +256,7 @@ void add_equality_checks(std::vector<Check>& checks) {
     checks.push_back(
         {fmt::format("equality/pull/{}", row.name),
          fmt::format(
-             "{} and reference while a hand pulls, moves and lets go: every integrator, 2 contact "
-             "models{}",
+             "{} and reference while a hand pulls, moves and lets go: every integrator, 2 contact models{}",
              row.name,
              row.force_paths().empty() ? "" : fmt::format(", {} force paths", row.force_paths().size())),
          bound, true, row.needs_context,

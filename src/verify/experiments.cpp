@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "model/terrain.h"
+
 namespace aspic::verify {
 
 ModelSettings cube_settings(int particles_per_edge, const Vec3& centre) {
@@ -17,18 +19,12 @@ ModelSettings cube_settings(int particles_per_edge, const Vec3& centre) {
 
 ModelSettings cube_on_terrain(int particles_per_edge, TerrainShape shape, Integrator integrator,
                               ContactModel contact) {
-  const Vec3 centre = shape == TerrainShape::plane          ? Vec3{0.0, 1.9, 0.0}
-                      : shape == TerrainShape::tilted_plane ? Vec3{1.0, 3.2, 0.0}
-                      : shape == TerrainShape::sphere       ? Vec3{0.4, 4.9, 0.2}
-                                                            : Vec3{2.3, 5.5, 1.2};
-  ModelSettings settings = cube_settings(particles_per_edge, centre);
+  ModelSettings settings = cube_settings(particles_per_edge, terrain_row(shape).drop);
   settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
   settings.cubes[0].velocity = {1.0, -1.0, 0.5};
   settings.simulation.integrator = integrator;
   settings.contact.model = contact;
-  TerrainSettings terrain;
-  terrain.shape = shape;
-  settings.terrain.push_back(terrain);
+  settings.terrain.push_back({.shape = shape});
   return settings;
 }
 
@@ -44,14 +40,12 @@ Model loose_particles(std::vector<Vec3> positions, std::vector<Vec3> velocities,
 Status require_good(const Result<std::optional<Divergence>>& advanced) {
   if (!advanced) return advanced.error();
   if (!advanced->has_value()) return {};
-  return Error{ErrorCode::check_failed,
-               fmt::format("diverged in step {} at particle {}", (*advanced)->step, (*advanced)->particle)};
+  return fail(ErrorCode::check_failed, "diverged in step {} at particle {}", (*advanced)->step,
+              (*advanced)->particle);
 }
 
 Result<State> run(Solver& solver, std::uint64_t steps, const State* start) {
-  if (start != nullptr) {
-    ASPIC_CHECK(solver.load(*start));
-  }
+  if (start != nullptr) ASPIC_CHECK(solver.load(*start));
   ASPIC_CHECK(require_good(solver.advance(steps)));
   return solver.state();
 }

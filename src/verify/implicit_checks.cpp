@@ -98,8 +98,7 @@ Result<Finding> dense(const Subject& subject) {
 void add_implicit_checks(std::vector<Check>& checks) {
   checks.push_back({"implicit/bounded",
                     "free 5³ cube, 1 % perturbed, at 1,000 times explicit Euler's limit, 100 steps: energy "
-                    "never above the "
-                    "start's",
+                    "never above the start's",
                     "≤ 1", true, false, bounded});
   checks.push_back({"implicit/dense",
                     "one step equals a dense Newton solve in double precision (shaken 4³ cube, h = 1/60 s)",

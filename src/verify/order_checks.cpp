@@ -63,10 +63,9 @@ Result<Finding> order_of(const Subject& subject, Integrator integrator, int orde
 }  // namespace
 
 void add_order_checks(std::vector<Check>& checks) {
-  constexpr int orders[] = {1, 1, 2, 4, 1, 1};
-  for (std::size_t i = 0; i < all_integrators.size(); ++i) {
-    const Integrator integrator = all_integrators[i];
-    const int order = orders[i];
+  for (const IntegratorRow& row : integrator_table) {
+    const Integrator integrator = row.integrator;
+    const int order = row.order;
     checks.push_back({fmt::format("order/{}", name_of(integrator)),
                       fmt::format("halving h divides the error of {} by 2^{}", name_of(integrator), order),
                       fmt::format("{} ± 0.05", order), true, false,

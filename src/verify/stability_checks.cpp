@@ -58,9 +58,8 @@ Result<double> growth(const Subject& subject, const Model& model, const WorstMod
       (early ? first : last) = std::max(early ? first : last, std::sqrt(square));
     }
     const std::uint64_t stride = early || late ? 1 : steps - window - step;
-    const auto advanced = solver->advance(stride);
-    if (!advanced) return advanced.error();
-    if (advanced->has_value()) return std::numeric_limits<double>::infinity();
+    ASPIC_TRY(const auto advanced, solver->advance(stride));
+    if (advanced.has_value()) return std::numeric_limits<double>::infinity();
     step += stride - 1;
   }
   return last / first;
@@ -97,9 +96,9 @@ void add_stability_checks(std::vector<Check>& checks) {
     for (const Integrator integrator : explicit_integrators) {
       checks.push_back(
           {fmt::format("stability/{}/{}", kind, name_of(integrator)),
-           fmt::format("default cube, c = {}: the worst mode does not grow at 0.999 of the limit and does "
-                       "at 1.005",
-                       damping),
+           fmt::format(
+               "default cube, c = {}: the worst mode does not grow at 0.999 of the limit and does at 1.005",
+               damping),
            fmt::format("≤ ×1 below, ≥ ×2 above in {} steps", steps), integrator == Integrator::explicit_euler,
            false, [=, c = damping](const Subject& subject) { return edge(subject, integrator, c); }});
     }

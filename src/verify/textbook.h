@@ -17,7 +17,7 @@ struct Motion {
 template <class T>
 Motion<T> motion_of(const State& state);
 
-/// Spring forces and gravity [N] on all particles, spec §2.3; no contact.
+/// Spring forces and gravity [N] on all particles (docs/physics.md, section 1); no contact.
 template <class T>
 Eigen::Matrix<T, Eigen::Dynamic, 1> force(const Model& model, const Motion<T>& at);
 

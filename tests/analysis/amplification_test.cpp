@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <ostream>
@@ -11,50 +10,32 @@
 namespace aspic {
 namespace {
 
-constexpr std::array explicit_integrators = {Integrator::explicit_euler, Integrator::symplectic_euler,
-                                             Integrator::midpoint, Integrator::runge_kutta_4,
-                                             Integrator::implicit_euler_one_pass};
-
-/// Steps ẍ = −κx − γẋ by the formulas of spec §2.6, written out: the growth of the norm after many steps.
+/// The growth of a mode's norm after many steps: its step matrix applied again and again.
 double growth(Integrator integrator, double kappa, double gamma, double h, int steps) {
-  double x = 1.0, v = kappa > 0.0 ? 0.3 * std::sqrt(kappa) : 1.0;
-  const double scale = kappa > 0.0 ? std::sqrt(kappa) : 1.0;
-  const double start = std::hypot(x * scale, v);
-  const auto a = [&](double at_x, double at_v) { return -kappa * at_x - gamma * at_v; };
-  for (int i = 0; i < steps; ++i) {
-    if (std::hypot(x * scale, v) > 1e6 * start) break;
-    const double v1 = v, a1 = a(x, v);
-    switch (integrator) {
-      case Integrator::explicit_euler:
-        x += h * v1;
-        v += h * a1;
-        break;
-      case Integrator::symplectic_euler:
-        v += h * a1;
-        x += h * v;
-        break;
-      case Integrator::midpoint: {
-        const double xm = x + h / 2 * v, vm = v + h / 2 * a1;
-        x += h * vm;
-        v += h * a(xm, vm);
-        break;
-      }
-      case Integrator::implicit_euler_one_pass: {
-        const double xp = x + h * v, vp = v + h * a1;
-        x += h * vp;
-        v += h * a(xp, vp);
-        break;
-      }
-      default: {
-        const double x2 = x + h / 2 * v1, v2 = v + h / 2 * a1, a2 = a(x2, v2);
-        const double x3 = x + h / 2 * v2, v3 = v + h / 2 * a2, a3 = a(x3, v3);
-        const double x4 = x + h * v3, v4 = v + h * a3, a4 = a(x4, v4);
-        x += h / 6 * (v1 + 2 * v2 + 2 * v3 + v4);
-        v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-      }
+  const StepMatrix m = row_of(integrator).step_matrix(h, kappa, gamma);
+  const long double scale = kappa > 0.0 ? std::sqrt(kappa) : 1.0;
+  long double x = 1.0, v = kappa > 0.0 ? 0.3 * std::sqrt(kappa) : 1.0;
+  const long double start = std::hypot(x * scale, v);
+  for (int i = 0; i < steps && std::hypot(x * scale, v) < 1e6L * start; ++i) {
+    const long double next = m[0] * x + m[1] * v;
+    v = m[2] * x + m[3] * v;
+    x = next;
+  }
+  return static_cast<double>(std::hypot(x * scale, v) / start);
+}
+
+// The stages make the same polynomial of Z as the step matrix states.
+TEST(Amplification, StagesAndStepMatrixAreTheSameMethod) {
+  for (const IntegratorRow& row : integrator_table) {
+    if (row.solved() || row.drift != Drift::stage_velocity) continue;
+    const auto r = amplification_polynomial(row);
+    // A nilpotent-free case: κ = 0 leaves q̇' = R(−hγ)·q̇.
+    for (const double z : {-0.1, -0.7, -1.9}) {
+      double value = 0.0;
+      for (std::size_t i = r.size(); i-- > 0;) value = value * z + r[i];
+      EXPECT_NEAR(static_cast<double>(row.step_matrix(1.0L, 0.0L, -z)[3]), value, 1e-14) << row.name;
     }
   }
-  return std::hypot(x * scale, v) / start;
 }
 
 struct Mode {
@@ -89,6 +70,8 @@ TEST(ModeLimit, UndampedModesAsTheLiteratureHasThem) {
   EXPECT_FALSE(mode_limit(Integrator::midpoint, 4.0, 0.0).has_value());
   EXPECT_DOUBLE_EQ(*mode_limit(Integrator::symplectic_euler, 4.0, 0.0), 1.0);           // 2/ω
   EXPECT_NEAR(*mode_limit(Integrator::runge_kutta_4, 4.0, 0.0), std::sqrt(2.0), 1e-9);  // 2√2/ω
+  EXPECT_NEAR(*mode_limit(Integrator::heun_3, 4.0, 0.0), 0.5 * std::sqrt(3.0), 1e-9);   // √3/ω
+  EXPECT_DOUBLE_EQ(*mode_limit(Integrator::velocity_verlet, 4.0, 0.0), 1.0);            // 2/ω
   // R = 1 + z + z²: |R(iy)|² = 1 − y² + y⁴ ≤ 1 for y ≤ 1.
   EXPECT_NEAR(*mode_limit(Integrator::implicit_euler_one_pass, 4.0, 0.0), 0.5, 1e-9);  // 1/ω
 }
@@ -97,6 +80,15 @@ TEST(ModeLimit, WeaklyDampedExplicitEulerIsLimitedByDampingOverStiffness) {
   // |1 + hλ|² = 1 + 2h Re λ + h²|λ|²: the limit is γ/κ for complex λ.
   EXPECT_NEAR(*mode_limit(Integrator::explicit_euler, 1e4, 1.0), 1e-4, 1e-12);
   EXPECT_NEAR(*mode_limit(Integrator::explicit_euler, 1e4, 1e-3), 1e-7, 1e-15);
+}
+
+// Both forms of the limit give 2/γ at κ = γ², where they meet.
+TEST(ModeLimit, DampedVelocityVerlet) {
+  EXPECT_DOUBLE_EQ(*mode_limit(Integrator::velocity_verlet, 9.0, 3.0), 2.0 / 3.0);
+  EXPECT_NEAR(*mode_limit(Integrator::velocity_verlet, 9.0 * (1 + 1e-9), 3.0), 2.0 / 3.0, 1e-8);
+  EXPECT_DOUBLE_EQ(*mode_limit(Integrator::velocity_verlet, 1.0, 3.0), 2.0 / 3.0);
+  // 4/(1 + √13)
+  EXPECT_DOUBLE_EQ(*mode_limit(Integrator::velocity_verlet, 4.0, 1.0), 4.0 / (1.0 + std::sqrt(13.0)));
 }
 
 TEST(ModeLimit, NothingLimitsImplicitEulerOrAFreeParticle) {

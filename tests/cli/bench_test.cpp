@@ -16,7 +16,8 @@ TEST(Bench, ReportsWhatItMeasured) {
                           "\"renderer\"", "\"spread\""}) {
     EXPECT_NE(run.out.find(key), std::string::npos) << key;
   }
-  EXPECT_NE(run.out.find("\"springs\": 564"), std::string::npos) << run.out;  // 144 + 324 + 96, by spec §2.2
+  EXPECT_NE(run.out.find("\"springs\": 564"), std::string::npos)
+      << run.out;  // 144 + 324 + 96 (docs/physics.md, section 2)
   EXPECT_NE(run.out.find("\"steps\": 50"), std::string::npos) << run.out;
 }
 

@@ -8,7 +8,7 @@
 #include "cli/process.h"
 #include "io/checkpoint.h"
 #include "io/series_csv.h"
-#include "io/state_csv.h"
+#include "support/state_csv_reader.h"
 
 namespace aspic {
 namespace {
@@ -31,11 +31,21 @@ TEST(Files, StateReadsBackToTheHashOfTheSummary) {
     const auto run = aspic(run_words(
         {"--steps", "1500", "--precision", std::string(name_of(precision)), "--state", dir.file("s.csv")}));
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const auto state = read_state_csv(dir.file("s.csv"), precision);
+    const auto state = test::read_state_csv(dir.file("s.csv"), precision);
     ASSERT_TRUE(state.ok()) << state.error().message;
     EXPECT_EQ(state_hash_text(*state), json_member(run.out, "state_hash"));
     EXPECT_EQ(dir.entries(), 1u);
   }
+}
+
+TEST(Files, StatesTakeTheFormatOfTheirEnding) {
+  const test::TemporaryDirectory dir;
+  const auto run = aspic({"run", "flag", "--backend", "reference", "--steps", "25", "--state",
+                          dir.file("out.vtp"), "--state-every", "10"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"out-00000000.vtp", "out-00000010.vtp", "out-00000020.vtp", "out-00000025.vtp"})
+    EXPECT_THAT(dir.read(name), testing::HasSubstr("<VTKFile type=\"PolyData\"")) << name;
+  EXPECT_EQ(dir.entries(), 4u);
 }
 
 TEST(Files, SeriesHasStartEveryNthAndFinalStep) {
@@ -96,7 +106,7 @@ TEST(Files, OneThatFailsDoesNotCostTheOthers) {
   const auto run = aspic(run_words({"--steps", "5", "--state", dir.file("s.csv"), "--series", "/dev/full",
                                     "--checkpoint", dir.file("c")}));
   EXPECT_EQ(run.exit_code, 6);
-  EXPECT_TRUE(read_state_csv(dir.file("s.csv"), Precision::single).ok());
+  EXPECT_TRUE(test::read_state_csv(dir.file("s.csv"), Precision::single).ok());
   EXPECT_TRUE(read_checkpoint(dir.file("c")).ok());
 }
 
@@ -182,7 +192,7 @@ TEST(Files, InterruptClosesThemWhole) {
     ASSERT_TRUE(test::is_json(finished.out)) << finished.out;
     EXPECT_EQ(json_member(finished.out, "interrupted"), "true");
     EXPECT_EQ(run.dir.entries(), 3u);
-    const auto state = read_state_csv(run.dir.file("s.csv"), Precision::single);
+    const auto state = test::read_state_csv(run.dir.file("s.csv"), Precision::single);
     ASSERT_TRUE(state.ok()) << state.error().message;
     EXPECT_EQ(state_hash_text(*state), json_member(finished.out, "state_hash"));
     const auto checkpoint = read_checkpoint(run.dir.file("c"));

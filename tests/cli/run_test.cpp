@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "cli/process.h"
-#include "io/state_csv.h"
+#include "support/state_csv_reader.h"
 
 namespace aspic {
 namespace {
@@ -84,7 +84,7 @@ TEST(Run, DivergenceEndsAtTheLastGoodStateAndSaysWhy) {
   EXPECT_THAT(run.err, HasSubstr("warning: the time step 0.01 s is not stable"));
   ASSERT_TRUE(test::is_json(run.out)) << run.out;
   EXPECT_THAT(json_member(run.out, "finite"), testing::AnyOf("true", "false"));
-  const auto state = read_state_csv(dir.file("s.csv"), Precision::single);
+  const auto state = test::read_state_csv(dir.file("s.csv"), Precision::single);
   ASSERT_TRUE(state.ok()) << state.error().message;
   EXPECT_EQ(state_hash_text(*state), json_member(run.out, "state_hash"));
   EXPECT_THAT(dir.read("e.csv"), testing::Not(testing::AnyOf(HasSubstr("nan"), HasSubstr("inf"))));

@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <ostream>
+#include <sstream>
 
 #include "cli/process.h"
 
@@ -28,6 +31,30 @@ TEST(Usage, VersionAndHelpAreData) {
   }
   EXPECT_THAT(aspic({"run", "--help"}).out, HasSubstr("--checkpoint"));
   EXPECT_THAT(aspic({"scene", "--help"}).out, HasSubstr("check"));
+}
+
+TEST(Usage, EveryOptionIsDocumented) {
+  std::ifstream file(ASPIC_SOURCE_DIR "/docs/commands.md");
+  const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  int options = 0;
+  for (const Words& words : {Words{"run", "--help"},
+                             {"view", "--help"},
+                             {"compare", "--help"},
+                             {"verify", "--help"},
+                             {"bench", "--help"},
+                             {"scene", "check", "--help"},
+                             {"info", "--help"}}) {
+    for (const std::string& line : test::lines(aspic(words).out)) {
+      // An option's line is indented by two; names of one option are joined by commas.
+      if (!line.starts_with("  --")) continue;
+      std::istringstream names(line.substr(2, line.find_first_of(" =", 2) - 2));
+      for (std::string name; std::getline(names, name, ',');) {
+        ++options;
+        EXPECT_THAT(page, HasSubstr("`" + name)) << words.front();
+      }
+    }
+  }
+  EXPECT_GE(options, 30);
 }
 
 struct Failure {

@@ -21,8 +21,8 @@ Ground<double> plane(double e = 0.5, double mu = 0.25, double mass = infinite) {
 Ground<double> round(TerrainShape shape) {
   TerrainSettings settings;
   settings.shape = shape;
-  settings.centre = Vec3{1.0, 2.0, 3.0};
-  settings.radius = 2.0;
+  settings.geometry["centre"] = Vec3{1.0, 2.0, 3.0};
+  settings.geometry["radius"] = 2.0;
   return Ground<double>(make_terrain(settings, ContactSettings{}));
 }
 

@@ -10,6 +10,7 @@
 #include "cpu_reference/phase.h"
 #include "cpu_reference/reference_solver.h"
 #include "model/integrator.h"
+#include "support/integrator_names.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -23,30 +24,13 @@ std::unique_ptr<Solver> solver_for(const Model& model, Precision precision) {
   return std::move(solver).value();
 }
 
-/// What one step makes of (position, velocity) of a linear oscillator: the method's stability function of
-/// h·A, as its textbook has it.
+/// What one step makes of (position, velocity) of a linear oscillator.
 Eigen::Matrix2d amplification(Integrator integrator, double h, double k, double c, double m) {
-  Eigen::Matrix2d Z;
-  Z << 0.0, h, -h * k / m, -h * c / m;
-  const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
-  switch (integrator) {
-    case Integrator::explicit_euler:
-      return I + Z;
-    case Integrator::midpoint:
-      return I + Z + Z * Z / 2;
-    case Integrator::runge_kutta_4:
-      return I + Z + Z * Z / 2 + Z * Z * Z / 6 + Z * Z * Z * Z / 24;
-    case Integrator::implicit_euler_one_pass:
-      return I + Z + Z * Z;
-    case Integrator::implicit_euler:
-      return (I - Z).inverse();
-    case Integrator::symplectic_euler:
-      break;
-  }
-  Eigen::Matrix2d kick = I, drift = I;
-  kick.row(1) += Z.row(1);
-  drift(0, 1) = h;
-  return drift * kick;
+  const StepMatrix step = row_of(integrator).step_matrix(h, k / m, c / m);
+  Eigen::Matrix2d matrix;
+  for (Eigen::Index i = 0; i < 4; ++i)
+    matrix(i / 2, i % 2) = static_cast<double>(step[static_cast<std::size_t>(i)]);
+  return matrix;
 }
 
 class PullClosedForm : public testing::TestWithParam<Integrator> {
@@ -79,11 +63,7 @@ class PullClosedForm : public testing::TestWithParam<Integrator> {
     return largest;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Every, PullClosedForm, testing::ValuesIn(all_integrators), [](const auto& instance) {
-  std::string name(name_of(instance.param));
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Every, PullClosedForm, testing::ValuesIn(all_integrators), test::by_integrator);
 
 // Positions up to 3 m are rounded in each of 500 steps and feed a force of 30 N/m over h; an implicit solve
 // ends at a residual of 1e-15 m/s or where rounding ends it.
@@ -161,7 +141,7 @@ TEST(Pull, LightensWhatPressesOnTheGround) {
   Model model = test::particles({{0, -1, 0}}, {{2, 0, 0}}, 3.0);
   model.contact.model = ContactModel::course;
   model.terrain.emplace_back();
-  model.terrain[0].point = {0, -1, 0};
+  model.terrain[0].geometry.vectors[0] = {0, -1, 0};
   model.terrain[0].friction = 0.5;
   reference::Dynamics<double> dynamics(model);
   const reference::Phase<double> s = reference::start_of(model);

@@ -6,10 +6,10 @@
 #include "app/kept_state.h"
 #include "base/files.h"
 #include "fuzz/targets.h"
-#include "io/state_csv.h"
 #include "model/model.h"
 #include "scene/import_configuration.h"
 #include "scene/load.h"
+#include "support/state_csv_reader.h"
 
 namespace aspic::fuzz {
 namespace {
@@ -56,7 +56,7 @@ void run_state_csv(std::string_view text) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
   for (const Precision precision : {Precision::single, Precision::double_}) {
-    const auto state = parse_state_csv(text, "fuzz.csv", precision);
+    const auto state = test::parse_state_csv(text, "fuzz.csv", precision);
     if (!state) {
       require_message(state.error(), {ErrorCode::io});
       continue;

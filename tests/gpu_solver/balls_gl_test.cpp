@@ -66,16 +66,14 @@ TEST_F(BallsOnTheDevice, AHundredInTheNetOverTwoThousandSteps) {
 }
 
 TEST_F(BallsOnTheDevice, EveryIntegratorAndContactModel) {
-  for (const Integrator integrator :
-       {Integrator::symplectic_euler, Integrator::midpoint, Integrator::runge_kutta_4,
-        Integrator::implicit_euler_one_pass, Integrator::implicit_euler}) {
+  for (const Integrator integrator : all_integrators) {
     for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
       ModelSettings settings = net_under_fire(20, 0.01);
       settings.simulation.integrator = integrator;
       settings.contact.model = contact;
       settings.contact.spin = contact == ContactModel::coulomb;
       settings.goal_nets[0].particles = {4, 6, 8};
-      expect_equal(test::build(settings), integrator == Integrator::implicit_euler ? 150 : 500);
+      expect_equal(test::build(settings), row_of(integrator).solved() ? 150 : 500);
     }
   }
 }
@@ -86,8 +84,8 @@ TEST_F(BallsOnTheDevice, ACubeBetweenTerrains) {
   settings.contact.ball_restitution = 0.4;
   TerrainSettings sphere;
   sphere.shape = TerrainShape::sphere;
-  sphere.centre = Vec3{3.0, -1.0, 0.0};
-  sphere.radius = 1.5;
+  sphere.geometry["centre"] = Vec3{3.0, -1.0, 0.0};
+  sphere.geometry["radius"] = 1.5;
   settings.terrain.push_back(sphere);
   settings.balls.push_back({1.0, 40.0, {0.3, 5.0, 0.1}, {0.0, -4.0, 0.0}, {1.0, 9.0, -4.0}});
   settings.balls.push_back({0.5, 2.0, {3.2, 3.0, 0.3}, {0.0, -4.0, 0.0}, {}});
@@ -100,17 +98,15 @@ TEST_F(BallsOnTheDevice, ACubeBetweenTerrains) {
 
 // Balls that bounce, roll and rest where three terrains meet, long enough for reactions in every stage.
 TEST_F(BallsOnTheDevice, AtRestInACornerUnderEveryIntegrator) {
-  for (const Integrator integrator :
-       {Integrator::explicit_euler, Integrator::symplectic_euler, Integrator::midpoint,
-        Integrator::runge_kutta_4, Integrator::implicit_euler_one_pass, Integrator::implicit_euler}) {
+  for (const Integrator integrator : all_integrators) {
     for (const bool spin : {true, false}) {
       ModelSettings settings;
       settings.simulation.integrator = integrator;
       settings.contact.spin = spin;
       for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, -0.1}, Vec3{0.0, 0.1, 1.0}}) {
         TerrainSettings side;
-        side.point = Vec3{};
-        side.normal = normal;
+        side.geometry["point"] = Vec3{};
+        side.geometry["normal"] = normal;
         side.restitution = 0.3;
         settings.terrain.push_back(side);
       }

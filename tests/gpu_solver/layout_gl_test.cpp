@@ -39,7 +39,7 @@ TEST_F(Layout, UniformBlockMatchesTheDriver) {
   EXPECT_UNIFORM_AT(terrain_count);
   EXPECT_UNIFORM_AT(contact_model);
   EXPECT_UNIFORM_AT(class_bits);
-  EXPECT_UNIFORM_AT(position_from_new_velocity);
+  EXPECT_UNIFORM_AT(drift);
   EXPECT_UNIFORM_AT(ball_count);
   EXPECT_UNIFORM_AT(stages[0].advance);
   EXPECT_UNIFORM_AT(stages[0].weight);
@@ -50,8 +50,7 @@ TEST_F(Layout, UniformBlockMatchesTheDriver) {
   EXPECT_UNIFORM_AT(spring_classes[0].damping);
   EXPECT_UNIFORM_AT(spring_classes[0].rest_length);
   EXPECT_UNIFORM_AT(spring_classes[255].cord);
-  EXPECT_UNIFORM_AT(terrains[0].point);
-  EXPECT_UNIFORM_AT(terrains[0].normal);
+  EXPECT_UNIFORM_AT(terrains[0].geometry[0]);
   EXPECT_UNIFORM_AT(terrains[0].mass);
   EXPECT_UNIFORM_AT(terrains[0].restitution);
   EXPECT_UNIFORM_AT(terrains[0].friction);

@@ -177,8 +177,8 @@ TEST_F(LoopBounds, OfTerrains) {
       while (settings.terrain.size() < 64) {
         TerrainSettings sphere;
         sphere.shape = TerrainShape::sphere;
-        sphere.centre = Vec3{0.1 * static_cast<double>(settings.terrain.size()), -2.0, 0.0};
-        sphere.radius = 1.0 + 0.01 * static_cast<double>(settings.terrain.size() % 5);
+        sphere.geometry["centre"] = Vec3{0.1 * static_cast<double>(settings.terrain.size()), -2.0, 0.0};
+        sphere.geometry["radius"] = 1.0 + 0.01 * static_cast<double>(settings.terrain.size() % 5);
         settings.terrain.push_back(sphere);
       }
       settings.balls.push_back({0.5, 2.0, {3.0, -0.4, 0.0}, {-1.0, -1.0, 0.0}, {}});

@@ -43,7 +43,7 @@ class SceneError(Exception):
 
 @dataclass
 class Readings:
-    """Where the specification can be read in two ways; the defaults are the project's."""
+    """Where the description can be read in two ways; the defaults are the project's."""
 
     pinned_velocity: str = "zero"  # or "cube": pinned particles drift with the cube's initial velocity
     front: str = "+z"  # the cube's face called "front"; or "-z"

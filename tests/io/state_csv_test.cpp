@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "support/random_state.h"
+#include "support/state_csv_reader.h"
 #include "support/temporary_directory.h"
 
 namespace aspic {
@@ -22,7 +23,7 @@ TEST_P(StateCsv, ReadsBackToTheSameBits) {
   ASSERT_TRUE(file.ok());
   ASSERT_TRUE(write_state_csv(*file, state).ok());
   ASSERT_TRUE(file->commit().ok());
-  const auto back = read_state_csv(dir.file("s.csv"), GetParam());
+  const auto back = test::read_state_csv(dir.file("s.csv"), GetParam());
   ASSERT_TRUE(back.ok()) << back.error().message;
   EXPECT_EQ(state_hash(*back), state_hash(state));
 }
@@ -84,7 +85,7 @@ void PrintTo(const BadTable& table, std::ostream* os) {
 class StateCsvErrors : public testing::TestWithParam<BadTable> {};
 
 TEST_P(StateCsvErrors, NameTheLine) {
-  const auto state = parse_state_csv(GetParam().text, "s.csv", Precision::single);
+  const auto state = test::parse_state_csv(GetParam().text, "s.csv", Precision::single);
   ASSERT_FALSE(state.ok());
   EXPECT_EQ(state.error().code, ErrorCode::io);
   EXPECT_THAT(state.error().message, HasSubstr(GetParam().message));
@@ -100,14 +101,14 @@ INSTANTIATE_TEST_SUITE_P(
                     BadTable{HEADER "particle,0,1,2,3,4,5,6,0,0,0\nparticle,2,1,2,3,4,5,6,0,0,0\n",
                              "s.csv:3: expected index 1"},
                     BadTable{HEADER "ball,0,1,2,3,4,5,6,0,0,0\nparticle,0,1,2,3,4,5,6,0,0,0\n",
-                             "s.csv:3: particles stand before balls"},
+                             "s.csv:3: particles come before balls"},
                     BadTable{HEADER "ball,1,1,2,3,4,5,6,0,0,0\n", "s.csv:2: expected index 0"},
                     BadTable{HEADER "particle,0,1,2,nan,4,5,6,0,0,0\n", "\"nan\" is not a finite number"},
                     BadTable{HEADER "particle,0,1,2,3x,4,5,6,0,0,0\n", "\"3x\" is not a finite number"},
                     BadTable{HEADER "particle,0,1,2,1e39,4,5,6,0,0,0\n", "of single precision"}));
 
 TEST(StateCsvErrors, MissingFileSaysSo) {
-  const auto state = read_state_csv("/nonexistent/s.csv", Precision::single);
+  const auto state = test::read_state_csv("/nonexistent/s.csv", Precision::single);
   ASSERT_FALSE(state.ok());
   EXPECT_THAT(state.error().message, HasSubstr("/nonexistent/s.csv"));
 }

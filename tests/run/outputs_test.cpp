@@ -6,10 +6,10 @@
 
 #include "cpu_reference/reference_solver.h"
 #include "io/checkpoint.h"
-#include "io/state_csv.h"
 #include "run/run_files.h"
 #include "scene/load.h"
 #include "scene/write.h"
+#include "support/state_csv_reader.h"
 #include "support/temporary_directory.h"
 
 namespace aspic {
@@ -56,7 +56,7 @@ TEST_F(Outputs, EachHasItsOwnInterval) {
   EXPECT_THAT(visited_, testing::ElementsAre(4, 8, 10, 12, 16, 20, 22));
   ASSERT_TRUE(files->finish({model_, state()}).ok());
   for (const char* name : {"s-00000000.csv", "s-00000010.csv", "s-00000020.csv", "s-00000022.csv"})
-    EXPECT_TRUE(read_state_csv(dir_.file(name), Precision::single).ok()) << name;
+    EXPECT_TRUE(test::read_state_csv(dir_.file(name), Precision::single).ok()) << name;
   EXPECT_EQ(dir_.entries(), 5u);
   EXPECT_THAT(files->written(), testing::ElementsAre(dir_.file("s-*.csv"), dir_.file("e.csv")));
   const std::string rows = dir_.read("e.csv");
@@ -84,7 +84,7 @@ TEST_F(Outputs, WithoutAnIntervalTheLastStateAloneIsWritten) {
   ASSERT_TRUE(run(*files, 7).ok());
   EXPECT_THAT(visited_, testing::ElementsAre(7));
   ASSERT_TRUE(files->finish({model_, state()}).ok());
-  EXPECT_EQ(state_hash_text(*read_state_csv(dir_.file("s.csv"), Precision::single)),
+  EXPECT_EQ(state_hash_text(*test::read_state_csv(dir_.file("s.csv"), Precision::single)),
             state_hash_text(state()));
   EXPECT_EQ(read_checkpoint(dir_.file("c"))->state.step, 7u);
   EXPECT_THAT(files->written(), testing::ElementsAre(dir_.file("s.csv"), dir_.file("c")));

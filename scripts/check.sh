@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Holds the tree to its rules: scripts/check.sh [STEP …], steps by name or all; scripts/check.sh --help lists them.
+# Installs what is missing. Exit code 1 if a step finds something; its complete output is in build/check/STEP.log.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+steps=(format lints tidy clang odr asan tsan)
+declare -A meaning=(
+  [format]="every C++ file is as clang-format leaves it (.clang-format)"
+  [lints]="tests of the text: exact kernels, pointers between pages, arrows between rooms, the scene reference"
+  [tidy]="clang-tidy finds nothing (.clang-tidy)"
+  [clang]="everything compiles with clang without a warning"
+  [odr]="no name has two definitions in a program (g++ -flto -Wodr)"
+  [asan]="the tests under address and undefined-behaviour sanitizers"
+  [tsan]="the tests with threads, child processes and signals under the thread sanitizer"
+)
+
+if [[ " $* " == *" --help "* || " $* " == *" -h "* ]]; then
+  echo "scripts/check.sh [STEP …]   runs the steps named, or all in this order:"
+  for step in "${steps[@]}"; do printf '  %-8s %s\n' "$step" "${meaning[$step]}"; done
+  echo "Builds are kept in build/; the first run takes an hour or more on two cores."
+  exit
+fi
+chosen=("${@:-${steps[@]}}")
+for step in "${chosen[@]}"; do
+  [ -n "${meaning[$step]:-}" ] || { echo "No step is called '$step'; there are: ${steps[*]}." >&2; exit 2; }
+done
+
+aspic_install all
+cd "$aspic_root"
+logs=$aspic_root/build/check
+mkdir -p "$logs"
+
+# files PATTERN …: the tracked files that match and exist.
+files() { git ls-files -- "$@" | while read -r file; do if [ -f "$file" ]; then echo "$file"; fi; done; }
+
+# build PRESET [TARGET …]: configures once and builds.
+build() {
+  local preset=$1
+  shift
+  [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" || return 1
+  cmake --build --preset "$preset" -- --quiet "$@"
+}
+
+# test_in PRESET [ARGUMENT …]: one test after the other for each processor.
+test_in() {
+  local preset=$1
+  shift
+  ctest --preset "$preset" --no-tests=error -j "$(nproc)" "$@"
+}
+
+step_format() { files '*.cpp' '*.h' | xargs clang-format --dry-run --Werror; }
+
+step_lints() {
+  aspic_build ON repository_tests gpu_tests scene_tests || return 1
+  ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -R '^(TextLint|Rooms|PreciseLint|Reference)\.'
+}
+
+step_tidy() {
+  [ -f build/clang/build.ninja ] || cmake --preset clang || return 1
+  cmake --build --preset clang --target aspic_glad -- --quiet || return 1 # its header is generated
+  files 'src/*.cpp' 'tests/*.cpp' 'bench/*.cpp' 'examples/*.cpp' |
+    while read -r file; do if grep -qF "/$file\"" build/clang/compile_commands.json; then echo "$file"; fi; done |
+    xargs -P "$(nproc)" -n 1 clang-tidy -p build/clang --quiet
+}
+
+step_clang() { build clang; }
+step_odr() { build odr; }
+step_asan() { build asan && test_in asan -LE 'independent|slow'; }
+step_tsan() { build tsan && test_in tsan; }
+
+status=0
+results=()
+for step in "${chosen[@]}"; do
+  echo "== $step: ${meaning[$step]}" >&2
+  started=$SECONDS
+  if "step_$step" >"$logs/$step.log" 2>&1; then
+    verdict=passed
+  else
+    verdict=FAILED
+    status=1
+    grep -E "error|warning|WARNING|FAILED|Failure|\*\*\*" "$logs/$step.log" | head -n 40 >&2 || tail -n 40 "$logs/$step.log" >&2
+  fi
+  results+=("$(printf '%-8s %-7s %5d s  %s' "$step" "$verdict" $((SECONDS - started)) "build/check/$step.log")")
+done
+printf '%s\n' "${results[@]}"
+exit "$status"

@@ -1,0 +1,65 @@
+#pragma once
+// The inner loops, compiled for every instruction set of the processor's family and chosen at run time
+// (Highway). All of them give the same bits: each lane does what the reference does for one particle, in the
+// same order, without fused multiply-add.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "cpu_parallel/particles.h"
+#include "cpu_parallel/springs.h"
+#include "model/integrator.h"
+
+namespace aspic::parallel {
+
+/// Force on each particle of a range [N], by component.
+struct Forces {
+  float* component[3];
+};
+
+/// What gravity and springs need.
+struct ForceInput {
+  const Particles* at;  ///< the stage at which forces are taken
+  const float* mass;    ///< [kg]
+  float gravity[3];     ///< [m/s²]
+};
+
+/// m·g and the springs of the particles first … first + count − 1 of one plane of a cube; `first` is a
+/// multiple of `slice` within the plane. Writes up to `slice` − 1 values more than `count`.
+void lattice_forces(const Lattice& lattice, const ForceInput& input, std::size_t plane, Range range,
+                    const Forces& forces);
+
+/// The same of a body with lists; `range` is relative to the body, its first a multiple of `slice`.
+void listed_forces(const SpringLists& lists, const ForceInput& input, Range range, const Forces& forces);
+
+/// One stage of an explicit method (model/integrator.h has the formulas).
+struct StageMove {
+  const Particles* start;     ///< of the step
+  const Particles* at;        ///< at which the forces were taken
+  Particles* next;            ///< next stage, or the end of the step
+  Particles* sums;            ///< weighted sums of V_s and a_s so far; unused by methods of one weight
+  const float* inverse_mass;  ///< [1/kg]
+  float advance;              ///< h·advance_s [s]
+  float weight;
+  float step_scale;  ///< h/divisor [s]
+  bool accumulate;   ///< the sums hold something already
+  bool last;
+  Drift drift;
+};
+
+/// Moves the particles of a range, whose forces are given.
+void move(const StageMove& stage, Range range, const Forces& forces);
+
+/// Smallest box around the positions of a range [m].
+struct Box {
+  float min[3], max[3];
+};
+Box box_of(const VectorArray& x, Range range);
+
+/// Whether all positions are finite and no speed is above the square root of `limit` [m²/s²].
+bool all_sound(const Particles& particles, Range range, float limit);
+
+/// Name of the instruction set in use: "AVX3", "AVX2", "SSE2", …
+std::string_view instruction_set();
+
+}  // namespace aspic::parallel

@@ -1,0 +1,60 @@
+#pragma once
+// Particles as the parallel solver holds them: one array per component, so that neighbouring lanes of a
+// vector register are neighbouring particles.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <span>
+
+namespace aspic::parallel {
+
+/// Floats from an address that any vector register loads whole, zero at first, with room on both sides: a
+/// register may be loaded from up to `margin` elements outside, whose values nobody uses.
+class FloatArray {
+ public:
+  FloatArray() = default;
+  FloatArray(std::size_t size, std::size_t margin) : margin_(rounded_up(margin)) {
+    const std::size_t all = margin_ + rounded_up(size) + margin_;
+    data_.reset(new (std::align_val_t(alignment)) float[all]);
+    std::fill_n(data_.get(), all, 0.0f);
+  }
+
+  float* data() { return data_.get() + margin_; }
+  const float* data() const { return data_.get() + margin_; }
+  float& operator[](std::size_t i) { return data()[i]; }
+  float operator[](std::size_t i) const { return data()[i]; }
+
+ private:
+  static constexpr std::size_t alignment = 64, per_line = alignment / sizeof(float);
+  static std::size_t rounded_up(std::size_t n) { return (n + per_line - 1) / per_line * per_line; }
+  struct Free {
+    void operator()(float* p) const { operator delete[](p, std::align_val_t(alignment)); }
+  };
+  std::unique_ptr<float[], Free> data_;
+  std::size_t margin_ = 0;
+};
+
+/// A vector for each particle.
+using VectorArray = std::array<FloatArray, 3>;
+
+inline VectorArray vector_array(std::size_t size, std::size_t margin) {
+  return {FloatArray(size, margin), FloatArray(size, margin), FloatArray(size, margin)};
+}
+
+/// Positions [m] and velocities [m/s].
+struct Particles {
+  VectorArray x, v;
+
+  Particles() = default;
+  Particles(std::size_t size, std::size_t margin)
+      : x(vector_array(size, margin)), v(vector_array(size, margin)) {}
+};
+
+/// Consecutive particles.
+struct Range {
+  std::size_t first = 0, count = 0;
+};
+
+}  // namespace aspic::parallel

@@ -1,0 +1,116 @@
+#include "cpu_parallel/springs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "model/cube.h"
+
+namespace aspic::parallel {
+
+Constants::Constants(const SpringClass& spring)
+    : stiffness(static_cast<float>(spring.stiffness)),
+      damping(static_cast<float>(spring.damping)),
+      rest_length(static_cast<float>(spring.rest_length)),
+      slack(spring.cord ? static_cast<float>(spring.rest_length) : -1.0f) {}
+
+namespace {
+
+/// Springs whose lower end is in the body.
+std::span<const Spring> springs_of(const Model& model, const Body& body) {
+  const auto from = std::ranges::lower_bound(model.springs, body.first_particle, {}, &Spring::a);
+  const auto to =
+      std::ranges::lower_bound(model.springs, body.first_particle + body.particle_count, {}, &Spring::a);
+  return {from, to};
+}
+
+}  // namespace
+
+std::size_t edge_of_lattice(const Model& model, const Body& body) {
+  if (!body.cubic) return 0;
+  const auto edge = static_cast<int>(std::lround(std::cbrt(body.particle_count)));
+  const ModelCounts complete = cube_counts(edge);
+  if (complete.particles != body.particle_count) return 0;
+  return springs_of(model, body).size() == complete.springs() ? static_cast<std::size_t>(edge) : 0;
+}
+
+Lattice::Lattice(const Model& model, const Body& body)
+    : first_(body.first_particle), n_(edge_of_lattice(model, body)) {
+  // The springs say themselves which directions there are: each is seen from its lower end and from its upper
+  // one.
+  const auto n = static_cast<int>(n_);
+  struct Place {
+    int i, j, k;
+  };
+  const auto place = [&](std::uint32_t particle) {
+    const int local = static_cast<int>(particle - body.first_particle);
+    return Place{local / (n * n), local / n % n, local % n};
+  };
+  std::map<std::array<int, 3>, std::uint32_t> classes;  // in lexicographic order: ascending neighbour index
+  for (const Spring& s : springs_of(model, body)) {
+    const Place a = place(s.a), b = place(s.b);
+    const std::array<int, 3> up = {b.i - a.i, b.j - a.j, b.k - a.k};
+    classes.emplace(up, s.spring_class);
+    classes.emplace(std::array{-up[0], -up[1], -up[2]}, s.spring_class);
+  }
+  std::vector<std::array<int, 3>> offsets;
+  for (const auto& [offset, spring_class] : classes) {
+    offsets.push_back(offset);
+    const std::ptrdiff_t step = (std::ptrdiff_t{offset[0]} * n + offset[1]) * n + offset[2];
+    directions_.push_back(
+        {step, offset[0], Constants(model.spring_classes[spring_class]), step > 0 ? -0.0f : 0.0f});
+  }
+  const std::size_t slices = (plane_size() + slice - 1) / slice;
+  bits_.assign(slices * offsets.size(), 0);
+  for (std::size_t m = 0; m < plane_size(); ++m) {
+    const int j = static_cast<int>(m) / n, k = static_cast<int>(m) % n;
+    for (std::size_t d = 0; d < offsets.size(); ++d) {
+      const int to_j = j + offsets[d][1], to_k = k + offsets[d][2];
+      if (to_j < 0 || to_j >= n || to_k < 0 || to_k >= n) continue;
+      std::uint16_t& word = bits_[m / slice * offsets.size() + d];
+      word = static_cast<std::uint16_t>(word | 1u << m % slice);
+    }
+  }
+}
+
+SpringLists::SpringLists(const Model& model, const Body& body)
+    : first_(body.first_particle), count_(body.particle_count) {
+  for (const SpringClass& spring : model.spring_classes) {
+    const Constants constants(spring);
+    stiffness_.push_back(constants.stiffness);
+    damping_.push_back(constants.damping);
+    rest_length_.push_back(constants.rest_length);
+    slack_.push_back(constants.slack);
+  }
+  const std::size_t slices = (count_ + slice - 1) / slice;
+  std::vector<std::uint32_t> degree(count_, 0);
+  const std::span<const Spring> of_body = springs_of(model, body);
+  for (const Spring& s : of_body) {
+    ++degree[s.a - first_];
+    ++degree[s.b - first_];
+  }
+  start_.push_back(0);
+  for (std::size_t n = 0; n < slices; ++n) {
+    const auto from = degree.begin() + static_cast<std::ptrdiff_t>(n * slice);
+    const auto to = degree.begin() + static_cast<std::ptrdiff_t>(std::min(count_, (n + 1) * slice));
+    start_.push_back(start_.back() + *std::max_element(from, to));
+  }
+  Slot empty{};
+  slots_.assign(start_.back(), empty);
+  std::ranges::fill(degree, 0u);
+  // Springs are sorted by (a, b): taken in that order, each particle's lower neighbours come first, in order.
+  const auto append = [&](std::uint32_t own, std::uint32_t other, const Spring& s) {
+    const std::size_t local = own - first_, lane = local % slice;
+    Slot& slot = slots_[start_[local / slice] + degree[local]++];
+    slot.neighbour[lane] = static_cast<std::int32_t>(other);
+    slot.spring_class[lane] = static_cast<std::int32_t>(s.spring_class);
+    slot.nothing[lane] = own < other ? -0.0f : 0.0f;
+    slot.present = static_cast<std::uint16_t>(slot.present | 1u << lane);
+  };
+  for (const Spring& s : of_body) {
+    append(s.a, s.b, s);
+    append(s.b, s.a, s);
+  }
+}
+
+}  // namespace aspic::parallel

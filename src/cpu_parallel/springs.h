@@ -1,0 +1,91 @@
+#pragma once
+// Where the springs of a particle lead, as the vector kernels read it. A cube needs no list: its neighbours
+// follow from a particle's place in the lattice. All other bodies have lists, transposed in slices of 16
+// particles.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cpu_parallel/particles.h"
+#include "model/model.h"
+
+namespace aspic::parallel {
+
+/// Particles whose bits share a mask word, and whose lists lie side by side.
+inline constexpr std::size_t slice = 16;
+
+/// Constants of a spring class in single precision.
+struct Constants {
+  float stiffness, damping, rest_length;
+  float slack;  ///< a shorter spring pulls nowhere: the rest length of a cord, else negative
+  explicit Constants(const SpringClass& spring);
+};
+
+/// A direction in which particles of a lattice have a spring.
+struct Direction {
+  std::ptrdiff_t step;  ///< to the neighbour's index
+  int planes;           ///< to the neighbour's plane
+  Constants constants;
+  /// What a spring of no length adds: the lower end gets +0 added, the upper end has +0 taken off, which
+  /// changes the sign of a zero or does not.
+  float nothing;
+};
+
+/// A cube. Plane i holds the particles i·n² … (i+1)·n² − 1 of the body.
+class Lattice {
+ public:
+  /// The cube that `body` is: the model must have been made by build_model.
+  Lattice(const Model& model, const Body& body);
+
+  std::size_t first() const { return first_; }
+  std::size_t planes() const { return n_; }
+  std::size_t plane_size() const { return n_ * n_; }
+  std::size_t reach() const { return 2 * plane_size() + 2 * n_ + 2; }  ///< largest step
+
+  /// In ascending neighbour index.
+  std::span<const Direction> directions() const { return directions_; }
+  /// For each direction one word for `slice` particles of any plane, from the plane's particle `at` on, a
+  /// multiple of `slice`: which of them have the neighbour, provided that its plane exists.
+  const std::uint16_t* neighbours(std::size_t at) const { return &bits_[at / slice * directions_.size()]; }
+
+ private:
+  std::size_t first_, n_;
+  std::vector<Direction> directions_;
+  std::vector<std::uint16_t> bits_;
+};
+
+/// Any body: lists of incident springs in ascending neighbour index.
+class SpringLists {
+ public:
+  /// One place in the lists of `slice` particles; neighbours are global indices.
+  struct Slot {
+    std::array<std::int32_t, slice> neighbour, spring_class;
+    std::array<float, slice> nothing;  ///< as in Direction
+    std::uint16_t present;             ///< which of the particles have this many springs
+  };
+
+  SpringLists(const Model& model, const Body& body);
+
+  std::size_t first() const { return first_; }
+  std::size_t count() const { return count_; }
+  std::span<const Slot> slots(std::size_t slice_index) const {
+    return std::span(slots_).subspan(start_[slice_index], start_[slice_index + 1] - start_[slice_index]);
+  }
+  /// By class of the model: component arrays, for gathering.
+  const std::vector<float>& stiffness() const { return stiffness_; }
+  const std::vector<float>& damping() const { return damping_; }
+  const std::vector<float>& rest_length() const { return rest_length_; }
+  const std::vector<float>& slack() const { return slack_; }
+
+ private:
+  std::size_t first_, count_;
+  std::vector<Slot> slots_;
+  std::vector<std::size_t> start_;  // of each slice's slots
+  std::vector<float> stiffness_, damping_, rest_length_, slack_;
+};
+
+/// Particles per edge of a body that is a cube with all its springs, so that a Lattice describes it; 0 of others.
+std::size_t edge_of_lattice(const Model& model, const Body& body);
+
+}  // namespace aspic::parallel

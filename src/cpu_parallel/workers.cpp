@@ -1,0 +1,90 @@
+#include "cpu_parallel/workers.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+namespace aspic::parallel {
+namespace {
+
+/// Looks at a value before a thread goes to sleep over it: a few microseconds, less than waking up takes.
+constexpr int looks = 2000;
+
+void pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
+
+/// Waits until `value` is no longer `old`.
+void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
+  for (int n = 0; n < looks; ++n) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    pause();
+  }
+  value.wait(old, std::memory_order_acquire);
+}
+
+}  // namespace
+
+Workers::Workers(unsigned threads) {
+  for (unsigned n = 1; n < threads; ++n) others_.emplace_back([this] { work(); });
+}
+
+Workers::~Workers() {
+  ending_ = true;
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+}
+
+void Workers::run(std::size_t pieces, const std::function<void(std::size_t)>& task) {
+  task_ = &task;
+  pieces_ = pieces;
+  next_.store(0, std::memory_order_relaxed);
+  if (others_.empty() || pieces < 2) return take_pieces();
+  finished_.store(0, std::memory_order_relaxed);
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+  take_pieces();
+  const auto all = static_cast<std::uint32_t>(others_.size());
+  for (std::uint32_t n = finished_.load(std::memory_order_acquire); n != all;
+       n = finished_.load(std::memory_order_acquire))
+    wait_while(finished_, n);
+}
+
+void Workers::take_pieces() {
+  for (std::size_t n = next_.fetch_add(1, std::memory_order_relaxed); n < pieces_;
+       n = next_.fetch_add(1, std::memory_order_relaxed))
+    (*task_)(n);
+}
+
+void Workers::work() {
+  for (std::uint32_t round = 0;;) {
+    wait_while(round_, round);
+    ++round;
+    if (ending_) return;
+    take_pieces();
+    finished_.fetch_add(1, std::memory_order_release);
+    finished_.notify_one();
+  }
+}
+
+unsigned available_threads() {
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0)
+    threads = std::max(1u, static_cast<unsigned>(CPU_COUNT(&set)));
+  if (const char* text = std::getenv("ASPIC_THREADS")) {
+    const std::string_view word = text;
+    unsigned asked = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), asked);
+    if (error == std::errc{} && end == word.data() + word.size() && asked >= 1 && asked <= 1024)
+      threads = asked;
+  }
+  return threads;
+}
+
+}  // namespace aspic::parallel

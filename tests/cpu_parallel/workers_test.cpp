@@ -1,0 +1,47 @@
+#include "cpu_parallel/workers.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace aspic::parallel {
+namespace {
+
+TEST(Workers, DoEveryPieceOnceInEveryRound) {
+  for (const unsigned threads : {1u, 2u, 5u}) {
+    Workers workers(threads);
+    EXPECT_EQ(workers.threads(), threads);
+    std::vector<int> done(97, 0);
+    for (int round = 0; round < 2000; ++round) {
+      const std::size_t pieces = static_cast<std::size_t>(round) % (done.size() + 1);
+      std::ranges::fill(done, 0);
+      workers.run(pieces, [&](std::size_t n) { ++done[n]; });
+      for (std::size_t n = 0; n < done.size(); ++n) ASSERT_EQ(done[n], n < pieces ? 1 : 0) << "piece " << n;
+    }
+  }
+}
+
+TEST(Workers, SeeWhatTheRoundBeforeWrote) {
+  Workers workers(4);
+  std::vector<std::uint64_t> sums(64, 1);
+  for (int round = 0; round < 200; ++round) {
+    const std::uint64_t total = std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
+    workers.run(sums.size(), [&](std::size_t n) { sums[n] = total % 1000003 + n; });
+    for (std::size_t n = 0; n < sums.size(); ++n) ASSERT_EQ(sums[n], total % 1000003 + n);
+  }
+}
+
+TEST(Workers, AreAsManyAsTheEnvironmentSays) {
+  setenv("ASPIC_THREADS", "3", 1);
+  EXPECT_EQ(available_threads(), 3u);
+  for (const char* const word : {"0", "-1", "many", "2 ", "99999"}) {
+    setenv("ASPIC_THREADS", word, 1);
+    EXPECT_GE(available_threads(), 1u) << word;
+    EXPECT_NE(available_threads(), 99999u);
+  }
+  unsetenv("ASPIC_THREADS");
+  EXPECT_GE(available_threads(), 1u);
+}
+
+}  // namespace
+}  // namespace aspic::parallel

@@ -1,0 +1,173 @@
+#include "repository/text_lint.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
+
+namespace aspic::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Directories and files that people write.
+constexpr std::string_view written[] = {
+    ".ci",   "CHANGELOG.md", "CMakeLists.txt", "CMakePresets.json", "README.md", "assets", "bench",
+    "cmake", "docs",         "examples",       "scripts",           "shaders",   "src",    "tests"};
+/// Data, results of measurements, and the offences planted for this lint.
+constexpr std::string_view left_out[] = {"tests/repository", "bench/results", "tests/data",
+                                         "tests/fuzz/regressions"};
+constexpr std::string_view extensions[] = {"",     ".cpp", ".h",  ".glsl",  ".comp", ".vert", ".frag", ".md",
+                                           ".txt", ".sh",  ".py", ".cmake", ".toml", ".json", ".supp"};
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(), [](unsigned char c) { return std::tolower(c); });
+  return result;
+}
+
+/// A heading as links name it: lower case, letters, digits, hyphens and underscores, spaces as hyphens.
+std::string anchor_of(std::string_view heading) {
+  std::string result;
+  for (const char c : lower(heading)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == ' ') result += '-';
+    if (std::isalnum(byte) || c == '-' || c == '_' || byte >= 0x80) result += c;
+  }
+  return result;
+}
+
+std::vector<std::string> headings(const fs::path& page) {
+  std::vector<std::string> result;
+  std::istringstream lines(contents(page));
+  for (std::string line; std::getline(lines, line);) {
+    const auto text = line.find_first_not_of('#');
+    if (text == 0 || text == std::string::npos || line[text] != ' ') continue;
+    result.push_back(line.substr(text + 1));
+  }
+  return result;
+}
+
+/// All matches of a pattern in a line.
+std::vector<std::smatch> matches(const std::string& line, const std::regex& pattern) {
+  return {std::sregex_iterator(line.begin(), line.end(), pattern), std::sregex_iterator()};
+}
+
+/// Looks at one line of one file.
+class Line {
+ public:
+  Line(const fs::path& root, const fs::path& file, int number, const std::string& text,
+       std::vector<Offence>& found)
+      : root_(root), file_(file), number_(number), text_(text), found_(found) {}
+
+  void outside() {
+    const std::string text = lower(text_);
+    for (const std::string_view words : {"spec §", "spec.md", "(spec ", "of the spec ", "shared/"}) {
+      const auto at = text.find(words);
+      // Longer words may end in these letters.
+      if (at == std::string::npos || (at > 0 && std::isalnum(static_cast<unsigned char>(text[at - 1]))))
+        continue;
+      add("outside", text_.substr(at, 30));
+    }
+  }
+
+  void pages() {
+    if (text_.find("docs/") == std::string::npos) return;
+    static const std::regex page(R"((docs/[a-z-]+\.md)(, sections? (\d+))?)");
+    for (const std::smatch& match : matches(text_, page)) {
+      const fs::path path = root_ / match.str(1);
+      if (!fs::exists(path)) {
+        add("path", match.str(1));
+      } else if (match[3].matched && std::ranges::none_of(headings(path), [&](const std::string& heading) {
+                   return heading.starts_with(match.str(3) + ". ");
+                 })) {
+        add("section", match.str(0));
+      }
+    }
+  }
+
+  void paths() {
+    if (text_.find('`') == std::string::npos) return;
+    static const std::regex quoted(R"(`((src|shaders|tests|scripts|bench|examples|cmake|assets)/[\w./-]+)`)");
+    for (const std::smatch& match : matches(text_, quoted))
+      if (!fs::exists(root_ / match.str(1))) add("path", match.str(1));
+  }
+
+  void links() {
+    if (text_.find("](") == std::string::npos) return;
+    static const std::regex link(R"(\]\(([^)#\s]*)(#([^)\s]*))?\))");
+    for (const std::smatch& match : matches(text_, link)) {
+      if (match.str(1).find("://") != std::string::npos) continue;
+      const fs::path here = root_ / file_;
+      const fs::path target = match.length(1) == 0 ? here : here.parent_path() / match.str(1);
+      if (!fs::exists(target)) {
+        add("link", match.str(1));
+      } else if (match[3].matched && std::ranges::none_of(headings(target), [&](const std::string& heading) {
+                   return anchor_of(heading) == match.str(3);
+                 })) {
+        add("anchor", match.str(0));
+      }
+    }
+  }
+
+ private:
+  void add(std::string rule, std::string text) {
+    found_.push_back({number_, std::move(rule), std::move(text)});
+  }
+
+  const fs::path& root_;
+  const fs::path& file_;
+  int number_;
+  const std::string& text_;
+  std::vector<Offence>& found_;
+};
+
+}  // namespace
+
+std::string contents(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  EXPECT_TRUE(stream.is_open()) << path;
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+std::vector<Offence> lint(const fs::path& root, const fs::path& file, std::string_view text) {
+  std::vector<Offence> found;
+  std::istringstream lines{std::string(text)};
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    Line looked_at(root, file, ++number, line, found);
+    looked_at.outside();
+    looked_at.pages();
+    if (file.extension() != ".md") continue;
+    looked_at.paths();
+    looked_at.links();
+  }
+  return found;
+}
+
+std::vector<fs::path> written_files(const fs::path& root) {
+  std::vector<fs::path> files;
+  const auto take = [&](const fs::path& path) {
+    if (std::ranges::find(extensions, path.extension().string()) == std::end(extensions)) return;
+    const fs::path relative = path.lexically_relative(root);
+    const std::string name = relative.generic_string();
+    if (std::ranges::none_of(left_out, [&](std::string_view prefix) { return name.starts_with(prefix); }))
+      files.push_back(relative);
+  };
+  for (const std::string_view name : written) {
+    const fs::path path = root / name;
+    if (fs::is_regular_file(path)) take(path);
+    if (!fs::is_directory(path)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(path))
+      if (entry.is_regular_file()) take(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+}  // namespace aspic::testing

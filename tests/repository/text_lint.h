@@ -1,0 +1,32 @@
+#pragma once
+// A lint of everything written: what a text points at has to be in the repository.
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace aspic::testing {
+
+/// A line that breaks a rule.
+struct Offence {
+  int line;          ///< from 1
+  std::string rule;  ///< `outside`, `path`, `section`, `link` or `anchor`
+  std::string text;  ///< what points nowhere
+};
+
+/// Offences of one text in the order of lines. `file` is its path below `root`, the repository.
+/// outside: a page that is not part of the repository, as a section or a file.
+/// path: `docs/PAGE.md` anywhere, or a path in backticks in a Markdown page, that does not exist.
+/// section: `docs/PAGE.md, section N` where that page has no heading `## N.`.
+/// link, anchor: a Markdown link to a file, or to a heading, that does not exist.
+std::vector<Offence> lint(const std::filesystem::path& root, const std::filesystem::path& file,
+                          std::string_view text);
+
+/// Every text file of the repository that people write, as a path below `root`, in alphabetical order. Build
+/// directories, data, pictures and results of measurements are left out.
+std::vector<std::filesystem::path> written_files(const std::filesystem::path& root);
+
+/// The contents of a file.
+std::string contents(const std::filesystem::path& path);
+
+}  // namespace aspic::testing
