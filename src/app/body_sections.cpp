@@ -131,19 +131,11 @@ void shown_springs(Gui& gui, SceneControl& scene) {
     // Large text needs more lines.
     if (end + width < ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
     end = ImGui::GetCursorPosX() + width;
-    bool on = std::ranges::find(words, type) != words.end();
-    const bool toggled = ImGui::Checkbox(std::string(type).c_str(), &on);
-    gui.mark("springs/show/{}", type);
-    tooltip(fmt::format(
-        "Whether {} springs are in the picture. Their colours are chosen under View.\n\nScene key: "
-        "view.draw",
-        type));
-    if (!toggled) continue;
-    if (on)
-      words.emplace_back(type);
-    else
-      std::erase(words, type);
-    scene.set_value(p, 0, Value(words));
+    const std::string help = fmt::format(
+        "Whether {} springs are in the picture. Their colours are chosen under View.\n\nScene key: view.draw",
+        type);
+    if (check_box(gui, type, words, fmt::format("springs/show/{}", type), help))
+      scene.set_value(p, 0, Value(words));
   }
 }
 
@@ -157,8 +149,7 @@ void kind_of_springs(Gui& gui, SceneControl& scene, std::size_t cube) {
   gui.mark("springs/{}/kind", cube);
   tooltip(
       "Stiffness and damping of each type of spring and the mass of a particle; or a material, which means "
-      "the "
-      "same jelly at every resolution.\n\nScene key: cube[].material");
+      "the same jelly at every resolution.\n\nScene key: cube[].material");
   if (!chosen || (kind == 1) == settings.material.has_value()) return;
   Scene changed = scene.scene();
   CubeSettings& c = changed.model.cubes[cube];
@@ -239,8 +230,7 @@ void contact_section(Gui& gui, SceneControl& scene) {
   for (std::size_t i = 0; i < scene.scene().model.terrain.size(); ++i) terrain(gui, scene, i);
   if (!button(gui, "terrain/add", "Add a terrain",
               "One more terrain, a plane at its default place. Several act in the order of the file. The "
-              "motion goes "
-              "on.\n\nScene key: [[terrain]]",
+              "motion goes on.\n\nScene key: [[terrain]]",
               true, -1.0f))
     return;
   Scene changed = scene.scene();

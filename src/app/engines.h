@@ -38,7 +38,7 @@ class Engines {
   /// One of the solvers on the context, to share buffers with; may be null.
   const GpuSolver* gpu() const { return leader_.gpu ? leader_.gpu : shadow_.gpu; }
 
-  /// Puts another solver of the same model in the place of one; it pulls nobody yet.
+  /// Puts another solver of the same model in the place of one; it has no pull yet.
   void set_leader(Backend engine) { leader_ = std::move(engine); }
   void set_shadow(Backend engine) { shadow_ = std::move(engine); }
   void swap() { std::swap(leader_, shadow_); }

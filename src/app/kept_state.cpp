@@ -143,7 +143,7 @@ std::string camera_key(const std::string& source) {
 
 std::string to_text(const KeptState& s) {
   std::string text =
-      "# How Aspic's window was last left. Written anew whenever it is closed; may be deleted.\n"
+      "# How Aspic's window was last left. Written whenever it is closed; may be deleted.\n"
       "version = 1\n";
   if (s.window) {
     text += fmt::format("\n[window]\nsize = [{}, {}]\n", s.window->width, s.window->height);
@@ -222,8 +222,8 @@ Result<KeptState> load_kept_state(const std::string& path) {
   auto state = read_kept_state(*text);
   if (state) return state;
   return Error{ErrorCode::io,
-               fmt::format("{} does not hold how the window was left ({}), so it begins as at the "
-                           "first time. The file is written anew when the window is closed.",
+               fmt::format("{} does not hold how the window was left ({}), so it opens with its "
+                           "defaults. The file is written again when the window is closed.",
                            path, state.error().message)};
 }
 

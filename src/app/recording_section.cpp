@@ -38,11 +38,10 @@ void rate_widget(Gui& gui, FilmSettings& film) {
   ImGui::DragScalar("##fps", ImGuiDataType_Double, &film.fps, 0.2f, &least, &most, "%.4g a second",
                     ImGuiSliderFlags_AlwaysClamp);
   gui.mark("record/fps");
-  tooltip(
-      fmt::format("Pictures that the film shows in a second, 1 … {:g} in this format. Each shows the state "
-                  "speed/rate seconds of simulated time after the one before.\nDrag to change, Ctrl+click "
-                  "to type.",
-                  most));
+  tooltip(fmt::format(
+      "Pictures that the film shows in a second, 1 … {:g} in this format. Each shows the state speed/rate "
+      "seconds of simulated time after the one before.\nDrag to change, Ctrl+click to type.",
+      most));
 }
 
 void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
@@ -52,10 +51,9 @@ void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
   const std::string hint = free_name(source, film_ending(*film.format));
   if (ImGui::InputTextWithHint("##film", hint.c_str(), text.data(), text.size())) film.path = text.data();
   gui.mark("record/path");
-  tooltip(
-      fmt::format("Where the film goes; left empty, {}. The format gives the ending. What exists is never "
-                  "overwritten.",
-                  hint));
+  tooltip(fmt::format(
+      "Where the film goes; left empty, {}. The format gives the ending. What exists is never overwritten.",
+      hint));
 }
 
 }  // namespace
@@ -73,12 +71,11 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
     if (!recording->ready()) ImGui::TextDisabled("The motion waits for the encoder.");
     return;
   }
-  command_button(
-      gui, "record/start", "Start a film",
-      "Films the scene without the panels, in step with simulated time: no picture is lost or doubled, "
-      "however fast the solver and the window are. The film's size is that of the view now. While the motion "
-      "pauses, so does the film.",
-      start_or_end, true, -1.0f);
+  command_button(gui, "record/start", "Start a film",
+                 "Films the scene without the panels, in step with simulated time: no picture is lost or "
+                 "doubled, however fast the solver and the window are. The film's size is that of the view "
+                 "now. While the motion pauses, so does the film.",
+                 start_or_end, true, -1.0f);
   format_widget(gui, film.settings);
   rate_widget(gui, film.settings);
   name_widget(gui, source, film.settings);

@@ -82,8 +82,8 @@ void RunControl::watch_divergence() {
   const SimulationSettings& s = model.simulation;
   stable_ = stability_limit(model, s.integrator, StabilityEffort::quick);
   messages_.error(fmt::format(
-      "The simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is {} s; {}. "
-      "Shown is the last good step.",
+      "The simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is {} s; {}. Shown is the "
+      "last good step.",
       divergence->step, static_cast<double>(divergence->step) * s.timestep, body_text(*divergence),
       fault_text(*divergence), s.timestep, stability_sentence(s.integrator, *stable_)));
 }

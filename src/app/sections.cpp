@@ -130,8 +130,7 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
   gui.mark("simulation/pace");
   tooltip(
       "How fast simulated time passes: a fixed number of steps for each picture, or as fast as time itself. "
-      "Where "
-      "the solver cannot keep up, the factor in the status line says so.");
+      "Where the solver cannot keep up, the factor in the status line says so.");
   if (pacer.pace == Pace::steps_per_frame) edit(gui, scene, "simulation.steps-per-frame");
   label_column("Speed");
   ImGui::SliderScalar("##speed", ImGuiDataType_Double, &pacer.speed, &slowest_speed, &fastest_speed, "×%.4g",

@@ -11,7 +11,7 @@ namespace {
 /// Keyframes are this far apart in running time, farther where memory would not hold the last half minute.
 constexpr double keyframe_interval = 0.1, history_seconds = 30.0;  // s
 constexpr auto sample_every = std::chrono::milliseconds(100);
-/// Nobody waits for a job, so it may take longer than a picture [s].
+/// The window does not wait for a job, so it may take longer than a picture [s].
 constexpr double shortest_job = 0.030;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {

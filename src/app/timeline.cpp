@@ -28,12 +28,11 @@ void draw_timeline(Gui& gui, const Simulation& s, RunControl& run, const Box& bo
                                          ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp);
   gui.mark("timeline");
   const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
-  tooltip(fmt::format(
-              "The run so far, {} of at most 512 MiB: drag to go to any step, paused. Steps between the "
-              "{} states that are kept are simulated again and give the same bits, pulls and pins included. "
-              "Marks are changes of the scene, which go back and forth as well. Going on from the past drops "
-              "what came after.",
-              human_bytes(history.bytes()), history.keyframe_count()),
+  tooltip(fmt::format("The run so far, {} of at most 512 MiB: drag to go to any step, paused. Steps between "
+                      "the {} states that are kept are simulated again and give the same bits, pulls and "
+                      "pins included. Marks are changes of the scene, which go back and forth as well. Going "
+                      "on from the past drops what came after.",
+                      human_bytes(history.bytes()), history.keyframe_count()),
           "step back");
   if (last > first) {
     for (const double t : history.changes()) {
