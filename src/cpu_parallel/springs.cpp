@@ -1,7 +1,6 @@
 #include "cpu_parallel/springs.h"
 
 #include <algorithm>
-#include <cassert>
 #include <map>
 
 namespace aspic::parallel {
