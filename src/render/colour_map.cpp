@@ -89,15 +89,9 @@ std::vector<std::byte> colour_map_texels() {
 }
 
 Colour spring_colour(SpringType type) {
-  switch (type) {
-    case SpringType::structural:
-      return encoded(0.05, 0.85, 0.90);
-    case SpringType::shear:
-      return encoded(0.98, 0.85, 0.10);
-    case SpringType::bending:
-      return encoded(0.16, 0.78, 0.22);
-  }
-  return {};
+  static const Colour colours[] = {encoded(0.05, 0.85, 0.90), encoded(0.98, 0.85, 0.10),
+                                   encoded(0.16, 0.78, 0.22)};
+  return colours[static_cast<std::size_t>(type)];
 }
 
 Colour body_colour(std::size_t body) {
