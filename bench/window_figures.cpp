@@ -50,8 +50,8 @@ Figures measure(const Case& c, double seconds) {
   auto app = app::App::create((*window)->context(), options, 1.0, (*window)->services());
   if (!app) fail(app.error().message);
   (*window)->set_receiver(app->get());
-  app::Simulation& simulation = (*app)->simulation();
-  simulation.pace = app::Pace::real_time;
+  app::Simulation& simulation = (*app)->simulation;
+  simulation.pacer().pace = app::Pace::real_time;
   simulation.set_running(true);
   Figures figures;
   // The first second compiles shaders and finds the resolution.
@@ -79,7 +79,7 @@ Figures measure(const Case& c, double seconds) {
     if (c.edits && seconds_between(edited, now) > 0.1) {
       edited = now;
       pull = pull > 9.8 ? 9.8 : 9.9;
-      (*app)->set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -pull, 0.0}), "slider");
+      (*app)->scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -pull, 0.0}), "slider");
     }
     if (const Status drawn = (*app)->frame((*window)->size(), std::min(dt, 0.25)); !drawn)
       fail(drawn.error().message);
@@ -89,7 +89,7 @@ Figures measure(const Case& c, double seconds) {
   const double wall = seconds_between(measured_from, last);
   figures.real_time_factor = (simulation.time() - time_from) / wall;
   figures.pictures_per_second = pictures / wall;
-  figures.resolution = (*app)->draw_scale();
+  figures.resolution = (*app)->picture.resolution();
   (*window)->set_receiver(nullptr);
   return figures;
 }

@@ -1,4 +1,4 @@
-# Every target of the project is made by one of these functions, so that the language rules stand in one place.
+# Every target of the project is made by one of these functions, so that the language rules are in one place.
 
 add_library(aspic_rules INTERFACE)
 target_include_directories(aspic_rules INTERFACE "${PROJECT_SOURCE_DIR}/src")
@@ -9,7 +9,7 @@ if(ASPIC_WARNINGS_AS_ERRORS)
   target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
 endif()
 if(ASPIC_FUZZ)
-  # What a fuzzer reaches tells it where it has been; every finding ends the program.
+  # Coverage guides the fuzzer; every finding ends the program.
   target_compile_options(aspic_rules INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
                          -fno-omit-frame-pointer -g1 -w)  # warnings are the ordinary build's business
   target_link_options(aspic_rules INTERFACE -fsanitize=address,undefined)
@@ -20,9 +20,14 @@ if(ASPIC_SANITIZE)
 endif()
 
 # aspic_library(NAME SOURCES a.cpp … DEPENDS target …): one room of the library. Rooms name the rooms they use; their objects
-# are linked together into aspic::aspic by aspic_link_library().
+# are linked together into aspic::aspic by aspic_link_library(). Without SOURCES the room is every source file of its
+# folder: where a file is a kind of something, adding the file adds the kind.
 function(aspic_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  if(NOT arg_SOURCES)
+    file(GLOB arg_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+    list(SORT arg_SOURCES)
+  endif()
   add_library(${name} OBJECT ${arg_SOURCES})
   target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS})
   set_property(GLOBAL APPEND PROPERTY ASPIC_ROOMS ${name})

@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 steps=(format lints tidy clang odr asan tsan)
 declare -A meaning=(
   [format]="every C++ file is as clang-format leaves it (.clang-format)"
-  [lints]="tests of the text: exact kernels, pointers between pages, the generated scene reference"
+  [lints]="tests of the text: exact kernels, pointers between pages, arrows between rooms, the scene reference"
   [tidy]="clang-tidy finds nothing (.clang-tidy)"
   [clang]="everything compiles with clang without a warning"
   [odr]="no name has two definitions in a program (g++ -flto -Wodr)"
@@ -18,7 +18,7 @@ declare -A meaning=(
 if [[ " $* " == *" --help "* || " $* " == *" -h "* ]]; then
   echo "scripts/check.sh [STEP …]   runs the steps named, or all in this order:"
   for step in "${steps[@]}"; do printf '  %-8s %s\n' "$step" "${meaning[$step]}"; done
-  echo "Builds are kept in build/STEP's preset; the first run takes an hour or more on two cores."
+  echo "Builds are kept in build/; the first run takes an hour or more on two cores."
   exit
 fi
 chosen=("${@:-${steps[@]}}")
@@ -53,7 +53,7 @@ step_format() { files '*.cpp' '*.h' | xargs clang-format --dry-run --Werror; }
 
 step_lints() {
   aspic_build ON repository_tests gpu_tests scene_tests || return 1
-  ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -R '^(TextLint|PreciseLint|Reference)\.'
+  ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -R '^(TextLint|Rooms|PreciseLint|Reference)\.'
 }
 
 step_tidy() {
@@ -65,7 +65,7 @@ step_tidy() {
 }
 
 step_clang() { build clang; }
-step_odr() { build lto; }
+step_odr() { build odr; }
 step_asan() { build asan && test_in asan -LE 'independent|slow'; }
 step_tsan() { build tsan && test_in tsan; }
 

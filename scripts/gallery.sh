@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the pictures of the README anew into docs/images: the last frame of a short run of each scene, and the window as
+# Redraws the README's pictures in docs/images: the last frame of a short run of each scene, and the window as
 # its tests see it.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"

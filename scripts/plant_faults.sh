@@ -55,7 +55,7 @@ while IFS=$'\t' read -r name file change checks; do
   cp -p "$tree/$file" "$work/original"
   sed -i "$change" "$tree/$file"
   if cmp -s "$tree/$file" "$work/original"; then
-    echo "The change for \"$name\" no longer applies to $file: mend it in tests/faults/faults.txt." >&2
+    echo "The change for \"$name\" no longer applies to $file: correct it in tests/faults/faults.txt." >&2
     exit 2
   fi
   build_program

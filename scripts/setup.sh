@@ -43,7 +43,7 @@ aspic_build() {
     cmake --preset release -DASPIC_BUILD_TESTS="$tests" >&2 || return 1
   fi
   if ! ninja -C "$aspic_build_dir" --quiet "$@" | sed '/^ninja: no work to do/d' >&2; then
-    echo "The build failed; the compiler's messages stand above." >&2
+    echo "The build failed; the compiler's messages are above." >&2
     return 1
   fi
 }

@@ -1,4 +1,4 @@
-// Lists and items of partners. Which place a body gets is left to chance, what stands there is not: every list and every
+// Lists and items of partners. Which place a body gets is arbitrary, what it holds is not: every list and every
 // body's items come in ascending partner index.
 layout(std430, binding = BINDING_BALL_WORK) restrict buffer WorkBlock {
   BallWork work;

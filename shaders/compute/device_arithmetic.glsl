@@ -1,4 +1,4 @@
-// The device's own operations, as they come. Whatever is told to be exact builds on these and on nothing else, so that
+// The device's own operations, as they come. Everything exact builds on these and on nothing else, so that
 // a test can put a device with faults in their place. Mesa takes no `precise` on a function's type, so a function
 // computes into a precise variable and returns that.
 float device_div(float a, float b) {

@@ -13,12 +13,10 @@ void main() {
   if (i >= particle_count || halted()) return;
   Particle p = stage_state[i];
   precise vec3 f = p.velocity.w * gravity.xyz;
-  uint first = incident_start[i];
-  uint end = first + bounded(incident_start[i + 1u] - first, KERNEL_GATHER);
-  for (uint n = first; n < end; ++n) {
-    uint word = incident[n];
-    Particle other = stage_state[neighbour_of(word)];
-    f += spring_force(class_of(word), p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
+  for (Walk w = walk(i, bounded(degree(i), KERNEL_GATHER)); w.at < w.end; ++w.at) {
+    Link link = link_of(w);
+    Particle other = stage_state[link.other];
+    f += spring_force(link.spring, p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
   }
   finish_stage(i, p, f);
 }

@@ -2,7 +2,7 @@
 // number of rounds can be queued and none needs a read-back. A round is evaluate, apply, update, direction; a step is
 // begin, as many rounds as it takes, finish. Kernels whose phase it is not return at once. Where the ground prescribes a
 // part of δ, a linear system begins with a round that takes A times it to the right-hand side (Solve.prescribing).
-// The method and its source stand in src/cpu_reference/implicit_euler.h, which this follows operation by operation.
+// src/cpu_reference/implicit_euler.h has the method and its source; this follows it operation by operation.
 layout(std430, binding = BINDING_STATE_A) restrict buffer StateA { Particle state_a[]; };
 layout(std430, binding = BINDING_STATE_B) restrict buffer StateB { Particle state_b[]; };
 layout(std430, binding = BINDING_TRIAL) restrict buffer Trial { vec4 trial[]; };

@@ -15,15 +15,13 @@ vec4 apply(uint i) {
   precise vec3 p = direction(i);
   precise vec3 v = trial[i].xyz;
   precise vec3 product = particle.velocity.w * p;
-  uint first = incident_start[i];
-  uint end = first + bounded(incident_start[i + 1u] - first, KERNEL_IMPLICIT_APPLY);
-  for (uint n = first; n < end; ++n) {
-    uint word = incident[n], j = neighbour_of(word);
-    precise vec3 dv = v - trial[j].xyz;
-    precise vec3 e = (particle.position.xyz - state(j).position.xyz) + time_step * dv;
+  for (Walk w = walk(i, bounded(degree(i), KERNEL_IMPLICIT_APPLY)); w.at < w.end; ++w.at) {
+    Link link = link_of(w);
+    precise vec3 dv = v - trial[link.other].xyz;
+    precise vec3 e = (particle.position.xyz - state(link.other).position.xyz) + time_step * dv;
     SpringJacobian H;
-    linearised(class_of(word), e, dv, H);
-    precise vec3 d = p - direction(j);
+    linearised(link.spring, e, dv, H);
+    precise vec3 d = p - direction(link.other);
     product += times(H, d);
   }
   if (i == pull.particle) {

@@ -12,12 +12,10 @@
 vec3 held_contact_force(uint i, Particle p) {
   if (contact_model == CONTACT_COULOMB || p.position.w == 0.0) return vec3(0.0);
   precise vec3 f = p.velocity.w * gravity.xyz;
-  uint first = incident_start[i];
-  uint end = first + bounded(incident_start[i + 1u] - first, KERNEL_IMPLICIT_BEGIN);
-  for (uint n = first; n < end; ++n) {
-    uint word = incident[n];
-    Particle other = state(neighbour_of(word));
-    f += spring_force(class_of(word), p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
+  for (Walk w = walk(i, bounded(degree(i), KERNEL_IMPLICIT_BEGIN)); w.at < w.end; ++w.at) {
+    Link link = link_of(w);
+    Particle other = state(link.other);
+    f += spring_force(link.spring, p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
   }
   f = with_pull(i, p.position.xyz, p.velocity.xyz, f);
   precise vec3 held = with_contact_force(p.position.xyz, p.velocity.xyz, f) - f;

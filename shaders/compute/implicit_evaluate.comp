@@ -45,14 +45,12 @@ vec4 evaluate(uint i) {
   precise vec3 v = trial[i].xyz;
   precise vec3 f = p.velocity.w * gravity.xyz;
   DiagonalBlock block = block_of_mass(p.velocity.w);
-  uint first = incident_start[i];
-  uint end = first + bounded(incident_start[i + 1u] - first, KERNEL_IMPLICIT_EVALUATE);
-  for (uint n = first; n < end; ++n) {
-    uint word = incident[n], j = neighbour_of(word);
-    precise vec3 dv = v - trial[j].xyz;
-    precise vec3 e = (p.position.xyz - state(j).position.xyz) + time_step * dv;
+  for (Walk w = walk(i, bounded(degree(i), KERNEL_IMPLICIT_EVALUATE)); w.at < w.end; ++w.at) {
+    Link link = link_of(w);
+    precise vec3 dv = v - trial[link.other].xyz;
+    precise vec3 e = (p.position.xyz - state(link.other).position.xyz) + time_step * dv;
     SpringJacobian H;
-    f += linearised(class_of(word), e, dv, H);
+    f += linearised(link.spring, e, dv, H);
     block = with_spring(block, H);
   }
   if (i == pull.particle) {

@@ -1,37 +1,11 @@
-// The one list of buffer structs, binding numbers and limits, read by GLSL and by C++ (src/gpu_solver/layout.h).
+// The solvers' structs, uniform locations and limits, read by GLSL and by C++ (src/gpu_solver/layout.h).
 // vec4 and uvec4 only, or scalars in groups of four: then std140, std430 and C++ agree on every offset.
+#include "shared/layout.glsl"
 
 #define MAX_STAGES 4
 #define MAX_SPRING_CLASSES 256
 #define MAX_TERRAINS 64
-
-// Storage blocks.
-#define BINDING_START_STATE 0   // Particle[]: the state the step began with, read only
-#define BINDING_STAGE_STATE 1   // Particle[]: where this stage evaluates the force, read only
-#define BINDING_OUT_STATE 2     // Particle[]: the next stage's state, or the step's end
-#define BINDING_STAGE_SUMS 3    // Particle[]: weighted sums of the stages' slopes so far
-#define BINDING_INCIDENT_START 4  // uint[particles + 1]: where each particle's list begins in the incident words
-#define BINDING_INCIDENT 5      // uint[2 · springs]: gather: neighbour and class; per-spring: spring and side
-#define BINDING_CONTROL 6       // Control
-#define BINDING_SPRING_FORCES 7 // vec4[springs]: force on end a [N], signed spring strength s [N]
-#define BINDING_SPRINGS 4       // uvec2[springs], in the per-spring force pass only
-// Storage blocks of the implicit kernels, where they differ.
-#define BINDING_STATE_A 0       // Particle[]: the state, or where the step's end goes: Solve.parity tells
-#define BINDING_STATE_B 1       // Particle[]: the other one
-#define BINDING_TRIAL 2         // vec4[particles]: v' at which the residual is evaluated [m/s]
-#define BINDING_SEARCH 3        // vec4[particles]: conjugate gradients' search direction p [m/s]
-#define BINDING_SOLVE 6         // Solve, then vec4[blocks]: the reductions' partial results
-#define BINDING_OWN 7           // vec4[OWN_VECTORS · particles]: what only its own invocation writes
-// Storage blocks of the ball kernels; particles are STATE_A and STATE_B: the step's start and its end.
-#define BINDING_BALLS 2         // Ball[BALL_SLOTS · balls]
-#define BINDING_BALL_BODIES 3   // BallBody[balls]
-#define BINDING_BALL_ITEMS 3    // BallItem[], in every ball kernel but flight
-#define BINDING_BALL_TOUCHES 4  // BallTouches[balls + particles]
-#define BINDING_BALL_GRID 5     // uint[buckets + balls + balls · mark words]: heads of lists, their links, marks
-#define BINDING_BALL_WORK 7     // BallWork, then uint[]: the short lists of partners
-// Uniform blocks.
-#define BINDING_SIMULATION 0
-#define BINDING_PULL 1
+#define GEOMETRY_SIZE 3  // vectors, and numbers, of a shape: geometry_size in src/model/shapes/shape.h
 
 // Vectors of the OWN block, each an array over particles.
 #define OWN_BASE 0u       // v' of the accepted Newton iterate [m/s]
@@ -101,19 +75,12 @@
 // Groups along x of the dispatches whose size the device decides: along y a dispatch may have 65,535.
 #define BALL_GROUPS_X 8u
 
-// Bounds of loops. Some drivers end the loops of an invocation silently after so many rounds in all (Mesa's llvmpipe
-// after 65,535, counted over the invocations that share a vector). So every loop whose length depends on the scene has
-// at most MAX_ROUNDS rounds, none is inside another, and no kernel has more than three, one after the other.
-// What would take more is reported (Control.overrun, Solve.overrun) and ends the run with an error.
-#ifndef MAX_ROUNDS
-#define MAX_ROUNDS 20000u
-#endif
 // Candidates that an invocation looks at before it calls its body crowded, which is slower and as right.
 #ifndef MAX_WALK
 #define MAX_WALK 16384u
 #endif
 
-// Kernels that report loops over MAX_ROUNDS; their names stand in src/gpu_solver/support.cpp.
+// Kernels that report loops over MAX_ROUNDS; their names stand in src/gpu_solver/kernels.cpp.
 #define KERNEL_GATHER 1u
 #define KERNEL_SUM_SPRINGS 2u
 #define KERNEL_IMPLICIT_BEGIN 3u
@@ -130,27 +97,11 @@
 #define DRIFT_NEW_VELOCITY 1u
 #define DRIFT_MEAN_VELOCITY 2u
 
-#define SHAPE_PLANE 0u
-#define SHAPE_SPHERE 1u
-#define SHAPE_BOWL 2u
-
 #define CONTACT_COULOMB 0u
 #define CONTACT_COURSE 1u
 
 #define NO_STEP 0xffffffffu
 #define BAD_RESIDUAL 0xfffffffeu  // in place of a particle that diverged: the implicit solve's residual did
-
-struct Particle {
-  vec4 position;  // x [m]; w: inverse mass [1/kg], 0 = pinned
-  vec4 velocity;  // v [m/s]; w: mass [kg]
-};
-
-struct Ball {
-  vec4 position;        // x [m]; w: radius R [m]
-  vec4 velocity;        // v [m/s]; w: inverse mass [1/kg], 0 while it is not launched
-  vec4 spin;            // ω [rad/s]; w: R/I [1/(kg·m)]
-  vec4 start_velocity;  // v at the start of the step [m/s], between phases; w: R²/I [1/kg]
-};
 
 struct BallBody {
   float ball_mass;          // m [kg]
@@ -204,21 +155,13 @@ struct Stage {
   uint last;        // 1: the step ends after this stage
 };
 
-struct SpringClass {
-  float stiffness;    // k [N/m]
-  float damping;      // c [N·s/m]
-  float rest_length;  // r [m]
-  uint cord;          // 1: resists stretch only
-};
-
 struct Terrain {
-  vec4 point;     // a point of the plane or the centre [m]; w: radius [m]
-  vec4 normal;    // unit normal, planes only; w: unused
+  vec4 geometry[GEOMETRY_SIZE];  // xyz: vectors in the order of the shape's keys; w: numbers in theirs
   float mass;         // M [kg], if movable
   float restitution;  // e
   float friction;     // μ
   uint movable;       // 1: M is finite
-  uint shape;         // SHAPE_…
+  uint shape;         // row of the table in src/model/shapes/table.h
   uint padding0, padding1, padding2;
 };
 

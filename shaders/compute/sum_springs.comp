@@ -4,10 +4,9 @@
 #include "compute/common.glsl"
 #include "compute/control.glsl"
 #include "compute/bounded.glsl"
+#include "compute/incident.glsl"
 #include "compute/stage.glsl"
 
-layout(std430, binding = BINDING_INCIDENT_START) restrict readonly buffer IncidentStart { uint incident_start[]; };
-layout(std430, binding = BINDING_INCIDENT) restrict readonly buffer Incident { uint incident[]; };
 layout(std430, binding = BINDING_SPRING_FORCES) restrict readonly buffer SpringForces { vec4 spring_forces[]; };
 
 void main() {
@@ -15,10 +14,8 @@ void main() {
   if (i >= particle_count || halted()) return;
   Particle p = stage_state[i];
   precise vec3 f = p.velocity.w * gravity.xyz;
-  uint first = incident_start[i];
-  uint end = first + bounded(incident_start[i + 1u] - first, KERNEL_SUM_SPRINGS);
-  for (uint n = first; n < end; ++n) {
-    uint word = incident[n];
+  for (Walk w = walk(i, bounded(degree(i), KERNEL_SUM_SPRINGS)); w.at < w.end; ++w.at) {
+    uint word = word_at(w);  // spring << 1 | 1 at its end b
     precise vec3 on_a = spring_forces[word >> 1u].xyz;
     f += (word & 1u) == 0u ? on_a : -on_a;
   }

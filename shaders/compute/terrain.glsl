@@ -1,29 +1,5 @@
 // Terrain and contact (docs/physics.md, section 5).
-
-// xyz: unit normal towards the free side; w: signed distance [m], positive on the free side.
-vec4 gap(uint t, vec3 x) {
-  precise vec3 e = x - terrains[t].point.xyz;
-  if (terrains[t].shape == SHAPE_PLANE) {
-    precise float height = dot3(terrains[t].normal.xyz, e);
-    return vec4(terrains[t].normal.xyz, height);
-  }
-  precise float L = norm3(e);
-  bool bowl = terrains[t].shape == SHAPE_BOWL;
-  precise float d = bowl ? terrains[t].point.w - L : L - terrains[t].point.w;
-  if (L == 0.0) return vec4(0.0, 1.0, 0.0, d);
-  precise float q = exact_div(1.0, L);
-  precise vec3 outward = q * e;
-  return vec4(bowl ? -outward : outward, d);
-}
-
-// d alone, the same bits as gap's: most bodies are far from the ground.
-float distance_to(uint t, vec3 x) {
-  precise vec3 e = x - terrains[t].point.xyz;
-  if (terrains[t].shape == SHAPE_PLANE) return dot3(terrains[t].normal.xyz, e);
-  precise float L = norm3(e);
-  precise float d = terrains[t].shape == SHAPE_BOWL ? terrains[t].point.w - L : L - terrains[t].point.w;
-  return d;
-}
+#include "shapes/all.glsl"
 
 // B(u) = max(0, (m − e·M)/(m + M)·u), −e·u for M = ∞
 float bounce_speed(uint t, float m, float u) {

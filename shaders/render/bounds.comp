@@ -1,7 +1,6 @@
 // The box of all particles in each light's space: shadow maps are fitted to it without the processor's help.
 #include "render/layout.glsl"
 #include "render/bounds.glsl"
-#include "render/particle.glsl"
 #include "compute/dispatch.glsl"
 
 layout(std430, binding = BINDING_PARTICLES) restrict readonly buffer Particles { Particle particles[]; };

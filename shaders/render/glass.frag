@@ -3,7 +3,6 @@
 #include "render/frame.glsl"
 #include "render/shadow.glsl"
 
-layout(location = LOCATION_SPHERE) uniform vec4 sphere;
 layout(location = LOCATION_SIDE) uniform int side;
 in vec3 world;
 in vec3 local;

@@ -1,25 +1,8 @@
-// The blocks, binding numbers and locations of drawing, read by GLSL and by C++ (src/render/layout.h).
+// The blocks and locations of drawing, read by GLSL and by C++ (src/render/layout.h).
 // mat4, vec4 and scalars in groups of four only: then std140, std430 and C++ agree on every offset.
+#include "shared/layout.glsl"
 
 #define MAX_SHADOW_SPHERES 16
-
-// Uniform blocks.
-#define BINDING_FRAME 1
-#define BINDING_LIGHT_BOXES 2
-// Storage blocks of the kernels that prepare a picture.
-#define BINDING_PARTICLES 0
-#define BINDING_FAN_START 1   // uint[surface vertices + 1]: where each vertex's fan begins
-#define BINDING_FAN 2         // uvec2[]: next and previous neighbour along each quad at the vertex
-#define BINDING_FAN_VERTEX 3  // uint[surface vertices]: the particle
-#define BINDING_NORMALS 4     // vec4[particles]
-#define BINDING_BOUNDS 5      // Bounds[LIGHTS]
-#define BINDING_QUANTITY 6    // float[particles]
-#define BINDING_LIGHT_BOXES_OUT 7  // LightBox[LIGHTS]
-#define BINDING_SPRING_START 1  // uint[particles + 1], in the quantity kernel only
-#define BINDING_SPRING_ENDS 2   // uvec2[2 · springs]: neighbour, class
-#define BINDING_SPRING_CLASSES 3
-#define BINDING_BALLS 0   // Ball[], in the balls' kernel only
-#define BINDING_TURNS 1   // vec4[balls]: unit quaternions, from a ball's own frame to the world
 
 // Texture units.
 #define UNIT_GROUND 0
@@ -41,17 +24,18 @@
 
 // Uniforms outside blocks.
 #define LOCATION_COUNT 0
+#define LOCATION_CLASS_BITS 1      // of incident words, in the quantity kernel
 #define LOCATION_LIGHT 0
 #define LOCATION_BASE_COLOUR 1
 #define LOCATION_SPRING 2         // k, c, r, cord
 #define LOCATION_RADIUS 3         // of spheres and springs [m]
 #define LOCATION_PLANE_POINT 4
 #define LOCATION_PLANE_NORMAL 5
-#define LOCATION_SPHERE 6         // centre, radius
 #define LOCATION_SIDE 7
 #define LOCATION_FIRST 8          // of balls, particles or terrains: the first
 #define LOCATION_ELAPSED 9        // since the picture before [s]
 #define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it stands for the particle
+#define LOCATION_TERRAIN 12       // DrawnTerrain: its geometry, three vec4, and shape
 #define LOCATION_MARK 11          // MARK_…, least radius [pixels], opacity, whether to encode as sRGB
 
 // Lights that the bodies keep off: the sun, and the sky straight above.

@@ -1,7 +1,6 @@
 // Smooth normals of the bodies' surfaces: the sum over the quads at a vertex of the cross product of the two edges there,
 // so that every corner of an undeformed cube leans equally towards its three faces.
 #include "render/layout.glsl"
-#include "render/particle.glsl"
 #include "compute/dispatch.glsl"
 
 layout(std430, binding = BINDING_PARTICLES) restrict readonly buffer Particles { Particle particles[]; };

@@ -1,29 +1,32 @@
-// One terrain by sight line and formula: planes from their free side, balls from outside, the far wall of bowls.
+// One terrain by sight line and distance: surfaces are met from their free side, so that planes are glass from below and
+// bowls show their far wall.
 #include "render/layout.glsl"
+#include "render/drawn_terrain.glsl"
 #include "render/pick.glsl"
 
 layout(location = LOCATION_FIRST) uniform uint index;
-layout(location = LOCATION_SIDE) uniform int shape;  // 0 plane, 1 sphere, 2 bowl
-layout(location = LOCATION_PLANE_NORMAL) uniform vec4 plane_normal;
-layout(location = LOCATION_SPHERE) uniform vec4 sphere;  // of a plane: a point of it; else centre, radius
 in vec2 on_screen;
 layout(location = 0) out uvec2 picked;
 
 const float farthest = 14.0;  // in distances of the target: as far as ground is drawn
 
+// How far along the sight line the surface is met; −1: nowhere. No step is longer than the distance to the surface (Hart,
+// Sphere Tracing, 1996). Newton's method brings the last steps to their end, which are short where the line only grazes.
 float along(vec3 ray) {
-  vec3 from = eye.xyz - sphere.xyz;
-  if (shape == 0) {
-    float above = dot(plane_normal.xyz, from);
-    float falling = -dot(plane_normal.xyz, ray);
-    return above > 0.0 && falling > 0.0 ? above / falling : -1.0;
+  float near = 1e-4 * eye.w;
+  float t = 0.0;
+  bool free = false;
+  for (int i = 0; i < 128 && t <= farthest * eye.w; ++i) {
+    float d = distance_to(0u, eye.xyz + t * ray);
+    free = free || d > 2.0 * near;
+    if (free && d < near) break;
+    t += max(abs(d), near);
   }
-  float middle = -dot(from, ray);
-  vec3 beside = from + middle * ray;
-  float half_chord = sphere.w * sphere.w - dot(beside, beside);
-  if (half_chord < 0.0) return -1.0;
-  half_chord = sqrt(half_chord);
-  return shape == 1 ? middle - half_chord : middle + half_chord;
+  for (int i = 0; i < 4 && free; ++i) {
+    vec4 g = gap(0u, eye.xyz + t * ray);
+    t += g.w / max(-dot(g.xyz, ray), 1e-4);
+  }
+  return free && abs(distance_to(0u, eye.xyz + t * ray)) < 0.2 * near ? t : -1.0;
 }
 
 void main() {

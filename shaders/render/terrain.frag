@@ -1,5 +1,7 @@
-// Solid terrain: textured ground or a textured ball, in sun, sky and shadow.
+// Solid terrain: textured ground or another textured surface, in sun, sky and shadow. CUT_PLANE: ground with parts cut
+// out, which the shape's distance tells.
 #include "render/frame.glsl"
+#include "render/drawn_terrain.glsl"
 #ifdef UNSHADOWED_PLANE
 vec3 sunlight_at(vec3 position) { return vec3(sphere_shade(position)); }
 float skylight_at(vec3 position) { return 1.0; }
@@ -11,8 +13,6 @@ layout(binding = UNIT_GROUND) uniform sampler2D ground;
 #ifdef PLANE
 layout(location = LOCATION_PLANE_POINT) uniform vec4 plane_point;
 layout(location = LOCATION_PLANE_NORMAL) uniform vec4 plane_normal;
-#else
-layout(location = LOCATION_SPHERE) uniform vec4 sphere;
 #endif
 in vec3 world;
 in vec3 local;
@@ -21,6 +21,9 @@ layout(location = 0) out vec4 colour;
 const float texture_size = 4.0;  // one repeat of the ground's texture [m]
 
 void main() {
+#ifdef CUT_PLANE
+  if (distance_to(0u, world) > 1e-4 * plane_point.w) discard;
+#endif
   vec3 from_eye = world - eye.xyz;
   vec3 v = -normalize(from_eye);
 #ifdef PLANE
@@ -30,7 +33,7 @@ void main() {
 #else
   vec3 n = normalize(local);
   vec3 weight = n * n;
-  vec3 p = sphere.w * n / texture_size;
+  vec3 p = (world - terrains[0].geometry[0].xyz) / texture_size;
   vec3 albedo = weight.x * texture(ground, p.yz).rgb + weight.y * texture(ground, p.xz).rgb +
                 weight.z * texture(ground, p.xy).rgb;
   albedo *= vec3(1.16, 1.20, 1.30);

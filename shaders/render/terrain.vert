@@ -1,5 +1,5 @@
-// Planes as large squares, spheres as meshes: the vertex stands on the unit square or the unit sphere. The shadowed
-// variant of a plane covers only where the light maps fall on it, one square for each light (the instance).
+// Planes as large squares, made of the unit square, and other surfaces as meshes. The shadowed variant of a plane covers
+// only where the light maps fall on it, one square for each light (the instance).
 #include "render/frame.glsl"
 #ifdef SHADOWED_PLANE
 #include "render/light.glsl"
@@ -10,10 +10,10 @@ layout(location = ATTRIBUTE_POSITION) in vec4 position;
 layout(location = LOCATION_PLANE_POINT) uniform vec4 plane_point;    // middle of the square [m]; w: half its side [m]
 layout(location = LOCATION_PLANE_NORMAL) uniform vec4 plane_normal;  // w: unused
 #else
-layout(location = LOCATION_SPHERE) uniform vec4 sphere;  // centre, radius [m]
+layout(location = ATTRIBUTE_NORMAL) in vec4 normal;
 #endif
 out vec3 world;
-out vec3 local;
+out vec3 local;  // planes: position along the texture [m]; else the normal
 
 void main() {
 #ifdef PLANE
@@ -34,8 +34,8 @@ void main() {
 #endif
   local = vec3(dot(world, along), dot(world, across), 0.0);
 #else
-  local = position.xyz;
-  world = sphere.xyz + sphere.w * position.xyz;
+  local = normal.xyz;
+  world = position.xyz;
 #endif
   gl_Position = view_projection * vec4(world, 1.0);
 }

@@ -20,32 +20,22 @@ Vec3 spring_force(const SpringClass& spring, const Vec3& xa, const Vec3& va, con
   return -(s * q) * e;
 }
 
-/// The unit normal towards the free side.
-Vec3 normal_at(const Terrain& terrain, const Vec3& x) {
-  if (terrain.shape == TerrainShape::plane || terrain.shape == TerrainShape::tilted_plane)
-    return terrain.normal;
-  const Vec3 e = x - terrain.point;
-  const double away = length(e);
-  if (away == 0.0) return {0.0, 1.0, 0.0};
-  return (terrain.shape == TerrainShape::bowl ? -1.0 / away : 1.0 / away) * e;
-}
-
 /// What is left of f after the course model's contact with one terrain.
 Vec3 after_contact(const Terrain& terrain, double epsilon, const Vec3& x, const Vec3& v, const Vec3& f) {
-  const Vec3 n = normal_at(terrain, x);
+  const auto [d, n] = terrain_gap(terrain, x);
   const double u = dot(v, n), along = dot(f, n);
-  if (!(signed_distance(terrain, x) < epsilon && std::abs(u) < epsilon && along < 0.0)) return f;
+  if (!(d < epsilon && std::abs(u) < epsilon && along < 0.0)) return f;
   const Vec3 slip = v - u * n;
   return (f - along * n) + (terrain.friction * along) * slip;
 }
 
 }  // namespace
 
-IncidentSprings::IncidentSprings(const Model& model) {
+SpringFinder::SpringFinder(const Model& model) {
   for (const Spring& spring : model.springs) widest_ = std::max(widest_, spring.b - spring.a);
 }
 
-std::vector<std::uint32_t> IncidentSprings::of(const Model& model, std::uint32_t particle) const {
+std::vector<std::uint32_t> SpringFinder::of(const Model& model, std::uint32_t particle) const {
   const std::uint32_t first_end = particle - std::min(particle, widest_);
   const auto first = std::ranges::lower_bound(model.springs, first_end, {}, &Spring::a);
   std::vector<std::uint32_t> found;
@@ -55,13 +45,13 @@ std::vector<std::uint32_t> IncidentSprings::of(const Model& model, std::uint32_t
   return found;
 }
 
-ParticleForce particle_force(const Model& model, const IncidentSprings& incident, const State& state,
+ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
                              std::uint32_t particle, const std::optional<Pull>& pull) {
   assert(check_sizes(model, state) && particle < model.particle_count());
   const Vec3 &x = state.position[particle], &v = state.velocity[particle];
   ParticleForce force;
   force.gravity = force.net = model.mass[particle] * model.simulation.gravity;
-  for (const std::uint32_t index : incident.of(model, particle)) {
+  for (const std::uint32_t index : springs.of(model, particle)) {
     const Spring& spring = model.springs[index];
     const std::uint32_t other = spring.a == particle ? spring.b : spring.a;
     const Vec3 f = spring_force(model.spring_classes[spring.spring_class], x, v, state.position[other],

@@ -13,9 +13,9 @@ namespace aspic {
 /// Finds the springs of a particle without a list of them: springs are sorted by (a, b), and no spring of a
 /// lattice joins particles farther apart than a few of its layers. Costs one look at each spring when made,
 /// and 8 bytes.
-class IncidentSprings {
+class SpringFinder {
  public:
-  explicit IncidentSprings(const Model& model);
+  explicit SpringFinder(const Model& model);
   /// Indices into Model::springs of those that end at `particle`, ascending, which is also the order of
   /// their other ends. `model` is that of the constructor.
   std::vector<std::uint32_t> of(const Model& model, std::uint32_t particle) const;
@@ -35,7 +35,7 @@ struct ParticleForce {
 
 /// The state must have the model's numbers of particles; `particle` is one of them; `pull` is that of the
 /// solver, on whatever particle.
-ParticleForce particle_force(const Model& model, const IncidentSprings& incident, const State& state,
+ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
                              std::uint32_t particle, const std::optional<Pull>& pull = {});
 
 }  // namespace aspic

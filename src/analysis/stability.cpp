@@ -175,7 +175,7 @@ StabilityLimit bounded_limit(BodyAnalysis& analysis, Integrator integrator) {
     }
   };
   scan_unit_interval(60, [&](double share) { visit(share * kappa_max); });
-  analysis.work().spend(120 * 41 * work_of_mode);
+  analysis.work().spend(std::uint64_t{120} * 41 * work_of_mode);
   least = smaller(least, of_mode(integrator, 0.0, gamma_max));
   least.exact = false;
   return least;
@@ -271,7 +271,7 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
       known_ratio = ratio;
     }
     const StabilityLimit& least = *known;
-    if (body.spacing <= 0.0 || !least.step || timestep > *least.step) return false;
+    if (!body.cubic || !least.step || timestep > *least.step) return false;
   }
   return covered == model.particle_count();
 }

@@ -5,355 +5,244 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <utility>
 
 #include "analysis/stability.h"
 #include "app/panels.h"
-#include "app/shortcuts.h"
 #include "run/backends.h"
-#include "scene/load.h"
+#include "run/outputs.h"
 
 namespace aspic::app {
-namespace {
-
-/// How long a line that is no error stays [s].
-constexpr double notice_seconds = 5.0;
-constexpr double slowest = 1.0 / 1024.0, fastest = 1024.0;
-
-}  // namespace
 
 Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions& options, double scale,
                                          WindowServices services) {
   auto editor = SceneEditor::open(options.scene, options.overrides);
   if (!editor) return editor.error();
-  std::unique_ptr<App> app(new App(context, std::move(*editor)));
-  app->full_quality_ = options.full_quality;
   const BackendRow& backend = options.backend ? *options.backend : *choose_automatically({}, &context).row;
-  auto simulation = Simulation::create(context, app->editor_.scene(), backend);
+  auto simulation = Simulation::create(context, editor->scene(), backend);
   if (!simulation) return simulation.error();
-  app->simulation_ = std::move(*simulation);
-  ASPIC_CHECK(app->make_pictures(scale, std::move(services)));
-  app->take_on(options.kept, options.overrides);
+  std::unique_ptr<App> app(new App(options, std::move(*editor), std::move(*simulation)));
+  ASPIC_CHECK(app->attach(context, scale, std::move(services)));
+  app->restore(options.kept, options.overrides);
   return app;
 }
 
-App::~App() {
-  // Whatever ends the window, the film is completed.
-  stop_recording();
+App::App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Simulation> own)
+    : simulation_(std::move(own)),
+      commands_(make_commands()),
+      watcher_(options.watcher),
+      simulation(*simulation_),
+      view(editor.scene().view.camera),
+      scene(std::move(editor), simulation, view, messages),
+      run(simulation, scene, messages),
+      picture(simulation, scene.scene(), view, options.full_quality),
+      hands(simulation, view, messages),
+      film(simulation, scene.editor(), view, picture, messages),
+      pointer(simulation, view, picture, hands) {}
+
+std::vector<Command> App::make_commands() {
+  constexpr int ctrl = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
+  const auto step = [this] {
+    film.update();
+    run.single_step();
+    film.update();
+  };
+  const auto throw_ball = [this] {
+    const auto [x, y] = pointer.aim(gui_->takes_mouse());
+    hands.throw_ball(x, y);
+  };
+  const auto frame_bodies = [this] {
+    if (messages.check(simulation.refresh_snapshot()))
+      view.frame_bodies(simulation.model(), simulation.snapshot());
+  };
+  const auto full_screen = [this] {
+    if (gui_->services().toggle_full_screen) gui_->services().toggle_full_screen();
+  };
+  const auto paste = [this] { paste_camera(view, scene.scene(), gui_->services(), messages); };
+  return {
+      {"Space", "start or pause", GLFW_KEY_SPACE, 0, 0, [this] { run.toggle(); }},
+      {".", "single step", -1, 0, U'.', step},
+      {"R", "reset to the start", GLFW_KEY_R, 0, 0, [this] { run.reset(); }},
+      {",", "step back", -1, 0, U',', [this] { run.step_back(); }},
+      {"Backspace", "half a second back", GLFW_KEY_BACKSPACE, 0, 0, [this] { run.jump_back(); }, true},
+      {"+", "twice as fast", -1, 0, U'+', [this] { run.change_speed(2.0); }},
+      {"-", "half as fast", -1, 0, U'-', [this] { run.change_speed(0.5); }},
+      {"G", "other backend", GLFW_KEY_G, 0, 0, [this] { run.switch_backend(); }},
+      {"B", "throw a ball", GLFW_KEY_B, 0, 0, throw_ball},
+      {"Ctrl+drag", "pull the particle under the mouse"},
+      {"Ctrl+right click", "pin or free the particle"},
+      {"[", "previous scene", -1, 0, U'[', [this] { scene.open_neighbour(-1); }},
+      {"]", "next scene", -1, 0, U']', [this] { scene.open_neighbour(1); }},
+      {"Ctrl+L", "reload the scene", GLFW_KEY_L, ctrl, 0, [this] { scene.reload(); }},
+      {"F5", "reload the scene", GLFW_KEY_F5, 0, 0, [this] { scene.reload(); }},
+      {"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, [this] { scene.undo(); }, true},
+      {"Ctrl+Shift+Z", "redo", GLFW_KEY_Z, ctrl | shift, 0, [this] { scene.redo(); }, true},
+      {"Ctrl+Y", "redo", GLFW_KEY_Y, ctrl, 0, [this] { scene.redo(); }, true},
+      {"left drag", "turn the camera"},
+      {"right or Shift drag", "move the camera"},
+      {"wheel", "zoom"},
+      {"double click", "look at the point under the mouse"},
+      {"Home", "reset the camera", GLFW_KEY_HOME, 0, 0, [this] { view.camera.reset(); }},
+      {"F", "frame the bodies", GLFW_KEY_F, 0, 0, frame_bodies},
+      {"Ctrl+C", "copy the camera as text", GLFW_KEY_C, ctrl, 0,
+       [this] { copy_camera(view, gui_->services(), messages); }},
+      {"Ctrl+V", "paste a camera", GLFW_KEY_V, ctrl, 0, paste},
+      {"Tab", "hide or show the panels", GLFW_KEY_TAB, 0, 0, [this] { layout.panels = !layout.panels; }},
+      {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { help_visible = !help_visible; }},
+      {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
+      {"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
+      {"F12", "save a screenshot", GLFW_KEY_F12, 0, 0, [this] { screenshot_wanted_ = true; }},
+  };
+}
+
+// ---- the context ----
+
+Status App::attach(gl::Context& context, double scale, WindowServices services) {
+  ASPIC_CHECK(picture.attach(context));
+  auto gui = Gui::create(scale, std::move(services), commands_, watcher_);
+  if (!gui) return gui.error();
+  gui_ = std::move(*gui);
+  gui_->set_text_size(layout.text_size);
+  return {};
+}
+
+Status App::release_context(const Error& why) {
+  for (const std::string& line : film.finish()) messages.error(line);
+  ASPIC_CHECK(simulation.leave_context(why));
+  // What the solver said when it noticed first says more.
+  if (!messages.notice() || !messages.notice()->is_error) messages.error(why.message);
+  pointer.forget();
+  picture.detach();
+  gui_.reset();
+  return {};
+}
+
+Status App::adopt_context(gl::Context& context, double scale, WindowServices services) {
+  simulation.set_context(context);
+  return attach(context, scale, std::move(services));
+}
+
+// ---- what is kept ----
+
+void App::restore(const KeptState& kept, const std::vector<std::string>& overrides) {
+  layout = kept.layout;
+  gui_->set_text_size(layout.text_size);
+  simulation.pacer().pace = kept.pace;
+  simulation.pacer().speed = kept.speed;
+  film.settings = {kept.film_format, kept.film_fps, kept.film_text, ""};
+  view.kept = kept.cameras;
+  const auto sets_camera = [](const std::string& set) { return set.starts_with("view.camera"); };
+  if (std::ranges::none_of(overrides, sets_camera)) view.recall_camera(scene.editor().source());
+}
+
+KeptState App::kept_state() const {
+  KeptState kept;
+  kept.layout = layout;
+  kept.pace = simulation.pacer().pace;
+  kept.speed = simulation.pacer().speed;
+  kept.film_format = film.settings.format;
+  kept.film_fps = film.settings.fps;
+  kept.film_text = film.settings.text;
+  kept.cameras = view.kept_with(scene.editor().source());
+  return kept;
 }
 
 std::string App::title() const {
-  return fmt::format("{}{} - Aspic", editor_.scene().name, editor_.changed() ? " (changed)" : "");
+  return fmt::format("{}{} - Aspic", scene.scene().name, scene.editor().changed() ? " (changed)" : "");
 }
 
 bool App::idle() const {
-  return !simulation_->running() && std::min(still_, awake_) > 0.5 && !screenshot_wanted_ &&
-         pending_ == Effect::none && !simulation_->changing();
-}
-
-void App::tell(const Status& status) {
-  if (!status) tell(status.error().message, true);
+  return !simulation.running() && std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
+         !screenshot_wanted_ && !scene.pending() && !simulation.changing();
 }
 
 // ---- events ----
 
 void App::key(int key, int action, int modifiers) {
-  still_ = 0.0;
+  still_for_ = 0.0;
   gui_->key(key, action, modifiers);
   if (action == GLFW_RELEASE || gui_->takes_keyboard()) return;
   if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS) {
-    help_visible_ = false;
-    dismiss_notice();
-    return;
+    help_visible = false;
+    messages.dismiss();
+  } else {
+    commands_.on_key(key, modifiers, action == GLFW_REPEAT);
   }
-  const bool repeats = key == GLFW_KEY_Z || key == GLFW_KEY_Y || key == GLFW_KEY_BACKSPACE;
-  if (action == GLFW_REPEAT && !repeats) return;
-  act_on_key(*this, key, modifiers);
 }
 
 void App::character(unsigned int code_point) {
-  still_ = 0.0;
+  still_for_ = 0.0;
   if (gui_->takes_keyboard())
     gui_->character(code_point);
   else
-    act_on_character(*this, static_cast<char32_t>(code_point));
+    commands_.on_character(static_cast<char32_t>(code_point));
 }
 
 void App::mouse_button(int button, int action, int modifiers) {
-  still_ = 0.0;
+  still_for_ = 0.0;
   gui_->mouse_button(button, action);
-  if (action == GLFW_RELEASE) {
-    if (button == drag_button_) drag_button_ = -1;
-    if (button == GLFW_MOUSE_BUTTON_LEFT) end_pull();
-    if (button == GLFW_MOUSE_BUTTON_LEFT) editor_.end_gesture();
-    return;
-  }
-  if (drag_button_ >= 0 || gui_->takes_mouse() || !viewport_.contains(mouse_x_, mouse_y_)) return;
-  const bool hand = (modifiers & GLFW_MOD_CONTROL) != 0;
-  if (hand && hovered_) {
-    if (button == GLFW_MOUSE_BUTTON_LEFT) begin_pull();
-    if (button == GLFW_MOUSE_BUTTON_RIGHT) toggle_pin(hovered_->particle);
-    return;
-  }
-  if (hand) return;
-  if (button == GLFW_MOUSE_BUTTON_LEFT && modifiers == 0) centre_wanted_ = is_double_click();
-  drag_button_ = button;
-  drag_pans_ = button != GLFW_MOUSE_BUTTON_LEFT || (modifiers & GLFW_MOD_SHIFT) != 0;
+  if (action != GLFW_RELEASE) return pointer.press(button, modifiers, gui_->takes_mouse());
+  pointer.release(button);
+  if (button == GLFW_MOUSE_BUTTON_LEFT) scene.end_gesture();
 }
 
 void App::cursor(double x, double y) {
-  awake_ = 0.0;
+  mouse_still_for_ = 0.0;
   // A mouse that only passes over leaves the picture as it is, in full resolution.
-  if (drag_button_ >= 0 || simulation_->hand()) still_ = 0.0;
+  if (pointer.drags()) still_for_ = 0.0;
   gui_->cursor(x, y);
-  if (drag_button_ >= 0) drag(x - mouse_x_, y - mouse_y_);
-  mouse_x_ = x;
-  mouse_y_ = y;
-  move_pull();
-}
-
-void App::drag(double dx, double dy) {
-  const double height = std::max(viewport_.bottom - viewport_.top, 1.0);
-  if (drag_pans_)
-    camera_.pan(dx / height, dy / height);
-  else
-    camera_.orbit(dx / height, dy / height);
+  pointer.move(x, y);
 }
 
 void App::scroll(double dx, double dy) {
-  still_ = 0.0;
-  if (viewport_.contains(mouse_x_, mouse_y_) && !gui_->takes_mouse())
-    camera_.zoom(dy);
-  else
-    gui_->scroll(dx, dy);
+  still_for_ = 0.0;
+  if (!pointer.scroll(dy, gui_->takes_mouse())) gui_->scroll(dx, dy);
 }
 
 void App::drop(const std::vector<std::string>& paths) {
-  still_ = 0.0;
-  if (!paths.empty()) open(paths.front());
+  still_for_ = 0.0;
+  if (!paths.empty()) scene.open(paths.front());
 }
 
-// ---- actions ----
-
-void App::toggle_running() {
-  if (simulation_->divergence()) {
-    tell("The simulation has diverged. Take the stable step, step back or reset first.", true);
-    return;
-  }
-  simulation_->set_running(!simulation_->running());
-}
-
-void App::single_step() {
-  if (simulation_->running()) simulation_->set_running(false);
-  film();
-  tell(simulation_->single_step());
-  film();
-}
-
-void App::reset() {
-  stable_.reset();
-  tell(simulation_->reset());
-}
-
-void App::change_speed(double factor) {
-  simulation_->speed = std::clamp(simulation_->speed * factor, slowest, fastest);
-}
-
-void App::toggle_backend() {
-  const Status changed = simulation_->set_backend(next_backend(simulation_->backend()));
-  follow_history();
-  if (changed)
-    tell(fmt::format("Now on {}.", simulation_->solver().description()));
-  else
-    tell(changed);
-}
-
-void App::open(const std::string& source) {
-  keep_camera();
-  const SceneEditor before = editor_;
-  if (const Status opened = editor_.replace(source); !opened) return tell(opened);
-  const Status changed = simulation_->change(editor_.scene(), false);
-  if (!changed) {
-    editor_ = before;
-    return tell(changed);
-  }
-  scene_replaced();
-}
-
-void App::scene_replaced() {
-  pending_ = Effect::none;
-  stable_.reset();
-  notice_.reset();
-  tell(simulation_->reset());
-  camera_ = CameraControl(editor_.scene().view.camera);
-  recall_camera();
-}
-
-void App::open_neighbour(int offset) {
-  const std::vector<BuiltinScene> scenes = list_builtin_scenes();
-  const auto count = static_cast<int>(scenes.size());
-  int current = offset > 0 ? -1 : 0;
-  for (int i = 0; i < count; ++i) {
-    if (scenes[static_cast<std::size_t>(i)].name == editor_.source()) current = i;
-  }
-  open(std::string(scenes[static_cast<std::size_t>((current + offset + count) % count)].name));
-}
-
-void App::reload() {
-  const std::string source = editor_.source();
-  open(source);
-  if (!notice_) tell(fmt::format("{} loaded again.", source));
-}
-
-void App::read_again() {
-  const SceneEditor before = editor_;
-  if (const Status loaded = editor_.reload(); !loaded) return tell(loaded);
-  const Effect effect = effect_between(before.scene(), editor_.scene());
-  if (const Status changed = simulation_->change(editor_.scene(), effect != Effect::restart); !changed) {
-    editor_ = before;
-    return tell(changed);
-  }
-  pending_ = Effect::none;
-  stable_.reset();
-  if (before.scene().view.camera != editor_.scene().view.camera)
-    camera_ = CameraControl(editor_.scene().view.camera);
-  tell(fmt::format("{} was written and is read again{}.", editor_.source(),
-                   effect == Effect::restart ? "; its bodies changed, the simulation starts anew" : ""));
-}
-
-void App::save_as(const std::string& path) {
-  const Status saved = editor_.save_as(path, camera_.goal());
-  if (saved)
-    tell(fmt::format("Saved as {}.", path));
-  else
-    tell(saved);
-}
-
-void App::undo() {
-  if (!editor_.can_undo()) return;
-  const std::string name = editor_.undo_name();
-  take_effect(editor_.undo());
-  tell(fmt::format("Undone: {}.", name));
-}
-
-void App::redo() {
-  if (!editor_.can_redo()) return;
-  const std::string name = editor_.redo_name();
-  take_effect(editor_.redo());
-  tell(fmt::format("Done again: {}.", name));
-}
-
-void App::toggle_full_screen() {
-  if (gui_->services().toggle_full_screen) gui_->services().toggle_full_screen();
-}
-
-// ---- changes ----
-
-void App::set_value(const Parameter& parameter, std::size_t index, const Value& value,
-                    const std::string& gesture) {
-  const auto effect = editor_.set(parameter, index, value, gesture);
-  if (!effect) return tell(effect.error());
-  take_effect(*effect);
-}
-
-void App::apply(Scene scene, const std::string& name, const std::string& gesture) {
-  const auto effect = editor_.apply(std::move(scene), name, gesture);
-  if (!effect) return tell(effect.error());
-  take_effect(*effect);
-}
-
-void App::take_effect(Effect effect) {
-  still_ = 0.0;
-  if (effect >= Effect::constants) pending_ = std::max(pending_, effect);
-  if (editor_.scene().view.camera != camera_.home()) camera_.set_home(editor_.scene().view.camera);
-}
-
-void App::request_changes() {
-  if (pending_ == Effect::none || simulation_->changing()) return;
-  // A solver that takes long to build does not follow every twitch of a slider.
-  if (since_rebuild_ < 4.0 * rebuild_seconds_) return;
-  requested_ = std::exchange(pending_, Effect::none);
-  requested_at_ = std::chrono::steady_clock::now();
-  simulation_->request_change(editor_.scene(), requested_ == Effect::constants);
-}
-
-void App::end_change() {
-  const auto changed = simulation_->take_change();
-  if (!changed) return;
-  rebuild_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - requested_at_).count();
-  since_rebuild_ = 0.0;
-  rest_a_picture_ = rebuild_seconds_ > 0.05;
-  if (!*changed) {
-    const Error error = changed->error();
-    if (editor_.can_undo()) editor_.undo();
-    return tell(error.message, true);
-  }
-  stable_.reset();
-  if (requested_ == Effect::restart)
-    tell("The bodies changed: the simulation starts anew.");
-  else if (notice_ && notice_->is_error)
-    notice_.reset();
-}
-
-void App::watch_file(double dt) {
-  since_file_look_ += dt;
-  if (since_file_look_ < 0.5) return;
-  since_file_look_ = 0.0;
-  if (editor_.file_changed()) read_again();
-}
-
-void App::watch_divergence() {
-  const auto& divergence = simulation_->divergence();
-  if (!divergence) {
-    divergence_told_ = false;
-    return;
-  }
-  if (divergence_told_) return;
-  divergence_told_ = true;
-  const Model& model = simulation_->model();
-  const SimulationSettings& s = model.simulation;
-  stable_ = stability_limit(model, s.integrator, StabilityEffort::quick);
-  tell(fmt::format("The simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is {} s; {}. "
-                   "Shown is the last good step.",
-                   divergence->step, static_cast<double>(divergence->step) * s.timestep,
-                   body_text(*divergence), fault_text(*divergence), s.timestep,
-                   stability_sentence(s.integrator, *stable_)),
-       true);
-}
+// ---- pictures ----
 
 Status App::frame(const WindowSize& size, double dt) {
-  if (context_->lost()) return context_->lost_error();
+  gl::Context& context = picture.context();
+  if (context.lost()) return context.lost_error();
   if (size.pixel_width < 1 || size.pixel_height < 1 || size.width < 1 || size.height < 1) return {};
-  watch_file(dt);
-  if (notice_ && !notice_->is_error && (notice_->age += dt) > notice_seconds) notice_.reset();
-  since_rebuild_ += dt;
-  const bool camera_moves = camera_.update(dt);
-  request_changes();
+  messages.update(dt);
+  const bool camera_moves = view.camera.update(dt);
+  scene.update(dt);
   // A picture of a software rasteriser takes longer anyway, so steps may too.
-  const double budget = context_->info().is_software ? 0.030 : 0.012;
-  film();
-  ASPIC_CHECK(simulation_->update(dt, budget));
-  end_change();
-  if (auto message = simulation_->take_message()) tell(*message, true);
-  film();
-  watch_divergence();
-  still_ = camera_moves || simulation_->running() || simulation_->seeking() ? 0.0 : still_ + dt;
-  awake_ += dt;
-  rate_time_ += dt;
-  ++rate_pictures_;
-  if (rate_time_ > 0.5) {
-    pictures_per_second_ = rate_pictures_ / rate_time_;
-    rate_time_ = 0.0;
-    rate_pictures_ = 0;
-  }
-  find_hovered();
-  gui_->begin(size.width, size.height, static_cast<double>(size.pixel_width) / size.width, dt);
-  viewport_ = draw_panels(*this, size.width, size.height);
-  ASPIC_CHECK(draw_scene(size));
+  const double budget = context.info().is_software ? 0.030 : 0.012;
+  film.update();
+  ASPIC_CHECK(simulation.update(dt, budget));
+  if (scene.finish_change()) picture.postpone();
+  if (const auto message = simulation.take_message()) messages.error(*message);
+  film.update();
+  run.watch_divergence();
+  still_for_ = camera_moves || simulation.running() || simulation.seeking() ? 0.0 : still_for_ + dt;
+  mouse_still_for_ += dt;
+  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25);
+  return make_picture(size, dt);
+}
+
+Status App::make_picture(const WindowSize& size, double dt) {
+  pointer.find_hovered();
+  view.pixels_per_unit = static_cast<double>(size.pixel_width) / size.width;
+  picture.count(dt);
+  gui_->begin(size.width, size.height, view.pixels_per_unit, dt);
+  view.text_scale = gui_->scale();
+  view.box = draw_panels(
+      {*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, help_visible},
+      size.width, size.height);
+  ASPIC_CHECK(picture.show(size));
+  ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();
-  if (screenshot_wanted_) save_screenshot(size);
+  if (!std::exchange(screenshot_wanted_, false)) return {};
+  const std::string path = free_name(scene.editor().source(), ".png");
+  if (messages.check(save_screenshot(size, path)))
+    messages.info(fmt::format("Screenshot saved as {}.", path));
   return {};
 }
 

@@ -4,56 +4,52 @@
 
 #include <algorithm>
 
-#include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 
 namespace aspic::app {
 namespace {
 
-void hand_slider(App& app, const char* label, const char* name, double& value, double low, double high,
+void hand_slider(Gui& gui, const char* label, const char* name, double& value, double low, double high,
                  const char* format, std::string_view help) {
   label_column(label);
   const std::string id = fmt::format("##{}", name);
   ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &low, &high, format,
                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  app.gui().mark(fmt::format("balls/{}", name));
+  gui.mark("balls/{}", name);
   tooltip(help);
 }
 
 }  // namespace
 
-void balls_section(App& app) {
-  Gui& gui = app.gui();
-  const float third = (ImGui::GetContentRegionAvail().x - 2.0f * ImGui::GetStyle().ItemSpacing.x) / 3.0f;
-  if (button(
-          gui, "balls/throw", "Throw",
-          "Throws a ball from the camera into the middle of the picture; the key throws it at what is under "
-          "the mouse.",
-          "throw a ball", true, third))
-    app.throw_ball();
+void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
+  const float third = share_of_line(3);
+  command_button(
+      gui, "balls/throw", "Throw",
+      "Throws a ball from the camera into the middle of the picture; the key throws it at what is under the "
+      "mouse.",
+      "throw a ball", true, third);
   ImGui::SameLine();
-  if (button(gui, "balls/many", "Throw many", "Throws a dozen balls, side by side.", "", true, third))
-    app.throw_many();
+  if (button(gui, "balls/many", "Throw many", "Throws a dozen balls, side by side.", true, third))
+    hands.throw_many();
   ImGui::SameLine();
-  const std::size_t thrown = app.simulation().setup().thrown.size();
+  const std::size_t thrown = simulation.setup().thrown.size();
   if (button(gui, "balls/clear", "Clear",
-             thrown > 0 ? fmt::format("Takes the {} thrown balls away; those of the scene stay.", thrown)
-                        : std::string("There are no thrown balls; those of the scene stay."),
-             "", thrown > 0, third))
-    app.clear_balls();
-  HandSettings& hands = app.hands();
-  hand_slider(app, "Radius", "radius", hands.radius, 0.02, 2.0, "%.3g m",
+             thrown > 0 ? fmt::format("Remove the {} thrown balls; the scene's own stay.", thrown)
+                        : std::string("There are no thrown balls; the scene's own stay."),
+             thrown > 0, third))
+    hands.clear_balls();
+  hand_slider(gui, "Radius", "radius", hands.radius, 0.02, 2.0, "%.3g m",
               "Radius of the next ball to be thrown [m], 0.02 to 2.");
-  hand_slider(app, "Mass", "mass", hands.mass, 0.01, 1000.0, "%.3g kg",
+  hand_slider(gui, "Mass", "mass", hands.mass, 0.01, 1000.0, "%.3g kg",
               "Mass of the next ball to be thrown [kg], 0.01 to 1000.");
-  hand_slider(app, "Speed", "speed", hands.speed, 0.5, 200.0, "%.3g m/s",
+  hand_slider(gui, "Speed", "speed", hands.speed, 0.5, 200.0, "%.3g m/s",
               "Speed of the next ball to be thrown [m/s], 0.5 to 200.");
-  hand_slider(app, "Pull", "strength", hands.strength, 0.01, 100.0, "×%.3g",
+  hand_slider(gui, "Pull", "strength", hands.strength, 0.01, 100.0, "×%.3g",
               "How hard Ctrl+drag pulls a particle: a factor on twice the stiffness of the stiffest spring, "
-              "0.01 to 100, as far as the time step bears it.");
+              "0.01 to 100, limited by the time step.");
   ImGui::TextDisabled("%zu of the scene, %zu thrown",
-                      static_cast<std::size_t>(app.simulation().model().ball_count()) - thrown, thrown);
+                      static_cast<std::size_t>(simulation.model().ball_count()) - thrown, thrown);
 }
 
 }  // namespace aspic::app

@@ -1,5 +1,5 @@
 #pragma once
-// Which steps of a run that people play with belong into a film.
+// Which steps of an interactive run belong in a film.
 #include <cstdint>
 #include <optional>
 
@@ -15,7 +15,7 @@ class FilmPace {
   explicit FilmPace(double fps) : fps_(fps) {}
 
   /// How many pictures of the state at `step` the film still wants; those count as taken. Several where one
-  /// step is shown for longer than one picture. Counting begins anew, with a picture at once, at the first
+  /// step is shown for longer than one picture. Counting starts again, with a picture at once, at the first
   /// call and wherever the run did not get to by itself: back in time, at another start, or beyond
   /// next_step(). Another speed or time step [s] counts from the last picture on. All > 0.
   std::uint64_t take(std::uint64_t step, double timestep, double speed);
@@ -23,8 +23,8 @@ class FilmPace {
   std::uint64_t next_step() const;
   /// The speed that take() was last told; 0 before.
   double speed() const { return speed_; }
-  /// The next take() begins anew, wherever it is.
-  void begin_anew() { schedule_.reset(); }
+  /// The next take() counts from where it is.
+  void restart() { schedule_.reset(); }
 
  private:
   void count_from(std::uint64_t step);

@@ -8,7 +8,6 @@
 #include <limits>
 #include <span>
 
-#include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "base/printable.h"
@@ -55,7 +54,7 @@ void plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples, s
   const ImVec2 size = {ImGui::GetContentRegionAvail().x, static_cast<float>(130.0 * scale)};
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::Dummy(size);
-  gui.mark(name);
+  gui.mark("{}", name);
   tooltip(help);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 21, 23, 255), 4.0f);
@@ -95,27 +94,27 @@ void plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples, s
 
 }  // namespace
 
-void performance_section(App& app) {
-  Simulation& s = app.simulation();
-  figure("Steps", s.running() ? short_number(s.steps_per_second()) + "/s" : "paused",
+void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
+  const gl::DeviceInfo& device = picture.context().info();
+  figure("Steps", s.running() ? short_number(s.pacer().steps_per_second()) + "/s" : "paused",
          "Time steps per second.");
   const auto evaluations = s.spring_evaluations_per_second();
-  figure(
-      "Spring evaluations",
-      !s.running()  ? "paused"
-      : evaluations ? short_number(*evaluations) + "/s"
-                    : "varies",
-      "Springs × force evaluations of a step × steps per second. Implicit Euler has no fixed number a step.");
+  figure("Spring evaluations",
+         !s.running()  ? "paused"
+         : evaluations ? short_number(*evaluations) + "/s"
+                       : "varies",
+         "Springs × force evaluations of a step × steps per second. Implicit Euler has no fixed number per "
+         "step.");
   figure("Real-time factor", s.running() ? fmt::format("{:.3g}", s.real_time_factor()) : "paused",
          "Simulated seconds per second.");
   figure("Pictures",
-         fmt::format("{:.0f}/s, {:.1f} ms each", app.pictures_per_second(), 1e3 * app.draw_seconds()),
-         "Pictures per second, and how long the program took over the last one.");
-  if (app.device().is_software) {
-    figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * app.draw_scale()),
+         fmt::format("{:.0f}/s, {:.1f} ms each", picture.pictures_per_second(), 1e3 * picture.draw_seconds()),
+         "Pictures per second, and the time for the last one.");
+  if (device.is_software) {
+    figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * picture.resolution()),
            "A software rasteriser draws: pictures are coarser while something moves.");
   }
-  pass_times(app);
+  if (s.gpu()) pass_times(gui, *s.gpu());
   const Model& model = s.model();
   figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
   figure("Springs", fmt::format("{}", model.springs.size()), "Springs of all types.");
@@ -123,15 +122,14 @@ void performance_section(App& app) {
     figure("Balls", fmt::format("{}", model.ball_count()), "Balls, launched or waiting.");
   figure("Solver", fmt::format("{}, {}", s.solver().backend(), human_bytes(s.solver().bytes())),
          s.solver().description());
-  ImGui::TextDisabled("%s", app.device().renderer.substr(0, 40).c_str());
-  tooltip(fmt::format("Draws the window: {}, OpenGL {}", app.device().renderer, app.device().version));
+  ImGui::TextDisabled("%s", device.renderer.substr(0, 40).c_str());
+  tooltip(fmt::format("Draws the window: {}, OpenGL {}", device.renderer, device.version));
 }
 
-void energy_section(App& app) {
-  const auto& samples = app.simulation().energies();
+void energy_section(Gui& gui, const std::deque<EnergySample>& samples) {
   const auto show = [&](const char* name, std::span<const Curve> curves, const char* unit,
                         std::string_view help) {
-    plot(app.gui(), name, samples, curves, unit, help);
+    plot(gui, name, samples, curves, unit, help);
     if (samples.empty()) return;
     for (const Curve& c : curves) {
       ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(c.colour), "%s", c.name);
@@ -143,7 +141,7 @@ void energy_section(App& app) {
   show("energy/plot", energy_curves, "J",
        "Energies of the run over time [J]. The gravitational one is zero at the origin.");
   show("energy/momentum", momentum_curves, "N·s",
-       "Momentum Σ m·v of all that moves over time [N·s], by axis and as a whole.");
+       "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude.");
 }
 
 }  // namespace aspic::app

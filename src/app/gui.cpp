@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <memory>
 #include <span>
 #include <utility>
 
@@ -51,13 +49,6 @@ constexpr std::pair<ImGuiKey_, int> keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
                                               {ImGuiKey_X, GLFW_KEY_X},
                                               {ImGuiKey_Y, GLFW_KEY_Y},
                                               {ImGuiKey_Z, GLFW_KEY_Z}};
-
-/// Where the widget just made stands.
-Box last_item() {
-  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
-  return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(b.x),
-          static_cast<double>(b.y)};
-}
 
 ImVec4 grey(float value, float alpha = 1.0f) {
   return {value, value * 1.02f, value * 1.07f, alpha};
@@ -102,8 +93,9 @@ void set_theme(float scale) {
 
 }  // namespace
 
-Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services) {
-  std::unique_ptr<Gui> gui(new Gui(scale, std::move(services)));
+Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services, const Commands& commands,
+                                         WidgetWatcher* watcher) {
+  std::unique_ptr<Gui> gui(new Gui(scale, std::move(services), commands, watcher));
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
@@ -192,8 +184,6 @@ void Gui::begin(double width, double height, double pixels_per_unit, double dt) 
     io.MouseDown[i] = pressed_[i] || held_[i];
     pressed_[i] = false;
   }
-  marking_.clear();
-  explaining_.clear();
   if (wanted_text_size_ != text_size_) {
     set_look();
     ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -206,21 +196,18 @@ void Gui::begin(double width, double height, double pixels_per_unit, double dt) 
 void Gui::end() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  widgets_ = std::move(marking_);
-  marking_ = {};
-  explanations_.clear();
-  for (const auto& [name, box] : widgets_) {
-    const auto said = std::ranges::find(explaining_, box, &std::pair<Box, std::string>::first);
-    explanations_[name] = said == explaining_.end() ? std::string() : said->second;
-  }
+  if (watcher_) watcher_->end_of_picture();
 }
 
-void Gui::mark(const std::string& name) {
-  marking_[name] = last_item();
+Box Gui::last_item() {
+  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+  return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(b.x),
+          static_cast<double>(b.y)};
 }
 
-void Gui::explain(std::string text) {
-  explaining_.emplace_back(last_item(), std::move(text));
+void Gui::explain(std::string_view text, std::string_view keys) const {
+  if (watcher_)
+    watcher_->tooltip(last_item(), fmt::format("{}{}{}", text, keys.empty() ? "" : "\nKey: ", keys));
 }
 
 Gui& Gui::current() {

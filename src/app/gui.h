@@ -1,12 +1,14 @@
 #pragma once
 // Dear ImGui's surroundings: context, font, colours, and input as it comes from the window's callbacks.
+#include <fmt/format.h>
+
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
-#include <vector>
 
+#include "app/commands.h"
 #include "base/result.h"
 
 namespace aspic::app {
@@ -27,12 +29,26 @@ struct Box {
   bool contains(double x, double y) const { return x >= left && x < right && y >= top && y < bottom; }
 };
 
+/// Sees the widgets of each picture as they are made: for tests and tools.
+class WidgetWatcher {
+ public:
+  virtual ~WidgetWatcher() = default;
+  /// A widget was made under that name.
+  virtual void widget(const std::string& name, const Box& box) = 0;
+  /// What the tooltip of the widget in that box says, shown or not.
+  virtual void tooltip(const Box& box, const std::string& text) = 0;
+  /// All widgets of a picture were made.
+  virtual void end_of_picture() = 0;
+};
+
 /// Owns the ImGui context; one at a time. Positions are in window units, as GLFW gives them.
 class Gui {
  public:
   /// `scale` is that of the display: 1 for 96 dots per inch. The GL context must be current, here and later.
-  /// Error (no_device): the shaders of the panels are refused.
-  static Result<std::unique_ptr<Gui>> create(double scale, WindowServices services);
+  /// `commands`, and `watcher` if there is one, must outlive it. Error (no_device): the shaders of the panels
+  /// are refused.
+  static Result<std::unique_ptr<Gui>> create(double scale, WindowServices services, const Commands& commands,
+                                             WidgetWatcher* watcher = nullptr);
   ~Gui();
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
@@ -58,27 +74,30 @@ class Gui {
   void set_text_size(double size) { wanted_text_size_ = size; }
   const WindowServices& services() const { return services_; }
 
-  /// Remembers where the widget just made stands, under a name; of the picture under way.
-  void mark(const std::string& name);
-  /// Where widgets stood in the last picture, by name: for tests and tools.
-  const std::map<std::string, Box>& widgets() const { return widgets_; }
-  /// Remembers what the tooltip of the widget just made says, shown or not.
-  void explain(std::string text);
-  /// What the tooltips of the last picture's marked widgets say, by name; empty for one without any.
-  const std::map<std::string, std::string>& explanations() const { return explanations_; }
+  /// What keys do, and buttons that have a key.
+  const Commands& commands() const { return commands_; }
+
+  /// Names the widget just made, for the watcher: the name is made only if there is one.
+  template <class... Arguments>
+  void mark(fmt::format_string<Arguments...> name, Arguments&&... arguments) const {
+    if (watcher_) watcher_->widget(fmt::format(name, std::forward<Arguments>(arguments)...), last_item());
+  }
+  /// Tells the watcher what the tooltip of the widget just made says.
+  void explain(std::string_view text, std::string_view keys) const;
   /// The one whose panels are being made, between begin() and end().
   static Gui& current();
 
  private:
-  Gui(double scale, WindowServices services) : display_scale_(scale), services_(std::move(services)) {}
+  Gui(double scale, WindowServices services, const Commands& commands, WidgetWatcher* watcher)
+      : display_scale_(scale), services_(std::move(services)), commands_(commands), watcher_(watcher) {}
+  static Box last_item();
   void set_look();
   double display_scale_, text_size_ = 1.0, wanted_text_size_ = 1.0;
   WindowServices services_;
+  const Commands& commands_;
+  WidgetWatcher* watcher_;
   std::string clipboard_;
   bool pressed_[5] = {}, held_[5] = {};
-  std::map<std::string, Box> widgets_, marking_;
-  std::map<std::string, std::string> explanations_;
-  std::vector<std::pair<Box, std::string>> explaining_;
 };
 
 }  // namespace aspic::app

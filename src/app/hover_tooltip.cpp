@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "app/app.h"
 #include "app/panels.h"
 
 namespace aspic::app {
@@ -29,14 +28,13 @@ void row(const char* name, const Vec3& v, const char* unit, bool with_norm = tru
   if (with_norm) ImGui::TextDisabled("| %.4g |", length(v));
 }
 
-/// Beside the mouse, on the side where the view has room; while a hand pulls in a corner of the view,
+/// Next to the mouse, on the side where the view has room; while a hand pulls in a corner of the view,
 /// away from the mouse and from the colours' legend.
-void place(App& app) {
-  const Box& view = app.viewport();
-  const auto gap = static_cast<float>(16.0 * app.gui().scale());
+void place(double scale, const Box& view, bool pulls) {
+  const auto gap = static_cast<float>(16.0 * scale);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool right = mouse.x > view.centre_x(), low = mouse.y > view.centre_y();
-  if (app.simulation().hand()) {
+  if (pulls) {
     const double x = low ? view.right : view.left, y = low ? view.top : view.bottom;
     const ImVec2 corner = {static_cast<float>(x) + (low ? -gap : gap),
                            static_cast<float>(y) + (low ? gap : -gap)};
@@ -48,19 +46,17 @@ void place(App& app) {
 
 }  // namespace
 
-void hover_tooltip(App& app) {
-  const auto& h = app.hovered();
-  if (!h) return;
-  const ParticleForce& f = h->force;
-  place(app);
+void hover_tooltip(double scale, const Simulation& simulation, const Hovered& h, const Box& view) {
+  const ParticleForce& f = h.force;
+  place(scale, view, simulation.hand().has_value());
   ImGui::BeginTooltip();
-  ImGui::Text("particle %u", h->particle);
+  ImGui::Text("particle %u", h.particle);
   ImGui::SameLine();
-  ImGui::TextDisabled("%s%.4g kg, step %llu", h->pinned ? "pinned, " : "", h->mass,
-                      static_cast<unsigned long long>(app.simulation().snapshot().step));
+  ImGui::TextDisabled("%s%.4g kg, step %llu", h.pinned ? "pinned, " : "", h.mass,
+                      static_cast<unsigned long long>(simulation.snapshot().step));
   if (ImGui::BeginTable("particle", 6, ImGuiTableFlags_SizingFixedFit)) {
-    row("x", h->position, "m", false);
-    row("v", h->velocity, "m/s");
+    row("x", h.position, "m", false);
+    row("v", h.velocity, "m/s");
     row("f", f.net, "N");
     row("  gravity", f.gravity, "N");
     row("  springs", f.springs, "N");
@@ -69,8 +65,8 @@ void hover_tooltip(App& app) {
     ImGui::EndTable();
   }
   // The Coulomb model's contacts act on velocities at the end of a step.
-  if (app.simulation().model().contact.model == ContactModel::coulomb)
-    ImGui::TextDisabled("Contacts are impulses and no part of f.");
+  if (simulation.model().contact.model == ContactModel::coulomb)
+    ImGui::TextDisabled("Coulomb contact is an impulse and is not included in f.");
   ImGui::EndTooltip();
 }
 

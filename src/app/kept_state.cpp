@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::int64_t version = 1;
-constexpr double slowest = 1.0 / 1024.0, fastest = 1024.0;
 constexpr const char* paces[] = {"steps-per-frame", "real-time"};
 
 std::optional<double> number_of(const toml::node& node) {
@@ -144,7 +143,7 @@ std::string camera_key(const std::string& source) {
 
 std::string to_text(const KeptState& s) {
   std::string text =
-      "# How Aspic's window was last left. Written anew whenever it is closed; may be deleted.\n"
+      "# Settings with which Aspic's window was last closed. Rewritten whenever it closes; may be deleted.\n"
       "version = 1\n";
   if (s.window) {
     text += fmt::format("\n[window]\nsize = [{}, {}]\n", s.window->width, s.window->height);
@@ -191,7 +190,7 @@ Result<KeptState> read_kept_state(const std::string& text) {
   std::size_t pace = 0, format = 0;
   taker.take(simulation, "pace", paces, pace);
   state.pace = static_cast<Pace>(pace);
-  taker.take(simulation, "speed", state.speed, slowest, fastest);
+  taker.take(simulation, "speed", state.speed, slowest_speed, fastest_speed);
   const toml::table* const recording = taker.find<toml::table>(&root, "recording");
   std::vector<std::string> formats;
   for (const FilmFormat& f : film_formats()) formats.emplace_back(f.name);
@@ -203,7 +202,7 @@ Result<KeptState> read_kept_state(const std::string& text) {
   taker.take(recording, "parameters", state.film_text);
   take_cameras(taker, root, state);
   if (!taker.complaint.empty())
-    return Error{ErrorCode::io, taker.complaint + ": this is nothing that the window writes"};
+    return Error{ErrorCode::io, taker.complaint + ": the window would not write this"};
   return state;
 }
 
@@ -222,10 +221,9 @@ Result<KeptState> load_kept_state(const std::string& path) {
   if (!text) return text.error();
   auto state = read_kept_state(*text);
   if (state) return state;
-  return Error{ErrorCode::io,
-               fmt::format("{} does not hold how the window was left ({}), so it begins as at the "
-                           "first time. The file is written anew when the window is closed.",
-                           path, state.error().message)};
+  return Error{ErrorCode::io, fmt::format("{} cannot be used ({}), so the window opens with its defaults. "
+                                          "The file is rewritten when the window closes.",
+                                          path, state.error().message)};
 }
 
 Status save_kept_state(const KeptState& state, const std::string& path) {

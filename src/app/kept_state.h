@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/simulation.h"
+#include "app/pacer.h"
 #include "base/result.h"
 #include "io/film_format.h"
 #include "scene/view_settings.h"

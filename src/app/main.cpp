@@ -66,7 +66,7 @@ int show(const ViewOptions& view) {
     (*window)->show_picture();
     if ((*app)->title() != title) (*window)->set_title(title = (*app)->title());
   }
-  for (const std::string& line : (*app)->finish_films()) print_message(line);
+  for (const std::string& line : (*app)->film.finish()) print_message(line);
   (*window)->set_receiver(nullptr);
   if (!error) {
     KeptState left = (*app)->kept_state();

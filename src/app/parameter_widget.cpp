@@ -7,9 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "app/app.h"
-#include "app/shortcuts.h"
-
 namespace aspic::app {
 namespace {
 
@@ -78,8 +75,20 @@ std::optional<Value> vector_widget(const Parameter& p, const Vec3& value) {
   return Value(Vec3{v[0], v[1], v[2]});
 }
 
-std::optional<Value> counts_widget(const Parameter& p, std::array<int, 3> value) {
-  if (!ImGui::InputInt3("##value", value.data(), ImGuiInputTextFlags_EnterReturnsTrue)) return std::nullopt;
+std::optional<Value> numbers_widget(const Parameter& p, std::vector<double> value) {
+  const double low = p.range.min, high = p.range.max, size = std::max(std::ranges::max(value), 2.0);
+  const int count = static_cast<int>(value.size());
+  const bool changed = ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), count,
+                                          static_cast<float>(size / 200.0), &low, &high, "%.4g", as_typed);
+  // A drag that runs into an open end stops there instead of complaining.
+  if (!changed || (p.range.min_excluded && std::ranges::min(value) <= p.range.min)) return std::nullopt;
+  return Value(value);
+}
+
+std::optional<Value> counts_widget(const Parameter& p, std::vector<int> value) {
+  if (!ImGui::InputScalarN("##value", ImGuiDataType_S32, value.data(), static_cast<int>(value.size()),
+                           nullptr, nullptr, "%d", ImGuiInputTextFlags_EnterReturnsTrue))
+    return std::nullopt;
   for (int& n : value) n = std::clamp(n, static_cast<int>(p.range.min), static_cast<int>(p.range.max));
   return Value(value);
 }
@@ -92,7 +101,7 @@ std::optional<Value> word_widget(Gui& gui, const Parameter& p, const std::string
   for (const std::string_view word : p.words) {
     const std::string text(word);
     if (ImGui::Selectable(text.c_str(), text == value)) chosen = Value(text);
-    gui.mark(mark + "/" + text);
+    gui.mark("{}/{}", mark, text);
     tooltip(help);
   }
   ImGui::EndCombo();
@@ -116,7 +125,7 @@ bool check_boxes(Gui& gui, const std::vector<std::string_view>& all, std::vector
     if (two && column++ % 2 != 0) ImGui::SameLine(middle);
     bool on = std::ranges::find(ticked, word) != ticked.end();
     const bool toggled = ImGui::Checkbox(std::string(word).c_str(), &on);
-    gui.mark(fmt::format("{}/{}", mark, word));
+    gui.mark("{}/{}", mark, word);
     tooltip(help);
     if (!toggled) continue;
     changed = true;
@@ -133,7 +142,7 @@ std::optional<Value> words_widget(Gui& gui, const Parameter& p, std::vector<std:
   return check_boxes(gui, p.words, value, mark, help) ? std::optional<Value>(value) : std::nullopt;
 }
 
-/// Faces by name; corners and indices that the file gives stay as they are.
+/// Sides by name; corners and indices that the file gives stay as they are.
 std::optional<Value> pinned_widget(Gui& gui, const Parameter& p, PinnedSettings value,
                                    const std::string& mark, std::string_view help) {
   return check_boxes(gui, p.words, value.names, mark, help) ? std::optional<Value>(value) : std::nullopt;
@@ -154,8 +163,8 @@ std::string tooltip_of(const Parameter& p, std::size_t index) {
   const std::string by_default = default_text(p);
   if (!by_default.empty()) text += fmt::format("\nDefault: {}", by_default);
   text += fmt::format("\nScene key: {}", path_text(p.path, index));
-  if (!p.live) text += "\nA change starts the simulation anew.";
-  if (p.type == ParameterType::number || p.type == ParameterType::vector)
+  if (!p.live) text += "\nA change restarts the simulation.";
+  if (p.type == ParameterType::number || p.type == ParameterType::vector || p.type == ParameterType::numbers)
     text += "\nDrag to change, Ctrl+click to type.";
   return text;
 }
@@ -175,9 +184,9 @@ void wrapped_text(std::string_view text, float width) {
   }
 }
 
-void tooltip(std::string_view text, std::string_view shortcut_meaning) {
-  const std::string keys(keys_of(shortcut_meaning));
-  Gui::current().explain(keys.empty() ? std::string(text) : fmt::format("{}\nKey: {}", text, keys));
+void tooltip(std::string_view text, std::string_view command) {
+  const std::string keys(Gui::current().commands().keys_of(command));
+  Gui::current().explain(text, keys);
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   wrapped_text(text, ImGui::GetFontSize() * 26.0f);
@@ -201,15 +210,30 @@ void label_column(std::string_view label) {
   ImGui::SetNextItemWidth(-1.0f);
 }
 
-bool button(Gui& gui, const char* name, const char* label, std::string_view help,
-            std::string_view shortcut_meaning, bool enabled, float width) {
+namespace {
+
+bool button_with_keys(Gui& gui, const char* name, const char* label, std::string_view help,
+                      std::string_view command, bool enabled, float width) {
   ImGui::PushID(name);
   ImGui::BeginDisabled(!enabled);
   const bool pressed = ImGui::Button(label, {width, 0.0f});
   ImGui::EndDisabled();
-  gui.mark(name);
-  tooltip(help, shortcut_meaning);
+  gui.mark("{}", name);
+  tooltip(help, command);
   ImGui::PopID();
+  return pressed;
+}
+
+}  // namespace
+
+bool button(Gui& gui, const char* name, const char* label, std::string_view help, bool enabled, float width) {
+  return button_with_keys(gui, name, label, help, "", enabled, width);
+}
+
+bool command_button(Gui& gui, const char* name, const char* label, std::string_view help,
+                    std::string_view command, bool enabled, float width) {
+  const bool pressed = button_with_keys(gui, name, label, help, command, enabled, width);
+  if (pressed) gui.commands().run(command);
   return pressed;
 }
 
@@ -229,7 +253,9 @@ std::optional<Value> value_widget(Gui& gui, const Parameter& p, const Value& val
     case ParameterType::vector:
       return vector_widget(p, std::get<Vec3>(value));
     case ParameterType::counts:
-      return counts_widget(p, std::get<std::array<int, 3>>(value));
+      return counts_widget(p, std::get<std::vector<int>>(value));
+    case ParameterType::numbers:
+      return numbers_widget(p, std::get<std::vector<double>>(value));
     case ParameterType::word:
       return word_widget(gui, p, std::get<std::string>(value), key, help);
     case ParameterType::words:
@@ -254,8 +280,8 @@ void absent_text(std::string_view meaning) {
 bool presence_box(Gui& gui, bool& present, const Parameter& p, const std::string& key,
                   std::string_view help) {
   const bool toggled = ImGui::Checkbox("##set", &present);
-  gui.mark(key + "/set");
-  tooltip(fmt::format("Ticked: the key has a value of its own. Not: {}.\n\n{}", p.when_absent, help));
+  gui.mark("{}/set", key);
+  tooltip(fmt::format("Checked: use this value. Unchecked: {}.\n\n{}", p.when_absent, help));
   ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
   ImGui::SetNextItemWidth(-1.0f);
   return toggled;
@@ -294,12 +320,13 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const
   else
     absent_text(p.when_absent);
   if (!many && !(p.type == ParameterType::word && changed)) {
-    gui.mark(key);
+    gui.mark("{}", key);
     tooltip(help);
   }
   ImGui::PopID();
   if (changed) {
-    const bool continuous = p.type == ParameterType::number || p.type == ParameterType::vector;
+    const bool continuous = p.type == ParameterType::number || p.type == ParameterType::vector ||
+                            p.type == ParameterType::numbers;
     change.emplace();
     change->value = std::move(changed);
     if (continuous) change->gesture = key;
@@ -307,14 +334,14 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const
   return change;
 }
 
-void edit(App& app, std::string_view path, std::size_t index, const WidgetWords& words) {
+void edit(Gui& gui, SceneControl& scene, std::string_view path, std::size_t index, const WidgetWords& words) {
   const Parameter& p = *find_parameter(path);
-  const auto change = parameter_widget(app.gui(), p, app.editor().scene(), index, words);
+  const auto change = parameter_widget(gui, p, scene.scene(), index, words);
   if (!change) return;
-  if (change->value) return app.set_value(p, index, *change->value, change->gesture);
-  Scene scene = app.editor().scene();
-  p.clear(scene, index);
-  app.apply(std::move(scene), key_text(p), "");
+  if (change->value) return scene.set_value(p, index, *change->value, change->gesture);
+  Scene changed = scene.scene();
+  p.clear(changed, index);
+  scene.apply(std::move(changed), key_text(p));
 }
 
 }  // namespace aspic::app

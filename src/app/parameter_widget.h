@@ -5,11 +5,10 @@
 #include <string_view>
 
 #include "app/gui.h"
+#include "app/scene_control.h"
 #include "scene/parameters.h"
 
 namespace aspic::app {
-
-class App;
 
 /// What a widget did to a value, with what makes successive changes one for undo.
 struct WidgetChange {
@@ -28,21 +27,25 @@ struct WidgetWords {
 std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& parameter, const Scene& scene,
                                              std::size_t index, const WidgetWords& words = {});
 /// The widget of a scene value by path, its changes carried out.
-void edit(App& app, std::string_view path, std::size_t index = 0, const WidgetWords& words = {});
+void edit(Gui& gui, SceneControl& scene, std::string_view path, std::size_t index = 0,
+          const WidgetWords& words = {});
 
 /// The words of a tooltip: meaning, what is allowed, default, scene key.
 std::string tooltip_of(const Parameter& parameter, std::size_t index);
 
-/// A tooltip for the widget just made, with the shortcut of that meaning if there is one.
-void tooltip(std::string_view text, std::string_view shortcut_meaning = "");
+/// A tooltip for the widget just made, with the keys of the command of that name if there is one.
+void tooltip(std::string_view text, std::string_view command = "");
 /// Text broken at blanks alone, so that numbers stay whole, into lines of at most `width` [window units].
 void wrapped_text(std::string_view text, float width);
 /// Width of one of `count` equal widgets on a line [window units].
 float share_of_line(int count);
 /// A label on the left; the next widget fills the rest of the line.
 void label_column(std::string_view label);
-/// A button that is marked by name and explains itself.
-bool button(Gui& gui, const char* name, const char* label, std::string_view help,
-            std::string_view shortcut_meaning = "", bool enabled = true, float width = 0.0f);
+/// A button with a name for the watcher and a tooltip. True if it was pressed.
+bool button(Gui& gui, const char* name, const char* label, std::string_view help, bool enabled = true,
+            float width = 0.0f);
+/// A button that carries out a command; its tooltip names the keys. True if it was pressed.
+bool command_button(Gui& gui, const char* name, const char* label, std::string_view help,
+                    std::string_view command, bool enabled = true, float width = 0.0f);
 
 }  // namespace aspic::app

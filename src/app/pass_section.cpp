@@ -2,24 +2,21 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 
 namespace aspic::app {
 
-void pass_times(App& app) {
-  GpuSolver* const gpu = app.simulation().gpu();
-  if (gpu == nullptr) return;
+void pass_times(Gui& gui, GpuSolver& solver) {
   // Off as long as nobody looks: a measured step takes a little longer.
-  gpu->set_profiling(true);
+  solver.set_profiling(true);
   ImGui::TextDisabled("Passes of a step");
-  app.gui().mark("performance/passes");
+  gui.mark("performance/passes");
   tooltip(
       "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
       "last "
       "steps measured, from time stamps.");
-  const std::vector<gl::PassTime> passes = gpu->pass_times();
+  const std::vector<gl::PassTime> passes = solver.pass_times();
   if (passes.empty()) {
     ImGui::TextDisabled("   not measured yet");
     return;

@@ -6,7 +6,6 @@
 #include <array>
 #include <cctype>
 
-#include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "model/terrain.h"
@@ -23,12 +22,12 @@ bool holds(std::string_view text, std::string_view word) {
 }
 
 /// A terrain of another shape with the same surface.
-void terrain_button(App& app, const TerrainShapeRow& row, float width) {
+void terrain_button(Gui& gui, SceneControl& scenes, const TerrainShapeRow& row, float width) {
   const std::string name = fmt::format("terrain/{}", row.name), label(row.title);
   const std::string help =
-      fmt::format("Makes the first terrain a {} where its defaults put it. The motion goes on.", label);
-  if (!button(app.gui(), name.c_str(), label.c_str(), help, "", true, width)) return;
-  Scene scene = app.editor().scene();
+      fmt::format("Turns the first terrain into a {} at its default place. The motion continues.", label);
+  if (!button(gui, name.c_str(), label.c_str(), help, true, width)) return;
+  Scene scene = scenes.scene();
   if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
   TerrainSettings& terrain = scene.model.terrain.front();
   TerrainSettings other;
@@ -37,32 +36,29 @@ void terrain_button(App& app, const TerrainShapeRow& row, float width) {
   other.restitution = terrain.restitution;
   other.friction = terrain.friction;
   terrain = other;
-  app.apply(std::move(scene), "terrain shape", "");
+  scenes.apply(std::move(scene), "terrain shape");
 }
 
-void save_popup(App& app) {
+void scene_buttons(Gui& gui, SceneControl& scene) {
   static constexpr const char* popup = "Save scene as";
   const float third = share_of_line(3);
-  if (button(app.gui(), "scene/reload", "Reload", "Reads the file again; changes made here are dropped.",
-             "reload the scene", true, third))
-    app.reload();
+  command_button(gui, "scene/reload", "Reload", "Reloads the file; changes made here are discarded.",
+                 "reload the scene", true, third);
   ImGui::SameLine();
-  if (button(app.gui(), "scene/reset", "Reset", "Back to the scene's start.", "reset to the start", true,
-             third))
-    app.reset();
+  command_button(gui, "scene/reset", "Reset", "Returns to the scene's start.", "reset to the start", true,
+                 third);
   ImGui::SameLine();
-  if (button(app.gui(), "scene/save", "Save as…", "Writes the scene as it is now, with this camera.", "",
-             true, third))
+  if (button(gui, "scene/save", "Save as…", "Writes the scene as it is now, with this camera.", true, third))
     ImGui::OpenPopup(popup);
   if (!ImGui::BeginPopup(popup)) return;
   static std::array<char, 512> path = {"my-scene.toml"};
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16.0f);
   const bool entered =
       ImGui::InputText("##path", path.data(), path.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-  tooltip("The file to write. One that exists is not overwritten.");
+  tooltip("The file to write. Existing files are not overwritten.");
   ImGui::SameLine();
-  if (button(app.gui(), "scene/save/write", "Write", "Writes the file.") || entered) {
-    app.save_as(path.data());
+  if (button(gui, "scene/save/write", "Write", "Writes the file.") || entered) {
+    scene.save_as(path.data());
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndPopup();
@@ -70,91 +66,85 @@ void save_popup(App& app) {
 
 }  // namespace
 
-void scene_section(App& app) {
+void scene_section(Gui& gui, SceneControl& scene) {
   static ImGuiTextFilter filter;
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::InputTextWithHint("##search", "search scenes", filter.InputBuf, sizeof filter.InputBuf);
-  app.gui().mark("scene/search");
+  gui.mark("scene/search");
   tooltip(
-      "Shows scenes whose name or description holds this. A scene file is opened by dropping it on the "
+      "Shows scenes whose name or description contains this. A scene file is opened by dropping it on the "
       "window.");
-  for (const BuiltinScene& scene : list_builtin_scenes()) {
+  for (const BuiltinScene& builtin : list_builtin_scenes()) {
     const std::string_view word = filter.InputBuf;
-    if (!holds(scene.name, word) && !holds(scene.description, word)) continue;
-    const std::string name(scene.name);
-    if (ImGui::Selectable(name.c_str(), name == app.editor().source())) app.open(name);
-    app.gui().mark("scene/" + name);
-    tooltip(scene.description);
+    if (!holds(builtin.name, word) && !holds(builtin.description, word)) continue;
+    const std::string name(builtin.name);
+    if (ImGui::Selectable(name.c_str(), name == scene.editor().source())) scene.open(name);
+    gui.mark("scene/{}", name);
+    tooltip(builtin.description);
   }
-  if (app.editor().is_file()) {
-    ImGui::Selectable(app.editor().source().c_str(), true);
-    tooltip("A scene file. It is read again whenever it is written.");
+  if (scene.editor().is_file()) {
+    ImGui::Selectable(scene.editor().source().c_str(), true);
+    tooltip("A scene file. It is reloaded whenever it is written.");
   }
   const float half = share_of_line(2);
   for (const TerrainShapeRow& row : terrain_shapes) {
     if ((&row - terrain_shapes) % 2 != 0) ImGui::SameLine();
-    terrain_button(app, row, half);
+    terrain_button(gui, scene, row, half);
   }
-  save_popup(app);
-  const bool undo = app.editor().can_undo(), redo = app.editor().can_redo();
-  const std::string undo_help = undo ? "Takes back: " + app.editor().undo_name() : "Nothing to take back.";
-  const std::string redo_help = redo ? "Does again: " + app.editor().redo_name() : "Nothing to do again.";
-  if (button(app.gui(), "scene/undo", "Undo", undo_help, "undo", undo, half)) app.undo();
+  scene_buttons(gui, scene);
+  const bool undo = scene.editor().can_undo(), redo = scene.editor().can_redo();
+  command_button(gui, "scene/undo", "Undo",
+                 undo ? "Undo " + scene.editor().undo_name() : std::string("Nothing to undo."), "undo", undo,
+                 half);
   ImGui::SameLine();
-  if (button(app.gui(), "scene/redo", "Redo", redo_help, "redo", redo, half)) app.redo();
+  command_button(gui, "scene/redo", "Redo",
+                 redo ? "Redo " + scene.editor().redo_name() : std::string("Nothing to redo."), "redo", redo,
+                 half);
 }
 
-void simulation_section(App& app) {
-  Simulation& s = app.simulation();
-  Gui& gui = app.gui();
-  const float third = share_of_line(3);
+void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
+  const float third = share_of_line(3), half = share_of_line(2);
   const bool diverged = s.divergence().has_value();
-  if (button(gui, "simulation/run", s.running() ? "Pause" : "Start", "Starts or pauses the motion.",
-             "start or pause", !diverged, third))
-    app.toggle_running();
+  command_button(gui, "simulation/run", s.running() ? "Pause" : "Start", "Starts or pauses the motion.",
+                 "start or pause", !diverged, third);
   ImGui::SameLine();
-  if (button(gui, "simulation/step", "Step", "One time step; pauses first.", "single step", !diverged, third))
-    app.single_step();
+  command_button(gui, "simulation/step", "Step", "Takes one time step; pauses first.", "single step",
+                 !diverged, third);
   ImGui::SameLine();
-  if (button(gui, "simulation/reset", "Reset", "Back to the scene's start.", "reset to the start", true,
-             third))
-    app.reset();
-  const float half = share_of_line(2);
+  command_button(gui, "simulation/reset", "Reset", "Returns to the scene's start.", "reset to the start",
+                 true, third);
   const std::string other = fmt::format("Switch to {}", next_backend(s.backend()).title);
-  if (button(gui, "simulation/backend", other.c_str(),
-             "Carries the state over to the other solver, to the bit.", "other backend", true, half))
-    app.toggle_backend();
+  command_button(gui, "simulation/backend", other.c_str(),
+                 "Switches to the other solver; the state keeps every bit.", "other backend", true, half);
   ImGui::SameLine();
-  const bool back = s.can_step_back();
-  if (button(gui, "simulation/back", "Step back",
-             "One time step back; the bar below the picture goes to any step since the start.", "step back",
-             back, half))
-    app.step_back();
-  edit(app, "simulation.integrator");
-  edit(app, "simulation.timestep", 0, {"Time step"});
+  command_button(gui, "simulation/back", "Step back",
+                 "Goes back one time step; the bar below the picture goes to any step since the start.",
+                 "step back", s.can_step_back(), half);
+  edit(gui, scene, "simulation.integrator");
+  edit(gui, scene, "simulation.timestep", 0, {"Time step"});
   label_column("Pace");
   static constexpr const char* paces[] = {"steps per frame", "real time"};
-  int pace = static_cast<int>(s.pace);
-  if (ImGui::Combo("##pace", &pace, paces, 2)) s.pace = static_cast<Pace>(pace);
+  Pacer& pacer = s.pacer();
+  int pace = static_cast<int>(pacer.pace);
+  if (ImGui::Combo("##pace", &pace, paces, 2)) pacer.pace = static_cast<Pace>(pace);
   gui.mark("simulation/pace");
   tooltip(
-      "How fast simulated time passes: a fixed number of steps for each picture, or as fast as time itself. "
+      "How fast simulated time passes: a fixed number of steps for each picture, or real time. "
       "Where "
       "the solver cannot keep up, the factor in the status line says so.");
-  if (s.pace == Pace::steps_per_frame) edit(app, "simulation.steps-per-frame");
+  if (pacer.pace == Pace::steps_per_frame) edit(gui, scene, "simulation.steps-per-frame");
   label_column("Speed");
-  const double slowest = 1.0 / 1024.0, fastest = 1024.0;
-  ImGui::SliderScalar("##speed", ImGuiDataType_Double, &s.speed, &slowest, &fastest, "×%.4g",
+  ImGui::SliderScalar("##speed", ImGuiDataType_Double, &pacer.speed, &slowest_speed, &fastest_speed, "×%.4g",
                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   gui.mark("simulation/speed");
   tooltip("Factor on the pace, from 1/1024 to 1024. Keys + and - double and halve it.");
-  edit(app, "simulation.gravity");
-  // The cube that the assignments speak of; all else of it, and other bodies, stand under Bodies.
-  if (!app.editor().scene().model.cubes.empty()) placed_cube(app, 0);
-  if (app.editor().scene().model.simulation.integrator == Integrator::implicit_euler) {
-    edit(app, "simulation.implicit.newton-iterations");
-    edit(app, "simulation.implicit.cg-iterations");
-    edit(app, "simulation.implicit.tolerance");
+  edit(gui, scene, "simulation.gravity");
+  // The cube that the assignments speak of; the rest of it, and other bodies, are under Bodies.
+  if (!scene.scene().model.cubes.empty()) placed_cube(gui, scene, 0);
+  if (scene.scene().model.simulation.integrator == Integrator::implicit_euler) {
+    edit(gui, scene, "simulation.implicit.newton-iterations");
+    edit(gui, scene, "simulation.implicit.cg-iterations");
+    edit(gui, scene, "simulation.implicit.tolerance");
   }
 }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 
@@ -46,26 +46,41 @@ void plot(const std::deque<DifferenceSample>& samples, double scale) {
   }
 }
 
+/// What the run can be compared with: the reference first.
+std::vector<const BackendRow*> others_than(const BackendRow& leader) {
+  std::vector<const BackendRow*> rows;
+  for (const BackendRow& row : backends()) {
+    if (&row != &leader) rows.insert(rows.begin(), &row);
+  }
+  return rows;
+}
+
 }  // namespace
 
-void shadow_section(App& app) {
-  const Simulation& s = app.simulation();
+void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
+  const std::vector<const BackendRow*> others = others_than(s.backend());
   bool on = s.shadowed();
-  if (ImGui::Checkbox("second backend", &on)) app.toggle_shadow();
-  app.gui().mark("shadow/on");
+  if (ImGui::Checkbox("second backend", &on)) run.set_shadow(on ? others.front() : nullptr);
+  gui.mark("shadow/on");
   tooltip(
-      "The other backend does the same steps, and after each job of steps the two states are compared. Shown "
-      "is the backend that leads. The pace is that of the slower one.");
+      "Another backend does the same steps, and after each job of steps the two states are compared. The "
+      "picture shows the leading backend; speed is limited by the slower one.");
   if (!s.shadowed()) return;
+  // A machine with two backends has no choice to offer.
+  for (std::size_t i = 0; others.size() > 1 && i < others.size(); ++i) {
+    const std::string label(others[i]->title);
+    if (ImGui::RadioButton(label.c_str(), others[i] == s.shadow_backend())) run.set_shadow(others[i]);
+    tooltip(others[i]->summary);
+  }
   ImGui::TextDisabled("%s ∥ %s", std::string(s.solver().backend()).c_str(),
                       std::string(s.shadow()->backend()).c_str());
   tooltip(fmt::format("Leads: {}. Alongside: {}.", s.solver().description(), s.shadow()->description()));
-  plot(s.differences(), app.gui().scale());
-  if (s.differences().empty()) {
+  plot(s.samples().differences(), gui.scale());
+  if (s.samples().differences().empty()) {
     ImGui::TextDisabled("not compared yet");
     return;
   }
-  const DifferenceSample& last = s.differences().back();
+  const DifferenceSample& last = s.samples().differences().back();
   const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(last.identical ? same : other);
   if (!std::isfinite(last.metres))
     ImGui::TextColored(colour, "one of the two diverged");
@@ -73,8 +88,8 @@ void shadow_section(App& app) {
     ImGui::TextColored(colour, "0 ULP, 0 m: every bit is the same");
   else
     ImGui::TextColored(colour, "%llu ULP, %.3g m", static_cast<unsigned long long>(last.ulp), last.metres);
-  app.gui().mark("shadow/difference");
-  if (last.identical && s.ever_differed())
+  gui.mark("shadow/difference");
+  if (last.identical && s.samples().ever_differed())
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(other), "there were differences before");
 }
 

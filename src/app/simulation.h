@@ -1,48 +1,28 @@
 #pragma once
-// A run in motion: its solvers, what paces it, what hands do to it, and its past.
+// A run in motion: moves its solvers forward and through its past, and changes what is simulated.
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "analysis/energy.h"
+#include "app/engines.h"
 #include "app/history.h"
+#include "app/pacer.h"
+#include "app/samples.h"
 #include "app/setup.h"
 #include "app/worker.h"
 #include "base/result.h"
+#include "device/device_state.h"
 #include "gpu/context.h"
 #include "gpu_solver/gpu_solver.h"
 #include "model/solver.h"
-#include "render/device_state.h"
 #include "run/backends.h"
 #include "scene/scene.h"
 
 namespace aspic::app {
-
-/// How fast simulated time passes.
-enum class Pace {
-  steps_per_frame,  ///< the scene's steps for each picture, whatever time that takes
-  real_time         ///< as much simulated time as passes outside
-};
-
-/// Energies at one time, a point of the plot.
-struct EnergySample {
-  double time = 0.0;  ///< [s]
-  Measures measures;
-  std::uint64_t step = 0;
-};
-
-/// How far the two backends of shadow mode were apart at one time.
-struct DifferenceSample {
-  double time = 0.0;       ///< [s]
-  double metres = 0.0;     ///< largest |difference| of a position's component; infinite if one alone diverged
-  std::uint64_t ulp = 0;   ///< largest distance of any component of the state
-  bool identical = false;  ///< every bit is the same
-};
 
 /// All calls from the window's thread, with its context current. A backend that needs the context advances in
 /// batches that keep within a frame, every other in a thread of its own.
@@ -54,66 +34,62 @@ class Simulation {
   ~Simulation();
 
   // ---- what is simulated, and by whom ----
-  /// Takes on a changed scene. With `keep_state` the motion goes on with other constants, where the bodies
-  /// have the same particles. Errors leave everything as it was: scene_rejected, no_device.
+  /// Runs a changed scene from now on. With `keep_state` the motion goes on with other constants, where the
+  /// bodies have the same particles. Errors leave everything as it was: scene_rejected, no_device.
   Status change(const Scene& scene, bool keep_state);
-  /// The same without waiting: where building takes long a thread does it while nothing moves, and update()
-  /// takes it on once it is done. take_change() tells how a change ended, once for each; a request before
-  /// that replaces one that has not begun.
+  /// The same without waiting: where building takes long a thread does it while nothing moves, and a later
+  /// update() goes on with it. take_change() tells how a change ended, once for each; a request before that
+  /// replaces one that has not begun.
   void request_change(const Scene& scene, bool keep_state);
   std::optional<Status> take_change() { return std::exchange(change_result_, std::nullopt); }
-  bool changing() const { return wanted_change_.has_value() || change_.has_value(); }
+  bool changing() const { return requested_.has_value() || change_.has_value(); }
   /// Carries the state over to another backend, to the bit. On an error nothing changes.
   Status set_backend(const BackendRow& backend);
   /// Back to the scene's start, which also forgets a divergence and all that hands did. Paused or running
   /// stays.
   Status reset();
   const Setup& setup() const { return setup_; }
-  /// Before the context goes: whatever is on the gpu goes on on the reference, from the last copy;
-  /// take_message() tells `why`.
-  Status leave_gpu(const Error& why);
-  /// The context of solvers to come, after leave_gpu().
-  void set_context(gl::Context& context);
-  const BackendRow& backend() const { return *engine_.row; }
-  const Solver& solver() const { return *engine_.solver; }
-  GpuSolver* gpu() { return engine_.gpu; }
-  const Model& model() const { return *model_; }
+  /// Before the context goes: what needs it goes on on the reference, from the last copy; take_message()
+  /// tells `why`.
+  Status leave_context(const Error& why) { return engines_.use_context() ? fall_back(why) : Status(); }
+  /// The context of solvers to come, after leave_context().
+  void set_context(gl::Context& context) { factory_.set_context(context); }
+  const BackendRow& backend() const { return *engines_.leader().row; }
+  const Solver& solver() const { return *engines_.leader().solver; }
+  GpuSolver* gpu() { return engines_.leader().gpu; }
+  const Model& model() const { return engines_.model(); }
   /// Changes whenever model() became another.
   std::uint64_t model_number() const { return model_number_; }
 
   // ---- time ----
+  Pacer& pacer() { return pacer_; }
+  const Pacer& pacer() const { return pacer_; }
   void set_running(bool running);
   bool running() const { return running_; }
   /// One step while paused; does nothing while running or diverged. In the past it follows the history.
   Status single_step();
-  /// Once for each picture: hands over what the solver finished and sets it to work again for at most about
-  /// `budget` seconds. `dt` is the time since the last call [s]. A gpu that fails is replaced by the
-  /// reference, see take_message().
+  /// Once for each picture: takes what the solver finished and sets it to work again for at most about
+  /// `budget` seconds. `dt` is the time since the last call [s]. A backend that fails in the context is
+  /// replaced by the reference, see take_message().
   Status update(double dt, double budget);
-  /// Waits for the work under way, a way through history included, so that snapshot() is the state to the
+  /// Waits for the work in progress, a way through history included, so that snapshot() is the state to the
   /// step.
   Status settle();
-  /// A step that update() does not pass, however far the pace has come: a film wants its picture first.
-  void pause_at(std::optional<std::uint64_t> step) { pause_step_ = step; }
-  bool at_pause_step() const { return pause_step_ && step_ >= *pause_step_; }
   std::uint64_t step() const { return step_; }
-  double time() const { return static_cast<double>(step_) * model_->simulation.timestep; }
+  double time() const { return static_cast<double>(step_) * model().simulation.timestep; }
   const std::optional<Divergence>& divergence() const { return divergence_; }
-
-  Pace pace = Pace::steps_per_frame;
-  double speed = 1.0;  ///< factor on the pace, > 0
 
   // ---- history: any step since the start, as long as memory for its keyframes lasts ----
   const History& history() const { return history_; }
   Moment here() const { return {stretch_, step_}; }
   bool at_end() const { return here() == history_.end_moment(); }
-  /// Goes to a moment of the history and pauses there; update() takes it on its way. The next step that is
+  /// Goes to a moment of the history and pauses there; update() makes the way. The next step that is
   /// simulated from there on makes the history end there.
   Status seek(const Moment& moment);
   bool seeking() const { return seek_.has_value(); }
   /// One step back; does nothing at the beginning.
   Status step_back();
-  /// Where to start anew after a divergence: well before the state at hand.
+  /// Where to start again after a divergence: well before the present state.
   Moment before_trouble() const { return history_.keyframes_before(here(), 5); }
   bool can_step_back() const { return history_.before(here()).has_value(); }
 
@@ -125,109 +101,95 @@ class Simulation {
   Status toggle_pin(std::uint32_t particle);
   /// Adds balls that fly from the next step on. Errors: those of change().
   Status throw_balls(const std::vector<BallSettings>& balls);
-  /// Takes all balls away that were thrown by hand.
+  /// Removes all balls that were thrown by hand.
   Status clear_balls();
 
   // ---- shadow mode: another backend does the same steps, and the states are compared ----
-  /// The other one is the reference; if that leads, the next in the table.
-  Status set_shadow(bool on);
-  bool shadowed() const { return shadow_.solver != nullptr; }
-  const Solver* shadow() const { return shadow_.solver.get(); }
-  const std::deque<DifferenceSample>& differences() const { return differences_; }
-  /// Since shadow mode began, or the last change of setup.
-  bool ever_differed() const { return ever_differed_; }
+  /// A backend that is not the leader; null ends shadow mode.
+  Status set_shadow(const BackendRow* backend);
+  bool shadowed() const { return engines_.shadowed(); }
+  const Solver* shadow() const { return engines_.shadow().solver.get(); }
+  const BackendRow* shadow_backend() const { return engines_.shadow().row; }
 
   // ---- what to show ----
   /// The gpu's own state to draw; nothing where the state is the snapshot.
-  std::optional<DeviceState> device_state() const {
-    if (!engine_.gpu) return std::nullopt;
-    return DeviceState{&engine_.gpu->particles(), &engine_.gpu->balls(), engine_.gpu->first_ball(), step_};
-  }
+  std::optional<DeviceState> device_state() const;
   /// Changes whenever what there is to draw did.
   std::uint64_t picture_number() const { return picture_number_; }
-  /// The last state that reached this side: of the reference, that of the picture; of the gpu as of the last
-  /// refresh_snapshot(), ten times a second while running.
+  /// The last state that reached this side: of a backend in the context as of the last refresh_snapshot(),
+  /// ten times a second while running; of any other that of the picture.
   const State& snapshot() const { return snapshot_; }
-  /// Reads the gpu's state back; of the reference the newest that is finished.
+  /// Reads the state back; of a backend in its own thread the newest that is finished.
   Status refresh_snapshot();
-  double steps_per_second() const { return steps_per_second_; }
-  double real_time_factor() const { return running_ ? steps_per_second_ * model_->simulation.timestep : 0.0; }
+  double real_time_factor() const {
+    return running_ ? pacer_.steps_per_second() * model().simulation.timestep : 0.0;
+  }
   /// Spring evaluations per second; nothing with implicit-euler, which has no fixed number a step.
   std::optional<double> spring_evaluations_per_second() const;
-  /// The solver does fewer steps than the pace asks for.
-  bool behind() const { return running_ && behind_; }
-  const std::deque<EnergySample>& energies() const { return energies_; }
-  /// What happened unasked since the last call, in a sentence: the gpu failed and the reference goes on.
+  const Samples& samples() const { return samples_; }
+  /// What happened unasked since the last call, in a sentence: a backend failed and the reference goes on.
   std::optional<std::string> take_message() { return std::exchange(message_, std::nullopt); }
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// A model with its solvers, ready to take the place of those in use.
-  struct Built {
-    std::unique_ptr<Model> model;
-    Backend engine, shadow;
-    std::optional<std::string> message;
-  };
-  /// A change on its way: the setup to be built, and the state that will go on in it.
+  /// Another setup on its way, the state that goes on in it, and once they are made its solvers.
   struct Change {
     Setup setup;
     bool keep_state = false;
     State state;
     std::size_t scene_balls = 0;
+    std::optional<Result<Engines>> engines = {};
+    std::optional<std::string> message = {};
+  };
+  /// What a solver did in a job.
+  struct Advanced {
+    State state;
+    std::optional<Divergence> divergence;
   };
   /// What a worker's job leaves.
   struct Outcome {
     std::optional<Error> error;
-    std::optional<Divergence> divergence;
     std::uint64_t steps = 0;
-    State state;
-    std::optional<Divergence> other_divergence;  ///< of the shadow, where the job advances both
-    State other_state;
-    Measures measures;
-    std::unique_ptr<Result<Built>> built;
+    Advanced leader, shadow;  ///< each where it took part
+    Measures measures;        ///< of the one that set the pace
   };
-  explicit Simulation(gl::Context& context);
+  Simulation(gl::Context& context, Setup setup);
 
-  Result<Backend> make_engine(const Model& model, const BackendRow& backend);
-  Result<Built> build(const Setup& setup);
-  void install(Setup setup, Built built);
+  Status install(Setup setup, Result<Engines> engines, std::optional<std::string> message);
   Status rebuild(Setup setup);
   Change begin_change(Setup setup, bool keep_state) const;
-  Status finish_change(Change change, Result<Built> built);
+  void build(Change& change);
+  Status finish_change(Change change);
   void start_change();
-  Status load(const State& state);
   Status change_setup(Setup setup, bool keep_state);
+  Status begin_history(const State& state);
+  Status load(const State& state);
   Status fall_back(const Error& error);
 
   Status prepare_to_advance();
-  Status give_pull(const std::optional<Pull>& pull);
   Status advance_run(double dt, double budget);
-  Status advance_gpu(std::uint64_t steps, double budget);
+  Status advance_here(std::uint64_t steps, double budget);
+  Status advance_shadow(std::uint64_t steps);
   void start_job(std::uint64_t steps, double budget);
-  void start_measuring();
+  static Status advance(const Backend& engine, std::uint64_t steps, Advanced& into);
   Status take_outcome();
   Status follow(Outcome outcome);
   Status seek_on(double budget);
-  Status finish_seek();
   void note(std::uint64_t steps, const std::optional<Divergence>& divergence);
+  void take_snapshot(State state);
   void add_sample(const State& state, const Measures& measures);
-  void remember(const State& state);
-  void compare_shadow(const State& other);
-  void forget_past();
-  void forget_future();
+  void forget_future(double now);
 
-  gl::Context* context_;
   Setup setup_;
-  std::unique_ptr<Model> model_;
-  Backend engine_, shadow_;
-  std::optional<gl::Arithmetic> arithmetic_;  // what the canary found once; the device does not change
+  EngineFactory factory_;
+  Engines engines_;
+  Pacer pacer_;
+  Samples samples_;
   std::uint64_t model_number_ = 0, picture_number_ = 0, step_ = 0;
   State snapshot_;
   Clock::time_point snapshot_time_ = {};
-  bool running_ = false, behind_ = false, has_outcome_ = false;
-  std::optional<std::uint64_t> pause_step_;
-  double due_ = 0.0;  // steps the pace has asked for and nobody has done
-  std::uint64_t batch_ = 1;
+  bool running_ = false;
+  std::uint64_t batch_ = 1;  // steps between two looks at the clock, of a backend in the context
   std::optional<Divergence> divergence_;
   std::optional<std::string> message_;
 
@@ -235,16 +197,12 @@ class Simulation {
   std::uint64_t stretch_ = 0;
   std::optional<std::uint64_t> seek_;  // step of stretch_ on the way to
   std::optional<Pull> hand_;
-  std::optional<std::optional<Pull>> given_;  // to the solvers; absent: not known of all of them
-  Clock::time_point last_remembered_ = {}, last_sampled_ = {}, rate_start_ = {};
-  std::uint64_t rate_steps_ = 0;
-  double steps_per_second_ = 0.0;
-  std::deque<EnergySample> energies_;
-  std::deque<DifferenceSample> differences_;
-  bool ever_differed_ = false;
-  std::optional<std::pair<ModelSettings, bool>> wanted_change_;  // not begun; true: keeps the state
-  std::optional<Change> change_;                                 // the worker builds for it
+  Clock::time_point last_remembered_ = {}, last_sampled_ = {};
+  std::optional<std::pair<ModelSettings, bool>>
+      requested_;                 // a change that has not begun; true: keeps the state
+  std::optional<Change> change_;  // the worker builds for it
   std::optional<Status> change_result_;
+  bool has_outcome_ = false;
   Outcome outcome_;
   Worker worker_;  // last: its job uses all of the above
 };

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 
-#include "app/app.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "base/printable.h"
 
 namespace aspic::app {
 
-void draw_timeline(App& app, const Box& box) {
-  const Simulation& s = app.simulation();
+void draw_timeline(Gui& gui, const Simulation& s, RunControl& run, const Box& box) {
   const History& history = s.history();
-  const double scale = app.gui().scale();
+  const double scale = gui.scale();
   const auto at = [](double x, double y) { return ImVec2(static_cast<float>(x), static_cast<float>(y)); };
   ImGui::SetNextWindowPos(at(box.left, box.top));
   ImGui::SetNextWindowSize(at(box.right - box.left, box.bottom - box.top));
@@ -28,14 +26,14 @@ void draw_timeline(App& app, const Box& box) {
   ImGui::SetNextItemWidth(-1.0f);
   const bool moved = ImGui::SliderScalar("##history", ImGuiDataType_Double, &now, &first, &last, text.c_str(),
                                          ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp);
-  app.gui().mark("timeline");
+  gui.mark("timeline");
   const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
-  tooltip(fmt::format(
-              "The run so far, {} of at most 512 MiB: drag to go to any step, paused. Steps between the "
-              "{} states that are kept are simulated again and give the same bits, pulls and pins included. "
-              "Marks are changes of the scene, which go back and forth as well. Going on from the past drops "
-              "what came after.",
-              human_bytes(history.bytes()), history.keyframe_count()),
+  tooltip(fmt::format("The run so far, {} of at most 512 MiB. Drag to go to any step; this pauses the run. "
+                      "Steps between the "
+                      "{} stored states are simulated again and give the same bits, pulls and pins included. "
+                      "Marks are changes of the scene, which are reverted and restored as well. Continuing "
+                      "from the past discards what came after.",
+                      human_bytes(history.bytes()), history.keyframe_count()),
           "step back");
   if (last > first) {
     for (const double t : history.changes()) {
@@ -46,7 +44,7 @@ void draw_timeline(App& app, const Box& box) {
   }
   ImGui::End();
   ImGui::PopStyleVar();
-  if (moved && last > first) app.go_to(now);
+  if (moved && last > first) run.go_to(now);
 }
 
 }  // namespace aspic::app

@@ -77,12 +77,12 @@ Result<std::string> read_and_close(int descriptor, std::uint64_t most, const std
 Result<std::string> read_file(const std::string& path, std::uint64_t most_bytes) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return file_error("read", path, errno);
-  // One byte more tells a file that is too large.
+  // One byte more reveals a file that is too large.
   constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
   auto content = read_and_close(descriptor, most_bytes == all ? all : most_bytes + 1, path);
   if (content && content->size() > most_bytes) {
-    return fail(ErrorCode::io, "{} is larger than {}, the most that is read of such a file.",
-                printable_line(path), human_bytes(most_bytes));
+    return fail(ErrorCode::io, "{} is larger than {}, the limit for such a file.", printable_line(path),
+                human_bytes(most_bytes));
   }
   return content;
 }

@@ -21,7 +21,7 @@ enum class ErrorCode {
   interrupted = 130    ///< Ctrl-C
 };
 
-/// An error: its code, and one or more whole sentences that say where, what and how to mend it.
+/// An error: its code, and one or more complete sentences that say where, what and how to fix it.
 struct Error {
   ErrorCode code;
   std::string message;

@@ -163,7 +163,8 @@ Status execute(const BenchOptions& options) {
   ASPIC_TRY(auto loaded, load_scene(options.scene, options.overrides));
   std::vector<int> sizes = options.sizes;
   if (!sizes.empty() && loaded.model.cubes.empty()) {
-    return fail(ErrorCode::usage, "--size sets particles-per-edge of cubes, and {} has none.", loaded.name);
+    return fail(ErrorCode::usage, "--size sets the particles-per-edge of cubes, but {} has no cube.",
+                loaded.name);
   }
   if (sizes.empty()) sizes.push_back(0);
   std::vector<Integrator> integrators = options.integrators;
@@ -178,8 +179,9 @@ Status execute(const BenchOptions& options) {
     for (const Integrator integrator : integrators) {
       scene.model.simulation.integrator = integrator;
       for (const BackendChoice& choice : options.backends) {
-        if (choice.force_path == ForcePath::per_spring && integrator == Integrator::implicit_euler) {
-          print_message("implicit-euler has no per-spring path: left out.");
+        if (!works_with(choice.force_path, integrator)) {
+          print_message(fmt::format("skipped {} on the force path {}, which it does not have.",
+                                    name_of(integrator), name_of(choice.force_path)));
           continue;
         }
         ASPIC_TRY(auto measured, measure_case(options, scene, choice, interrupt));

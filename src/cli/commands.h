@@ -10,11 +10,11 @@ inline Status execute(const ShowText& shown) {
   return print_data(shown.text);
 }
 
-/// Simulates; writes the files asked for. Errors beside those of its parts: diverged and interrupted, both
-/// after the files are closed whole.
+/// Simulates; writes the files asked for. Errors in addition to those of its parts: diverged and interrupted, both
+/// after the files are complete.
 Status execute(const RunOptions& options);
 
-/// Becomes the window program, aspic-view beside this one. Error (no_device): it is not there.
+/// Becomes the window program, aspic-view, installed next to this one. Error (no_device): it is not there.
 Status execute(const ViewOptions& options);
 
 /// Steps two backends side by side. Error (check_failed): they differ by more than the tolerance.
@@ -29,7 +29,7 @@ Status execute(const VerifyOptions& options);
 Status execute(const SceneListOptions& options);
 Status execute(const SceneShowOptions& options);
 Status execute(const SceneCheckOptions& options);
-/// The scene goes to stdout; what it does not carry is told there in comments and on stderr.
+/// The scene goes to stdout; what it cannot carry is listed there in comments and on stderr.
 Status execute(const SceneImportOptions& options);
 
 /// Never fails for want of a GPU: says so instead.

@@ -77,11 +77,10 @@ Result<Start> load_start(const RunOptions& options) {
     ASPIC_TRY(const auto given, load_scene(options.scene, options.overrides));
     const std::string text = to_toml(given);
     if (text != checkpoint.scene) {
-      return fail(
-          ErrorCode::scene_rejected,
-          "{} continues another scene than {}. They differ first at\n{}\nLeave SCENE and --set out to go on "
-          "with the checkpoint's scene, or leave --resume out to start the changed one anew.",
-          options.resume_file, options.scene, first_difference(checkpoint.scene, text));
+      return fail(ErrorCode::scene_rejected,
+                  "{} belongs to a different scene than {}. They first differ at\n{}\nOmit SCENE and --set "
+                  "to continue the checkpoint's scene, or omit --resume to start the changed scene.",
+                  options.resume_file, options.scene, first_difference(checkpoint.scene, text));
     }
   }
   if (options.precision_given && options.backend.precision != checkpoint.state.precision) {
@@ -219,6 +218,10 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
   const std::string hash = state_hash_text(state);
   if (options.json) {
+    // Not within the list: g++ 12 destroys what it has not made yet when memory runs out in a list with `?:`.
+    const Json diverged = outcome.divergence ? to_json(*outcome.divergence, model.simulation.timestep) : Json();
+    const Json solves = outcome.solves ? to_json(*outcome.solves) : Json();
+    const Json pictures = recorder ? to_json(*recorder) : Json();
     return print_data(to_text({
         {"scene", scene.name},
         {"backend", backend.row->name},
@@ -237,9 +240,9 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"wall_seconds", outcome.wall_seconds},
         {"steps_per_second", outcome.steps_per_second()},
         {"state_hash", hash},
-        {"diverged", outcome.divergence ? to_json(*outcome.divergence, model.simulation.timestep) : Json()},
+        {"diverged", diverged},
         {"interrupted", outcome.interrupted},
-        {"implicit_solves", outcome.solves ? to_json(*outcome.solves) : Json()},
+        {"implicit_solves", solves},
         {"energies", Json{{"kinetic", m.kinetic},
                           {"elastic", m.elastic},
                           {"gravitational", m.gravitational},
@@ -247,7 +250,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"momentum", Json{m.momentum.x, m.momentum.y, m.momentum.z}},
         {"max_speed", m.max_speed},
         {"min_height", m.min_height},
-        {"pictures", recorder ? to_json(*recorder) : Json()},
+        {"pictures", pictures},
         {"files", files},
     }));
   }
@@ -257,7 +260,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   text += fmt::format("backend      {}{}, {} precision{}\n", backend.row->name,
                       backend.force_path.empty() ? "" : ", force path " + backend.force_path,
                       name_of(state.precision),
-                      backend.reason.empty() ? "" : fmt::format("; chosen since {}", backend.reason));
+                      backend.reason.empty() ? "" : fmt::format(" (auto: {})", backend.reason));
   text += fmt::format("device       {}\n", backend.device);
   text += fmt::format("integrator   {}, time step {} s\n", name_of(model.simulation.integrator),
                       model.simulation.timestep);
@@ -321,7 +324,7 @@ Status execute(const RunOptions& options) {
   ASPIC_TRY(const auto steps, steps_of(options.length, start.scene.model.simulation));
   if (start.state && start.state->step > steps) {
     return fail(ErrorCode::usage,
-                "{} is at step {} already, and the run is to end at step {}: --steps and --duration count "
+                "{} is already at step {}, but the run is to end at step {}; --steps and --duration count "
                 "from the scene's start.",
                 options.resume_file, start.state->step, steps);
   }
@@ -354,11 +357,11 @@ Status execute(const RunOptions& options) {
   if (outcome.divergence) return divergence_error(model, outcome, interrupt);
   if (outcome.interrupted) {
     const auto checkpoint = std::ranges::find(options.outputs, "checkpoint", &StateOutput::option);
-    return fail(ErrorCode::interrupted, "interrupted at step {} of {}; all files are whole.{}",
+    return fail(ErrorCode::interrupted, "interrupted at step {} of {}; all files were completed.{}",
                 outcome.state.step, steps,
                 checkpoint == options.outputs.end() || checkpoint->path.empty()
                     ? ""
-                    : fmt::format(" Go on with aspic run --resume {}.", checkpoint->path));
+                    : fmt::format(" Resume with aspic run --resume {}.", checkpoint->path));
   }
   return {};
 }

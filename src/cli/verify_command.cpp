@@ -113,8 +113,8 @@ Status execute(const VerifyOptions& options) {
   if (failed > 0) return fail(ErrorCode::check_failed, "{} of {} checks failed.", failed, rows.size());
   if (not_run > 0 && options.require_gpu) {
     return fail(ErrorCode::check_failed,
-                "{} of {} checks were not run for want of a GL device, and --require-gpu was given.", not_run,
-                rows.size());
+                "{} of {} checks were not run because there is no GL device, and --require-gpu was given.",
+                not_run, rows.size());
   }
   return {};
 }

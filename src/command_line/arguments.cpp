@@ -205,7 +205,7 @@ void add_pictures(CLI::App* c, RunOptions& run, RawOptions& raw) {
   add(c, "--fps", "F", pictures.fps, "pictures per second shown; default 60, for a GIF 50");
   add(c, "--speed", "X", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion");
   add(c, "--size", "WxH", raw.size, "size of the pictures in pixels");
-  add(c, "--text", "on|off", raw.text, "facts written on the pictures: on or off");
+  add(c, "--text", "on|off", raw.text, "text on the pictures: on or off");
   c->add_flag("--no-text", raw.no_text, "the same as --text off");
   add(c, "--view", "KEY=VALUE", run.view,
       "set a value of the scene's view, e.g. camera.position=[8,4,12]; repeatable");
@@ -215,7 +215,7 @@ void add_outputs(CLI::App* c, std::vector<StateOutput>& outputs) {
   for (const std::string_view option : state_options()) outputs.push_back({std::string(option), "", {}});
   for (StateOutput& output : outputs) {
     const StateFormat& format = state_format_of(output.option, "");
-    auto* file = add(c, "--" + output.option, "FILE", output.path, std::string(format.summary));
+    auto* file = add(c, "--" + output.option, "FILE", output.path, state_help(output.option));
     // The series' interval was there first, and has the short name too.
     const char* const short_name = format.over_time ? "--every," : "";
     add(c, fmt::format("{}--{}-every", short_name, output.option), "N", output.every,
@@ -229,7 +229,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add(c, "scene", "SCENE", run.scene, "scene file or built-in name; not needed with --resume");
   add(c, "--backend", "NAME", raw.backend, backend_words());
   add(c, "--precision", "NAME", raw.precision, "single or double (reference only); default single");
-  add(c, "--force-path", "NAME", raw.force_path, "auto, per-spring, gather, lattice (gpu only)");
+  add(c, "--force-path", "NAME", raw.force_path, force_path_words() + " (gpu only)");
   add_length(c, run.length);
   add_overrides(c, run.overrides);
   add_outputs(c, run.outputs);
@@ -372,7 +372,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const CLI::App& command = named_command(app);
     const auto extras = command.remaining();
-    // Where a command is missing, CLI11 reports that before the word that stands in its place.
+    // Where a command is missing, CLI11 reports that before the word in its place.
     const bool command_missing =
         command.get_require_subcommand_min() > 0 && command.get_subcommands().empty();
     if (!extras.empty()) return unexpected_word(command, extras.front());

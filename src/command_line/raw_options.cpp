@@ -59,7 +59,7 @@ Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
 
 /// Whether the backend was named and has force paths to choose from.
 bool has_force_paths(const BackendChoice& choice) {
-  return choice.row && !choice.row->force_paths.empty();
+  return choice.row && !choice.row->force_paths().empty();
 }
 
 Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
@@ -100,7 +100,7 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
   }
   if (run.scene.empty() && !run.overrides.empty()) {
     return usage(
-        "a resumed run goes on with the scene of its checkpoint, which --set cannot change. Leave --set out, "
+        "a resumed run continues the scene of its checkpoint, which --set cannot change. Omit --set, "
         "or run a scene.");
   }
   ASPIC_CHECK(finish_pictures(run.pictures, raw));

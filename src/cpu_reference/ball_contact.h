@@ -22,7 +22,7 @@ struct BallBody {
         slip(static_cast<T>(b.radius * b.radius / b.inertia())) {}
 };
 
-/// What contact among balls and particles needs beside the bodies.
+/// What contact among balls and particles needs besides the bodies.
 template <class T>
 struct BallRules {
   ContactConstants<T> contact;

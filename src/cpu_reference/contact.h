@@ -1,31 +1,37 @@
 #pragma once
-// Terrain and contact (docs/physics.md, section 5) for one particle and one terrain.
+// Terrain and contact (docs/physics.md, section 5) for one particle and one terrain. The shapes' formulas are
+// in src/model/shapes.
 #include "cpu_reference/vectors.h"
-#include "model/model.h"
+#include "model/terrain.h"
 
 namespace aspic::reference {
+
+template <class T>
+Vec<T> vec(const Vector<T>& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 /// A terrain in the solver's precision.
 template <class T>
 struct Ground {
-  TerrainShape shape;
-  Vector<T> point;   ///< of the plane, or the centre [m]
-  Vector<T> normal;  ///< planes only
-  T radius;          ///< R [m], sphere and bowl only
-  bool movable;      ///< M is finite: only enters the bounce speed, a terrain never moves
-  T mass;            ///< M [kg], if movable
-  T restitution;     ///< e
-  T friction;        ///< μ
+  const ShapeFormulas<T>* formulas;
+  Geometry<T> geometry;
+  bool movable;   ///< M is finite: only enters the bounce speed, a terrain never moves
+  T mass;         ///< M [kg], if movable
+  T restitution;  ///< e
+  T friction;     ///< μ
 
   explicit Ground(const Terrain& t)
-      : shape(t.shape),
-        point(rounded<T>(t.point)),
-        normal(rounded<T>(t.normal)),
-        radius(static_cast<T>(t.radius)),
+      : formulas(&terrain_row(t.shape).formulas<T>()),
         movable(std::isfinite(t.mass)),
         mass(movable ? static_cast<T>(t.mass) : T(0)),
         restitution(static_cast<T>(t.restitution)),
-        friction(static_cast<T>(t.friction)) {}
+        friction(static_cast<T>(t.friction)) {
+    for (std::size_t k = 0; k < geometry_size; ++k) {
+      geometry.vectors[k] = vec<T>(rounded<T>(t.geometry.vectors[k]));
+      geometry.numbers[k] = static_cast<T>(t.geometry.numbers[k]);
+    }
+  }
 };
 
 /// Signed distance d [m], positive on the free side, and unit normal n towards the free side.
@@ -38,26 +44,13 @@ struct Gap {
 /// d alone, the same bits as gap's: most bodies are far from the ground.
 template <class T>
 T distance(const Ground<T>& ground, const Vector<T>& x) {
-  const Vector<T> e = x - ground.point;
-  if (ground.shape == TerrainShape::plane || ground.shape == TerrainShape::tilted_plane)
-    return dot3<T>(ground.normal, e);
-  const T L = norm3<T>(e);
-  return ground.shape == TerrainShape::bowl ? ground.radius - L : L - ground.radius;
+  return ground.formulas->distance(ground.geometry, vec<T>(x));
 }
 
 template <class T>
 Gap<T> gap(const Ground<T>& ground, const Vector<T>& x) {
-  const Vector<T> e = x - ground.point;
-  if (ground.shape == TerrainShape::plane || ground.shape == TerrainShape::tilted_plane) {
-    return {dot3<T>(ground.normal, e), ground.normal};
-  }
-  const T L = norm3<T>(e);
-  const bool bowl = ground.shape == TerrainShape::bowl;
-  const T d = bowl ? ground.radius - L : L - ground.radius;
-  if (L == T(0)) return {d, Vector<T>(0, 1, 0)};
-  const T q = T(1) / L;
-  const Vector<T> outward = q * e;
-  return {d, bowl ? Vector<T>(-outward) : outward};
+  const TerrainGap<T> at = ground.formulas->gap(ground.geometry, vec<T>(x));
+  return {at.d, {at.n.x, at.n.y, at.n.z}};
 }
 
 /// Normal speed after an impact at normal speed u < 0: B(u) = max(0, (m − e·M)/(m + M)·u), −e·u for M = ∞.

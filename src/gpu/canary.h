@@ -64,8 +64,8 @@ struct Arithmetic {
   std::vector<Define> defines;  ///< ASPIC_CORRECT_DIV, ASPIC_CORRECT_SQRT, ASPIC_FUSED_FMA, as needed
   /// Kernels compiled with `defines` give the reference's bits wherever no denormal occurs.
   bool exact() const { return corrected ? corrected->all_exact() : device.all_exact(); }
-  /// Whole sentences for `aspic info`: what is exact, what differs and with which operands, and what is done
-  /// about it.
+  /// Complete sentences for `aspic info`: what is exact, what differs and with which operands, and what is
+  /// done about it.
   std::vector<std::string> sentences() const;
 };
 

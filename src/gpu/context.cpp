@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/printable.h"
 #include "gpu/program_cache.h"
 
 namespace aspic::gl {
@@ -112,8 +113,7 @@ void Context::clear_messages() {
 
 bool Context::lost() {
   if (lost_) return true;
-  lost_ =
-      dead_ || strikes(Fault::lost_context) || (info_.robust && reset_status_() != GL_NO_ERROR);
+  lost_ = dead_ || strikes(Fault::lost_context) || (info_.robust && reset_status_() != GL_NO_ERROR);
   return lost_;
 }
 
@@ -139,9 +139,19 @@ void Context::forget_errors() {
 Error Context::lost_error() const {
   return {
       ErrorCode::no_device,
-      fmt::format("The device {} was reset or lost, and all that it held with it. Run again from the last "
+      fmt::format("The device {} was reset or lost, with everything it held. Resume from the last "
                   "checkpoint, or choose --backend reference.",
                   info_.renderer)};
+}
+
+Status Context::check(ErrorCode memory_code) {
+  if (lost()) return lost_error();
+  if (!ran_out_of_memory()) return {};
+  return Error{memory_code,
+               fmt::format("The device {} ran out of memory during the computation, with {} ({} "
+                           "bytes) held in buffers. Make the scene smaller, close other programs "
+                           "that use the device, or choose --backend reference.",
+                           info_.renderer, human_bytes(bytes_held_), bytes_held_)};
 }
 
 void Context::inject_fault(Fault fault, std::uint64_t after) {

@@ -41,7 +41,7 @@ struct ContextOptions {
 /// A device that EGL lists, before any context exists on it.
 struct EglDevice {
   int index = 0;          ///< its place in EGL's list: what DeviceChoice::index and ASPIC_EGL_DEVICE take
-  std::string name;       ///< renderer, DRM node or vendor, whatever the driver tells
+  std::string name;       ///< renderer, DRM node or vendor, as the driver reports it
   bool software = false;  ///< EGL_MESA_device_software
 };
 
@@ -104,6 +104,9 @@ class Context {
   void forget_errors();
   /// Error (no_device): the sentence about a lost context.
   Error lost_error() const;
+  /// Whether what the device computed is to be trusted. Error (no_device): the context was reset or lost.
+  /// Error (`memory_code`): the driver ran out of memory since this, or ran_out_of_memory(), was last asked.
+  Status check(ErrorCode memory_code = ErrorCode::no_device);
 
   /// For tests: the driver's fault strikes at its next chance, or after so many chances have passed. Chances
   /// of lost_context are calls of lost(); those of out_of_memory are the making of a buffer or a texture and
@@ -148,7 +151,7 @@ class Context {
   void* context_ = nullptr;
   DeviceInfo info_;
   bool lost_ = false;
-  unsigned int (*reset_status_)() = nullptr;  // glGetGraphicsResetStatus of a robust context
+  unsigned int (*reset_status_)() = nullptr;            // glGetGraphicsResetStatus of a robust context
   bool dead_ = false;                                   // by an injected loss at a dispatch
   std::array<std::optional<std::uint64_t>, 3> faults_;  // by Fault: chances left to let pass
   std::uint64_t dispatches_ = 0;

@@ -236,7 +236,7 @@ class EglContextMaker {
     const EGLDisplay display = candidate.platform
                                    ? eglGetPlatformDisplay(candidate.platform, candidate.native, nullptr)
                                    : eglGetDisplay(EGL_DEFAULT_DISPLAY);
-    // A display is never terminated: EGL hands out the same one to every asker in the process.
+    // A display is never terminated: EGL returns the same one to every caller in the process.
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
       why = fmt::format("cannot be opened ({})", egl_error());
       return nullptr;
@@ -246,12 +246,12 @@ class EglContextMaker {
       return nullptr;
     }
     if (!eglBindAPI(EGL_OPENGL_API)) {
-      why = fmt::format("knows no desktop OpenGL ({})", egl_error());
+      why = fmt::format("has no desktop OpenGL ({})", egl_error());
       return nullptr;
     }
     const EGLContext egl_context = create_context(display, options_);
     if (egl_context == EGL_NO_CONTEXT) {
-      why = fmt::format("gives no OpenGL 4.3 core context ({})", egl_error());
+      why = fmt::format("provides no OpenGL 4.3 core context ({})", egl_error());
       return nullptr;
     }
     std::unique_ptr<Context> context(new Context);

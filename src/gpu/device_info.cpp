@@ -74,7 +74,7 @@ std::vector<std::string> describe(const DeviceInfo& info) {
       fmt::format("OpenGL          {}", info.version),
       fmt::format("GLSL            {}", info.glsl_version),
       fmt::format("context         {}{}{}", info.platform, info.debug ? ", debug" : "",
-                  info.robust ? ", robust" : ", a lost device goes unnoticed"),
+                  info.robust ? ", robust" : ", does not report a lost device"),
       fmt::format("storage block   {} at most, {} per compute shader, {} per vertex shader",
                   human_bytes(l.storage_block_bytes), l.compute_storage_blocks, l.vertex_storage_blocks),
       fmt::format("uniform block   {} at most", human_bytes(l.uniform_block_bytes)),

@@ -31,7 +31,7 @@ struct DeviceInfo {
   std::string platform;      ///< how the context was reached, e.g. "EGL device 0" or "window"
   bool is_software = false;  ///< a software rasteriser, by its renderer's name
   bool debug = false;        ///< the context reports through KHR_debug
-  bool robust = false;       ///< the context tells when the device was lost
+  bool robust = false;       ///< the context reports a lost device
   DeviceLimits limits;
 };
 

@@ -73,6 +73,8 @@ class Pass {
   void dispatch_indirect(const Buffer& arguments, std::uint64_t offset = 0,
                          std::span<const Binding> extra = {}) const;
 
+  const Program& program() const { return *program_; }
+
  private:
   void prepare(std::span<const Binding> extra) const;
   const Program* program_;

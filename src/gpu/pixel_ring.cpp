@@ -99,6 +99,10 @@ Status PixelRing::take(std::vector<std::byte>& rgb) {
   const auto width = static_cast<std::size_t>(width_);
   const auto height = static_cast<std::size_t>(height_);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot]);
+  const auto lost = [&] {
+    return fail(ErrorCode::no_device, "A picture could not be read back: the device {} was lost.",
+                context_->info().renderer);
+  };
   const auto* pixels = static_cast<const std::byte*>(
       state == GL_WAIT_FAILED || context_->lost()
           ? nullptr
@@ -106,8 +110,7 @@ Status PixelRing::take(std::vector<std::byte>& rgb) {
                              static_cast<GLsizeiptr>(stored_channels * width * height), GL_MAP_READ_BIT));
   if (!pixels) {
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    return fail(ErrorCode::no_device, "A picture could not be read back: the device {} was lost.",
-                context_->info().renderer);
+    return lost();
   }
   rgb.resize(3 * width * height);
   std::byte* out = rgb.data();
@@ -119,8 +122,9 @@ Status PixelRing::take(std::vector<std::byte>& rgb) {
       out[2] = in[2];
     }
   }
-  glUnmapBuffer(GL_PIXEL_PACK_BUFFER);
+  const bool kept = glUnmapBuffer(GL_PIXEL_PACK_BUFFER) == GL_TRUE;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  if (!kept || context_->lost()) return lost();  // meanwhile: what was read may be anything
   return {};
 }
 

@@ -11,7 +11,7 @@
 namespace aspic::gl {
 
 /// Compiling a kernel takes a driver up to a third of a second, part of it at the first dispatch; a solver
-/// that is built anew for another constant wants the kernels it had. Belongs to a Context
+/// that is rebuilt for another constant needs the same kernels. Belongs to a Context
 /// (Context::programs()).
 class ProgramCache {
  public:

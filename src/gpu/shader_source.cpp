@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/printable.h"
+#include "model/terrain.h"
 
 namespace aspic::gl {
 namespace {
@@ -50,7 +51,7 @@ Result<std::string> read_shader_file(const std::filesystem::path& file) {
   };
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
-    return error("is a directory, a device or a pipe, and no file");
+    return error("is a directory, a device or a pipe, not a file");
   std::ifstream stream(file, std::ios::binary);
   std::string text(static_cast<std::size_t>(largest_shader_file) + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -58,6 +59,24 @@ Result<std::string> read_shader_file(const std::filesystem::path& file) {
   if (stream.gcount() > largest_shader_file) return error("is larger than 4 MiB");
   text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;
+}
+
+/// shapes/all.glsl: the kernels of all terrain shapes, and the choice among them by terrains[t].shape.
+std::string shape_choice() {
+  std::string includes, distance, gap;
+  for (const TerrainShapeRow& row : terrain_shapes) {
+    const auto id = static_cast<unsigned>(row.value);
+    includes += fmt::format("#include \"shapes/{}.glsl\"\n", row.kernel);
+    distance += fmt::format("  if (terrains[t].shape == {}u) return {}_distance(t, x);\n", id, row.kernel);
+    gap += fmt::format("  if (terrains[t].shape == {}u) return {}_gap(t, x);\n", id, row.kernel);
+  }
+  return fmt::format(
+      "{}\n"
+      "// Signed distance [m], positive on the free side: the same bits as gap's.\n"
+      "float distance_to(uint t, vec3 x) {{\n{}  return 0.0;\n}}\n\n"
+      "// xyz: unit normal towards the free side; w: signed distance [m].\n"
+      "vec4 gap(uint t, vec3 x) {{\n{}  return vec4(0.0);\n}}\n",
+      includes, distance, gap);
 }
 
 }  // namespace
@@ -92,6 +111,7 @@ Result<std::string> ShaderLibrary::read(std::string_view path) const {
     if (std::filesystem::exists(file, ignored)) return read_shader_file(file);
   }
   if (const auto text = find_embedded(embedded_shaders(), path)) return std::string(*text);
+  if (path == "shapes/all.glsl") return shape_choice();
   return Error{
       ErrorCode::io,
       fmt::format("There is no shader file \"{}\"{}. Paths are relative to shaders/.", path,
@@ -126,7 +146,7 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
 
   if (work.open.size() == deepest_include) {
     return Error{ErrorCode::io,
-                 fmt::format("{}:{}: more than {} includes are inside each other. Include the files from "
+                 fmt::format("{}:{}: includes are nested more than {} deep. Include the files from "
                              "fewer levels.",
                              files[static_cast<std::size_t>(work.open.back().file)], work.open.back().line,
                              deepest_include)};
@@ -144,8 +164,7 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
     if (directive(line, "version"))
       return Error{
           ErrorCode::io,
-          fmt::format("{}: #version is put in front of every shader by the program. Remove the line.",
-                      work.chain())};
+          fmt::format("{}: the program adds #version to every shader. Remove the line.", work.chain())};
     const auto include = directive(line, "include");
     if (!include) {
       work.put(file, number, line);

@@ -65,7 +65,8 @@ class ShaderLibrary {
   explicit ShaderLibrary(std::filesystem::path override_directory = {})
       : directory_(std::move(override_directory)) {}
 
-  /// The text of one file. `path` is relative to shaders/. Error (io): there is none, or it cannot be read.
+  /// The text of one file. `path` is relative to shaders/; shapes/all.glsl is made from the table of terrain
+  /// shapes. Error (io): there is none, or it cannot be read.
   Result<std::string> read(std::string_view path) const;
 
   /// `#version 430 core`, the defines, and the file with every `#include "path"` put in its place, each file

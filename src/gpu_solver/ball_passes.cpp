@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "device/particles.h"
+
 namespace aspic {
 namespace {
 
@@ -12,11 +14,21 @@ using gl::Binding;
 using gl::Buffer;
 using gl::Reader;
 
-constexpr std::array kernel_paths = {
-    "compute/ball_fly.comp",       "compute/ball_clear.comp",    "compute/ball_insert.comp",
-    "compute/ball_find.comp",      "compute/ball_gather.comp",   "compute/ball_near.comp",
-    "compute/ball_tally.comp",     "compute/ball_partials.comp", "compute/ball_exchange.comp",
-    "compute/ball_particles.comp", "compute/ball_end.comp"};
+struct KernelRow {
+  const char *path, *title;
+};
+/// By BallPasses::Kernel.
+constexpr KernelRow kernel_rows[] = {{"compute/ball_fly.comp", "balls: flight and terrain"},
+                                     {"compute/ball_clear.comp", "balls: empty grid and marks"},
+                                     {"compute/ball_insert.comp", "balls: fill the grid"},
+                                     {"compute/ball_find.comp", "balls: find contacts"},
+                                     {"compute/ball_gather.comp", "balls: find blocks of particles"},
+                                     {"compute/ball_near.comp", "balls: look into blocks"},
+                                     {"compute/ball_tally.comp", "balls: count contacts"},
+                                     {"compute/ball_partials.comp", "balls: sum blocks"},
+                                     {"compute/ball_exchange.comp", "balls: impulses on balls"},
+                                     {"compute/ball_particles.comp", "balls: impulses on particles"},
+                                     {"compute/ball_end.comp", "balls: end of the step"}};
 
 /// Words of marks that all balls may have: 16 MiB.
 constexpr std::uint64_t most_mark_words = std::uint64_t{1} << 22;
@@ -42,14 +54,6 @@ std::uint64_t first_list_words(std::uint64_t balls) {
 }
 std::uint64_t first_items(std::uint64_t balls) {
   return 64 + 4 * balls;
-}
-
-layout::vec4 packed(const Vec3& v, double w) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
-
-Vec3 unpacked(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
 }
 
 }  // namespace
@@ -93,17 +97,9 @@ std::uint64_t ball_bytes(const ModelCounts& counts) {
 }
 
 std::vector<std::string> BallPasses::pass_names() {
-  return {"balls: flight and terrain",
-          "balls: empty grid and marks",
-          "balls: fill the grid",
-          "balls: find contacts",
-          "balls: find blocks of particles",
-          "balls: look into blocks",
-          "balls: count contacts",
-          "balls: sum blocks",
-          "balls: impulses on balls",
-          "balls: impulses on particles",
-          "balls: end of the step"};
+  std::vector<std::string> names;
+  for (const KernelRow& row : kernel_rows) names.emplace_back(row.title);
+  return names;
 }
 
 /// Which kernels the scene needs. Only with more than LIST_SIZE other balls can a body be crowded.
@@ -127,17 +123,14 @@ bool BallPasses::wanted(Kernel kernel) const {
   }
 }
 
-Status BallPasses::build_buffers(gl::Context& context) {
+Status BallPasses::build_buffers() {
   const std::uint64_t bodies = std::uint64_t{count_} + particle_count_;
-  ASPIC_ASSIGN_OR_RETURN(
-      balls_, Buffer::create(context, "balls", BALL_SLOTS * std::uint64_t{count_} * sizeof(layout::Ball)));
-  ASPIC_ASSIGN_OR_RETURN(bodies_,
-                         Buffer::create(context, "ball constants", count_ * sizeof(layout::BallBody)));
-  ASPIC_ASSIGN_OR_RETURN(touches_,
-                         Buffer::create(context, "ball contacts", bodies * sizeof(layout::BallTouches)));
-  ASPIC_ASSIGN_OR_RETURN(grid_words_,
-                         Buffer::create(context, "ball grid", grid_bytes(count_, particle_count_)));
-  if (const Status made = allot(first_list_words(count_), first_items(count_)); !made) return made;
+  ASPIC_TRY(balls_,
+            Buffer::create(*context_, "balls", BALL_SLOTS * std::uint64_t{count_} * sizeof(layout::Ball)));
+  ASPIC_TRY(bodies_, Buffer::create(*context_, "ball constants", count_ * sizeof(layout::BallBody)));
+  ASPIC_TRY(touches_, Buffer::create(*context_, "ball contacts", bodies * sizeof(layout::BallTouches)));
+  ASPIC_TRY(grid_words_, Buffer::create(*context_, "ball grid", grid_bytes(count_, particle_count_)));
+  ASPIC_CHECK(allot(first_list_words(count_), first_items(count_)));
   first_bytes_ = work_.bytes() + items_.bytes();
   return {};
 }
@@ -145,13 +138,12 @@ Status BallPasses::build_buffers(gl::Context& context) {
 /// Gives the lists and the items this much room, where they have less. What they held is gone.
 Status BallPasses::allot(std::uint64_t list_words, std::uint64_t items) {
   if (list_words > list_capacity_) {
-    ASPIC_ASSIGN_OR_RETURN(work_, Buffer::create(*context_, "lists of ball contacts",
-                                                 sizeof(layout::BallWork) + 4 * list_words));
+    ASPIC_TRY(work_,
+              Buffer::create(*context_, "lists of ball contacts", sizeof(layout::BallWork) + 4 * list_words));
     list_capacity_ = list_words;
   }
   if (items > item_capacity_) {
-    ASPIC_ASSIGN_OR_RETURN(
-        items_, Buffer::create(*context_, "blocks of ball contacts", items * sizeof(layout::BallItem)));
+    ASPIC_TRY(items_, Buffer::create(*context_, "blocks of ball contacts", items * sizeof(layout::BallItem)));
     item_capacity_ = items;
   }
   return {};
@@ -166,7 +158,7 @@ void BallPasses::reset_work() {
 
 Status BallPasses::grow() {
   const layout::BallWork work = work_.download_items<layout::BallWork>(1).front();
-  if (const Status ok = check_device(*context_); !ok) return ok;
+  ASPIC_CHECK(context_->check());
   // A quarter more than was asked for, so that a crowd that grows is not in the way at every step; where
   // nothing more was asked for, the passes stopped half-way.
   const auto room = [](std::uint64_t held, std::uint64_t used) {
@@ -183,7 +175,7 @@ Status BallPasses::grow() {
     error.message = fmt::format(
         "The balls of the scene touch in more places than the device {} has room for: {} words of lists and "
         "{} "
-        "blocks of 256 candidates are wanted. {} Start fewer balls in one place, or use --backend reference.",
+        "blocks of 256 candidates are needed. {} Start fewer balls in one place, or use --backend reference.",
         context_->info().renderer, list_words, items, error.message);
     return error;
   }
@@ -195,8 +187,8 @@ std::uint64_t BallPasses::grown_bytes() const {
   return any() ? work_.bytes() + items_.bytes() - first_bytes_ : 0;
 }
 
-Status BallPasses::build(gl::Context& context, const Model& model, const gl::ShaderLibrary& library,
-                         const KernelOptions& kernels, const Surroundings& surroundings, BallSearch search) {
+Status BallPasses::build(gl::Context& context, const Model& model, const KernelOptions& kernels,
+                         const Surroundings& surroundings, BallSearch search) {
   context_ = &context;
   model_ = &model;
   count_ = model.ball_count();
@@ -204,7 +196,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const gl::Sha
   if (!any()) return {};
   implicit_ = surroundings.implicit;
   grid_ = search == BallSearch::automatic ? grid_pays(count_) : search == BallSearch::grid;
-  if (const Status made = build_buffers(context); !made) return made;
+  ASPIC_CHECK(build_buffers());
 
   std::vector<gl::Define> defines = kernels.defines;
   if (implicit_) defines.push_back({"ASPIC_IMPLICIT", "1"});
@@ -219,7 +211,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const gl::Sha
         {BINDING_BALL_GRID, &grid_words_},
         {BINDING_BALL_WORK, &work_},
         {implicit_ ? std::uint32_t{BINDING_SOLVE} : std::uint32_t{BINDING_CONTROL}, surroundings.control}};
-    ASPIC_ASSIGN_OR_RETURN(programs_[k], context.programs().compute(library, kernel_paths[k], defines));
+    ASPIC_TRY(programs_[k], context.programs().compute(kernels.library, kernel_rows[k].path, defines));
     passes_[k].emplace(*programs_[k], bindings, Reader::compute_pass);
   }
   return {};
@@ -227,15 +219,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const gl::Sha
 
 void BallPasses::load(const State& state) {
   if (!any()) return;
-  std::vector<layout::Ball> balls(count_);
-  for (std::size_t b = 0; b < balls.size(); ++b) {
-    const Ball& ball = model_->balls[b];
-    const double inertia = ball.inertia(), w = ball.launched(state.step) ? 1.0 / ball.mass : 0.0;
-    balls[b].position = packed(state.ball_position[b], ball.radius);
-    balls[b].velocity = packed(state.ball_velocity[b], w);
-    balls[b].spin = packed(state.ball_angular_velocity[b], ball.radius / inertia);
-    balls[b].start_velocity = packed(state.ball_velocity[b], ball.radius * ball.radius / inertia);
-  }
+  const std::vector<layout::Ball> balls = packed_balls(*model_, state);
   balls_.upload_items(std::span<const layout::Ball>(balls));
   reset_work();
   set_base_step(state.step);
@@ -320,12 +304,7 @@ void BallPasses::queue(const Buffer& start, const Buffer& end, std::uint32_t ste
 
 void BallPasses::read(State& state, std::uint32_t slot) const {
   if (!any()) return;
-  const auto balls = balls_.download_items<layout::Ball>(count_, std::uint64_t{slot} * count_);
-  for (const layout::Ball& ball : balls) {
-    state.ball_position.push_back(unpacked(ball.position));
-    state.ball_velocity.push_back(unpacked(ball.velocity));
-    state.ball_angular_velocity.push_back(unpacked(ball.spin));
-  }
+  unpack(balls_.download_items<layout::Ball>(count_, std::uint64_t{slot} * count_), state);
 }
 
 }  // namespace aspic

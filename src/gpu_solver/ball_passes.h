@@ -12,8 +12,8 @@
 #include "gpu/pass_profiler.h"
 #include "gpu/program_cache.h"
 #include "gpu_solver/gpu_solver.h"
+#include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"
-#include "gpu_solver/support.h"
 
 namespace aspic {
 
@@ -23,7 +23,7 @@ std::uint32_t grid_buckets(std::uint32_t balls);
 /// Whether `automatic` takes the grid: with fewer balls, trying all of them costs less than keeping a grid.
 bool grid_pays(std::uint32_t balls);
 
-/// A mark stands for 2^shift blocks of particles: the least shift with which all balls' marks take 16 MiB or
+/// A mark represents 2^shift blocks of particles: the least shift with which all balls' marks take 16 MiB or
 /// less (shaders/compute/ball_grid.glsl).
 std::uint32_t mark_shift(std::uint32_t balls, std::uint32_t particles);
 
@@ -44,8 +44,8 @@ class BallPasses {
   };
 
   /// Makes buffers and passes; nothing at all for a model without balls. Errors as make_gpu_solver.
-  Status build(gl::Context& context, const Model& model, const gl::ShaderLibrary& library,
-               const KernelOptions& kernels, const Surroundings& surroundings, BallSearch search);
+  Status build(gl::Context& context, const Model& model, const KernelOptions& kernels,
+               const Surroundings& surroundings, BallSearch search);
 
   bool any() const { return count_ > 0; }
 
@@ -75,7 +75,7 @@ class BallPasses {
 
   /// What a reader calls the passes, in their order.
   static std::vector<std::string> pass_names();
-  /// Tells `profiler` of each dispatch, counting kinds from `first` on; null ends that.
+  /// Reports each dispatch to `profiler`, counting kinds from `first` on; null ends this.
   void set_profiler(gl::PassProfiler* profiler, std::size_t first) {
     profiler_ = profiler;
     first_kind_ = first;
@@ -102,7 +102,7 @@ class BallPasses {
     gl::Reader last;
   };
   bool wanted(Kernel kernel) const;
-  Status build_buffers(gl::Context& context);
+  Status build_buffers();
   Status allot(std::uint64_t list_words, std::uint64_t items);
   void reset_work();
   void mark(Kernel kernel) const {

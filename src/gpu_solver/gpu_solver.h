@@ -4,26 +4,16 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
-#include "gpu/buffer.h"
+#include "device/device_state.h"
 #include "gpu/canary.h"
 #include "gpu/context.h"
 #include "gpu/pass_profiler.h"
+#include "gpu_solver/force_paths.h"
 #include "model/solver.h"
 
 namespace aspic {
-
-/// How spring forces reach particles; every path gives the same bits (docs/architecture.md).
-enum class ForcePath {
-  automatic,   ///< the fastest that is built: gather
-  per_spring,  ///< one invocation per spring writes its force, a second pass sums
-  gather,      ///< one invocation per particle evaluates its springs, everything fused
-  lattice      ///< gather on a cube without connectivity in memory; not built yet
-};
-
-std::string_view name_of(ForcePath path);
 
 /// How balls find whom they touch; either way gives the same bits.
 enum class BallSearch {
@@ -33,7 +23,6 @@ enum class BallSearch {
 };
 
 class GpuSolver;
-struct SpringBuffers;
 
 struct GpuOptions {
   ForcePath force_path = ForcePath::automatic;
@@ -42,25 +31,20 @@ struct GpuOptions {
   /// Files here go before the embedded shaders; empty: embedded alone.
   std::filesystem::path shader_directory;
   /// Further definitions for the kernels. MAX_ROUNDS and MAX_WALK lower the bounds of loops
-  /// (shaders/compute/layout.glsl), so that a test reaches them; never affects the bits of a step that ends.
+  /// (shaders/shared/layout.glsl), so that a test reaches them; never affects the bits of a step that ends.
   std::vector<gl::Define> defines;
   /// How to compile for this device's arithmetic; absent: the canary is asked first.
   std::optional<gl::Arithmetic> arithmetic;
   /// A solver to share with: where both models have the same springs, its buffers of them serve both. It and
   /// its model need to live no longer than the call; null: none.
-  const GpuSolver* like = nullptr;
+  const GpuSolver* share_springs_of = nullptr;
 };
 
 /// A gpu solver with a look at its buffers, for drawing without a copy.
 class GpuSolver : public Solver {
  public:
-  /// The current state: layout::Particle per particle (stride 32 bytes, x at 0, v at 16).
-  virtual const gl::Buffer& particles() const = 0;
-  /// All balls, of which the model's ball_count() from item first_ball() on are the current state:
-  /// layout::Ball (64 bytes: x at 0 and R behind it; v at 16 and behind it 1/m, or 0 while the ball waits for
-  /// its launch; ω at 32). An empty handle without balls.
-  virtual const gl::Buffer& balls() const = 0;
-  virtual std::uint32_t first_ball() const = 0;
+  /// The current state where it lies. Valid until the solver steps, loads or goes.
+  virtual DeviceState device_state() const = 0;
   /// The path in use, never automatic.
   virtual ForcePath force_path() const = 0;
   /// What the canary found on this device, and how the kernels were compiled for it.
@@ -72,7 +56,7 @@ class GpuSolver : public Solver {
   /// The passes of a step in their order, means over the last 64 steps that were measured: their sum is the
   /// device time of a step. Empty while nothing is measured yet. Never waits for the device.
   virtual std::vector<gl::PassTime> pass_times() = 0;
-  /// What another solver may share (GpuOptions::like).
+  /// What another solver may share (GpuOptions::share_springs_of).
   virtual const std::shared_ptr<const SpringBuffers>& spring_buffers() const = 0;
 };
 

@@ -6,8 +6,14 @@
 
 namespace aspic {
 
-/// Called by make_gpu_solver for scenes with the integrator implicit-euler; same contract.
+struct ForcePathRow;
+
+/// Called by make_gpu_solver for scenes with the integrator implicit-euler; same contract. `path`: one with
+/// ForcePathRow::implicit.
 Result<std::unique_ptr<GpuSolver>> make_implicit_solver(gl::Context& context, const Model& model,
-                                                        const GpuOptions& options);
+                                                        const GpuOptions& options, const ForcePathRow& path);
+
+/// gpu_bytes() of that solver, but what it shares with the explicit one.
+std::uint64_t implicit_bytes(const ModelCounts& counts);
 
 }  // namespace aspic

@@ -1,43 +1,32 @@
 #pragma once
 // shaders/compute/layout.glsl as C++: the structs the kernels read, with their sizes and offsets held by the
 // compiler. tests/gpu_solver/layout_gl_test.cpp compares them with what the driver says.
-#include <array>
 #include <cstddef>
-#include <cstdint>
 
-#include "gpu/loop_bound.h"
+#include "device/layout.h"
+#include "model/shapes/shape.h"
 
 namespace aspic::layout {
 
-using uint = std::uint32_t;
-struct vec4 {
-  float x = 0, y = 0, z = 0, w = 0;
-};
-struct uvec2 {
-  uint x = 0, y = 0;
-};
-
 #include "compute/layout.glsl"
 
-static_assert(MAX_ROUNDS == gl::max_rounds);
-static_assert(sizeof(Particle) == 32 && offsetof(Particle, velocity) == 16);
-static_assert(sizeof(Ball) == 64 && offsetof(Ball, velocity) == 16 && offsetof(Ball, spin) == 32);
+static_assert(GEOMETRY_SIZE == geometry_size);
 static_assert(sizeof(BallTouches) == 32 && offsetof(BallTouches, items) == 28);
 static_assert(sizeof(BallItem) == 128 && offsetof(BallItem, acts) == 32 && offsetof(BallItem, linear) == 96);
 static_assert(sizeof(BallWork) == 64 && offsetof(BallWork, word_groups) == 16);
 static_assert(sizeof(BallBody) == 16 && offsetof(BallBody, launch_step) == 8);
 static_assert(offsetof(Simulation, ball_count) == 116 && offsetof(Simulation, ball_restitution) == 128);
-static_assert(sizeof(Stage) == 16 && sizeof(SpringClass) == 16 && sizeof(Control) == 16);
+static_assert(sizeof(Stage) == 16 && sizeof(Control) == 16);
 static_assert(sizeof(Pull) == 32 && offsetof(Pull, stiffness) == 16 && offsetof(Pull, particle) == 24);
 static_assert(sizeof(Solve) == 160 && offsetof(Solve, lambda) == 64 && offsetof(Solve, converged) == 120);
-static_assert(sizeof(Terrain) == 64 && offsetof(Terrain, mass) == 32 && offsetof(Terrain, shape) == 48);
+static_assert(sizeof(Terrain) == 80 && offsetof(Terrain, mass) == 48 && offsetof(Terrain, shape) == 64);
 static_assert(offsetof(Simulation, epsilon) == 16 && offsetof(Simulation, particle_count) == 32);
 static_assert(offsetof(Simulation, class_bits) == 48 && offsetof(Simulation, time_step) == 64);
 static_assert(offsetof(Simulation, stages) == 144);
 static_assert(offsetof(Simulation, spring_classes) == 208);
 static_assert(offsetof(Simulation, terrains) == 208 + 16 * MAX_SPRING_CLASSES);
 // OpenGL 4.3 guarantees uniform blocks of 16 KiB.
-static_assert(sizeof(Simulation) == 208 + 16 * MAX_SPRING_CLASSES + 64 * MAX_TERRAINS &&
+static_assert(sizeof(Simulation) == 208 + 16 * MAX_SPRING_CLASSES + 80 * MAX_TERRAINS &&
               sizeof(Simulation) <= 16384);
 
 }  // namespace aspic::layout

@@ -2,40 +2,26 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 
+#include "device/particles.h"
 #include "gpu_solver/ball_passes.h"
+#include "model/incident_springs.h"
 #include "model/integrator.h"
 #include "model/solver.h"
 
 namespace aspic {
 namespace {
 
-layout::vec4 rounded(const Vec3& v, double w) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
-
 layout::Terrain block_of(const Terrain& t) {
   layout::Terrain block{};
-  block.point = rounded(t.point, t.radius);
-  block.normal = rounded(t.normal, 0.0);
+  for (std::size_t k = 0; k < geometry_size; ++k)
+    block.geometry[k] = rounded(t.geometry.vectors[k], t.geometry.numbers[k]);
+  block.shape = static_cast<std::uint32_t>(t.shape);
   block.movable = std::isfinite(t.mass) ? 1u : 0u;
   block.mass = block.movable ? static_cast<float>(t.mass) : 0.0f;
   block.restitution = static_cast<float>(t.restitution);
   block.friction = static_cast<float>(t.friction);
-  switch (t.shape) {
-    case TerrainShape::plane:
-    case TerrainShape::tilted_plane:
-      block.shape = SHAPE_PLANE;
-      break;
-    case TerrainShape::sphere:
-      block.shape = SHAPE_SPHERE;
-      break;
-    case TerrainShape::bowl:
-      block.shape = SHAPE_BOWL;
-      break;
-  }
   return block;
 }
 
@@ -67,11 +53,6 @@ void fill_stages(layout::Simulation& block, const IntegratorRow& method, double 
 }
 
 }  // namespace
-
-std::uint32_t class_bits(const Model& model) {
-  const auto classes = static_cast<std::uint32_t>(model.spring_classes.size());
-  return classes < 2 ? 0u : static_cast<std::uint32_t>(std::bit_width(classes - 1));
-}
 
 Result<layout::Simulation> simulation_block(const Model& model) {
   if (model.spring_classes.size() > MAX_SPRING_CLASSES || model.terrain.size() > MAX_TERRAINS) {
@@ -110,11 +91,8 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.max_without_progress_on_ground = max_without_progress_on_ground;
   block.least_turn = static_cast<float>(least_turn);
   block.least_wedge = static_cast<float>(least_wedge);
-  for (std::size_t c = 0; c < model.spring_classes.size(); ++c) {
-    const SpringClass& s = model.spring_classes[c];
-    block.spring_classes[c] = {static_cast<float>(s.stiffness), static_cast<float>(s.damping),
-                               static_cast<float>(s.rest_length), s.cord ? 1u : 0u};
-  }
+  for (std::size_t c = 0; c < model.spring_classes.size(); ++c)
+    block.spring_classes[c] = rounded(model.spring_classes[c]);
   for (std::size_t t = 0; t < model.terrain.size(); ++t) block.terrains[t] = block_of(model.terrain[t]);
   return block;
 }

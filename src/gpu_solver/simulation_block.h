@@ -10,7 +10,4 @@ namespace aspic {
 /// terrains than the block holds.
 Result<layout::Simulation> simulation_block(const Model& model);
 
-/// Low bits of a gather word that hold the spring class: enough for all classes of the model.
-std::uint32_t class_bits(const Model& model);
-
 }  // namespace aspic

@@ -62,10 +62,9 @@ std::string follow_links(const std::string& path) {
 }
 
 Error already_exists(const std::string& path) {
-  return fail(
-      ErrorCode::io,
-      "{} exists already and was left as it is. Choose another name, or allow overwriting with --force.",
-      printable_line(path));
+  return fail(ErrorCode::io,
+              "{} already exists and was not changed. Choose another name, or overwrite it with --force.",
+              printable_line(path));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// Files that appear whole or not at all: written under a temporary name beside their place and renamed when
-// complete.
+// Files that appear complete or not at all: written under a temporary name in their directory and renamed
+// when complete.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -13,7 +13,7 @@ namespace aspic {
 
 enum class Overwrite { refuse, allow };
 
-/// One output file in the making. Until commit() nothing stands under the final name; a file that is never
+/// An output file being written. Until commit() nothing has the final name; a file that is never
 /// committed (an error, an exception, Ctrl-C) leaves nothing behind. A path that names a device or pipe, such
 /// as /dev/stdout, is written straight, since renaming would replace the device.
 ///

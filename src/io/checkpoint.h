@@ -1,5 +1,5 @@
 #pragma once
-// A run put aside: the whole scene and the state at full precision in one file, format in docs/files.md.
+// A suspended run: the complete scene and the state at full precision in one file, format in docs/files.md.
 #include <cstdint>
 #include <string>
 #include <string_view>

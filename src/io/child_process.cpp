@@ -16,8 +16,6 @@
 #include <cstring>
 #include <utility>
 
-extern char** environ;
-
 namespace aspic {
 namespace {
 
@@ -99,7 +97,7 @@ std::vector<std::string> environment_with(const std::vector<std::pair<std::strin
     });
     if (!changed) result.push_back(text);
   }
-  for (const auto& [name, value] : changes) result.push_back(name + "=" + value);
+  for (const auto& [name, value] : changes) result.push_back(fmt::format("{}={}", name, value));
   return result;
 }
 

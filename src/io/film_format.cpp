@@ -59,19 +59,20 @@ Result<const FilmFormat*> video_format_of(const std::string& path) {
   const FilmFormat* const format =
       dot == std::string::npos ? nullptr : find_film_format(std::string_view(path).substr(dot));
   if (format && !format->is_directory()) return format;
-  return fail(ErrorCode::usage, "the video's name {} must end in {}, which says its format.", path,
+  return fail(ErrorCode::usage, "the video's name {} must end in {}, which chooses its format.", path,
               film_endings(false));
 }
 
 Status check_film(const FilmFormat& format, const PictureSize& size, double fps) {
   if (fps > format.most_fps) {
-    return fail(ErrorCode::usage, "{0} shows at most {1} pictures a second, not {2}: give --fps {1} or less.",
-                format.label, format.most_fps, fps);
+    return fail(ErrorCode::usage,
+                "{0} shows at most {1} pictures per second, not {2}: use --fps {1} or less.", format.label,
+                format.most_fps, fps);
   }
   if (!format.even_sides || (size.width % 2 == 0 && size.height % 2 == 0)) return {};
   return fail(ErrorCode::usage,
-              "a video stores colour for squares of 2 x 2 pixels, so that --size {}x{} is not possible: give "
-              "an even width and height, {}x{} say.",
+              "a video stores colour for squares of 2 x 2 pixels, so --size {}x{} is not possible: use an "
+              "even width and height, such as {}x{}.",
               size.width, size.height, size.width + size.width % 2, size.height + size.height % 2);
 }
 

@@ -17,7 +17,7 @@ struct FilmFormat {
   std::string_view ending;  ///< of the video's file or of each picture, in lower case: ".mp4"
   double default_fps = 60.0, most_fps = 1000.0;  ///< pictures shown per second
   bool even_sides = false;              ///< 4:2:0, BT.709: colour is stored for squares of 2 × 2 pixels
-  std::span<const char* const> ffmpeg;  ///< what ffmpeg is told about the output; empty: no video
+  std::span<const char* const> ffmpeg;  ///< ffmpeg's options for the output; empty: no video
   /// One picture (FrameSink::write) as the content of a file; null for videos. Error (io): the encoder
   /// failed.
   Result<std::string> (*encode)(const PictureSize& size, std::span<const std::byte> rgb) = nullptr;

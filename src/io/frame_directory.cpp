@@ -105,8 +105,8 @@ Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& direc
   ASPIC_TRY(const auto frames, frames_in(directory));
   if (!frames.empty() && overwrite == Overwrite::refuse)
     return fail(ErrorCode::io,
-                "{} holds pictures already ({} and others) and was left as it is. Choose another directory, "
-                "or allow replacing them with --force.",
+                "{} already contains pictures ({} and others) and was not changed. Choose another directory, "
+                "or replace them with --force.",
                 directory, std::min_element(frames.begin(), frames.end())->filename().string());
   for (const fs::path& frame : frames)
     if (::unlink(frame.c_str()) != 0) return file_error("remove", frame.string(), errno);

@@ -12,6 +12,7 @@ namespace aspic {
 struct PictureSize {
   int width = 1280;
   int height = 720;
+  friend bool operator==(const PictureSize&, const PictureSize&) = default;
 };
 
 /// Takes the pictures of a run in order. One that is destroyed before finish() leaves nothing that looks

@@ -45,12 +45,12 @@ void on_fatal_signal(int number) {
   end_child_processes();
   remove_temporary_files();
   std::array<char, 2> digits = {static_cast<char>('0' + number / 10), static_cast<char>('0' + number % 10)};
-  write_plainly("aspic: a fault ended the program by signal ");
+  write_plainly("aspic: the program was ended by signal ");
   write_plainly({digits.data() + (number < 10 ? 1 : 0), number < 10 ? 1u : 2u});
   write_plainly(
       ", in a driver or in aspic itself; its temporary files were removed. If little memory or stack is left "
-      "(ulimit -v, ulimit -s), allow more; if a graphics driver is at fault, --backend reference does "
-      "without one.\n");
+      "(ulimit -v, ulimit -s), allow more; if a graphics driver is at fault, --backend reference needs "
+      "none.\n");
   ::signal(number, SIG_DFL);
   ::raise(number);
 }
@@ -61,15 +61,15 @@ void on_fatal_signal(int number) {
   remove_temporary_files();
   try {
     if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
-    write_plainly("aspic: a fault of the program ended it.\n");
+    write_plainly("aspic: an internal error ended the program.\n");
   } catch (const std::bad_alloc&) {
     write_plainly(no_memory);
   } catch (const std::exception& exception) {
-    write_plainly("aspic: this failed unexpectedly: ");
+    write_plainly("aspic: unexpected error: ");
     write_plainly(exception.what());
     write_plainly("\n");
   } catch (...) {
-    write_plainly("aspic: a fault of the program ended it.\n");
+    write_plainly("aspic: an internal error ended the program.\n");
   }
   ::_exit(failed);
 }
@@ -118,7 +118,7 @@ int run_program(const std::function<int()>& work) {
   } catch (const std::exception& exception) {
     try {
       print_message(
-          fmt::format("this failed unexpectedly: {}. Nothing incomplete was left behind.", exception.what()));
+          fmt::format("unexpected error: {}. Nothing incomplete was left behind.", exception.what()));
     } catch (const std::bad_alloc&) {
       write_plainly(no_memory);
     }

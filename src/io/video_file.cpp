@@ -37,7 +37,7 @@ class VideoFile : public FrameSink {
       reason_ = fmt::format(
           "the video {} could not be made: ffmpeg {}{}{}Check the disk and that ffmpeg has the encoder (the "
           "Debian package ffmpeg has it), or write numbered pictures instead (--frames).",
-          path_, how, said.empty() ? " without a word." : fmt::format(" and said\n{}", said),
+          path_, how, said.empty() ? " without a message." : fmt::format(" and said\n{}", said),
           said.empty() ? " " : "");
       ffmpeg_.reset();
       file_.reset();  // removes the temporary file

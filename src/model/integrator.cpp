@@ -53,6 +53,11 @@ StepMatrix implicit_euler_one_pass(long double h, long double kappa, long double
   return one + z + z * z;
 }
 
+StepMatrix heun_3(long double h, long double kappa, long double gamma) {
+  const StepMatrix z = scaled(h, kappa, gamma), z2 = z * z;
+  return one + z + 0.5L * z2 + 1.0L / 6 * (z2 * z);
+}
+
 StepMatrix implicit_euler(long double h, long double kappa, long double gamma) {
   const long double determinant = 1 + h * gamma + h * h * kappa;
   return 1 / determinant * StepMatrix{1 + h * gamma, h, -h * kappa, 1};

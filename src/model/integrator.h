@@ -25,7 +25,8 @@ enum class Integrator {
   midpoint,
   runge_kutta_4,
   implicit_euler,
-  implicit_euler_one_pass
+  implicit_euler_one_pass,
+  heun_3
 };
 
 struct Stage {
@@ -71,6 +72,7 @@ namespace integrator_rows {
 inline constexpr std::array<Stage, 1> one_stage = {{{0.0, 1.0}}};
 inline constexpr std::array<Stage, 2> midpoint = {{{0.5, 0.0}, {0.0, 1.0}}};
 inline constexpr std::array<Stage, 2> one_pass = {{{1.0, 0.0}, {0.0, 1.0}}};
+inline constexpr std::array<Stage, 3> heun = {{{1.0 / 3, 1.0}, {2.0 / 3, 0.0}, {0.0, 3.0}}};
 inline constexpr std::array<Stage, 4> kutta = {{{0.5, 1.0}, {0.5, 2.0}, {1.0, 2.0}, {0.0, 1.0}}};
 
 StepMatrix explicit_euler(long double h, long double kappa, long double gamma);
@@ -79,6 +81,7 @@ StepMatrix midpoint_rule(long double h, long double kappa, long double gamma);
 StepMatrix runge_kutta_4(long double h, long double kappa, long double gamma);
 StepMatrix implicit_euler(long double h, long double kappa, long double gamma);
 StepMatrix implicit_euler_one_pass(long double h, long double kappa, long double gamma);
+StepMatrix heun_3(long double h, long double kappa, long double gamma);
 double symplectic_euler_limit(double kappa, double gamma);
 double no_limit(double kappa, double gamma);
 
@@ -111,6 +114,8 @@ inline constexpr std::array integrator_table = {
     IntegratorRow{Integrator::implicit_euler_one_pass, "implicit-euler-one-pass", "implicit Euler, one pass",
                   1, integrator_rows::one_pass, 1.0, Drift::stage_velocity, false,
                   integrator_rows::implicit_euler_one_pass, nullptr, "the 2021 assignment"},
+    IntegratorRow{Integrator::heun_3, "heun-3", "Heun 3", 3, integrator_rows::heun, 4.0,
+                  Drift::stage_velocity, false, integrator_rows::heun_3, nullptr, "Heun, 1900"},
 };
 
 /// The row of an integrator, which must be one of the enumeration.

@@ -42,8 +42,7 @@ Result<Model> build_model(const ModelSettings& settings) {
   model.contact = settings.contact;
   for (const TerrainSettings& terrain : settings.terrain) {
     Terrain made = make_terrain(terrain, settings.contact);
-    made.point = without_negative_zero(made.point);
-    made.normal = without_negative_zero(made.normal);
+    for (Vec3& v : made.geometry.vectors) v = without_negative_zero(v);
     model.terrain.push_back(made);
   }
   model.mass.reserve(predicted.particles);

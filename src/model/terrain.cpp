@@ -4,25 +4,30 @@
 
 namespace aspic {
 
-const TerrainShapeRow& terrain_row(TerrainShape shape) {
-  return *std::ranges::find(terrain_shapes, shape, &TerrainShapeRow::value);
-}
-
 std::string_view name_of(TerrainShape shape) {
   return terrain_row(shape).name;
 }
 
+const GeometryKey* geometry_key(TerrainShape shape, std::string_view name) {
+  const auto keys = terrain_row(shape).keys;
+  const auto found = std::ranges::find(keys, name, &GeometryKey::name);
+  return found == keys.end() ? nullptr : &*found;
+}
+
 Terrain make_terrain(const TerrainSettings& settings, const ContactSettings& contact) {
-  const TerrainSettings& defaults = terrain_row(settings.shape).defaults;
   Terrain t;
   t.shape = settings.shape;
-  if (defaults.point) t.point = settings.point.value_or(*defaults.point);
-  if (defaults.centre) t.point = settings.centre.value_or(*defaults.centre);
-  if (defaults.normal) {
-    const Vec3 normal = settings.normal.value_or(*defaults.normal);
-    t.normal = normal / length(normal);
+  std::size_t vectors = 0, numbers = 0;
+  for (const GeometryKey& key : terrain_row(settings.shape).keys) {
+    const auto given = settings.geometry.find(key.name);
+    const GeometryValue& value = given == settings.geometry.end() ? key.value : given->second;
+    if (key.kind == GeometryKind::length) {
+      t.geometry.numbers[numbers++] = std::get<double>(value);
+    } else {
+      const Vec3& v = std::get<Vec3>(value);
+      t.geometry.vectors[vectors++] = key.kind == GeometryKind::direction ? v / length(v) : v;
+    }
   }
-  if (defaults.radius) t.radius = settings.radius.value_or(*defaults.radius);
   t.mass = settings.mass.value_or(std::numeric_limits<double>::infinity());
   t.restitution = settings.restitution.value_or(contact.restitution);
   t.friction = settings.friction.value_or(contact.friction);
@@ -30,7 +35,18 @@ Terrain make_terrain(const TerrainSettings& settings, const ContactSettings& con
 }
 
 double signed_distance(const Terrain& terrain, const Vec3& x) {
-  return terrain_row(terrain.shape).signed_distance(terrain, x);
+  return terrain_row(terrain.shape).in_double.distance(terrain.geometry, x);
+}
+
+TerrainGap<double> terrain_gap(const Terrain& terrain, const Vec3& x) {
+  return terrain_row(terrain.shape).in_double.gap(terrain.geometry, x);
+}
+
+double extent(const Terrain& terrain) {
+  double size = 0.0;
+  for (std::size_t k = 0; k < geometry_size; ++k) size = std::max(size, length(terrain.geometry.vectors[k]));
+  for (const double number : terrain.geometry.numbers) size += number;
+  return size;
 }
 
 }  // namespace aspic

@@ -1,54 +1,88 @@
 #pragma once
-// Terrain: the table of shapes, and terrain as the model holds it.
+// Terrain: the rows of the table of shapes, and terrain as the model holds it.
+#include <span>
 #include <string_view>
 
 #include "model/model.h"
 
 namespace aspic {
 
-/// One shape. Parser, --set, defaults, checks, documentation and the window's buttons iterate the table.
+/// The formulas of a shape in one precision, with one order of operations, which the kernels follow.
+template <class T>
+struct ShapeFormulas {
+  T (*distance)(const Geometry<T>&, const Vec<T>&);  ///< d alone, the same bits as gap's
+  TerrainGap<T> (*gap)(const Geometry<T>&, const Vec<T>&);
+};
+
+/// One shape. Solvers, pictures, parser, --set, defaults, checks, documentation, the window's buttons and
+/// verify iterate the table.
 struct TerrainShapeRow {
   TerrainShape value;
-  std::string_view name;     ///< in scene files
-  std::string_view title;    ///< for people
-  TerrainSettings defaults;  ///< the geometry keys the shape has, and no others, hold their default values
-  /// Signed distance [m] of a point, positive on the free side, in double precision.
-  double (*signed_distance)(const Terrain&, const Vec3&);
+  std::string_view name;    ///< in scene files
+  std::string_view title;   ///< for people
+  std::string_view kernel;  ///< of shaders/shapes/KERNEL.glsl
+  std::span<const GeometryKey> keys;
+  /// The centre of a cube of edge 4 m, some tenths of a metre off the surface of the default shape, above
+  /// a place on which it can fall: for checks and measurements.
+  Vec3 drop;
+  ShapeFormulas<float> in_single;
+  ShapeFormulas<double> in_double;
+  FlatPart (*flat)(const Geometry<double>&);  ///< see shapes::Shape, as the rest
+  Vec3 (*surface)(const Geometry<double>&, double u, double v);
+  bool glass;
+  bool ball;
+
+  template <class T>
+  const ShapeFormulas<T>& formulas() const {
+    if constexpr (std::is_same_v<T, float>) {
+      return in_single;
+    } else {
+      return in_double;
+    }
+  }
 };
 
-/// Every shape, in the order in which they are listed for users.
-inline constexpr TerrainShapeRow terrain_shapes[] = {
-    {TerrainShape::plane,
-     "plane",
-     "plane",
-     {.shape = TerrainShape::plane, .point = Vec3{0.0, -1.0, 0.0}, .normal = Vec3{0.0, 1.0, 0.0}},
-     [](const Terrain& t, const Vec3& x) { return dot(t.normal, x - t.point); }},
-    {TerrainShape::tilted_plane,
-     "tilted-plane",
-     "tilted plane",
-     {.shape = TerrainShape::tilted_plane, .point = Vec3{0.0, 0.0, 0.0}, .normal = Vec3{1.0, 1.0, 0.0}},
-     [](const Terrain& t, const Vec3& x) { return dot(t.normal, x - t.point); }},
-    {TerrainShape::sphere,
-     "sphere",
-     "sphere",
-     {.shape = TerrainShape::sphere, .centre = Vec3{0.0, -1.0, 0.0}, .radius = 3.0},
-     [](const Terrain& t, const Vec3& x) { return length(x - t.point) - t.radius; }},
-    {TerrainShape::bowl,
-     "bowl",
-     "bowl",
-     {.shape = TerrainShape::bowl, .centre = Vec3{2.0, 7.0, 1.0}, .radius = 7.0},
-     [](const Terrain& t, const Vec3& x) { return t.radius - length(x - t.point); }},
-};
+/// The row of a shape's struct.
+template <class S>
+constexpr TerrainShapeRow shape_row(TerrainShape value) {
+  return {value,
+          S::name,
+          S::title,
+          S::kernel,
+          S::keys,
+          S::drop,
+          {S::template distance<float>, S::template gap<float>},
+          {S::template distance<double>, S::template gap<double>},
+          S::flat,
+          S::surface,
+          S::glass,
+          S::ball};
+}
+
+/// Every shape, in the order in which they are listed for users; its index is the enumerator's value.
+#define ASPIC_SHAPE(name, Struct) shape_row<shapes::Struct>(TerrainShape::name),
+inline constexpr TerrainShapeRow terrain_shapes[] = {ASPIC_TERRAIN_SHAPES(ASPIC_SHAPE)};
+#undef ASPIC_SHAPE
 
 /// The row of a shape.
-const TerrainShapeRow& terrain_row(TerrainShape shape);
+constexpr const TerrainShapeRow& terrain_row(TerrainShape shape) {
+  return terrain_shapes[static_cast<std::size_t>(shape)];
+}
+
+/// A shape's key of this name, or nullptr.
+const GeometryKey* geometry_key(TerrainShape shape, std::string_view name);
 
 /// Completes a terrain: absent geometry from the shape's defaults, absent restitution and friction from
-/// `contact`, absent mass infinite; the normal becomes a unit vector.
+/// `contact`, absent mass infinite; directions become unit vectors. Geometry that the shape does not have is
+/// left out.
 Terrain make_terrain(const TerrainSettings& settings, const ContactSettings& contact);
 
-/// Signed distance d(x) [m] of a point from the terrain, positive on the free side, in double precision: for
-/// reports and pictures. Solvers evaluate it in their own precision.
+/// Signed distance d(x) [m] of a point from the terrain, positive on the free side, and the normal there, in
+/// double precision: for reports and pictures. Solvers evaluate the formulas in their own precision.
 double signed_distance(const Terrain& terrain, const Vec3& x);
+TerrainGap<double> terrain_gap(const Terrain& terrain, const Vec3& x);
+
+/// The size of the numbers in a terrain's formulas [m], which bounds the rounding of distances.
+double extent(const Terrain& terrain);
 
 }  // namespace aspic

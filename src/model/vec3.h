@@ -1,40 +1,33 @@
 #pragma once
-// Three doubles with a name: what the model, files and analysis hold vectors in. Solvers have their own
-// types.
+// Three numbers with names. Solvers have their own types; formulas that they share with the model use these.
 #include <cmath>
 
 namespace aspic {
 
-/// A vector of three doubles; unit by context.
-struct Vec3 {
-  double x = 0.0, y = 0.0, z = 0.0;
+/// A vector of three numbers; unit by context.
+template <class T>
+struct Vec {
+  T x = 0, y = 0, z = 0;
 
-  double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
-  double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
-  friend bool operator==(const Vec3&, const Vec3&) = default;
+  T& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+  T operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  friend bool operator==(const Vec&, const Vec&) = default;
+
+  friend Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec operator-(const Vec& a) { return {-a.x, -a.y, -a.z}; }
+  friend Vec operator*(T s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend Vec operator/(const Vec& a, T s) { return {a.x / s, a.y / s, a.z / s}; }
+  friend T dot(const Vec& a, const Vec& b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+  friend Vec cross(const Vec& a, const Vec& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  friend T length(const Vec& a) { return std::sqrt(dot(a, a)); }
 };
 
-inline Vec3 operator+(const Vec3& a, const Vec3& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vec3 operator-(const Vec3& a, const Vec3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Vec3 operator*(double s, const Vec3& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-inline Vec3 operator/(const Vec3& a, double s) {
-  return {a.x / s, a.y / s, a.z / s};
-}
-inline double dot(const Vec3& a, const Vec3& b) {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length(const Vec3& a) {
-  return std::sqrt(dot(a, a));
-}
+/// What the model, files and analysis hold vectors in.
+using Vec3 = Vec<double>;
+
 inline bool is_finite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }

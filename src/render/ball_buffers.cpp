@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <vector>
 
 #include "gpu/pass.h"
@@ -23,7 +22,7 @@ std::vector<Four> unturned(std::uint32_t count) {
 
 /// White where they are footballs; else each a hue of its own, after those of the bodies.
 std::vector<Four> colours_of(const Model& model) {
-  const bool football = std::ranges::any_of(model.bodies, &Body::goal);
+  const bool football = std::ranges::any_of(model.bodies, &Body::footballs);
   std::vector<Four> colours;
   for (std::size_t i = 0; i < model.balls.size(); ++i) {
     const Colour c = football ? Colour{0.86f, 0.86f, 0.84f} : body_colour(model.bodies.size() + i);
@@ -45,27 +44,6 @@ Result<BallBuffers> BallBuffers::create(gl::Context& context, const Model& model
   if (!colours) return colours.error();
   b.colours_ = std::move(*colours);
   return b;
-}
-
-Status BallBuffers::upload(gl::Context& context, const Model& model, const State& state, gl::Buffer& balls) {
-  assert(state.ball_position.size() == model.ball_count());
-  std::vector<std::array<float, 16>> items(model.ball_count());
-  const auto narrow = [](double v) { return static_cast<float>(v); };
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const Ball& ball = model.balls[i];
-    const Vec3 &x = state.ball_position[i], &v = state.ball_velocity[i], &w = state.ball_angular_velocity[i];
-    const double inverse_mass = ball.launched(state.step) ? 1.0 / ball.mass : 0.0;
-    items[i] = {narrow(x.x), narrow(x.y),          narrow(x.z), narrow(ball.radius), narrow(v.x), narrow(v.y),
-                narrow(v.z), narrow(inverse_mass), narrow(w.x), narrow(w.y),         narrow(w.z)};
-  }
-  const std::uint64_t bytes = std::uint64_t{ball_stride} * items.size();
-  if (balls.id() == 0 || balls.bytes() < bytes) {
-    auto made = gl::Buffer::create(context, "balls to draw", bytes);
-    if (!made) return made.error();
-    balls = std::move(*made);
-  }
-  balls.upload_items(std::span<const std::array<float, 16>>(items));
-  return {};
 }
 
 void BallBuffers::prepare(const RenderPrograms& programs, const DeviceState& state,
@@ -109,9 +87,10 @@ void BallBuffers::draw_into_light(const RenderPrograms& programs, const DeviceSt
 }
 
 gl::VertexArray BallBuffers::array(const DeviceState& state) const {
-  const std::uint32_t first = ball_stride * state.first_ball;
-  const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, state.balls, 4, ball_stride, first},
-                                      {ATTRIBUTE_VELOCITY, state.balls, 4, ball_stride, first + 16},
+  constexpr std::uint32_t stride = sizeof(layout::Ball);
+  const std::uint32_t first = stride * state.first_ball;
+  const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, state.balls, 4, stride, first},
+                                      {ATTRIBUTE_VELOCITY, state.balls, 4, stride, first + 16},
                                       {ATTRIBUTE_TURN, &turns_, 4, 16, 0},
                                       {ATTRIBUTE_COLOUR, &colours_, 4, 16, 0}};
   return gl::VertexArray::create(attributes);

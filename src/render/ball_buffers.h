@@ -4,18 +4,14 @@
 #include <optional>
 
 #include "base/result.h"
+#include "device/device_state.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/vertex_array.h"
 #include "model/model.h"
-#include "model/state.h"
-#include "render/device_state.h"
 #include "render/programs.h"
 
 namespace aspic {
-
-/// Bytes from one ball to the next in a ball buffer (shaders/render/ball.glsl).
-inline constexpr std::uint32_t ball_stride = 64;
 
 /// Buffers of one model's balls. Their context must outlive them and be current. A state does not say how a
 /// ball is turned, only how fast it turns: from picture to picture each is turned by the angular velocity it
@@ -25,11 +21,8 @@ class BallBuffers {
   /// Error (scene_rejected): no device memory.
   static Result<BallBuffers> create(gl::Context& context, const Model& model);
 
-  /// Fills `balls` (made or made larger as needed) with a state, as a solver would hold it.
-  static Status upload(gl::Context& context, const Model& model, const State& state, gl::Buffer& balls);
-
   /// Turns the balls to where they are at state.step, and adds those in sight to the box of each light. Going
-  /// back in time starts anew, from no turn at all. The frame block must be bound.
+  /// back in time starts again, unturned. The frame block must be bound.
   void prepare(const RenderPrograms& programs, const DeviceState& state, const gl::Buffer& bounds);
 
   /// Draws what has been launched, lit; light maps must be in their places.

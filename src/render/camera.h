@@ -33,7 +33,7 @@ class Camera {
   /// From the eye to the target [m].
   float target_distance() const { return target_distance_; }
 
-  /// The pixel a point appears at; nothing for a point beside or behind the eye.
+  /// The pixel a point appears at; nothing for a point next to or behind the camera.
   std::optional<Projected> project(const Vec3& point) const;
   /// The sight line through a place of the picture [pixels from left and top].
   Ray ray_through(double x, double y) const;

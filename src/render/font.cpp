@@ -2,6 +2,8 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <new>
 #include <span>
 
 // Compiled here rather than linked from libstb, which leaves out a glyph for which there is no memory: here
@@ -95,7 +97,8 @@ Font::Font(int pixel_height) : pixel_height_(pixel_height) {
     atlas_.resize(static_cast<std::size_t>(atlas_width_) * static_cast<std::size_t>(y + shelf));
     if (glyph.width > 0 && glyph.height > 0) {
       assert(glyph.height <= shelf);
-      auto* out = reinterpret_cast<unsigned char*>(atlas_.data()) + y * atlas_width_ + glyph.atlas_x;
+      auto* out = reinterpret_cast<unsigned char*>(atlas_.data()) +
+                  static_cast<std::ptrdiff_t>(y) * atlas_width_ + glyph.atlas_x;
       stbtt_MakeGlyphBitmap(&info, out, glyph.width, glyph.height, atlas_width_, scale, scale, index);
     }
     glyphs_[character] = glyph;

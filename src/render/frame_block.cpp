@@ -5,10 +5,15 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "model/terrain.h"
 #include "render/colour_map.h"
 
 namespace aspic {
 namespace {
+
+glm::vec3 narrow(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
 
 /// Towards the sun: from behind on the left of the default camera, so that light shines through bodies; from
 /// the right where that would leave a slope in the dark.
@@ -16,8 +21,8 @@ glm::vec3 sun_over(const std::vector<Terrain>& terrain) {
   const auto least_slant = [&](const glm::vec3& sun) {
     float least = 1.0f;
     for (const Terrain& t : terrain)
-      if (t.shape == TerrainShape::plane || t.shape == TerrainShape::tilted_plane)
-        least = std::min(least, glm::dot(sun, glm::vec3(t.normal.x, t.normal.y, t.normal.z)));
+      if (const auto flat = terrain_row(t.shape).flat)
+        least = std::min(least, glm::dot(sun, narrow(flat(t.geometry).normal)));
     return least;
   };
   const glm::vec3 left = glm::normalize(glm::vec3(-0.60f, 0.78f, -0.12f));
@@ -52,8 +57,9 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
   // The sky's light falls on a slope squarely, as far as shadow goes: contact darkens there, not downhill.
   glm::vec3 above(0, 1, 0);
   for (const Terrain& t : model.terrain) {
-    if (t.shape != TerrainShape::plane && t.shape != TerrainShape::tilted_plane) continue;
-    above = glm::vec3(t.normal.x, t.normal.y, t.normal.z);
+    const auto flat = terrain_row(t.shape).flat;
+    if (!flat) continue;
+    above = narrow(flat(t.geometry).normal);
     break;
   }
   block.lights[LIGHT_SKY] = light_rotation(above);
@@ -62,16 +68,16 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
   block.viewport = glm::vec4(w, h, 1.0f / w, 1.0f / h);
   const Colour tint = content.view.colour == ViewColour::material ? body_colour(0) : neutral_body_colour();
-  const bool solid = content.view.draw.solid && content.has_skin;
+  const bool solid = content.view.draw.solid && content.has_flesh;
   for (std::size_t i = 0; i < 3; ++i)
     block.shadow_tint[static_cast<int>(i)] = solid ? 0.10f + 0.22f * tint[i] : 0.15f;
   const double width_of_range = content.range[1] - content.range[0];
   block.quantity_range = glm::vec4(content.range[0], width_of_range > 0.0 ? 1.0 / width_of_range : 0.0, 0, 0);
   for (const Terrain& t : model.terrain) {
-    if (!content.shadows || t.shape != TerrainShape::sphere ||
-        block.shadow_sphere_count == MAX_SHADOW_SPHERES)
+    if (!content.shadows || !terrain_row(t.shape).ball || block.shadow_sphere_count == MAX_SHADOW_SPHERES)
       continue;
-    block.shadow_spheres[block.shadow_sphere_count++] = glm::vec4(t.point.x, t.point.y, t.point.z, t.radius);
+    block.shadow_spheres[block.shadow_sphere_count++] =
+        glm::vec4(narrow(t.geometry.vectors[0]), t.geometry.numbers[0]);
   }
   switch (content.view.colour) {
     case ViewColour::material:

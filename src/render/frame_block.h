@@ -8,11 +8,11 @@
 
 namespace aspic {
 
-/// What the block tells beside model and camera.
+/// What the block holds besides model and camera.
 struct FrameContent {
   ViewSettings view;
   QuantityRange range = {};  ///< ends of the colour scale
-  bool has_skin = false;     ///< the model has bodies with a surface
+  bool has_flesh = false;    ///< the model has translucent bodies
   bool shadows = true;
 };
 

@@ -38,8 +38,8 @@ class HighlightPainter {
   static Result<std::unique_ptr<HighlightPainter>> create(gl::Context& context,
                                                           const gl::ShaderLibrary& library);
 
-  /// Draws into a picture under way, whose frame block is bound and whose depth stands: marks are faint where
-  /// something hides them. Leaves blending off. Error (scene_rejected): no device memory.
+  /// Draws into an unfinished picture whose frame block is bound and whose depth is complete: marks are faint
+  /// where something hides them. Leaves blending off. Error (scene_rejected): no device memory.
   Status draw_within(const ModelBuffers& model, const gl::Buffer& particles, const DrawSettings& draw,
                      const HighlightOptions& options);
   /// Draws over a finished picture in a framebuffer that takes encoded values, all in sight; `frame` is the

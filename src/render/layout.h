@@ -5,6 +5,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
+#include "device/layout.h"
+
 namespace aspic::render_layout {
 
 using uint = std::uint32_t;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 
+#include "device/particles.h"
 #include "gpu/loop_bound.h"
 #include "gpu/pass.h"
 
@@ -15,31 +15,9 @@ using gl::Reader;
 /// Invocations that find the particles' bounds; more particles are shared out among them.
 constexpr std::uint32_t most_bounding_invocations = 4096;
 
-/// Incident springs of every particle: where each list begins, and (neighbour, class) pairs.
-struct Incident {
-  std::vector<std::uint32_t> start, ends;
-};
-
-Incident incident_springs(const Model& model) {
-  Incident result;
-  result.start.assign(std::size_t{model.particle_count()} + 1, 0);
-  for (const Spring& s : model.springs) {
-    ++result.start[s.a + 1];
-    ++result.start[s.b + 1];
-  }
-  for (std::size_t i = 1; i < result.start.size(); ++i) result.start[i] += result.start[i - 1];
-  std::vector<std::uint32_t> next(result.start.begin(), result.start.end() - 1);
-  result.ends.resize(4 * model.springs.size());
-  const auto put = [&](std::uint32_t at, std::uint32_t other, std::uint32_t spring_class) {
-    const std::size_t slot = 2 * std::size_t{next[at]++};
-    result.ends[slot] = other;
-    result.ends[slot + 1] = spring_class;
-  };
-  for (const Spring& s : model.springs) {
-    put(s.a, s.b, s.spring_class);
-    put(s.b, s.a, s.spring_class);
-  }
-  return result;
+/// Whether a state brings the words that name neighbours.
+bool has_neighbours(const DeviceState& state) {
+  return state.springs && state.springs->kind == IncidentWords::neighbours;
 }
 
 /// The longest of the lists that begin at `start`.
@@ -60,7 +38,7 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
   }
   for (const Body& body : model.bodies)
     for (std::uint32_t c = 0; c < body.class_count; ++c)
-      runs[body.first_class + c].net = body.surface == BodySurface::springs;
+      runs[body.first_class + c].cords = body.style == SurfaceStyle::cords;
   std::vector<std::uint32_t> next;
   for (const SpringRun& run : runs) next.push_back(run.first_index);
   std::vector<std::uint32_t> pairs(first);
@@ -76,6 +54,7 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
 Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& model) {
   ModelBuffers b;
   b.particle_count_ = model.particle_count();
+  b.class_bits_ = class_bits(model);
   gl::BufferFiller fill(context);
   const Surface surface = make_surface(model);
   for (const Status& ok :
@@ -106,54 +85,34 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   auto balls = BallBuffers::create(context, model);
   if (!balls) return balls.error();
   b.balls_ = std::move(*balls);
-  auto posts = GoalPosts::create(context, model);
-  if (!posts) return posts.error();
-  b.posts_ = std::move(*posts);
+  auto rods = Rods::create(context, model);
+  if (!rods) return rods.error();
+  b.rods_ = std::move(*rods);
   return b;
 }
 
-Status ModelBuffers::prepare_springs(gl::Context& context, const Model& model) {
-  if (springs_ready_) return {};
+Status ModelBuffers::prepare_lines(gl::Context& context, const Model& model) {
+  if (lines_ready_) return {};
   gl::BufferFiller fill(context);
   std::vector<SpringRun> runs;
   fill(spring_indices_, "spring indices", spring_pairs(model, runs));
-  const Incident incident = incident_springs(model);
-  if (const Status ok = gl::check_loop("quantity", "the springs of one particle", longest(incident.start));
-      !ok) {
-    return ok;
-  }
-  fill(spring_start_, "incident spring starts", incident.start);
-  fill(spring_ends_, "incident springs", incident.ends);
-  std::vector<std::array<float, 4>> classes;
-  for (const SpringClass& c : model.spring_classes) {
-    classes.push_back({static_cast<float>(c.stiffness), static_cast<float>(c.damping),
-                       static_cast<float>(c.rest_length), c.cord ? 1.0f : 0.0f});
-  }
-  fill(spring_classes_, "spring classes", classes);
-  if (!fill.status()) return fill.status();
+  ASPIC_CHECK(fill.status());
   springs_ = std::move(runs);
-  springs_ready_ = true;
+  lines_ready_ = true;
   return {};
 }
 
-Status ModelBuffers::upload(gl::Context& context, const Model& model, const State& state,
-                            gl::Buffer& particles) {
-  assert(state.position.size() == model.particle_count() && state.velocity.size() == model.particle_count());
-  std::vector<std::array<float, 8>> items(state.position.size());
-  const auto narrow = [](double v) { return static_cast<float>(v); };
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const Vec3& x = state.position[i];
-    const Vec3& v = state.velocity[i];
-    items[i] = {narrow(x.x), narrow(x.y), narrow(x.z), narrow(model.inverse_mass[i]),
-                narrow(v.x), narrow(v.y), narrow(v.z), narrow(model.mass[i])};
+Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, const DeviceState& state) {
+  if (spring_classes_.id() == 0) {
+    ASPIC_CHECK(gl::check_loop("quantity", "the springs of one particle", highest_degree(model)));
+    std::vector<layout::SpringClass> classes;
+    for (const SpringClass& c : model.spring_classes) classes.push_back(rounded(c));
+    gl::BufferFiller fill(context);
+    fill(spring_classes_, "spring classes", classes);
+    ASPIC_CHECK(fill.status());
   }
-  const std::uint64_t bytes = std::uint64_t{particle_stride} * items.size();
-  if (particles.id() == 0 || particles.bytes() < bytes) {
-    auto made = gl::Buffer::create(context, "particles to draw", bytes);
-    if (!made) return made.error();
-    particles = std::move(*made);
-  }
-  particles.upload_items(std::span<const std::array<float, 8>>(items));
+  if (has_neighbours(state) || own_springs_) return {};
+  ASPIC_TRY(own_springs_, make_spring_buffers(context, model, IncidentWords::neighbours));
   return {};
 }
 
@@ -169,14 +128,15 @@ void ModelBuffers::compute_normals(const RenderPrograms& programs, const gl::Buf
       .dispatch_for(skin_vertices_);
 }
 
-void ModelBuffers::compute_quantity(const RenderPrograms& programs, const gl::Buffer& particles) {
-  gl::Pass(programs.quantity,
-           {{BINDING_PARTICLES, &particles},
-            {BINDING_SPRING_START, &spring_start_},
-            {BINDING_SPRING_ENDS, &spring_ends_},
-            {BINDING_SPRING_CLASSES, &spring_classes_},
-            {BINDING_QUANTITY, &quantity_}},
-           Reader::vertex_draw | Reader::read_back)
+void ModelBuffers::compute_quantity(const RenderPrograms& programs, const DeviceState& state) {
+  programs.quantity.set(LOCATION_CLASS_BITS, class_bits_);
+  std::vector<gl::Binding> bindings = {{BINDING_PARTICLES, state.particles}, {BINDING_QUANTITY, &quantity_}};
+  if (const SpringBuffers* springs = has_neighbours(state) ? state.springs : own_springs_.get()) {
+    bindings.push_back({BINDING_INCIDENT_START, &springs->incident_start});
+    bindings.push_back({BINDING_INCIDENT, &springs->incident});
+    bindings.push_back({BINDING_SPRING_CLASSES, &spring_classes_});
+  }
+  gl::Pass(programs.quantity, std::move(bindings), Reader::vertex_draw | Reader::read_back)
       .dispatch_for(particle_count_);
 }
 
@@ -194,8 +154,9 @@ void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const Dev
 }
 
 gl::VertexArray ModelBuffers::array(const gl::Buffer& particles, const gl::Buffer* indices) const {
-  const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &particles, 4, particle_stride, 0},
-                                      {ATTRIBUTE_VELOCITY, &particles, 4, particle_stride, 16},
+  constexpr std::uint32_t stride = sizeof(layout::Particle);
+  const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &particles, 4, stride, 0},
+                                      {ATTRIBUTE_VELOCITY, &particles, 4, stride, 16},
                                       {ATTRIBUTE_NORMAL, &normals_, 4, 16, 0},
                                       {ATTRIBUTE_QUANTITY, &quantity_, 1, 4, 0}};
   return gl::VertexArray::create(attributes, indices);

@@ -5,27 +5,22 @@
 #include <vector>
 
 #include "base/result.h"
+#include "device/device_state.h"
 #include "gpu/buffer.h"
 #include "gpu/vertex_array.h"
 #include "model/model.h"
-#include "model/state.h"
 #include "render/ball_buffers.h"
-#include "render/device_state.h"
-#include "render/goal_posts.h"
 #include "render/layout.h"
 #include "render/programs.h"
+#include "render/rods.h"
 #include "render/surface.h"
 
 namespace aspic {
 
-/// Bytes from one particle to the next in a particle buffer: position and velocity, four floats each
-/// (shaders/compute/layout.glsl).
-inline constexpr std::uint32_t particle_stride = 32;
-
 /// Springs of one class, as a run of index pairs.
 struct SpringRun {
   SpringClass constants;
-  bool net = false;  ///< of a goal net
+  bool cords = false;  ///< of a body whose surface is its cords
   std::uint32_t first_index = 0, index_count = 0;
 };
 
@@ -35,17 +30,18 @@ class ModelBuffers {
   /// Error (scene_rejected): no device memory, or larger than the device's buffers.
   static Result<ModelBuffers> create(gl::Context& context, const Model& model);
 
-  /// Fills `particles` (made or made larger as needed) with a state, as a solver would hold it.
-  static Status upload(gl::Context& context, const Model& model, const State& state, gl::Buffer& particles);
-
-  /// What drawing springs and colouring by a quantity need; many pictures do without. Does nothing the second
-  /// time. `model` as in create(). Error (scene_rejected): no device memory.
-  Status prepare_springs(gl::Context& context, const Model& model);
+  /// What drawing springs needs; many pictures do without. Does nothing the second time. `model` as in
+  /// create(). Error (scene_rejected): no device memory.
+  Status prepare_lines(gl::Context& context, const Model& model);
+  /// What colours by strain or force need: a particle's springs, those of `state` where it has them. Errors:
+  /// as make_spring_buffers; no_device (more springs at one particle than a kernel may loop over).
+  Status prepare_incident(gl::Context& context, const Model& model, const DeviceState& state);
 
   /// Normals of the skin at these particles' positions, readable as vertices afterwards.
   void compute_normals(const RenderPrograms& programs, const gl::Buffer& particles);
-  /// The coloured quantity of each particle; the frame block must be bound.
-  void compute_quantity(const RenderPrograms& programs, const gl::Buffer& particles);
+  /// The coloured quantity of each particle; the frame block must be bound. Strain and force want
+  /// prepare_incident() with the same state before.
+  void compute_quantity(const RenderPrograms& programs, const DeviceState& state);
   /// The map of each light, fitted to particles and balls, and the turn of each ball; the frame block must be
   /// bound.
   void compute_light_boxes(const RenderPrograms& programs, const DeviceState& state);
@@ -68,8 +64,8 @@ class ModelBuffers {
   void use_coarse_skin(bool coarse) { coarse_ = coarse; }
   bool has_skin() const { return skin_vertices_ > 0; }
   const BallBuffers& balls() const { return *balls_; }
-  const GoalPosts& posts() const { return *posts_; }
-  /// Empty before prepare_springs().
+  const Rods& rods() const { return *rods_; }
+  /// Empty before prepare_lines().
   const std::vector<SpringRun>& springs() const { return springs_; }
   /// Typical distance between neighbours [m]; 1 without springs.
   double spacing() const { return spacing_; }
@@ -81,15 +77,16 @@ class ModelBuffers {
   ModelBuffers() = default;
   gl::VertexArray array(const gl::Buffer& particles, const gl::Buffer* indices) const;
 
-  std::uint32_t particle_count_ = 0, skin_vertices_ = 0;
+  std::uint32_t particle_count_ = 0, skin_vertices_ = 0, class_bits_ = 0;
   double spacing_ = 1.0;
   std::vector<Surface::Part> parts_, coarse_parts_;
-  bool coarse_ = false, springs_ready_ = false;
+  bool coarse_ = false, lines_ready_ = false;
   std::optional<BallBuffers> balls_;
-  std::optional<GoalPosts> posts_;
+  std::optional<Rods> rods_;
   std::vector<SpringRun> springs_;
   gl::Buffer skin_indices_, fan_vertex_, fan_start_, fan_;
-  gl::Buffer spring_indices_, spring_start_, spring_ends_, spring_classes_;
+  gl::Buffer spring_indices_, spring_classes_;
+  std::shared_ptr<const SpringBuffers> own_springs_;  // for states that bring none
   gl::Buffer normals_, quantity_, bounds_, light_boxes_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The facts that stand on a picture.
+// The text on a picture.
 #include <vector>
 
 #include "model/settings.h"

@@ -9,6 +9,7 @@
 
 #include "render/frame_block.h"
 #include "render/light_maps.h"
+#include "render/terrain_painter.h"
 
 namespace aspic {
 namespace {
@@ -17,10 +18,6 @@ namespace {
 struct Word {
   std::uint32_t identity = 0, distance = 0;
 };
-
-std::array<float, 4> four(const Vec3& v, double w) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
 
 bool shows_particles(const DrawSettings& draw) {
   return draw.solid || draw.particles || draw.structural || draw.shear || draw.bending;
@@ -91,12 +88,8 @@ void Picker::draw_terrain(const Model& model) const {
   nothing_.bind();
   glUseProgram(terrain_.id());
   for (std::size_t i = 0; i < model.terrain.size(); ++i) {
-    const Terrain& t = model.terrain[i];
-    const int shape = t.shape == TerrainShape::bowl ? 2 : t.shape == TerrainShape::sphere ? 1 : 0;
     terrain_.set(LOCATION_FIRST, static_cast<std::uint32_t>(i));
-    terrain_.set(LOCATION_SIDE, shape);
-    terrain_.set(LOCATION_PLANE_NORMAL, four(t.normal, 0.0));
-    terrain_.set(LOCATION_SPHERE, four(t.point, t.radius));
+    set_terrain(terrain_, model.terrain[i]);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 }

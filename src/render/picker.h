@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "base/result.h"
+#include "device/device_state.h"
 #include "gpu/context.h"
 #include "gpu/program.h"
-#include "render/device_state.h"
 #include "render/layout.h"
 #include "render/model_buffers.h"
 #include "render/targets.h"

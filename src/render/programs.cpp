@@ -21,6 +21,8 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   };
   const gl::Define plane[] = {{"PLANE", "1"}, {"UNSHADOWED_PLANE", "1"}};
   const gl::Define shadowed_plane[] = {{"PLANE", "1"}, {"SHADOWED_PLANE", "1"}};
+  const gl::Define cut_plane[] = {{"PLANE", "1"}, {"UNSHADOWED_PLANE", "1"}, {"CUT_PLANE", "1"}};
+  const gl::Define shadowed_cut_plane[] = {{"PLANE", "1"}, {"SHADOWED_PLANE", "1"}, {"CUT_PLANE", "1"}};
 
   kernel(p.bounds, "render/bounds.comp");
   kernel(p.balls_turn, "render/balls.comp");
@@ -39,10 +41,13 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   drawing(p.particles, {"render/particles.vert", "render/particles.frag", "render/particles.geom"});
   drawing(p.springs, {"render/springs.vert", "render/springs.frag", "render/springs.geom"});
   drawing(p.balls, {"render/balls.vert", "render/balls.frag", "render/balls.geom"});
-  drawing(p.posts, {"render/posts.vert", "render/posts.frag"});
+  drawing(p.rods, {"render/rods.vert", "render/rods.frag"});
+  drawing(p.sheet, {"render/jelly.vert", "render/sheet.frag"});
   drawing(p.plane, {"render/terrain.vert", "render/terrain.frag"}, plane);
   drawing(p.shadowed_plane, {"render/terrain.vert", "render/terrain.frag"}, shadowed_plane);
-  drawing(p.sphere, {"render/terrain.vert", "render/terrain.frag"});
+  drawing(p.cut_plane, {"render/terrain.vert", "render/terrain.frag"}, cut_plane);
+  drawing(p.shadowed_cut_plane, {"render/terrain.vert", "render/terrain.frag"}, shadowed_cut_plane);
+  drawing(p.solid, {"render/terrain.vert", "render/terrain.frag"});
   drawing(p.glass, {"render/terrain.vert", "render/glass.frag"});
   drawing(p.sky, {"render/screen.vert", "render/sky.frag"});
   drawing(p.present, {"render/screen.vert", "render/present.frag"});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "device/particles.h"
 #include "gpu/pass.h"
 #include "render/frame_block.h"
 #include "render/light_maps.h"
@@ -19,7 +20,7 @@ namespace {
 /// The walls of a translucent body that face away from the eye, or towards it.
 enum class JellySide { far, near };
 
-/// Cords of goal nets.
+/// Cords of nets.
 constexpr Colour net_colour = {0.98f, 0.98f, 0.98f};
 
 /// How deep light reaches into a body [m], as a share of its size.
@@ -27,6 +28,22 @@ constexpr double reach_share = 0.30;
 
 std::array<float, 4> with(const Colour& c, double w) {
   return {c[0], c[1], c[2], static_cast<float>(w)};
+}
+
+/// Whether a colour shows what a particle's springs do.
+bool shows_springs(ViewColour colour) {
+  return colour == ViewColour::strain || colour == ViewColour::force;
+}
+
+/// Uploads into a buffer that is made, or made larger, as needed.
+template <class T>
+Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const std::vector<T>& items) {
+  const std::uint64_t bytes = sizeof(T) * items.size();
+  if (buffer.id() == 0 || buffer.bytes() < bytes) {
+    ASPIC_TRY(buffer, gl::Buffer::create(context, name, bytes));
+  }
+  buffer.upload_items(std::span<const T>(items));
+  return {};
 }
 
 void draw_elements(GLenum mode, std::uint32_t first, std::uint32_t count) {
@@ -70,11 +87,17 @@ struct Renderer::Parts {
   Status prepare_highlight();
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
-  bool needs_springs(const ViewSettings& view) const;
+  bool needs_lines(const ViewSettings& view) const;
   void draw_thickness(const gl::Buffer& particles) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
   void draw_springs(const gl::Buffer& particles, const DrawSettings& draw, ViewColour mode) const;
+  void draw_sheets(const gl::Buffer& particles, const ViewSettings& view) const;
   void draw_jelly(const gl::Buffer& particles, const ViewSettings& view, JellySide side) const;
+  void draw_parts(const gl::Program& program, const gl::Buffer& particles, const ViewSettings& view,
+                  SurfaceStyle style) const;
+  bool has(SurfaceStyle style) const {
+    return std::ranges::any_of(model->bodies, [=](const Body& b) { return b.style == style; });
+  }
 };
 
 Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -109,6 +132,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
 Status Renderer::set_model(const Model& model) {
   auto buffers = ModelBuffers::create(*parts_->context, model);
   if (!buffers) return buffers.error();
+  ASPIC_CHECK(parts_->terrain.set_terrain(*parts_->context, model.terrain));
   parts_->buffers.reset();
   parts_->buffers.emplace(std::move(*buffers));
   parts_->model = &model;
@@ -120,10 +144,9 @@ Status Renderer::set_model(const Model& model) {
 Result<DeviceState> Renderer::upload(const State& state) {
   Parts& p = *parts_;
   assert(p.model);
-  Status status = ModelBuffers::upload(*p.context, *p.model, state, p.uploaded);
-  if (status) status = BallBuffers::upload(*p.context, *p.model, state, p.uploaded_balls);
-  if (!status) return status.error();
-  return DeviceState{&p.uploaded, &p.uploaded_balls, 0, state.step};
+  ASPIC_CHECK(refill(*p.context, p.uploaded, "particles to draw", packed_particles(*p.model, state)));
+  ASPIC_CHECK(refill(*p.context, p.uploaded_balls, "balls to draw", packed_balls(*p.model, state)));
+  return DeviceState{&p.uploaded, &p.uploaded_balls, 0, state.step, nullptr};
 }
 
 Status Renderer::Parts::prepare_targets(int width, int height) {
@@ -149,18 +172,15 @@ void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
 }
 
-bool Renderer::Parts::needs_springs(const ViewSettings& view) const {
-  const bool net =
-      std::ranges::any_of(model->bodies, [](const Body& b) { return b.surface == BodySurface::springs; });
-  return net || view.draw.structural || view.draw.shear || view.draw.bending ||
-         view.colour >= ViewColour::strain;
+bool Renderer::Parts::needs_lines(const ViewSettings& view) const {
+  return has(SurfaceStyle::cords) || view.draw.structural || view.draw.shear || view.draw.bending;
 }
 
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
   const gl::Buffer& particles = *state.particles;
   buffers->compute_light_boxes(programs, state);
   if (options.view.draw.solid && buffers->has_skin()) buffers->compute_normals(programs, particles);
-  if (options.view.colour >= ViewColour::strain) buffers->compute_quantity(programs, particles);
+  if (options.view.colour >= ViewColour::strain) buffers->compute_quantity(programs, state);
   if (options.shadows)
     lights.render(programs, *buffers, state, options.view.draw);
   else
@@ -178,8 +198,11 @@ void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
   glUseProgram(programs.thickness.id());
   const gl::VertexArray skin = buffers->skin_array(particles);
   skin.bind();
-  for (const Surface::Part& part : buffers->parts())
+  for (std::size_t i = 0; i < buffers->parts().size(); ++i) {
+    if (model->bodies[i].style != SurfaceStyle::flesh) continue;
+    const Surface::Part& part = buffers->parts()[i];
     draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
+  }
   glDisable(GL_BLEND);
   targets->thickness.colour.bind(UNIT_THICKNESS);
 }
@@ -227,43 +250,60 @@ void Renderer::Parts::draw_jelly(const gl::Buffer& particles, const ViewSettings
   }
   targets->behind.colour.bind(UNIT_BEHIND);
   colour_map.bind(UNIT_COLOUR_MAP);
-  glUseProgram(program.id());
-  const gl::VertexArray skin = buffers->skin_array(particles);
-  skin.bind();
-  for (std::size_t i = 0; i < buffers->parts().size(); ++i) {
-    const Surface::Part& part = buffers->parts()[i];
-    if (part.index_count == 0) continue;
-    const Body& body = model->bodies[i];
-    const double size = body.spacing * (*std::ranges::max_element(body.lattice) - 1);
-    const Colour colour = view.colour == ViewColour::material ? body_colour(i) : neutral_body_colour();
-    program.set(LOCATION_BASE_COLOUR, with(colour, reach_share * size));
-    draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
-  }
+  draw_parts(program, particles, view, SurfaceStyle::flesh);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glCullFace(GL_BACK);
   glDisable(GL_CULL_FACE);
 }
 
+void Renderer::Parts::draw_sheets(const gl::Buffer& particles, const ViewSettings& view) const {
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  // Springs and particles lie in the surface: it gives way to them.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.0f, 1.0f);
+  colour_map.bind(UNIT_COLOUR_MAP);
+  draw_parts(programs.sheet, particles, view, SurfaceStyle::sheet);
+  glPolygonOffset(0.0f, 0.0f);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_BLEND);
+}
+
+void Renderer::Parts::draw_parts(const gl::Program& program, const gl::Buffer& particles,
+                                 const ViewSettings& view, SurfaceStyle style) const {
+  glUseProgram(program.id());
+  const gl::VertexArray skin = buffers->skin_array(particles);
+  skin.bind();
+  for (std::size_t i = 0; i < buffers->parts().size(); ++i) {
+    const Surface::Part& part = buffers->parts()[i];
+    const Body& body = model->bodies[i];
+    if (part.index_count == 0 || body.style != style) continue;
+    const Colour colour = view.colour == ViewColour::material ? body_colour(i) : neutral_body_colour();
+    program.set(LOCATION_BASE_COLOUR, with(colour, reach_share * body.size));
+    draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
+  }
+}
+
 Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
   Parts& p = *parts_;
   assert(p.model && state.particles);
   const gl::Buffer& particles = *state.particles;
-  assert(particles.bytes() >= std::uint64_t{particle_stride} * p.model->particle_count());
+  assert(particles.bytes() >= sizeof(layout::Particle) * p.model->particle_count());
   Status ready = p.prepare_targets(width, height);
   if (ready && options.highlight) ready = p.prepare_highlight();
   const ViewSettings& view = options.view;
-  if (ready && p.needs_springs(view)) ready = p.buffers->prepare_springs(*p.context, *p.model);
+  if (ready && p.needs_lines(view)) ready = p.buffers->prepare_lines(*p.context, *p.model);
+  if (ready && shows_springs(view.colour)) ready = p.buffers->prepare_incident(*p.context, *p.model, state);
   if (!ready) return ready;
   p.buffers->use_coarse_skin(options.coarse_skin);
   const Camera camera(view.camera, width, height);
   const QuantityRange range = options.range.value_or(default_range(*p.model, view.colour));
-  const bool solid = view.draw.solid && p.buffers->has_skin();
+  const bool flesh = p.has(SurfaceStyle::flesh), solid = view.draw.solid && flesh;
 
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::Reader::compute_pass | gl::Reader::vertex_draw);
-  p.drawn_frame =
-      frame_block(*p.model, camera, width, height, {view, range, p.buffers->has_skin(), options.shadows});
+  p.drawn_frame = frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows});
   p.drawn_state = state;
   p.drawn_settings = view.draw;
   p.bind_frame(p.drawn_frame);
@@ -277,14 +317,15 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
   p.terrain.draw_solid(p.programs, p.model->terrain, view.camera, camera, options.shadows);
-  if (view.draw.solid) p.buffers->posts().draw(p.programs);
+  if (view.draw.solid) p.buffers->rods().draw(p.programs);
   if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
   p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
-  // Last of what is opaque: only where nothing else stands.
+  // The last opaque part: only where there is nothing else.
   p.nothing.bind();
   glUseProgram(p.programs.sky.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  if (view.draw.solid && p.has(SurfaceStyle::sheet)) p.draw_sheets(particles, view);
   p.terrain.draw_far_glass(p.programs, p.model->terrain);
   if (solid) {
     p.draw_jelly(particles, view, JellySide::far);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "device/device_state.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/framebuffer.h"
@@ -12,7 +13,6 @@
 #include "model/model.h"
 #include "model/state.h"
 #include "render/camera.h"
-#include "render/device_state.h"
 #include "render/highlight.h"
 #include "render/overlay.h"
 #include "render/picker.h"
@@ -26,7 +26,7 @@ struct RendererOptions {
   gl::ShaderLibrary shaders{};  ///< where shaders come from
 };
 
-/// What a picture shows beside the particles.
+/// What a picture shows besides the particles.
 struct PictureOptions {
   ViewSettings view;
   std::optional<QuantityRange> range;  ///< of strain, force [N] or speed [m/s]; absent: default_range()
@@ -76,7 +76,7 @@ class Renderer {
   /// they are.
   void present(std::uint32_t framebuffer, int width, int height, int left = 0, int bottom = 0) const;
 
-  /// Marks particles on top of the picture last drawn where it was presented, without drawing it anew; its
+  /// Marks particles on top of the picture last drawn where it was presented, without redrawing it; its
   /// state must still lie where it was. Error: scene_rejected, no_device or io.
   Status present_highlight(const HighlightOptions& options, std::uint32_t framebuffer, int width, int height,
                            int left = 0, int bottom = 0);

@@ -20,7 +20,7 @@ struct DrawableImage {
 struct PictureTargets {
   DrawableImage samples;    ///< several samples per pixel, with depth
   DrawableImage picture;    ///< one sample, the finished picture
-  DrawableImage behind;     ///< half size: what stands behind translucent bodies
+  DrawableImage behind;     ///< half size: what is behind translucent bodies
   DrawableImage thickness;  ///< half size: what a sight line crosses of bodies [m]
 
   /// Errors (scene_rejected, no_device): those of Texture and Framebuffer.

@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "model/terrain.h"
 #include "render/colour_map.h"
 
 namespace aspic {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+std::array<float, 4> four(const Vec3& v, float w) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
+}
+
 constexpr int tiles = 4;
 
 /// A number 0…1 for a lattice point, by integer mixing (finaliser of MurmurHash3, Appleby 2011).
@@ -36,30 +41,44 @@ double noise(double u, double v, std::uint32_t period, std::uint32_t salt) {
 }  // namespace
 
 Mesh square_mesh() {
-  return {{{-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0, 1}, {-1, 1, 0, 1}}, {0, 1, 2, 0, 2, 3}};
+  return {{{-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0, 1}, {-1, 1, 0, 1}}, {}, {0, 1, 2, 0, 2, 3}};
 }
 
 Mesh sphere_mesh(int rings, int sectors) {
-  Mesh mesh;
+  Terrain unit_sphere;
+  unit_sphere.shape = TerrainShape::sphere;
+  unit_sphere.geometry.numbers[0] = 1.0;
+  return terrain_mesh(unit_sphere, rings, sectors);
+}
+
+Mesh terrain_mesh(const Terrain& terrain, int rings, int sectors) {
+  const TerrainShapeRow& row = terrain_row(terrain.shape);
+  std::vector<Vec3> points, normals;
   for (int ring = 0; ring <= rings; ++ring) {
-    const double polar = pi * ring / rings;
     for (int sector = 0; sector <= sectors; ++sector) {
-      const double around = 2.0 * pi * sector / sectors;
-      mesh.vertices.push_back({static_cast<float>(std::sin(polar) * std::cos(around)),
-                               static_cast<float>(std::cos(polar)),
-                               static_cast<float>(std::sin(polar) * std::sin(around)), 1.0f});
+      points.push_back(row.surface(terrain.geometry, static_cast<double>(sector) / sectors,
+                                   static_cast<double>(ring) / rings));
+      const Vec3 n = terrain_gap(terrain, points.back()).n;
+      normals.push_back(row.glass ? -n : n);
     }
   }
-  const auto index = [&](int ring, int sector) {
-    return static_cast<std::uint32_t>(ring * (sectors + 1) + sector);
+  Mesh mesh;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    mesh.vertices.push_back(four(points[i], 1.0f));
+    mesh.normals.push_back(four(normals[i], 0.0f));
+  }
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    const Vec3 area = cross(points[b] - points[a], points[c] - points[a]);
+    const double size = length(points[b] - points[a]) + length(points[c] - points[a]);
+    if (length(area) < 1e-9 * size * size) return;  // at a pole
+    if (dot(area, normals[a] + normals[b] + normals[c]) < 0.0) std::swap(b, c);
+    for (const std::size_t i : {a, b, c}) mesh.indices.push_back(static_cast<std::uint32_t>(i));
   };
-  for (int ring = 0; ring < rings; ++ring) {
-    for (int sector = 0; sector < sectors; ++sector) {
-      const std::uint32_t a = index(ring, sector), b = index(ring, sector + 1);
-      const std::uint32_t c = index(ring + 1, sector), d = index(ring + 1, sector + 1);
-      if (ring > 0) mesh.indices.insert(mesh.indices.end(), {a, b, c});
-      if (ring + 1 < rings) mesh.indices.insert(mesh.indices.end(), {b, d, c});
-    }
+  const auto strip = static_cast<std::size_t>(sectors) + 1;
+  for (std::size_t a = 0; a + strip < points.size(); ++a) {
+    if (a % strip == strip - 1) continue;
+    add(a, a + 1, a + strip);
+    add(a + 1, a + strip + 1, a + strip);
   }
   return mesh;
 }

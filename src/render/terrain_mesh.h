@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/model.h"
+
 namespace aspic {
 
 struct Mesh {
   std::vector<std::array<float, 4>> vertices;  ///< position; the last component is 1
+  std::vector<std::array<float, 4>> normals;   ///< unit, outwards; none for a square
   std::vector<std::uint32_t> indices;          ///< three per triangle, anticlockwise from outside
 };
 
@@ -17,6 +20,10 @@ Mesh square_mesh();
 
 /// The unit sphere by latitude (`rings` ≥ 2 strips) and longitude (`sectors` ≥ 3), poles at ±y.
 Mesh sphere_mesh(int rings, int sectors);
+
+/// The surface of a terrain whose shape has one (TerrainShapeRow::surface), by as many strips of v and of u.
+/// Outside is the free side; of glass the other.
+Mesh terrain_mesh(const Terrain& terrain, int rings, int sectors);
 
 /// A floor of square tiles, 4 × 4 of them, as size² texels RGBA with 8 bits each, sRGB encoded; the edges
 /// match when it is repeated. Each tile has its own shade of warm grey, a grain of five octaves of value

@@ -12,18 +12,21 @@ namespace aspic {
 namespace {
 
 constexpr int ground_size = 512;
-constexpr int sphere_rings = 64;
-constexpr int sphere_sectors = 128;
+constexpr int mesh_rings = 64;
+constexpr int mesh_sectors = 128;
 
 std::array<float, 4> four(const Vec3& v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
 
-bool is_plane(const Terrain& t) {
-  return t.shape == TerrainShape::plane || t.shape == TerrainShape::tilted_plane;
-}
-
 }  // namespace
+
+void set_terrain(const gl::Program& program, const Terrain& terrain) {
+  const Geometry<double>& g = terrain.geometry;
+  for (std::size_t k = 0; k < geometry_size; ++k)
+    program.set(LOCATION_TERRAIN + static_cast<int>(k), four(g.vectors[k], g.numbers[k]));
+  program.set(LOCATION_TERRAIN + static_cast<int>(geometry_size), static_cast<std::uint32_t>(terrain.shape));
+}
 
 Result<TerrainPainter> TerrainPainter::create(gl::Context& context) {
   TerrainPainter painter;
@@ -37,31 +40,51 @@ Result<TerrainPainter> TerrainPainter::create(gl::Context& context) {
 
   gl::BufferFiller fill(context);
   const Mesh square = square_mesh();
-  const Mesh sphere = sphere_mesh(sphere_rings, sphere_sectors);
   fill(painter.square_vertices_, "square", square.vertices);
   fill(painter.square_indices_, "square indices", square.indices);
-  fill(painter.sphere_vertices_, "sphere", sphere.vertices);
-  fill(painter.sphere_indices_, "sphere indices", sphere.indices);
   if (!fill.status()) return fill.status().error();
-  painter.sphere_index_count_ = static_cast<int>(sphere.indices.size());
   const gl::Attribute of_square[] = {{ATTRIBUTE_POSITION, &painter.square_vertices_}};
-  const gl::Attribute of_sphere[] = {{ATTRIBUTE_POSITION, &painter.sphere_vertices_}};
   painter.square_ = gl::VertexArray::create(of_square, &painter.square_indices_);
-  painter.sphere_ = gl::VertexArray::create(of_sphere, &painter.sphere_indices_);
   return painter;
+}
+
+Status TerrainPainter::set_terrain(gl::Context& context, const std::vector<Terrain>& terrain) {
+  std::vector<MeshBuffers> meshes;
+  gl::BufferFiller fill(context);
+  for (const Terrain& t : terrain) {
+    MeshBuffers& buffers = meshes.emplace_back();
+    if (!terrain_row(t.shape).surface) continue;
+    const Mesh mesh = terrain_mesh(t, mesh_rings, mesh_sectors);
+    fill(buffers.vertices, "terrain", mesh.vertices);
+    fill(buffers.normals, "terrain normals", mesh.normals);
+    fill(buffers.indices, "terrain indices", mesh.indices);
+    if (!fill.status()) return fill.status();
+    const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &buffers.vertices},
+                                        {ATTRIBUTE_NORMAL, &buffers.normals}};
+    buffers.array = gl::VertexArray::create(attributes, &buffers.indices);
+    buffers.index_count = static_cast<int>(mesh.indices.size());
+  }
+  meshes_ = std::move(meshes);
+  return {};
+}
+
+void TerrainPainter::draw_meshes(const gl::Program& program, const std::vector<Terrain>& terrain,
+                                 bool glass) const {
+  glUseProgram(program.id());
+  for (std::size_t i = 0; i < terrain.size(); ++i) {
+    const MeshBuffers& mesh = meshes_[i];
+    if (mesh.index_count == 0 || terrain_row(terrain[i].shape).glass != glass) continue;
+    if (!glass) aspic::set_terrain(program, terrain[i]);
+    mesh.array.bind();
+    glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
+  }
 }
 
 void TerrainPainter::draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                                 const CameraSettings& camera, const Camera& lens, bool shadows) const {
   ground_.bind(UNIT_GROUND);
   glEnable(GL_CULL_FACE);
-  glUseProgram(programs.sphere.id());
-  sphere_.bind();
-  for (const Terrain& t : terrain) {
-    if (t.shape != TerrainShape::sphere) continue;
-    programs.sphere.set(LOCATION_SPHERE, four(t.point, t.radius));
-    glDrawElements(GL_TRIANGLES, sphere_index_count_, GL_UNSIGNED_INT, nullptr);
-  }
+  draw_meshes(programs.solid, terrain, false);
   glDisable(GL_CULL_FACE);
   draw_planes(programs, terrain, camera, lens, shadows ? Planes::shadowed : Planes::solid);
 }
@@ -71,24 +94,32 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
   const bool from_behind = planes == Planes::from_behind;
   square_.bind();
   for (const Terrain& t : terrain) {
-    if (!is_plane(t) || (signed_distance(t, camera.position) < 0.0) != from_behind) continue;
+    const TerrainShapeRow& row = terrain_row(t.shape);
+    if (!row.flat) continue;
+    const FlatPart flat = row.flat(t.geometry);
+    const auto above = [&](const Vec3& x) { return dot(flat.normal, x - flat.point); };
+    if ((above(camera.position) < 0.0) != from_behind) continue;
+    const bool cut = row.surface != nullptr;
+    const gl::Program& plain = cut ? programs.cut_plane : programs.plane;
+    const gl::Program& shadowed = cut ? programs.shadowed_cut_plane : programs.shadowed_plane;
     if (from_behind) {
       glEnable(GL_BLEND);
       glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     }
     // The square lies around what the camera looks at and reaches as far as it sees.
-    const Vec3 middle = camera.target - signed_distance(t, camera.target) * t.normal;
+    const Vec3 middle = camera.target - above(camera.target) * flat.normal;
     const double reach = 14.0 * static_cast<double>(lens.target_distance());
-    for (const gl::Program* program : {&programs.plane, &programs.shadowed_plane}) {
+    for (const gl::Program* program : {&plain, &shadowed}) {
       program->set(LOCATION_PLANE_POINT, four(middle, reach));
-      program->set(LOCATION_PLANE_NORMAL, four(t.normal, 0.0));
+      program->set(LOCATION_PLANE_NORMAL, four(flat.normal, 0.0));
+      if (cut) aspic::set_terrain(*program, t);
     }
-    glUseProgram(programs.plane.id());
+    glUseProgram(plain.id());
     glDrawElements(GL_TRIANGLES, 6, GL_UNSIGNED_INT, nullptr);
     glDisable(GL_BLEND);
     if (planes != Planes::shadowed) continue;
     // Shadows cost several times the plain ground, and cover little of it.
-    glUseProgram(programs.shadowed_plane.id());
+    glUseProgram(shadowed.id());
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(-2.0f, -64.0f);
     glDrawElementsInstanced(GL_TRIANGLES, 6, GL_UNSIGNED_INT, nullptr, LIGHTS);
@@ -98,22 +129,16 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
   glBindVertexArray(0);
 }
 
-void TerrainPainter::draw_bowls(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
+void TerrainPainter::draw_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                                 bool far_side) const {
-  if (std::ranges::none_of(terrain, [](const Terrain& t) { return t.shape == TerrainShape::bowl; })) return;
+  if (std::ranges::none_of(terrain, [](const Terrain& t) { return terrain_row(t.shape).glass; })) return;
   glEnable(GL_CULL_FACE);
   glCullFace(far_side ? GL_FRONT : GL_BACK);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
-  glUseProgram(programs.glass.id());
   programs.glass.set(LOCATION_SIDE, far_side ? 1 : 0);
-  sphere_.bind();
-  for (const Terrain& t : terrain) {
-    if (t.shape != TerrainShape::bowl) continue;
-    programs.glass.set(LOCATION_SPHERE, four(t.point, t.radius));
-    glDrawElements(GL_TRIANGLES, sphere_index_count_, GL_UNSIGNED_INT, nullptr);
-  }
+  draw_meshes(programs.glass, terrain, true);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glCullFace(GL_BACK);
@@ -123,12 +148,12 @@ void TerrainPainter::draw_bowls(const RenderPrograms& programs, const std::vecto
 
 void TerrainPainter::draw_far_glass(const RenderPrograms& programs,
                                     const std::vector<Terrain>& terrain) const {
-  draw_bowls(programs, terrain, true);
+  draw_glass(programs, terrain, true);
 }
 
 void TerrainPainter::draw_before_bodies(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                                         const CameraSettings& camera, const Camera& lens) const {
-  draw_bowls(programs, terrain, false);
+  draw_glass(programs, terrain, false);
   draw_planes(programs, terrain, camera, lens, Planes::from_behind);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Ground, balls and bowls.
+// Ground, solid surfaces and glass.
 #include <vector>
 
 #include "gpu/buffer.h"
@@ -11,17 +11,25 @@
 
 namespace aspic {
 
+/// Sets the uniform of shaders/render/drawn_terrain.glsl.
+void set_terrain(const gl::Program& program, const Terrain& terrain);
+
 class TerrainPainter {
  public:
-  /// Makes meshes and the ground's texture. Error (scene_rejected): no device memory.
+  /// Makes the ground's texture. Error (scene_rejected): no device memory.
   static Result<TerrainPainter> create(gl::Context& context);
 
-  /// Solid balls, and planes as seen from their free side; with the shadows that light maps hold, or without.
+  /// Makes the meshes of these terrains, which are those drawn from now on. Error (scene_rejected): no device
+  /// memory.
+  Status set_terrain(gl::Context& context, const std::vector<Terrain>& terrain);
+
+  /// Solid surfaces, and planes as seen from their free side; with the shadows that light maps hold, or
+  /// without.
   void draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                   const CameraSettings& camera, const Camera& lens, bool shadows) const;
-  /// The far walls of bowls, before the bodies.
+  /// The far walls of glass, before the bodies.
   void draw_far_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain) const;
-  /// After the bodies: the near walls of bowls, and planes seen through from behind.
+  /// After the bodies: the near walls of glass, and planes seen through from behind.
   void draw_before_bodies(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                           const CameraSettings& camera, const Camera& lens) const;
 
@@ -30,11 +38,19 @@ class TerrainPainter {
   enum class Planes { solid, shadowed, from_behind };
   void draw_planes(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                    const CameraSettings& camera, const Camera& lens, Planes planes) const;
-  void draw_bowls(const RenderPrograms& programs, const std::vector<Terrain>& terrain, bool far_side) const;
+  void draw_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain, bool far_side) const;
+  /// The bounded surfaces of solid terrain, or of glass.
+  void draw_meshes(const gl::Program& program, const std::vector<Terrain>& terrain, bool glass) const;
+  /// The surface of one terrain; without one it has no indices.
+  struct MeshBuffers {
+    gl::Buffer vertices, normals, indices;
+    gl::VertexArray array;
+    int index_count = 0;
+  };
   gl::Texture ground_;
-  gl::Buffer square_vertices_, square_indices_, sphere_vertices_, sphere_indices_;
-  gl::VertexArray square_, sphere_;
-  int sphere_index_count_ = 0;
+  gl::Buffer square_vertices_, square_indices_;
+  gl::VertexArray square_;
+  std::vector<MeshBuffers> meshes_;  ///< one for each terrain
 };
 
 }  // namespace aspic

@@ -26,7 +26,7 @@ Result<Backend> make_gpu(const Model& model, const BackendChoice& choice, const 
   GpuOptions options;
   options.force_path = choice.force_path;
   options.shader_directory = std::move(directory);
-  options.like = host.like;
+  options.share_springs_of = host.share_springs_of;
   options.arithmetic = host.arithmetic;
   ASPIC_TRY(auto solver, make_gpu_solver(*context, model, options));
   backend.gpu = solver.get();
@@ -100,33 +100,21 @@ Result<Backend> make_reference(const Model& model, const BackendChoice& choice, 
 
 constexpr Precision single_alone[] = {Precision::single};
 constexpr Precision both_precisions[] = {Precision::single, Precision::double_};
-constexpr ForcePath gpu_paths[] = {ForcePath::gather, ForcePath::per_spring};
 
 constexpr BackendRow table[] = {
-    {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, gpu_paths, true, make_gpu,
+    {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, built_force_paths, true, make_gpu,
      [](const ModelCounts& counts, Integrator integrator, const BackendChoice& choice) {
        return gpu_bytes(counts, integrator, choice.force_path);
      },
      gpu_suitability},
-    {"cpu",
-     "CPU",
-     "threads and vector instructions",
-     single_alone,
-     {},
-     false,
-     make_cpu,
+    {"cpu", "CPU", "threads and vector instructions", single_alone, nullptr, false, make_cpu,
      [](const ModelCounts& counts, Integrator integrator, const BackendChoice&) {
        return cpu_bytes(counts, integrator);
      },
      [](const gl::Context*) {
        return Suitability{true, "", "", nullptr};
      }},
-    {"reference",
-     "reference",
-     "one thread, Eigen, written to be read",
-     both_precisions,
-     {},
-     false,
+    {"reference", "reference", "one thread, Eigen, written to be read", both_precisions, nullptr, false,
      make_reference,
      [](const ModelCounts& counts, Integrator, const BackendChoice& choice) {
        return reference_bytes(counts, choice.precision);
@@ -139,6 +127,10 @@ constexpr BackendRow table[] = {
 template <class T>
 bool has(std::span<const T> values, T value) {
   return std::ranges::find(values, value) != values.end();
+}
+
+bool has_path(const BackendRow& row, ForcePath path) {
+  return std::ranges::any_of(row.force_paths(), [&](const ForcePathRow& p) { return p.path == path; });
 }
 
 Error unknown_word(std::string_view what, std::string_view word, std::string_view allowed) {
@@ -196,7 +188,7 @@ Result<std::filesystem::path> shader_directory() {
   std::error_code ignored;
   if (!std::filesystem::is_directory(value, ignored)) {
     return fail(ErrorCode::io,
-                "ASPIC_SHADER_DIR names {}, which is no directory: name one laid out as shaders/ of the "
+                "ASPIC_SHADER_DIR is {}, which is not a directory: use one laid out like shaders/ in the "
                 "sources, or unset it.",
                 printable_line(value));
   }
@@ -235,10 +227,9 @@ Result<Precision> parse_precision(std::string_view word) {
 
 Result<ForcePath> parse_force_path(std::string_view word) {
   if (word == "auto") return ForcePath::automatic;
-  for (const ForcePath path : {ForcePath::per_spring, ForcePath::gather, ForcePath::lattice}) {
-    if (word == name_of(path)) return path;
-  }
-  return unknown_word("force path", word, "auto, per-spring, gather, lattice");
+  for (const ForcePathRow& row : force_paths())
+    if (word == row.name) return row.path;
+  return unknown_word("force path", word, force_path_words());
 }
 
 Result<BackendChoice> parse_backend(std::string_view text) {
@@ -253,31 +244,28 @@ Result<BackendChoice> parse_backend(std::string_view text) {
     } else if (const auto path = parse_force_path(word)) {
       choice.force_path = *path;
     } else {
-      return unknown_word("backend option", word, "single, double, auto, per-spring, gather, lattice");
+      return unknown_word("backend option", word, "single, double, " + force_path_words());
     }
   }
   return choice;
 }
 
 Status check_choice(const BackendChoice& choice) {
-  if (choice.force_path == ForcePath::lattice) {
-    return Error{ErrorCode::scene_rejected,
-                 "the force path lattice is not built yet; use gather or per-spring."};
-  }
+  ASPIC_CHECK(check_built(choice.force_path));
   const auto with_precision =
       names_where([&](const BackendRow& row) { return has(row.precisions, choice.precision); });
   if (choice.row && !has(choice.row->precisions, choice.precision)) {
-    return fail(ErrorCode::usage, "the {0} does not compute in {1} precision; for {1} say --backend {2}.",
+    return fail(ErrorCode::usage, "the {0} does not compute in {1} precision; for {1} use --backend {2}.",
                 choice.row->name, name_of(choice.precision), fmt::join(with_precision, " or "));
   }
   if (choice.force_path == ForcePath::automatic) return {};
   const auto possible = [&](const BackendRow& row) {
-    return has(row.precisions, choice.precision) && has(row.force_paths, choice.force_path);
+    return has(row.precisions, choice.precision) && has_path(row, choice.force_path);
   };
   if (choice.row ? possible(*choice.row) : std::ranges::any_of(table, possible)) return {};
   const std::string with_path = fmt::format(
-      "{}", fmt::join(names_where([](const BackendRow& row) { return !row.force_paths.empty(); }), " or "));
-  return fail(ErrorCode::usage, "a force path belongs to the {0} backend; leave it out or say --backend {0}.",
+      "{}", fmt::join(names_where([](const BackendRow& row) { return !row.force_paths().empty(); }), " or "));
+  return fail(ErrorCode::usage, "a force path belongs to the {0} backend; omit it or use --backend {0}.",
               with_path);
 }
 
@@ -286,13 +274,11 @@ Result<Backend> make_backend(const BackendChoice& choice, const Model& model, co
   AutomaticChoice automatic;
   if (!choice.row) automatic = choose_automatically(choice, host.context);
   const BackendRow& row = choice.row ? *choice.row : *automatic.row;
-  if (choice.force_path != ForcePath::automatic && !has(row.force_paths, choice.force_path)) {
-    const auto names =
-        names_where([&](const BackendRow& r) { return has(r.force_paths, choice.force_path); });
-    return fail(
-        ErrorCode::no_device,
-        "the force path {0} needs the {1} backend, but {2}. Say --backend {1} to take any device there is.",
-        name_of(choice.force_path), names.front(), automatic.reason);
+  if (choice.force_path != ForcePath::automatic && !has_path(row, choice.force_path)) {
+    const auto names = names_where([&](const BackendRow& r) { return has_path(r, choice.force_path); });
+    return fail(ErrorCode::no_device,
+                "the force path {0} needs the {1} backend, but {2}. Use --backend {1} to accept any device.",
+                name_of(choice.force_path), names.front(), automatic.reason);
   }
   SolverHost place = host;
   if (automatic.context) place.context = automatic.context.get();
@@ -309,12 +295,13 @@ std::vector<BackendBytes> bytes_by_backend(const Model& model) {
   std::vector<BackendBytes> result;
   for (const BackendRow& row : table) {
     for (const Precision precision : row.precisions) {
-      const std::span<const ForcePath> paths = row.force_paths;
-      for (std::size_t i = 0; i < std::max<std::size_t>(paths.size(), 1); ++i) {
-        const BackendChoice choice = {&row, precision, paths.empty() ? ForcePath::automatic : paths[i]};
-        const std::string_view path = paths.empty() ? std::string_view() : name_of(paths[i]);
-        result.push_back({variant_of(row, path, precision), row.bytes(counts, integrator, choice)});
-      }
+      const auto add = [&](const ForcePathRow* path) {
+        const BackendChoice choice = {&row, precision, path ? path->path : ForcePath::automatic};
+        result.push_back(
+            {variant_of(row, path ? path->name : "", precision), row.bytes(counts, integrator, choice)});
+      };
+      if (row.force_paths().empty()) add(nullptr);
+      for (const ForcePathRow& path : row.force_paths()) add(&path);
     }
   }
   return result;

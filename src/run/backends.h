@@ -28,8 +28,8 @@ struct BackendChoice {
 struct SolverHost {
   /// Where a backend that needs a context works; it must outlive the solver. Null: a headless one of its own.
   gl::Context* context = nullptr;
-  /// A solver on the same context to share buffers with, see GpuOptions::like.
-  const GpuSolver* like = nullptr;
+  /// A solver on the same context to share buffers with, see GpuOptions::share_springs_of.
+  const GpuSolver* share_springs_of = nullptr;
   /// What the canary found on that context's device before; absent: it is asked again.
   std::optional<gl::Arithmetic> arithmetic;
 };
@@ -62,8 +62,8 @@ struct BackendRow {
   std::string_view title;    ///< in a sentence and on a button: "Switch to GPU"
   std::string_view summary;  ///< what it is, in a line
   std::span<const Precision> precisions;
-  std::span<const ForcePath> force_paths;  ///< those that can be chosen; empty: it has no such choice
-  bool needs_context = false;              ///< it computes in an OpenGL context, on that context's thread
+  std::span<const ForcePathRow> (*paths)();  ///< force paths that can be chosen; null: it has no such choice
+  bool needs_context = false;                ///< it computes in an OpenGL context, on that context's thread
   /// Makes the solver at the model's initial state; the model must outlive it. The choice has passed
   /// check_choice(). Errors: no_device, scene_rejected, io.
   Result<Backend> (*make)(const Model& model, const BackendChoice& choice, const SolverHost& host) = nullptr;
@@ -72,6 +72,10 @@ struct BackendRow {
                          const BackendChoice& choice) = nullptr;
   /// Whether `auto` takes it: in the window's context, or, if that is null, wherever it finds a device.
   Suitability (*suitability)(const gl::Context* window) = nullptr;
+
+  std::span<const ForcePathRow> force_paths() const {
+    return paths ? paths() : std::span<const ForcePathRow>();
+  }
 };
 
 /// All backends, in the order in which `auto` tries them. The last is the reference, which runs everywhere

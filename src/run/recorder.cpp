@@ -31,7 +31,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
   if (schedule.count() > most_pictures) {
     return fail(ErrorCode::usage,
                 "--speed {} and --fps {} make more than {} pictures of this run: choose a larger speed or "
-                "fewer pictures a second.",
+                "fewer pictures per second.",
                 output.speed, fps, most_pictures);
   }
   std::unique_ptr<Recorder> r(new Recorder(output, scene, backend, schedule));
@@ -40,7 +40,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
     auto context = gl::Context::create_headless();
     if (!context)
       return Error{context.error().code,
-                   "pictures need an OpenGL device, if only a software one. " + context.error().message};
+                   "pictures need an OpenGL device; a software one is enough. " + context.error().message};
     r->own_context_ = std::move(*context);
     r->context_ = r->own_context_.get();
   }
@@ -83,7 +83,7 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   const auto before = std::chrono::steady_clock::now();
   DeviceState drawn_state;
   if (backend_.gpu && !own_context_) {
-    drawn_state = {&backend_.gpu->particles(), &backend_.gpu->balls(), backend_.gpu->first_ball(), step};
+    drawn_state = backend_.gpu->device_state();
   } else {
     ASPIC_TRY(const auto state, solver.state());
     ASPIC_TRY(drawn_state, renderer_->upload(state));

@@ -31,7 +31,8 @@ struct Source {
 };
 
 /// All problems as one scene_rejected error: those of the file by line and column, then those of the
-/// arguments in their order, a blank line between. A problem that was found twice in one place is told once.
+/// arguments in their order, a blank line between. A problem that was found twice in one place is reported
+/// once.
 Error rejection(std::span<const Source> sources, std::vector<Problem> problems);
 
 /// Damerau–Levenshtein distance in its restricted form (optimal string alignment): insertions, deletions,

@@ -161,7 +161,7 @@ class Importer {
         return value;
       case ParameterType::counts:
         if (!whole) return need_whole();
-        std::get<std::array<int, 3>>(value)[static_cast<std::size_t>(target.axis)] = static_cast<int>(number);
+        std::get<std::vector<int>>(value)[static_cast<std::size_t>(target.axis)] = static_cast<int>(number);
         return value;
       case ParameterType::word:
         if (number == 0.0) return Value(std::string(name_of(Integrator::explicit_euler)));
@@ -185,7 +185,7 @@ class Importer {
   }
 
   void missing_value() {
-    problems_.push_back(fmt::format("{}:{}: *{} has no value: it stands on the next line",
+    problems_.push_back(fmt::format("{}:{}: *{} has no value: it belongs on the next line",
                                     printable_line(file_name_), key_line_, shown(key_)));
   }
   void fail(const std::string& what) {
@@ -208,7 +208,7 @@ class Importer {
 Result<ImportedConfiguration> import_configuration(std::string_view text, const std::string& file_name) {
   if (text.find('\0') != std::string_view::npos) {
     return fail(ErrorCode::scene_rejected,
-                "{}: this is no text but a binary file; give the framework's Configuration.txt",
+                "{}: this is a binary file, not text; give the framework's Configuration.txt",
                 printable_line(file_name));
   }
   ASPIC_TRY(auto ground, load_scene("penalty"));
@@ -218,8 +218,8 @@ Result<ImportedConfiguration> import_configuration(std::string_view text, const 
 
 std::string imported_toml(const ImportedConfiguration& imported, const std::string& file_name) {
   std::string text = fmt::format(
-      "# Imported from {}. The launcher throws at random what was shot by hand there.\n"
-      "# For that framework's own contact formulas say model = \"course\" and spin = false in [contact].\n",
+      "# Imported from {}. The launcher throws at random the balls that were shot by hand there.\n"
+      "# For that framework's own contact formulas set model = \"course\" and spin = false in [contact].\n",
       printable_line(file_name));
   for (const std::string& note : imported.notes)
     text += fmt::format("# Not carried over: {}\n", printable_line(note));

@@ -18,7 +18,7 @@ struct LoadLimits {
   std::optional<std::uint64_t> memory_bytes;  ///< absent: what the system says is available now
 };
 
-/// Reads a scene from TOML text. `file_name` stands in messages. `overrides` are KEY=VALUE arguments of
+/// Reads a scene from TOML text. Messages name `file_name`. `overrides` are KEY=VALUE arguments of
 /// --set, later ones winning; a key is a path of the parameter table with indices
 /// (`cube[0].shear.stiffness`), a value is a TOML value or a bare word. Error (scene_rejected): the first
 /// TOML syntax error alone, or every semantic error at once, sorted by line and separated by blank lines.

@@ -1,3 +1,9 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <string>
+
 #include "model/terrain.h"
 #include "scene/parameter_rows.h"
 
@@ -19,7 +25,7 @@ std::vector<Parameter> root_rows() {
   schema.write = [](const Parameter&, Scene&, std::size_t, const Value&) {};
   return {
       fixed(schema),
-      fixed(absent("the file's name without ending",
+      fixed(absent("the file's name without extension",
                    row("name", FIELD(name), "Title of the scene in windows and reports."))),
   };
 }
@@ -30,17 +36,17 @@ std::vector<Parameter> simulation_rows() {
                             "Time integration method."),
       row("simulation.timestep", "s", {0.0, 1.0, true}, FIELD(model.simulation.timestep), "Time step h."),
       row("simulation.duration", "s", {0.0, longest}, FIELD(model.simulation.duration),
-          "Simulated time of a run for which neither steps nor duration are asked."),
+          "Simulated time of a run when neither --steps nor --duration is given."),
       row("simulation.gravity", "m/s²", within(1e4), FIELD(model.simulation.gravity),
           "Gravitational acceleration g."),
       row("simulation.steps-per-frame", "", {1, 100000}, FIELD(model.simulation.steps_per_frame),
           "Time steps between two pictures in the window."),
       row("simulation.implicit.newton-iterations", "", {1, 1000},
           FIELD(model.simulation.implicit.newton_iterations),
-          "Most Newton iterations of one implicit Euler step."),
+          "Largest number of Newton iterations in an implicit Euler step."),
       row("simulation.implicit.cg-iterations", "", {1, 100000},
           FIELD(model.simulation.implicit.cg_iterations),
-          "Most conjugate gradient iterations within one Newton iteration."),
+          "Largest number of conjugate gradient iterations in a Newton iteration."),
       absent("0.0001 in single precision, 1e-9 in double",
              row("simulation.implicit.tolerance", "m/s", {0.0, 1.0, true},
                  FIELD(model.simulation.implicit.tolerance),
@@ -57,9 +63,9 @@ std::vector<Parameter> contact_rows() {
           "Distance within which a particle may rest on the ground, and the least approach speed that "
           "bounces."),
       row("contact.restitution", "", fraction, FIELD(model.contact.restitution),
-          "Part of the approach speed that a bounce gives back, for every terrain without its own."),
+          "Coefficient of restitution of terrains that do not set their own."),
       row("contact.friction", "", friction, FIELD(model.contact.friction),
-          "Friction coefficient of every terrain without its own."),
+          "Friction coefficient of terrains that do not set their own."),
       row("contact.ball-restitution", "", fraction, FIELD(model.contact.ball_restitution),
           "Restitution between balls, and between balls and particles."),
       row("contact.ball-friction", "", friction, FIELD(model.contact.ball_friction),
@@ -68,19 +74,54 @@ std::vector<Parameter> contact_rows() {
   };
 }
 
+std::string_view last_key(const Parameter& p) {
+  return p.path.substr(p.path.rfind('.') + 1);
+}
+
+/// A key of terrain geometry. Its path is kept for the program's life.
+Parameter geometry_row(const GeometryKey& key) {
+  static std::deque<std::string> paths;
+  Parameter p;
+  p.path = paths.emplace_back(fmt::format("terrain[].{}", key.name));
+  p.type = key.kind == GeometryKind::length ? ParameterType::number : ParameterType::vector;
+  p.unit = key.kind == GeometryKind::direction ? "" : "m";
+  p.range = key.kind == GeometryKind::length ? positive_length : within(far);
+  p.direction = key.kind == GeometryKind::direction;
+  p.belonging = Belonging::geometry;
+  p.when_absent = "by shape";
+  p.meaning = key.meaning;
+  p.read = [](const Parameter& self, const Scene& scene, std::size_t i) -> std::optional<Value> {
+    const auto& geometry = scene.model.terrain[i].geometry;
+    const auto found = geometry.find(last_key(self));
+    if (found == geometry.end()) return std::nullopt;
+    return std::visit([](const auto& x) { return Value(x); }, found->second);
+  };
+  p.write = [](const Parameter& self, Scene& scene, std::size_t i, const Value& value) {
+    GeometryValue& into = scene.model.terrain[i].geometry[std::string(last_key(self))];
+    if (self.type == ParameterType::number) {
+      into = std::get<double>(value);
+    } else {
+      into = std::get<Vec3>(value);
+    }
+  };
+  p.erase = [](const Parameter& self, Scene& scene, std::size_t i) {
+    scene.model.terrain[i].geometry.erase(std::string(last_key(self)));
+  };
+  return p;
+}
+
 std::vector<Parameter> terrain_rows() {
-  return {
+  std::vector<Parameter> rows = {
       word<terrain_shapes>("terrain[].shape", FIELD(model.terrain[i].shape),
-                           "Shape of the resting surface; a bowl is the inside of a sphere."),
-      of(geometry, absent(of_shape, row("terrain[].point", "m", within(far), FIELD(model.terrain[i].point),
-                                        "A point of the plane."))),
-      of(geometry,
-         absent(of_shape, direction(row("terrain[].normal", FIELD(model.terrain[i].normal),
-                                        "Direction to the free side; its length does not matter.")))),
-      of(geometry, absent(of_shape, row("terrain[].centre", "m", within(far), FIELD(model.terrain[i].centre),
-                                        "Centre of the sphere or bowl."))),
-      of(geometry, absent(of_shape, row("terrain[].radius", "m", positive_length,
-                                        FIELD(model.terrain[i].radius), "Radius of the sphere or bowl."))),
+                           "Shape of the resting surface; a bowl is the inside of a sphere.")};
+  for (const TerrainShapeRow& shape : terrain_shapes) {
+    for (const GeometryKey& key : shape.keys) {
+      Parameter geometry = geometry_row(key);
+      if (std::ranges::find(rows, geometry.path, &Parameter::path) == rows.end())
+        rows.push_back(std::move(geometry));
+    }
+  }
+  const Parameter others[] = {
       absent("infinite", row("terrain[].mass", "kg", {0.0, heaviest, true}, FIELD(model.terrain[i].mass),
                              "Mass M in the bounce speed (m − e·M)/(m + M)·u; the terrain never moves.")),
       absent("that of [contact]", row("terrain[].restitution", "", fraction,
@@ -88,6 +129,8 @@ std::vector<Parameter> terrain_rows() {
       absent("that of [contact]", row("terrain[].friction", "", friction, FIELD(model.terrain[i].friction),
                                       "Friction coefficient of this terrain.")),
   };
+  rows.insert(rows.end(), std::begin(others), std::end(others));
+  return rows;
 }
 
 std::vector<Parameter> view_rows() {
@@ -95,9 +138,9 @@ std::vector<Parameter> view_rows() {
                        "Parts of the bodies that are drawn: surface, particles, springs by type.");
   draw.words = {"solid", "particles", "structural", "shear", "bending"};
   return {
-      row("view.camera.position", "m", within(far), FIELD(view.camera.position), "Position of the eye."),
+      row("view.camera.position", "m", within(far), FIELD(view.camera.position), "Position of the camera."),
       row("view.camera.target", "m", within(far), FIELD(view.camera.target),
-          "Point in the middle of the picture."),
+          "Point at the centre of the picture."),
       row("view.camera.fov", "°", {1.0, 179.0}, FIELD(view.camera.fov), "Vertical field of view."),
       draw,
       word<view_colours>("view.colour", FIELD(view.colour), "What the colours of bodies mean."),

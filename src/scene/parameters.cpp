@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "model/bodies.h"
-#include "model/cube.h"
 #include "model/terrain.h"
 #include "scene/diagnostics.h"
 #include "scene/write.h"
@@ -17,19 +16,13 @@ namespace {
 /// Shorter directions lose their digits when their length is squared.
 constexpr double shortest_direction = 1e-100;
 
-/// Every shape with its default geometry, in the order of the table.
-const Scene& default_terrain() {
-  static const Scene scene = [] {
-    Scene all;
-    for (const TerrainShapeRow& row : terrain_shapes) all.model.terrain.push_back(row.defaults);
-    return all;
-  }();
-  return scene;
+/// The shape's key behind a row of the table; nullptr if the shape does not have it.
+const GeometryKey* geometry_key(const Parameter& p, TerrainShape shape) {
+  return aspic::geometry_key(shape, p.path.substr(p.path.rfind('.') + 1));
 }
 
-/// The default of a geometry key; nothing if the shape does not have it.
-std::optional<Value> default_geometry(const Parameter& p, TerrainShape shape) {
-  return p.read(p, default_terrain(), static_cast<std::size_t>(&terrain_row(shape) - terrain_shapes));
+Value value_of(const GeometryValue& value) {
+  return std::visit([](const auto& x) { return Value(x); }, value);
 }
 
 /// The list an indexed path leads into, or nullptr.
@@ -76,7 +69,7 @@ std::optional<std::string> complaint_about(const Parameter& p, double value) {
 
 std::optional<std::string> complaint_about_word(const Parameter& p, const std::string& word) {
   const bool known = std::ranges::find(p.words, word) != p.words.end();
-  if (known || (p.type == ParameterType::pinned && is_face_or_corner(word))) return std::nullopt;
+  if (known || (p.pins && p.pins->knows(word))) return std::nullopt;
   return fmt::format("'{}' does not know \"{}\"; allowed: {}{}", key_text(p), word, allowed_text(p),
                      diagnostics::did_you_mean(diagnostics::nearest(word, p.words)));
 }
@@ -87,7 +80,7 @@ std::optional<Value> Parameter::get(const Scene& scene, std::size_t index) const
   if (!applies(*this, scene, index)) return std::nullopt;
   std::optional<Value> value = read(*this, scene, index);
   if (!value && belonging == Belonging::geometry)
-    return default_geometry(*this, scene.model.terrain[index].shape);
+    return value_of(geometry_key(*this, scene.model.terrain[index].shape)->value);
   return value;
 }
 
@@ -150,7 +143,7 @@ bool applies(const Parameter& parameter, const Scene& scene, std::size_t index) 
 }
 
 bool belongs_to_shape(const Parameter& parameter, TerrainShape shape) {
-  return parameter.belonging != Belonging::geometry || default_geometry(parameter, shape).has_value();
+  return parameter.belonging != Belonging::geometry || geometry_key(parameter, shape) != nullptr;
 }
 
 std::size_t index_count(const Parameter& parameter, const Scene& scene) {
@@ -164,8 +157,9 @@ std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) numbers = {static_cast<double>(*whole)};
   if (const auto* number = std::get_if<double>(&value)) numbers = {*number};
   if (const auto* v = std::get_if<Vec3>(&value)) numbers = {v->x, v->y, v->z};
-  if (const auto* counts = std::get_if<std::array<int, 3>>(&value))
+  if (const auto* counts = std::get_if<std::vector<int>>(&value))
     numbers.assign(counts->begin(), counts->end());
+  if (const auto* several = std::get_if<std::vector<double>>(&value)) numbers = *several;
   if (p.type == ParameterType::word) words = {std::get<std::string>(value)};
   if (const auto* list = std::get_if<std::vector<std::string>>(&value)) words = *list;
   if (const auto* pinned = std::get_if<PinnedSettings>(&value)) words = pinned->names;
@@ -208,12 +202,13 @@ std::string allowed_text(const Parameter& p) {
       return fmt::format("three numbers [x, y, z], each {}{}", range_text(p),
                          p.direction ? ", not all zero" : "");
     case ParameterType::counts:
-      return fmt::format("three whole numbers [along x, y, z], each {}", range_text(p));
+    case ParameterType::numbers:
+      return fmt::format("{} {} [along x, y{}], each {}", p.components == 2 ? "two" : "three",
+                         p.type == ParameterType::counts ? "whole numbers" : "numbers",
+                         p.components == 2 ? "" : ", z", range_text(p));
     case ParameterType::pinned:
-      return fmt::format(
-          "an array of faces ({}), corners (three faces joined by hyphens, such as left-top-front) and local "
-          "indices 0 … n³ − 1",
-          diagnostics::list_text(p.words, false));
+      return fmt::format("an array of {}s ({}), corners ({}) and local indices 0 … {}", p.pins->side,
+                         diagnostics::list_text(p.words, false), p.pins->corner, p.pins->last_index);
   }
   return "";
 }
@@ -222,8 +217,8 @@ std::string default_text(const Parameter& p) {
   if (p.belonging == Belonging::geometry) {
     std::string text;
     for (const TerrainShapeRow& row : terrain_shapes) {
-      if (const auto value = default_geometry(p, row.value))
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, toml_value(*value));
+      if (const GeometryKey* key = geometry_key(p, row.value))
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, toml_value(value_of(key->value)));
     }
     return text;
   }

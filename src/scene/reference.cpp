@@ -14,11 +14,11 @@ namespace aspic {
 namespace {
 
 std::string section_heading(std::string_view section) {
-  if (section.empty()) return "## Head of the file\n\n";
+  if (section.empty()) return "## Top of the file\n\n";
   std::string heading = fmt::format("## `{}`\n\n", diagnostics::table_text(section));
   if (section.ends_with("[]")) {
-    heading += fmt::format("May stand any number of times. `--set` counts from 0: `{}[0]`.\n\n",
-                           section.substr(0, section.size() - 2));
+    heading +=
+        fmt::format("Repeatable. `--set` counts from 0: `{}[0]`.\n\n", section.substr(0, section.size() - 2));
   }
   return heading;
 }
@@ -59,13 +59,13 @@ std::string scene_reference() {
       "# Scene file reference\n\n"
       "A scene is one TOML file. This page is generated from the program's parameter table: every key, what "
       "it means,\n"
-      "what is allowed and what holds if it is left out. Units are SI. Every key can be set on the command "
+      "what is allowed and the default. Units are SI. Every key can be set on the command "
       "line as well,\n"
       "by its path: `--set simulation.timestep=0.002`, `--set cube[0].shear.stiffness=10`, `--set "
       "contact.model=course`,\n"
       "`--set 'cube[0].pinned=[\"top\", 3]'`. A value is written as in the file; a single word needs no "
       "quotation marks.\n"
-      "A key marked *live* may change while a simulation runs; changing any other starts it anew.\n\n"
+      "A key marked *live* may change while a simulation runs; changing any other restarts it.\n\n"
       "A part that is not in the file is not in the scene: without `[[cube]]` there is no cube. Inner tables "
       "may be written\n"
       "inline, `shear = { stiffness = 2000.0, damping = 60.0 }`, or as tables of their own.\n\n";

@@ -15,13 +15,13 @@ namespace aspic {
 struct SceneComplaint : Complaint {
   SceneComplaint(std::string where, Complaint what) : Complaint(std::move(what)), path(std::move(where)) {}
 
-  std::string path;     ///< the key to blame, `cube[1].shear.stiffness`; empty: the scene as a whole
+  std::string path;     ///< the key to blame, `cube[1].shear.stiffness`; empty: the scene in general
   std::string other;    ///< another key that the complaint depends on; empty: none
   bool of_key = false;  ///< the key has no place there, whatever its value
 };
 
-/// Checks every value and what only the whole scene shows: geometry of another shape, pinned indices, boxes,
-/// the camera, a scene in which nothing moves, more than 32-bit indices or `memory_bytes` (absent: any
+/// Checks every value and what only the complete scene shows: geometry of another shape, pinned indices,
+/// boxes, the camera, a scene in which nothing moves, more than 32-bit indices or `memory_bytes` (absent: any
 /// number) hold. Empty if the scene is legal.
 std::vector<SceneComplaint> check_scene(const Scene& scene,
                                         std::optional<std::uint64_t> memory_bytes = std::nullopt);

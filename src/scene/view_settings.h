@@ -45,7 +45,7 @@ struct ViewSettings {
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 
-/// Name as it stands in scene files.
+/// Name in scene files.
 std::string_view name_of(ViewColour colour);
 
 }  // namespace aspic

@@ -41,8 +41,11 @@ struct Writer {
   std::string operator()(const Vec3& x) const {
     return fmt::format("[{}, {}, {}]", number_text(x.x), number_text(x.y), number_text(x.z));
   }
-  std::string operator()(const std::array<int, 3>& x) const {
-    return fmt::format("[{}, {}, {}]", x[0], x[1], x[2]);
+  std::string operator()(const std::vector<int>& x) const { return fmt::format("[{}]", fmt::join(x, ", ")); }
+  std::string operator()(const std::vector<double>& x) const {
+    std::string text;
+    for (const double number : x) text += (text.empty() ? "" : ", ") + number_text(number);
+    return "[" + text + "]";
   }
   std::string operator()(const std::vector<std::string>& x) const { return list(x, {}); }
   std::string operator()(const PinnedSettings& x) const { return list(x.names, x.indices); }
@@ -82,7 +85,7 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
     if (!open.empty() && open.back().name != head) close();
     const auto value = p.get(scene, index);
     if (!value) {
-      // Told as a comment, so that the file shows everything that could be said.
+      // Written as a comment, so that the file shows every key there is.
       if (dot == std::string_view::npos && applies(p, scene, index)) {
         lines.push_back({fmt::format("# {}: {}", rest, p.when_absent), ""});
       }

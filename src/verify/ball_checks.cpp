@@ -104,8 +104,8 @@ Result<Finding> slope(const Subject& subject, double friction, double share_of_g
   ModelSettings settings;
   const double s = 0.5, c = std::sqrt(3.0) / 2.0, R = 0.4;
   settings.terrain.emplace_back();
-  settings.terrain[0].point = Vec3{};
-  settings.terrain[0].normal = Vec3{s, c, 0.0};
+  settings.terrain[0].geometry["point"] = Vec3{};
+  settings.terrain[0].geometry["normal"] = Vec3{s, c, 0.0};
   settings.terrain[0].friction = friction;
   settings.balls.push_back({R, 2.5, {R * s, R * c, 0.0}, {}, {}});
   ASPIC_TRY(auto model, build_model(settings));

@@ -43,6 +43,7 @@ std::vector<Check> battery() {
   add_rest_checks(checks);
   add_scene_checks(checks);
   add_implicit_checks(checks);
+  add_body_checks(checks);
   add_ball_checks(checks);
   add_equality_checks(checks);
   return checks;
@@ -55,7 +56,7 @@ Result<std::vector<Check>> select(std::vector<Check> checks, std::span<const std
   for (const std::string& name : names) {
     if (std::any_of(checks.begin(), checks.end(), [&](const Check& c) { return meant(c, name); })) continue;
     std::string message = fmt::format(
-        "no check is called \"{}\". A name stands for itself and for all below it; the checks:", name);
+        "no check is called \"{}\". A name selects itself and everything below it; the checks:", name);
     for (const Check& check : checks) message += "\n  " + check.name;
     return Error{ErrorCode::usage, message};
   }

@@ -7,6 +7,7 @@
 
 #include "analysis/compare.h"
 #include "io/child_process.h"
+#include "model/terrain.h"
 #include "scene/load.h"
 #include "verify/experiments.h"
 #include "verify/textbook.h"
@@ -36,9 +37,10 @@ Result<std::unique_ptr<Solver>> make_solver(const Subject& subject, const Backen
 
 /// The force paths of a backend that have bits of their own to show with an integrator.
 std::vector<ForcePath> paths_of(const BackendRow& row, Integrator integrator) {
-  if (row.force_paths.empty()) return {ForcePath::automatic};
-  std::vector<ForcePath> paths(row.force_paths.begin(), row.force_paths.end());
-  if (row_of(integrator).solved()) std::erase(paths, ForcePath::per_spring);
+  if (row.force_paths().empty()) return {ForcePath::automatic};
+  std::vector<ForcePath> paths;
+  for (const ForcePathRow& path : row.force_paths())
+    if (works_with(path.path, integrator)) paths.push_back(path.path);
   return paths;
 }
 
@@ -68,9 +70,9 @@ Result<Finding> same_bits(const Subject& subject, const BackendRow& row, Integra
   const bool solved = row_of(integrator).solved();
   const std::uint64_t steps = solved ? implicit_steps : explicit_steps;
   Worst worst;
-  for (const TerrainShape shape : all_terrains) {
+  for (const TerrainShapeRow& shape : terrain_shapes) {
     for (const ContactModel contact : both_contact_models) {
-      ModelSettings settings = cube_on_terrain(solved ? 4 : 5, shape, integrator, contact);
+      ModelSettings settings = cube_on_terrain(solved ? 4 : 5, shape.value, integrator, contact);
       if (solved) settings.simulation.timestep = 0.01;
       ASPIC_TRY(auto model, build_model(settings));
       ASPIC_TRY(auto expected, run_reference(subject, model, Precision::single, steps));
@@ -197,10 +199,10 @@ Result<Finding> group_sizes(const Subject& subject) {
   ASPIC_TRY(auto model, repeat_model(Integrator::runge_kutta_4));
   std::set<std::string> hashes;
   std::size_t runs = 0;
-  for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+  for (const ForcePathRow& path : built_force_paths()) {
     for (const std::uint32_t size : {32u, 64u, 128u, 256u}) {
       GpuOptions options;
-      options.force_path = path;
+      options.force_path = path.path;
       options.group_size = size;
       ASPIC_TRY(auto solver, subject.gpu(model, options));
       ASPIC_TRY(auto end, run(*solver, repeat_steps));
@@ -245,9 +247,9 @@ void add_equality_checks(std::vector<Check>& checks) {
           {fmt::format("equality/{}/{}", name_of(integrator), row.name),
            fmt::format("{} and reference after {} steps through contact: 4 terrains, 2 contact models{}",
                        row.name, row_of(integrator).solved() ? implicit_steps : explicit_steps,
-                       row.force_paths.empty() ? ""
-                       : paths.size() == 1     ? fmt::format(", {}", name_of(paths.front()))
-                                               : fmt::format(", {} force paths", paths.size())),
+                       row.force_paths().empty() ? ""
+                       : paths.size() == 1       ? fmt::format(", {}", name_of(paths.front()))
+                                                 : fmt::format(", {} force paths", paths.size())),
            bound, integrator == Integrator::explicit_euler, row.needs_context,
            [&row, integrator](const Subject& subject) { return same_bits(subject, row, integrator); }});
     }
@@ -256,7 +258,7 @@ void add_equality_checks(std::vector<Check>& checks) {
          fmt::format(
              "{} and reference while a hand pulls, moves and lets go: every integrator, 2 contact models{}",
              row.name,
-             row.force_paths.empty() ? "" : fmt::format(", {} force paths", row.force_paths.size())),
+             row.force_paths().empty() ? "" : fmt::format(", {} force paths", row.force_paths().size())),
          bound, true, row.needs_context,
          [&row](const Subject& subject) { return same_bits_with_hand(subject, row); }});
   }
@@ -269,7 +271,7 @@ void add_equality_checks(std::vector<Check>& checks) {
                     "1 hash", false, true,
                     [](const Subject& s) { return repeated(s, Integrator::implicit_euler, 10); }});
   checks.push_back({"repeat/group-sizes",
-                    "work groups of 32, 64, 128, 256 on both force paths end with one hash", "1 hash", false,
+                    "work groups of 32, 64, 128, 256 on all force paths end with one hash", "1 hash", false,
                     true, group_sizes});
   checks.push_back({"repeat/driver-threads",
                     "1, 2 and 8 driver threads end with one hash, on software that of the reference",

@@ -22,18 +22,12 @@ ModelSettings cube_settings(int particles_per_edge, const Vec3& centre) {
 
 ModelSettings cube_on_terrain(int particles_per_edge, TerrainShape shape, Integrator integrator,
                               ContactModel contact) {
-  const Vec3 centre = shape == TerrainShape::plane          ? Vec3{0.0, 1.9, 0.0}
-                      : shape == TerrainShape::tilted_plane ? Vec3{1.0, 3.2, 0.0}
-                      : shape == TerrainShape::sphere       ? Vec3{0.4, 4.9, 0.2}
-                                                            : Vec3{2.3, 5.5, 1.2};
-  ModelSettings settings = cube_settings(particles_per_edge, centre);
+  ModelSettings settings = cube_settings(particles_per_edge, terrain_row(shape).drop);
   settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
   settings.cubes[0].velocity = {1.0, -1.0, 0.5};
   settings.simulation.integrator = integrator;
   settings.contact.model = contact;
-  TerrainSettings terrain;
-  terrain.shape = shape;
-  settings.terrain.push_back(terrain);
+  settings.terrain.push_back({.shape = shape});
   return settings;
 }
 
@@ -58,8 +52,8 @@ State shaken(const Model& model, double shift, double speed, std::uint64_t seed)
 
 Terrain plane_through_origin(const Model& model, const Vec3& normal) {
   TerrainSettings settings;
-  settings.point = Vec3{0, 0, 0};
-  settings.normal = normal;
+  settings.geometry["point"] = Vec3{0, 0, 0};
+  settings.geometry["normal"] = normal;
   return make_terrain(settings, model.contact);
 }
 

@@ -84,8 +84,8 @@ Result<Finding> rests_between(const Subject& subject, Integrator integrator, con
   settings.cubes[0].rotation = {{1.0, 0.3, 0.2}, 20.0};
   for (const Vec3& normal : planes.normals) {
     TerrainSettings plane;
-    plane.point = planes.point;
-    plane.normal = normal;
+    plane.geometry["point"] = planes.point;
+    plane.geometry["normal"] = normal;
     plane.friction = planes.friction;
     settings.terrain.push_back(plane);
   }
@@ -178,6 +178,14 @@ Result<Finding> gains_nothing(const Subject& subject, Integrator integrator) {
   return finding;
 }
 
+/// A tilted 5³ cube dropped on a shape: from its first contact on, the energy never rises.
+Result<Finding> gains_nothing_on(const Subject& subject, TerrainShape shape) {
+  ModelSettings settings = cube_on_terrain(5, shape, Integrator::symplectic_euler, ContactModel::coulomb);
+  ASPIC_TRY(auto model, build_model(settings));
+  ASPIC_TRY(auto rise, energy_rise(subject, model, 4.0));
+  return at_most(rise.above_least, allowed(model, rise), "J");
+}
+
 }  // namespace
 
 void add_rest_checks(std::vector<Check>& checks) {
@@ -209,6 +217,13 @@ void add_rest_checks(std::vector<Check>& checks) {
            fmt::format("≤ {:.0g} m/s, {:.0g} m", bound_double, bottom_bound), false, false,
            [=, in = planes](const Subject& subject) { return rests_between(subject, integrator, *in); }});
     }
+  }
+  for (const TerrainShapeRow& shape : terrain_shapes) {
+    checks.push_back(
+        {fmt::format("energy/on/{}", shape.name),
+         fmt::format("the same of a tilted 5³ cube, dropped on a {}, 4 s, symplectic Euler", shape.title),
+         "≤ 4096 ε of the energy", true, false,
+         [=, value = shape.value](const Subject& subject) { return gains_nothing_on(subject, value); }});
   }
   for (const Integrator integrator : all_integrators) {
     checks.push_back(

@@ -29,11 +29,10 @@ Result<Depth> depth_without_ground(const Subject& subject, const Model& model, s
   ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
   ASPIC_TRY(auto unhindered, subject.reference(airborne, Precision::double_));
   State now = initial_state(model, Precision::double_);
-  double extent = 0.0;
-  for (const Vec3& x : now.position) extent = std::max(extent, length(x));
-  for (const Terrain& terrain : model.terrain)
-    extent = std::max(extent, length(terrain.point) + terrain.radius);
-  const double rounding = 16 * epsilon_double * extent;
+  double largest = 0.0;
+  for (const Vec3& x : now.position) largest = std::max(largest, length(x));
+  for (const Terrain& terrain : model.terrain) largest = std::max(largest, extent(terrain));
+  const double rounding = 16 * epsilon_double * largest;
   Depth worst;
   for (std::uint64_t step = 0; step < steps; ++step) {
     ASPIC_TRY(auto before, run(*unhindered, 1, &now));

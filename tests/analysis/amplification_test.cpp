@@ -70,6 +70,7 @@ TEST(ModeLimit, UndampedModesAsTheLiteratureHasThem) {
   EXPECT_FALSE(mode_limit(Integrator::midpoint, 4.0, 0.0).has_value());
   EXPECT_DOUBLE_EQ(*mode_limit(Integrator::symplectic_euler, 4.0, 0.0), 1.0);           // 2/ω
   EXPECT_NEAR(*mode_limit(Integrator::runge_kutta_4, 4.0, 0.0), std::sqrt(2.0), 1e-9);  // 2√2/ω
+  EXPECT_NEAR(*mode_limit(Integrator::heun_3, 4.0, 0.0), 0.5 * std::sqrt(3.0), 1e-9);   // √3/ω
   // R = 1 + z + z²: |R(iy)|² = 1 − y² + y⁴ ≤ 1 for y ≤ 1.
   EXPECT_NEAR(*mode_limit(Integrator::implicit_euler_one_pass, 4.0, 0.0), 0.5, 1e-9);  // 1/ω
 }

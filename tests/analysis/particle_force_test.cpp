@@ -24,7 +24,7 @@ ModelSettings cube_and_net() {
   settings.goal_nets.push_back(net);
   TerrainSettings globe;
   globe.shape = TerrainShape::sphere;
-  globe.centre = Vec3{0.0, -1.0, 0.0};
+  globe.geometry["centre"] = Vec3{0.0, -1.0, 0.0};
   settings.terrain.push_back(globe);
   return settings;
 }
@@ -52,7 +52,7 @@ void expect_references_force(const Model& model, const State& state, const std::
   reference::Dynamics<double> dynamics(model);
   dynamics.set_pull(pull);
   const Field<double> f = dynamics.force(x, v);
-  const IncidentSprings incident(model);
+  const SpringFinder incident(model);
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
     const ParticleForce force = particle_force(model, incident, state, i, pull);
     // The same operations in the same order.
@@ -75,7 +75,7 @@ TEST(ParticleForceTest, IsTheReferencesInTheCourseModel) {
   const Model model = test::build(settings);
   const State state = shaken(model, 0.02, 0.004);
   expect_references_force(model, state);
-  const IncidentSprings incident(model);
+  const SpringFinder incident(model);
   int touching = 0;
   for (std::uint32_t i = 0; i < model.particle_count(); ++i)
     touching += particle_force(model, incident, state, i).contact != Vec3{};
@@ -87,7 +87,7 @@ TEST(ParticleForceTest, CountsThePullOfAHand) {
   const State state = shaken(model, 0.2, 3.0);
   const Pull pull = {123, {1.0, 5.0, -2.0}, 700.0, 30.0};
   expect_references_force(model, state, pull);
-  const IncidentSprings incident(model);
+  const SpringFinder incident(model);
   EXPECT_NE(particle_force(model, incident, state, 123, pull).pull, Vec3{});
   EXPECT_EQ(particle_force(model, incident, state, 124, pull).pull, Vec3{});
 }
@@ -99,7 +99,7 @@ TEST(ParticleForceTest, PartsByHand) {
                           {SpringType::bending, 8.0, 2.0, 5.0, true}};
   model.springs = {{0, 1, 0}, {1, 2, 1}};
   const State state = initial_state(model, Precision::double_);
-  const IncidentSprings incident(model);
+  const SpringFinder incident(model);
   const ParticleForce force = particle_force(model, incident, state, 1);
   EXPECT_EQ(force.gravity, (Vec3{0.0, -20.0, 0.0}));
   // Stretched by 1 m and growing by 1 m/s; the cord to particle 2 hangs slack.
@@ -108,9 +108,9 @@ TEST(ParticleForceTest, PartsByHand) {
   EXPECT_EQ(force.net, (Vec3{-10.0, -20.0, 0.0}));
 }
 
-TEST(IncidentSpringsTest, AreAllThatEndAtAParticle) {
+TEST(SpringFinderTest, AreAllThatEndAtAParticle) {
   const Model model = test::build(cube_and_net());
-  const IncidentSprings incident(model);
+  const SpringFinder incident(model);
   std::vector<std::vector<std::uint32_t>> expected(model.particle_count());
   for (std::uint32_t s = 0; s < model.springs.size(); ++s) {
     expected[model.springs[s].a].push_back(s);
@@ -118,7 +118,7 @@ TEST(IncidentSpringsTest, AreAllThatEndAtAParticle) {
   }
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) EXPECT_EQ(incident.of(model, i), expected[i]);
   const Model loose = test::particles({{0, 0, 0}}, {{0, 0, 0}});
-  EXPECT_TRUE(IncidentSprings(loose).of(loose, 0).empty());
+  EXPECT_TRUE(SpringFinder(loose).of(loose, 0).empty());
 }
 
 }  // namespace

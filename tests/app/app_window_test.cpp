@@ -5,7 +5,6 @@
 #include <fstream>
 #include <set>
 
-#include "app/shortcuts.h"
 #include "app/stage.h"
 #include "io/atomic_file.h"
 #include "render/camera.h"
@@ -28,8 +27,8 @@ TEST_F(AppWindow, EveryBuiltInSceneOpensAndDraws) {
   open("cube-plane");
   std::vector<unsigned char> before;
   for (const BuiltinScene& scene : list_builtin_scenes()) {
-    EXPECT_EQ(app().editor().source(), scene.name);
-    EXPECT_FALSE(app().notice() && app().notice()->is_error) << app().notice()->text;
+    EXPECT_EQ(app().scene.editor().source(), scene.name);
+    EXPECT_FALSE(app().messages.notice() && app().messages.notice()->is_error) << app().messages.notice()->text;
     frames(2);
     const auto now = pixels();
     // Panels alone have a few dozen; sky, ground and jelly have thousands.
@@ -38,9 +37,9 @@ TEST_F(AppWindow, EveryBuiltInSceneOpensAndDraws) {
     before = now;
     type(U']');
   }
-  EXPECT_EQ(app().editor().source(), "cube-plane") << "the list of scenes goes round";
+  EXPECT_EQ(app().scene.editor().source(), "cube-plane") << "the list of scenes goes round";
   type(U'[');
-  EXPECT_EQ(app().editor().source(), list_builtin_scenes().back().name);
+  EXPECT_EQ(app().scene.editor().source(), list_builtin_scenes().back().name);
 }
 
 TEST_F(AppWindow, SpaceRunsAndPausesAndTheReferencesBitsCome) {
@@ -56,10 +55,10 @@ TEST_F(AppWindow, SpaceRunsAndPausesAndTheReferencesBitsCome) {
   EXPECT_EQ(simulation().step(), paused_at);
   type(U'.');
   EXPECT_EQ(simulation().step(), paused_at + 1);
-  EXPECT_EQ(state_hash_text(simulation().snapshot()), reference_hash(app().editor().scene(), paused_at + 1));
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), reference_hash(app().scene.editor().scene(), paused_at + 1));
   press(GLFW_KEY_R);
   EXPECT_EQ(simulation().step(), 0u);
-  EXPECT_EQ(state_hash_text(simulation().snapshot()), reference_hash(app().editor().scene(), 0));
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), reference_hash(app().scene.editor().scene(), 0));
 }
 
 TEST_F(AppWindow, TwentyChangesOfBackendLeaveTheBitsAsTheyWere) {
@@ -77,7 +76,7 @@ TEST_F(AppWindow, TwentyChangesOfBackendLeaveTheBitsAsTheyWere) {
   ASSERT_TRUE(simulation().settle().ok());
   EXPECT_GE(simulation().step(), 200u);
   EXPECT_EQ(state_hash_text(simulation().snapshot()),
-            reference_hash(app().editor().scene(), simulation().step()));
+            reference_hash(app().scene.editor().scene(), simulation().step()));
 }
 
 TEST_F(AppWindow, GpuDrawsItsOwnParticlesAndStepsSingly) {
@@ -85,7 +84,7 @@ TEST_F(AppWindow, GpuDrawsItsOwnParticlesAndStepsSingly) {
   EXPECT_TRUE(simulation().device_state().has_value()) << "drawn without a copy";
   for (int i = 0; i < 7; ++i) type(U'.');
   EXPECT_EQ(simulation().step(), 7u);
-  EXPECT_EQ(state_hash_text(simulation().snapshot()), reference_hash(app().editor().scene(), 7));
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), reference_hash(app().scene.editor().scene(), 7));
   press(GLFW_KEY_SPACE);
   frames_to_step(50);
   const auto moving = pixels();
@@ -95,68 +94,68 @@ TEST_F(AppWindow, GpuDrawsItsOwnParticlesAndStepsSingly) {
 
 TEST_F(AppWindow, MouseTurnsMovesAndZoomsAndHomeComesBack) {
   open("cube-plane");
-  const CameraSettings home = app().camera().goal();
-  EXPECT_EQ(home, app().editor().scene().view.camera);
+  const CameraSettings home = app().view.camera.goal();
+  EXPECT_EQ(home, app().scene.editor().scene().view.camera);
   drag(GLFW_MOUSE_BUTTON_LEFT, middle_x(), middle_y(), 120, 40);
   frames_to_rest();
-  const CameraSettings turned = app().camera().shown();
+  const CameraSettings turned = app().view.camera.shown();
   EXPECT_EQ(turned.target, home.target);
   EXPECT_NEAR(length(turned.position - turned.target), length(home.position - home.target), 1e-9);
   EXPECT_GT(length(turned.position - home.position), 1.0);
   drag(GLFW_MOUSE_BUTTON_RIGHT, middle_x(), middle_y(), 50, 0);
   frames_to_rest();
-  const CameraSettings moved = app().camera().shown();
+  const CameraSettings moved = app().view.camera.shown();
   EXPECT_GT(length(moved.target - turned.target), 0.1);
   EXPECT_NEAR(length((moved.position - moved.target) - (turned.position - turned.target)), 0.0, 1e-9);
   drag(GLFW_MOUSE_BUTTON_LEFT, middle_x(), middle_y(), -50, 0, GLFW_MOD_SHIFT);
   frames_to_rest();
-  EXPECT_NEAR(length(app().camera().shown().target - turned.target), 0.0, 1e-9) << "Shift drag moves too";
+  EXPECT_NEAR(length(app().view.camera.shown().target - turned.target), 0.0, 1e-9) << "Shift drag moves too";
   app().scroll(0, 3);
   frames_to_rest();
-  const CameraSettings near = app().camera().shown();
+  const CameraSettings near = app().view.camera.shown();
   EXPECT_NEAR(length(near.position - near.target), std::pow(0.9, 3) * length(moved.position - moved.target),
               1e-9);
   press(GLFW_KEY_HOME);
   frames_to_rest();
-  EXPECT_EQ(app().camera().shown(), home) << "to the bit";
+  EXPECT_EQ(app().view.camera.shown(), home) << "to the bit";
 }
 
 TEST_F(AppWindow, DraggingAPanelDoesNotTurnTheCamera) {
   open("cube-plane");
-  const CameraSettings before = app().camera().goal();
+  const CameraSettings before = app().view.camera.goal();
   drag(GLFW_MOUSE_BUTTON_LEFT, 150, 600, 60, 40);
   app().scroll(0, 2);
   frames(5);
-  EXPECT_EQ(app().camera().goal(), before);
+  EXPECT_EQ(app().view.camera.goal(), before);
 }
 
 TEST_F(AppWindow, KeysOfTheView) {
   open("cube-plane");
   press(GLFW_KEY_TAB);
   frames(1);
-  EXPECT_FALSE(app().panels_visible());
-  EXPECT_EQ(app().viewport().left, 0.0);
+  EXPECT_FALSE(app().layout.panels);
+  EXPECT_EQ(app().view.box.left, 0.0);
   EXPECT_FALSE(has("simulation/run"));
   press(GLFW_KEY_TAB);
   frames(1);
   EXPECT_TRUE(has("simulation/run"));
   press(GLFW_KEY_F1);
   frames(2);
-  EXPECT_TRUE(app().help_visible());
+  EXPECT_TRUE(app().help_visible);
   click("help/close");
-  EXPECT_FALSE(app().help_visible());
+  EXPECT_FALSE(app().help_visible);
   press(GLFW_KEY_F11);
   EXPECT_EQ(full_screen_toggles, 1);
   type(U'+');
   type(U'+');
-  EXPECT_EQ(simulation().speed, 4.0);
+  EXPECT_EQ(simulation().pacer().speed, 4.0);
   type(U'-');
-  EXPECT_EQ(simulation().speed, 2.0);
+  EXPECT_EQ(simulation().pacer().speed, 2.0);
   drag(GLFW_MOUSE_BUTTON_RIGHT, middle_x(), middle_y(), 400, 0);
   press(GLFW_KEY_F);
   frames_to_rest();
-  const Vec3 target = app().camera().shown().target;
-  EXPECT_NEAR(length(target - app().editor().scene().model.cubes[0].position), 0.0, 1e-5)
+  const Vec3 target = app().view.camera.shown().target;
+  EXPECT_NEAR(length(target - app().scene.editor().scene().model.cubes[0].position), 0.0, 1e-5)
       << "the middle of a cube at rest";
 }
 
@@ -177,24 +176,24 @@ TEST_F(AppWindow, CameraTravelsAsText) {
   open("cube-plane");
   drag(GLFW_MOUSE_BUTTON_LEFT, middle_x(), middle_y(), 90, -30);
   frames_to_rest();
-  const CameraSettings copied = app().camera().goal();
+  const CameraSettings copied = app().view.camera.goal();
   press(GLFW_KEY_C, GLFW_MOD_CONTROL);
   EXPECT_THAT(clipboard, testing::StartsWith("camera = { position = ["));
   press(GLFW_KEY_HOME);
   frames_to_rest();
   press(GLFW_KEY_V, GLFW_MOD_CONTROL);
-  EXPECT_EQ(app().camera().shown(), copied);
+  EXPECT_EQ(app().view.camera.shown(), copied);
   clipboard = "a shopping list";
   press(GLFW_KEY_V, GLFW_MOD_CONTROL);
-  ASSERT_TRUE(app().notice().has_value());
-  EXPECT_TRUE(app().notice()->is_error);
-  EXPECT_EQ(app().camera().shown(), copied);
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_TRUE(app().messages.notice()->is_error);
+  EXPECT_EQ(app().view.camera.shown(), copied);
 }
 
 TEST_F(AppWindow, MouseOverAParticleTellsOfIt) {
   open("cube-plane", {"view.draw=[\"particles\"]"});
-  const app::Box view = app().viewport();
-  const Camera camera(app().camera().shown(), static_cast<int>(view.right - view.left),
+  const app::Box view = app().view.box;
+  const Camera camera(app().view.camera.shown(), static_cast<int>(view.right - view.left),
                       static_cast<int>(view.bottom - view.top));
   // The corner nearest to the eye has nothing before it.
   const std::uint32_t corner = 999;
@@ -202,9 +201,9 @@ TEST_F(AppWindow, MouseOverAParticleTellsOfIt) {
   ASSERT_TRUE(seen.has_value());
   app().cursor(view.left + seen->x, view.top + seen->y);
   frames(2);
-  ASSERT_TRUE(app().hovered().has_value());
-  EXPECT_EQ(app().hovered()->particle, corner);
-  EXPECT_EQ(app().hovered()->position, simulation().snapshot().position[corner]);
+  ASSERT_TRUE(app().pointer.hovered().has_value());
+  EXPECT_EQ(app().pointer.hovered()->particle, corner);
+  EXPECT_EQ(app().pointer.hovered()->position, simulation().snapshot().position[corner]);
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ class Events : public Stage {
   /// Where widgets stand in a window left like that, found out in a window of our own.
   std::map<std::string, app::Box> widgets(const app::KeptState& kept) {
     open("cube-plane", {}, "reference", kept);
-    auto found = app().gui().widgets();
-    view_ = app().viewport();
+    auto found = Stage::widgets();
+    view_ = app().view.box;
     close();
     close_window();
     return found;

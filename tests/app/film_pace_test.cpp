@@ -81,7 +81,7 @@ TEST(FilmPace, AnotherTimeStepKeepsTheTimes) {
 TEST(FilmPace, BeginsAnewWhenTold) {
   FilmPace pace(50.0);
   EXPECT_EQ(pace.take(0, h, 1.0), 1u);
-  pace.begin_anew();
+  pace.restart();
   EXPECT_EQ(pace.take(0, h, 1.0), 1u);
 }
 

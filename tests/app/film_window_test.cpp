@@ -50,24 +50,24 @@ class Film : public Stage {
     open("cube-plane", {"cube[0].particles-per-edge=4", "view.draw=[\"particles\"]", more}, backend);
   }
   void record(const FilmFormat* format, double fps, const std::string& path = "") {
-    app().film_settings() = {format, fps, true, path};
-    app().start_recording();
-    ASSERT_TRUE(app().recording()) << app().notice()->text;
+    app().film.settings = {format, fps, true, path};
+    app().film.start();
+    ASSERT_TRUE(app().film.recording()) << app().messages.notice()->text;
   }
   void frames_to_pictures(std::uint64_t pictures) {
-    for (int i = 0; app().recording() && app().recording()->pictures() < pictures; ++i) {
-      ASSERT_LT(i, 20000) << app().recording()->pictures() << " pictures at step " << simulation().step();
+    for (int i = 0; app().film.recording() && app().film.recording()->pictures() < pictures; ++i) {
+      ASSERT_LT(i, 20000) << app().film.recording()->pictures() << " pictures at step " << simulation().step();
       frames(1);
     }
-    ASSERT_TRUE(app().recording());
+    ASSERT_TRUE(app().film.recording());
   }
   /// Ends the film and waits until it is whole.
   void end_film() {
-    app().stop_recording();
+    app().film.stop();
     frames_to_complete();
   }
   void frames_to_complete() {
-    for (int i = 0; app().films_completing() > 0; ++i) {
+    for (int i = 0; app().film.completing() > 0; ++i) {
       ASSERT_LT(i, 20000);
       frames(1);
     }
@@ -98,13 +98,13 @@ TEST_F(Film, TwoSecondsInEveryFilmFormat) {
        {find_film_format("mp4"), find_film_format("webm"), find_film_format("gif")}) {
     press(GLFW_KEY_R);
     record(format, 10.0, "two");
-    const PictureSize size = app().recording()->options().size;
+    const PictureSize size = app().film.recording()->options().size;
     frames_to_pictures(20);
     EXPECT_EQ(simulation().step(), 19u * 100u) << "the motion waits for each picture";
     end_film();
-    ASSERT_FALSE(app().notice()->is_error) << app().notice()->text;
+    ASSERT_FALSE(app().messages.notice()->is_error) << app().messages.notice()->text;
     const std::string name = fmt::format("two.{}", format->name);
-    EXPECT_THAT(app().notice()->text, testing::HasSubstr(name + " holds 20 pictures, 2.00 s at 10"));
+    EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(name + " holds 20 pictures, 2.00 s at 10"));
     const std::string found = output_of(
         "ffprobe -v error -count_frames -show_entries "
         "stream=width,height,avg_frame_rate,nb_read_frames:format=duration -of "
@@ -115,7 +115,7 @@ TEST_F(Film, TwoSecondsInEveryFilmFormat) {
     EXPECT_THAT(found, testing::HasSubstr("avg_frame_rate=10/1\n")) << name;
     EXPECT_THAT(found, testing::HasSubstr("nb_read_frames=20\n")) << name;
     EXPECT_THAT(found, testing::HasSubstr("duration=2.000000\n")) << name;
-    EXPECT_TRUE(app().film_settings().path.empty()) << "a name that is used up is not offered again";
+    EXPECT_TRUE(app().film.settings.path.empty()) << "a name that is used up is not offered again";
   }
 }
 
@@ -133,17 +133,17 @@ TEST_F(Film, DirectoriesOfPictures) {
     EXPECT_FALSE(exists(name + (png ? "/frame-000020.png" : "/frame-000020.jpg")));
     record(format, 50.0, name + "-more");
     end_film();
-    app().film_settings().path = name;
-    app().start_recording();
-    EXPECT_FALSE(app().recording()) << "a directory with pictures is left alone";
-    EXPECT_THAT(app().notice()->text, testing::HasSubstr(name));
+    app().film.settings.path = name;
+    app().film.start();
+    EXPECT_FALSE(app().film.recording()) << "a directory with pictures is left alone";
+    EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(name));
   }
 }
 
 TEST_F(Film, PicturesDependOnSimulatedTimeAlone) {
   open_small("reference", "simulation.steps-per-frame=1");
   const auto film = [&](const std::string& name, std::int64_t steps_per_frame) {
-    app().set_value(*find_parameter("simulation.steps-per-frame"), 0, Value(steps_per_frame), "");
+    app().scene.set_value(*find_parameter("simulation.steps-per-frame"), 0, Value(steps_per_frame), "");
     frames(2);
     press(GLFW_KEY_R);
     record(find_film_format("png"), 60.0, name);
@@ -157,7 +157,7 @@ TEST_F(Film, PicturesDependOnSimulatedTimeAlone) {
   film("wild", 1000);
   press(GLFW_KEY_G);
   film("gpu", 300);
-  simulation().pace = app::Pace::real_time;
+  simulation().pacer().pace = app::Pace::real_time;
   film("clock", 300);
   for (std::uint64_t i = 0; i < 8; ++i) {
     const std::string slow = picture("slow", i);
@@ -174,8 +174,8 @@ TEST_F(Film, TextStandsInThePictureIfWanted) {
   open_small();
   record(find_film_format("png"), 60.0, "with");
   end_film();
-  app().film_settings() = {find_film_format("png"), 60.0, false, "without"};
-  app().start_recording();
+  app().film.settings = {find_film_format("png"), 60.0, false, "without"};
+  app().film.start();
   end_film();
   EXPECT_NE(picture("with", 0), picture("without", 0));
 }
@@ -183,33 +183,33 @@ TEST_F(Film, TextStandsInThePictureIfWanted) {
 TEST_F(Film, PausesJumpsAndOtherScenesAreFilmedAsShown) {
   open_small();
   record(find_film_format("png"), 50.0, "film");
-  EXPECT_EQ(app().recording()->pictures(), 1u) << "the start";
+  EXPECT_EQ(app().film.recording()->pictures(), 1u) << "the start";
   frames(5);
-  EXPECT_EQ(app().recording()->pictures(), 1u) << "no time passes, no picture";
+  EXPECT_EQ(app().film.recording()->pictures(), 1u) << "no time passes, no picture";
   for (int i = 0; i < 40; ++i) type(U'.');
-  EXPECT_EQ(app().recording()->pictures(), 3u) << "single steps pass no picture by, even between two frames";
+  EXPECT_EQ(app().film.recording()->pictures(), 3u) << "single steps pass no picture by, even between two frames";
   press(GLFW_KEY_R);
   frames(1);
-  EXPECT_EQ(app().recording()->pictures(), 4u) << "the start again, at once";
+  EXPECT_EQ(app().film.recording()->pictures(), 4u) << "the start again, at once";
   for (int i = 0; i < 20; ++i) type(U'.');
-  EXPECT_EQ(app().recording()->pictures(), 5u);
+  EXPECT_EQ(app().film.recording()->pictures(), 5u);
   // Another constant changes nothing about the pace; twice the step comes twice as far.
-  app().set_value(*find_parameter("simulation.timestep"), 0, Value(0.002), "");
+  app().scene.set_value(*find_parameter("simulation.timestep"), 0, Value(0.002), "");
   frames(2);
   for (int i = 0; i < 10; ++i) type(U'.');
-  EXPECT_EQ(app().recording()->pictures(), 6u);
+  EXPECT_EQ(app().film.recording()->pictures(), 6u);
   type(U'+');
   for (int i = 0; i < 20; ++i) type(U'.');
-  EXPECT_EQ(app().recording()->pictures(), 7u) << "twice as fast: 40 ms for each picture";
-  const PictureSize size = app().recording()->options().size;
-  app().open("cube-sphere");
+  EXPECT_EQ(app().film.recording()->pictures(), 7u) << "twice as fast: 40 ms for each picture";
+  const PictureSize size = app().film.recording()->options().size;
+  app().scene.open("cube-sphere");
   press(GLFW_KEY_TAB);
   frames(3);
-  EXPECT_EQ(app().recording()->pictures(), 8u) << "the other scene's start";
+  EXPECT_EQ(app().film.recording()->pictures(), 8u) << "the other scene's start";
   press(GLFW_KEY_G);
   press(GLFW_KEY_SPACE);
   frames_to_pictures(10);
-  EXPECT_EQ(app().recording()->options().size.width, size.width) << "whatever becomes of the view";
+  EXPECT_EQ(app().film.recording()->options().size.width, size.width) << "whatever becomes of the view";
   end_film();
   EXPECT_TRUE(exists("film/frame-000009.png"));
 }
@@ -220,29 +220,29 @@ TEST_F(Film, RunsOnAtItsOwnPaceOnceTheFilmHasEnded) {
   record(find_film_format("png"), 10.0, "film");
   frames(1);
   end_film();
-  EXPECT_FALSE(simulation().at_pause_step());
+  EXPECT_FALSE(simulation().pacer().pause_step.has_value());
   frames_to_step(200);
 }
 
 TEST_F(Film, KeyAndNamesThatNobodyHasTaken) {
   open_small();
-  app().film_settings().format = find_film_format("png");
+  app().film.settings.format = find_film_format("png");
   fs::create_directory(directory() / "aspic-cube-plane-0001");
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
-  ASSERT_TRUE(app().recording());
-  EXPECT_EQ(app().recording()->options().path, "aspic-cube-plane-0002");
+  ASSERT_TRUE(app().film.recording());
+  EXPECT_EQ(app().film.recording()->options().path, "aspic-cube-plane-0002");
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
-  EXPECT_FALSE(app().recording());
+  EXPECT_FALSE(app().film.recording());
   frames_to_complete();
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
-  ASSERT_TRUE(app().recording());
-  EXPECT_EQ(app().recording()->options().path, "aspic-cube-plane-0003");
+  ASSERT_TRUE(app().film.recording());
+  EXPECT_EQ(app().film.recording()->options().path, "aspic-cube-plane-0003");
   end_film();
   std::ofstream(directory() / "taken.mp4") << "precious";
-  app().film_settings() = {find_film_format("mp4"), 60.0, true, "taken"};
-  app().start_recording();
-  EXPECT_FALSE(app().recording());
-  EXPECT_TRUE(app().notice()->is_error);
+  app().film.settings = {find_film_format("mp4"), 60.0, true, "taken"};
+  app().film.start();
+  EXPECT_FALSE(app().film.recording());
+  EXPECT_TRUE(app().messages.notice()->is_error);
   EXPECT_EQ(file("taken.mp4"), "precious");
 }
 
@@ -252,20 +252,20 @@ TEST_F(Film, TheSectionStartsAndEndsIt) {
   click("section/Recording");
   click("record/format");
   click("record/format/gif");
-  EXPECT_EQ(app().film_settings().format, find_film_format("gif"));
-  EXPECT_EQ(app().film_settings().fps, 50.0) << "no viewer shows more";
+  EXPECT_EQ(app().film.settings.format, find_film_format("gif"));
+  EXPECT_EQ(app().film.settings.fps, 50.0) << "no viewer shows more";
   click("record/format");
   click("record/format/jpeg");
   click("record/text");
-  EXPECT_FALSE(app().film_settings().text);
+  EXPECT_FALSE(app().film.settings.text);
   click("record/path");
   for (const char32_t c : U"reel") {
     if (c != 0) type(c);
   }
   frames(2);
   click("record/start");
-  ASSERT_TRUE(app().recording()) << app().notice()->text;
-  EXPECT_EQ(app().recording()->options().path, "reel");
+  ASSERT_TRUE(app().film.recording()) << app().messages.notice()->text;
+  EXPECT_EQ(app().film.recording()->options().path, "reel");
   click("record/stop");
   frames_to_complete();
   EXPECT_EQ(picture("reel", 0, "jpg").substr(0, 3), "\xff\xd8\xff");
@@ -286,11 +286,11 @@ TEST_F(Film, WithoutFfmpegThereIsAMessageAndNoFilm) {
   open_small();
   press(GLFW_KEY_SPACE);
   const OtherPath path(directory().string());
-  app().film_settings() = {find_film_format("mp4"), 60.0, true, "film"};
-  app().start_recording();
-  EXPECT_FALSE(app().recording());
-  ASSERT_TRUE(app().notice() && app().notice()->is_error);
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("apt install ffmpeg"));
+  app().film.settings = {find_film_format("mp4"), 60.0, true, "film"};
+  app().film.start();
+  EXPECT_FALSE(app().film.recording());
+  ASSERT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("apt install ffmpeg"));
   frames_to_step(20);
   EXPECT_FALSE(exists("film.mp4"));
 }
@@ -300,13 +300,13 @@ TEST_F(Film, AnEncoderThatDiesEndsTheFilmAndNotTheMotion) {
   const OtherPath path(path_with("head -c 100000 >/dev/null; echo out of film >&2; exit 3\n"));
   record(find_film_format("mp4"), 60.0, "film");
   press(GLFW_KEY_SPACE);
-  for (int i = 0; app().recording() || app().films_completing() > 0; ++i) {
+  for (int i = 0; app().film.recording() || app().film.completing() > 0; ++i) {
     ASSERT_LT(i, 20000);
     frames(1);
   }
-  ASSERT_TRUE(app().notice() && app().notice()->is_error);
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("out of film"));
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("goes on"));
+  ASSERT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("out of film"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("continues without a film"));
   EXPECT_TRUE(simulation().running());
   frames_to_step(simulation().step() + 100);
   EXPECT_FALSE(exists("film.mp4"));
@@ -316,9 +316,9 @@ TEST_F(Film, TheMotionWaitsForASlowEncoderAndNoPictureIsLost) {
   open_small();
   const OtherPath path(path_with("while [ ! -e go ]; do sleep 0.02; done\ncat > \"$out\"\n"));
   record(find_film_format("webm"), 60.0, "film");
-  const PictureSize size = app().recording()->options().size;
+  const PictureSize size = app().film.recording()->options().size;
   press(GLFW_KEY_SPACE);
-  for (int i = 0; app().recording()->ready(); ++i) {
+  for (int i = 0; app().film.recording()->ready(); ++i) {
     ASSERT_LT(i, 20000);
     frames(1);
   }
@@ -329,12 +329,12 @@ TEST_F(Film, TheMotionWaitsForASlowEncoderAndNoPictureIsLost) {
   press(GLFW_KEY_R);
   frames(1);
   EXPECT_EQ(simulation().step(), 0u) << "a reset is filmed, and waits again";
-  const std::uint64_t so_far = app().recording()->pictures();
+  const std::uint64_t so_far = app().film.recording()->pictures();
   std::ofstream(directory() / "go") << "go";
   frames_to_pictures(so_far + 5);
   EXPECT_EQ(simulation().step(), 83u) << "five pictures after the start";
-  app().stop_recording();
-  EXPECT_GT(app().films_completing(), 0u);
+  app().film.stop();
+  EXPECT_GT(app().film.completing(), 0u);
   frames_to_complete();
   const std::size_t bytes = 3u * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
   EXPECT_EQ(file("film.webm").size(), (so_far + 5) * bytes);

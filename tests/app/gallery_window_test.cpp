@@ -17,14 +17,14 @@ class Gallery : public Stage {
 
   /// Coarsely on the way, so that the figures shown are those of a window that keeps up.
   void run_to(std::uint64_t step) {
-    app().set_full_quality(false);
+    app().picture.full_quality = false;
     press(GLFW_KEY_SPACE);
     frames_to_step(step);
-    app().set_full_quality(true);
+    app().picture.full_quality = true;
   }
   void point_at(const Vec3& point) {
-    const app::Box& view = app().viewport();
-    const Camera camera(app().camera().shown(), static_cast<int>(view.right - view.left),
+    const app::Box& view = app().view.box;
+    const Camera camera(app().view.camera.shown(), static_cast<int>(view.right - view.left),
                         static_cast<int>(view.bottom - view.top));
     const auto seen = camera.project(point);
     ASSERT_TRUE(seen.has_value());
@@ -32,7 +32,7 @@ class Gallery : public Stage {
   }
   /// Writes what the window shows. A window with nothing in it compresses to less than this.
   void take(const std::string& name) {
-    EXPECT_FALSE(app().notice() && app().notice()->is_error) << app().notice()->text;
+    EXPECT_FALSE(app().messages.notice() && app().messages.notice()->is_error) << app().messages.notice()->text;
     const Image picture = image();
     const auto file = encode_jpeg({picture.width, picture.height}, picture.rgb);
     ASSERT_TRUE(file.ok()) << file.error().message;
@@ -52,7 +52,7 @@ TEST_F(Gallery, CubeInABowlRuns) {
   run_to(1450);
   frames(1);
   EXPECT_TRUE(simulation().running());
-  EXPECT_GT(simulation().energies().size(), 2u) << "the plot has curves";
+  EXPECT_GT(simulation().samples().energies().size(), 2u) << "the plot has curves";
   EXPECT_TRUE(has("simulation/run"));
   take("window-cube-bowl");
 }
@@ -73,14 +73,14 @@ TEST_F(Gallery, StrainOfACubeThatAHandPulls) {
   const Vec3 corner = simulation().snapshot().position[999];
   point_at(corner);
   frames(4);
-  ASSERT_TRUE(app().hovered().has_value());
+  ASSERT_TRUE(app().pointer.hovered().has_value());
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
   point_at(corner + Vec3{0.8, 2.4, 0.0});
   run_to(180);
   press(GLFW_KEY_SPACE);
   frames(30);
-  ASSERT_TRUE(app().hovered().has_value());
-  EXPECT_NE(app().hovered()->force.pull, Vec3{});
+  ASSERT_TRUE(app().pointer.hovered().has_value());
+  EXPECT_NE(app().pointer.hovered()->force.pull, Vec3{});
   take("window-strain");
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
 }

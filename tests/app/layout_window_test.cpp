@@ -22,20 +22,20 @@ class Layout : public Stage {
   }
   /// Lets the camera come to rest without a picture of all its way.
   void rest() {
-    for (int i = 0; i < 100 && app().camera().update(1.0); ++i) {
+    for (int i = 0; i < 100 && app().view.camera.update(1.0); ++i) {
     }
     frames(1);
   }
-  Box box(const std::string& name) { return app().gui().widgets().at(name); }
+  Box box(const std::string& name) { return widgets().at(name); }
 };
 
 TEST_F(Layout, EveryControlExplainsItself) {
   open("cube-plane", {}, "reference", with_sections(true));
   std::size_t keys = 0;
   for (const BuiltinScene& scene : list_builtin_scenes()) {
-    app().open(std::string(scene.name));
+    app().scene.open(std::string(scene.name));
     frames(2);
-    for (const auto& [name, text] : app().gui().explanations()) {
+    for (const auto& [name, text] : explanations()) {
       EXPECT_FALSE(text.empty()) << name << " in " << scene.name << " has no tooltip";
       std::string path = name.substr(0, name.find('/'));
       if (const std::size_t bracket = path.find('['); bracket != std::string::npos)
@@ -53,7 +53,7 @@ TEST_F(Layout, EveryControlExplainsItself) {
   EXPECT_GT(keys, 200u) << "the sections are open";
   for (const auto& [name, key] : {std::pair("simulation/run", "Space"), std::pair("scene/reload", "Ctrl+L"),
                                   std::pair("camera/home", "Home"), std::pair("simulation/step", ".")})
-    EXPECT_THAT(app().gui().explanations().at(name), testing::HasSubstr(std::string("Key: ") + key)) << name;
+    EXPECT_THAT(explanations().at(name), testing::HasSubstr(std::string("Key: ") + key)) << name;
 }
 
 TEST_F(Layout, NothingIsCutOffAndNothingOverlaps) {
@@ -64,11 +64,11 @@ TEST_F(Layout, NothingIsCutOffAndNothingOverlaps) {
       app().gui().set_text_size(size);
       frames(3);
       const std::string at = fmt::format("{} x {}, text {}", width, height, size);
-      const Box view = app().viewport();
+      const Box view = app().view.box;
       EXPECT_GE(view.right - view.left, 0.29 * width) << at;
       const bool two = view.right < width;
       std::vector<std::pair<std::string, Box>> boxes;
-      for (const auto& [name, box] : app().gui().widgets()) {
+      for (const auto& [name, box] : widgets()) {
         if (!name.starts_with("layout/l") && !name.starts_with("layout/right")) boxes.emplace_back(name, box);
       }
       for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -98,39 +98,39 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   const Box edge = box("layout/left");
   drag(GLFW_MOUSE_BUTTON_LEFT, edge.centre_x(), edge.centre_y(), 55, 0);
   frames(2);
-  const double left = app().viewport().left;
+  const double left = app().view.box.left;
   EXPECT_GT(left, 322 + 20);
-  app().camera().orbit(0.1, 0.05);
+  app().view.camera.orbit(0.1, 0.05);
   rest();
-  const CameraSettings plane = app().camera().goal();
-  app().open("cube-sphere");
-  app().camera().zoom(3);
+  const CameraSettings plane = app().view.camera.goal();
+  app().scene.open("cube-sphere");
+  app().view.camera.zoom(3);
   rest();
-  const CameraSettings sphere = app().camera().goal();
-  app().simulation().pace = app::Pace::real_time;
-  app().simulation().speed = 0.5;
-  app().film_settings().format = find_film_format("webm");
+  const CameraSettings sphere = app().view.camera.goal();
+  simulation().pacer().pace = app::Pace::real_time;
+  simulation().pacer().speed = 0.5;
+  app().film.settings.format = find_film_format("webm");
   const app::KeptState kept = app().kept_state();
   close();
 
   const auto read = app::read_kept_state(app::to_text(kept));
   ASSERT_TRUE(read.ok()) << read.error().message;
   open("cube-sphere", {}, "", *read);
-  EXPECT_EQ(app().camera().shown(), sphere) << "to the bit";
-  EXPECT_NEAR(app().viewport().left, left, 1e-9);
+  EXPECT_EQ(app().view.camera.shown(), sphere) << "to the bit";
+  EXPECT_NEAR(app().view.box.left, left, 1e-9);
   EXPECT_TRUE(has("contact.model"));
   EXPECT_TRUE(has("section/Performance"));
-  EXPECT_EQ(app().simulation().pace, app::Pace::real_time);
-  EXPECT_EQ(app().simulation().speed, 0.5);
-  EXPECT_EQ(app().film_settings().format, find_film_format("webm"));
-  app().open("cube-plane");
-  EXPECT_EQ(app().camera().shown(), plane);
+  EXPECT_EQ(simulation().pacer().pace, app::Pace::real_time);
+  EXPECT_EQ(simulation().pacer().speed, 0.5);
+  EXPECT_EQ(app().film.settings.format, find_film_format("webm"));
+  app().scene.open("cube-plane");
+  EXPECT_EQ(app().view.camera.shown(), plane);
   press(GLFW_KEY_HOME);
   rest();
-  EXPECT_EQ(app().camera().shown(), app().editor().scene().view.camera) << "the scene's own";
+  EXPECT_EQ(app().view.camera.shown(), app().scene.editor().scene().view.camera) << "the scene's own";
   EXPECT_EQ(app().kept_state().cameras.size(), 1u) << "what is as the scene says needs no keeping";
   click("layout/reset");
-  EXPECT_EQ(app().viewport().left, 322.0);
+  EXPECT_EQ(app().view.box.left, 322.0);
   EXPECT_FALSE(has("contact.model"));
   EXPECT_EQ(app().kept_state().layout, app::Layout());
 }
@@ -139,18 +139,18 @@ TEST_F(Layout, ACameraOfTheCommandLineGoesFirst) {
   app::KeptState kept;
   kept.cameras = {{"cube-plane", {{1, 2, 3}, {0, 0, 0}, 30}}};
   open("cube-plane", {"view.camera.fov=20"}, "", kept);
-  EXPECT_EQ(app().camera().shown().fov, 20.0);
+  EXPECT_EQ(app().view.camera.shown().fov, 20.0);
 }
 
 TEST_F(Layout, TextAndPanelsGrowTogether) {
   open("cube-plane");
   const Box before = box("simulation/run");
-  app().layout().text_size = 1.5;
+  app().layout.text_size = 1.5;
   app().gui().set_text_size(1.5);
   frames(2);
   const Box after = box("simulation/run");
   EXPECT_NEAR(after.bottom - after.top, 1.5 * (before.bottom - before.top), 2.0);
-  EXPECT_NEAR(app().viewport().left, 1.5 * 322, 1.0);
+  EXPECT_NEAR(app().view.box.left, 1.5 * 322, 1.0);
   EXPECT_EQ(app().kept_state().layout.text_size, 1.5);
   app().gui().set_text_size(1.0);
   frames(2);
@@ -165,33 +165,33 @@ TEST_F(Layout, TheSliderChangesTextOnceItIsLetGo) {
   drag(GLFW_MOUSE_BUTTON_LEFT, slider.centre_x(), slider.centre_y(), 20, 0);
   frames(3);
   EXPECT_GT(app().gui().scale(), 1.2);
-  EXPECT_EQ(app().gui().scale(), app().layout().text_size);
+  EXPECT_EQ(app().gui().scale(), app().layout.text_size);
 }
 
 TEST_F(Layout, CameraPresetsTurnAboutTheTarget) {
   open("cube-plane", {}, "", with_sections(false));
   click("section/View");
-  const CameraSettings home = app().camera().goal();
+  const CameraSettings home = app().view.camera.goal();
   const double distance = length(home.position - home.target);
   const std::pair<const char*, Vec3> cases[] = {{"camera/front", {0, 0, distance}},
                                                 {"camera/side", {distance, 0, 0}}};
   for (const auto& [name, offset] : cases) {
     click(name);
     rest();
-    const CameraSettings shown = app().camera().shown();
+    const CameraSettings shown = app().view.camera.shown();
     EXPECT_NEAR(length(shown.position - (home.target + offset)), 0.0, 1e-9) << name;
   }
   click("camera/top");
   rest();
-  EXPECT_NEAR(app().camera().shown().position.y - home.target.y, distance, 1e-3 * distance);
+  EXPECT_NEAR(app().view.camera.shown().position.y - home.target.y, distance, 1e-3 * distance);
   click("camera/isometric");
   rest();
-  const Vec3 d = app().camera().shown().position - home.target;
+  const Vec3 d = app().view.camera.shown().position - home.target;
   EXPECT_NEAR(d.x, d.y, 1e-9);
   EXPECT_NEAR(d.y, d.z, 1e-9);
   click("camera/home");
   rest();
-  EXPECT_EQ(app().camera().shown(), home);
+  EXPECT_EQ(app().view.camera.shown(), home);
 }
 
 }  // namespace

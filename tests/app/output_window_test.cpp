@@ -31,7 +31,7 @@ class Output : public Stage {
   void save(const std::string& widget) {
     click("save/" + widget);
     click("save/" + widget + "/write");
-    ASSERT_TRUE(app().notice());
+    ASSERT_TRUE(app().messages.notice());
   }
   std::string path(const std::string& name) const { return (directory() / name).string(); }
 };
@@ -41,11 +41,11 @@ class OutputOn : public Output, public testing::WithParamInterface<const char*> 
 TEST_P(OutputOn, AStateReadsBackToItsHash) {
   open_falling(GetParam());
   save("state.csv");
-  EXPECT_FALSE(app().notice()->is_error) << app().notice()->text;
+  EXPECT_FALSE(app().messages.notice()->is_error) << app().messages.notice()->text;
   const auto state = test::read_state_csv(path("aspic-cube-plane-0001.csv"), Precision::single);
   ASSERT_TRUE(state.ok()) << state.error().message;
   EXPECT_EQ(state_hash_text(*state), state_hash_text(simulation().snapshot()));
-  EXPECT_EQ(state_hash_text(*state), reference_hash(app().editor().scene(), simulation().step()));
+  EXPECT_EQ(state_hash_text(*state), reference_hash(app().scene.editor().scene(), simulation().step()));
 }
 
 TEST_P(OutputOn, ACheckpointGoesOnAsTheWindowDoes) {
@@ -75,8 +75,8 @@ TEST_F(Output, ASeriesHasARowForEachPointOfThePlot) {
   const auto text = read_file(path("aspic-cube-plane-0001.csv"));
   ASSERT_TRUE(text.ok()) << text.error().message;
   EXPECT_THAT(*text, testing::StartsWith(std::string(series_csv_header) + "\n0,0,"));
-  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(*text, '\n')), simulation().energies().size() + 1);
-  EXPECT_GT(simulation().energies().size(), 1u);
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(*text, '\n')), simulation().samples().energies().size() + 1);
+  EXPECT_GT(simulation().samples().energies().size(), 1u);
 }
 
 TEST_F(Output, WhatExistsIsKeptAndTheNextNameIsFree) {
@@ -91,20 +91,20 @@ TEST_F(Output, WhatExistsIsKeptAndTheNextNameIsFree) {
     if (c != 0) type(c);
   }
   click("save/state.csv/write");
-  EXPECT_TRUE(app().notice()->is_error);
+  EXPECT_TRUE(app().messages.notice()->is_error);
   EXPECT_EQ(*read_file(path("aspic-cube-plane-0001.csv")), "precious");
 }
 
 TEST_F(Output, ACheckpointIsRefusedWhereHandsAddedBodies) {
   open_falling("reference");
-  app().throw_ball();
+  app().gui().commands().run("throw a ball");
   frames(2);
   save("checkpoint.aspic");
-  EXPECT_TRUE(app().notice()->is_error);
-  EXPECT_THAT(app().notice()->text, HasSubstr("thrown"));
+  EXPECT_TRUE(app().messages.notice()->is_error);
+  EXPECT_THAT(app().messages.notice()->text, HasSubstr("thrown"));
   EXPECT_FALSE(std::filesystem::exists(directory() / "aspic-cube-plane-0001.aspic"));
   save("state.csv");
-  EXPECT_FALSE(app().notice()->is_error) << app().notice()->text;
+  EXPECT_FALSE(app().messages.notice()->is_error) << app().messages.notice()->text;
 }
 
 }  // namespace

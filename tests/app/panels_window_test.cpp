@@ -14,7 +14,7 @@ using app::Effect;
 class Panels : public Stage {
  protected:
   void set(std::string_view path, const Value& value, std::size_t index = 0) {
-    app().set_value(*find_parameter(path), index, value, "");
+    app().scene.set_value(*find_parameter(path), index, value, "");
     frames(1);
   }
   /// One section open, the others closed.
@@ -25,7 +25,7 @@ class Panels : public Stage {
     kept.layout.sections[section] = true;
     return kept;
   }
-  const ModelSettings& settings() { return app().editor().scene().model; }
+  const ModelSettings& settings() { return app().scene.editor().scene().model; }
 };
 
 TEST_F(Panels, ButtonsRunStepAndReset) {
@@ -48,11 +48,11 @@ TEST_F(Panels, ButtonsRunStepAndReset) {
 TEST_F(Panels, ScenesAreChosenByClick) {
   open("cube-plane");
   click("scene/cube-sphere");
-  EXPECT_EQ(app().editor().source(), "cube-sphere");
+  EXPECT_EQ(app().scene.editor().source(), "cube-sphere");
   EXPECT_EQ(simulation().model().terrain.front().shape, TerrainShape::sphere);
   click("terrain/bowl");
   EXPECT_EQ(simulation().model().terrain.front().shape, TerrainShape::bowl);
-  EXPECT_EQ(simulation().model().terrain.front().point, (Vec3{2, 7, 1}));
+  EXPECT_EQ(simulation().model().terrain.front().geometry.vectors[0], (Vec3{2, 7, 1}));
   click("scene/undo");
   EXPECT_EQ(simulation().model().terrain.front().shape, TerrainShape::sphere);
   click("scene/redo");
@@ -66,20 +66,20 @@ TEST_F(Panels, WordsAndFlagsFollowTheTable) {
   EXPECT_EQ(settings().simulation.integrator, Integrator::runge_kutta_4);
   EXPECT_EQ(simulation().model().simulation.integrator, Integrator::runge_kutta_4);
   click("view.draw/shear");
-  EXPECT_TRUE(app().editor().scene().view.draw.shear);
+  EXPECT_TRUE(app().scene.editor().scene().view.draw.shear);
   click("view.draw/solid");
-  EXPECT_FALSE(app().editor().scene().view.draw.solid);
+  EXPECT_FALSE(app().scene.editor().scene().view.draw.solid);
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
-  EXPECT_TRUE(app().editor().scene().view.draw.solid);
-  EXPECT_TRUE(app().editor().scene().view.draw.shear);
+  EXPECT_TRUE(app().scene.editor().scene().view.draw.solid);
+  EXPECT_TRUE(app().scene.editor().scene().view.draw.shear);
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
-  EXPECT_FALSE(app().editor().scene().view.draw.solid);
+  EXPECT_FALSE(app().scene.editor().scene().view.draw.solid);
 }
 
 TEST_F(Panels, ADragOfANumberIsOneChangeForUndo) {
   open("cube-plane");
   const Vec3 before = settings().simulation.gravity;
-  const auto box = app().gui().widgets().at("simulation.timestep");
+  const auto box = widgets().at("simulation.timestep");
   drag(GLFW_MOUSE_BUTTON_LEFT, box.centre_x(), box.centre_y(), 60, 0);
   frames(2);
   EXPECT_GT(settings().simulation.timestep, 0.001);
@@ -88,7 +88,7 @@ TEST_F(Panels, ADragOfANumberIsOneChangeForUndo) {
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   frames(1);
   EXPECT_EQ(settings().simulation.timestep, 0.001);
-  EXPECT_FALSE(app().editor().can_undo());
+  EXPECT_FALSE(app().scene.editor().can_undo());
 }
 
 TEST_F(Panels, ConstantsKeepTheStateAndBodiesStartAnew) {
@@ -98,22 +98,22 @@ TEST_F(Panels, ConstantsKeepTheStateAndBodiesStartAnew) {
   set("cube[].shear.stiffness", 2500.0);
   EXPECT_EQ(simulation().step(), 9u);
   EXPECT_EQ(state_hash_text(simulation().snapshot()), hash);
-  EXPECT_FALSE(app().notice().has_value());
+  EXPECT_FALSE(app().messages.notice().has_value());
   set("cube[].particles-per-edge", std::int64_t{5});
   EXPECT_EQ(simulation().step(), 0u);
   EXPECT_EQ(simulation().model().particle_count(), 125u);
-  ASSERT_TRUE(app().notice().has_value());
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("anew"));
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("restarted"));
 }
 
 TEST_F(Panels, RejectedValuesChangeNothingAndSayWhy) {
   open("cube-plane");
   set("simulation.timestep", -1.0);
-  ASSERT_TRUE(app().notice().has_value());
-  EXPECT_TRUE(app().notice()->is_error);
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("timestep"));
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_TRUE(app().messages.notice()->is_error);
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("timestep"));
   EXPECT_EQ(settings().simulation.timestep, 0.001);
-  EXPECT_FALSE(app().editor().can_undo());
+  EXPECT_FALSE(app().scene.editor().can_undo());
 }
 
 TEST_F(Panels, EverySectionOpensAndShowsItsKeys) {
@@ -146,9 +146,9 @@ TEST_F(Panels, DivergencePausesExplainsAndOffersAStableStep) {
   ASSERT_TRUE(simulation().divergence().has_value());
   frames(1);
   EXPECT_FALSE(simulation().running());
-  ASSERT_TRUE(app().notice().has_value());
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("particle"));
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("0.002048"));
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("particle"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("0.002048"));
   for (const Vec3& x : simulation().snapshot().position) ASSERT_TRUE(std::isfinite(x.x + x.y + x.z));
   press(GLFW_KEY_SPACE);
   EXPECT_FALSE(simulation().running()) << "not on from a diverged state";
@@ -172,7 +172,7 @@ TEST_F(Panels, StepBackTakesOneStepBack) {
   click("simulation/back");
   ASSERT_TRUE(simulation().settle().ok());
   EXPECT_EQ(simulation().step(), 4u);
-  EXPECT_EQ(state_hash_text(simulation().snapshot()), reference_hash(app().editor().scene(), 4));
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), reference_hash(app().scene.editor().scene(), 4));
 }
 
 TEST_F(Panels, KeysThatMayBeAbsentAreSetAndTakenAway) {
@@ -185,7 +185,7 @@ TEST_F(Panels, KeysThatMayBeAbsentAreSetAndTakenAway) {
   set("terrain[].friction", 0.75);
   click("terrain[0].friction/set");
   EXPECT_FALSE(settings().terrain[0].friction.has_value());
-  app().undo();
+  app().scene.undo();
   EXPECT_EQ(settings().terrain[0].friction, 0.75) << "undone like any change";
   click("terrain[0].mass/set");
   EXPECT_EQ(settings().terrain[0].mass, 10.0);
@@ -225,33 +225,33 @@ TEST_F(Panels, TerrainsAndCubesComeAndGo) {
 TEST_F(Panels, SpringsAreShownAndHiddenByType) {
   open("cube-plane", {}, "reference", only("Springs"));
   click("springs/show/shear");
-  EXPECT_TRUE(app().editor().scene().view.draw.shear);
-  EXPECT_TRUE(app().editor().scene().view.draw.solid);
+  EXPECT_TRUE(app().scene.editor().scene().view.draw.shear);
+  EXPECT_TRUE(app().scene.editor().scene().view.draw.solid);
   click("springs/show/structural");
-  EXPECT_TRUE(app().editor().scene().view.draw.structural);
+  EXPECT_TRUE(app().scene.editor().scene().view.draw.structural);
   click("springs/show/shear");
-  EXPECT_FALSE(app().editor().scene().view.draw.shear);
+  EXPECT_FALSE(app().scene.editor().scene().view.draw.shear);
 }
 
 TEST_F(Panels, ACubeBeyondMemoryIsRefusedWithTheFigures) {
   open("cube-plane", {}, "reference", only("Simulation"));
-  EXPECT_THAT(app().gui().explanations().at("cube[0].particles-per-edge"),
+  EXPECT_THAT(explanations().at("cube[0].particles-per-edge"),
               testing::HasSubstr("1000 particles and 12876 springs"));
-  EXPECT_THAT(app().gui().explanations().at("cube[0].particles-per-edge"), testing::HasSubstr("are free"));
+  EXPECT_THAT(explanations().at("cube[0].particles-per-edge"), testing::HasSubstr("are free"));
   for (int i = 0; i < 3; ++i) type(U'.');
   // The largest cube there is; where that fits, two of them, more than 32 bits can name.
-  Scene large = app().editor().scene();
+  Scene large = app().scene.editor().scene();
   large.model.cubes[0].particles_per_edge = 512;
   const bool fits = available_memory().value_or(0) > model_bytes(predict_counts(large.model));
   if (fits) {
     large.model.cubes.push_back(large.model.cubes[0]);
-    app().apply(large, "two large cubes", "");
+    app().scene.apply(large, "two large cubes", "");
   } else {
     set("cube[].particles-per-edge", std::int64_t{512});
   }
-  ASSERT_TRUE(app().notice() && app().notice()->is_error);
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("particles and"));
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr(fits ? "32-bit" : "of memory and"));
+  ASSERT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("particles and"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(fits ? "32-bit" : "of memory and"));
   EXPECT_EQ(settings().cubes.size(), 1u);
   EXPECT_EQ(settings().cubes[0].particles_per_edge, 10);
   EXPECT_EQ(simulation().model().particle_count(), 1000u);
@@ -266,7 +266,7 @@ TEST_F(Panels, MomentumStandsBesideEnergy) {
   frames(2);
   EXPECT_TRUE(has("energy/plot"));
   EXPECT_TRUE(has("energy/momentum"));
-  const Measures& last = simulation().energies().back().measures;
+  const Measures& last = simulation().samples().energies().back().measures;
   // Free fall: p = m·g·t for 1000 particles of 1 kg and 5 ms.
   EXPECT_NEAR(last.momentum.y, -1000.0 * 9.8 * 0.005, 1e-3);
 }
@@ -295,8 +295,8 @@ TEST_F(Files, DroppedSceneOpensAndABrokenOneDoesNot) {
   EXPECT_EQ(simulation().model().particle_count(), 64u);
   app().drop({write("broken.toml", "schema = 1\n[[cube]]\nparticles-per-edge = two\n")});
   EXPECT_EQ(simulation().model().particle_count(), 64u);
-  ASSERT_TRUE(app().notice().has_value());
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("broken.toml:3"));
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("broken.toml:3"));
 }
 
 TEST_F(Files, ReloadsWhenTheFileChangesAndKeepsTheOldSceneWhileItIsBroken) {
@@ -307,9 +307,9 @@ TEST_F(Files, ReloadsWhenTheFileChangesAndKeepsTheOldSceneWhileItIsBroken) {
   write("mine.toml", "schema = 1\n[[cube]]\nparticles-per-edge = 1\n");
   frames(40);
   EXPECT_EQ(simulation().model().particle_count(), 27u);
-  ASSERT_TRUE(app().notice().has_value());
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("mine.toml:3"));
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("particles-per-edge = 1")) << "the line itself";
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("mine.toml:3"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("particles-per-edge = 1")) << "the line itself";
   write("mine.toml", scene_text(5));
   frames(40);
   EXPECT_EQ(simulation().model().particle_count(), 125u);
@@ -320,15 +320,15 @@ TEST_F(Files, BrokenAndMendedWhileItRuns) {
   press(GLFW_KEY_SPACE);
   frames_to_step(20);
   write("mine.toml", scene_text(4) + "[contact]\nfriction = much\n");
-  for (int i = 0; !(app().notice() && app().notice()->is_error); ++i) {
+  for (int i = 0; !(app().messages.notice() && app().messages.notice()->is_error); ++i) {
     ASSERT_LT(i, 1000);
     frames(1);
   }
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("mine.toml:5"));
-  EXPECT_THAT(app().notice()->text, testing::HasSubstr("friction = much"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("mine.toml:5"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("friction = much"));
   EXPECT_TRUE(simulation().running()) << "the old scene keeps running";
   frames_to_step(simulation().step() + 20);
-  EXPECT_TRUE(app().notice() && app().notice()->is_error)
+  EXPECT_TRUE(app().messages.notice() && app().messages.notice()->is_error)
       << "the message stays as long as the file is broken";
   const std::uint64_t before = simulation().step();
   write("mine.toml", scene_text(4) + "[contact]\nfriction = 0.9\n");
@@ -336,18 +336,18 @@ TEST_F(Files, BrokenAndMendedWhileItRuns) {
     ASSERT_LT(i, 1000);
     frames(1);
   }
-  EXPECT_FALSE(app().notice() && app().notice()->is_error) << "mended";
+  EXPECT_FALSE(app().messages.notice() && app().messages.notice()->is_error) << "mended";
   EXPECT_TRUE(simulation().running());
   EXPECT_GE(simulation().step(), before) << "constants alone: the motion goes on";
   frames_to_step(before + 20);
   // Broken and mended to the very same content: the message goes too.
   write("mine.toml", "[");
-  for (int i = 0; !(app().notice() && app().notice()->is_error); ++i) {
+  for (int i = 0; !(app().messages.notice() && app().messages.notice()->is_error); ++i) {
     ASSERT_LT(i, 1000);
     frames(1);
   }
   write("mine.toml", scene_text(4) + "[contact]\nfriction = 0.9\n");
-  for (int i = 0; app().notice() && app().notice()->is_error; ++i) {
+  for (int i = 0; app().messages.notice() && app().messages.notice()->is_error; ++i) {
     ASSERT_LT(i, 1000);
     frames(1);
   }
@@ -359,13 +359,13 @@ TEST_F(Files, AFileWithOtherConstantsLetsTheMotionGoOn) {
   for (int i = 0; i < 6; ++i) type(U'.');
   const std::string hash = state_hash_text(simulation().snapshot());
   drag(GLFW_MOUSE_BUTTON_LEFT, middle_x(), middle_y(), 90, -30);
-  const CameraSettings camera = app().camera().goal();
+  const CameraSettings camera = app().view.camera.goal();
   write("mine.toml", scene_text(4) + "[contact]\nfriction = 0.9\n");
   frames(40);
   EXPECT_EQ(simulation().model().contact.friction, 0.9);
   EXPECT_EQ(simulation().step(), 6u);
   EXPECT_EQ(state_hash_text(simulation().snapshot()), hash);
-  EXPECT_EQ(app().camera().goal(), camera) << "the camera stays where it was put";
+  EXPECT_EQ(app().view.camera.goal(), camera) << "the camera stays where it was put";
 }
 
 TEST_F(Files, SavedSceneHoldsChangesAndCamera) {
@@ -373,13 +373,13 @@ TEST_F(Files, SavedSceneHoldsChangesAndCamera) {
   set("cube[].shear.stiffness", 1234.5);
   app().scroll(0, 0);
   drag(GLFW_MOUSE_BUTTON_LEFT, middle_x(), middle_y(), 90, -30);
-  app().save_as("saved.toml");
+  app().scene.save_as("saved.toml");
   const auto saved = load_scene((directory() / "saved.toml").string());
   ASSERT_TRUE(saved.ok()) << saved.error().message;
   EXPECT_EQ(saved->model.cubes[0].shear.stiffness, 1234.5);
-  EXPECT_EQ(saved->view.camera, app().camera().goal());
-  app().save_as("saved.toml");
-  EXPECT_TRUE(app().notice() && app().notice()->is_error) << "nothing is overwritten";
+  EXPECT_EQ(saved->view.camera, app().view.camera.goal());
+  app().scene.save_as("saved.toml");
+  EXPECT_TRUE(app().messages.notice() && app().messages.notice()->is_error) << "nothing is overwritten";
 }
 
 }  // namespace

@@ -14,16 +14,16 @@ class Pointer : public Stage {
  protected:
   bool full_quality() const override { return true; }  // pictures are compared, whatever time they take
   Camera camera() {
-    const app::Box& view = app().viewport();
-    return {app().camera().shown(), static_cast<int>(view.right - view.left),
+    const app::Box& view = app().view.box;
+    return {app().view.camera.shown(), static_cast<int>(view.right - view.left),
             static_cast<int>(view.bottom - view.top)};
   }
   /// Where a point is seen in the window.
   Projected place(const Vec3& point) {
     auto seen = camera().project(point);
     EXPECT_TRUE(seen.has_value());
-    seen->x += app().viewport().left;
-    seen->y += app().viewport().top;
+    seen->x += app().view.box.left;
+    seen->y += app().view.box.top;
     return *seen;
   }
   void point_at(const Vec3& point) {
@@ -55,8 +55,8 @@ class Pointer : public Stage {
     app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
   }
   void double_click(double x, double y, double pause = 0.2) {
-    app().set_full_quality(false);  // nobody looks
-    app().set_clock([this] { return time_; });
+    app().picture.full_quality = false;  // nobody looks
+    app().pointer.clock = [this] { return time_; };
     const double start = time_ + 10.0;
     click(x, y, start);
     frames(1);
@@ -80,10 +80,10 @@ TEST_P(PointerOn, TellsForceMassAndPins) {
   frames(2);
   const Model& model = simulation().model();
   const State& state = simulation().snapshot();
-  const IncidentSprings incident(model);
+  const SpringFinder incident(model);
   for (const std::uint32_t particle : {999u, 909u}) {  // two corners of the face towards the eye
     point_at(state.position[particle]);
-    const auto& h = app().hovered();
+    const auto& h = app().pointer.hovered();
     ASSERT_TRUE(h.has_value());
     EXPECT_EQ(h->particle, particle);
     EXPECT_EQ(h->position, state.position[particle]);
@@ -101,15 +101,15 @@ TEST_F(Pointer, SolidBodiesHideTheirInside) {
   open("cube-plane", {"cube[0].position=[0,3,0]"});
   // The very middle of the body lies behind its skin.
   point_at({0.0, 3.0, 0.0});
-  ASSERT_TRUE(app().hovered().has_value());
-  const std::uint32_t i = app().hovered()->particle / 100, j = app().hovered()->particle / 10 % 10,
-                      k = app().hovered()->particle % 10;
-  EXPECT_TRUE(i == 9 || j == 9 || k == 9) << "on a face towards the eye, not " << app().hovered()->particle;
+  ASSERT_TRUE(app().pointer.hovered().has_value());
+  const std::uint32_t i = app().pointer.hovered()->particle / 100, j = app().pointer.hovered()->particle / 10 % 10,
+                      k = app().pointer.hovered()->particle % 10;
+  EXPECT_TRUE(i == 9 || j == 9 || k == 9) << "on a face towards the eye, not " << app().pointer.hovered()->particle;
   point_at({0.0, -1.0, 6.0});
-  EXPECT_FALSE(app().hovered().has_value()) << "the ground";
+  EXPECT_FALSE(app().pointer.hovered().has_value()) << "the ground";
   app().cursor(5.0, 300.0);
   frames(3);
-  EXPECT_FALSE(app().hovered().has_value()) << "a panel";
+  EXPECT_FALSE(app().pointer.hovered().has_value()) << "a panel";
 }
 
 TEST_F(Pointer, RingFollowsTheMouseWithoutANewPicture) {
@@ -121,7 +121,7 @@ TEST_F(Pointer, RingFollowsTheMouseWithoutANewPicture) {
   const Projected p = place(corner);
   point_at(corner);
   const auto with = pixels();
-  ASSERT_TRUE(app().hovered().has_value());
+  ASSERT_TRUE(app().pointer.hovered().has_value());
   // The tooltip hangs towards the middle of the view.
   const double x = p.x > middle_x() ? 1.0 : -1.0, y = p.y > middle_y() ? 1.0 : -1.0;
   EXPECT_GT(change(before, with, p.x + 7.2 * x, p.y, 2.0), 200);
@@ -138,16 +138,16 @@ TEST_F(Pointer, PullsAndPinsAreMarked) {
   const Vec3 corner = simulation().snapshot().position[999];
   const Projected p = place(corner);
   point_at(corner);
-  ASSERT_TRUE(app().hovered().has_value());
+  ASSERT_TRUE(app().pointer.hovered().has_value());
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
   frames(30);
   const auto before = pixels();
   app().cursor(p.x - 60.0, p.y - 90.0);
   frames(30);
   ASSERT_TRUE(simulation().hand().has_value());
-  ASSERT_TRUE(app().hovered().has_value());
-  EXPECT_EQ(app().hovered()->particle, 999u) << "who is pulled is told of, wherever the mouse is";
-  EXPECT_NE(app().hovered()->force.pull, Vec3{});
+  ASSERT_TRUE(app().pointer.hovered().has_value());
+  EXPECT_EQ(app().pointer.hovered()->particle, 999u) << "who is pulled is told of, wherever the mouse is";
+  EXPECT_NE(app().pointer.hovered()->force.pull, Vec3{});
   EXPECT_GT(change(before, pixels(), p.x - 30.0, p.y - 45.0, 4.0), 500) << "the band";
   EXPECT_GT(change(before, pixels(), p.x - 60.0, p.y - 90.0, 8.0), 5000) << "the anchor";
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
@@ -169,12 +169,12 @@ TEST_F(Pointer, DoubleClickCentresWhatIsThere) {
          "[[ball]]\nposition = [-4, 1, 2]\nradius = 0.8\nvelocity = [0, 0, 0]\n";
   open("scene.toml");
   const auto distance = [](const CameraSettings& c) { return length(c.position - c.target); };
-  const CameraSettings home = app().camera().goal();
+  const CameraSettings home = app().view.camera.goal();
   const Vec3 corner = simulation().snapshot().position[999];
   Projected p = place(corner);
   double_click(p.x, p.y);
-  EXPECT_NEAR(length(app().camera().shown().target - corner), 0.0, 1e-12);
-  EXPECT_NEAR(distance(app().camera().shown()), distance(home), 1e-9) << "as far away as before";
+  EXPECT_NEAR(length(app().view.camera.shown().target - corner), 0.0, 1e-12);
+  EXPECT_NEAR(distance(app().view.camera.shown()), distance(home), 1e-9) << "as far away as before";
   const Projected now = place(corner);
   EXPECT_NEAR(now.x, middle_x(), 1.0);
   EXPECT_NEAR(now.y, middle_y(), 1.0);
@@ -184,32 +184,32 @@ TEST_F(Pointer, DoubleClickCentresWhatIsThere) {
   const Vec3 ball = simulation().snapshot().ball_position[0];
   p = place(ball);
   double_click(p.x, p.y);
-  EXPECT_NEAR(length(app().camera().shown().target - ball), 0.0, 1e-12);
+  EXPECT_NEAR(length(app().view.camera.shown().target - ball), 0.0, 1e-12);
 
   press(GLFW_KEY_HOME);
   frames_to_rest();
   const Vec3 ground = {3.0, -1.0, 5.0};
   p = place(ground);
   double_click(p.x, p.y);
-  const Vec3 target = app().camera().shown().target;
+  const Vec3 target = app().view.camera.shown().target;
   EXPECT_NEAR(signed_distance(simulation().model().terrain[0], target), 0.0, 1e-3);
   // The middle of a pixel of the window, seen from 18 m away at a slant.
   EXPECT_NEAR(length(target - ground), 0.0, 0.1);
 
   press(GLFW_KEY_HOME);
   frames_to_rest();
-  double_click(middle_x(), app().viewport().top + 3.0);
-  EXPECT_EQ(app().camera().goal(), home) << "the sky is nothing to turn to";
+  double_click(middle_x(), app().view.box.top + 3.0);
+  EXPECT_EQ(app().view.camera.goal(), home) << "the sky is nothing to turn to";
 }
 
 TEST_F(Pointer, OnlyTwoQuickPressesOnOnePlaceAreADoubleClick) {
   open("cube-plane", {"cube[0].position=[0,3,0]"});
-  const CameraSettings home = app().camera().goal();
+  const CameraSettings home = app().view.camera.goal();
   const Projected p = place(simulation().snapshot().position[999]);
   double_click(p.x, p.y, 0.41);
-  EXPECT_EQ(app().camera().goal(), home) << "too slow";
+  EXPECT_EQ(app().view.camera.goal(), home) << "too slow";
   double time = 1000.0;
-  app().set_clock([&] { return time; });
+  app().pointer.clock = [&] { return time; };
   const auto press_at = [&](double x, double y) {
     app().cursor(x, y);
     app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
@@ -219,15 +219,15 @@ TEST_F(Pointer, OnlyTwoQuickPressesOnOnePlaceAreADoubleClick) {
   };
   press_at(p.x, p.y);
   press_at(p.x - 5.0, p.y);
-  EXPECT_EQ(app().camera().goal(), home) << "too far apart";
+  EXPECT_EQ(app().view.camera.goal(), home) << "too far apart";
   time += 1.0;
   press_at(p.x, p.y);
   press_at(p.x - 3.0, p.y);
-  EXPECT_NE(app().camera().goal(), home);
+  EXPECT_NE(app().view.camera.goal(), home);
   frames_to_rest();
-  const CameraSettings there = app().camera().goal();
+  const CameraSettings there = app().view.camera.goal();
   press_at(p.x - 3.0, p.y);
-  EXPECT_EQ(app().camera().goal(), there) << "a third press begins anew";
+  EXPECT_EQ(app().view.camera.goal(), there) << "a third press begins anew";
 }
 
 TEST_F(Pointer, ShadowsCanBeSwitchedOff) {
@@ -237,7 +237,7 @@ TEST_F(Pointer, ShadowsCanBeSwitchedOff) {
   const Projected beside = place({3.0, -1.0, 0.5});
   const auto far_off = place({-5.0, -1.0, 5.0});
   click("view/shadows");
-  EXPECT_FALSE(app().shadows());
+  EXPECT_FALSE(app().picture.shadows);
   app().cursor(5.0, 300.0);
   frames(60);
   const auto bare = pixels();

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 class Revival : public Stage {
  protected:
   std::string hash() { return state_hash_text(simulation().snapshot()); }
-  std::string notice() { return app().notice() ? app().notice()->text : ""; }
+  std::string notice() { return app().messages.notice() ? app().messages.notice()->text : ""; }
   void pause() {
     simulation().set_running(false);
     ASSERT_TRUE(simulation().settle().ok());
@@ -22,9 +22,9 @@ TEST_F(Revival, ARunOnTheGpuGoesOnOnTheReferenceFromTheLastCopy) {
   open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "gpu");
   simulation().set_running(true);
   frames_to_step(100);
-  app().camera().orbit(0.2, 0.1);
+  app().view.camera.orbit(0.2, 0.1);
   frames_to_rest();
-  const CameraSettings camera = app().camera().goal();
+  const CameraSettings camera = app().view.camera.goal();
   const std::uint64_t copy = simulation().snapshot().step, step = simulation().step();
   lose_device(0);
   EXPECT_EQ(simulation().backend().name, "reference");
@@ -32,22 +32,22 @@ TEST_F(Revival, ARunOnTheGpuGoesOnOnTheReferenceFromTheLastCopy) {
   EXPECT_EQ(simulation().step(), copy);
   EXPECT_LE(copy, step);
   frames(1);
-  EXPECT_TRUE(app().notice() && app().notice()->is_error);
-  EXPECT_THAT(notice(), HasSubstr("reference goes on from the last copy"));
+  EXPECT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
+  EXPECT_THAT(notice(), HasSubstr("reference continues from the last copy"));
   EXPECT_THAT(notice(), HasSubstr(" s old"));
   frames_to_step(copy + 50);
   pause();
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), simulation().step())) << "the copy was good";
-  EXPECT_EQ(app().camera().goal(), camera);
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), simulation().step())) << "the copy was good";
+  EXPECT_EQ(app().view.camera.goal(), camera);
   // The history is that of before.
-  app().go_to(0.010);
+  app().run.go_to(0.010);
   ASSERT_TRUE(simulation().settle().ok());
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 10));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), 10));
   // And the gpu of the new window is as good as the old one.
   press(GLFW_KEY_G);
   EXPECT_EQ(simulation().backend().name, "gpu");
   for (int i = 0; i < 3; ++i) type(U'.');
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 13));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), 13));
 }
 
 TEST_F(Revival, ADeviceLostWithinAStepIsNoticedByTheSolver) {
@@ -60,7 +60,7 @@ TEST_F(Revival, ADeviceLostWithinAStepIsNoticedByTheSolver) {
   EXPECT_THAT(notice(), HasSubstr(" s old"));
   frames_to_step(simulation().step() + 20);
   pause();
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), simulation().step()));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), simulation().step()));
 }
 
 TEST_F(Revival, ARunOnTheReferenceLosesNothing) {
@@ -70,15 +70,15 @@ TEST_F(Revival, ARunOnTheReferenceLosesNothing) {
   const std::uint64_t before = simulation().step();
   lose_device(0);
   EXPECT_GE(simulation().step(), before);
-  EXPECT_TRUE(app().notice() && app().notice()->is_error);
+  EXPECT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
   frames_to_step(before + 40);
   pause();
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), simulation().step()));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), simulation().step()));
 }
 
 TEST_F(Revival, ShadowModeEndsWithTheDevice) {
   open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "reference");
-  ASSERT_TRUE(simulation().set_shadow(true).ok());
+  ASSERT_TRUE(simulation().set_shadow(&next_backend(simulation().backend())).ok());
   simulation().set_running(true);
   frames_to_step(30);
   lose_device(0);
@@ -87,7 +87,7 @@ TEST_F(Revival, ShadowModeEndsWithTheDevice) {
   EXPECT_THAT(notice(), HasSubstr("Shadow mode has ended"));
   frames_to_step(simulation().step() + 20);
   pause();
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), simulation().step()));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), simulation().step()));
 }
 
 TEST_F(Revival, NoMemoryForTheGpuLeavesTheReferenceAtWork) {
@@ -97,7 +97,7 @@ TEST_F(Revival, NoMemoryForTheGpuLeavesTheReferenceAtWork) {
   context().inject_fault(gl::Fault::out_of_memory);
   press(GLFW_KEY_G);
   EXPECT_EQ(simulation().backend().name, "reference");
-  EXPECT_TRUE(app().notice() && app().notice()->is_error);
+  EXPECT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
   EXPECT_THAT(notice(), HasSubstr("memory"));
   EXPECT_EQ(hash(), before);
   press(GLFW_KEY_G);
@@ -109,12 +109,12 @@ TEST_F(Revival, AChangeTheGpuHasNoMemoryForGoesToTheReference) {
   open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "gpu");
   for (int i = 0; i < 5; ++i) type(U'.');
   context().inject_fault(gl::Fault::out_of_memory);
-  app().set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -1.0, 0.0}), "");
+  app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -1.0, 0.0}), "");
   frames(2);
   EXPECT_EQ(simulation().backend().name, "reference");
   EXPECT_EQ(simulation().model().simulation.gravity, (Vec3{0.0, -1.0, 0.0})) << "the change holds";
   EXPECT_EQ(simulation().step(), 5u);
-  EXPECT_THAT(notice(), HasSubstr("The reference goes on"));
+  EXPECT_THAT(notice(), HasSubstr("The reference takes over"));
 }
 
 }  // namespace

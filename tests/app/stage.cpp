@@ -2,10 +2,23 @@
 
 #include <glad/gl.h>
 
+#include <algorithm>
+
 #include "app/revival.h"
 #include "cpu_reference/reference_solver.h"
 
 namespace aspic::test {
+
+void WidgetLog::end_of_picture() {
+  boxes = std::move(making_);
+  making_ = {};
+  explanations.clear();
+  for (const auto& [name, box] : boxes) {
+    const auto found = std::ranges::find(tooltips_, box, &std::pair<app::Box, std::string>::first);
+    explanations[name] = found == tooltips_.end() ? std::string() : found->second;
+  }
+  tooltips_.clear();
+}
 
 void Stage::SetUp() {
   temporary_ = std::make_unique<TemporaryDirectory>();
@@ -39,9 +52,9 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
   services.clipboard = [this] { return clipboard; };
   services.set_clipboard = [this](const std::string& text) { clipboard = text; };
   services.toggle_full_screen = [this] { ++full_screen_toggles; };
-  auto made = app::App::create(window_->context(),
-                               {scene, std::move(overrides), find_backend(backend), kept, full_quality()},
-                               1.0, services);
+  auto made = app::App::create(
+      window_->context(), {scene, std::move(overrides), find_backend(backend), kept, full_quality(), &log_},
+      1.0, services);
   ASSERT_TRUE(made.ok()) << made.error().message;
   app_ = std::move(*made);
   window_->set_receiver(app_.get());
@@ -78,7 +91,7 @@ void Stage::frames_to_step(std::uint64_t step) {
 }
 
 void Stage::frames_to_rest() {
-  for (int i = 0; app_->camera().shown() != app_->camera().goal(); ++i) {
+  for (int i = 0; app_->view.camera.shown() != app_->view.camera.goal(); ++i) {
     ASSERT_LT(i, 600);
     frames(1);
   }
@@ -107,14 +120,13 @@ void Stage::drag(int button, double x, double y, double dx, double dy, int modif
 void Stage::bring_into_sight(const std::string& widget) {
   constexpr double margin = 12.0;
   for (int i = 0; i < 200; ++i) {
-    const auto& widgets = app_->gui().widgets();
-    const auto found = widgets.find(widget);
-    ASSERT_NE(found, widgets.end()) << "no widget " << widget;
-    const app::Box box = found->second, view = app_->viewport();
+    const auto found = widgets().find(widget);
+    ASSERT_NE(found, widgets().end()) << "no widget " << widget;
+    const app::Box box = found->second, view = app_->view.box;
     // What floats over the picture, and the line below all, never needs to be scrolled.
     if (box.centre_x() > view.left && box.centre_x() < view.right) return;
     // The panels reach down as far as the bar of the history under the picture.
-    if (box.centre_y() > margin && box.centre_y() < widgets.at("timeline").bottom) return;
+    if (box.centre_y() > margin && box.centre_y() < widgets().at("timeline").bottom) return;
     app_->cursor(box.centre_x(), view.centre_y());
     frames(1);
     app_->scroll(0, box.centre_y() < margin ? 1 : -1);
@@ -125,9 +137,8 @@ void Stage::bring_into_sight(const std::string& widget) {
 
 void Stage::click(const std::string& widget) {
   bring_into_sight(widget);
-  const auto& widgets = app_->gui().widgets();
-  const auto found = widgets.find(widget);
-  ASSERT_NE(found, widgets.end()) << "no widget " << widget;
+  const auto found = widgets().find(widget);
+  ASSERT_NE(found, widgets().end()) << "no widget " << widget;
   app_->cursor(found->second.centre_x(), found->second.centre_y());
   frames(1);
   app_->mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);

@@ -6,8 +6,10 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/app.h"
@@ -16,6 +18,21 @@
 #include "support/temporary_directory.h"
 
 namespace aspic::test {
+
+/// Where the widgets of the last picture were, and what their tooltips say, by name.
+class WidgetLog final : public app::WidgetWatcher {
+ public:
+  std::map<std::string, app::Box> boxes;
+  std::map<std::string, std::string> explanations;  ///< empty for a widget without one
+
+  void widget(const std::string& name, const app::Box& box) override { making_[name] = box; }
+  void tooltip(const app::Box& box, const std::string& text) override { tooltips_.emplace_back(box, text); }
+  void end_of_picture() override;
+
+ private:
+  std::map<std::string, app::Box> making_;
+  std::vector<std::pair<app::Box, std::string>> tooltips_;
+};
 
 /// A test with the window open. Fails on any GL error that is left at its end.
 class Stage : public ::testing::Test {
@@ -38,7 +55,7 @@ class Stage : public ::testing::Test {
   void close_window() { window_.reset(); }
 
   app::App& app() { return *app_; }
-  app::Simulation& simulation() { return app_->simulation(); }
+  app::Simulation& simulation() { return app_->simulation; }
   /// Pictures, a sixtieth of a second apart.
   void frames(int count);
   /// Pictures until the run is at that step or beyond; a failure after ten thousand.
@@ -58,9 +75,11 @@ class Stage : public ::testing::Test {
   void bring_into_sight(const std::string& widget);
   /// Clicks the middle of a widget by name, scrolled into sight; a failure if it is not there.
   void click(const std::string& widget);
-  bool has(const std::string& widget) const { return app_->gui().widgets().contains(widget); }
-  double middle_x() { return app_->viewport().centre_x(); }
-  double middle_y() { return app_->viewport().centre_y(); }
+  bool has(const std::string& widget) const { return widgets().contains(widget); }
+  const std::map<std::string, app::Box>& widgets() const { return log_.boxes; }
+  const std::map<std::string, std::string>& explanations() const { return log_.explanations; }
+  double middle_x() { return app_->view.box.centre_x(); }
+  double middle_y() { return app_->view.box.centre_y(); }
 
   /// Another size of the window; takes two pictures.
   void resize(int width, int height);
@@ -77,6 +96,7 @@ class Stage : public ::testing::Test {
   std::unique_ptr<TemporaryDirectory> temporary_;
   std::filesystem::path home_;
   std::unique_ptr<app::Window> window_;
+  WidgetLog log_;
   std::unique_ptr<app::App> app_;
 };
 

@@ -40,7 +40,7 @@ TEST_P(TimeOnBackend, EveryStepOfTheRunComesBackWithItsBits) {
   for (const std::uint64_t step : {end - 1, end / 2, std::uint64_t{1}, std::uint64_t{0}, end - 3}) {
     go_to({simulation().here().stretch, step});
     EXPECT_EQ(simulation().step(), step);
-    EXPECT_EQ(hash(), reference_hash(app().editor().scene(), step));
+    EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), step));
     EXPECT_FALSE(simulation().running());
   }
   go_to(simulation().history().end_moment());
@@ -54,7 +54,7 @@ TEST_P(TimeOnBackend, CommaStepsBackAndFullStopForthAgain) {
   for (int i = 0; i < 4; ++i) type(U',');
   settle();
   EXPECT_EQ(simulation().step(), 2u);
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 2));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), 2));
   for (int i = 0; i < 4; ++i) type(U'.');
   EXPECT_EQ(simulation().step(), 6u);
   EXPECT_EQ(hash(), sixth);
@@ -81,14 +81,14 @@ TEST_P(TimeOnBackend, APullIsAnInputThatComesBack) {
   const std::uint64_t end = simulation().step();
   const std::string last = hash();
   go_to({simulation().here().stretch, 5});
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 5));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), 5));
   go_to({simulation().here().stretch, end});
   EXPECT_EQ(hash(), last) << "the same hand did the same";
   // A run from the past without a hand is another one.
   go_to({simulation().here().stretch, 5});
   run_to(end);
   go_to({simulation().here().stretch, end});
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), end));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), end));
   EXPECT_NE(hash(), last);
 }
 
@@ -99,7 +99,7 @@ TEST_P(TimeOnBackend, PinsAndThrownBallsComeAndGoWithTime) {
   ASSERT_TRUE(simulation().toggle_pin(0).ok());
   run_to(simulation().step() + 30);
   EXPECT_EQ(simulation().snapshot().position[0], held) << "a pinned particle stays where it was";
-  app().throw_many();
+  app().hands.throw_many();
   EXPECT_EQ(simulation().model().ball_count(), 12u);
   const Vec3 thrown = simulation().snapshot().ball_position[0];
   run_to(simulation().step() + 30);
@@ -115,15 +115,15 @@ TEST_P(TimeOnBackend, PinsAndThrownBallsComeAndGoWithTime) {
   EXPECT_EQ(simulation().snapshot().position[0], held);
   EXPECT_EQ(simulation().model().ball_count(), 0u);
   go_to({end.stretch - 3, 10});
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 10));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), 10));
   go_to(end);
   EXPECT_EQ(hash(), last);
-  app().clear_balls();
+  app().hands.clear_balls();
   EXPECT_EQ(simulation().model().ball_count(), 0u);
   simulation().set_hand(Pull{0, {}, 10.0, 1.0});
   press(GLFW_KEY_R);
   EXPECT_FALSE(simulation().hand().has_value());
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 0));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), 0));
   EXPECT_GT(simulation().model().inverse_mass[0], 0.0) << "a reset takes back what hands did";
 }
 
@@ -140,17 +140,17 @@ TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
   simulation().set_hand(Pull{5, {0.0, 5.0, 0.0}, 2000.0, 10.0});
   run_to(simulation().step() + 40);
   simulation().set_hand(std::nullopt);
-  app().throw_ball();
+  app().gui().commands().run("throw a ball");
   press(GLFW_KEY_G);
   run_to(simulation().step() + 40);
   EXPECT_NE(simulation().backend().name, GetParam());
-  ASSERT_GT(simulation().differences().size(), 5u);
-  for (const app::DifferenceSample& d : simulation().differences()) {
+  ASSERT_GT(simulation().samples().differences().size(), 5u);
+  for (const app::DifferenceSample& d : simulation().samples().differences()) {
     EXPECT_TRUE(d.identical) << d.time;
     EXPECT_EQ(d.ulp, 0u);
     EXPECT_EQ(d.metres, 0.0);
   }
-  EXPECT_FALSE(simulation().ever_differed());
+  EXPECT_FALSE(simulation().samples().ever_differed());
   EXPECT_EQ(simulation().shadow()->model().ball_count(), 1u);
   click("shadow/on");
   EXPECT_FALSE(simulation().shadowed());
@@ -161,36 +161,36 @@ INSTANTIATE_TEST_SUITE_P(Backends, TimeOnBackend, testing::Values("reference", "
 
 TEST_F(Time, ADifferenceIsShown) {
   open("cube-plane", {}, "reference");
-  ASSERT_TRUE(simulation().set_shadow(true).ok());
+  ASSERT_TRUE(simulation().set_shadow(&next_backend(simulation().backend())).ok());
   for (int i = 0; i < 3; ++i) type(U'.');
-  EXPECT_FALSE(simulation().ever_differed());
+  EXPECT_FALSE(simulation().samples().ever_differed());
   // The second solver is led astray behind the window's back.
   State other = simulation().snapshot();
   other.position[7].y = static_cast<double>(std::nextafter(static_cast<float>(other.position[7].y), 0.0f));
   ASSERT_TRUE(const_cast<Solver*>(simulation().shadow())->load(other).ok());
   type(U'.');
-  EXPECT_TRUE(simulation().ever_differed());
-  EXPECT_FALSE(simulation().differences().back().identical);
-  EXPECT_GE(simulation().differences().back().ulp, 1u);
-  EXPECT_GT(simulation().differences().back().metres, 0.0);
+  EXPECT_TRUE(simulation().samples().ever_differed());
+  EXPECT_FALSE(simulation().samples().differences().back().identical);
+  EXPECT_GE(simulation().samples().differences().back().ulp, 1u);
+  EXPECT_GT(simulation().samples().differences().back().metres, 0.0);
 }
 
 TEST_F(Time, ValuesOfTheSceneGoBackAndForthWithTime) {
   open("cube-plane", {}, "reference");
   run_to(40);
   const std::uint64_t changed_at = simulation().step();
-  app().set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, 3.0, 0.0}), "");
+  app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, 3.0, 0.0}), "");
   frames(2);
   run_to(changed_at + 40);
   const std::string last = hash();
-  app().go_to(0.010);
+  app().run.go_to(0.010);
   settle();
   EXPECT_EQ(simulation().step(), 10u);
-  EXPECT_EQ(app().editor().scene().model.simulation.gravity, (Vec3{0.0, -9.8, 0.0}));
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), 10));
-  app().go_to(1e9);
+  EXPECT_EQ(app().scene.editor().scene().model.simulation.gravity, (Vec3{0.0, -9.8, 0.0}));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), 10));
+  app().run.go_to(1e9);
   settle();
-  EXPECT_EQ(app().editor().scene().model.simulation.gravity, (Vec3{0.0, 3.0, 0.0}));
+  EXPECT_EQ(app().scene.editor().scene().model.simulation.gravity, (Vec3{0.0, 3.0, 0.0}));
   EXPECT_EQ(hash(), last);
   frames(3);
   EXPECT_EQ(hash(), last) << "following the history changes nothing anew";
@@ -200,12 +200,12 @@ TEST_F(Time, AChangeOfTheTimeStepKeepsTheTime) {
   open("cube-plane", {}, "reference");
   run_to(50);
   const double t = simulation().time();
-  app().set_value(*find_parameter("simulation.timestep"), 0, Value(0.0005), "");
+  app().scene.set_value(*find_parameter("simulation.timestep"), 0, Value(0.0005), "");
   frames(2);
   EXPECT_NEAR(simulation().time(), t, 0.00026);
   type(U',');
   settle();
-  EXPECT_EQ(app().editor().scene().model.simulation.timestep, 0.001);
+  EXPECT_EQ(app().scene.editor().scene().model.simulation.timestep, 0.001);
   EXPECT_NEAR(simulation().time(), t - 0.001, 1e-9);
 }
 
@@ -213,12 +213,12 @@ TEST_F(Time, ALargeModelIsBuiltAsideAndNothingThatHandsDoIsLost) {
   open("cube-plane", {"cube[0].particles-per-edge=30", "cube[0].position=[0,2,0]"}, "reference");
   simulation().set_running(true);
   frames_to_step(5);
-  app().set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}), "");
+  app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}), "");
   frames(1);
   // In the midst of it: a pin, a ball, another value.
   ASSERT_TRUE(simulation().toggle_pin(7).ok());
-  app().throw_ball();
-  app().set_value(*find_parameter("contact.friction"), 0, Value(0.7), "");
+  app().gui().commands().run("throw a ball");
+  app().scene.set_value(*find_parameter("contact.friction"), 0, Value(0.7), "");
   for (int i = 0; simulation().changing() || simulation().model().contact.friction != 0.7; ++i) {
     ASSERT_LT(i, 10000);
     frames(1);
@@ -229,12 +229,12 @@ TEST_F(Time, ALargeModelIsBuiltAsideAndNothingThatHandsDoIsLost) {
   EXPECT_GE(simulation().step(), 5u);
   EXPECT_TRUE(simulation().running());
   // A scene opened meanwhile is not overtaken by an older value.
-  app().set_value(*find_parameter("contact.friction"), 0, Value(0.1), "");
+  app().scene.set_value(*find_parameter("contact.friction"), 0, Value(0.1), "");
   frames(1);
-  app().open("cube-bowl");
+  app().scene.open("cube-bowl");
   frames(20);
   EXPECT_EQ(simulation().model().particle_count(), 1000u);
-  EXPECT_EQ(simulation().model().terrain[0].friction, app().editor().scene().model.contact.friction);
+  EXPECT_EQ(simulation().model().terrain[0].friction, app().scene.editor().scene().model.contact.friction);
   EXPECT_EQ(simulation().model().terrain[0].shape, TerrainShape::bowl);
 }
 
@@ -243,7 +243,7 @@ TEST_F(Time, TheBarGoesToAnyTime) {
   run_to(200);
   const double last = simulation().time();
   frames(2);
-  const app::Box bar = app().gui().widgets().at("timeline");
+  const app::Box bar = widgets().at("timeline");
   app().cursor(bar.right - 8.0, bar.centre_y());
   frames(1);
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
@@ -255,13 +255,13 @@ TEST_F(Time, TheBarGoesToAnyTime) {
   frames(1);
   settle();
   EXPECT_NEAR(simulation().time(), 0.5 * last, 0.05 * last);
-  EXPECT_EQ(hash(), reference_hash(app().editor().scene(), simulation().step()));
+  EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), simulation().step()));
   EXPECT_FALSE(simulation().running());
 }
 
 TEST_F(Time, BThrowsABallAtWhatIsUnderTheMouse) {
   open("cube-plane", {"simulation.gravity=[0,0,0]", "cube[0].position=[0,2,0]"}, "reference");
-  app().camera().jump_to({{0.0, 2.0, 14.0}, {0.0, 2.0, 0.0}, 45.0});
+  app().view.camera.jump_to({{0.0, 2.0, 14.0}, {0.0, 2.0, 0.0}, 45.0});
   frames(2);
   app().cursor(middle_x(), middle_y());
   frames(1);
@@ -281,8 +281,8 @@ TEST_F(Time, CtrlDragPullsAndCtrlRightClickPins) {
   open("cube-plane", {"simulation.gravity=[0,0,0]", "cube[0].position=[0,3,0]", "view.draw=[\"particles\"]"},
        "reference");
   frames(3);
-  const auto& view = app().viewport();
-  const Camera camera(app().camera().shown(), static_cast<int>(view.right - view.left),
+  const auto& view = app().view.box;
+  const Camera camera(app().view.camera.shown(), static_cast<int>(view.right - view.left),
                       static_cast<int>(view.bottom - view.top));
   const Vec3 corner = simulation().snapshot().position[999];
   const auto seen = camera.project(corner);
@@ -290,9 +290,9 @@ TEST_F(Time, CtrlDragPullsAndCtrlRightClickPins) {
   const double x = view.left + seen->x, y = view.top + seen->y;
   app().cursor(x, y);
   frames(4);
-  ASSERT_TRUE(app().hovered().has_value());
-  ASSERT_EQ(app().hovered()->particle, 999u);
-  const CameraSettings still = app().camera().goal();
+  ASSERT_TRUE(app().pointer.hovered().has_value());
+  ASSERT_EQ(app().pointer.hovered()->particle, 999u);
+  const CameraSettings still = app().view.camera.goal();
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
   app().cursor(x + 80.0, y - 40.0);
   ASSERT_TRUE(simulation().hand().has_value());
@@ -305,14 +305,14 @@ TEST_F(Time, CtrlDragPullsAndCtrlRightClickPins) {
   EXPECT_GT(length(simulation().snapshot().position[999] - corner), 0.05);
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
   EXPECT_FALSE(simulation().hand().has_value());
-  EXPECT_EQ(app().camera().goal(), still) << "pulling does not turn the camera";
+  EXPECT_EQ(app().view.camera.goal(), still) << "pulling does not turn the camera";
 
   press(GLFW_KEY_R);
   frames(2);
   app().cursor(x, y);
   frames(4);
-  ASSERT_TRUE(app().hovered().has_value());
-  const std::uint32_t particle = app().hovered()->particle;
+  ASSERT_TRUE(app().pointer.hovered().has_value());
+  const std::uint32_t particle = app().pointer.hovered()->particle;
   app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_PRESS, GLFW_MOD_CONTROL);
   app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_RELEASE, GLFW_MOD_CONTROL);
   EXPECT_EQ(simulation().model().inverse_mass[particle], 0.0);

@@ -21,8 +21,8 @@ ModelSettings on_slope(double friction) {
   ModelSettings settings;
   const double s = 0.5, c = std::sqrt(3.0) / 2.0;
   settings.terrain.emplace_back();
-  settings.terrain[0].point = Vec3{};
-  settings.terrain[0].normal = Vec3{s, c, 0.0};
+  settings.terrain[0].geometry["point"] = Vec3{};
+  settings.terrain[0].geometry["normal"] = Vec3{s, c, 0.0};
   settings.terrain[0].friction = friction;
   settings.balls.push_back({0.4, 2.5, {0.4 * s, 0.4 * c, 0.0}, {}, {}});
   return settings;
@@ -95,7 +95,7 @@ TEST(BallsOnTheGround, BounceByRestitutionAndComeToRest) {
       settings.simulation.integrator = integrator;
       settings.contact.spin = spin;
       settings.terrain.emplace_back();
-      settings.terrain[0].point = Vec3{};
+      settings.terrain[0].geometry["point"] = Vec3{};
       settings.terrain[0].restitution = 0.7;
       const double R = 0.25;
       settings.balls.push_back({R, 2.0, {0.0, 1.0 + R, 0.0}, {}, {}});
@@ -149,8 +149,8 @@ TEST(BallsOnTheGround, RestBetweenTwoSlopesAndAWall) {
     const Vec3 normals[] = {{0.6, 0.8, 0.0}, {-0.8, 0.6, -0.1}, {0.0, 0.1, 1.0}};
     for (const Vec3& n : normals) {
       settings.terrain.emplace_back();
-      settings.terrain.back().point = Vec3{};
-      settings.terrain.back().normal = n;
+      settings.terrain.back().geometry["point"] = Vec3{};
+      settings.terrain.back().geometry["normal"] = n;
       settings.terrain.back().restitution = 0.3;
     }
     settings.balls.push_back({0.3, 2.0, {0.2, 1.0, 0.6}, {0.2, 0.0, -0.5}, {3.0, 1.0, -2.0}});
@@ -158,7 +158,7 @@ TEST(BallsOnTheGround, RestBetweenTwoSlopesAndAWall) {
     const State end = after(model, 8000);
     EXPECT_LT(length(end.ball_velocity[0]), 1e-6) << "spin " << spin;
     for (const Terrain& side : {model.terrain[0], model.terrain[1]})
-      EXPECT_NEAR(dot(end.ball_position[0], side.normal), 0.3, 1e-5);
+      EXPECT_NEAR(dot(end.ball_position[0], side.geometry.vectors[1]), 0.3, 1e-5);
   }
 }
 

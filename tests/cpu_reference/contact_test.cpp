@@ -13,8 +13,8 @@ using V = Vector<double>;
 Ground<double> round(TerrainShape shape) {
   TerrainSettings settings;
   settings.shape = shape;
-  settings.centre = Vec3{1.0, 2.0, 3.0};
-  settings.radius = 2.0;
+  settings.geometry["centre"] = Vec3{1.0, 2.0, 3.0};
+  settings.geometry["radius"] = 2.0;
   return Ground<double>(make_terrain(settings, ContactSettings{}));
 }
 

@@ -23,8 +23,8 @@ constexpr double h = 1.0 / 60.0, mass = 2.0;
 
 Terrain plane(const Vec3& point, const Vec3& normal, double mu, double e = 0.8) {
   TerrainSettings settings;
-  settings.point = point;
-  settings.normal = normal;
+  settings.geometry["point"] = point;
+  settings.geometry["normal"] = normal;
   settings.friction = mu;
   settings.restitution = e;
   return make_terrain(settings, ContactSettings{});
@@ -177,12 +177,12 @@ Model cube_in_a_corner(double mu) {
   settings.contact.friction = mu;
   settings.contact.restitution = 0.2;
   settings.terrain.resize(3);
-  settings.terrain[0].point = Vec3{0, 0, 0};
-  settings.terrain[0].normal = Vec3{0.3, 1, 0.1};
-  settings.terrain[1].point = Vec3{2.7, 0, 0};
-  settings.terrain[1].normal = Vec3{-1, 0.35, 0};
-  settings.terrain[2].point = Vec3{0, 0, 2.1};
-  settings.terrain[2].normal = Vec3{0, 0, -1};
+  settings.terrain[0].geometry["point"] = Vec3{0, 0, 0};
+  settings.terrain[0].geometry["normal"] = Vec3{0.3, 1, 0.1};
+  settings.terrain[1].geometry["point"] = Vec3{2.7, 0, 0};
+  settings.terrain[1].geometry["normal"] = Vec3{-1, 0.35, 0};
+  settings.terrain[2].geometry["point"] = Vec3{0, 0, 2.1};
+  settings.terrain[2].geometry["normal"] = Vec3{0, 0, -1};
   Model model = test::build(settings);
   for (std::size_t i = 0; i < model.initial_position.size(); ++i) {
     Vec3& x = model.initial_position[i];

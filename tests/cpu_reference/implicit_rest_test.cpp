@@ -29,8 +29,8 @@ constexpr double tolerance = 1e-9;  // of a solve in double precision [m/s]
 
 TerrainSettings plane(const Vec3& point, const Vec3& normal) {
   TerrainSettings settings;
-  settings.point = point;
-  settings.normal = normal;
+  settings.geometry["point"] = point;
+  settings.geometry["normal"] = normal;
   return settings;
 }
 
@@ -216,16 +216,17 @@ TEST(ImplicitRest, SphereAndBowl) {
   sphere.shape = TerrainShape::sphere;
   bowl.shape = TerrainShape::bowl;
   const Terrain round = make_terrain(sphere, ContactSettings{});
-  const Vec3 top = round.point + round.radius * Vec3{std::sin(0.1), std::cos(0.1), 0.0};
+  const Vec3 top =
+      round.geometry.vectors[0] + round.geometry.numbers[0] * Vec3{std::sin(0.1), std::cos(0.1), 0.0};
   const Model on_top = loose({top}, {{}}, {sphere});
   const State held = advanced(*solver_for(on_top), 600);
-  EXPECT_LE(length(held.position[0] - top), 600 * 8 * eps * round.radius) << "μ = 0.3 > tan 0.1";
+  EXPECT_LE(length(held.position[0] - top), 600 * 8 * eps * round.geometry.numbers[0]) << "μ = 0.3 > tan 0.1";
   const Terrain hollow = make_terrain(bowl, ContactSettings{});
-  const Model model = loose({hollow.point - Vec3{4.0, 3.0, 1.0}}, {{1, 0, 2}}, {bowl});
+  const Model model = loose({hollow.geometry.vectors[0] - Vec3{4.0, 3.0, 1.0}}, {{1, 0, 2}}, {bowl});
   const State end = advanced(*solver_for(model), 1200);
   EXPECT_LT(fastest(end), 1e-6);
   EXPECT_LT(std::abs(signed_distance(hollow, end.position[0])), 1e-9);
-  const Vec3 out = end.position[0] - hollow.point;
+  const Vec3 out = end.position[0] - hollow.geometry.vectors[0];
   EXPECT_LE(std::hypot(out.x, out.z), 0.3 * -out.y * (1.0 + 1e-9)) << "within the cone";
 
   ModelSettings settings = cube(5, {3.0, 7.5, 0.5});

@@ -141,7 +141,7 @@ TEST(Pull, LightensWhatPressesOnTheGround) {
   Model model = test::particles({{0, -1, 0}}, {{2, 0, 0}}, 3.0);
   model.contact.model = ContactModel::course;
   model.terrain.emplace_back();
-  model.terrain[0].point = {0, -1, 0};
+  model.terrain[0].geometry.vectors[0] = {0, -1, 0};
   model.terrain[0].friction = 0.5;
   reference::Dynamics<double> dynamics(model);
   const reference::Phase<double> s = reference::start_of(model);

@@ -29,8 +29,8 @@ constexpr double h = 0.001, g = 9.8;
 
 Terrain plane(const Vec3& point, const Vec3& normal, double e, double mu) {
   TerrainSettings settings;
-  settings.point = point;
-  settings.normal = normal;
+  settings.geometry["point"] = point;
+  settings.geometry["normal"] = normal;
   settings.restitution = e;
   settings.friction = mu;
   return make_terrain(settings, ContactSettings{});
@@ -69,8 +69,8 @@ TEST_P(Rest, ACubeOnASlopeItSticksTo) {
   const Vec3 n = {std::sin(angle), std::cos(angle), 0.0};
   ModelSettings settings = cube(2.5 * n);
   settings.cubes[0].rotation = {{0.0, 0.0, 1.0}, -15.0};
-  settings.terrain[0].point = Vec3{};
-  settings.terrain[0].normal = n;
+  settings.terrain[0].geometry["point"] = Vec3{};
+  settings.terrain[0].geometry["normal"] = n;
   settings.terrain[0].friction = 0.5;
   const Model model = test::build(settings);
   const auto solver = solver_for(model);
@@ -92,8 +92,8 @@ TEST_P(Rest, ACubeInAGrooveAndInACorner) {
     settings.terrain.clear();
     for (int side = 0; side < (corner ? 3 : 2); ++side) {
       TerrainSettings wall;
-      wall.point = Vec3{};
-      wall.normal = Vec3{side == 0 ? 1.0 : 0.0, side == 1 ? 1.0 : 0.0, side == 2 ? 1.0 : 0.0};
+      wall.geometry["point"] = Vec3{};
+      wall.geometry["normal"] = Vec3{side == 0 ? 1.0 : 0.0, side == 1 ? 1.0 : 0.0, side == 2 ? 1.0 : 0.0};
       settings.terrain.push_back(wall);
     }
     const Model model = test::build(settings);
@@ -135,13 +135,13 @@ TEST_P(Rest, ParticlesInABowl) {
   settings.shape = TerrainShape::bowl;
   const Terrain bowl = make_terrain(settings, ContactSettings{});
   std::vector<Vec3> positions;
-  for (int i = 0; i < 8; ++i) positions.push_back(bowl.point + Vec3{0.7 * i, -3.0, 0.3 * i});
+  for (int i = 0; i < 8; ++i) positions.push_back(bowl.geometry.vectors[0] + Vec3{0.7 * i, -3.0, 0.3 * i});
   const Model model = loose(positions, std::vector<Vec3>(8), {bowl});
   const State end = after(model, 20000);
-  EXPECT_LT(fastest(end), 16 * eps * bowl.radius / h);
-  EXPECT_LT(layer(bowl, end, 8), 8 * eps * bowl.radius);
+  EXPECT_LT(fastest(end), 16 * eps * bowl.geometry.numbers[0] / h);
+  EXPECT_LT(layer(bowl, end, 8), 8 * eps * bowl.geometry.numbers[0]);
   for (const Vec3& x : end.position) {
-    const Vec3 e = x - bowl.point;
+    const Vec3 e = x - bowl.geometry.vectors[0];
     EXPECT_LT(std::hypot(e.x, e.z) / -e.y, bowl.friction * (1.0 + 1e-6));
   }
 }
@@ -153,8 +153,8 @@ TEST_P(Rest, OnASphereAndOffIt) {
   settings.shape = TerrainShape::sphere;
   settings.friction = 0.3;
   const Terrain rough = make_terrain(settings, ContactSettings{});
-  const double R = rough.radius, tilt = 0.1;
-  const Vec3 start = rough.point + R * Vec3{std::sin(tilt), std::cos(tilt), 0.0};
+  const double R = rough.geometry.numbers[0], tilt = 0.1;
+  const Vec3 start = rough.geometry.vectors[0] + R * Vec3{std::sin(tilt), std::cos(tilt), 0.0};
   const Model on_it = loose({start}, {{}}, {rough});
   const State held = after(on_it, 1000);
   EXPECT_LE(length(held.position[0] - start), 1000 * 8 * eps * R);
@@ -169,7 +169,8 @@ TEST_P(Rest, OnASphereAndOffIt) {
     // The gap grows as 1/6·3g·sin θ·v/R·t³: 1e-5 m, above what a step along the surface rises, at t = 0.012
     // s.
     if (signed_distance(smooth, now.position[0]) > 1e-5)
-      left_at = (now.position[0].y - smooth.point.y) / length(now.position[0] - smooth.point);
+      left_at = (now.position[0].y - smooth.geometry.vectors[0].y) /
+                length(now.position[0] - smooth.geometry.vectors[0]);
   }
   EXPECT_NEAR(left_at, 2.0 / 3.0 * std::cos(tilt), 0.012 * std::sqrt(2.0 / 3.0 * g / R) + 4 * h);
 }
@@ -196,8 +197,8 @@ TEST_P(Rest, ACubeSlidesWithCoulombsAcceleration) {
   const Vec3 n = {std::sin(angle), std::cos(angle), 0.0}, along = {std::cos(angle), -std::sin(angle), 0.0};
   ModelSettings settings = cube(2.02 * n);
   settings.cubes[0].rotation = {{0.0, 0.0, 1.0}, -degrees};
-  settings.terrain[0].point = Vec3{};
-  settings.terrain[0].normal = n;
+  settings.terrain[0].geometry["point"] = Vec3{};
+  settings.terrain[0].geometry["normal"] = n;
   settings.terrain[0].friction = mu;
   const Model model = test::build(settings);
   const auto solver = solver_for(model);

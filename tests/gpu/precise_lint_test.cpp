@@ -52,14 +52,16 @@ TEST(PreciseLint, LetsFmaStandInOneFileAlone) {
 TEST(PreciseLint, ComputeShadersAreClean) {
   const std::filesystem::path root = ASPIC_SHADERS;
   int files = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "compute")) {
-    if (!entry.is_regular_file()) continue;
-    ++files;
-    const std::string text = contents(entry.path());
-    if (opted_out(text)) continue;
-    const std::string path = entry.path().lexically_relative(root).generic_string();
-    for (const Offence& offence : lint(path, text))
-      ADD_FAILURE() << path << ":" << offence.line << ": " << offence.rule << " (" << offence.text << ")";
+  for (const char* directory : {"compute", "shapes"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / directory)) {
+      if (!entry.is_regular_file()) continue;
+      ++files;
+      const std::string text = contents(entry.path());
+      if (opted_out(text)) continue;
+      const std::string path = entry.path().lexically_relative(root).generic_string();
+      for (const Offence& offence : lint(path, text))
+        ADD_FAILURE() << path << ":" << offence.line << ": " << offence.rule << " (" << offence.text << ")";
+    }
   }
   EXPECT_GE(files, 4);
 }

@@ -84,8 +84,8 @@ TEST_F(BallsOnTheDevice, ACubeBetweenTerrains) {
   settings.contact.ball_restitution = 0.4;
   TerrainSettings sphere;
   sphere.shape = TerrainShape::sphere;
-  sphere.centre = Vec3{3.0, -1.0, 0.0};
-  sphere.radius = 1.5;
+  sphere.geometry["centre"] = Vec3{3.0, -1.0, 0.0};
+  sphere.geometry["radius"] = 1.5;
   settings.terrain.push_back(sphere);
   settings.balls.push_back({1.0, 40.0, {0.3, 5.0, 0.1}, {0.0, -4.0, 0.0}, {1.0, 9.0, -4.0}});
   settings.balls.push_back({0.5, 2.0, {3.2, 3.0, 0.3}, {0.0, -4.0, 0.0}, {}});
@@ -105,8 +105,8 @@ TEST_F(BallsOnTheDevice, AtRestInACornerUnderEveryIntegrator) {
       settings.contact.spin = spin;
       for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, -0.1}, Vec3{0.0, 0.1, 1.0}}) {
         TerrainSettings side;
-        side.point = Vec3{};
-        side.normal = normal;
+        side.geometry["point"] = Vec3{};
+        side.geometry["normal"] = normal;
         side.restitution = 0.3;
         settings.terrain.push_back(side);
       }
@@ -213,8 +213,9 @@ TEST_F(BallsOnTheDevice, TheirBufferIsWhatItSays) {
   auto solver = solver_for(model, BallSearch::automatic);
   ASSERT_FALSE((*solver->advance(15)).has_value());
   const State state = *solver->state();
-  const auto numbers = solver->balls().download_items<float>(16 * model.ball_count(),
-                                                             std::uint64_t{16} * solver->first_ball());
+  const DeviceState where = solver->device_state();
+  const auto numbers =
+      where.balls->download_items<float>(16 * model.ball_count(), std::uint64_t{16} * where.first_ball);
   for (std::size_t b = 0; b < model.balls.size(); ++b) {
     const float* ball = numbers.data() + 16 * b;
     for (int axis = 0; axis < 3; ++axis) {

@@ -6,6 +6,7 @@
 
 #include "cpu_reference/reference_solver.h"
 #include "gpu_solver/gpu_solver.h"
+#include "model/terrain.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 
@@ -71,13 +72,11 @@ TEST_F(EqualBits, Five) {
 
 TEST_F(EqualBits, FiveOverEveryIntegratorAndTerrain) {
   for (const Integrator integrator : explicit_integrators) {
-    for (const TerrainShape shape : {TerrainShape::tilted_plane, TerrainShape::sphere, TerrainShape::bowl}) {
+    for (const TerrainShapeRow& shape : terrain_shapes) {
       for (const ContactModel contact : both_models) {
         ModelSettings settings = low_cube(5, integrator, contact);
-        settings.terrain[0].shape = shape;
-        settings.cubes[0].position = shape == TerrainShape::bowl     ? Vec3{2.3, 5.5, 1.2}
-                                     : shape == TerrainShape::sphere ? Vec3{0.4, 4.9, 0.2}
-                                                                     : Vec3{1.0, 3.2, 0.0};
+        settings.terrain[0].shape = shape.value;
+        settings.cubes[0].position = shape.drop;
         expect_equal(settings, 1000, {64});
       }
     }
@@ -97,8 +96,8 @@ TEST_F(EqualBits, FiveWithSeveralTerrainsMaterialAndPinnedCorner) {
     sphere.restitution = 1.0;
     settings.terrain.push_back(sphere);
     settings.terrain.push_back(TerrainSettings{});
-    settings.terrain[2].point = Vec3{-1.0, -1.0, 0.0};
-    settings.terrain[2].normal = Vec3{1.0, 0.2, 0.0};
+    settings.terrain[2].geometry["point"] = Vec3{-1.0, -1.0, 0.0};
+    settings.terrain[2].geometry["normal"] = Vec3{1.0, 0.2, 0.0};
     settings.terrain[2].friction = 0.9;
     expect_equal(settings, 2000, {64});
   }
@@ -107,17 +106,13 @@ TEST_F(EqualBits, FiveWithSeveralTerrainsMaterialAndPinnedCorner) {
 // Long enough to rest: reactions act in every stage, on ground, slope, top of a sphere and bottom of a bowl.
 TEST_F(EqualBits, FourAtRestUnderEveryIntegratorOnEveryTerrain) {
   for (const Integrator integrator : explicit_integrators) {
-    for (const TerrainShape shape :
-         {TerrainShape::plane, TerrainShape::tilted_plane, TerrainShape::sphere, TerrainShape::bowl}) {
+    for (const TerrainShapeRow& shape : terrain_shapes) {
       ModelSettings settings = low_cube(4, integrator, ContactModel::coulomb);
       settings.cubes[0].velocity = {0.0, -1.0, 0.1};
-      settings.terrain[0].shape = shape;
+      settings.terrain[0].shape = shape.value;
       settings.terrain[0].restitution = 0.1;
       settings.terrain[0].friction = 1.2;
-      settings.cubes[0].position = shape == TerrainShape::bowl     ? Vec3{2.0, 4.0, 1.0}
-                                   : shape == TerrainShape::sphere ? Vec3{0.1, 5.2, 0.0}
-                                   : shape == TerrainShape::plane  ? Vec3{0.0, 1.9, 0.0}
-                                                                   : Vec3{1.6, 2.8, 0.0};
+      settings.cubes[0].position = shape.drop;
       expect_equal(settings, 2500, {64});
     }
   }
@@ -135,8 +130,8 @@ TEST_F(EqualBits, FourInACornerOfThreeTerrains) {
       settings.terrain.clear();
       for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, -0.1}, Vec3{0.0, 0.1, 1.0}}) {
         TerrainSettings side;
-        side.point = Vec3{};
-        side.normal = normal;
+        side.geometry["point"] = Vec3{};
+        side.geometry["normal"] = normal;
         side.restitution = 0.2;
         settings.terrain.push_back(side);
       }
@@ -162,16 +157,12 @@ TEST_F(EqualBits, FiveImplicit) {
 
 // Ground in the equation: flat, inclined, curved both ways; until it rests or nearly so.
 TEST_F(EqualBits, FourImplicitOnEveryTerrain) {
-  for (const TerrainShape shape :
-       {TerrainShape::plane, TerrainShape::tilted_plane, TerrainShape::sphere, TerrainShape::bowl}) {
+  for (const TerrainShapeRow& shape : terrain_shapes) {
     ModelSettings settings = implicit(low_cube(4, Integrator::implicit_euler, ContactModel::coulomb));
-    settings.terrain[0].shape = shape;
+    settings.terrain[0].shape = shape.value;
     settings.terrain[0].friction = 0.6;
     settings.terrain[0].mass = 20.0;
-    settings.cubes[0].position = shape == TerrainShape::bowl     ? Vec3{2.0, 4.0, 1.0}
-                                 : shape == TerrainShape::sphere ? Vec3{0.1, 5.2, 0.0}
-                                 : shape == TerrainShape::plane  ? Vec3{0.0, 1.9, 0.0}
-                                                                 : Vec3{1.6, 2.8, 0.0};
+    settings.cubes[0].position = shape.drop;
     expect_equal(settings, 150, {64});
   }
 }
@@ -187,8 +178,8 @@ TEST_F(EqualBits, FourImplicitInACornerOfThreeTerrains) {
     settings.terrain.clear();
     for (const Vec3& normal : {Vec3{0.6, 0.8, 0.0}, Vec3{-0.5, 0.7, 0.1}, Vec3{0.0, 0.1, 1.0}}) {
       TerrainSettings side;
-      side.point = Vec3{};
-      side.normal = normal;
+      side.geometry["point"] = Vec3{};
+      side.geometry["normal"] = normal;
       side.restitution = 0.2;
       settings.terrain.push_back(side);
     }

@@ -79,7 +79,7 @@ TEST_F(FaultySolverGl, ALostDeviceEndsEveryCallWithASentence) {
     EXPECT_EQ(solver->state().error().code, ErrorCode::no_device);
     EXPECT_EQ(solver->load(last).error().code, ErrorCode::no_device);
     EXPECT_EQ(make(device, model, c).error().code, ErrorCode::no_device);
-    EXPECT_NE(solver->particles().id(), 0u);
+    EXPECT_NE(solver->device_state().particles->id(), 0u);
 
     // The run goes on elsewhere from the last copy, with the bits it would have had.
     auto whole = std::move(make_reference_solver(model, Precision::single)).value();

@@ -161,7 +161,7 @@ TEST_F(GpuSolverTest, SharesSpringsWithOneLikeIt) {
     const std::uint64_t held = context().bytes_held();
     GpuOptions options;
     options.force_path = path;
-    options.like = old.get();
+    options.share_springs_of = old.get();
     auto shared = std::move(make_gpu_solver(context(), stiffer, options)).value();
     EXPECT_EQ(shared->spring_buffers(), old->spring_buffers());
     EXPECT_EQ(shared->bytes(), old->bytes());
@@ -177,7 +177,7 @@ TEST_F(GpuSolverTest, SharesSpringsWithOneLikeIt) {
   // Another method may share them, another path or other springs may not.
   auto old = solver_for(model);
   GpuOptions options;
-  options.like = old.get();
+  options.share_springs_of = old.get();
   Model implicit = model;
   implicit.simulation.integrator = Integrator::implicit_euler;
   auto solved = std::move(make_gpu_solver(context(), implicit, options)).value();

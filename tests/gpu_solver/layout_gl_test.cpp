@@ -50,8 +50,7 @@ TEST_F(Layout, UniformBlockMatchesTheDriver) {
   EXPECT_UNIFORM_AT(spring_classes[0].damping);
   EXPECT_UNIFORM_AT(spring_classes[0].rest_length);
   EXPECT_UNIFORM_AT(spring_classes[255].cord);
-  EXPECT_UNIFORM_AT(terrains[0].point);
-  EXPECT_UNIFORM_AT(terrains[0].normal);
+  EXPECT_UNIFORM_AT(terrains[0].geometry[0]);
   EXPECT_UNIFORM_AT(terrains[0].mass);
   EXPECT_UNIFORM_AT(terrains[0].restitution);
   EXPECT_UNIFORM_AT(terrains[0].friction);

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "cpu_reference/reference_solver.h"
+#include "device/particles.h"
 #include "gpu/loop_bound.h"
 #include "gpu/pass.h"
 #include "gpu/program.h"
@@ -176,8 +177,8 @@ TEST_F(LoopBounds, OfTerrains) {
       while (settings.terrain.size() < 64) {
         TerrainSettings sphere;
         sphere.shape = TerrainShape::sphere;
-        sphere.centre = Vec3{0.1 * static_cast<double>(settings.terrain.size()), -2.0, 0.0};
-        sphere.radius = 1.0 + 0.01 * static_cast<double>(settings.terrain.size() % 5);
+        sphere.geometry["centre"] = Vec3{0.1 * static_cast<double>(settings.terrain.size()), -2.0, 0.0};
+        sphere.geometry["radius"] = 1.0 + 0.01 * static_cast<double>(settings.terrain.size() % 5);
         settings.terrain.push_back(sphere);
       }
       settings.balls.push_back({0.5, 2.0, {3.0, -0.4, 0.0}, {-1.0, -1.0, 0.0}, {}});
@@ -217,7 +218,7 @@ TEST_F(LoopBounds, OfPictures) {
     const Model model = hub(springs);
     auto buffers = ModelBuffers::create(context(), model);
     ASSERT_TRUE(buffers.ok()) << buffers.error().message;
-    const Status ready = buffers->prepare_springs(context(), model);
+    const Status ready = buffers->prepare_incident(context(), model, {});
     EXPECT_EQ(ready.ok(), springs == gl::max_rounds);
     EXPECT_THAT(ready.ok() ? named("quantity") : ready.error().message, HasSubstr(named("quantity")));
   }
@@ -289,15 +290,17 @@ TEST_F(LoopBounds, OfTheForceThatIsDrawn) {
     sum = sum + ((L - 1.0) / L) * state.position[p];  // k = 1 N/m, r = 1 m
     if (p < gl::max_rounds) others += std::abs(L - 1.0);
   }
-  gl::Buffer particles;
-  ASSERT_TRUE(ModelBuffers::upload(context(), model, state, particles).ok());
+  const auto items = packed_particles(model, state);
+  const auto particles =
+      std::move(gl::Buffer::of(context(), "particles", std::span<const layout::Particle>(items))).value();
+  const DeviceState shown = {.particles = &particles};
   auto buffers = std::move(ModelBuffers::create(context(), model)).value();
-  ASSERT_TRUE(buffers.prepare_springs(context(), model).ok());
+  ASSERT_TRUE(buffers.prepare_incident(context(), model, shown).ok());
   const auto programs = RenderPrograms::create(context(), gl::ShaderLibrary());
   ASSERT_TRUE(programs.ok()) << programs.error().message;
   const gl::Buffer frame = frame_of(context(), model.particle_count(), COLOUR_FORCE);
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
-  buffers.compute_quantity(*programs, particles);
+  buffers.compute_quantity(*programs, shown);
   const auto force = static_cast<double>(buffers.quantity().download_items<float>(1).front());
   // Each addition rounds what the others have come to; the last spring's force and the result take a few
   // more.

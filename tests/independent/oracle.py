@@ -164,6 +164,15 @@ def runge_kutta_4(a, x, v, h):
     return x + h / 6 * (v1 + 2 * v2 + 2 * v3 + v4), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
 
 
+def heun_3(a, x, v, h):
+    a1 = a(x, v)
+    v2 = v + h / 3 * a1
+    a2 = a(x + h / 3 * v, v2)
+    v3 = v + 2 * h / 3 * a2
+    a3 = a(x + 2 * h / 3 * v2, v3)
+    return x + h / 4 * (v + 3 * v3), v + h / 4 * (a1 + 3 * a3)
+
+
 def implicit_euler_one_pass(a, x, v, h):
     x_p, v_p = x + h * v, v + h * a(x, v)
     return x + h * v_p, v + h * a(x_p, v_p)
@@ -172,6 +181,7 @@ def implicit_euler_one_pass(a, x, v, h):
 INTEGRATORS = {
     "explicit-euler": explicit_euler, "symplectic-euler": symplectic_euler, "midpoint": midpoint,
     "runge-kutta-4": runge_kutta_4, "implicit-euler-one-pass": implicit_euler_one_pass,
+    "heun-3": heun_3,
 }
 
 

@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadTable{HEADER "particle,0,1,2,3,4,5,6,0,0,0\nparticle,2,1,2,3,4,5,6,0,0,0\n",
                              "s.csv:3: expected index 1"},
                     BadTable{HEADER "ball,0,1,2,3,4,5,6,0,0,0\nparticle,0,1,2,3,4,5,6,0,0,0\n",
-                             "s.csv:3: particles stand before balls"},
+                             "s.csv:3: particles come before balls"},
                     BadTable{HEADER "ball,1,1,2,3,4,5,6,0,0,0\n", "s.csv:2: expected index 0"},
                     BadTable{HEADER "particle,0,1,2,nan,4,5,6,0,0,0\n", "\"nan\" is not a finite number"},
                     BadTable{HEADER "particle,0,1,2,3x,4,5,6,0,0,0\n", "\"3x\" is not a finite number"},

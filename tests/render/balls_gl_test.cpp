@@ -178,9 +178,7 @@ TEST_F(Balls, OfTheGpuSolverAreDrawnFromItsOwnBuffer) {
     const auto state = (*solver)->state();
     ASSERT_TRUE(state.ok());
     const test::Image from_state = draw(model, *state, plain(), width, height);
-    const DeviceState own = {&(*solver)->particles(), &(*solver)->balls(), (*solver)->first_ball(),
-                             state->step};
-    ASSERT_TRUE(renderer().draw(width, height, own, plain()).ok());
+    ASSERT_TRUE(renderer().draw(width, height, (*solver)->device_state(), plain()).ok());
     EXPECT_EQ(read(), from_state.rgb) << "at step " << state->step;
   }
 }

@@ -190,8 +190,8 @@ TEST_F(Shadows, CanBeLeftOut) {
   ModelSettings settings = test::cube_on_plane(4, 1.5);
   TerrainSettings globe;
   globe.shape = TerrainShape::sphere;
-  globe.centre = Vec3{-7.0, 1.0, 0.0};
-  globe.radius = 1.0;
+  globe.geometry["centre"] = Vec3{-7.0, 1.0, 0.0};
+  globe.geometry["radius"] = 1.0;
   settings.terrain.push_back(globe);
   const Model model = test::build(settings);
   const State state = initial_state(model, Precision::single);

@@ -157,8 +157,9 @@ TEST_F(Pick, BallsAndTerrainAreMetWhereTheSightLineMeetsThem) {
   settings.terrain.push_back({});
   TerrainSettings globe;
   globe.shape = TerrainShape::sphere;
-  globe.centre = Vec3{-4.0, 0.0, 0.0};
-  globe.radius = 1.5;
+  const Vec3 centre = {-4.0, 0.0, 0.0};
+  globe.geometry["centre"] = centre;
+  globe.geometry["radius"] = 1.5;
   settings.terrain.push_back(globe);
   BallSettings ball;
   ball.position = {3.0, 1.0, 0.0};
@@ -172,12 +173,12 @@ TEST_F(Pick, BallsAndTerrainAreMetWhereTheSightLineMeetsThem) {
   EXPECT_EQ(of_ball->index, 0u);
   // Single precision at this distance.
   EXPECT_NEAR(length(of_ball->point - ball.position), 1.0, 1e-4);
-  const auto of_globe = at(*globe.centre);
+  const auto of_globe = at(centre);
   ASSERT_TRUE(of_globe);
   EXPECT_EQ(of_globe->kind, PickKind::terrain);
   EXPECT_EQ(of_globe->index, 1u);
   EXPECT_NEAR(signed_distance(model.terrain[1], of_globe->point), 0.0, 1e-4);
-  EXPECT_LT(length(of_globe->point - Vec3{0.0, 3.0, 14.0}), length(*globe.centre - Vec3{0.0, 3.0, 14.0}));
+  EXPECT_LT(length(of_globe->point - Vec3{0.0, 3.0, 14.0}), length(centre - Vec3{0.0, 3.0, 14.0}));
   const Vec3 place = {0.5, -1.0, 3.0};
   const auto of_ground = at(place);
   ASSERT_TRUE(of_ground);
@@ -209,8 +210,8 @@ TEST_F(Pick, GroundHidesWhatLiesBelowItAndWaitingBallsAreNotThere) {
 TEST_F(Pick, BowlsAreSeenThrough) {
   ModelSettings settings = test::cube_on_plane(3, 0.0);
   settings.terrain[0].shape = TerrainShape::bowl;
-  settings.terrain[0].centre = Vec3{};
-  settings.terrain[0].radius = 5.0;
+  settings.terrain[0].geometry["centre"] = Vec3{};
+  settings.terrain[0].geometry["radius"] = 5.0;
   const Model model = test::build(settings);
   show(model, from({0.0, 0.0, 16.0}));
   EXPECT_EQ(at(Vec3{0.0, 0.0, 2.0})->kind, PickKind::particle);

@@ -125,15 +125,45 @@ TEST_F(Picture, GpuSolverIsDrawnFromItsOwnBuffer) {
   const test::Image from_state = draw(model, initial_state(model, Precision::single), options, width, height);
   auto solver = make_gpu_solver(context(), model);
   ASSERT_TRUE(solver.ok()) << solver.error().message;
-  ASSERT_TRUE(renderer().draw(width, height, {&(*solver)->particles()}, options).ok());
+  ASSERT_TRUE(renderer().draw(width, height, (*solver)->device_state(), options).ok());
   EXPECT_EQ(read(), from_state.rgb);
   ASSERT_TRUE((*solver)->advance(300).ok());
-  ASSERT_TRUE(renderer().draw(width, height, {&(*solver)->particles()}, options).ok());
+  ASSERT_TRUE(renderer().draw(width, height, (*solver)->device_state(), options).ok());
   const auto moved = read();
   EXPECT_NE(moved, from_state.rgb);
   const auto state = (*solver)->state();
   ASSERT_TRUE(state.ok());
   EXPECT_EQ(draw(model, *state, options, width, height).rgb, moved);
+}
+
+// Colours that show what springs do read the solver's incident words where they name neighbours, else their
+// own.
+TEST_F(Picture, QuantitiesOfTheSolversBuffersAreThoseOfItsState) {
+  const Model model = test::build(test::cube_on_plane(6, 1.2));
+  for (const ForcePathRow& path : built_force_paths()) {
+    GpuOptions gpu;
+    gpu.force_path = path.path;
+    auto solver = make_gpu_solver(context(), model, gpu);
+    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    ASSERT_TRUE((*solver)->advance(300).ok());
+    const auto state = (*solver)->state();
+    ASSERT_TRUE(state.ok());
+    std::vector<std::vector<std::byte>> seen;
+    for (const ViewColour colour : {ViewColour::strain, ViewColour::force, ViewColour::speed}) {
+      PictureOptions options;
+      options.view.colour = colour;
+      ASSERT_TRUE(renderer().set_model(model).ok());
+      const std::uint64_t held = context().bytes_held();
+      ASSERT_TRUE(renderer().draw(width, height, (*solver)->device_state(), options).ok());
+      const auto own = read();
+      const bool shared = path.words == IncidentWords::neighbours || colour == ViewColour::speed;
+      const std::uint64_t words = 8 * model.springs.size();
+      EXPECT_EQ(context().bytes_held() - held < words, shared) << path.name;
+      EXPECT_EQ(draw(model, *state, options, width, height).rgb, own) << path.name;
+      for (const auto& other : seen) EXPECT_NE(own, other);
+      seen.push_back(own);
+    }
+  }
 }
 
 TEST_F(Picture, ShadowLiesOnTheGround) {

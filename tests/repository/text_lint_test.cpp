@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <set>
+#include <utility>
+
 namespace aspic::testing {
 namespace {
 
@@ -44,6 +48,53 @@ TEST(TextLint, RepositoryIsClean) {
       ADD_FAILURE() << file.generic_string() << ":" << offence.line << ": " << offence.rule << " ("
                     << offence.text << ")";
   }
+}
+
+/// The rooms that a directory of src includes headers of, its own left out.
+std::set<std::string> included_rooms(const std::string& room) {
+  static const std::regex include(R"re(#include "([a-z_]+)/)re");
+  std::set<std::string> rooms;
+  for (const auto& entry : std::filesystem::directory_iterator(root / "src" / room)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".h" && extension != ".cpp") continue;
+    const std::string text = contents(entry.path());
+    for (std::sregex_iterator match(text.begin(), text.end(), include), end; match != end; ++match) {
+      const std::string other = match->str(1);
+      if (other != room && std::filesystem::is_directory(root / "src" / other)) rooms.insert(other);
+    }
+  }
+  return rooms;
+}
+
+/// The table of docs/architecture.md: rooms and those they use, in the order of the rows.
+std::vector<std::pair<std::string, std::set<std::string>>> documented_rooms() {
+  static const std::regex row(R"(\| `src/([a-z_]+)` \|[^|]*\|([^|]*)\|)");
+  static const std::regex name("[a-z_]+");
+  const std::string page = contents(root / "docs/architecture.md");
+  std::vector<std::pair<std::string, std::set<std::string>>> rooms;
+  for (std::sregex_iterator match(page.begin(), page.end(), row), end; match != end; ++match) {
+    const std::string uses = match->str(2);
+    std::set<std::string> used;
+    for (std::sregex_iterator word(uses.begin(), uses.end(), name); word != end; ++word)
+      used.insert(word->str());
+    rooms.emplace_back(match->str(1), std::move(used));
+  }
+  return rooms;
+}
+
+TEST(Rooms, UseWhatTheArchitectureSaysAndNothingBelowThem) {
+  const auto documented = documented_rooms();
+  std::set<std::string> seen;
+  for (const auto& [room, uses] : documented) {
+    EXPECT_EQ(included_rooms(room), uses) << "src/" << room;
+    for (const std::string& used : uses)
+      EXPECT_TRUE(seen.contains(used)) << room << " uses " << used << ", which comes later";
+    seen.insert(room);
+  }
+  std::set<std::string> present;
+  for (const auto& entry : std::filesystem::directory_iterator(root / "src"))
+    if (entry.is_directory()) present.insert(entry.path().filename().string());
+  EXPECT_EQ(seen, present);
 }
 
 }  // namespace

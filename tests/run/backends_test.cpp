@@ -38,7 +38,7 @@ TEST(Backends, WhatARowLacksIsRefusedBeforeAnyWork) {
   for (const BackendRow& row : backends()) {
     const bool has_double = std::ranges::find(row.precisions, Precision::double_) != row.precisions.end();
     EXPECT_EQ(check_choice({&row, Precision::double_, ForcePath::automatic}).ok(), has_double) << row.name;
-    EXPECT_EQ(check_choice({&row, Precision::single, ForcePath::gather}).ok(), !row.force_paths.empty())
+    EXPECT_EQ(check_choice({&row, Precision::single, ForcePath::gather}).ok(), !row.force_paths().empty())
         << row.name;
   }
   EXPECT_FALSE(check_choice({nullptr, Precision::double_, ForcePath::gather}).ok());

@@ -46,7 +46,13 @@ std::vector<Value> wrong_values(const Parameter& p) {
     case ParameterType::vector:
       return {Value(Vec3{1.0, nan, 1.0}), Value(Vec3{1.0, -huge, 1.0})};
     case ParameterType::counts:
-      return {Value(std::array<int, 3>{2, 1, 2})};
+      return {p.components == 2 ? Value(std::vector<int>{2, 1}) : Value(std::vector<int>{2, 1, 2})};
+    case ParameterType::numbers: {
+      std::vector<double> not_a_number(p.components, 1.0), too_small = not_a_number;
+      not_a_number[1] = nan;
+      too_small[1] = -huge;
+      return {Value(not_a_number), Value(too_small)};
+    }
     case ParameterType::pinned:
       return {Value(PinnedSettings{{"top", "lid"}, {}}), Value(PinnedSettings{{"top"}, {1000}}),
               Value(PinnedSettings{{"top"}, {-1}})};
@@ -84,7 +90,7 @@ TEST(CheckScene, NamesThePathOfEveryWrongValue) {
 TEST(CheckScene, FindsWhatOnlyTheWholeShows) {
   Scene scene = full_scene();
   scene.model.terrain[0].shape = TerrainShape::bowl;
-  scene.model.terrain[0].normal = Vec3{0.0, 1.0, 0.0};
+  scene.model.terrain[0].geometry["normal"] = Vec3{0.0, 1.0, 0.0};
   scene.model.launchers[0].towards.min.y = 7.0;
   scene.view.camera.position = scene.view.camera.target;
   const auto complaints = check_scene(scene);
@@ -98,7 +104,7 @@ TEST(CheckScene, FindsASceneInWhichNothingMoves) {
   scene.model.terrain.emplace_back();
   const auto complaints = check_scene(scene);
   ASSERT_THAT(paths_of(complaints), ElementsAre(""));
-  EXPECT_THAT(complaints[0].message, HasSubstr("add a [[cube]], [[goal-net]], [[ball]] or [[launcher]]"));
+  EXPECT_THAT(complaints[0].message, HasSubstr("add a [[cube]], [[goal-net]], [[cloth]], [[ball]] or [[launcher]]"));
 }
 
 TEST(CheckScene, BlamesTheLargestBodyForTheMemory) {
@@ -125,11 +131,11 @@ TEST(WithOverrides, ChangesASceneWithoutText) {
 TEST(WithOverrides, TreatsTheScenesValuesAsTheFiles) {
   Scene scene = full_scene();
   scene.name = "made";
-  scene.model.terrain[0].point = Vec3{0.0, 5.0, 0.0};
+  scene.model.terrain[0].geometry["point"] = Vec3{0.0, 5.0, 0.0};
   scene.model.cubes[0].material.emplace();
   const auto round = with_overrides(scene, std::vector<std::string>{"terrain[0].shape=sphere"});
   ASSERT_TRUE(round.ok()) << round.error().message;
-  EXPECT_FALSE(round->model.terrain[0].point.has_value());
+  EXPECT_TRUE(round->model.terrain[0].geometry.empty());
   const auto springs = with_overrides(scene, std::vector<std::string>{"cube[0].shear.stiffness=1"});
   ASSERT_FALSE(springs.ok());
   EXPECT_THAT(springs.error().message,

@@ -13,7 +13,7 @@ std::unique_ptr<gl::Context>& process_context() {
   return context;
 }
 
-/// Takes the context down before the process's static objects go, while the driver still stands.
+/// Takes the context down before the process's static objects go, while the driver is still loaded.
 class ContextEnvironment : public ::testing::Environment {
  public:
   void TearDown() override { process_context().reset(); }

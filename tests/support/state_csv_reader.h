@@ -78,7 +78,7 @@ inline Result<State> parse_state_csv(std::string_view text, const std::string& n
     const bool ball = (*fields)[0] == "ball";
     if (!ball && (*fields)[0] != "particle")
       return error(fmt::format("unknown kind \"{}\"; allowed: particle, ball", (*fields)[0]));
-    if (!ball && !state.ball_position.empty()) return error("particles stand before balls");
+    if (!ball && !state.ball_position.empty()) return error("particles come before balls");
     const std::size_t expected = ball ? state.ball_position.size() : state.position.size();
     if ((*fields)[1] != std::to_string(expected)) {
       return error(fmt::format("expected index {}, found \"{}\"", expected, (*fields)[1]));

@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"contact/resist", "the Coulomb model on a slope instead",
                 [](Model& m) {
                   m.contact.model = ContactModel::coulomb;
-                  m.terrain[0].normal = {0.6, 0.8, 0.0};
+                  m.terrain[0].geometry.vectors[1] = {0.6, 0.8, 0.0};
                 }},
         Planted{"contact/viscous/midpoint", "friction off by 1e-9",
                 [](Model& m) { m.terrain[0].friction *= 1 + 1e-9; }},

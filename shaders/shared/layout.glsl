@@ -1,0 +1,75 @@
+// What compute and drawing share: bindings, bounds of loops, and the structs of the buffers that solvers fill and pictures
+// show. Read by GLSL and by C++ (src/device/layout.h).
+#ifndef SHARED_LAYOUT
+#define SHARED_LAYOUT
+
+// Storage blocks of the explicit kernels.
+#define BINDING_START_STATE 0   // Particle[]: the state the step began with, read only
+#define BINDING_STAGE_STATE 1   // Particle[]: where this stage evaluates the force, read only
+#define BINDING_OUT_STATE 2     // Particle[]: the next stage's state, or the step's end
+#define BINDING_STAGE_SUMS 3    // Particle[]: weighted sums of the stages' slopes so far
+#define BINDING_INCIDENT_START 4  // uint[particles + 1]: where each particle's list begins in the incident words
+#define BINDING_INCIDENT 5      // uint[2 · springs]: gather: neighbour and class; per-spring: spring and side
+#define BINDING_CONTROL 6       // Control
+#define BINDING_SPRING_FORCES 7 // vec4[springs]: force on end a [N], signed spring strength s [N]
+#define BINDING_SPRINGS 4       // uvec2[springs], in the per-spring force pass only
+// Of the implicit kernels, where they differ.
+#define BINDING_STATE_A 0       // Particle[]: the state, or where the step's end goes: Solve.parity tells
+#define BINDING_STATE_B 1       // Particle[]: the other one
+#define BINDING_TRIAL 2         // vec4[particles]: v' at which the residual is evaluated [m/s]
+#define BINDING_SEARCH 3        // vec4[particles]: conjugate gradients' search direction p [m/s]
+#define BINDING_SOLVE 6         // Solve, then vec4[blocks]: the reductions' partial results
+#define BINDING_OWN 7           // vec4[OWN_VECTORS · particles]: what only its own invocation writes
+// Of the ball kernels; particles are STATE_A and STATE_B: the step's start and its end.
+#define BINDING_BALLS 2         // Ball[BALL_SLOTS · balls]
+#define BINDING_BALL_BODIES 3   // BallBody[balls]
+#define BINDING_BALL_ITEMS 3    // BallItem[], in every ball kernel but flight
+#define BINDING_BALL_TOUCHES 4  // BallTouches[balls + particles]
+#define BINDING_BALL_GRID 5     // uint[buckets + balls + balls · mark words]: heads of lists, their links, marks
+#define BINDING_BALL_WORK 7     // BallWork, then uint[]: the short lists of partners
+// Of the kernels that prepare a picture; springs and balls as above.
+#define BINDING_PARTICLES 0   // Particle[]
+#define BINDING_FAN_START 1   // uint[surface vertices + 1]: where each vertex's fan begins
+#define BINDING_FAN 2         // uvec2[]: next and previous neighbour along each quad at the vertex
+#define BINDING_FAN_VERTEX 3  // uint[surface vertices]: the particle
+#define BINDING_NORMALS 4     // vec4[particles]
+#define BINDING_BOUNDS 5      // Bounds[LIGHTS]
+#define BINDING_QUANTITY 6    // float[particles]
+#define BINDING_LIGHT_BOXES_OUT 7  // LightBox[LIGHTS]
+#define BINDING_SPRING_CLASSES 3   // SpringClass[]
+#define BINDING_TURNS 1       // vec4[balls]: unit quaternions, from a ball's own frame to the world
+
+// Uniform blocks of the solvers' kernels, and of pictures.
+#define BINDING_SIMULATION 0
+#define BINDING_PULL 1
+#define BINDING_FRAME 1
+#define BINDING_LIGHT_BOXES 2
+
+// Bounds of loops. Some drivers end the loops of an invocation silently after so many rounds in all (Mesa's llvmpipe
+// after 65,535, counted over the invocations that share a vector). So every loop whose length depends on the scene has
+// at most MAX_ROUNDS rounds, none is inside another, and no kernel has more than three, one after the other.
+// What would take more is reported (Control.overrun, Solve.overrun) and ends the run with an error.
+#ifndef MAX_ROUNDS
+#define MAX_ROUNDS 20000u
+#endif
+
+struct Particle {
+  vec4 position;  // x [m]; w: inverse mass [1/kg], 0 = pinned
+  vec4 velocity;  // v [m/s]; w: mass [kg]
+};
+
+struct Ball {
+  vec4 position;        // x [m]; w: radius R [m]
+  vec4 velocity;        // v [m/s]; w: inverse mass [1/kg], 0 while it is not launched
+  vec4 spin;            // ω [rad/s]; w: R/I [1/(kg·m)]
+  vec4 start_velocity;  // v at the start of the step [m/s], between phases; w: R²/I [1/kg]
+};
+
+struct SpringClass {
+  float stiffness;    // k [N/m]
+  float damping;      // c [N·s/m]
+  float rest_length;  // r [m]
+  uint cord;          // 1: resists stretch only
+};
+
+#endif

@@ -1,0 +1,71 @@
+#pragma once
+// The model of a run with the solvers that advance it.
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/setup.h"
+#include "base/result.h"
+#include "gpu/context.h"
+#include "model/pull.h"
+#include "model/state.h"
+#include "run/backends.h"
+
+namespace aspic::app {
+
+/// A model, the solver whose state is shown, and in shadow mode a second one that does the same steps.
+class Engines {
+ public:
+  Engines() = default;
+  Engines(std::unique_ptr<Model> model, Backend leader, Backend shadow)
+      : model_(std::move(model)), leader_(std::move(leader)), shadow_(std::move(shadow)) {}
+  Engines(Engines&&) = default;
+  /// Solvers go before the model that they refer to.
+  Engines& operator=(Engines&& other) noexcept;
+
+  const Model& model() const { return *model_; }
+  const Backend& leader() const { return leader_; }
+  const Backend& shadow() const { return shadow_; }
+  bool shadowed() const { return shadow_.solver != nullptr; }
+  /// A solver computes in the window's context, on the window's thread.
+  bool use_context() const { return in_context(leader_) || in_context(shadow_); }
+  /// All solvers do.
+  bool only_context() const { return in_context(leader_) && (!shadowed() || in_context(shadow_)); }
+  /// A worker's job advances the shadow, and the leader follows in the context.
+  bool shadow_paces() const { return in_context(leader_) && shadowed() && !in_context(shadow_); }
+  static bool in_context(const Backend& engine) { return engine.row && engine.row->needs_context; }
+  /// One of the solvers on the context, to share buffers with; may be null.
+  const GpuSolver* gpu() const { return leader_.gpu ? leader_.gpu : shadow_.gpu; }
+
+  /// Puts another solver of the same model in the place of one; it pulls nobody yet.
+  void set_leader(Backend engine) { leader_ = std::move(engine); }
+  void set_shadow(Backend engine) { shadow_ = std::move(engine); }
+  void swap() { std::swap(leader_, shadow_); }
+  /// To all solvers.
+  Status load(const State& state);
+  Status set_pull(const std::optional<Pull>& pull);
+
+ private:
+  std::unique_ptr<Model> model_;
+  Backend leader_, shadow_;
+};
+
+/// Makes solvers in the window's context.
+class EngineFactory {
+ public:
+  explicit EngineFactory(gl::Context& context) : context_(&context) {}
+  void set_context(gl::Context& context);
+  /// Errors: of make_backend().
+  Result<Backend> make(const Model& model, const BackendRow& row, const GpuSolver* like);
+  /// A model with solvers on the same backends as `like`. Where a leader in the context refuses the model the
+  /// reference takes its place without a shadow, and `message` says so. Without solvers in the context it may
+  /// run on another thread.
+  Result<Engines> make_like(const Engines& like, const Setup& setup, std::optional<std::string>& message);
+
+ private:
+  gl::Context* context_;
+  std::optional<gl::Arithmetic> arithmetic_;  // what the canary found once; the device does not change
+};
+
+}  // namespace aspic::app

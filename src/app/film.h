@@ -1,0 +1,76 @@
+#pragma once
+// Films of the scene while the user plays with it, in step with simulated time.
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/film_pace.h"
+#include "app/messages.h"
+#include "app/scene_editor.h"
+#include "app/scene_picture.h"
+#include "app/simulation.h"
+#include "app/view.h"
+#include "io/film_format.h"
+#include "run/recording.h"
+
+namespace aspic::app {
+
+/// What the next film will be.
+struct FilmSettings {
+  const FilmFormat* format = &film_formats().front();
+  double fps = 60.0;  ///< pictures shown per second, 1 … the format's most
+  bool text = true;   ///< the parameters are written on the picture
+  std::string path;   ///< empty: free_name()
+};
+
+/// `path` with the ending that the format wants in place of another format's; directories have none.
+std::string film_path(const std::string& path, const FilmFormat& format);
+
+/// The ending of a film's name: that of a video, nothing for a directory.
+inline std::string_view film_ending(const FilmFormat& format) {
+  return format.is_directory() ? std::string_view() : format.ending;
+}
+
+class Film {
+ public:
+  /// The references must outlive it.
+  Film(Simulation& simulation, const SceneEditor& editor, const View& view, ScenePicture& picture,
+       Messages& messages)
+      : simulation_(simulation), editor_(editor), view_(view), picture_(picture), messages_(messages) {}
+  /// Completes the film.
+  ~Film() { stop(); }
+
+  FilmSettings settings;
+
+  /// Films from now on, as the settings say. A message says what went wrong.
+  void start();
+  /// The film is completed in the background; a message tells when.
+  void stop();
+  void toggle() { recording_ ? stop() : start(); }
+  /// Before and after the run moves: takes the pictures that show the state, and says how far the run may go.
+  void update();
+  /// The film that is made, or null.
+  const Recording* recording() const { return recording_.get(); }
+  /// Films that have ended and are not complete yet.
+  std::size_t completing() const { return completing_.size(); }
+  /// Ends the film that is made and waits for all; a sentence about each.
+  std::vector<std::string> finish();
+
+ private:
+  void end();
+  void report_completed();
+
+  Simulation& simulation_;
+  const SceneEditor& editor_;
+  const View& view_;
+  ScenePicture& picture_;
+  Messages& messages_;
+  std::unique_ptr<Recording> recording_;
+  std::optional<FilmPace> pace_;
+  std::string scene_;  // that was filmed last
+  std::vector<std::unique_ptr<Recording>> completing_;
+};
+
+}  // namespace aspic::app

@@ -1,0 +1,90 @@
+#include "app/hands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/integrator.h"
+
+namespace aspic::app {
+
+/// A ball that leaves the eye's lower edge along a sight line.
+BallSettings Hands::thrown_ball(const Ray& sight) const {
+  BallSettings ball;
+  ball.radius = radius;
+  ball.mass = mass;
+  ball.position = sight.origin + (2.0 * radius) * sight.direction - radius * Vec3{0.0, 1.0, 0.0};
+  ball.velocity = speed * sight.direction;
+  return ball;
+}
+
+void Hands::throw_ball(double x, double y) {
+  messages_.check(simulation_.throw_balls({thrown_ball(view_.lens().ray_through(x, y))}));
+}
+
+void Hands::throw_many() {
+  // A sunflower's seeds: spread evenly over the middle of the picture, side by side where they start.
+  constexpr int many = 12;
+  constexpr double golden_angle = 2.399963229728653;
+  const double width = view_.width(), height = view_.height();
+  const Camera camera = view_.lens();
+  const Ray axis = camera.ray_through(0.5 * width, 0.5 * height);
+  const Vec3 right = camera.ray_through(width, 0.5 * height).direction - axis.direction;
+  const Vec3 up = camera.ray_through(0.5 * width, 0.0).direction - axis.direction;
+  std::vector<BallSettings> balls;
+  for (int i = 0; i < many; ++i) {
+    const double angle = golden_angle * static_cast<double>(thrown_++);
+    const double out = std::sqrt((i + 0.5) / many);
+    const double dx = out * std::cos(angle), dy = out * std::sin(angle);
+    BallSettings ball =
+        thrown_ball(camera.ray_through((0.5 + 0.15 * dx) * width, (0.5 + 0.15 * dy) * height));
+    const double spread = 1.4 * ball.radius * std::sqrt(static_cast<double>(many));
+    ball.position = ball.position + (spread * dx / length(right)) * right - (spread * dy / length(up)) * up;
+    balls.push_back(ball);
+  }
+  messages_.check(simulation_.throw_balls(balls));
+}
+
+void Hands::clear_balls() {
+  messages_.check(simulation_.clear_balls());
+}
+
+void Hands::toggle_pin(std::uint32_t particle) {
+  const bool pinned = simulation_.model().inverse_mass[particle] == 0.0;
+  if (messages_.check(simulation_.toggle_pin(particle)))
+    messages_.info(fmt::format("Particle {} is {}.", particle, pinned ? "free" : "pinned"));
+}
+
+/// Stiff against the springs of the body. A pull damps along its own direction alone; across it a particle
+/// swings freely, and explicit Euler lets a swing grow at the rate h·k/2m, 5 a second at the cap on k, which
+/// the body's own dampers hold down.
+void Hands::begin_pull(std::uint32_t particle, const Vec3& position) {
+  const Model& model = simulation_.model();
+  double stiffest = 0.0;
+  for (const SpringClass& c : model.spring_classes) stiffest = std::max(stiffest, c.stiffness);
+  const double m = model.mass[particle], h = model.simulation.timestep;
+  Pull pull;
+  pull.particle = particle;
+  pull.anchor = pull_plane_ = position;
+  pull.stiffness = 2.0 * strength * (stiffest > 0.0 ? stiffest : 100.0 * m);
+  const bool explicit_method = !row_of(model.simulation.integrator).solved();
+  if (explicit_method) pull.stiffness = std::min(pull.stiffness, 0.01 * m / (h * h));
+  pull.damping = 2.0 * std::sqrt(pull.stiffness * m);
+  if (explicit_method) pull.damping = std::min(pull.damping, 0.1 * m / h);
+  simulation_.set_hand(pull);
+}
+
+void Hands::move_pull(double x, double y) {
+  if (!simulation_.hand()) return;
+  const Camera camera = view_.lens();
+  const Ray axis = camera.ray_through(0.5 * view_.width(), 0.5 * view_.height());
+  const Ray sight = camera.ray_through(x, y);
+  const double along = dot(sight.direction, axis.direction);
+  if (!(along > 1e-3)) return;
+  Pull pull = *simulation_.hand();
+  pull.anchor = sight.origin + (dot(pull_plane_ - sight.origin, axis.direction) / along) * sight.direction;
+  simulation_.set_hand(pull);
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,46 @@
+#pragma once
+// What the user does to bodies with the mouse: throws balls at them, pulls and pins their particles.
+#include <cstdint>
+
+#include "app/messages.h"
+#include "app/simulation.h"
+#include "app/view.h"
+
+namespace aspic::app {
+
+class Hands {
+ public:
+  /// The references must outlive it.
+  Hands(Simulation& simulation, const View& view, Messages& messages)
+      : simulation_(simulation), view_(view), messages_(messages) {}
+
+  double radius = 0.3;    ///< of a thrown ball [m], > 0
+  double mass = 20.0;     ///< of a thrown ball [kg], > 0
+  double speed = 15.0;    ///< of a thrown ball [m/s], ≥ 0
+  double strength = 1.0;  ///< factor on the stiffness of a pull, > 0
+
+  /// Throws a ball from the camera at the place (x, y) of the view [window units].
+  void throw_ball(double x, double y);
+  void throw_many();
+  /// Removes all thrown balls.
+  void clear_balls();
+  void toggle_pin(std::uint32_t particle);
+
+  /// A pull on a particle of the model, which moves with the mouse in the plane through `position` [m] that
+  /// is square to the view.
+  void begin_pull(std::uint32_t particle, const Vec3& position);
+  /// To the place (x, y) of the view [window units]; nothing without a pull.
+  void move_pull(double x, double y);
+  void end_pull() { simulation_.set_hand(std::nullopt); }
+
+ private:
+  BallSettings thrown_ball(const Ray& sight) const;
+
+  Simulation& simulation_;
+  const View& view_;
+  Messages& messages_;
+  std::uint32_t thrown_ = 0;  // by throw_many(): each ball flies its own way
+  Vec3 pull_plane_;           // a point of the plane in which the anchor moves [m]
+};
+
+}  // namespace aspic::app

@@ -1,0 +1,40 @@
+#include "app/pacer.h"
+
+#include <algorithm>
+
+namespace aspic::app {
+
+void Pacer::restart() {
+  due_ = 0.0;
+  behind_ = false;
+  rate_start_ = Clock::now();
+  rate_steps_ = 0;
+  steps_per_second_ = 0.0;
+}
+
+std::uint64_t Pacer::steps_due(double dt, const SimulationSettings& settings, std::uint64_t step) {
+  constexpr double rate_window = 0.5;  // s
+  const double asked =
+      pace == Pace::real_time ? speed * dt / settings.timestep : speed * settings.steps_per_frame;
+  due_ += asked;
+  // What was not done within two pictures is never made good: the factor tells, the motion does not jump.
+  const double most = std::max(2.0 * asked, 1.0);
+  behind_ = due_ > most;
+  due_ = std::min(due_, most);
+  if (const double window = std::chrono::duration<double>(Clock::now() - rate_start_).count();
+      window > rate_window) {
+    steps_per_second_ = static_cast<double>(rate_steps_) / window;
+    rate_start_ = Clock::now();
+    rate_steps_ = 0;
+  }
+  const auto steps = static_cast<std::uint64_t>(due_);
+  if (!pause_step) return steps;
+  return std::min(steps, *pause_step > step ? *pause_step - step : 0);
+}
+
+void Pacer::did(std::uint64_t steps) {
+  rate_steps_ += steps;
+  due_ = std::max(due_ - static_cast<double>(steps), 0.0);
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,45 @@
+#pragma once
+// How fast simulated time passes, and how fast it really does.
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "model/settings.h"
+
+namespace aspic::app {
+
+enum class Pace {
+  steps_per_frame,  ///< the scene's steps for each picture, whatever time that takes
+  real_time         ///< as much simulated time as passes outside
+};
+inline constexpr double slowest_speed = 1.0 / 1024.0, fastest_speed = 1024.0;
+
+class Pacer {
+ public:
+  Pace pace = Pace::steps_per_frame;
+  double speed = 1.0;  ///< factor on the pace, slowest_speed … fastest_speed
+  /// A step that the run does not pass, however far the pace has come: a film wants its picture first.
+  std::optional<std::uint64_t> pause_step;
+
+  /// The run was started or paused: counts from now on.
+  void restart();
+  /// The run was put to another state: no step is owed.
+  void drop_due() { due_ = 0.0; }
+  /// Once for each picture, `dt` after the last [s]: the steps to do next, of a run that is at `step`.
+  std::uint64_t steps_due(double dt, const SimulationSettings& settings, std::uint64_t step);
+  void did(std::uint64_t steps);
+  /// Fewer steps were done than the pace asks for.
+  bool behind() const { return behind_; }
+  /// Measured while running; 0 before there is a measurement.
+  double steps_per_second() const { return steps_per_second_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool behind_ = false;
+  double due_ = 0.0;  // steps asked for and not done
+  Clock::time_point rate_start_ = Clock::now();
+  std::uint64_t rate_steps_ = 0;
+  double steps_per_second_ = 0.0;
+};
+
+}  // namespace aspic::app

@@ -1,0 +1,136 @@
+#include "app/pointer.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace aspic::app {
+namespace {
+
+/// Two presses are one double click if they come this close [s, window units].
+constexpr double double_click_time = 0.400, double_click_reach = 4.0;
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+void Pointer::press(int button, int modifiers, bool on_panel) {
+  if (drag_button_ >= 0 || on_panel || !view_.box.contains(x_, y_)) return;
+  if (modifiers & GLFW_MOD_CONTROL) {
+    if (!hovered_) return;
+    if (button == GLFW_MOUSE_BUTTON_LEFT) hands_.begin_pull(hovered_->particle, hovered_->position);
+    if (button == GLFW_MOUSE_BUTTON_RIGHT) hands_.toggle_pin(hovered_->particle);
+    return;
+  }
+  if (button == GLFW_MOUSE_BUTTON_LEFT && modifiers == 0) centre_wanted_ = is_double_click();
+  drag_button_ = button;
+  drag_pans_ = button != GLFW_MOUSE_BUTTON_LEFT || (modifiers & GLFW_MOD_SHIFT) != 0;
+}
+
+void Pointer::release(int button) {
+  if (button == drag_button_) drag_button_ = -1;
+  if (button == GLFW_MOUSE_BUTTON_LEFT) hands_.end_pull();
+}
+
+void Pointer::move(double x, double y) {
+  const double dx = (x - x_) / view_.height(), dy = (y - y_) / view_.height();
+  if (drag_button_ >= 0 && drag_pans_)
+    view_.camera.pan(dx, dy);
+  else if (drag_button_ >= 0)
+    view_.camera.orbit(dx, dy);
+  x_ = x;
+  y_ = y;
+  hands_.move_pull(x_ - view_.box.left, y_ - view_.box.top);
+}
+
+bool Pointer::scroll(double notches, bool on_panel) {
+  if (on_panel || !view_.box.contains(x_, y_)) return false;
+  view_.camera.zoom(notches);
+  return true;
+}
+
+std::array<double, 2> Pointer::aim(bool on_panel) const {
+  if (on_panel || !view_.box.contains(x_, y_)) return {0.5 * view_.width(), 0.5 * view_.height()};
+  return {x_ - view_.box.left, y_ - view_.box.top};
+}
+
+void Pointer::describe(std::uint32_t particle) {
+  const Model& model = simulation_.model();
+  const State& state = simulation_.snapshot();
+  if (!incident_ || incident_model_ != simulation_.model_number()) {
+    incident_.emplace(model);
+    incident_model_ = simulation_.model_number();
+  }
+  hovered_ = Hovered{particle,
+                     state.position[particle],
+                     state.velocity[particle],
+                     particle_force(model, *incident_, state, particle, simulation_.hand()),
+                     model.mass[particle],
+                     model.inverse_mass[particle] == 0.0};
+}
+
+void Pointer::find_hovered() {
+  hovered_.reset();
+  if (simulation_.hand()) return describe(simulation_.hand()->particle);
+  if (!asked_ || !picture_.is_of_model()) return;
+  const PickAnswer answer = picture_.picked();
+  if (answer.request < asked_->first) return;
+  if (centre_wanted_ && answer.request == asked_->last) {
+    centre_wanted_ = false;
+    if (answer.what) centre_on(*answer.what);
+  }
+  if (drag_button_ < 0 && answer.what && answer.what->kind == PickKind::particle)
+    describe(answer.what->index);
+}
+
+Status Pointer::mark_and_ask(bool on_panel) {
+  if (!picture_.is_of_model()) return {};
+  if (hovered_) {
+    ASPIC_CHECK(picture_.mark(hovered_->particle));
+  }
+  const bool free = drag_button_ < 0 || centre_wanted_;
+  if (!free || simulation_.hand() || on_panel || !picture_.shown().contains(x_, y_)) {
+    asked_.reset();
+    centre_wanted_ = false;
+    return {};
+  }
+  if (asked_ && asked_->x == x_ && asked_->y == y_ && asked_->picture == picture_.number()) return {};
+  const auto number = picture_.request_pick(x_, y_);
+  if (!number) return number.error();
+  asked_ = Question{x_, y_, picture_.number(), asked_ ? asked_->first : *number, *number};
+  return {};
+}
+
+bool Pointer::is_double_click() {
+  const double time = clock ? clock() : now();
+  const bool twice = time - pressed_time_ <= double_click_time &&
+                     std::hypot(x_ - pressed_x_, y_ - pressed_y_) <= double_click_reach;
+  // A third press is a first one again.
+  pressed_time_ = twice ? -1e9 : time;
+  pressed_x_ = x_;
+  pressed_y_ = y_;
+  if (twice) asked_.reset();  // what counts is what is there now
+  return twice;
+}
+
+void Pointer::centre_on(const Picked& picked) {
+  const State& state = simulation_.snapshot();
+  Vec3 point = picked.point;
+  if (picked.kind == PickKind::particle) point = state.position[picked.index];
+  if (picked.kind == PickKind::ball && picked.index < state.ball_position.size())
+    point = state.ball_position[picked.index];
+  view_.camera.centre(point);
+}
+
+void Pointer::forget() {
+  hands_.end_pull();
+  asked_.reset();
+  hovered_.reset();
+  drag_button_ = -1;
+}
+
+}  // namespace aspic::app

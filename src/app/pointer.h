@@ -1,0 +1,78 @@
+#pragma once
+// The mouse over the scene: moves the camera, finds the particle under it, works the hands.
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "analysis/particle_force.h"
+#include "app/hands.h"
+#include "app/scene_picture.h"
+#include "app/simulation.h"
+#include "app/view.h"
+
+namespace aspic::app {
+
+/// The particle under the mouse, or the one that is pulled.
+struct Hovered {
+  std::uint32_t particle = 0;
+  Vec3 position, velocity;  ///< [m], [m/s] at the snapshot's step
+  ParticleForce force;      ///< [N] then
+  double mass = 0.0;        ///< [kg]
+  bool pinned = false;
+};
+
+/// `on_panel`: a panel is under the mouse and takes the event.
+class Pointer {
+ public:
+  /// The references must outlive it.
+  Pointer(const Simulation& simulation, View& view, ScenePicture& picture, Hands& hands)
+      : simulation_(simulation), view_(view), picture_(picture), hands_(hands) {}
+
+  // ---- events, as GLFW names them ----
+  void press(int button, int modifiers, bool on_panel);
+  void release(int button);
+  void move(double x, double y);
+  /// False if the event is the panels'.
+  bool scroll(double notches, bool on_panel);
+  /// A button that moves the camera is held, or a particle is pulled.
+  bool drags() const { return drag_button_ >= 0 || simulation_.hand(); }
+  /// The mouse's place in the view, or the view's middle if it is elsewhere [window units].
+  std::array<double, 2> aim(bool on_panel) const;
+
+  /// Once for each picture, before it is drawn: finds what is under the mouse by what answers have come.
+  void find_hovered();
+  /// After it was shown: marks what was found and asks again. Error: of Renderer.
+  Status mark_and_ask(bool on_panel);
+  const std::optional<Hovered>& hovered() const { return hovered_; }
+  /// The picture and its answers are gone.
+  void forget();
+
+  /// Tells the time between clicks [s]; for tests, which do not wait.
+  std::function<double()> clock;
+
+ private:
+  /// What was asked about a place of a picture.
+  struct Question {
+    double x = 0.0, y = 0.0;
+    std::uint64_t picture = 0, first = 0, last = 0;  // requests since the mouse came here
+  };
+  bool is_double_click();
+  void describe(std::uint32_t particle);
+  void centre_on(const Picked& picked);
+
+  const Simulation& simulation_;
+  View& view_;
+  ScenePicture& picture_;
+  Hands& hands_;
+  double x_ = -1.0, y_ = -1.0;  // of the mouse [window units]
+  int drag_button_ = -1;
+  bool drag_pans_ = false, centre_wanted_ = false;
+  double pressed_time_ = -1e9, pressed_x_ = 0.0, pressed_y_ = 0.0;  // the last press that was no double one
+  std::optional<Hovered> hovered_;
+  std::optional<Question> asked_;
+  std::optional<SpringFinder> incident_;  // of the model with that number
+  std::uint64_t incident_model_ = 0;
+};
+
+}  // namespace aspic::app

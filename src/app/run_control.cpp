@@ -1,0 +1,91 @@
+#include "app/run_control.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/stability.h"
+
+namespace aspic::app {
+
+void RunControl::toggle() {
+  if (simulation_.divergence())
+    messages_.error("The simulation has diverged. Use the stable step, step back or reset first.");
+  else
+    simulation_.set_running(!simulation_.running());
+}
+
+void RunControl::single_step() {
+  if (simulation_.running()) simulation_.set_running(false);
+  messages_.check(simulation_.single_step());
+}
+
+void RunControl::reset() {
+  messages_.check(simulation_.reset());
+}
+
+void RunControl::change_speed(double factor) {
+  double& speed = simulation_.pacer().speed;
+  speed = std::clamp(speed * factor, slowest_speed, fastest_speed);
+}
+
+void RunControl::switch_backend() {
+  const BackendRow& current = simulation_.backend();
+  const BackendRow* row = &next_backend(current);
+  Status changed = simulation_.set_backend(*row);
+  while (!changed && (row = &next_backend(*row)) != &current) {
+    if (simulation_.set_backend(*row)) changed = {};
+  }
+  scene_.follow_history();
+  if (messages_.check(changed)) messages_.info(fmt::format("Now on {}.", simulation_.solver().description()));
+}
+
+void RunControl::set_shadow(const BackendRow* backend) {
+  if (!messages_.check(simulation_.set_shadow(backend))) return;
+  messages_.info(backend ? fmt::format("Shadowed by {}.", simulation_.shadow()->description())
+                         : "Shadow mode is off.");
+}
+
+void RunControl::step_back() {
+  if (!simulation_.can_step_back()) return;
+  messages_.check(simulation_.step_back());
+  scene_.follow_history();
+}
+
+void RunControl::go_to(double time) {
+  messages_.check(simulation_.seek(simulation_.history().nearest(time)));
+  scene_.follow_history();
+}
+
+void RunControl::back_before_divergence() {
+  messages_.dismiss();
+  messages_.check(simulation_.seek(simulation_.before_trouble()));
+  scene_.follow_history();
+}
+
+void RunControl::take_stable_step() {
+  if (!stable_ || !stable_->step || !std::isfinite(*stable_->step)) return;
+  // Two digits below: an estimate is not trusted to its last one.
+  const double limit = 0.95 * *stable_->step;
+  const double unit = std::pow(10.0, std::floor(std::log10(limit)) - 1.0);
+  const double step = std::floor(limit / unit) * unit;
+  back_before_divergence();
+  scene_.set_value(*find_parameter("simulation.timestep"), 0, Value(step));
+}
+
+void RunControl::watch_divergence() {
+  const auto& divergence = simulation_.divergence();
+  if (!divergence) stable_.reset();
+  if (!divergence || stable_) return;
+  const Model& model = simulation_.model();
+  const SimulationSettings& s = model.simulation;
+  stable_ = stability_limit(model, s.integrator, StabilityEffort::quick);
+  messages_.error(fmt::format(
+      "The simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is {} s; {}. "
+      "The last good step is shown.",
+      divergence->step, static_cast<double>(divergence->step) * s.timestep, body_text(*divergence),
+      fault_text(*divergence), s.timestep, stability_sentence(s.integrator, *stable_)));
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,49 @@
+#pragma once
+// Start, pause, step, backends, and the way back in time; with messages of what became of it.
+#include <optional>
+
+#include "analysis/stability.h"
+#include "app/messages.h"
+#include "app/scene_control.h"
+#include "app/simulation.h"
+
+namespace aspic::app {
+
+/// The scene's values go back and forth with time, for they are part of the run.
+class RunControl {
+ public:
+  /// The references must outlive it.
+  RunControl(Simulation& simulation, SceneControl& scene, Messages& messages)
+      : simulation_(simulation), scene_(scene), messages_(messages) {}
+
+  void toggle();
+  void single_step();
+  void reset();
+  void change_speed(double factor);
+  /// Goes on with the next backend of the table that works here.
+  void switch_backend();
+  /// Compares with another backend; null ends that.
+  void set_shadow(const BackendRow* backend);
+
+  void step_back();
+  /// Half a second of simulated time.
+  void jump_back() { go_to(simulation_.time() - 0.5); }
+  /// To the moment nearest to a time of the history [s]; paused.
+  void go_to(double time);
+  void back_before_divergence();
+  /// Goes back, with a time step just below the estimated limit.
+  void take_stable_step();
+
+  /// Once for each picture: reports a new divergence.
+  void watch_divergence();
+  /// The largest stable step, once a divergence was reported.
+  const std::optional<StabilityLimit>& stable_step() const { return stable_; }
+
+ private:
+  Simulation& simulation_;
+  SceneControl& scene_;
+  Messages& messages_;
+  std::optional<StabilityLimit> stable_;
+};
+
+}  // namespace aspic::app

@@ -1,0 +1,64 @@
+#include "app/samples.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "analysis/compare.h"
+
+namespace aspic::app {
+namespace {
+
+constexpr std::size_t most_samples = 2000;
+
+}  // namespace
+
+void Samples::add(const EnergySample& sample) {
+  while (!energies_.empty() && energies_.back().time >= sample.time) energies_.pop_back();
+  energies_.push_back(sample);
+  if (energies_.size() <= most_samples) return;
+  std::deque<EnergySample> thinner;
+  for (std::size_t i = 0; i < energies_.size(); i += 2) thinner.push_back(energies_[i]);
+  energies_ = std::move(thinner);
+}
+
+void Samples::compare(double time, const State& leader, const State& shadow) {
+  DifferenceSample sample;
+  sample.time = time;
+  const auto difference = compare_states(leader, shadow);
+  if (difference && leader.step == shadow.step) {
+    sample.metres = std::max(difference->position.absolute, difference->ball_position.absolute);
+    sample.ulp = std::max({difference->position.ulp, difference->velocity.ulp, difference->ball_position.ulp,
+                           difference->ball_velocity.ulp, difference->ball_angular_velocity.ulp});
+    sample.identical = difference->identical();
+  } else {
+    sample.metres = std::numeric_limits<double>::infinity();
+  }
+  ever_differed_ = ever_differed_ || !sample.identical;
+  while (!differences_.empty() && differences_.back().time >= time) differences_.pop_back();
+  differences_.push_back(sample);
+  if (differences_.size() > most_samples) differences_.pop_front();
+}
+
+void Samples::one_diverged() {
+  differences_.back().metres = std::numeric_limits<double>::infinity();
+  differences_.back().identical = false;
+  ever_differed_ = true;
+}
+
+void Samples::truncate(double time) {
+  while (!energies_.empty() && energies_.back().time > time) energies_.pop_back();
+  while (!differences_.empty() && differences_.back().time > time) differences_.pop_back();
+}
+
+void Samples::clear_differences() {
+  differences_.clear();
+  ever_differed_ = false;
+}
+
+void Samples::clear() {
+  energies_.clear();
+  clear_differences();
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,54 @@
+#pragma once
+// What the plots show of a run: energies, and the difference of two backends.
+#include <cstdint>
+#include <deque>
+
+#include "analysis/energy.h"
+#include "model/state.h"
+
+namespace aspic::app {
+
+/// Energies at one time, a point of the plot.
+struct EnergySample {
+  double time = 0.0;  ///< [s]
+  Measures measures;
+  std::uint64_t step = 0;
+};
+
+/// How far the two backends of shadow mode were apart at one time.
+struct DifferenceSample {
+  double time = 0.0;       ///< [s]
+  double metres = 0.0;     ///< largest |difference| of a position's component; infinite if one alone diverged
+  std::uint64_t ulp = 0;   ///< largest distance of any component of the state
+  bool identical = false;  ///< every bit is the same
+};
+
+/// Samples in the order of time; a later one at the same time or before takes the place of those from there
+/// on.
+class Samples {
+ public:
+  /// The whole run stays in the plot: long runs become less dense.
+  const std::deque<EnergySample>& energies() const { return energies_; }
+  /// The newest ones.
+  const std::deque<DifferenceSample>& differences() const { return differences_; }
+  /// Since shadow mode began, or the last change of setup.
+  bool ever_differed() const { return ever_differed_; }
+
+  void add(const EnergySample& sample);
+  /// Compares the states of two backends at a time of the run [s].
+  void compare(double time, const State& leader, const State& shadow);
+  /// The states last compared differ in that one run diverged.
+  void one_diverged();
+  /// Forgets what came after a time [s].
+  void truncate(double time);
+  void clear_differences();
+  void clear_differed() { ever_differed_ = false; }
+  void clear();
+
+ private:
+  std::deque<EnergySample> energies_;
+  std::deque<DifferenceSample> differences_;
+  bool ever_differed_ = false;
+};
+
+}  // namespace aspic::app

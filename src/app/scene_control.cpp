@@ -1,0 +1,135 @@
+#include "app/scene_control.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/load.h"
+
+namespace aspic::app {
+
+void SceneControl::open(const std::string& source) {
+  view_.keep_camera(editor_.source());
+  const SceneEditor before = editor_;
+  if (!messages_.check(editor_.replace(source))) return;
+  if (!messages_.check(simulation_.change(editor_.scene(), false))) {
+    editor_ = before;
+    return;
+  }
+  pending_ = Effect::none;
+  messages_.dismiss();
+  messages_.check(simulation_.reset());
+  view_.camera = CameraControl(editor_.scene().view.camera);
+  view_.recall_camera(editor_.source());
+}
+
+void SceneControl::open_neighbour(int offset) {
+  const std::vector<BuiltinScene> scenes = list_builtin_scenes();
+  const auto count = static_cast<int>(scenes.size());
+  const auto open_one = std::ranges::find(scenes, editor_.source(), &BuiltinScene::name);
+  int current = offset > 0 ? -1 : 0;
+  if (open_one != scenes.end()) current = static_cast<int>(open_one - scenes.begin());
+  open(std::string(scenes[static_cast<std::size_t>((current + offset + count) % count)].name));
+}
+
+void SceneControl::reload() {
+  const std::string source = editor_.source();
+  open(source);
+  if (!messages_.notice()) messages_.info(fmt::format("{} reloaded.", source));
+}
+
+/// The file was written: constants take effect while the motion goes on.
+void SceneControl::reread_file() {
+  const SceneEditor before = editor_;
+  if (!messages_.check(editor_.reload())) return;
+  const Effect effect = effect_between(before.scene(), editor_.scene());
+  if (!messages_.check(simulation_.change(editor_.scene(), effect != Effect::restart))) {
+    editor_ = before;
+    return;
+  }
+  pending_ = Effect::none;
+  if (before.scene().view.camera != editor_.scene().view.camera)
+    view_.camera = CameraControl(editor_.scene().view.camera);
+  messages_.info(
+      fmt::format("{} changed on disk and was reloaded{}.", editor_.source(),
+                  effect == Effect::restart ? "; bodies changed, so the simulation was restarted" : ""));
+}
+
+void SceneControl::save_as(const std::string& path) {
+  if (messages_.check(editor_.save_as(path, view_.camera.goal())))
+    messages_.info(fmt::format("Saved as {}.", path));
+}
+
+void SceneControl::undo() {
+  if (!editor_.can_undo()) return;
+  const std::string name = editor_.undo_name();
+  take_effect(editor_.undo());
+  messages_.info(fmt::format("Undone: {}.", name));
+}
+
+void SceneControl::redo() {
+  if (!editor_.can_redo()) return;
+  const std::string name = editor_.redo_name();
+  take_effect(editor_.redo());
+  messages_.info(fmt::format("Redone: {}.", name));
+}
+
+void SceneControl::set_value(const Parameter& parameter, std::size_t index, const Value& value,
+                             const std::string& gesture) {
+  take_effect(editor_.set(parameter, index, value, gesture));
+}
+
+void SceneControl::apply(Scene scene, const std::string& name, const std::string& gesture) {
+  take_effect(editor_.apply(std::move(scene), name, gesture));
+}
+
+void SceneControl::take_effect(Result<Effect> effect) {
+  if (!effect) return messages_.error(effect.error().message);
+  unchanged_for_ = 0.0;
+  if (*effect >= Effect::constants) pending_ = std::max(pending_, *effect);
+  const CameraSettings& camera = editor_.scene().view.camera;
+  if (camera != view_.camera.home()) view_.camera.set_home(camera);
+}
+
+void SceneControl::follow_history() {
+  Scene scene = editor_.scene();
+  scene.model = simulation_.setup().settings;
+  if (effect_between(editor_.scene(), scene) < Effect::constants) return;
+  pending_ = Effect::none;
+  if (const auto applied = editor_.apply(std::move(scene), "going back in time", ""); !applied)
+    messages_.error(applied.error().message);
+}
+
+void SceneControl::update(double dt) {
+  constexpr double file_interval = 0.5;  // s
+  unchanged_for_ += dt;
+  since_rebuild_ += dt;
+  since_file_look_ += dt;
+  if (since_file_look_ >= file_interval) {
+    since_file_look_ = 0.0;
+    if (editor_.file_changed()) reread_file();
+  }
+  // A solver that takes long to build does not follow every step of a slider.
+  if (!pending() || simulation_.changing() || since_rebuild_ < 4.0 * rebuild_seconds_) return;
+  requested_ = std::exchange(pending_, Effect::none);
+  requested_at_ = std::chrono::steady_clock::now();
+  simulation_.request_change(editor_.scene(), requested_ == Effect::constants);
+}
+
+bool SceneControl::finish_change() {
+  const auto changed = simulation_.take_change();
+  if (!changed) return false;
+  rebuild_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - requested_at_).count();
+  since_rebuild_ = 0.0;
+  if (!messages_.check(*changed)) {
+    if (editor_.can_undo()) editor_.undo();
+  } else if (requested_ == Effect::restart) {
+    messages_.info("The bodies changed: the simulation was restarted.");
+  } else {
+    messages_.dismiss_error();
+  }
+  return rebuild_seconds_ > 0.05;
+}
+
+}  // namespace aspic::app

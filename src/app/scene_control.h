@@ -1,0 +1,63 @@
+#pragma once
+// The scene that is open, kept in step with its simulation: opening, changing, undo, and the file on disk.
+#include <chrono>
+#include <string>
+
+#include "app/messages.h"
+#include "app/scene_editor.h"
+#include "app/simulation.h"
+#include "app/view.h"
+
+namespace aspic::app {
+
+class SceneControl {
+ public:
+  /// The references must outlive it. The simulation runs the editor's scene.
+  SceneControl(SceneEditor editor, Simulation& simulation, View& view, Messages& messages)
+      : editor_(std::move(editor)), simulation_(simulation), view_(view), messages_(messages) {}
+
+  const SceneEditor& editor() const { return editor_; }
+  const Scene& scene() const { return editor_.scene(); }
+
+  /// Opens a file or built-in scene; on an error the old one stays and a message says why.
+  void open(const std::string& source);
+  /// Opens the built-in scene that comes so many places later in the list, which goes round.
+  void open_neighbour(int offset);
+  void reload();
+  void save_as(const std::string& path);
+  void undo();
+  void redo();
+
+  /// Changes the scene: see SceneEditor. A message says why a change is refused.
+  void set_value(const Parameter& parameter, std::size_t index, const Value& value,
+                 const std::string& gesture = "");
+  void apply(Scene scene, const std::string& name, const std::string& gesture = "");
+  /// The next change is another entry for undo.
+  void end_gesture() { editor_.end_gesture(); }
+  /// Goes back or forth in time with the simulation: the physics of the scene is part of the run. A change
+  /// that can be undone.
+  void follow_history();
+
+  /// Once for each picture, `dt` after the last [s]: looks at the file and hands changes to the simulation.
+  void update(double dt);
+  /// After the simulation's own update: how a change ended. True if it took noticeable time.
+  bool finish_change();
+  /// Changes wait for the simulation.
+  bool pending() const { return pending_ != Effect::none; }
+  /// Since the scene was last changed [s].
+  double unchanged_for() const { return unchanged_for_; }
+
+ private:
+  void take_effect(Result<Effect> effect);
+  void reread_file();
+
+  SceneEditor editor_;
+  Simulation& simulation_;
+  View& view_;
+  Messages& messages_;
+  Effect pending_ = Effect::none, requested_ = Effect::none;
+  double rebuild_seconds_ = 0.0, since_rebuild_ = 0.0, since_file_look_ = 0.0, unchanged_for_ = 0.0;
+  std::chrono::steady_clock::time_point requested_at_ = {};
+};
+
+}  // namespace aspic::app

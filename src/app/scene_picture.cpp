@@ -1,0 +1,183 @@
+#include "app/scene_picture.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "io/atomic_file.h"
+#include "io/film_format.h"
+#include "render/overlay_text.h"
+#include "run/backends.h"
+
+namespace aspic::app {
+namespace {
+
+/// Particles from which on a first picture may take too long.
+constexpr std::uint32_t many_particles = 8000;
+
+int rounded(double length) {
+  return static_cast<int>(std::lround(length));
+}
+
+}  // namespace
+
+Status ScenePicture::attach(gl::Context& context) {
+  const auto directory = shader_directory();
+  if (!directory) return directory.error();
+  context_ = &context;
+  RendererOptions look;
+  look.samples = in_full() ? 4 : 1;
+  look.shaders = gl::ShaderLibrary(*directory);
+  auto renderer = Renderer::create(context, look);
+  if (!renderer) return renderer.error();
+  renderer_ = std::move(*renderer);
+  drawn_.reset();
+  return {};
+}
+
+void ScenePicture::detach() {
+  renderer_.reset();
+  context_ = nullptr;
+}
+
+ScenePicture::Pixels ScenePicture::view_pixels(int window_height) const {
+  const double ratio = view_.pixels_per_unit;
+  Pixels p;
+  p.left = rounded(view_.box.left * ratio);
+  p.bottom = window_height - rounded(view_.box.bottom * ratio);
+  p.width = std::max(rounded(view_.box.right * ratio) - p.left, 1);
+  p.height = std::max(rounded((view_.box.bottom - view_.box.top) * ratio), 1);
+  return p;
+}
+
+ScenePicture::Content ScenePicture::wanted() const {
+  Content c;
+  c.model = simulation_.model_number();
+  c.state = simulation_.picture_number();
+  c.view = scene_.view;
+  c.view.camera = view_.camera.shown();
+  c.shadows = shadows;
+  c.film = film;
+  const double scale = in_full() ? 1.0 : resolution_.share(at_rest_);
+  const Pixels full = view_pixels(0);
+  c.size =
+      film ? film->size
+           : PictureSize{std::max(rounded(scale * full.width), 1), std::max(rounded(scale * full.height), 1)};
+  if (const auto& hand = simulation_.hand()) c.marks.pull = {hand->particle, hand->anchor};
+  for (const auto& [particle, pinned] : simulation_.setup().pinned)
+    if (pinned) c.marks.marked.push_back(particle);
+  c.marks.unit = view_.text_scale * c.size.width / view_.width();
+  return c;
+}
+
+Status ScenePicture::draw() {
+  const Content content = wanted();
+  if (drawn_ == content) return {};
+  const auto start = std::chrono::steady_clock::now();
+  const bool new_model = !is_of_model(), adapts = !in_full() && !film;
+  const double share = resolution_.share(at_rest_);
+  PictureOptions options;
+  options.view = content.view;
+  if (film) {
+    options.legend = film->text;
+    if (film->text) options.text = overlay_lines(scene_.model, simulation_.time());
+  }
+  options.shadows = shadows;
+  options.highlight = content.marks;
+  options.coarse_skin = adapts && share < 1.0;
+  if (new_model) {
+    const Model& model = simulation_.model();
+    ASPIC_CHECK(renderer_->set_model(model));
+    if (drawn_particles_ != model.particle_count())
+      resolution_.reset(model.particle_count() > many_particles);
+    drawn_particles_ = model.particle_count();
+  }
+  std::optional<DeviceState> state = simulation_.device_state();
+  if (!state) {
+    const auto uploaded = renderer_->upload(simulation_.snapshot());
+    if (!uploaded) return uploaded.error();
+    state = *uploaded;
+  }
+  ASPIC_CHECK(renderer_->draw(content.size.width, content.size.height, *state, options));
+  if (context_->info().is_software) glFinish();
+  drawn_ = content;
+  ++number_;
+  draw_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (adapts && !new_model) resolution_.took(share, draw_seconds_);
+  return {};
+}
+
+Status ScenePicture::show(const WindowSize& window) {
+  const Pixels view = view_pixels(window.pixel_height);
+  // Nothing but the picture may be used of the renderer while it is postponed: its model is gone.
+  if (!std::exchange(postponed_, false) || !drawn_ || film) {
+    ASPIC_CHECK(draw());
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, window.pixel_width, window.pixel_height);
+  glClearColor(0.105f, 0.107f, 0.112f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+  Pixels& p = shown_pixels_ = view;
+  if (film) {
+    // A film of another shape than the view is shown complete, between margins.
+    const auto [width, height] = film->size;
+    const double fit =
+        std::min(static_cast<double>(view.width) / width, static_cast<double>(view.height) / height);
+    p.width = rounded(fit * width);
+    p.height = rounded(fit * height);
+    p.left += (view.width - p.width) / 2;
+    p.bottom += (view.height - p.height) / 2;
+  }
+  renderer_->present(0, p.width, p.height, p.left, p.bottom);
+  const double ratio = view_.pixels_per_unit;
+  shown_ = {p.left / ratio, (window.pixel_height - p.bottom - p.height) / ratio, (p.left + p.width) / ratio,
+            (window.pixel_height - p.bottom) / ratio};
+  return {};
+}
+
+Status ScenePicture::mark(std::uint32_t particle) {
+  HighlightOptions ring;
+  ring.hovered = particle;
+  ring.unit = view_.text_scale * view_.pixels_per_unit;
+  ring.pinned = false;
+  const Pixels& p = shown_pixels_;
+  return renderer_->present_highlight(ring, 0, p.width, p.height, p.left, p.bottom);
+}
+
+Result<std::uint64_t> ScenePicture::request_pick(double x, double y) {
+  return renderer_->request_pick(
+      {x - shown_.left, y - shown_.top, shown_.right - shown_.left, shown_.bottom - shown_.top});
+}
+
+void ScenePicture::count(double dt) {
+  constexpr double window = 0.5;  // s
+  rate_time_ += dt;
+  ++rate_pictures_;
+  if (rate_time_ <= window) return;
+  pictures_per_second_ = rate_pictures_ / rate_time_;
+  rate_time_ = 0.0;
+  rate_pictures_ = 0;
+}
+
+Status save_screenshot(const WindowSize& size, const std::string& path) {
+  const auto row = 3 * static_cast<std::size_t>(size.pixel_width),
+             height = static_cast<std::size_t>(size.pixel_height);
+  std::vector<std::byte> below(row * height), rgb(below.size());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size.pixel_width, size.pixel_height, GL_RGB, GL_UNSIGNED_BYTE, below.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  for (std::size_t i = 0; i < height; ++i)
+    std::copy_n(below.begin() + static_cast<std::ptrdiff_t>((height - 1 - i) * row), row,
+                rgb.begin() + static_cast<std::ptrdiff_t>(i * row));
+  const auto png = encode_png({size.pixel_width, size.pixel_height}, rgb);
+  if (!png) return png.error();
+  auto file = AtomicFile::create(path, Overwrite::refuse);
+  if (!file) return file.error();
+  ASPIC_CHECK(file->write(*png));
+  return file->commit();
+}
+
+}  // namespace aspic::app

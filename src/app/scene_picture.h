@@ -1,0 +1,109 @@
+#pragma once
+// The picture of the scene in the window: drawn where something changed, kept where nothing did.
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/resolution.h"
+#include "app/simulation.h"
+#include "app/view.h"
+#include "app/window.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
+
+namespace aspic::app {
+
+/// How a film wants its pictures.
+struct FilmLook {
+  PictureSize size;   ///< whatever becomes of the window
+  bool text = false;  ///< parameters, time and the legend of colours are written on them
+  friend bool operator==(const FilmLook&, const FilmLook&) = default;
+};
+
+class ScenePicture {
+ public:
+  /// The references must outlive it. `in_full_quality`: a software rasteriser draws as hardware does.
+  ScenePicture(const Simulation& simulation, const Scene& scene, const View& view, bool in_full_quality)
+      : full_quality(in_full_quality), simulation_(simulation), scene_(scene), view_(view) {}
+
+  bool full_quality;
+  bool shadows = true;           ///< on terrain
+  std::optional<FilmLook> film;  ///< while a film is made
+
+  /// Everything of OpenGL, in a context that must outlive it or be detached. Errors: of Renderer::create.
+  Status attach(gl::Context& context);
+  void detach();
+  gl::Context& context() const { return *context_; }
+
+  /// Nothing has moved for a while, or something does: a software rasteriser takes more time at rest.
+  void set_at_rest(bool at_rest) { at_rest_ = at_rest; }
+  /// Draws the picture, if anything in it changed. Error: of Renderer.
+  Status draw();
+  /// Draws it and puts it into the window; after postpone() the last one once more, so that events come
+  /// first.
+  Status show(const WindowSize& window);
+  void postpone() { postponed_ = true; }
+  /// Marks a particle in the window, on top of what show() put there. So the mark follows the mouse however
+  /// long pictures take, and is in no film.
+  Status mark(std::uint32_t particle);
+  const gl::Framebuffer& pixels() const { return renderer_->picture(); }
+
+  /// Where the last picture is in the window [window units]; a film of another shape has margins.
+  const Box& shown() const { return shown_; }
+  /// Counts pictures drawn.
+  std::uint64_t number() const { return number_; }
+  /// Whether indices in the last picture are those of the simulation's model.
+  bool is_of_model() const { return drawn_ && drawn_->model == simulation_.model_number(); }
+  /// Asks what lies at a place in the window [window units]; see Renderer::request_pick.
+  Result<std::uint64_t> request_pick(double x, double y);
+  PickAnswer picked() const { return renderer_->picked(); }
+
+  /// The picture's share of the full resolution, 0 … 1: below 1 where a software rasteriser would be too
+  /// slow.
+  double resolution() const { return in_full() ? 1.0 : resolution_.share(false); }
+  /// How long the last picture took [s].
+  double draw_seconds() const { return draw_seconds_; }
+  /// Once for each picture of the window, `dt` after the last [s].
+  void count(double dt);
+  double pictures_per_second() const { return pictures_per_second_; }
+
+ private:
+  /// What the last picture shows, and how.
+  struct Content {
+    std::uint64_t model = 0, state = 0;
+    ViewSettings view;
+    HighlightOptions marks;
+    bool shadows = true;
+    std::optional<FilmLook> film;
+    PictureSize size;
+    friend bool operator==(const Content&, const Content&) = default;
+  };
+  struct Pixels {
+    int left = 0, bottom = 0, width = 1, height = 1;
+  };
+  bool in_full() const { return full_quality || !context_->info().is_software; }
+  Pixels view_pixels(int window_height) const;
+  Content wanted() const;
+
+  const Simulation& simulation_;
+  const Scene& scene_;
+  const View& view_;
+  gl::Context* context_ = nullptr;
+  std::unique_ptr<Renderer> renderer_;
+  std::optional<Content> drawn_;
+  bool at_rest_ = false, postponed_ = false;
+  std::uint64_t number_ = 0;
+  Box shown_;
+  Pixels shown_pixels_;
+  Resolution resolution_;
+  std::uint32_t drawn_particles_ = 0;
+  double draw_seconds_ = 0.0, rate_time_ = 0.0, pictures_per_second_ = 0.0;
+  int rate_pictures_ = 0;
+};
+
+/// Saves what the window shows as a new PNG file. Error (io).
+Status save_screenshot(const WindowSize& size, const std::string& path);
+
+}  // namespace aspic::app

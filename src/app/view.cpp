@@ -1,0 +1,70 @@
+#include "app/view.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <optional>
+
+#include "scene/load.h"
+#include "scene/write.h"
+
+namespace aspic::app {
+
+Camera View::lens() const {
+  return {camera.shown(), static_cast<int>(width()), static_cast<int>(height())};
+}
+
+void View::frame_bodies(const Model& model, const State& state) {
+  if (state.position.empty() && state.ball_position.empty()) return;
+  Vec3 low = state.position.empty() ? state.ball_position.front() : state.position.front(), high = low;
+  const auto include = [&](const Vec3& x, double radius) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], x[axis] - radius);
+      high[axis] = std::max(high[axis], x[axis] + radius);
+    }
+  };
+  for (const Vec3& x : state.position) include(x, 0.0);
+  for (std::size_t i = 0; i < state.ball_position.size(); ++i)
+    include(state.ball_position[i], model.balls[i].radius);
+  camera.frame(0.5 * (low + high), 0.5 * length(high - low), width() / height());
+}
+
+std::vector<KeptCamera> View::kept_with(const std::string& source) const {
+  std::vector<KeptCamera> cameras = kept;
+  const CameraSettings goal = camera.goal();
+  app::keep_camera(cameras, camera_key(source), goal == camera.home() ? std::nullopt : std::optional(goal));
+  return cameras;
+}
+
+void View::recall_camera(const std::string& source) {
+  const auto found = std::ranges::find(kept, camera_key(source), &KeptCamera::scene);
+  if (found != kept.end()) camera.jump_to(found->camera);
+}
+
+void copy_camera(const View& view, const WindowServices& services, Messages& messages) {
+  const CameraSettings c = view.camera.goal();
+  const std::string text = fmt::format("camera = {{ position = {}, target = {}, fov = {} }}",
+                                       toml_value(c.position), toml_value(c.target), toml_value(c.fov));
+  if (services.set_clipboard) services.set_clipboard(text);
+  messages.info("The camera is on the clipboard, as a line for [view] of a scene file.");
+}
+
+void paste_camera(View& view, const Scene& scene, const WindowServices& services, Messages& messages) {
+  std::string text = services.clipboard ? services.clipboard() : std::string();
+  const std::size_t brace = text.find('{');
+  text = text.find("camera") == std::string::npos || brace == std::string::npos ? "" : text.substr(brace);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+  if (text.empty()) {
+    return messages.error(
+        "The clipboard holds no camera. One looks like camera = { position = [10.0, 6.0, 14.0], target = "
+        "[0.0, 2.0, 0.0], fov = 45.0 }.");
+  }
+  const std::vector<std::string> set = {"view.camera=" + text};
+  const auto pasted = with_overrides(scene, set);
+  if (pasted)
+    view.camera.jump_to(pasted->view.camera);
+  else
+    messages.error(pasted.error().message);
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,25 @@
+#pragma once
+// shaders/shared/layout.glsl as C++: what solvers leave in buffers and pictures read there.
+#include <cstddef>
+#include <cstdint>
+
+#include "gpu/loop_bound.h"
+
+namespace aspic::layout {
+
+using uint = std::uint32_t;
+struct vec4 {
+  float x = 0, y = 0, z = 0, w = 0;
+};
+struct uvec2 {
+  uint x = 0, y = 0;
+};
+
+#include "shared/layout.glsl"
+
+static_assert(MAX_ROUNDS == gl::max_rounds);
+static_assert(sizeof(Particle) == 32 && offsetof(Particle, velocity) == 16);
+static_assert(sizeof(Ball) == 64 && offsetof(Ball, velocity) == 16 && offsetof(Ball, spin) == 32);
+static_assert(sizeof(SpringClass) == 16 && offsetof(SpringClass, cord) == 12);
+
+}  // namespace aspic::layout

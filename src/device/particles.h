@@ -1,0 +1,27 @@
+#pragma once
+// States as kernels and pictures hold them, in single precision.
+#include <span>
+#include <vector>
+
+#include "device/layout.h"
+#include "model/model.h"
+#include "model/state.h"
+
+namespace aspic {
+
+/// Rounded to single precision.
+layout::vec4 rounded(const Vec3& v, double w);
+layout::SpringClass rounded(const SpringClass& spring);
+
+/// The particles of a state, rounded. The state must have the model's number of particles.
+std::vector<layout::Particle> packed_particles(const Model& model, const State& state);
+
+/// The balls of a state, rounded: those that wait for their launch have no inverse mass. The state must have
+/// the model's number of balls.
+std::vector<layout::Ball> packed_balls(const Model& model, const State& state);
+
+/// Appends particles, or balls, to a state of single precision, exactly.
+void unpack(std::span<const layout::Particle> particles, State& state);
+void unpack(std::span<const layout::Ball> balls, State& state);
+
+}  // namespace aspic

@@ -1,0 +1,26 @@
+#include "device/spring_buffers.h"
+
+namespace aspic {
+
+Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& context, const Model& model,
+                                                                 IncidentWords kind) {
+  auto made = std::make_shared<SpringBuffers>();
+  made->context = &context;
+  made->kind = kind;
+  gl::BufferFiller fill(context);
+  if (kind == IncidentWords::springs) {
+    ASPIC_TRY(const auto springs, packed_springs(model));
+    fill(made->springs, "springs", springs);
+  }
+  ASPIC_TRY(const IncidentSprings rows, incident_springs(model, kind));
+  fill(made->incident_start, "incident spring rows", rows.start);
+  fill(made->incident, "incident springs", rows.words);
+  ASPIC_CHECK(fill.status());
+  return std::shared_ptr<const SpringBuffers>(std::move(made));
+}
+
+bool same_springs(const Model& a, const Model& b) {
+  return a.particle_count() == b.particle_count() && class_bits(a) == class_bits(b) && a.springs == b.springs;
+}
+
+}  // namespace aspic

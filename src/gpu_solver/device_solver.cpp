@@ -1,0 +1,118 @@
+#include "gpu_solver/device_solver.h"
+
+#include <fmt/format.h>
+
+#include "device/particles.h"
+#include "gpu_solver/simulation_block.h"
+
+namespace aspic {
+
+using gl::Buffer;
+
+Status DeviceSolver::build(const GpuOptions& options) {
+  const std::uint64_t held_before = context_.bytes_held();
+  ASPIC_CHECK(build_shared(options));
+  ASPIC_TRY(const KernelOptions kernels, kernel_options(context_, options, group_size(options)));
+  arithmetic_ = kernels.arithmetic;
+  ASPIC_CHECK(build_passes(kernels, options));
+  bytes_ = context_.bytes_held() - held_before;
+  if (springs_.use_count() > 1) bytes_ += springs_->bytes();  // held before, by the solver it shares with
+  ASPIC_CHECK(take(initial_state(model_, Precision::single)));
+  return context_.check(ErrorCode::scene_rejected);
+}
+
+Status DeviceSolver::build_shared(const GpuOptions& options) {
+  ASPIC_TRY(const layout::Simulation block, simulation_block(model_));
+  const std::uint64_t state_bytes = std::uint64_t{model_.particle_count()} * sizeof(layout::Particle);
+  for (Buffer& state : states_) {
+    ASPIC_TRY(state, Buffer::create(context_, "particle state", state_bytes));
+  }
+  ASPIC_TRY(simulation_,
+            Buffer::of(context_, "simulation constants", std::span(&block, 1), gl::BufferKind::uniform));
+  ASPIC_CHECK(pull_.build(context_));
+  if (const GpuSolver* other = options.share_springs_of) {
+    const auto& theirs = other->spring_buffers();
+    if (theirs->context == &context_ && theirs->kind == path_.words && same_springs(other->model(), model_))
+      springs_ = theirs;
+  }
+  if (springs_) return {};
+  ASPIC_TRY(springs_, make_spring_buffers(context_, model_, path_.words));
+  return {};
+}
+
+std::string DeviceSolver::description() const {
+  return fmt::format("gpu, {}, force path {}, single precision", context_.info().renderer, path_.name);
+}
+
+DeviceState DeviceSolver::device_state() const {
+  return {&states_[current_], &balls_.buffer(), ball_slot_ * model_.ball_count(), base_step_ + steps_since_,
+          springs_.get()};
+}
+
+Status DeviceSolver::take(const State& state) {
+  ASPIC_CHECK(check_sizes(model_, state));
+  const std::vector<layout::Particle> particles = packed_particles(model_, state);
+  states_[0].upload_items(std::span<const layout::Particle>(particles));
+  balls_.load(state);
+  current_ = 0;
+  ball_slot_ = 0;
+  base_step_ = state.step;
+  steps_since_ = 0;
+  divergence_.reset();
+  restart();
+  return {};
+}
+
+Status DeviceSolver::load(const State& state) {
+  ASPIC_CHECK(take(state));
+  return context_.check();
+}
+
+Result<State> DeviceSolver::state() {
+  State state;
+  state.precision = Precision::single;
+  state.step = base_step_ + steps_since_;
+  unpack(states_[current_].download_items<layout::Particle>(model_.particle_count()), state);
+  balls_.read(state, ball_slot_);
+  ASPIC_CHECK(context_.check());
+  return state;
+}
+
+Result<gl::Pass> DeviceSolver::pass(const KernelOptions& kernels, std::string_view path,
+                                    std::vector<gl::Binding> bindings) {
+  ASPIC_TRY(auto program, context_.programs().compute(kernels.library, path, kernels.defines));
+  programs_.push_back(std::move(program));
+  return gl::Pass(*programs_.back(), std::move(bindings), gl::Reader::compute_pass);
+}
+
+void DeviceSolver::keep_counting() {
+  if (steps_since_ <= 0x7fffffffu) return;
+  base_step_ += steps_since_;
+  steps_since_ = 0;
+  balls_.set_base_step(base_step_);
+}
+
+Divergence DeviceSolver::divergence_from(std::uint32_t word, std::uint64_t steps) const {
+  const std::uint64_t step = base_step_ + steps + 1;
+  if (word == BAD_RESIDUAL) return {step, 0, false, false, true};
+  const std::uint32_t index = word >> 1, particles = model_.particle_count();
+  const bool ball = index >= particles;
+  return {step, ball ? index - particles : index, (word & 1u) != 0, ball};
+}
+
+void DeviceSolver::set_profiling(bool on) {
+  if (on == (profiler_ != nullptr)) return;
+  balls_.set_profiler(nullptr, 0);
+  profiler_.reset();
+  if (!on) return;
+  std::vector<std::string> names = pass_names_;
+  for (std::string& name : BallPasses::pass_names()) names.push_back(std::move(name));
+  profiler_ = std::make_unique<gl::PassProfiler>(context_, std::move(names));
+  balls_.set_profiler(profiler_.get(), pass_names_.size());
+}
+
+std::vector<gl::PassTime> DeviceSolver::pass_times() {
+  return profiler_ ? profiler_->times() : std::vector<gl::PassTime>();
+}
+
+}  // namespace aspic

@@ -1,0 +1,96 @@
+#pragma once
+// What the explicit and the implicit solver share: the state's buffers, springs, balls, the pull, profiling.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/pass.h"
+#include "gpu/program_cache.h"
+#include "gpu_solver/ball_passes.h"
+#include "gpu_solver/gpu_solver.h"
+#include "gpu_solver/kernels.h"
+#include "gpu_solver/layout.h"
+#include "gpu_solver/pull_buffer.h"
+
+namespace aspic {
+
+/// Readers of what is about to leave the solver.
+inline constexpr gl::Reader anyone =
+    gl::Reader::compute_pass | gl::Reader::vertex_draw | gl::Reader::read_back | gl::Reader::copy;
+
+class DeviceSolver : public GpuSolver {
+ public:
+  /// Makes everything and loads the initial state. Errors: those of make_gpu_solver.
+  Status build(const GpuOptions& options);
+
+  std::string_view backend() const final { return "gpu"; }
+  std::string description() const final;
+  Precision precision() const final { return Precision::single; }
+  const Model& model() const final { return model_; }
+  std::uint64_t bytes() const final { return bytes_ + balls_.grown_bytes(); }
+  DeviceState device_state() const final;
+  ForcePath force_path() const final { return path_.path; }
+  const gl::Arithmetic& arithmetic() const final { return arithmetic_; }
+  const std::shared_ptr<const SpringBuffers>& spring_buffers() const final { return springs_; }
+
+  Status load(const State& state) final;
+  Status set_pull(const std::optional<Pull>& pull) final { return pull_.set(model_, pull); }
+  Result<State> state() final;
+  void set_profiling(bool on) final;
+  std::vector<gl::PassTime> pass_times() final;
+
+ protected:
+  /// `states`: buffers that a state takes turns in; `pass_names`: of the kinds of passes but the balls'.
+  DeviceSolver(gl::Context& context, const Model& model, const ForcePathRow& path, std::size_t states,
+               std::vector<std::string> pass_names)
+      : context_(context), model_(model), path_(path), states_(states), pass_names_(std::move(pass_names)) {}
+
+  /// Invocations per group of the kernels.
+  virtual std::uint32_t group_size(const GpuOptions& options) const = 0;
+  /// Buffers and passes of its own, and the balls' passes.
+  virtual Status build_passes(const KernelOptions& kernels, const GpuOptions& options) = 0;
+  /// The state was loaded: its own control words follow.
+  virtual void restart() = 0;
+
+  gl::Binding constants() const { return {BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform}; }
+  /// A program and the pass that runs it.
+  Result<gl::Pass> pass(const KernelOptions& kernels, std::string_view path,
+                        std::vector<gl::Binding> bindings);
+  void mark(std::size_t kind) const {
+    if (profiler_) profiler_->mark(kind);
+  }
+  /// The kernels count steps in 32 bits: before those are full, counting begins again. No step may be under
+  /// way.
+  void keep_counting();
+  /// The divergence a kernel's word means (Control and Solve in shaders/compute/layout.glsl), in the step
+  /// after `steps` since the base step.
+  Divergence divergence_from(std::uint32_t word, std::uint64_t steps) const;
+
+  gl::Context& context_;
+  const Model& model_;
+  const ForcePathRow& path_;
+  std::vector<gl::Buffer> states_;
+  std::size_t current_ = 0;      // the state's buffer
+  std::uint32_t ball_slot_ = 0;  // the slot of its balls
+  std::shared_ptr<const SpringBuffers> springs_;
+  PullBuffer pull_;
+  BallPasses balls_;
+  gl::Buffer simulation_;
+
+  std::uint64_t base_step_ = 0;    // step number of the loaded state
+  std::uint32_t steps_since_ = 0;  // steps since: what the kernels count in
+  std::optional<Divergence> divergence_;
+  std::unique_ptr<gl::PassProfiler> profiler_;
+
+ private:
+  Status build_shared(const GpuOptions& options);
+  Status take(const State& state);
+
+  std::vector<std::string> pass_names_;
+  std::vector<std::shared_ptr<const gl::Program>> programs_;  // of the passes
+  gl::Arithmetic arithmetic_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace aspic

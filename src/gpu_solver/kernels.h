@@ -1,0 +1,26 @@
+#pragma once
+// How a solver's kernels are compiled, and what they say of loops they had to cut short.
+#include <vector>
+
+#include "gpu/canary.h"
+#include "gpu/context.h"
+#include "gpu/shader_source.h"
+#include "gpu_solver/gpu_solver.h"
+
+namespace aspic {
+
+struct KernelOptions {
+  gl::ShaderLibrary library;
+  gl::Arithmetic arithmetic;
+  std::vector<gl::Define> defines;  ///< of the arithmetic, the group size and GpuOptions
+};
+
+/// Asks the canary unless the options know the arithmetic already. Errors: those of choose_arithmetic.
+Result<KernelOptions> kernel_options(gl::Context& context, const GpuOptions& options,
+                                     std::uint32_t group_size);
+
+/// Error (no_device): a kernel had a loop of more than MAX_ROUNDS (shaders/shared/layout.glsl), which
+/// `overrun` of Control or Solve names; 0: none had. The state is not to be trusted then.
+Status check_overrun(std::uint32_t overrun);
+
+}  // namespace aspic
