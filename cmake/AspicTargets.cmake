@@ -20,9 +20,14 @@ if(ASPIC_SANITIZE)
 endif()
 
 # aspic_library(NAME SOURCES a.cpp … DEPENDS target …): one room of the library. Rooms name the rooms they use; their objects
-# are linked together into aspic::aspic by aspic_link_library().
+# are linked together into aspic::aspic by aspic_link_library(). Without SOURCES the room is every source file of its
+# folder: where a file is a kind of something, adding the file adds the kind.
 function(aspic_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  if(NOT arg_SOURCES)
+    file(GLOB arg_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+    list(SORT arg_SOURCES)
+  endif()
   add_library(${name} OBJECT ${arg_SOURCES})
   target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS})
   set_property(GLOBAL APPEND PROPERTY ASPIC_ROOMS ${name})

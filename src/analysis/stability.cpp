@@ -269,7 +269,7 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
       known_ratio = ratio;
     }
     const StabilityLimit& least = *known;
-    if (body.spacing <= 0.0 || !least.step || timestep > *least.step) return false;
+    if (!body.cubic || !least.step || timestep > *least.step) return false;
   }
   return covered == model.particle_count();
 }

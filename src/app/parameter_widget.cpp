@@ -75,8 +75,20 @@ std::optional<Value> vector_widget(const Parameter& p, const Vec3& value) {
   return Value(Vec3{v[0], v[1], v[2]});
 }
 
-std::optional<Value> counts_widget(const Parameter& p, std::array<int, 3> value) {
-  if (!ImGui::InputInt3("##value", value.data(), ImGuiInputTextFlags_EnterReturnsTrue)) return std::nullopt;
+std::optional<Value> numbers_widget(const Parameter& p, std::vector<double> value) {
+  const double low = p.range.min, high = p.range.max, size = std::max(std::ranges::max(value), 2.0);
+  const int count = static_cast<int>(value.size());
+  const bool changed = ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), count,
+                                          static_cast<float>(size / 200.0), &low, &high, "%.4g", as_typed);
+  // A drag that runs into an open end stops there instead of complaining.
+  if (!changed || (p.range.min_excluded && std::ranges::min(value) <= p.range.min)) return std::nullopt;
+  return Value(value);
+}
+
+std::optional<Value> counts_widget(const Parameter& p, std::vector<int> value) {
+  if (!ImGui::InputScalarN("##value", ImGuiDataType_S32, value.data(), static_cast<int>(value.size()),
+                           nullptr, nullptr, "%d", ImGuiInputTextFlags_EnterReturnsTrue))
+    return std::nullopt;
   for (int& n : value) n = std::clamp(n, static_cast<int>(p.range.min), static_cast<int>(p.range.max));
   return Value(value);
 }
@@ -130,7 +142,7 @@ std::optional<Value> words_widget(Gui& gui, const Parameter& p, std::vector<std:
   return check_boxes(gui, p.words, value, mark, help) ? std::optional<Value>(value) : std::nullopt;
 }
 
-/// Faces by name; corners and indices that the file gives stay as they are.
+/// Sides by name; corners and indices that the file gives stay as they are.
 std::optional<Value> pinned_widget(Gui& gui, const Parameter& p, PinnedSettings value,
                                    const std::string& mark, std::string_view help) {
   return check_boxes(gui, p.words, value.names, mark, help) ? std::optional<Value>(value) : std::nullopt;
@@ -152,7 +164,7 @@ std::string tooltip_of(const Parameter& p, std::size_t index) {
   if (!by_default.empty()) text += fmt::format("\nDefault: {}", by_default);
   text += fmt::format("\nScene key: {}", path_text(p.path, index));
   if (!p.live) text += "\nA change restarts the simulation.";
-  if (p.type == ParameterType::number || p.type == ParameterType::vector)
+  if (p.type == ParameterType::number || p.type == ParameterType::vector || p.type == ParameterType::numbers)
     text += "\nDrag to change, Ctrl+click to type.";
   return text;
 }
@@ -241,7 +253,9 @@ std::optional<Value> value_widget(Gui& gui, const Parameter& p, const Value& val
     case ParameterType::vector:
       return vector_widget(p, std::get<Vec3>(value));
     case ParameterType::counts:
-      return counts_widget(p, std::get<std::array<int, 3>>(value));
+      return counts_widget(p, std::get<std::vector<int>>(value));
+    case ParameterType::numbers:
+      return numbers_widget(p, std::get<std::vector<double>>(value));
     case ParameterType::word:
       return word_widget(gui, p, std::get<std::string>(value), key, help);
     case ParameterType::words:
@@ -311,7 +325,8 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const
   }
   ImGui::PopID();
   if (changed) {
-    const bool continuous = p.type == ParameterType::number || p.type == ParameterType::vector;
+    const bool continuous = p.type == ParameterType::number || p.type == ParameterType::vector ||
+                            p.type == ParameterType::numbers;
     change.emplace();
     change->value = std::move(changed);
     if (continuous) change->gesture = key;

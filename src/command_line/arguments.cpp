@@ -173,7 +173,7 @@ void add_outputs(CLI::App& command, std::vector<StateOutput>& outputs) {
   for (StateOutput& output : outputs) {
     const StateFormat& format = state_format_of(output.option, "");
     auto* file =
-        command.add_option("--" + output.option, output.path, std::string(format.summary))->type_name("FILE");
+        command.add_option("--" + output.option, output.path, state_help(output.option))->type_name("FILE");
     // The series' interval was there first, and has the short name too.
     const char* const short_name = format.over_time ? "--every," : "";
     command

@@ -6,9 +6,14 @@
 
 namespace aspic {
 
-Status write_state_csv(AtomicFile& file, const State& state) {
+Status check_finite(const State& state, const std::string& path) {
   if (const auto bad = first_not_finite(state))
-    return fail(ErrorCode::diverged, "{} was not written: {} is not a finite number.", file.path(), *bad);
+    return fail(ErrorCode::diverged, "{} was not written: {} is not a finite number.", path, *bad);
+  return {};
+}
+
+Status write_state_csv(AtomicFile& file, const State& state) {
+  ASPIC_CHECK(check_finite(state, file.path()));
   ASPIC_CHECK(file.write(fmt::format("{}\n", state_csv_header)));
   fmt::memory_buffer line;
   const auto append = [&](const Vec3& v) {

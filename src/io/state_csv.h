@@ -13,6 +13,9 @@ namespace aspic {
 /// The header line, without its line end.
 inline constexpr std::string_view state_csv_header = "kind,index,x,y,z,vx,vy,vz,wx,wy,wz";
 
+/// Error (diverged): a number of the state is not finite, so that `path` shall not hold it.
+Status check_finite(const State& state, const std::string& path);
+
 /// Writes every particle, then every ball; positions [m], velocities [m/s], angular velocities [rad/s], 0 for
 /// particles. A ball that is not launched yet has its start and its launch velocity. Each
 /// number is the shortest decimal that reads back to the same bits in the state's own precision. Errors: io

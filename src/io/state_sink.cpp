@@ -19,38 +19,46 @@ std::string numbered(const std::string& path, const std::string& step) {
   return fmt::format("{}-{}{}", path.substr(0, path.size() - ending.size()), step, ending);
 }
 
-/// The last state as a table, or a table for each of many steps.
-class StateTables final : public StateSink {
+/// Writes one state to a file that is not committed yet. Error (diverged): a number is not finite.
+using StateWriter = Status (*)(AtomicFile&, const Sample&);
+
+/// The last state in a file, or a file for each of many steps.
+class StateFiles final : public StateSink {
  public:
+  template <StateWriter Writer>
   static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
                                                  Overwrite overwrite, const RunFacts&) {
-    auto sink = std::make_unique<StateTables>(path, every, overwrite);
+    auto sink = std::make_unique<StateFiles>(path, every, overwrite, Writer);
     if (every == 0) {
       ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
       sink->file_ = std::move(file);
     }
     return std::unique_ptr<StateSink>(std::move(sink));
   }
-  StateTables(const std::string& path, std::uint64_t every, Overwrite overwrite)
-      : StateSink(every > 0 ? numbered(path, "*") : path, every), pattern_(path), overwrite_(overwrite) {}
+  StateFiles(const std::string& path, std::uint64_t every, Overwrite overwrite, StateWriter writer)
+      : StateSink(every > 0 ? numbered(path, "*") : path, every),
+        pattern_(path),
+        overwrite_(overwrite),
+        writer_(writer) {}
 
-  Status take(const Sample& sample) override { return every() > 0 ? write(sample.state) : Status(); }
-  Status finish(const Sample& last) override { return write(last.state); }
+  Status take(const Sample& sample) override { return every() > 0 ? write(sample) : Status(); }
+  Status finish(const Sample& last) override { return write(last); }
 
  private:
-  Status write(const State& state) {
-    if (last_step_ == state.step) return {};
+  Status write(const Sample& sample) {
+    if (last_step_ == sample.state.step) return {};
     if (every() > 0) {
       ASPIC_TRY(auto file,
-                AtomicFile::create(numbered(pattern_, fmt::format("{:08}", state.step)), overwrite_));
+                AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
       file_ = std::move(file);
     }
-    last_step_ = state.step;
-    const Status written = write_state_csv(*file_, state);
-    return written ? file_->commit() : written;
+    last_step_ = sample.state.step;
+    ASPIC_CHECK(writer_(*file_, sample));
+    return file_->commit();
   }
   std::string pattern_;
   Overwrite overwrite_;
+  StateWriter writer_;
   std::optional<AtomicFile> file_;
   std::optional<std::uint64_t> last_step_;
 };
@@ -118,13 +126,19 @@ class CheckpointFile final : public StateSink {
   bool written_ = false;
 };
 
+Status write_csv(AtomicFile& file, const Sample& sample) {
+  return write_state_csv(file, sample.state);
+}
+
+constexpr std::string_view state_summary = "write the final state";
+constexpr std::string_view state_every =
+    "steps between states: FILE-00000040.csv and so on, from the first to the last";
+
 constexpr StateFormat table[] = {
-    {"state", ".csv", "write the final state as CSV",
-     "steps between states: FILE-00000040.csv and so on, from the first to the last", 0, false, false,
-     StateTables::open},
-    {"series", ".csv", "write energies and momentum over time as CSV",
+    {"state", ".csv", "CSV", state_summary, state_every, 0, false, false, StateFiles::open<write_csv>},
+    {"series", ".csv", "CSV", "write energies and momentum over time",
      "steps between rows of the series; default 1", 1, true, false, Series::open},
-    {"checkpoint", ".aspic", "write scene and final state, to resume from",
+    {"checkpoint", ".aspic", "a checkpoint", "write scene and final state, to resume from,",
      "steps between checkpoints, each replacing the previous one", 0, false, true, CheckpointFile::open},
 };
 
@@ -139,6 +153,17 @@ std::vector<std::string_view> state_options() {
   for (const StateFormat& format : table)
     if (options.empty() || options.back() != format.option) options.push_back(format.option);
   return options;
+}
+
+std::string state_help(std::string_view option) {
+  std::string_view summary;
+  std::vector<std::string> kinds;
+  for (const StateFormat& format : table) {
+    if (format.option != option) continue;
+    if (summary.empty()) summary = format.summary;
+    kinds.push_back(fmt::format("{} ({})", format.label, format.ending));
+  }
+  return fmt::format("{} as {}", summary, fmt::join(kinds, " or "));
 }
 
 const StateFormat& state_format_of(std::string_view option, std::string_view path) {

@@ -54,7 +54,8 @@ class StateSink {
 struct StateFormat {
   std::string_view option;          ///< the kind of output: "state" is the option --state
   std::string_view ending;          ///< ".csv": of several formats of a kind, the file's name says which
-  std::string_view summary;         ///< what the option does
+  std::string_view label;           ///< for people: "CSV"
+  std::string_view summary;         ///< what the option does, the same for all formats of a kind
   std::string_view every;           ///< what its interval does
   std::uint64_t default_every = 0;  ///< steps
   bool over_time = false;           ///< one file with rows of measures for many steps
@@ -68,6 +69,8 @@ struct StateFormat {
 std::span<const StateFormat> state_formats();
 /// The options of the table, each once, in its order.
 std::vector<std::string_view> state_options();
+/// What an option does and which formats it has: "write the final state as CSV (.csv)".
+std::string state_help(std::string_view option);
 /// The format of an option, which exists, that a file name's ending asks for; the option's default where no
 /// ending fits.
 const StateFormat& state_format_of(std::string_view option, std::string_view path);

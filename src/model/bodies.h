@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "model/model.h"
+#include "model/pins.h"
 
 namespace aspic {
 
@@ -23,7 +24,32 @@ struct BodyRow {
   ModelCounts (*counts)(const ModelSettings&, std::size_t);
   /// Appends an element to the model. Error (scene_rejected): begins with the key it is about.
   Status (*add)(Model&, const ModelSettings&, std::size_t);
+  const PinNames* pins = nullptr;  ///< what its key `pinned` may name; null: it has no such key
+  const PinnedSettings* (*pinned)(const ModelSettings&, std::size_t) = nullptr;  ///< null where `pins` is
 };
+
+/// A list that is a vector of the settings.
+template <auto Member>
+SettingsList settings_list(std::string_view key) {
+  return {key, [](const ModelSettings& s) { return (s.*Member).size(); },
+          [](ModelSettings& s) { (s.*Member).emplace_back(); }};
+}
+
+/// The row of bodies in a vector of the settings: `Counts` takes the settings of one and returns its
+/// ModelCounts, `Add` takes the model and the settings of one and returns a Status.
+template <auto Member, auto Counts, auto Add>
+BodyRow body_row(std::string_view key, std::string_view size_key, const PinNames* pins = nullptr) {
+  BodyRow row = {settings_list<Member>(key), size_key,
+                 [](const ModelSettings& s, std::size_t i) -> ModelCounts { return Counts((s.*Member)[i]); },
+                 [](Model& model, const ModelSettings& s, std::size_t i) -> Status {
+                   return Add(model, (s.*Member)[i]);
+                 },
+                 pins};
+  if constexpr (requires(const ModelSettings& s) { (s.*Member)[0].pinned; }) {
+    row.pinned = [](const ModelSettings& s, std::size_t i) { return &(s.*Member)[i].pinned; };
+  }
+  return row;
+}
 
 /// Every kind of body, in the order in which the model makes them.
 std::span<const BodyRow> body_rows();

@@ -1,13 +1,12 @@
 #include "model/cube.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <string>
+#include <utility>
 #include <vector>
+
+#include "model/bodies.h"
 
 namespace aspic {
 namespace {
@@ -49,67 +48,28 @@ std::vector<Offset> upward_offsets() {
   return offsets;
 }
 
-/// Where along each axis a name's faces are: at the first or the last lattice point, or anywhere.
-enum class Place { anywhere, first, last };
-using Places = std::array<Place, 3>;
+constexpr Side faces[] = {{"top", 1, true},   {"bottom", 1, false}, {"left", 0, false},
+                          {"right", 0, true}, {"front", 2, true},   {"back", 2, false}};
+constexpr PinNames pins = {"cube", faces, "face", "three faces joined by hyphens, such as left-top-front",
+                           "n³ − 1"};
 
-/// The places a name of a face or a corner speaks of; nothing for a name that is unknown.
-std::optional<Places> places_of(std::string_view name) {
-  Places places = {Place::anywhere, Place::anywhere, Place::anywhere};
-  int parts = 0;
-  for (std::size_t start = 0; start <= name.size();) {
-    const std::size_t end = std::min(name.find('-', start), name.size());
-    const auto face = std::ranges::find(cube_faces, name.substr(start, end - start), &CubeFace::name);
-    if (face == std::end(cube_faces)) return std::nullopt;
-    Place& place = places[face->axis];
-    if (place != Place::anywhere) return std::nullopt;
-    place = face->high ? Place::last : Place::first;
-    ++parts;
-    start = end + 1;
-  }
-  if (parts != 1 && parts != 3) return std::nullopt;  // a face or a corner
-  return places;
-}
-
-Result<std::vector<bool>> pinned_particles(const CubeSettings& cube) {
-  const int n = cube.particles_per_edge;
-  const auto edge = static_cast<std::size_t>(n);
-  std::vector<bool> pinned(edge * edge * edge, false);
-  for (const std::string& name : cube.pinned.names) {
-    const auto places = places_of(name);
-    if (!places) {
-      return fail(ErrorCode::scene_rejected,
-                  "pinned: \"{}\" is neither a face (top, bottom, left, right, front, back) nor a corner "
-                  "(three faces joined by hyphens, such as left-top-front)",
-                  name);
-    }
-    const auto along = [&](std::size_t axis, int at) {
-      return (*places)[axis] == Place::anywhere || at == ((*places)[axis] == Place::last ? n - 1 : 0);
-    };
-    std::size_t local = 0;
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < n; ++j) {
-        for (int k = 0; k < n; ++k, ++local) {
-          if (along(0, i) && along(1, j) && along(2, k)) pinned[local] = true;
-        }
-      }
+/// The six faces of n³ particles.
+std::vector<Patch> surface_of(std::uint32_t first, int n) {
+  const auto count = static_cast<std::uint32_t>(n);
+  const std::array<std::uint32_t, 3> stride = {count * count, count, 1};
+  std::vector<Patch> surface;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const bool high : {false, true}) {
+      surface.push_back({first + (high ? (count - 1) * stride[axis] : 0),
+                         {count, count},
+                         {stride[(axis + 1) % 3], stride[(axis + 2) % 3]},
+                         !high});
     }
   }
-  for (const std::int64_t index : cube.pinned.indices) {
-    if (index < 0 || index >= std::ssize(pinned)) {
-      return fail(ErrorCode::scene_rejected, "pinned: index {} is not in the cube; allowed: 0 … {}", index,
-                  pinned.size() - 1);
-    }
-    pinned[static_cast<std::size_t>(index)] = true;
-  }
-  return pinned;
+  return surface;
 }
 
 }  // namespace
-
-bool is_face_or_corner(std::string_view name) {
-  return places_of(name).has_value();
-}
 
 ModelCounts cube_counts(int particles_per_edge) {
   const auto n = static_cast<std::uint64_t>(particles_per_edge);
@@ -139,7 +99,7 @@ SpringSettings material_springs(const MaterialSettings& material, int particles_
 Status add_cube(Model& model, const CubeSettings& cube) {
   const int n = cube.particles_per_edge;
   const double s = cube.edge_length / (n - 1);
-  ASPIC_TRY(const auto pinned, pinned_particles(cube));
+  ASPIC_TRY(const auto pinned, pinned_particles(pins, cube.pinned, {n, n, n}));
 
   SpringSettings structural = cube.structural, shear = cube.shear, bending = cube.bending;
   double mass = cube.particle_mass;
@@ -153,9 +113,9 @@ Status add_cube(Model& model, const CubeSettings& cube) {
   body.particle_count = static_cast<std::uint32_t>(pinned.size());
   body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());
   body.class_count = class_count;
-  body.lattice = {n, n, n};
-  body.spacing = s;
-  model.bodies.push_back(body);
+  body.cubic = true;
+  body.surface = surface_of(body.first_particle, n);
+  body.size = s * (n - 1);
 
   model.spring_classes.push_back(
       {SpringType::structural, structural.stiffness, structural.damping, s, false});
@@ -187,7 +147,13 @@ Status add_cube(Model& model, const CubeSettings& cube) {
       }
     }
   }
+  model.bodies.push_back(std::move(body));
   return {};
+}
+
+BodyRow CubeSettings::row() {
+  constexpr auto counts = [](const CubeSettings& cube) { return cube_counts(cube.particles_per_edge); };
+  return body_row<&ModelSettings::cubes, counts, add_cube>("cube", "particles-per-edge", &pins);
 }
 
 }  // namespace aspic

@@ -1,25 +1,9 @@
 #pragma once
 // The jelly cube: a lattice of n³ particles with structural, shear and bending springs.
-#include <cstddef>
-#include <string_view>
-
 #include "base/result.h"
 #include "model/model.h"
 
 namespace aspic {
-
-/// A face of a cube, at the low or the high end of an axis (0 = x).
-struct CubeFace {
-  std::string_view name;
-  std::size_t axis;
-  bool high;
-};
-/// Every face, in the order in which they are listed for users.
-inline constexpr CubeFace cube_faces[] = {{"top", 1, true},   {"bottom", 1, false}, {"left", 0, false},
-                                          {"right", 0, true}, {"front", 2, true},   {"back", 2, false}};
-
-/// Whether a name of `pinned` is a face, or a corner: three faces of different axes joined by hyphens.
-bool is_face_or_corner(std::string_view name);
 
 /// Springs of a cube by closed form: structural 3n²(n−1), shear 6n(n−1)² + 4(n−1)³, bending 3n²(n−2).
 /// n = 10 has 2,700 + 7,776 + 2,400.

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 #include <vector>
+
+#include "model/bodies.h"
 
 namespace aspic {
 namespace {
@@ -45,6 +48,25 @@ void add_directions(Model& model, const Body& body, const Vec3& s, const SpringC
   const std::uint32_t x = add({steps * s.x, 0.0, 0.0}), y = add({0.0, steps * s.y, 0.0}),
                       z = add({0.0, 0.0, steps * s.z});
   offsets.insert(offsets.end(), {{steps, 0, 0, x}, {0, steps, 0, y}, {0, 0, steps, z}});
+}
+
+/// The frame that a net hangs on, where its pinned particles are at the start: posts at the four corners and
+/// a bar around the top. Its radius is a fiftieth of the net's least side: 4 cm for a net 2 m deep.
+std::vector<Rod> frame_of(const Model& model, std::uint32_t first, const std::array<int, 3>& n) {
+  const auto corner = [&](bool front, bool top, bool right) {
+    const auto index = net_index(n, front ? n[0] - 1 : 0, top ? n[1] - 1 : 0, right ? n[2] - 1 : 0);
+    return model.initial_position[first + *index];
+  };
+  const Vec3 size = corner(true, true, true) - corner(false, false, false);
+  const double radius = 0.02 * std::min({size.x, size.y, size.z});
+  std::vector<Rod> rods;
+  for (const bool front : {false, true}) {
+    for (const bool right : {false, true})
+      rods.push_back({corner(front, false, right), corner(front, true, right), radius});
+    rods.push_back({corner(front, true, false), corner(front, true, true), radius});
+    rods.push_back({corner(false, true, front), corner(true, true, front), radius});
+  }
+  return rods;
 }
 
 }  // namespace
@@ -91,11 +113,10 @@ Status add_goal_net(Model& model, const GoalNetSettings& net) {
   const auto [nw, nh, nl] = net.particles;
   const Vec3 s = spacing_of(net);
   Body body;
-  body.surface = BodySurface::springs;
-  body.goal = true;
+  body.style = SurfaceStyle::cords;
+  body.footballs = true;
   body.first_particle = model.particle_count();
   body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());
-  body.lattice = net.particles;
 
   std::vector<Offset> offsets;
   add_directions(model, body, s,
@@ -136,8 +157,13 @@ Status add_goal_net(Model& model, const GoalNetSettings& net) {
   }
   body.particle_count = model.particle_count() - body.first_particle;
   body.class_count = static_cast<std::uint32_t>(model.spring_classes.size()) - body.first_class;
-  model.bodies.push_back(body);
+  body.rods = frame_of(model, body.first_particle, net.particles);
+  model.bodies.push_back(std::move(body));
   return {};
+}
+
+BodyRow GoalNetSettings::row() {
+  return body_row<&ModelSettings::goal_nets, goal_net_counts, add_goal_net>("goal-net", "particles");
 }
 
 }  // namespace aspic

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/split_mix.h"
+#include "model/bodies.h"
 
 namespace aspic {
 namespace {
@@ -48,6 +49,15 @@ Status add_launcher(Model& model, const LauncherSettings& launcher) {
     model.balls.push_back(launched_ball(launcher, static_cast<std::uint64_t>(n), model.simulation.timestep));
   }
   return {};
+}
+
+BodyRow LauncherSettings::row() {
+  constexpr auto counts = [](const LauncherSettings& launcher) {
+    ModelCounts all;
+    all.balls = static_cast<std::uint64_t>(launcher.count);
+    return all;
+  };
+  return body_row<&ModelSettings::launchers, counts, add_launcher>("launcher", "count");
 }
 
 }  // namespace aspic

@@ -41,17 +41,41 @@ struct Terrain {
   double friction = 0.3;                                  ///< μ
 };
 
-/// What a body shows when it is drawn solid: the outer faces of its lattice, or, of a net, its springs.
-enum class BodySurface { faces, springs };
+/// How a body is drawn when it is drawn solid.
+enum class SurfaceStyle {
+  flesh,  ///< a closed surface, the skin of a translucent solid
+  sheet,  ///< an open surface, opaque and lit from both sides
+  cords   ///< no surface: its structural springs, as cords
+};
 
-/// A run of consecutive particles that was made as one body.
+/// A grid of particles on a surface, whose cells are its quads. The particle at (i, j), each below its count,
+/// is first + i·stride[0] + j·stride[1].
+struct Patch {
+  std::uint32_t first = 0;                   ///< global index
+  std::array<std::uint32_t, 2> count = {};   ///< particles along i and j, ≥ 2
+  std::array<std::uint32_t, 2> stride = {};  ///< index differences
+  bool clockwise = false;                    ///< seen from outside, the turn from i to j
+};
+
+/// A straight rod with round ends that is drawn with a body and never moves.
+struct Rod {
+  Vec3 from, to;        ///< [m], not the same point
+  double radius = 0.0;  ///< [m]
+};
+
+/// A run of consecutive particles that was made as one body. Solvers need only the particles and springs;
+/// the rest is for analysis, pictures and files.
 struct Body {
-  BodySurface surface = BodySurface::faces;
-  bool goal = false;  ///< a goal's net: its frame is drawn with it, and balls are footballs
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
-  std::array<int, 3> lattice = {0, 0, 0};          ///< particles along x, y, z (nets: net_index)
-  double spacing = 0.0;  ///< of a cubic lattice: s [m] between neighbours; 0: it is none
+  bool cubic =
+      false;  ///< its springs are those of the infinite cube lattice (analysis/stability.h), or fewer
+
+  SurfaceStyle style = SurfaceStyle::flesh;
+  std::vector<Patch> surface;  ///< none for cords
+  double size = 0.0;           ///< of flesh: its largest extent [m], for how deep light reaches
+  std::vector<Rod> rods;       ///< what it hangs on
+  bool footballs = false;      ///< balls are drawn as footballs where it is
 };
 
 /// A ball: a solid sphere. Those of [[ball]] come first, in file order, then those of the launchers.

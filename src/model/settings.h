@@ -70,6 +70,8 @@ struct TerrainSettings {
   std::optional<double> friction = {};
 };
 
+struct BodyRow;  // model/bodies.h
+
 /// Stiffness and damping of the springs of one type.
 struct SpringSettings {
   double stiffness = 2000.0;  ///< k [N/m], ≥ 0
@@ -88,10 +90,10 @@ struct RotationSettings {
   double angle = 0.0;           ///< [degrees]
 };
 
-/// Which particles of a cube are pinned: face and corner names, and local indices.
+/// Which particles of a body are pinned: names of sides and corners, and local indices.
 struct PinnedSettings {
   std::vector<std::string> names;     ///< "top", "left", … or corners such as "left-bottom-front"
-  std::vector<std::int64_t> indices;  ///< local indices i*n*n + j*n + k, each 0 … n³ − 1
+  std::vector<std::int64_t> indices;  ///< local indices, each 0 … the body's particle count − 1
 
   friend bool operator==(const PinnedSettings&, const PinnedSettings&) = default;
 };
@@ -106,6 +108,8 @@ struct CubeSettings {
   SpringSettings structural, shear, bending;
   std::optional<MaterialSettings> material;  ///< instead of particle_mass and the three spring settings
   PinnedSettings pinned;
+
+  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
 };
 
 /// Springs of a net that may be left out.
@@ -124,6 +128,22 @@ struct GoalNetSettings {
   SpringSettings structural = {1500.0, 50.0};
   OptionalSpringSettings shear, bending;
   bool cord = false;  ///< springs resist stretch only
+
+  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
+};
+
+/// A rectangular cloth: w × h particles, in the x–y plane before it is turned.
+struct ClothSettings {
+  std::array<int, 2> particles = {24, 16};  ///< w, h along its width (x) and height (y), each ≥ 2
+  std::array<double, 2> size = {3.0, 2.0};  ///< width, height [m], each > 0
+  Vec3 position = {0.0, 3.0, 0.0};          ///< of the centre [m]
+  RotationSettings rotation = {{0.0, 1.0, 0.0}, 0.0};
+  Vec3 velocity = {0.0, 0.0, 0.0};  ///< [m/s]
+  double particle_mass = 0.02;      ///< m [kg], > 0
+  SpringSettings structural = {400.0, 0.8}, shear = {200.0, 0.4}, bending = {20.0, 0.04};
+  PinnedSettings pinned;
+
+  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
 };
 
 /// A ball: a solid sphere, inertia 2/5·m·R².
@@ -133,6 +153,8 @@ struct BallSettings {
   Vec3 position = {7.0, 2.6, 2.0};          ///< of the centre [m]
   Vec3 velocity = {-49.0, -14.0, -7.0};     ///< [m/s]
   Vec3 angular_velocity = {0.0, 0.0, 0.0};  ///< ω [rad/s]
+
+  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
 };
 
 /// A box from which points are drawn.
@@ -155,6 +177,8 @@ struct LauncherSettings {
   BoxSettings towards = {{0.0, 0.6, 0.0}, {0.0, 0.6, 2.0}};
   double speed_factor = 7.0;  ///< [1/s], velocity = factor · (target − start)
   LaunchedBallSettings ball;
+
+  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
 };
 
 /// Everything the physics needs from a scene.
@@ -164,8 +188,13 @@ struct ModelSettings {
   std::vector<TerrainSettings> terrain;
   std::vector<CubeSettings> cubes;
   std::vector<GoalNetSettings> goal_nets;
+  std::vector<ClothSettings> cloths;
   std::vector<BallSettings> balls;
   std::vector<LauncherSettings> launchers;
 };
+
+/// Every kind of body, in the order in which the model makes them and files list them.
+inline constexpr BodyRow (*body_kinds[])() = {&CubeSettings::row, &GoalNetSettings::row, &ClothSettings::row,
+                                              &BallSettings::row, &LauncherSettings::row};
 
 }  // namespace aspic

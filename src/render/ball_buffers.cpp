@@ -22,7 +22,7 @@ std::vector<Four> unturned(std::uint32_t count) {
 
 /// White where they are footballs; else each a hue of its own, after those of the bodies.
 std::vector<Four> colours_of(const Model& model) {
-  const bool football = std::ranges::any_of(model.bodies, &Body::goal);
+  const bool football = std::ranges::any_of(model.bodies, &Body::footballs);
   std::vector<Four> colours;
   for (std::size_t i = 0; i < model.balls.size(); ++i) {
     const Colour c = football ? Colour{0.86f, 0.86f, 0.84f} : body_colour(model.bodies.size() + i);

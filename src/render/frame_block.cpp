@@ -68,7 +68,7 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
   block.viewport = glm::vec4(w, h, 1.0f / w, 1.0f / h);
   const Colour tint = content.view.colour == ViewColour::material ? body_colour(0) : neutral_body_colour();
-  const bool solid = content.view.draw.solid && content.has_skin;
+  const bool solid = content.view.draw.solid && content.has_flesh;
   for (std::size_t i = 0; i < 3; ++i)
     block.shadow_tint[static_cast<int>(i)] = solid ? 0.10f + 0.22f * tint[i] : 0.15f;
   const double width_of_range = content.range[1] - content.range[0];

@@ -12,7 +12,7 @@ namespace aspic {
 struct FrameContent {
   ViewSettings view;
   QuantityRange range = {};  ///< ends of the colour scale
-  bool has_skin = false;     ///< the model has bodies with a surface
+  bool has_flesh = false;    ///< the model has translucent bodies
   bool shadows = true;
 };
 

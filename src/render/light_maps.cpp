@@ -31,7 +31,7 @@ bool draws(const DrawSettings& draw, SpringType type) {
 }
 
 bool draws_as_cord(const DrawSettings& draw, const SpringRun& run) {
-  return run.net && draw.solid && !draw.structural && run.constants.type == SpringType::structural;
+  return run.cords && draw.solid && !draw.structural && run.constants.type == SpringType::structural;
 }
 
 bool draws_balls(const DrawSettings& draw) {
@@ -88,7 +88,7 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{part.first_index}));
     }
-    if (draw.solid) model.posts().draw_into_light(programs, light);
+    if (draw.solid) model.rods().draw_into_light(programs, light);
     if (draws_balls(draw)) model.balls().draw_into_light(programs, state, light);
     if (draw.particles) {
       programs.light_particles.set(LOCATION_LIGHT, light);

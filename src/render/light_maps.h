@@ -14,7 +14,7 @@ double particle_radius(double spacing);
 double spring_radius(double spacing, SpringType type);
 /// Whether springs of the type are drawn in their type's manner.
 bool draws(const DrawSettings& draw, SpringType type);
-/// Whether the run is drawn as the cords of a goal net, which take the place of a surface: structural
+/// Whether the run is drawn as the cords of a net, which take the place of a surface: structural
 /// springs, unless they are drawn as such.
 bool draws_as_cord(const DrawSettings& draw, const SpringRun& run);
 /// Whether balls are drawn: among surfaces, and among particles.

@@ -38,7 +38,7 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
   }
   for (const Body& body : model.bodies)
     for (std::uint32_t c = 0; c < body.class_count; ++c)
-      runs[body.first_class + c].net = body.surface == BodySurface::springs;
+      runs[body.first_class + c].cords = body.style == SurfaceStyle::cords;
   std::vector<std::uint32_t> next;
   for (const SpringRun& run : runs) next.push_back(run.first_index);
   std::vector<std::uint32_t> pairs(first);
@@ -85,9 +85,9 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   auto balls = BallBuffers::create(context, model);
   if (!balls) return balls.error();
   b.balls_ = std::move(*balls);
-  auto posts = GoalPosts::create(context, model);
-  if (!posts) return posts.error();
-  b.posts_ = std::move(*posts);
+  auto rods = Rods::create(context, model);
+  if (!rods) return rods.error();
+  b.rods_ = std::move(*rods);
   return b;
 }
 

@@ -10,9 +10,9 @@
 #include "gpu/vertex_array.h"
 #include "model/model.h"
 #include "render/ball_buffers.h"
-#include "render/goal_posts.h"
 #include "render/layout.h"
 #include "render/programs.h"
+#include "render/rods.h"
 #include "render/surface.h"
 
 namespace aspic {
@@ -20,7 +20,7 @@ namespace aspic {
 /// Springs of one class, as a run of index pairs.
 struct SpringRun {
   SpringClass constants;
-  bool net = false;  ///< of a goal net
+  bool cords = false;  ///< of a body whose surface is its cords
   std::uint32_t first_index = 0, index_count = 0;
 };
 
@@ -64,7 +64,7 @@ class ModelBuffers {
   void use_coarse_skin(bool coarse) { coarse_ = coarse; }
   bool has_skin() const { return skin_vertices_ > 0; }
   const BallBuffers& balls() const { return *balls_; }
-  const GoalPosts& posts() const { return *posts_; }
+  const Rods& rods() const { return *rods_; }
   /// Empty before prepare_lines().
   const std::vector<SpringRun>& springs() const { return springs_; }
   /// Typical distance between neighbours [m]; 1 without springs.
@@ -82,7 +82,7 @@ class ModelBuffers {
   std::vector<Surface::Part> parts_, coarse_parts_;
   bool coarse_ = false, lines_ready_ = false;
   std::optional<BallBuffers> balls_;
-  std::optional<GoalPosts> posts_;
+  std::optional<Rods> rods_;
   std::vector<SpringRun> springs_;
   gl::Buffer skin_indices_, fan_vertex_, fan_start_, fan_;
   gl::Buffer spring_indices_, spring_classes_;

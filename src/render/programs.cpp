@@ -41,7 +41,8 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   drawing(p.particles, {"render/particles.vert", "render/particles.frag", "render/particles.geom"});
   drawing(p.springs, {"render/springs.vert", "render/springs.frag", "render/springs.geom"});
   drawing(p.balls, {"render/balls.vert", "render/balls.frag", "render/balls.geom"});
-  drawing(p.posts, {"render/posts.vert", "render/posts.frag"});
+  drawing(p.rods, {"render/rods.vert", "render/rods.frag"});
+  drawing(p.sheet, {"render/jelly.vert", "render/sheet.frag"});
   drawing(p.plane, {"render/terrain.vert", "render/terrain.frag"}, plane);
   drawing(p.shadowed_plane, {"render/terrain.vert", "render/terrain.frag"}, shadowed_plane);
   drawing(p.cut_plane, {"render/terrain.vert", "render/terrain.frag"}, cut_plane);

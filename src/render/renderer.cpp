@@ -20,7 +20,7 @@ namespace {
 /// The walls of a translucent body that face away from the eye, or towards it.
 enum class JellySide { far, near };
 
-/// Cords of goal nets.
+/// Cords of nets.
 constexpr Colour net_colour = {0.98f, 0.98f, 0.98f};
 
 /// How deep light reaches into a body [m], as a share of its size.
@@ -91,7 +91,13 @@ struct Renderer::Parts {
   void draw_thickness(const gl::Buffer& particles) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
   void draw_springs(const gl::Buffer& particles, const DrawSettings& draw, ViewColour mode) const;
+  void draw_sheets(const gl::Buffer& particles, const ViewSettings& view) const;
   void draw_jelly(const gl::Buffer& particles, const ViewSettings& view, JellySide side) const;
+  void draw_parts(const gl::Program& program, const gl::Buffer& particles, const ViewSettings& view,
+                  SurfaceStyle style) const;
+  bool has(SurfaceStyle style) const {
+    return std::ranges::any_of(model->bodies, [=](const Body& b) { return b.style == style; });
+  }
 };
 
 Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -167,9 +173,7 @@ void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
 }
 
 bool Renderer::Parts::needs_lines(const ViewSettings& view) const {
-  const bool net =
-      std::ranges::any_of(model->bodies, [](const Body& b) { return b.surface == BodySurface::springs; });
-  return net || view.draw.structural || view.draw.shear || view.draw.bending;
+  return has(SurfaceStyle::cords) || view.draw.structural || view.draw.shear || view.draw.bending;
 }
 
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
@@ -194,8 +198,11 @@ void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
   glUseProgram(programs.thickness.id());
   const gl::VertexArray skin = buffers->skin_array(particles);
   skin.bind();
-  for (const Surface::Part& part : buffers->parts())
+  for (std::size_t i = 0; i < buffers->parts().size(); ++i) {
+    if (model->bodies[i].style != SurfaceStyle::flesh) continue;
+    const Surface::Part& part = buffers->parts()[i];
     draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
+  }
   glDisable(GL_BLEND);
   targets->thickness.colour.bind(UNIT_THICKNESS);
 }
@@ -243,22 +250,39 @@ void Renderer::Parts::draw_jelly(const gl::Buffer& particles, const ViewSettings
   }
   targets->behind.colour.bind(UNIT_BEHIND);
   colour_map.bind(UNIT_COLOUR_MAP);
+  draw_parts(program, particles, view, SurfaceStyle::flesh);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glCullFace(GL_BACK);
+  glDisable(GL_CULL_FACE);
+}
+
+void Renderer::Parts::draw_sheets(const gl::Buffer& particles, const ViewSettings& view) const {
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  // Springs and particles lie in the surface: it gives way to them.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.0f, 1.0f);
+  colour_map.bind(UNIT_COLOUR_MAP);
+  draw_parts(programs.sheet, particles, view, SurfaceStyle::sheet);
+  glPolygonOffset(0.0f, 0.0f);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_BLEND);
+}
+
+void Renderer::Parts::draw_parts(const gl::Program& program, const gl::Buffer& particles,
+                                 const ViewSettings& view, SurfaceStyle style) const {
   glUseProgram(program.id());
   const gl::VertexArray skin = buffers->skin_array(particles);
   skin.bind();
   for (std::size_t i = 0; i < buffers->parts().size(); ++i) {
     const Surface::Part& part = buffers->parts()[i];
-    if (part.index_count == 0) continue;
     const Body& body = model->bodies[i];
-    const double size = body.spacing * (*std::ranges::max_element(body.lattice) - 1);
+    if (part.index_count == 0 || body.style != style) continue;
     const Colour colour = view.colour == ViewColour::material ? body_colour(i) : neutral_body_colour();
-    program.set(LOCATION_BASE_COLOUR, with(colour, reach_share * size));
+    program.set(LOCATION_BASE_COLOUR, with(colour, reach_share * body.size));
     draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
   }
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
-  glCullFace(GL_BACK);
-  glDisable(GL_CULL_FACE);
 }
 
 Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
@@ -275,12 +299,11 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.buffers->use_coarse_skin(options.coarse_skin);
   const Camera camera(view.camera, width, height);
   const QuantityRange range = options.range.value_or(default_range(*p.model, view.colour));
-  const bool solid = view.draw.solid && p.buffers->has_skin();
+  const bool flesh = p.has(SurfaceStyle::flesh), solid = view.draw.solid && flesh;
 
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::Reader::compute_pass | gl::Reader::vertex_draw);
-  p.drawn_frame =
-      frame_block(*p.model, camera, width, height, {view, range, p.buffers->has_skin(), options.shadows});
+  p.drawn_frame = frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows});
   p.drawn_state = state;
   p.drawn_settings = view.draw;
   p.bind_frame(p.drawn_frame);
@@ -294,7 +317,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
   p.terrain.draw_solid(p.programs, p.model->terrain, view.camera, camera, options.shadows);
-  if (view.draw.solid) p.buffers->posts().draw(p.programs);
+  if (view.draw.solid) p.buffers->rods().draw(p.programs);
   if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
   p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
@@ -302,6 +325,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.nothing.bind();
   glUseProgram(p.programs.sky.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  if (view.draw.solid && p.has(SurfaceStyle::sheet)) p.draw_sheets(particles, view);
   p.terrain.draw_far_glass(p.programs, p.model->terrain);
   if (solid) {
     p.draw_jelly(particles, view, JellySide::far);

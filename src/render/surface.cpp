@@ -10,41 +10,37 @@ namespace {
 using Quad = std::array<std::uint32_t, 4>;
 
 /// Places along an edge of n particles, the first and the last among them, with at most `quads` gaps.
-std::vector<int> places(int n, int quads) {
-  const int gaps = std::min(n - 1, quads);
-  std::vector<int> result;
-  for (int i = 0; i <= gaps; ++i) result.push_back(i * (n - 1) / gaps);
+std::vector<std::uint32_t> places(std::uint32_t n, std::uint32_t quads) {
+  const std::uint32_t gaps = std::min(n - 1, quads);
+  std::vector<std::uint32_t> result;
+  for (std::uint64_t i = 0; i <= gaps; ++i) result.push_back(static_cast<std::uint32_t>(i * (n - 1) / gaps));
   return result;
 }
 
-/// Quads of a lattice's six faces, anticlockwise from outside, at most so many along an edge.
-std::vector<Quad> faces_of(const Body& body, int quads_along) {
-  const std::array<int, 3> n = body.lattice;
-  const auto index = [&](const std::array<int, 3>& p) {
-    return body.first_particle + static_cast<std::uint32_t>((p[0] * n[1] + p[1]) * n[2] + p[2]);
-  };
+/// Quads of a body's surface, anticlockwise from outside, at most so many along an edge of a patch.
+std::vector<Quad> quads_of(const Body& body, std::uint32_t quads_along) {
   std::vector<Quad> quads;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t u = (axis + 1) % 3;
-    const std::size_t v = (axis + 2) % 3;
-    const std::vector<int> us = places(n[u], quads_along), vs = places(n[v], quads_along);
-    for (const bool high : {false, true}) {
-      std::array<int, 3> p = {};
-      p[axis] = high ? n[axis] - 1 : 0;
-      const auto at = [&](std::size_t i, std::size_t j) {
-        p[u] = us[i];
-        p[v] = vs[j];
-        return index(p);
-      };
-      for (std::size_t i = 0; i + 1 < us.size(); ++i) {
-        for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
-          const Quad outward = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
-          quads.push_back(high ? outward : Quad{outward[0], outward[3], outward[2], outward[1]});
-        }
+  for (const Patch& patch : body.surface) {
+    const std::vector<std::uint32_t> us = places(patch.count[0], quads_along),
+                                     vs = places(patch.count[1], quads_along);
+    const auto at = [&](std::size_t i, std::size_t j) {
+      return patch.first + us[i] * patch.stride[0] + vs[j] * patch.stride[1];
+    };
+    for (std::size_t i = 0; i + 1 < us.size(); ++i) {
+      for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
+        const Quad quad = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+        quads.push_back(patch.clockwise ? Quad{quad[0], quad[3], quad[2], quad[1]} : quad);
       }
     }
   }
   return quads;
+}
+
+/// Whether a coarse skin would differ.
+bool is_fine(const Body& body) {
+  return std::ranges::any_of(body.surface, [](const Patch& patch) {
+    return std::ranges::max(patch.count) - 1 > Surface::coarse_quads;
+  });
 }
 
 Surface::Part add_triangles(const std::vector<Quad>& quads, std::vector<std::uint32_t>& indices) {
@@ -59,14 +55,11 @@ Surface make_surface(const Model& model) {
   Surface surface;
   std::vector<Quad> all;
   for (const Body& body : model.bodies) {
-    const bool inside = body.surface == BodySurface::faces;
-    const std::vector<Quad> quads =
-        inside ? faces_of(body, std::numeric_limits<int>::max()) : std::vector<Quad>();
+    const std::vector<Quad> quads = quads_of(body, std::numeric_limits<std::uint32_t>::max());
     surface.parts.push_back(add_triangles(quads, surface.indices));
     all.insert(all.end(), quads.begin(), quads.end());
-    const bool fine = std::ranges::max(body.lattice) - 1 > Surface::coarse_quads;
-    surface.coarse_parts.push_back(inside && fine
-                                       ? add_triangles(faces_of(body, Surface::coarse_quads), surface.indices)
+    surface.coarse_parts.push_back(is_fine(body)
+                                       ? add_triangles(quads_of(body, Surface::coarse_quads), surface.indices)
                                        : surface.parts.back());
   }
   std::vector<std::uint32_t> quads_at(model.particle_count(), 0);

@@ -7,13 +7,14 @@
 
 namespace aspic {
 
-/// Triangles over global particle indices. They turn anticlockwise seen from outside the undeformed body.
+/// Triangles over global particle indices. They turn anticlockwise seen from outside the undeformed
+/// body, or from the side that an open surface turns to.
 struct Surface {
   struct Part {
     std::uint32_t first_index = 0, index_count = 0;  ///< of one body, into `indices`
   };
   /// Quads along an edge of a coarse skin at most.
-  static constexpr int coarse_quads = 16;
+  static constexpr std::uint32_t coarse_quads = 16;
 
   std::vector<std::uint32_t> indices;  ///< three per triangle
   std::vector<Part> parts;             ///< by body, in the order of Model::bodies
@@ -25,7 +26,7 @@ struct Surface {
   std::vector<std::uint32_t> fan_vertex, fan_start, fan;
 };
 
-/// The six faces of every cube. Bodies without an inside have no triangles.
+/// The patches of every body. A body without a surface has no triangles.
 Surface make_surface(const Model& model);
 
 }  // namespace aspic

@@ -1,4 +1,4 @@
-#include "model/cube.h"
+#include "model/bodies.h"
 #include "model/solver.h"
 #include "scene/parameter_rows.h"
 
@@ -7,11 +7,15 @@ namespace {
 
 using namespace rows;
 
+/// The key `pinned` of a kind of body, with the names that the kind knows.
+Parameter pins(std::string_view body, Parameter p) {
+  const auto list_key = [](const BodyRow& row) { return row.list.key; };
+  p.pins = std::ranges::find(body_rows(), body, list_key)->pins;
+  p.words = p.pins->words();
+  return p;
+}
+
 std::vector<Parameter> cube_rows() {
-  Parameter pinned =
-      row("cube[].pinned", FIELD(model.cubes[i].pinned),
-          "Particles that never move: faces, corners such as left-top-front, or local indices.");
-  for (const CubeFace& face : cube_faces) pinned.words.push_back(face.name);
   return {
       fixed(row("cube[].particles-per-edge", "", {2, 512}, FIELD(model.cubes[i].particles_per_edge),
                 "Particles n along each edge, n³ in all.")),
@@ -47,7 +51,9 @@ std::vector<Parameter> cube_rows() {
              "Young's modulus E along an axis, from which k = E·s/7.3125 at spacing s.")),
       of(material, row("cube[].material.damping-ratio", "", {0.0, 1e6}, MATERIAL(damping_ratio),
                        "Damping ratio ζ, from which c = 2ζ√(k·m/2).")),
-      fixed(pinned),
+      fixed(pins("cube", row("cube[].pinned", FIELD(model.cubes[i].pinned),
+                             "Particles that never move: faces, corners such as left-top-front, or local "
+                             "indices."))),
   };
 }
 
@@ -76,6 +82,42 @@ std::vector<Parameter> net_rows() {
           "Damping c of the springs between particles two steps apart."),
       row("goal-net[].cord", FIELD(model.goal_nets[i].cord),
           "Whether its springs resist stretch only, like a cord."),
+  };
+}
+
+std::vector<Parameter> cloth_rows() {
+  return {
+      fixed(row("cloth[].particles", "", {2, 512}, FIELD(model.cloths[i].particles),
+                "Particles w, h along width (x) and height (y), w·h in all.")),
+      fixed(row("cloth[].size", "m", positive_length, FIELD(model.cloths[i].size),
+                "Width and height of the undeformed cloth.")),
+      fixed(row("cloth[].position", "m", within(far), FIELD(model.cloths[i].position),
+                "Centre of the cloth at the start.")),
+      fixed(direction(
+          row("cloth[].rotation.axis", FIELD(model.cloths[i].rotation.axis),
+              "Axis through the centre about which the cloth is turned out of the x–y plane; its length does "
+              "not matter."))),
+      fixed(row("cloth[].rotation.angle", "°", {-36000.0, 36000.0}, FIELD(model.cloths[i].rotation.angle),
+                "Rotation angle, right-handed.")),
+      fixed(row("cloth[].velocity", "m/s", within(divergence_speed), FIELD(model.cloths[i].velocity),
+                "Initial velocity of the particles that are not pinned.")),
+      row("cloth[].particle-mass", "kg", {0.0, heaviest, true}, FIELD(model.cloths[i].particle_mass),
+          "Mass m of each particle."),
+      row("cloth[].structural.stiffness", "N/m", stiffness, FIELD(model.cloths[i].structural.stiffness),
+          "Stiffness k of the springs between axis neighbours."),
+      row("cloth[].structural.damping", "N·s/m", damping, FIELD(model.cloths[i].structural.damping),
+          "Damping c of the springs between axis neighbours."),
+      row("cloth[].shear.stiffness", "N/m", stiffness, FIELD(model.cloths[i].shear.stiffness),
+          "Stiffness k of the springs along the diagonals of the cells."),
+      row("cloth[].shear.damping", "N·s/m", damping, FIELD(model.cloths[i].shear.damping),
+          "Damping c of the springs along the diagonals of the cells."),
+      row("cloth[].bending.stiffness", "N/m", stiffness, FIELD(model.cloths[i].bending.stiffness),
+          "Stiffness k of the springs between particles two steps apart along an axis."),
+      row("cloth[].bending.damping", "N·s/m", damping, FIELD(model.cloths[i].bending.damping),
+          "Damping c of the springs between particles two steps apart along an axis."),
+      fixed(pins("cloth", row("cloth[].pinned", FIELD(model.cloths[i].pinned),
+                              "Particles that never move: edges, corners such as top-left, or local indices "
+                              "i·h + j."))),
   };
 }
 
@@ -121,7 +163,7 @@ std::vector<Parameter> launcher_rows() {
 
 std::vector<Parameter> body_parameters() {
   std::vector<Parameter> all;
-  for (auto part : {cube_rows(), net_rows(), ball_rows(), launcher_rows()}) {
+  for (auto part : {cube_rows(), net_rows(), cloth_rows(), ball_rows(), launcher_rows()}) {
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;

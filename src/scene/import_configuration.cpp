@@ -161,7 +161,7 @@ class Importer {
         return value;
       case ParameterType::counts:
         if (!whole) return need_whole();
-        std::get<std::array<int, 3>>(value)[static_cast<std::size_t>(target.axis)] = static_cast<int>(number);
+        std::get<std::vector<int>>(value)[static_cast<std::size_t>(target.axis)] = static_cast<int>(number);
         return value;
       case ParameterType::word:
         if (number == 0.0) return Value(std::string(name_of(Integrator::explicit_euler)));

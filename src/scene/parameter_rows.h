@@ -1,6 +1,7 @@
 #pragma once
 // How rows of the parameter table are written: a field of the scene, its type and range, one sentence.
 #include <algorithm>
+#include <array>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -33,6 +34,11 @@ inline std::optional<Value> to_value(const Parameter& p, const DrawSettings& fie
   return Value(words);
 }
 
+template <class T, std::size_t N>
+std::optional<Value> to_value(const Parameter&, const std::array<T, N>& field) {
+  return Value(std::vector<T>(field.begin(), field.end()));
+}
+
 template <class T>
 void from_value(const Parameter&, T& field, const Value& value) {
   if constexpr (std::is_same_v<T, int>) {
@@ -53,6 +59,11 @@ inline void from_value(const Parameter& p, DrawSettings& field, const Value& val
   }
 }
 
+template <class T, std::size_t N>
+void from_value(const Parameter&, std::array<T, N>& field, const Value& value) {
+  std::ranges::copy(std::get<std::vector<T>>(value), field.begin());
+}
+
 /// Value and name of a table's row; a row may be the enumerator alone.
 template <class Row>
 constexpr auto value_of(const Row& row) {
@@ -65,6 +76,11 @@ constexpr auto value_of(const Row& row) {
 
 // ---- rows ----
 
+template <class T, class Field>
+inline constexpr bool is_array_of = false;
+template <class T, std::size_t N>
+inline constexpr bool is_array_of<T, std::array<T, N>> = true;
+
 /// The type a field has in the file.
 template <class Field>
 constexpr ParameterType type_of() {
@@ -74,7 +90,8 @@ constexpr ParameterType type_of() {
   if constexpr (std::is_same_v<Field, std::string>) return ParameterType::text;
   if constexpr (std::is_same_v<Field, DrawSettings>) return ParameterType::words;
   if constexpr (std::is_same_v<Field, Vec3>) return ParameterType::vector;
-  if constexpr (std::is_same_v<Field, std::array<int, 3>>) return ParameterType::counts;
+  if constexpr (is_array_of<int, Field>) return ParameterType::counts;
+  if constexpr (is_array_of<double, Field>) return ParameterType::numbers;
   if constexpr (std::is_same_v<Field, PinnedSettings>) return ParameterType::pinned;
   return ParameterType::number;
 }
@@ -101,6 +118,8 @@ Parameter row(std::string_view path, std::string_view unit, const Range& range, 
   } else {
     p.type = type_of<Field>();
   }
+  if constexpr (is_array_of<int, Field> || is_array_of<double, Field>)
+    p.components = std::tuple_size_v<Field>;
   return p;
 }
 template <class Access>
@@ -186,7 +205,7 @@ inline constexpr auto material = Belonging::material;
 
 namespace aspic {
 
-/// Rows of the tables that describe bodies: cube, goal-net, ball, launcher.
+/// Rows of the tables that describe bodies, kind by kind as in body_rows().
 std::vector<Parameter> body_parameters();
 
 }  // namespace aspic

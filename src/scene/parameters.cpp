@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "model/bodies.h"
-#include "model/cube.h"
 #include "model/terrain.h"
 #include "scene/diagnostics.h"
 #include "scene/write.h"
@@ -70,7 +69,7 @@ std::optional<std::string> complaint_about(const Parameter& p, double value) {
 
 std::optional<std::string> complaint_about_word(const Parameter& p, const std::string& word) {
   const bool known = std::ranges::find(p.words, word) != p.words.end();
-  if (known || (p.type == ParameterType::pinned && is_face_or_corner(word))) return std::nullopt;
+  if (known || (p.pins && p.pins->knows(word))) return std::nullopt;
   return fmt::format("'{}' does not know \"{}\"; allowed: {}{}", key_text(p), word, allowed_text(p),
                      diagnostics::did_you_mean(diagnostics::nearest(word, p.words)));
 }
@@ -158,8 +157,9 @@ std::optional<Complaint> check_value(const Parameter& p, const Value& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) numbers = {static_cast<double>(*whole)};
   if (const auto* number = std::get_if<double>(&value)) numbers = {*number};
   if (const auto* v = std::get_if<Vec3>(&value)) numbers = {v->x, v->y, v->z};
-  if (const auto* counts = std::get_if<std::array<int, 3>>(&value))
+  if (const auto* counts = std::get_if<std::vector<int>>(&value))
     numbers.assign(counts->begin(), counts->end());
+  if (const auto* several = std::get_if<std::vector<double>>(&value)) numbers = *several;
   if (p.type == ParameterType::word) words = {std::get<std::string>(value)};
   if (const auto* list = std::get_if<std::vector<std::string>>(&value)) words = *list;
   if (const auto* pinned = std::get_if<PinnedSettings>(&value)) words = pinned->names;
@@ -202,12 +202,13 @@ std::string allowed_text(const Parameter& p) {
       return fmt::format("three numbers [x, y, z], each {}{}", range_text(p),
                          p.direction ? ", not all zero" : "");
     case ParameterType::counts:
-      return fmt::format("three whole numbers [along x, y, z], each {}", range_text(p));
+    case ParameterType::numbers:
+      return fmt::format("{} {} [along x, y{}], each {}", p.components == 2 ? "two" : "three",
+                         p.type == ParameterType::counts ? "whole numbers" : "numbers",
+                         p.components == 2 ? "" : ", z", range_text(p));
     case ParameterType::pinned:
-      return fmt::format(
-          "an array of faces ({}), corners (three faces joined by hyphens, such as left-top-front) and local "
-          "indices 0 … n³ − 1",
-          diagnostics::list_text(p.words, false));
+      return fmt::format("an array of {}s ({}), corners ({}) and local indices 0 … {}", p.pins->side,
+                         diagnostics::list_text(p.words, false), p.pins->corner, p.pins->last_index);
   }
   return "";
 }

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "model/pins.h"
 #include "scene/scene.h"
 
 namespace aspic {
@@ -25,13 +26,14 @@ enum class ParameterType {
   word,     ///< std::string, one of Parameter::words
   words,    ///< std::vector<std::string>, each one of Parameter::words, at most once
   vector,   ///< Vec3; the range holds for each component
-  counts,   ///< std::array<int, 3>; the range holds for each
-  pinned    ///< PinnedSettings: face names, corner names, local indices
+  counts,   ///< std::vector<int>, Parameter::components of them; the range holds for each
+  numbers,  ///< std::vector<double>, Parameter::components of them; the range holds for each
+  pinned    ///< PinnedSettings: names of sides and corners, local indices
 };
 
 /// A parameter's value, in the alternative its type names.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3,
-                           std::array<int, 3>, PinnedSettings>;
+                           std::vector<int>, std::vector<double>, PinnedSettings>;
 
 /// Legal numbers, both ends included unless said otherwise.
 struct Range {
@@ -49,8 +51,10 @@ struct Parameter {
   std::string_view path;  ///< `simulation.timestep`, `cube[].shear.stiffness`; [] is an index
   ParameterType type = ParameterType::number;
   std::string_view unit;                ///< empty: a pure number or not a number
-  Range range;                          ///< integer, number, vector, counts
-  std::vector<std::string_view> words;  ///< word, words: those allowed; pinned: the faces
+  Range range;                          ///< integer, number, vector, counts, numbers
+  std::size_t components = 3;           ///< vector, counts, numbers: how many there are, 2 or 3
+  std::vector<std::string_view> words;  ///< word, words: those allowed; pinned: the sides
+  const PinNames* pins = nullptr;       ///< pinned: what may be named
   Belonging belonging = Belonging::always;
   bool direction = false;        ///< vector: any length but zero
   bool live = true;              ///< may change while the simulation runs, without a restart

@@ -52,14 +52,24 @@ Converted converted_vector(const Parameter& p, const toml::array& array) {
 }
 
 Converted converted_counts(const Parameter& p, const toml::array& array) {
-  std::array<int, 3> counts = {};
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (!array[i].is_integer()) return wrong_type(p, array[i]);
+  std::vector<int> counts;
+  for (const toml::node& element : array) {
+    if (!element.is_integer()) return wrong_type(p, element);
     // Far numbers are out of every range: the nearest int says so as well.
-    counts[i] =
-        static_cast<int>(std::clamp<std::int64_t>(array[i].as_integer()->get(), -2147483647, 2147483647));
+    counts.push_back(
+        static_cast<int>(std::clamp<std::int64_t>(element.as_integer()->get(), -2147483647, 2147483647)));
   }
   return Value(counts);
+}
+
+Converted converted_numbers(const Parameter& p, const toml::array& array) {
+  std::vector<double> numbers;
+  for (const toml::node& element : array) {
+    const auto number = number_of(element);
+    if (!number) return wrong_type(p, element);
+    numbers.push_back(*number);
+  }
+  return Value(numbers);
 }
 
 Converted converted_pinned(const Parameter& p, const toml::array& array) {
@@ -100,12 +110,15 @@ Converted converted(const Parameter& p, const toml::node& node) {
       break;
     case ParameterType::vector:
     case ParameterType::counts:
+    case ParameterType::numbers:
       if (!array) break;
-      if (array->size() != 3) {
+      if (array->size() != p.components) {
         return WrongType{&node, fmt::format("'{}' must be {}, not {} of them", key_text(p), allowed_text(p),
                                             array->size())};
       }
-      return p.type == ParameterType::vector ? converted_vector(p, *array) : converted_counts(p, *array);
+      return p.type == ParameterType::vector   ? converted_vector(p, *array)
+             : p.type == ParameterType::counts ? converted_counts(p, *array)
+                                               : converted_numbers(p, *array);
   }
   return wrong_type(p, node);
 }
@@ -199,7 +212,7 @@ void Reader::read_parameter(const Parameter& p, const toml::node& node, std::siz
   if (const auto* wrong = std::get_if<WrongType>(&result)) {
     written.problem = {position_of(wrong->culprit->source(), written.value.source), wrong->message};
   } else if (const Value& value = std::get<Value>(result); p.type == ParameterType::pinned) {
-    p.set(scene_, index, value);  // checked with the size of its cube
+    p.set(scene_, index, value);  // checked with the size of its body
   } else if (const auto complaint = check_value(p, value)) {
     written.problem = {complaint->element ? written.elements[*complaint->element] : written.value,
                        complaint->message};

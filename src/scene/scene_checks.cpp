@@ -54,17 +54,22 @@ void check_geometry(const Scene& scene, Complaints& complaints) {
 }
 
 void check_pinned(const Scene& scene, Complaints& complaints) {
-  for (std::size_t c = 0; c < scene.model.cubes.size(); ++c) {
-    const CubeSettings& cube = scene.model.cubes[c];
-    const std::int64_t n = std::clamp(cube.particles_per_edge, 0, 1 << 20);  // n³ is a number of 64 bits
-    for (std::size_t i = 0; i < cube.pinned.indices.size(); ++i) {
-      const std::int64_t index = cube.pinned.indices[i];
-      if (index >= 0 && index < n * n * n) continue;
-      Complaint outside = {
-          fmt::format("'cube.pinned' index {} is not in the cube; allowed: 0 … {}", index, n * n * n - 1),
-          cube.pinned.names.size() + i};
-      complaints.emplace_back(path_text("cube[].pinned", c), std::move(outside)).other =
-          path_text("cube[].particles-per-edge", c);
+  for (const BodyRow& row : body_rows()) {
+    if (!row.pins) continue;
+    const Parameter& size = *find_parameter(fmt::format("{}[].{}", row.list.key, row.size_key));
+    for (std::size_t b = 0; b < row.list.size(scene.model); ++b) {
+      if (check_value(size, *size.get(scene, b))) continue;  // a body of no size has no last index
+      const auto last = static_cast<std::int64_t>(row.counts(scene.model, b).particles) - 1;
+      const PinnedSettings& pinned = *row.pinned(scene.model, b);
+      for (std::size_t i = 0; i < pinned.indices.size(); ++i) {
+        const std::int64_t index = pinned.indices[i];
+        if (index >= 0 && index <= last) continue;
+        Complaint outside = {fmt::format("'{}.pinned' index {} is not in the {}; allowed: 0 … {}",
+                                         row.list.key, index, row.pins->body, last),
+                             pinned.names.size() + i};
+        complaints.emplace_back(fmt::format("{}[{}].pinned", row.list.key, b), std::move(outside)).other =
+            path_text(size.path, b);
+      }
     }
   }
 }

@@ -41,8 +41,11 @@ struct Writer {
   std::string operator()(const Vec3& x) const {
     return fmt::format("[{}, {}, {}]", number_text(x.x), number_text(x.y), number_text(x.z));
   }
-  std::string operator()(const std::array<int, 3>& x) const {
-    return fmt::format("[{}, {}, {}]", x[0], x[1], x[2]);
+  std::string operator()(const std::vector<int>& x) const { return fmt::format("[{}]", fmt::join(x, ", ")); }
+  std::string operator()(const std::vector<double>& x) const {
+    std::string text;
+    for (const double number : x) text += (text.empty() ? "" : ", ") + number_text(number);
+    return "[" + text + "]";
   }
   std::string operator()(const std::vector<std::string>& x) const { return list(x, {}); }
   std::string operator()(const PinnedSettings& x) const { return list(x.names, x.indices); }

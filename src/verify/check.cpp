@@ -43,6 +43,7 @@ std::vector<Check> battery() {
   add_rest_checks(checks);
   add_scene_checks(checks);
   add_implicit_checks(checks);
+  add_body_checks(checks);
   add_ball_checks(checks);
   add_equality_checks(checks);
   return checks;

@@ -92,6 +92,7 @@ void add_coulomb_checks(std::vector<Check>& checks);
 void add_rest_checks(std::vector<Check>& checks);
 void add_scene_checks(std::vector<Check>& checks);
 void add_implicit_checks(std::vector<Check>& checks);
+void add_body_checks(std::vector<Check>& checks);
 void add_ball_checks(std::vector<Check>& checks);
 void add_equality_checks(std::vector<Check>& checks);
 

@@ -8,14 +8,15 @@ import re
 
 from attack import DIVERGED, OK, SCENE, TINY, USAGE, main, read, write
 
-LISTS = {"[[terrain]]": "terrain[0].", "[[cube]]": "cube[0].", "[[goal-net]]": "goal-net[0].", "[[ball]]": "ball[0].",
+LISTS = {"[[terrain]]": "terrain[0].", "[[cube]]": "cube[0].", "[[goal-net]]": "goal-net[0].", "[[cloth]]": "cloth[0].",
+         "[[ball]]": "ball[0].",
          "[[launcher]]": "launcher[0].", "[simulation]": "simulation.", "[contact]": "contact."}
-NUMBER = re.compile(r"^(three numbers \[x, y, z\], each |a number )(> 0 and ≤ |)(\S+)(?: … (\S+))?")
+NUMBER = re.compile(r"^(three numbers \[x, y, z\], each |two numbers \[along x, y\], each |a number )(> 0 and ≤ |)(\S+)(?: … (\S+))?")
 PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "scene-reference.md")
 
 
 def ranges():
-    """(path, vector, least, largest) of every number in the reference."""
+    """(path, components or 0, least, largest) of every number in the reference."""
     prefix = None
     for line in read(PAGE).decode().splitlines():
         heading = re.match(r"## `(\[.*\])`", line)
@@ -30,7 +31,7 @@ def ranges():
         first = float(allowed.group(3).rstrip(","))
         positive = allowed.group(2) != ""
         last = float(allowed.group(4).rstrip(",")) if allowed.group(4) else first
-        yield prefix + cells[1].strip("`"), "three" in allowed.group(1), 0.0 if positive else first, last, positive
+        yield prefix + cells[1].strip("`"), {"three": 3, "two": 2}.get(allowed.group(1).split()[0], 0), 0.0 if positive else first, last, positive
 
 
 def values(least, largest, positive):
@@ -62,9 +63,9 @@ def look(attack, words, note, codes=(OK, SCENE, DIVERGED)):
             attack.require(finite(read(path).decode()), f"{note}: {os.path.basename(path)} has a number that is not finite")
 
 
-SCENES = {"cube[0].": "cube-plane", "goal-net[0].": "goal-net", "ball[0].": "cube-and-balls", "launcher[0].": "penalty",
+SCENES = {"cube[0].": "cube-plane", "goal-net[0].": "goal-net", "cloth[0].": "flag", "ball[0].": "cube-and-balls", "launcher[0].": "penalty",
           "terrain[0].": "cube-plane", "simulation.": "cube-plane", "contact.": "cube-and-balls"}
-SMALL = {"cube-plane": TINY, "goal-net": ["--set", "goal-net[0].particles=[3,3,3]"], "cube-and-balls": TINY,
+SMALL = {"cube-plane": TINY, "goal-net": ["--set", "goal-net[0].particles=[3,3,3]"], "flag": ["--set", "cloth[0].particles=[3,3]"], "cube-and-balls": TINY,
          "penalty": ["--set", "goal-net[0].particles=[3,3,3]", "--set", "launcher[0].count=4"]}
 
 
@@ -85,7 +86,7 @@ def one_at_a_time(attack):
         scene = SCENES[next(prefix for prefix in SCENES if path.startswith(prefix))]
         chosen = values(least, largest, positive)
         for value in chosen if attack.thorough else random.sample(chosen, 3):
-            written = f"[{value!r}, {value!r}, {value!r}]" if vector else repr(value)
+            written = "[" + ", ".join([repr(value)] * vector) + "]" if vector else repr(value)
             for method in rounds:
                 words = ["run", scene, "--backend", "reference", *SMALL[scene], "--set", f"simulation.integrator={method}", "--set", f"{path}={written}",
                          "--steps", "4"]
@@ -102,7 +103,7 @@ def several_at_once(attack):
         for path, vector, least, largest, positive in random.sample(keys, random.randrange(1, 6)):
             def one():
                 return random.choice(values(least, largest, positive)) * random.choice((1.0, 1.0, random.random()))
-            words += ["--set", f"{path}=[{one()!r}, {one()!r}, {one()!r}]" if vector else f"{path}={one()!r}"]
+            words += ["--set", f"{path}=[" + ", ".join(repr(one()) for _ in range(vector)) + "]" if vector else f"{path}={one()!r}"]
         words += ["--backend", "gpu"] if n % 8 == 0 else ["--backend", "reference", "--precision", random.choice(("single", "double"))]
         look(attack, words, " ".join(words), (OK, USAGE, SCENE, DIVERGED))
 

@@ -133,8 +133,9 @@ TEST(GoalNet, StandsBehindTheCubesInTheGlobalIndex) {
   settings.goal_nets[0].particles = {3, 4, 5};
   const Model model = test::build(settings);
   ASSERT_EQ(model.bodies.size(), 3u);
-  EXPECT_EQ(model.bodies[1].surface, BodySurface::springs);
-  EXPECT_TRUE(model.bodies[1].goal);
+  EXPECT_EQ(model.bodies[1].style, SurfaceStyle::cords);
+  EXPECT_TRUE(model.bodies[1].surface.empty());
+  EXPECT_EQ(model.bodies[1].rods.size(), 8u) << "four posts and the bars around the top";
   EXPECT_EQ(model.bodies[1].first_particle, 27u);
   EXPECT_EQ(model.bodies[2].first_particle, 27u + model.bodies[1].particle_count);
   EXPECT_EQ(model.particle_count(), 27u + model.bodies[1].particle_count + 1357u);

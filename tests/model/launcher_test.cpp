@@ -27,6 +27,12 @@ class SplitMix64 {
   std::uint64_t state_;
 };
 
+Model built(const LauncherSettings& launcher) {
+  ModelSettings settings;
+  settings.launchers.push_back(launcher);
+  return test::build(settings);
+}
+
 TEST(Launcher, NumbersAreThoseOfSplitMix64) {
   // The first output for state 0 is published with the algorithm's reference code.
   EXPECT_EQ(SplitMix64(0).next(), 0xe220a8397b1dcdafull);
@@ -40,10 +46,10 @@ TEST(Launcher, NumbersAreThoseOfSplitMix64) {
 TEST(Launcher, BallsFollowFromSeedAndNumberAlone) {
   LauncherSettings launcher;
   launcher.count = 50;
-  const Model one = test::build({{}, {}, {}, {}, {}, {}, {launcher}});
-  const Model two = test::build({{}, {}, {}, {}, {}, {}, {launcher}});
+  const Model one = built(launcher);
+  const Model two = built(launcher);
   launcher.count = 10;
-  const Model fewer = test::build({{}, {}, {}, {}, {}, {}, {launcher}});
+  const Model fewer = built(launcher);
   ASSERT_EQ(one.ball_count(), 50u);
   for (std::size_t n = 0; n < 50; ++n) {
     EXPECT_EQ(one.balls[n].initial_position, two.balls[n].initial_position);
@@ -53,7 +59,7 @@ TEST(Launcher, BallsFollowFromSeedAndNumberAlone) {
     }
   }
   launcher.seed = 2;
-  const Model other = test::build({{}, {}, {}, {}, {}, {}, {launcher}});
+  const Model other = built(launcher);
   EXPECT_NE(one.balls[0].initial_position, other.balls[0].initial_position);
 }
 

@@ -195,6 +195,8 @@ std::pair<std::uint32_t, std::uint32_t> expected_sizes(const std::string& scene)
   if (scene == "large-cube") return {262144, 0};
   if (scene == "goal-net") return {1357, 1};
   if (scene == "penalty") return {1357, 10};
+  if (scene == "flag") return {36 * 24, 0};
+  if (scene == "curtain") return {41 * 33, 2};
   if (scene == "ball-pit") return {0, 1000};
   if (scene == "cube-and-balls") return {1000, 3};
   return {1000, 0};
@@ -217,9 +219,9 @@ TEST(Builtin, ScenesLoadAndBuild) {
       for (const Terrain& t : model->terrain) ASSERT_GT(signed_distance(t, x), 0.05);
     }
   }
-  EXPECT_THAT(
-      names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus", "cube-hole",
-                                  "goal-net", "penalty", "ball-pit", "cube-and-balls", "large-cube"));
+  EXPECT_THAT(names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
+                                          "cube-torus", "cube-hole", "goal-net", "penalty", "flag", "curtain",
+                                          "ball-pit", "cube-and-balls", "large-cube"));
 }
 
 // Limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.

@@ -1,10 +1,11 @@
-#include "base/printable.h"
 #include "scene/overrides.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/printable.h"
+#include "model/bodies.h"
 #include "scene/scene_support.h"
 #include "scene/write.h"
 
@@ -15,10 +16,16 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 const std::string box = " = { min = [-9, -9, -9], max = [9, 9, 9] }\n";
-const std::string base =
-    "schema = 1\n[[terrain]]\n[[cube]]\nshear = { stiffness = 1000.0 "
-    "}\n[[goal-net]]\n[[ball]]\n[[launcher]]\nfrom" +
-    box + "towards" + box;
+/// One element of every list.
+const std::string base = [] {
+  std::string text = "schema = 1\n";
+  for (const SettingsList& list : settings_lists()) {
+    text += fmt::format("[[{}]]\n", list.key);
+    if (list.key == "cube") text += "shear = { stiffness = 1000.0 }\n";
+    if (list.key == "launcher") text += "from" + box + "towards" + box;
+  }
+  return text;
+}();
 
 /// A legal value that is not the default.
 Value other_value(const Parameter& p) {
@@ -38,9 +45,11 @@ Value other_value(const Parameter& p) {
     case ParameterType::vector:
       return Vec3{0.5, p.range.min < 0.0 ? -0.25 : 0.25, 2.0};
     case ParameterType::counts:
-      return std::array<int, 3>{3, 4, 5};
+      return p.components == 2 ? std::vector<int>{3, 4} : std::vector<int>{3, 4, 5};
+    case ParameterType::numbers:
+      return p.components == 2 ? std::vector<double>{0.5, 2.0} : std::vector<double>{0.5, 0.25, 2.0};
     case ParameterType::pinned:
-      return PinnedSettings{{"top", "left-bottom-back"}, {3}};
+      return PinnedSettings{{"top", test::corner_of(*p.pins)}, {3}};
   }
   return false;
 }

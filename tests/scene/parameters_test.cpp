@@ -45,10 +45,10 @@ struct Wrong {
   std::size_t offset = 0;
 };
 
-std::vector<Wrong> wrong_types(ParameterType type) {
+std::vector<Wrong> wrong_types(const Parameter& p) {
   const std::vector<Wrong> never = {{"1979-05-27"}, {"{ a = 1 }"}};
   std::vector<Wrong> wrong;
-  switch (type) {
+  switch (p.type) {
     case ParameterType::boolean:
       wrong = {{"\"true\""}, {"1"}, {"1.0"}, {"[true]"}};
       break;
@@ -70,9 +70,19 @@ std::vector<Wrong> wrong_types(ParameterType type) {
                {"[0, 0, true]", 7}};
       break;
     case ParameterType::counts:
-      wrong = {{"\"x\""},         {"2"}, {"[2, 2]"}, {"[]"}, {"[2, 2, 2, 2]"}, {"[2, \"a\", 2]", 4},
-               {"[2, 2, 2.0]", 7}};
+    case ParameterType::numbers: {
+      const std::string right = p.components == 2 ? "2" : "2, 2";
+      wrong = {{"\"x\""},
+               {"2"},
+               {"[2]"},
+               {"[]"},
+               {fmt::format("[{}, 2, 2]", right)},
+               {fmt::format("[{}, \"a\"]", right), right.size() + 3},
+               {fmt::format("[{}, true]", right), right.size() + 3}};
+      if (p.type == ParameterType::counts)
+        wrong.push_back({fmt::format("[{}, 2.0]", right), right.size() + 3});
       break;
+    }
     case ParameterType::pinned:
       wrong = {{"\"top\""}, {"1"}, {"[1.0]", 1}, {"[\"top\", true]", 8}};
       break;
@@ -82,7 +92,7 @@ std::vector<Wrong> wrong_types(ParameterType type) {
 }
 
 TEST_P(EveryKey, RefusesOtherTypesInTheirPlace) {
-  for (const Wrong& wrong : wrong_types(p.type)) {
+  for (const Wrong& wrong : wrong_types(p)) {
     const KeyFile file = file_with(p, wrong.value);
     const std::string message = test::rejection(file.text);
     ASSERT_EQ(problems_in(message).size(), 1u) << message;
@@ -105,6 +115,7 @@ std::vector<Wrong> out_of_range(const Parameter& p) {
                {"-9223372036854775808"}};
       break;
     case ParameterType::number:
+    case ParameterType::numbers:
     case ParameterType::vector: {
       std::vector<std::string> figures = {"nan", "inf", "-inf", "-nan", "1e300", "-1e300"};
       figures.push_back(toml_value(Value(std::nextafter(r.max, 1e300))));
@@ -116,6 +127,9 @@ std::vector<Wrong> out_of_range(const Parameter& p) {
       for (const std::string& x : figures) {
         if (p.type == ParameterType::number) {
           wrong.push_back({x});
+        } else if (p.components == 2) {
+          wrong.push_back({fmt::format("[{}, 1]", x), 1});
+          wrong.push_back({fmt::format("[1, {}]", x), 4});
         } else {
           wrong.push_back({fmt::format("[{}, 1, 1]", x), 1});
           wrong.push_back({fmt::format("[1, {}, 1]", x), 4});
@@ -133,10 +147,13 @@ std::vector<Wrong> out_of_range(const Parameter& p) {
       break;
     case ParameterType::counts:
       wrong = {{"[1, 2, 2]", 1}, {"[2, 513, 2]", 4}, {"[2, 2, -9223372036854775808]", 7}};
+      if (p.components == 2) wrong = {{"[1, 2]", 1}, {"[2, 513]", 4}, {"[2, -9223372036854775808]", 4}};
       break;
     case ParameterType::pinned:
       wrong = {{"[\"no-such-word\"]", 1}, {"[3, \"top-top-top\"]", 4}, {"[\"top\", -1]", 8}, {"[1000]", 1},
-               {"[0, 4294967296]", 4},    {"[\"left-top\"]", 1}};
+               {"[0, 4294967296]", 4},    {"[\"left-right\"]", 1}};
+      // A corner lacks no side.
+      if (p.pins->sides.size() == 6) wrong.push_back({"[\"left-top\"]", 1});
       break;
   }
   return wrong;

@@ -46,7 +46,13 @@ std::vector<Value> wrong_values(const Parameter& p) {
     case ParameterType::vector:
       return {Value(Vec3{1.0, nan, 1.0}), Value(Vec3{1.0, -huge, 1.0})};
     case ParameterType::counts:
-      return {Value(std::array<int, 3>{2, 1, 2})};
+      return {p.components == 2 ? Value(std::vector<int>{2, 1}) : Value(std::vector<int>{2, 1, 2})};
+    case ParameterType::numbers: {
+      std::vector<double> not_a_number(p.components, 1.0), too_small = not_a_number;
+      not_a_number[1] = nan;
+      too_small[1] = -huge;
+      return {Value(not_a_number), Value(too_small)};
+    }
     case ParameterType::pinned:
       return {Value(PinnedSettings{{"top", "lid"}, {}}), Value(PinnedSettings{{"top"}, {1000}}),
               Value(PinnedSettings{{"top"}, {-1}})};
@@ -98,7 +104,7 @@ TEST(CheckScene, FindsASceneInWhichNothingMoves) {
   scene.model.terrain.emplace_back();
   const auto complaints = check_scene(scene);
   ASSERT_THAT(paths_of(complaints), ElementsAre(""));
-  EXPECT_THAT(complaints[0].message, HasSubstr("add a [[cube]], [[goal-net]], [[ball]] or [[launcher]]"));
+  EXPECT_THAT(complaints[0].message, HasSubstr("add a [[cube]], [[goal-net]], [[cloth]], [[ball]] or [[launcher]]"));
 }
 
 TEST(CheckScene, BlamesTheLargestBodyForTheMemory) {

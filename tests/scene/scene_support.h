@@ -25,6 +25,18 @@ inline std::string_view shape_with(const Parameter& p) {
   return std::ranges::find_if(terrain_shapes, has)->name;
 }
 
+/// A corner of a kind of body: the last side that each axis has.
+inline std::string corner_of(const PinNames& pins) {
+  std::string corner;
+  for (std::size_t axis = 0; axis < pins.sides.size() / 2; ++axis) {
+    std::string_view name;
+    for (const Side& side : pins.sides)
+      if (side.axis == axis) name = side.name;
+    corner += fmt::format("{}{}", corner.empty() ? "" : "-", name);
+  }
+  return corner;
+}
+
 /// A scene file that gives one key a value, and where it does so (from 1).
 struct KeyFile {
   std::string text;
@@ -105,7 +117,9 @@ inline bool same_bits(const Value& a, const Value& b) {
     const auto& y = std::get<PinnedSettings>(b);
     return x->names == y.names && x->indices == y.indices;
   }
-  if (const auto* x = std::get_if<std::array<int, 3>>(&a)) return *x == std::get<std::array<int, 3>>(b);
+  if (const auto* x = std::get_if<std::vector<int>>(&a)) return *x == std::get<std::vector<int>>(b);
+  if (const auto* x = std::get_if<std::vector<double>>(&a))
+    return std::ranges::equal(*x, std::get<std::vector<double>>(b), {}, bits, bits);
   if (const auto* x = std::get_if<bool>(&a)) return *x == std::get<bool>(b);
   if (const auto* x = std::get_if<std::int64_t>(&a)) return *x == std::get<std::int64_t>(b);
   if (const auto* x = std::get_if<std::string>(&a)) return *x == std::get<std::string>(b);

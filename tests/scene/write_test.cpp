@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "model/bodies.h"
 #include "scene/scene_support.h"
 
 namespace aspic {
@@ -64,9 +65,14 @@ Value random_value(const Parameter& p, std::mt19937_64& random) {
     case ParameterType::vector:
       return Vec3{number(), number(), chance() && p.range.min < 0.0 ? -0.0 : number()};
     case ParameterType::counts:
-      return std::array<int, 3>{2, 40, std::uniform_int_distribution<int>(2, 40)(random)};
+      return std::vector<int>(p.components, std::uniform_int_distribution<int>(2, 40)(random));
+    case ParameterType::numbers: {
+      std::vector<double> numbers(p.components);
+      std::ranges::generate(numbers, number);
+      return numbers;
+    }
     case ParameterType::pinned:
-      return PinnedSettings{{"front", "left-bottom-back"}, {0, 7, 3}};
+      return PinnedSettings{{std::string(p.words.back()), test::corner_of(*p.pins)}, {0, 2, 3}};
   }
   return false;
 }
@@ -78,9 +84,10 @@ TEST(Write, RoundTripsRandomScenes) {
     scene.model.terrain.resize(static_cast<std::size_t>(trial % 4));
     scene.model.cubes.resize(1 + static_cast<std::size_t>(trial % 3));
     if (trial % 2 == 0) scene.model.cubes[0].material.emplace();
-    scene.model.goal_nets.resize(static_cast<std::size_t>(trial % 2));
-    scene.model.balls.resize(static_cast<std::size_t>(trial % 5));
-    scene.model.launchers.resize(static_cast<std::size_t>(trial % 3));
+    for (std::size_t kind = 1; kind < body_rows().size(); ++kind) {
+      const SettingsList& list = body_rows()[kind].list;
+      while (list.size(scene.model) < static_cast<std::size_t>(trial) % (kind + 1)) list.append(scene.model);
+    }
     for (const Parameter& p : parameters()) {
       for (std::size_t i = 0; i < index_count(p, scene); ++i) {
         // Some keys stay absent or at their defaults.

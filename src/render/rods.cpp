@@ -1,12 +1,10 @@
-#include "render/goal_posts.h"
+#include "render/rods.h"
 
 #include <glad/gl.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "model/goal_net.h"
 #include "render/layout.h"
 #include "render/terrain_mesh.h"
 
@@ -14,7 +12,6 @@ namespace aspic {
 namespace {
 
 constexpr int sectors = 20;
-constexpr double radius_share = 0.02;
 
 std::array<float, 4> four(const Vec3& v, float w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
@@ -50,62 +47,48 @@ void add_knob(TubeMesh& mesh, const Vec3& centre, double radius) {
   for (const std::uint32_t i : sphere.indices) mesh.indices.push_back(first + i);
 }
 
-void add_frame(TubeMesh& mesh, const Model& model, const Body& net) {
-  const auto corner = [&](bool front, bool top, bool right) {
-    const auto [nw, nh, nl] = net.lattice;
-    const auto index = net_index(net.lattice, front ? nw - 1 : 0, top ? nh - 1 : 0, right ? nl - 1 : 0);
-    return model.initial_position[net.first_particle + *index];
-  };
-  const Vec3 size = corner(true, true, true) - corner(false, false, false);
-  const double radius = radius_share * std::min({size.x, size.y, size.z});
-  for (const bool front : {false, true}) {
-    for (const bool right : {false, true}) {
-      add_tube(mesh, corner(front, false, right), corner(front, true, right), radius);
-      add_knob(mesh, corner(front, false, right), radius);
-      add_knob(mesh, corner(front, true, right), radius);
-    }
-    add_tube(mesh, corner(front, true, false), corner(front, true, true), radius);
-    add_tube(mesh, corner(false, true, front), corner(true, true, front), radius);
-  }
-}
-
 }  // namespace
 
-TubeMesh goal_post_mesh(const Model& model) {
+TubeMesh rod_mesh(const Model& model) {
   TubeMesh mesh;
-  for (const Body& body : model.bodies)
-    if (body.goal) add_frame(mesh, model, body);
+  for (const Body& body : model.bodies) {
+    for (const Rod& rod : body.rods) {
+      add_tube(mesh, rod.from, rod.to, rod.radius);
+      add_knob(mesh, rod.from, rod.radius);
+      add_knob(mesh, rod.to, rod.radius);
+    }
+  }
   return mesh;
 }
 
-Result<GoalPosts> GoalPosts::create(gl::Context& context, const Model& model) {
-  const TubeMesh mesh = goal_post_mesh(model);
-  GoalPosts posts;
+Result<Rods> Rods::create(gl::Context& context, const Model& model) {
+  const TubeMesh mesh = rod_mesh(model);
+  Rods rods;
   gl::BufferFiller fill(context);
-  fill(posts.vertices_, "goal posts", mesh.vertices);
-  fill(posts.normals_, "goal posts' normals", mesh.normals);
-  fill(posts.indices_, "goal posts' indices", mesh.indices);
+  fill(rods.vertices_, "rods", mesh.vertices);
+  fill(rods.normals_, "rods' normals", mesh.normals);
+  fill(rods.indices_, "rods' indices", mesh.indices);
   if (!fill.status()) return fill.status().error();
-  posts.index_count_ = static_cast<int>(mesh.indices.size());
-  const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &posts.vertices_},
-                                      {ATTRIBUTE_NORMAL, &posts.normals_}};
-  posts.array_ = gl::VertexArray::create(attributes, &posts.indices_);
-  return posts;
+  rods.index_count_ = static_cast<int>(mesh.indices.size());
+  const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &rods.vertices_},
+                                      {ATTRIBUTE_NORMAL, &rods.normals_}};
+  rods.array_ = gl::VertexArray::create(attributes, &rods.indices_);
+  return rods;
 }
 
-void GoalPosts::draw_triangles() const {
+void Rods::draw_triangles() const {
   array_.bind();
   glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
 }
 
-void GoalPosts::draw(const RenderPrograms& programs) const {
+void Rods::draw(const RenderPrograms& programs) const {
   if (index_count_ == 0) return;
-  programs.posts.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
-  glUseProgram(programs.posts.id());
+  programs.rods.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
+  glUseProgram(programs.rods.id());
   draw_triangles();
 }
 
-void GoalPosts::draw_into_light(const RenderPrograms& programs, int light) const {
+void Rods::draw_into_light(const RenderPrograms& programs, int light) const {
   if (index_count_ == 0) return;
   programs.light_surface.set(LOCATION_LIGHT, light);
   glUseProgram(programs.light_surface.id());

@@ -1,5 +1,5 @@
-// The frame of a goal net follows the particles that it holds.
-#include "render/goal_posts.h"
+// The rods of a body: a goal net's follow the particles that they hold.
+#include "render/rods.h"
 
 #include <gtest/gtest.h>
 
@@ -20,13 +20,13 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return length(p - (a + t * (b - a)));
 }
 
-TEST(GoalPosts, AreTubesAlongPostsAndTheTopsPerimeter) {
+TEST(Rods, OfAGoalAreTubesAlongPostsAndTheTopsPerimeter) {
   ModelSettings settings;
   GoalNetSettings net;
   net.size = {2.0, 3.0, 8.0};
   net.position = {1.0, 2.0, -3.0};
   settings.goal_nets.push_back(net);
-  const TubeMesh mesh = goal_post_mesh(test::build(settings));
+  const TubeMesh mesh = rod_mesh(test::build(settings));
   ASSERT_FALSE(mesh.indices.empty());
   ASSERT_EQ(mesh.vertices.size(), mesh.normals.size());
   const auto corner = [&](int x, int y, int z) { return net.position + Vec3{x * 1.0, y * 1.5, z * 4.0}; };
@@ -58,8 +58,8 @@ TEST(GoalPosts, AreTubesAlongPostsAndTheTopsPerimeter) {
   }
 }
 
-TEST(GoalPosts, StandAtGoalNetsOnly) {
-  EXPECT_TRUE(goal_post_mesh(test::build(test::cube_on_plane(3))).indices.empty());
+TEST(Rods, AreNoneAtACube) {
+  EXPECT_TRUE(rod_mesh(test::build(test::cube_on_plane(3))).indices.empty());
 }
 
 }  // namespace

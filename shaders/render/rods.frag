@@ -1,4 +1,4 @@
-// Goal posts: painted metal.
+// Rods: painted metal.
 #include "render/frame.glsl"
 
 layout(location = LOCATION_BASE_COLOUR) uniform vec4 base_colour;

@@ -1,5 +1,5 @@
 #pragma once
-// The frame that goal nets hang on: posts at the four corners and a bar around the top, drawn as tubes.
+// The rods that bodies hang on, drawn as tubes with round ends.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -19,15 +19,14 @@ struct TubeMesh {
   std::vector<std::uint32_t> indices;          ///< three per triangle, anticlockwise from outside
 };
 
-/// The tubes of all goal nets, where their pinned particles are at the start. Their radius is a fiftieth of
-/// the net's least side: 4 cm for a net 2 m deep.
-TubeMesh goal_post_mesh(const Model& model);
+/// The rods of all bodies.
+TubeMesh rod_mesh(const Model& model);
 
 /// The same on the device. Its context must outlive it and be current.
-class GoalPosts {
+class Rods {
  public:
   /// Error (scene_rejected): no device memory.
-  static Result<GoalPosts> create(gl::Context& context, const Model& model);
+  static Result<Rods> create(gl::Context& context, const Model& model);
 
   /// Draws them, lit; the frame block must be bound.
   void draw(const RenderPrograms& programs) const;
@@ -35,7 +34,7 @@ class GoalPosts {
   void draw_into_light(const RenderPrograms& programs, int light) const;
 
  private:
-  GoalPosts() = default;
+  Rods() = default;
   void draw_triangles() const;
 
   int index_count_ = 0;
