@@ -1,7 +1,24 @@
-#include "cli/main.h"
+// aspic: parses the command line and runs the command; errors go to stderr, their codes are the exit codes.
+#include <variant>
 
+#include "cli/commands.h"
+#include "io/console.h"
 #include "io/program.h"
 
+namespace {
+
+aspic::Status run(int argc, const char* const* argv) {
+  ASPIC_TRY(const auto command, aspic::parse_arguments(argc, argv));
+  return std::visit([](const auto& options) { return aspic::cli::execute(options); }, command);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  return aspic::run_program([&] { return aspic::cli::main(argc, argv); });
+  return aspic::run_program([&] {
+    const aspic::Status done = run(argc, argv);
+    if (done) return 0;
+    aspic::print_message(done.error().message);
+    return static_cast<int>(done.error().code);
+  });
 }

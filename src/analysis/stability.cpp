@@ -1,5 +1,7 @@
 #include "analysis/stability.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -289,6 +291,39 @@ double largest_stiffness_eigenvalue(const Model& model) {
         largest, body.largest_eigenvalue(1.0, 0.0, thorough.tolerance, thorough.iterations, work).value);
   }
   return largest;
+}
+
+bool exceeds(double timestep, const StabilityLimit& limit) {
+  return !limit.step || timestep > *limit.step;
+}
+
+std::string stability_figure(const StabilityLimit& limit) {
+  if (!limit.step) return limit.exact ? "none" : "none is certain";
+  if (*limit.step == 0.0) return "none is certain";
+  if (std::isinf(*limit.step)) return "any";
+  return fmt::format("{}{:.4g} s", limit.exact ? "" : "at least ", *limit.step);
+}
+
+std::string stability_sentence(Integrator integrator, const StabilityLimit& limit) {
+  if (!limit.step) {
+    return fmt::format(
+        "no step is {}stable for {}, under which undamped springs gain energy at any step; add damping, or use symplectic-euler or runge-kutta-4",
+        limit.exact ? "" : "certainly ", name_of(integrator));
+  }
+  if (std::isinf(*limit.step)) return fmt::format("nothing limits the step of {}", name_of(integrator));
+  if (*limit.step == 0.0) {
+    return fmt::format(
+        "no step is certainly stable for {}: the springs are stiffer for their masses than double precision "
+        "can express",
+        name_of(integrator));
+  }
+  return fmt::format("the largest stable one for {} is {}{}", name_of(integrator),
+                     limit.exact ? "estimated at " : "", stability_figure(limit));
+}
+
+std::string unstable_sentence(double timestep, Integrator integrator, const StabilityLimit& limit) {
+  return fmt::format("the time step {} s {} stable: {}.", timestep, limit.exact ? "is not" : "may not be",
+                     stability_sentence(integrator, limit));
 }
 
 }  // namespace aspic

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "model/model.h"
@@ -61,5 +62,19 @@ std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const
 /// Largest eigenvalue κ_max [1/s²] of M^(-1/2) K M^(-1/2) over all bodies: α_max·k/m for a uniform cube,
 /// whose α_max is 16.850 at n = 10.
 double largest_stiffness_eigenvalue(const Model& model);
+
+/// Whether a time step [s] is above the limit. A bound that is not exact counts: the warning is then a
+/// caution.
+bool exceeds(double timestep, const StabilityLimit& limit);
+
+/// "0.002048 s", "at least 0.0013 s", "none", "any".
+std::string stability_figure(const StabilityLimit& limit);
+
+/// "the largest stable one for explicit-euler is estimated at 0.002048 s", or "is at least …" where that is
+/// all that is known: part of a sentence.
+std::string stability_sentence(Integrator integrator, const StabilityLimit& limit);
+
+/// "the time step 0.01 s is not stable: …." or "may not be stable", for a step that exceeds the limit.
+std::string unstable_sentence(double timestep, Integrator integrator, const StabilityLimit& limit);
 
 }  // namespace aspic

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "analysis/stability.h"
 #include "app/panels.h"
 #include "run/backends.h"
 #include "run/outputs.h"

@@ -8,7 +8,7 @@
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
-#include "base/text.h"
+#include "base/printable.h"
 #include "gpu/device_info.h"
 #include "model/bodies.h"
 #include "run/backends.h"

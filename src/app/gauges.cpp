@@ -10,7 +10,7 @@
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
-#include "base/text.h"
+#include "base/printable.h"
 
 namespace aspic::app {
 namespace {

@@ -10,7 +10,6 @@
 #include "app/window.h"
 #include "command_line/arguments.h"
 #include "io/console.h"
-#include "io/interrupt.h"
 #include "io/program.h"
 
 namespace aspic::app {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/stability_text.h"
+#include "analysis/stability.h"
 
 namespace aspic::app {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "io/atomic_file.h"
-#include "io/frame_directory.h"
+#include "io/film_format.h"
 #include "render/overlay_text.h"
 #include "run/backends.h"
 

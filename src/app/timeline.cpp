@@ -6,7 +6,7 @@
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
-#include "base/text.h"
+#include "base/printable.h"
 
 namespace aspic::app {
 

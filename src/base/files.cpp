@@ -11,7 +11,6 @@
 #include <cstring>
 
 #include "base/printable.h"
-#include "base/text.h"
 
 namespace aspic {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
-// Text from outside made fit for a terminal: nothing in it can move the cursor, change colours or hide other
-// text.
+// Text for people: that from outside made fit for a terminal, where nothing in it can move the cursor, change
+// colours or hide other text.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -33,5 +33,8 @@ std::string printable_line(std::string_view text);
 
 /// The first `most` characters of printable_line(text), with … where something was left out.
 std::string excerpt(std::string_view text, std::size_t most);
+
+/// "1.5 MiB", "512 bytes": a size for a sentence.
+std::string human_bytes(std::uint64_t bytes);
 
 }  // namespace aspic

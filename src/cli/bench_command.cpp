@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "analysis/stability.h"
-#include "analysis/stability_text.h"
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "io/console.h"
-#include "io/interrupt.h"
+#include "io/program.h"
 #include "model/integrator.h"
 #include "scene/load.h"
 
@@ -111,8 +109,7 @@ Result<Measurement> measure_case(const BenchOptions& options, const Scene& scene
     ASPIC_TRY(const auto steps, steps_of({std::nullopt, options.duration}, model.simulation));
     m.steps = std::max<std::uint64_t>(1, steps);
   } else {
-    ASPIC_TRY(const auto steps, steps_for(solver, options.seconds / options.repeats, m));
-    m.steps = steps;
+    ASPIC_TRY(m.steps, steps_for(solver, options.seconds / options.repeats, m));
   }
   for (int repeat = 0; repeat < options.repeats && !m.divergence; ++repeat) {
     if (interrupt.interrupted()) return Error{ErrorCode::interrupted, "interrupted; nothing was printed."};
@@ -160,7 +157,7 @@ std::string table_line(const Measurement& m) {
 
 }  // namespace
 
-Status bench_command(const BenchOptions& options) {
+Status execute(const BenchOptions& options) {
   const InterruptGuard interrupt;
   std::vector<Measurement> measurements;
   ASPIC_TRY(auto loaded, load_scene(options.scene, options.overrides));

@@ -2,33 +2,38 @@
 // The commands. Each prints its data to stdout and returns success or the error whose code is the exit code.
 #include "base/result.h"
 #include "command_line/arguments.h"
+#include "io/console.h"
 
 namespace aspic::cli {
 
-/// Simulates; writes the files asked for. Errors in addition to those of its parts: diverged and interrupted,
-/// both after the files are complete.
-Status run_command(const RunOptions& options);
+inline Status execute(const ShowText& shown) {
+  return print_data(shown.text);
+}
+
+/// Simulates; writes the files asked for. Errors in addition to those of its parts: diverged and interrupted, both
+/// after the files are complete.
+Status execute(const RunOptions& options);
 
 /// Becomes the window program, aspic-view, installed next to this one. Error (no_device): it is not there.
-Status view_command(const ViewOptions& options);
+Status execute(const ViewOptions& options);
 
 /// Steps two backends side by side. Error (check_failed): they differ by more than the tolerance.
-Status compare_command(const CompareOptions& options);
+Status execute(const CompareOptions& options);
 
 /// Measures throughput, one line for each size, integrator, backend and force path.
-Status bench_command(const BenchOptions& options);
+Status execute(const BenchOptions& options);
 
 /// Runs the verification battery and prints its table. Errors: usage, an unknown name; check_failed.
-Status verify_command(const VerifyOptions& options);
+Status execute(const VerifyOptions& options);
 
-Status scene_list_command(const SceneListOptions& options);
-Status scene_show_command(const SceneShowOptions& options);
-Status scene_check_command(const SceneCheckOptions& options);
+Status execute(const SceneListOptions& options);
+Status execute(const SceneShowOptions& options);
+Status execute(const SceneCheckOptions& options);
 /// The scene goes to stdout; what it cannot carry is listed there in comments and on stderr.
-Status scene_import_command(const SceneImportOptions& options);
+Status execute(const SceneImportOptions& options);
 
 /// Never fails for want of a GPU: says so instead.
-Status info_command(const InfoOptions& options);
+Status execute(const InfoOptions& options);
 
 /// Steps of a run of this length: what was asked for, else the scene's duration, rounded to the nearest whole
 /// step. Error (usage): more steps than can be counted.

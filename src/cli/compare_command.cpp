@@ -7,8 +7,7 @@
 #include "analysis/compare.h"
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "io/console.h"
-#include "io/interrupt.h"
+#include "io/program.h"
 #include "scene/load.h"
 
 namespace aspic::cli {
@@ -76,8 +75,7 @@ Result<Comparison> compare_steps(std::array<Backend, 2>& backends, std::uint64_t
     if (step == steps || result.interrupted) return result;
 
     for (std::size_t i = 0; i < backends.size(); ++i) {
-      ASPIC_TRY(const auto advanced, backends[i].solver->advance(1));
-      result.divergence[i] = advanced;
+      ASPIC_TRY(result.divergence[i], backends[i].solver->advance(1));
     }
     if (result.divergence[0] || result.divergence[1]) return result;
     bar.update(step + 1);
@@ -143,7 +141,7 @@ Status print_result(const CompareOptions& options, const Scene& scene, const std
 
 }  // namespace
 
-Status compare_command(const CompareOptions& options) {
+Status execute(const CompareOptions& options) {
   const InterruptGuard interrupt;
   ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
   ASPIC_TRY(const auto steps, steps_of(options.length, scene.model.simulation));
@@ -152,8 +150,7 @@ Status compare_command(const CompareOptions& options) {
   std::array<Backend, 2> backends;
   for (std::size_t i = 0; i < backends.size(); ++i) {
     BackendChoice choice = i == 0 ? options.first : options.second;
-    ASPIC_TRY(auto backend, make_backend(choice, model));
-    backends[i] = std::move(backend);
+    ASPIC_TRY(backends[i], make_backend(choice, model));
   }
   ASPIC_TRY(const auto result, compare_steps(backends, steps, interrupt));
   const bool within =

@@ -3,7 +3,6 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "gpu/canary.h"
-#include "io/console.h"
 
 namespace aspic::cli {
 namespace {
@@ -44,7 +43,7 @@ std::vector<std::string> arithmetic_sentences(gl::Context& context) {
 
 }  // namespace
 
-Status info_command(const InfoOptions& options) {
+Status execute(const InfoOptions& options) {
   const std::vector<gl::EglDevice> devices = gl::list_devices();
   AutomaticChoice automatic = choose_automatically({});
   const std::string_view chosen = automatic.row->name;

@@ -8,13 +8,10 @@
 
 #include "analysis/energy.h"
 #include "analysis/stability.h"
-#include "analysis/stability_text.h"
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "command_line/number_checks.h"
 #include "io/checkpoint.h"
-#include "io/console.h"
-#include "io/interrupt.h"
+#include "io/program.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
 #include "scene/load.h"
@@ -153,8 +150,7 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, st
     count = std::min(count, wanted - step);
     if (recorder) count = std::min(count, recorder->next_step() - step);
     const auto before = Clock::now();
-    ASPIC_TRY(const auto advanced, solver.advance(count));
-    outcome.divergence = advanced;
+    ASPIC_TRY(outcome.divergence, solver.advance(count));
     if (outcome.divergence) break;
     step += count;
     if (step == wanted) {
@@ -323,7 +319,7 @@ Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings
   return static_cast<std::uint64_t>(steps);
 }
 
-Status run_command(const RunOptions& options) {
+Status execute(const RunOptions& options) {
   const InterruptGuard interrupt;
   ASPIC_TRY(auto start, load_start(options));
   ASPIC_TRY(const auto steps, steps_of(options.length, start.scene.model.simulation));
@@ -346,9 +342,8 @@ Status run_command(const RunOptions& options) {
 
   std::unique_ptr<Recorder> recorder;
   if (options.pictures.any()) {
-    ASPIC_TRY(auto made, Recorder::create(options.pictures, start.scene, backend, files.take_frame_sinks(),
-                                          start.state ? start.state->step : 0, steps));
-    recorder = std::move(made);
+    ASPIC_TRY(recorder, Recorder::create(options.pictures, start.scene, backend, files.take_frame_sinks(),
+                                         start.state ? start.state->step : 0, steps));
   }
   ASPIC_TRY(auto outcome, simulate(*backend.solver, files, recorder.get(), steps, interrupt));
   const Status finished = files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{})});

@@ -1,21 +1,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
-#include "analysis/stability_text.h"
+#include "analysis/stability.h"
 #include "base/files.h"
-#include "base/text.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "io/console.h"
-#include "io/interrupt.h"
+#include "io/program.h"
 #include "scene/import_configuration.h"
 #include "scene/load.h"
 #include "scene/write.h"
 
 namespace aspic::cli {
-Status scene_list_command(const SceneListOptions& options) {
+
+Status execute(const SceneListOptions& options) {
   const std::vector<BuiltinScene> scenes = list_builtin_scenes();
   if (options.json) {
     Json array = Json::array();
@@ -28,19 +27,19 @@ Status scene_list_command(const SceneListOptions& options) {
   return print_data(text);
 }
 
-Status scene_show_command(const SceneShowOptions& options) {
+Status execute(const SceneShowOptions& options) {
   ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
   return print_data(to_toml(scene));
 }
 
-Status scene_import_command(const SceneImportOptions& options) {
+Status execute(const SceneImportOptions& options) {
   ASPIC_TRY(const auto text, read_file(options.file));
   ASPIC_TRY(const auto imported, import_configuration(text, options.file));
   for (const std::string& note : imported.notes) print_warning(note);
   return print_data(imported_toml(imported, options.file));
 }
 
-Status scene_check_command(const SceneCheckOptions& options) {
+Status execute(const SceneCheckOptions& options) {
   const InterruptGuard interrupt;
   ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
   ASPIC_TRY(const auto model, build_model(scene.model));

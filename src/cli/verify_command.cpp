@@ -7,7 +7,6 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "gpu/context.h"
-#include "io/console.h"
 #include "verify/check.h"
 
 namespace aspic::cli {
@@ -17,15 +16,7 @@ using verify::Row;
 using verify::Verdict;
 
 std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::passed:
-      return "pass";
-    case Verdict::failed:
-      return "FAIL";
-    case Verdict::not_run:
-      break;
-  }
-  return "not run";
+  return verdict == Verdict::passed ? "pass" : verdict == Verdict::failed ? "FAIL" : "not run";
 }
 
 std::size_t count(const std::vector<Row>& rows, Verdict verdict) {
@@ -87,7 +78,7 @@ Status print_rows(const VerifyOptions& options, const std::vector<Row>& rows, co
 
 }  // namespace
 
-Status verify_command(const VerifyOptions& options) {
+Status execute(const VerifyOptions& options) {
   ASPIC_TRY(const auto checks, verify::select(verify::battery(), options.only, options.quick));
 
   std::unique_ptr<gl::Context> context;

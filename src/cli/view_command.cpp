@@ -10,7 +10,7 @@
 namespace aspic::cli {
 
 // The window is a program of its own, so that this one starts on machines without X libraries.
-Status view_command(const ViewOptions& options) {
+Status execute(const ViewOptions& options) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   const std::string program = (self.parent_path() / "aspic-view").string();

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
-#include <functional>
+#include <charconv>
 #include <string_view>
+#include <type_traits>
 
 #include "base/printable.h"
-#include "command_line/number_checks.h"
 #include "command_line/raw_options.h"
 #include "scene/diagnostics.h"
 
@@ -66,6 +67,9 @@ constexpr const char* verify_examples = R"(Examples:
 
 Exit code 1 if a check fails. Without a GL device the checks that need one are reported as not run.)";
 
+/// Largest number of repeats and of particles per edge that is read at all.
+constexpr std::uint64_t most_of_int = 1000000;
+
 struct NotBuilt {
   std::string_view command, what;
 };
@@ -109,196 +113,208 @@ Error unexpected_word(const CLI::App& command, const std::string& word) {
   const std::vector<std::string_view> candidates(known.begin(), known.end());
   const std::string_view near = diagnostics::nearest(name, candidates);
   if (!near.empty()) message += fmt::format(" Did you mean {}?", near);
-  return usage(message + fmt::format(" See {} --help.", full_name(command)));
+  return usage("{} See {} --help.", message, full_name(command));
 }
 
-CLI::Validator whole(std::uint64_t most) {
-  return {[most](std::string& text) { return check_whole(text, most); }, ""};
-}
-CLI::Validator number() {
-  return {[](std::string& text) { return check_number(text); }, ""};
+/// Whether the text is a whole number from 0 to `most`, digits alone; if so it is left without leading zeros.
+/// Otherwise a sentence: the parser itself would take `-1` for the largest number there is and 2⁶⁴ for 2⁶⁴
+/// − 1.
+std::string check_whole(std::string& text, std::uint64_t most) {
+  const std::string shown = excerpt(text, 40);
+  const auto digits = [](std::string_view t) {
+    return !t.empty() && std::ranges::all_of(t, [](char c) { return c >= '0' && c <= '9'; });
+  };
+  if (text.starts_with('-') && digits(std::string_view(text).substr(1)))
+    return fmt::format("{} is negative; give 0 or more", shown);
+  if (!digits(text)) return fmt::format("\"{}\" is not a whole number", shown);
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || value > most)
+    return fmt::format("{} is too large; the largest is {}", shown, most);
+  text = fmt::format("{}", value);
+  return "";
 }
 
-void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
-  command.add_option("--set", overrides, "set a scene value, e.g. simulation.timestep=0.002; repeatable")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+/// Whether the text is a number that double precision holds, infinite and NaN included: those are refused
+/// where the option's range is known. Otherwise a sentence.
+std::string check_number(const std::string& text) {
+  const std::string shown = excerpt(text, 40);
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range)
+    return fmt::format("{} is too large or too small: the largest number is 1.8e308", shown);
+  if (error != std::errc() || end != text.data() + text.size())
+    return fmt::format("\"{}\" is not a number", shown);
+  return "";
 }
 
-void add_length(CLI::App& command, RunLength& length) {
-  auto* steps = command.add_option("--steps", length.steps, "simulate up to this step")
-                    ->type_name("N")
-                    ->transform(whole(most_steps));
-  command
-      .add_option("--duration", length.duration, "simulate up to this time, in seconds; default: the scene's")
-      ->type_name("S")
-      ->transform(number())
+template <class T>
+T element_of(const T&);
+template <class T>
+T element_of(const std::optional<T>&);
+template <class T>
+T element_of(const std::vector<T>&);
+
+/// An option, or an argument where the name has no hyphens. Numbers are checked as text, whole ones up to
+/// `most`; a list takes one element each time the option is given; a default is shown.
+template <class T>
+CLI::Option* add(CLI::App* command, const std::string& name, const char* type, T& target,
+                 const std::string& help, std::uint64_t most = most_steps) {
+  using Element = decltype(element_of(target));
+  CLI::Option* option = command->add_option(name, target, help)->type_name(type);
+  if constexpr (std::is_integral_v<Element>)
+    option->transform(CLI::Validator([most](std::string& text) { return check_whole(text, most); }, ""));
+  if constexpr (std::is_floating_point_v<Element>)
+    option->transform(CLI::Validator([](std::string& text) { return check_number(text); }, ""));
+  if constexpr (std::is_same_v<T, std::vector<Element>>) option->allow_extra_args(false);
+  if constexpr (requires { target.empty(); }) {
+    if (!target.empty()) option->capture_default_str();
+  } else if constexpr (std::is_same_v<T, Element>) {
+    option->capture_default_str();
+  }
+  return option;
+}
+
+/// Without a footer of its own it has that of its parent.
+CLI::App* add_command(CLI::App& parent, const char* name, const char* summary, const char* footer = "") {
+  CLI::App* command = parent.add_subcommand(name, summary);
+  return *footer ? command->footer(footer) : command;
+}
+
+void add_json(CLI::App* c, bool& json, const char* help = "result on stdout as JSON") {
+  c->add_flag("--json", json, help);
+}
+
+void add_overrides(CLI::App* c, std::vector<std::string>& overrides) {
+  add(c, "--set", "KEY=VALUE", overrides, "set a scene value, e.g. simulation.timestep=0.002; repeatable");
+}
+
+void add_length(CLI::App* c, RunLength& length) {
+  auto* steps = add(c, "--steps", "N", length.steps, "simulate up to this step");
+  add(c, "--duration", "S", length.duration, "simulate up to this time, in seconds; default: the scene's")
       ->excludes(steps);
 }
 
-void add_pictures(CLI::App& command, RunOptions& run, RawOptions& raw) {
+void add_pictures(CLI::App* c, RunOptions& run, RawOptions& raw) {
   PictureOutput& pictures = run.pictures;
-  command
-      .add_option("--video", pictures.video,
-                  fmt::format("write a video: {} (needs ffmpeg)", film_endings(false)))
-      ->type_name("FILE");
-  command.add_option("--frames", pictures.frames, "write numbered pictures into a directory")
-      ->type_name("DIR");
-  command.add_option("--frames-format", raw.frames_format, film_endings(true))
-      ->capture_default_str()
-      ->type_name("NAME");
-  command.add_option("--fps", pictures.fps, "pictures per second shown; default 60, for a GIF 50")
-      ->type_name("F")
-      ->transform(number());
-  command.add_option("--speed", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion")
-      ->capture_default_str()
-      ->type_name("X")
-      ->transform(number());
-  command.add_option("--size", raw.size, "size of the pictures in pixels")
-      ->capture_default_str()
-      ->type_name("WxH");
-  command.add_option("--text", raw.text, "text on the pictures: on or off")
-      ->capture_default_str()
-      ->type_name("on|off");
-  command.add_flag("--no-text", raw.no_text, "the same as --text off");
-  command
-      .add_option("--view", run.view,
-                  "set a value of the scene's view, e.g. camera.position=[8,4,12]; repeatable")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add(c, "--video", "FILE", pictures.video,
+      fmt::format("write a video: {} (needs ffmpeg)", film_endings(false)));
+  add(c, "--frames", "DIR", pictures.frames, "write numbered pictures into a directory");
+  add(c, "--frames-format", "NAME", raw.frames_format, film_endings(true));
+  add(c, "--fps", "F", pictures.fps, "pictures per second shown; default 60, for a GIF 50");
+  add(c, "--speed", "X", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion");
+  add(c, "--size", "WxH", raw.size, "size of the pictures in pixels");
+  add(c, "--text", "on|off", raw.text, "text on the pictures: on or off");
+  c->add_flag("--no-text", raw.no_text, "the same as --text off");
+  add(c, "--view", "KEY=VALUE", run.view,
+      "set a value of the scene's view, e.g. camera.position=[8,4,12]; repeatable");
 }
 
-void add_outputs(CLI::App& command, std::vector<StateOutput>& outputs) {
+void add_outputs(CLI::App* c, std::vector<StateOutput>& outputs) {
   for (const std::string_view option : state_options()) outputs.push_back({std::string(option), "", {}});
   for (StateOutput& output : outputs) {
     const StateFormat& format = state_format_of(output.option, "");
-    auto* file =
-        command.add_option("--" + output.option, output.path, state_help(output.option))->type_name("FILE");
+    auto* file = add(c, "--" + output.option, "FILE", output.path, state_help(output.option));
     // The series' interval was there first, and has the short name too.
     const char* const short_name = format.over_time ? "--every," : "";
-    command
-        .add_option(fmt::format("{}--{}-every", short_name, output.option), output.every,
-                    std::string(format.every))
-        ->type_name("N")
-        ->transform(whole(most_steps))
+    add(c, fmt::format("{}--{}-every", short_name, output.option), "N", output.every,
+        std::string(format.every))
         ->needs(file);
   }
 }
 
 CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
-  CLI::App* c = app.add_subcommand("run", "Simulate a scene headless");
-  c->add_option("scene", run.scene, "scene file or built-in name; not needed with --resume")
-      ->type_name("SCENE");
-  c->add_option("--backend", raw.backend, backend_words())->capture_default_str()->type_name("NAME");
-  c->add_option("--precision", raw.precision, "single or double (reference only); default single")
-      ->type_name("NAME");
-  c->add_option("--force-path", raw.force_path, force_path_words() + " (gpu only)")
-      ->capture_default_str()
-      ->type_name("NAME");
-  add_length(*c, run.length);
-  add_overrides(*c, run.overrides);
-  add_outputs(*c, run.outputs);
-  add_pictures(*c, run, raw);
-  c->add_option("--resume", run.resume_file,
-                "continue from a checkpoint; --steps and --duration count from its start")
-      ->type_name("FILE");
+  CLI::App* c = add_command(app, "run", "Simulate a scene headless", run_examples);
+  add(c, "scene", "SCENE", run.scene, "scene file or built-in name; not needed with --resume");
+  add(c, "--backend", "NAME", raw.backend, backend_words());
+  add(c, "--precision", "NAME", raw.precision, "single or double (reference only); default single");
+  add(c, "--force-path", "NAME", raw.force_path, force_path_words() + " (gpu only)");
+  add_length(c, run.length);
+  add_overrides(c, run.overrides);
+  add_outputs(c, run.outputs);
+  add_pictures(c, run, raw);
+  add(c, "--resume", "FILE", run.resume_file,
+      "continue from a checkpoint; --steps and --duration count from its start");
   c->add_flag("--force", run.force, "overwrite files");
-  c->add_flag("--json", run.json, "summary on stdout as JSON");
-  c->footer(run_examples);
+  add_json(c, run.json, "summary on stdout as JSON");
   return c;
 }
 
 CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
-  CLI::App* c = app.add_subcommand("view", "Show a scene in a window");
-  c->add_option("scene", view.scene, "scene file or built-in name")
-      ->type_name("SCENE")
-      ->capture_default_str();
-  c->add_option("--backend", raw.backend, backend_words() + "; G switches it in the window")
-      ->capture_default_str()
-      ->type_name("NAME");
-  add_overrides(*c, view.overrides);
-  c->add_option("--size", raw.window_size, "size of the window; default: its last size")->type_name("WxH");
-  c->footer(view_examples);
+  CLI::App* c = add_command(app, "view", "Show a scene in a window", view_examples);
+  add(c, "scene", "SCENE", view.scene, "scene file or built-in name");
+  add(c, "--backend", "NAME", raw.backend, backend_words() + "; G switches it in the window");
+  add_overrides(c, view.overrides);
+  add(c, "--size", "WxH", raw.window_size, "size of the window; default: its last size");
   return c;
 }
 
 CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
-  CLI::App* c = app.add_subcommand("compare", "Run two backends side by side, step by step");
-  c->add_option("scene", compare.scene, "scene file or built-in name")->type_name("SCENE")->required();
-  c->add_option("--backends", raw.backends,
-                "the two backends, options after colons: gpu:per-spring,reference:double")
+  CLI::App* c = add_command(app, "compare", "Run two backends side by side, step by step", compare_examples);
+  add(c, "scene", "SCENE", compare.scene, "scene file or built-in name")->required();
+  c->add_option("--backends", raw.backends, "the two backends, options after colons: gpu:per-spring,reference:double")
       ->delimiter(',')
       ->expected(2)
       ->type_name("A,B")
       ->capture_default_str();
-  c->add_option("--force-path", raw.force_path, "force path of gpu backends without their own")
-      ->type_name("NAME");
-  add_length(*c, compare.length);
-  add_overrides(*c, compare.overrides);
-  c->add_option("--tolerance", compare.tolerance,
-                "largest difference allowed, in m and m/s; 0: identical bits")
-      ->capture_default_str()
-      ->type_name("T")
-      ->transform(number());
-  c->add_flag("--json", compare.json, "result on stdout as JSON");
-  c->footer(compare_examples);
+  add(c, "--force-path", "NAME", raw.force_path, "force path of gpu backends without their own");
+  add_length(c, compare.length);
+  add_overrides(c, compare.overrides);
+  add(c, "--tolerance", "T", compare.tolerance,
+      "largest difference allowed, in m and m/s; 0: identical bits");
+  add_json(c, compare.json);
   return c;
 }
 
 CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
-  CLI::App* c = app.add_subcommand("bench", "Measure throughput by backend, force path, size and integrator");
-  c->add_option("scene", bench.scene, "scene file or built-in name")
-      ->type_name("SCENE")
-      ->capture_default_str();
-  c->add_option("--backend", raw.bench_backends,
-                "auto, gpu, gpu:per-spring, reference, reference:double; repeatable")
-      ->type_name("NAME")
-      ->allow_extra_args(false)
-      ->capture_default_str();
-  c->add_option("--force-path", raw.bench_force_paths, "of gpu backends without their own; repeatable")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  c->add_option("--size", bench.sizes, "particles per edge of the scene's cubes; repeatable")
-      ->type_name("N")
-      ->transform(whole(1000000))
-      ->allow_extra_args(false);
-  c->add_option("--integrator", raw.bench_integrators, "instead of the scene's; repeatable")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  c->add_option("--timestep", raw.bench_timestep,
-                "scene, or largest: 0.99 of the largest stable step, 1/60 s with implicit-euler")
-      ->type_name("WORD")
-      ->capture_default_str();
-  auto* seconds = c->add_option("--seconds", bench.seconds, "time to spend on each case")
-                      ->type_name("S")
-                      ->transform(number())
-                      ->capture_default_str();
-  c->add_option("--duration", bench.duration, "simulated seconds of each repeat, however long they take")
-      ->type_name("S")
-      ->transform(number())
+  CLI::App* c = add_command(app, "bench", "Measure throughput by backend, force path, size and integrator",
+                            bench_examples);
+  add(c, "scene", "SCENE", bench.scene, "scene file or built-in name");
+  add(c, "--backend", "NAME", raw.bench_backends,
+      "auto, gpu, gpu:per-spring, reference, reference:double; repeatable");
+  add(c, "--force-path", "NAME", raw.bench_force_paths, "of gpu backends without their own; repeatable");
+  add(c, "--size", "N", bench.sizes, "particles per edge of the scene's cubes; repeatable", most_of_int);
+  add(c, "--integrator", "NAME", raw.bench_integrators, "instead of the scene's; repeatable");
+  add(c, "--timestep", "WORD", raw.bench_timestep,
+      "scene, or largest: 0.99 of the largest stable step, 1/60 s with implicit-euler");
+  auto* seconds = add(c, "--seconds", "S", bench.seconds, "time to spend on each case");
+  add(c, "--duration", "S", bench.duration, "simulated seconds of each repeat, however long they take")
       ->excludes(seconds);
-  c->add_option("--repeats", bench.repeats, "runs of each case")
-      ->type_name("N")
-      ->transform(whole(1000000))
-      ->capture_default_str();
-  add_overrides(*c, bench.overrides);
-  c->add_flag("--json", bench.json, "result on stdout as JSON");
-  c->footer(bench_examples);
+  add(c, "--repeats", "N", bench.repeats, "runs of each case", most_of_int);
+  add_overrides(c, bench.overrides);
+  add_json(c, bench.json);
   return c;
 }
 
 CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
-  CLI::App* c =
-      app.add_subcommand("verify", "Check physics and equivalence on this machine, as a table of figures");
+  CLI::App* c = add_command(
+      app, "verify", "Check physics and equivalence on this machine, as a table of figures", verify_examples);
   c->add_flag("--quick", verify.quick, "only checks that take seconds");
-  c->add_option("--only", verify.only, "one check or group, e.g. order or rest/midpoint; repeatable")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+  add(c, "--only", "NAME", verify.only, "one check or group, e.g. order or rest/midpoint; repeatable");
   c->add_flag("--require-gpu", verify.require_gpu,
               "fail if a check finds no GL device, instead of skipping it");
-  c->add_flag("--json", verify.json, "the table on stdout as JSON");
-  c->footer(verify_examples);
+  add_json(c, verify.json, "the table on stdout as JSON");
   return c;
+}
+
+/// The four commands below `scene`, in their order.
+std::array<CLI::App*, 4> add_scene(CLI::App& app, SceneListOptions& list, SceneShowOptions& show,
+                                   SceneCheckOptions& check, SceneImportOptions& import) {
+  CLI::App* scene = add_command(app, "scene", "List, show, check and import scenes");
+  scene->require_subcommand(1);
+  CLI::App* c = add_command(*scene, "list", "The built-in scenes");
+  add_json(c, list.json, "as JSON");
+  CLI::App* s = add_command(*scene, "show", "Print a scene as complete TOML, with every default");
+  add(s, "scene", "SCENE", show.scene, "scene file or built-in name")->required();
+  add_overrides(s, show.overrides);
+  CLI::App* k = add_command(*scene, "check", "Counts, memory and stable time steps of a scene");
+  add(k, "scene", "SCENE", check.scene, "scene file or built-in name")->required();
+  add_json(k, check.json, "as JSON");
+  add_overrides(k, check.overrides);
+  CLI::App* i = add_command(*scene, "import", "Print Configuration.txt of the 2018 framework as a scene");
+  add(i, "file", "FILE", import.file, "the file to read")->required();
+  return {c, s, k, i};
 }
 
 }  // namespace
@@ -310,48 +326,41 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   app.require_subcommand(1);
   RawOptions raw;
   RunOptions run;
+  ViewOptions view;
   CompareOptions compare;
+  BenchOptions bench;
   VerifyOptions verify;
   SceneListOptions list;
   SceneShowOptions show;
   SceneCheckOptions check;
-  InfoOptions info;
-  CLI::App* run_command = add_run(app, run, raw);
-  ViewOptions view;
-  CLI::App* view_command = add_view(app, view, raw);
-  CLI::App* compare_command = add_compare(app, compare, raw);
-  BenchOptions bench;
-  CLI::App* bench_command = add_bench(app, bench, raw);
-  CLI::App* verify_command = add_verify(app, verify);
-  CLI::App* scene = app.add_subcommand("scene", "List, show, check and import scenes");
-  scene->require_subcommand(1);
-  CLI::App* list_command = scene->add_subcommand("list", "The built-in scenes");
-  list_command->add_flag("--json", list.json, "as JSON");
-  CLI::App* show_command =
-      scene->add_subcommand("show", "Print a scene as complete TOML, with every default");
-  show_command->add_option("scene", show.scene, "scene file or built-in name")
-      ->type_name("SCENE")
-      ->required();
-  add_overrides(*show_command, show.overrides);
-  CLI::App* check_command = scene->add_subcommand("check", "Counts, memory and stable time steps of a scene");
-  check_command->add_option("scene", check.scene, "scene file or built-in name")
-      ->type_name("SCENE")
-      ->required();
-  check_command->add_flag("--json", check.json, "as JSON");
-  add_overrides(*check_command, check.overrides);
   SceneImportOptions import;
-  CLI::App* import_command =
-      scene->add_subcommand("import", "Print Configuration.txt of the 2018 framework as a scene");
-  import_command->add_option("file", import.file, "the file to read")->type_name("FILE")->required();
-  CLI::App* info_command = app.add_subcommand("info", "Devices, drivers, GL limits, and what auto picks");
-  info_command->add_flag("--json", info.json, "as JSON");
+  InfoOptions info;
+  std::optional<Result<Command>> result;
+  const auto on = [&](CLI::App* command, auto finish) {
+    command->callback([&result, finish] { result.emplace(finish()); });
+  };
+  on(add_run(app, run, raw), [&] { return finish_run(run, raw); });
+  on(add_view(app, view, raw), [&] {
+    view.words.assign(argv + 2, argv + argc);
+    return finish_view(view, raw);
+  });
+  on(add_compare(app, compare, raw), [&] { return finish_compare(compare, raw); });
+  on(add_bench(app, bench, raw), [&] { return finish_bench(bench, raw); });
+  on(add_verify(app, verify), [&] { return Command(verify); });
+  const auto scenes = add_scene(app, list, show, check, import);
+  on(scenes[0], [&] { return Command(list); });
+  on(scenes[1], [&] { return Command(show); });
+  on(scenes[2], [&] { return Command(check); });
+  on(scenes[3], [&] { return Command(import); });
+  CLI::App* info_command = add_command(app, "info", "Devices, drivers, GL limits, and what auto picks");
+  add_json(info_command, info.json, "as JSON");
+  on(info_command, [&] { return Command(info); });
 
-  if (argc < 2) return usage("no command given.\n\n" + app.help());
+  if (argc < 2) return usage("no command given.\n\n{}", app.help());
   const std::string first = argv[1];
   for (const NotBuilt& entry : not_built_commands) {
     if (first == entry.command) {
-      return usage(fmt::format("aspic {} ({}) is not built yet in version {}.", entry.command, entry.what,
-                               ASPIC_VERSION));
+      return usage("aspic {} ({}) is not built yet in version {}.", entry.command, entry.what, ASPIC_VERSION);
     }
   }
   try {
@@ -373,21 +382,9 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
         if (word != command.get_name()) return unexpected_word(command, word);
       }
     }
-    return usage(fmt::format("{}. See {} --help.", error.what(), full_name(command)));
+    return usage("{}. See {} --help.", error.what(), full_name(command));
   }
-  if (*run_command) return finish_run(std::move(run), raw);
-  if (*view_command) {
-    view.words.assign(argv + 2, argv + argc);
-    return finish_view(std::move(view), raw);
-  }
-  if (*compare_command) return finish_compare(std::move(compare), raw);
-  if (*bench_command) return finish_bench(std::move(bench), raw);
-  if (*verify_command) return Command(std::move(verify));
-  if (*list_command) return Command(list);
-  if (*show_command) return Command(std::move(show));
-  if (*check_command) return Command(std::move(check));
-  if (*import_command) return Command(std::move(import));
-  return Command(info);
+  return std::move(*result);
 }
 
 }  // namespace aspic

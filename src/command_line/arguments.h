@@ -13,6 +13,10 @@
 
 namespace aspic {
 
+/// Largest number of steps: beyond 2⁵³ time, which is step·h in double precision, no longer tells steps
+/// apart.
+inline constexpr std::uint64_t most_steps = std::uint64_t{1} << 53;
+
 /// How far a run goes, counted from the scene's start, also when resumed.
 struct RunLength {
   std::optional<std::uint64_t> steps;

@@ -15,8 +15,7 @@ namespace {
 
 Status check_length(const RunLength& length) {
   if (length.duration && !(std::isfinite(*length.duration) && *length.duration >= 0.0)) {
-    return usage(
-        fmt::format("--duration must be a finite number of seconds, 0 or more, not {}.", *length.duration));
+    return usage("--duration must be a finite number of seconds, 0 or more, not {}.", *length.duration);
   }
   return {};
 }
@@ -33,9 +32,8 @@ Result<PictureSize> parse_size(const std::string& text) {
         std::max(size.width, size.height) <= most)
       return size;
   }
-  return usage(fmt::format(
-      "--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".",
-      printable_line(text)));
+  return usage("--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".",
+               printable_line(text));
 }
 
 Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
@@ -43,17 +41,17 @@ Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
   pictures.size = size;
   const FilmFormat* const images = find_film_format(raw.frames_format);
   if (!images || !images->is_directory())
-    return usage(fmt::format("--frames-format must be {}, not \"{}\".", film_endings(true),
-                             printable_line(raw.frames_format)));
+    return usage("--frames-format must be {}, not \"{}\".", film_endings(true),
+                 printable_line(raw.frames_format));
   pictures.frames_format = images;
   if (raw.text != "on" && raw.text != "off")
-    return usage(fmt::format("--text must be on or off, not \"{}\".", printable_line(raw.text)));
+    return usage("--text must be on or off, not \"{}\".", printable_line(raw.text));
   pictures.text = raw.text == "on" && !raw.no_text;
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   if (pictures.fps && !(positive(*pictures.fps) && *pictures.fps <= 1000.0))
-    return usage(fmt::format("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps));
+    return usage("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps);
   if (!positive(pictures.speed))
-    return usage(fmt::format("--speed must be a finite number above 0, not {}.", pictures.speed));
+    return usage("--speed must be a finite number above 0, not {}.", pictures.speed);
   if (pictures.video.empty()) return {};
   ASPIC_TRY(const auto format, video_format_of(pictures.video));
   return check_film(*format, pictures.size, frames_per_second(pictures));
@@ -87,10 +85,6 @@ Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
 
 }  // namespace
 
-Error usage(std::string message) {
-  return {ErrorCode::usage, std::move(message)};
-}
-
 Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
   ASPIC_TRY(const auto row, parse_backend_name(raw.backend));
   ASPIC_TRY(const auto precision, parse_precision(raw.precision.empty() ? "single" : raw.precision));
@@ -99,8 +93,7 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
   run.precision_given = !raw.precision.empty();
   ASPIC_CHECK(check_length(run.length));
   for (const StateOutput& output : run.outputs) {
-    if (output.every && *output.every < 1)
-      return usage(fmt::format("--{}-every must be 1 or more.", output.option));
+    if (output.every && *output.every < 1) return usage("--{}-every must be 1 or more.", output.option);
   }
   if (run.scene.empty() && run.resume_file.empty()) {
     return usage("aspic run needs a SCENE: a file, or a built-in name from aspic scene list.");
@@ -130,39 +123,35 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
   compare.second = second;
   ASPIC_CHECK(check_length(compare.length));
   if (!(std::isfinite(compare.tolerance) && compare.tolerance >= 0.0)) {
-    return usage(fmt::format("--tolerance must be a finite number, 0 or more, not {}.", compare.tolerance));
+    return usage("--tolerance must be a finite number, 0 or more, not {}.", compare.tolerance);
   }
   return Command(std::move(compare));
 }
 
 Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
-  ASPIC_TRY(const auto row, parse_backend_name(raw.backend));
-  view.backend.row = row;
+  ASPIC_TRY(view.backend.row, parse_backend_name(raw.backend));
   ASPIC_CHECK(check_choice(view.backend));
   if (!raw.window_size.empty()) {
-    ASPIC_TRY(const auto size, parse_size(raw.window_size));
-    view.size = size;
+    ASPIC_TRY(view.size, parse_size(raw.window_size));
   }
   return Command(std::move(view));
 }
 
 Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
-  ASPIC_TRY(auto backends, bench_backends(raw));
-  bench.backends = std::move(backends);
+  ASPIC_TRY(bench.backends, bench_backends(raw));
   for (const std::string& word : raw.bench_integrators) {
     const auto known = std::find_if(std::begin(all_integrators), std::end(all_integrators),
                                     [&](Integrator i) { return name_of(i) == word; });
     if (known == std::end(all_integrators)) {
       std::vector<std::string_view> names;
       for (const Integrator i : all_integrators) names.push_back(name_of(i));
-      return usage(fmt::format("--integrator does not know \"{}\"; allowed: {}.", printable_line(word),
-                               fmt::join(names, ", ")));
+      return usage("--integrator does not know \"{}\"; allowed: {}.", printable_line(word),
+                   fmt::join(names, ", "));
     }
     bench.integrators.push_back(*known);
   }
   if (raw.bench_timestep != "scene" && raw.bench_timestep != "largest") {
-    return usage(
-        fmt::format("--timestep must be scene or largest, not \"{}\".", printable_line(raw.bench_timestep)));
+    return usage("--timestep must be scene or largest, not \"{}\".", printable_line(raw.bench_timestep));
   }
   bench.timestep = raw.bench_timestep == "largest" ? BenchTimestep::largest : BenchTimestep::scene;
   constexpr double longest = 1e6;  // s: eleven days

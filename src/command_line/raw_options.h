@@ -1,6 +1,7 @@
 #pragma once
 // From the words the command line parser read to the values the commands take.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line/arguments.h"
@@ -18,7 +19,10 @@ struct RawOptions {
 };
 
 /// An Error of the command line.
-Error usage(std::string message);
+template <class... T>
+Error usage(fmt::format_string<T...> message, T&&... arguments) {
+  return fail(ErrorCode::usage, message, std::forward<T>(arguments)...);
+}
 
 // Each completes the options of one command. Errors: usage, with what is allowed; scene_rejected for what is
 // not built yet.

@@ -44,7 +44,7 @@ class CpuSolver final : public Solver {
         workers_(options.threads > 0 ? options.threads : threads_for(model)) {
     std::size_t margin = slice;
     for (const Body& body : model.bodies) {
-      if (is_lattice(body)) {
+      if (edge_of_lattice(model, body) > 0) {
         springs_.emplace_back(std::in_place_type<Lattice>, model, body);
         margin = std::max(margin, std::get<Lattice>(springs_.back()).reach() + slice);
       } else {

@@ -1,8 +1,10 @@
 #include "cpu_parallel/springs.h"
 
 #include <algorithm>
-#include <cassert>
+#include <cmath>
 #include <map>
+
+#include "model/cube.h"
 
 namespace aspic::parallel {
 
@@ -12,12 +14,28 @@ Constants::Constants(const SpringClass& spring)
       rest_length(static_cast<float>(spring.rest_length)),
       slack(spring.cord ? static_cast<float>(spring.rest_length) : -1.0f) {}
 
-bool is_lattice(const Body& body) {
-  return body.spacing > 0.0 && body.lattice[0] == body.lattice[1] && body.lattice[1] == body.lattice[2];
+namespace {
+
+/// Springs whose lower end is in the body.
+std::span<const Spring> springs_of(const Model& model, const Body& body) {
+  const auto from = std::ranges::lower_bound(model.springs, body.first_particle, {}, &Spring::a);
+  const auto to =
+      std::ranges::lower_bound(model.springs, body.first_particle + body.particle_count, {}, &Spring::a);
+  return {from, to};
+}
+
+}  // namespace
+
+std::size_t edge_of_lattice(const Model& model, const Body& body) {
+  if (!body.cubic) return 0;
+  const auto edge = static_cast<int>(std::lround(std::cbrt(body.particle_count)));
+  const ModelCounts complete = cube_counts(edge);
+  if (complete.particles != body.particle_count) return 0;
+  return springs_of(model, body).size() == complete.springs() ? static_cast<std::size_t>(edge) : 0;
 }
 
 Lattice::Lattice(const Model& model, const Body& body)
-    : first_(body.first_particle), n_(static_cast<std::size_t>(body.lattice[0])) {
+    : first_(body.first_particle), n_(edge_of_lattice(model, body)) {
   // The springs say themselves which directions there are: each is seen from its lower end and from its upper
   // one.
   const auto n = static_cast<int>(n_);
@@ -29,15 +47,11 @@ Lattice::Lattice(const Model& model, const Body& body)
     return Place{local / (n * n), local / n % n, local % n};
   };
   std::map<std::array<int, 3>, std::uint32_t> classes;  // in lexicographic order: ascending neighbour index
-  const auto mine = [&](const Spring& s) {
-    return s.a >= body.first_particle && s.a - body.first_particle < body.particle_count;
-  };
-  for (auto s = std::ranges::lower_bound(model.springs, body.first_particle, {}, &Spring::a);
-       s != model.springs.end() && mine(*s); ++s) {
-    const Place a = place(s->a), b = place(s->b);
+  for (const Spring& s : springs_of(model, body)) {
+    const Place a = place(s.a), b = place(s.b);
     const std::array<int, 3> up = {b.i - a.i, b.j - a.j, b.k - a.k};
-    classes.emplace(up, s->spring_class);
-    classes.emplace(std::array{-up[0], -up[1], -up[2]}, s->spring_class);
+    classes.emplace(up, s.spring_class);
+    classes.emplace(std::array{-up[0], -up[1], -up[2]}, s.spring_class);
   }
   std::vector<std::array<int, 3>> offsets;
   for (const auto& [offset, spring_class] : classes) {
@@ -70,12 +84,7 @@ SpringLists::SpringLists(const Model& model, const Body& body)
   }
   const std::size_t slices = (count_ + slice - 1) / slice;
   std::vector<std::uint32_t> degree(count_, 0);
-  const auto of_body = [&] {
-    const auto from = std::ranges::lower_bound(model.springs, body.first_particle, {}, &Spring::a);
-    const auto to =
-        std::ranges::lower_bound(model.springs, body.first_particle + body.particle_count, {}, &Spring::a);
-    return std::span<const Spring>(from, to);
-  }();
+  const std::span<const Spring> of_body = springs_of(model, body);
   for (const Spring& s : of_body) {
     ++degree[s.a - first_];
     ++degree[s.b - first_];

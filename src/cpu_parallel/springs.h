@@ -85,7 +85,7 @@ class SpringLists {
   std::vector<float> stiffness_, damping_, rest_length_, slack_;
 };
 
-/// Whether a body is a cube with all its springs, so that a Lattice describes it.
-bool is_lattice(const Body& body);
+/// Particles per edge of a body that is a cube with all its springs, so that a Lattice describes it; 0 of others.
+std::size_t edge_of_lattice(const Model& model, const Body& body);
 
 }  // namespace aspic::parallel

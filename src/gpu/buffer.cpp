@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/text.h"
+#include "base/printable.h"
 
 namespace aspic::gl {
 namespace {
@@ -27,12 +27,11 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
       std::min<std::uint64_t>(storage ? limits.storage_block_bytes : limits.uniform_block_bytes,
                               std::numeric_limits<GLsizeiptr>::max());
   if (bytes > limit)
-    return Error{
-        ErrorCode::scene_rejected,
-        fmt::format("The {} buffer \"{}\" needs {} ({} bytes), but {} takes blocks of {} ({} bytes) at most. "
-                    "Make the scene smaller, or choose another device or backend.",
-                    storage ? "storage" : "uniform", name, human_bytes(bytes), bytes, context.info().renderer,
-                    human_bytes(limit), limit)};
+    return fail(ErrorCode::scene_rejected,
+                "The {} buffer \"{}\" needs {} ({} bytes), but {} takes blocks of {} ({} bytes) at most. "
+                "Make the scene smaller, or choose another device or backend.",
+                storage ? "storage" : "uniform", name, human_bytes(bytes), bytes, context.info().renderer,
+                human_bytes(limit), limit);
 
   // An error from before would be taken for this allocation's; on debug contexts the message was kept.
   context.forget_errors();
@@ -45,12 +44,11 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
   const GLenum error = context.strikes(Fault::out_of_memory) ? GL_OUT_OF_MEMORY : glGetError();
   if (error != GL_NO_ERROR && context.lost()) return context.lost_error();
   if (error != GL_NO_ERROR)
-    return Error{
-        ErrorCode::scene_rejected,
-        fmt::format("{} has no memory for the {} buffer \"{}\" of {} ({} bytes), with {} held already (GL "
-                    "error 0x{:04x}). Make the scene smaller, or close other programs that use the device.",
-                    context.info().renderer, storage ? "storage" : "uniform", name, human_bytes(bytes), bytes,
-                    human_bytes(context.bytes_held()), error)};
+    return fail(ErrorCode::scene_rejected,
+                "{} has no memory for the {} buffer \"{}\" of {} ({} bytes), with {} held already (GL "
+                "error 0x{:04x}). Make the scene smaller, or close other programs that use the device.",
+                context.info().renderer, storage ? "storage" : "uniform", name, human_bytes(bytes), bytes,
+                human_bytes(context.bytes_held()), error);
   if (context.info().debug && !name.empty())
     glObjectLabel(GL_BUFFER, buffer.id_, static_cast<GLsizei>(name.size()), name.data());
   buffer.bytes_ = bytes;

@@ -97,35 +97,30 @@ Result<ArithmeticReport> measure_arithmetic(Context& context, const ShaderLibrar
   for (const CanaryOperands& o : operands)
     words.push_back({std::bit_cast<std::uint32_t>(o.a), std::bit_cast<std::uint32_t>(o.b),
                      std::bit_cast<std::uint32_t>(o.c), 0});
-  const auto found = context.programs().compute(library, "compute/canary.comp", defines);
-  if (!found) return found.error();
-  const Program& program = **found;
+  ASPIC_TRY(const auto found, context.programs().compute(library, "compute/canary.comp", defines));
+  const Program& program = *found;
   const auto input =
       Buffer::of(context, "canary operands", std::span<const std::array<std::uint32_t, 4>>(words));
   if (!input) return input.error();
-  const auto output = Buffer::create(context, "canary outcomes", operands.size() * sizeof(Outcome));
-  if (!output) return output.error();
+  ASPIC_TRY(const auto output, Buffer::create(context, "canary outcomes", operands.size() * sizeof(Outcome)));
   const auto count = static_cast<std::uint32_t>(operands.size());
   program.set(0, count);
-  Pass(program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &*output}}, Reader::read_back)
+  Pass(program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &output}}, Reader::read_back)
       .dispatch_for(count);
-  return compare(operands, output->download_items<Outcome>(count));
+  return compare(operands, output.download_items<Outcome>(count));
 }
 
 Result<Arithmetic> choose_arithmetic(Context& context, const ShaderLibrary& library,
                                      std::span<const Define> extra) {
-  auto device = measure_arithmetic(context, library, extra);
-  if (!device) return device.error();
-  Arithmetic choice{*device, std::nullopt, {}};
-  if (!device->division_exact()) choice.defines.push_back({"ASPIC_CORRECT_DIV", "1"});
-  if (!device->sqrt_exact()) choice.defines.push_back({"ASPIC_CORRECT_SQRT", "1"});
+  ASPIC_TRY(auto device, measure_arithmetic(context, library, extra));
+  Arithmetic choice{device, std::nullopt, {}};
+  if (!device.division_exact()) choice.defines.push_back({"ASPIC_CORRECT_DIV", "1"});
+  if (!device.sqrt_exact()) choice.defines.push_back({"ASPIC_CORRECT_SQRT", "1"});
   if (choice.defines.empty()) return choice;
-  if (device->fma_fused) choice.defines.push_back({"ASPIC_FUSED_FMA", "1"});
+  if (device.fma_fused) choice.defines.push_back({"ASPIC_FUSED_FMA", "1"});
   std::vector<Define> both(choice.defines);
   both.insert(both.end(), extra.begin(), extra.end());
-  auto corrected = measure_arithmetic(context, library, both);
-  if (!corrected) return corrected.error();
-  choice.corrected = *corrected;
+  ASPIC_TRY(choice.corrected, measure_arithmetic(context, library, both));
   return choice;
 }
 

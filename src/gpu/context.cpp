@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "base/text.h"
+#include "base/printable.h"
 #include "gpu/program_cache.h"
 
 namespace aspic::gl {

@@ -14,7 +14,6 @@
 
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/text.h"
 #include "gpu/context.h"
 #include "gpu/device_info.h"
 #include "gpu/program_cache.h"
@@ -124,12 +123,11 @@ Result<Choice> choose(const ContextOptions& options) {
   else if (wish == "surfaceless" || wish == "default")
     choice.platform = wish;
   else
-    return Error{
-        ErrorCode::no_device,
-        fmt::format("The environment variable ASPIC_EGL_DEVICE is \"{}\", which names no device. Allowed are "
-                    "automatic, hardware, software, surfaceless, default, or an index of the list that "
-                    "aspic info prints.",
-                    printable_line(wish))};
+    return fail(ErrorCode::no_device,
+                "The environment variable ASPIC_EGL_DEVICE is \"{}\", which names no device. Allowed are "
+                "automatic, hardware, software, surfaceless, default, or an index of the list that "
+                "aspic info prints.",
+                printable_line(wish));
   return choice;
 }
 
@@ -142,11 +140,10 @@ Result<std::vector<Candidate>> candidates(const Choice& choice) {
   if (choice.device == DeviceChoice::index && choice.platform.empty()) {
     const auto i = static_cast<std::size_t>(choice.index);
     if (choice.index < 0 || i >= devices.size())
-      return Error{
-          ErrorCode::no_device,
-          fmt::format("EGL device {} was asked for, but EGL lists {} device{}. Choose an index of the list "
-                      "that aspic info prints.",
-                      choice.index, devices.size(), devices.size() == 1 ? "" : "s")};
+      return fail(ErrorCode::no_device,
+                  "EGL device {} was asked for, but EGL lists {} device{}. Choose an index of the list "
+                  "that aspic info prints.",
+                  choice.index, devices.size(), devices.size() == 1 ? "" : "s");
     add_device(i, Demand::anything);
     return result;
   }
@@ -308,22 +305,19 @@ Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& 
     if (auto context = maker.attempt(candidate, why)) return context;
     tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, why);
   }
-  return Error{
-      ErrorCode::no_device,
-      fmt::format("No usable OpenGL 4.3 core device was found without a display. Tried: {}. Install the "
-                  "graphics card's OpenGL driver with its EGL part, or Mesa's software rasteriser "
-                  "(apt install libegl1 libegl-mesa0 libgl1-mesa-dri), or use --backend reference.",
-                  tried.empty() ? "nothing, EGL offers no platform" : tried)};
+  return fail(ErrorCode::no_device,
+              "No usable OpenGL 4.3 core device was found without a display. Tried: {}. Install the "
+              "graphics card's OpenGL driver with its EGL part, or Mesa's software rasteriser "
+              "(apt install libegl1 libegl-mesa0 libgl1-mesa-dri), or use --backend reference.",
+              tried.empty() ? "nothing, EGL offers no platform" : tried);
 }
 
 Status Context::make_current() {
   if (!context_) return {};
   if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return {};
-  return Error{
-      ErrorCode::no_device,
-      fmt::format(
-          "The OpenGL context on {} cannot be made current ({}). It may be current on another thread.",
-          info_.platform, egl_error())};
+  return fail(ErrorCode::no_device,
+              "The OpenGL context on {} cannot be made current ({}). It may be current on another thread.",
+              info_.platform, egl_error());
 }
 
 Context::~Context() {

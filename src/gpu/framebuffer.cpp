@@ -25,11 +25,11 @@ Result<Framebuffer> Framebuffer::create(Context& context, const Texture* colour,
   }
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
-    return Error{ErrorCode::no_device,
-                 fmt::format("{} cannot draw into an image of {} x {} pixels with {} sample{} (framebuffer "
-                             "status 0x{:04x}).",
-                             context.info().renderer, any.width(), any.height(), any.settings().samples,
-                             any.settings().samples == 1 ? "" : "s", status)};
+    return fail(ErrorCode::no_device,
+                "{} cannot draw into an image of {} x {} pixels with {} sample{} (framebuffer "
+                "status 0x{:04x}).",
+                context.info().renderer, any.width(), any.height(), any.settings().samples,
+                any.settings().samples == 1 ? "" : "s", status);
   return result;
 }
 

@@ -5,10 +5,10 @@
 namespace aspic::gl {
 
 Error loop_error(std::string_view kernel, std::string_view rounds) {
-  return {ErrorCode::no_device,
-          fmt::format("The kernel {} would loop over {} more often than every device guarantees. Make "
-                      "the scene smaller, or use --backend reference.",
-                      kernel, rounds)};
+  return fail(ErrorCode::no_device,
+              "The kernel {} would loop over {} more often than every device guarantees. Make "
+              "the scene smaller, or use --backend reference.",
+              kernel, rounds);
 }
 
 Status check_loop(std::string_view kernel, std::string_view rounds, std::uint64_t count) {

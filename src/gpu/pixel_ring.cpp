@@ -33,10 +33,10 @@ Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   const GLenum error = glGetError();
   if (error != GL_NO_ERROR)
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("{} has no memory to read back pictures of {} x {} pixels (GL error 0x{:04x}). "
-                             "Choose a smaller picture.",
-                             context.info().renderer, width, height, error)};
+    return fail(ErrorCode::scene_rejected,
+                "{} has no memory to read back pictures of {} x {} pixels (GL error 0x{:04x}). "
+                "Choose a smaller picture.",
+                context.info().renderer, width, height, error);
   return ring;
 }
 
@@ -100,9 +100,8 @@ Status PixelRing::take(std::vector<std::byte>& rgb) {
   const auto height = static_cast<std::size_t>(height_);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot]);
   const auto lost = [&] {
-    return Error{
-        ErrorCode::no_device,
-        fmt::format("A picture could not be read back: the device {} was lost.", context_->info().renderer)};
+    return fail(ErrorCode::no_device, "A picture could not be read back: the device {} was lost.",
+                context_->info().renderer);
   };
   const auto* pixels = static_cast<const std::byte*>(
       state == GL_WAIT_FAILED || context_->lost()

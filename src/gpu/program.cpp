@@ -67,8 +67,8 @@ Result<Name> build(Context& context, std::span<const StageSource> stages, std::s
     if (!ok) {
       const std::string log = source.rewrite_log(log_of(shader, glGetShaderiv, glGetShaderInfoLog));
       detach_all();
-      return Error{ErrorCode::no_device, fmt::format("{} does not compile the shader {}:\n{}",
-                                                     context.info().renderer, source.path(), log)};
+      return fail(ErrorCode::no_device, "{} does not compile the shader {}:\n{}", context.info().renderer,
+                  source.path(), log);
     }
     names += fmt::format("{}{}", names.empty() ? "" : " with ", source.path());
   }
@@ -83,18 +83,16 @@ Result<Name> build(Context& context, std::span<const StageSource> stages, std::s
   }
   // With several stages a line number does not say whose it is, so only a lone stage's log is translated.
   const std::string log = log_of(program, glGetProgramiv, glGetProgramInfoLog);
-  return Error{ErrorCode::no_device,
-               fmt::format("{} does not link the shader {}:\n{}", context.info().renderer, names,
-                           stages.size() == 1 ? stages[0].source.rewrite_log(log) : log)};
+  return fail(ErrorCode::no_device, "{} does not link the shader {}:\n{}", context.info().renderer, names,
+              stages.size() == 1 ? stages[0].source.rewrite_log(log) : log);
 }
 
 }  // namespace
 
 Result<Program> Program::compute(Context& context, const ShaderLibrary& library, std::string_view path,
                                  std::span<const Define> defines) {
-  const auto source = library.flatten(path, defines);
-  if (!source) return source.error();
-  return compute(context, *source);
+  ASPIC_TRY(const auto source, library.flatten(path, defines));
+  return compute(context, source);
 }
 
 Result<Program> Program::compute(Context& context, const FlatShader& source) {
@@ -105,11 +103,10 @@ Result<Program> Program::compute(Context& context, const FlatShader& source) {
   ASPIC_TRY(program.name_, build(context, std::span(&stage, 1), source.path()));
   const std::vector<std::string> blocks = storage_blocks(program.id());
   if (blocks.size() > max_storage_blocks)
-    return Error{
-        ErrorCode::no_device,
-        fmt::format("The shader {} uses {} storage blocks ({}), but OpenGL 4.3 guarantees {}. Put some of "
-                    "them into one block.",
-                    source.path(), blocks.size(), fmt::join(blocks, ", "), max_storage_blocks)};
+    return fail(ErrorCode::no_device,
+                "The shader {} uses {} storage blocks ({}), but OpenGL 4.3 guarantees {}. Put some of "
+                "them into one block.",
+                source.path(), blocks.size(), fmt::join(blocks, ", "), max_storage_blocks);
   GLint size[3] = {};
   glGetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, size);
   for (std::size_t i = 0; i < 3; ++i) program.group_size_[i] = static_cast<std::uint32_t>(size[i]);
@@ -123,19 +120,18 @@ Result<Program> Program::graphics(Context& context, const ShaderLibrary& library
        {std::pair{GL_VERTEX_SHADER, stages.vertex}, std::pair{GL_FRAGMENT_SHADER, stages.fragment},
         std::pair{GL_GEOMETRY_SHADER, stages.geometry}}) {
     if (path.empty()) continue;
-    auto source = library.flatten(path, defines);
-    if (!source) return source.error();
-    sources.push_back({static_cast<GLenum>(kind), std::move(*source)});
+    ASPIC_TRY(auto source, library.flatten(path, defines));
+    sources.push_back({static_cast<GLenum>(kind), std::move(source)});
   }
   Program program;
   program.path_ = stages.fragment;
   program.context_ = &context;
   ASPIC_TRY(program.name_, build(context, sources, stages.fragment));
   if (const auto blocks = storage_blocks(program.id()); !blocks.empty())
-    return Error{ErrorCode::no_device,
-                 fmt::format("The shader {} with {} uses storage blocks ({}), but OpenGL 4.3 guarantees none "
-                             "while drawing. Pass the data as vertex attributes or a uniform block.",
-                             stages.vertex, stages.fragment, fmt::join(blocks, ", "))};
+    return fail(ErrorCode::no_device,
+                "The shader {} with {} uses storage blocks ({}), but OpenGL 4.3 guarantees none "
+                "while drawing. Pass the data as vertex attributes or a uniform block.",
+                stages.vertex, stages.fragment, fmt::join(blocks, ", "));
   return program;
 }
 

@@ -44,16 +44,16 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (settings.width < 1 || settings.height < 1 || settings.width > largest || settings.height > largest)
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("The image \"{}\" of {} x {} pixels cannot be made: {} takes 1 to {} along each "
-                             "side. Choose another picture size.",
-                             name, settings.width, settings.height, context.info().renderer, largest)};
+    return fail(ErrorCode::scene_rejected,
+                "The image \"{}\" of {} x {} pixels cannot be made: {} takes 1 to {} along each "
+                "side. Choose another picture size.",
+                name, settings.width, settings.height, context.info().renderer, largest);
   if (settings.samples > 1) {
     GLint most = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     if (settings.samples > most)
-      return Error{ErrorCode::no_device, fmt::format("{} takes at most {} samples per pixel, not {}.",
-                                                     context.info().renderer, most, settings.samples)};
+      return fail(ErrorCode::no_device, "{} takes at most {} samples per pixel, not {}.",
+                  context.info().renderer, most, settings.samples);
   }
   context.forget_errors();
   Texture texture;
@@ -80,11 +80,11 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
   const GLenum error = context.strikes(Fault::out_of_memory) ? GL_OUT_OF_MEMORY : glGetError();
   if (error != GL_NO_ERROR && context.lost()) return context.lost_error();
   if (error != GL_NO_ERROR)
-    return Error{ErrorCode::scene_rejected,
-                 fmt::format("{} has no memory for the image \"{}\" of {} x {} pixels with {} sample{} (GL "
-                             "error 0x{:04x}). Choose a smaller picture.",
-                             context.info().renderer, name, settings.width, settings.height, settings.samples,
-                             settings.samples == 1 ? "" : "s", error)};
+    return fail(ErrorCode::scene_rejected,
+                "{} has no memory for the image \"{}\" of {} x {} pixels with {} sample{} (GL "
+                "error 0x{:04x}). Choose a smaller picture.",
+                context.info().renderer, name, settings.width, settings.height, settings.samples,
+                settings.samples == 1 ? "" : "s", error);
   if (context.info().debug && !name.empty())
     glObjectLabel(GL_TEXTURE, id, static_cast<GLsizei>(name.size()), name.data());
   return texture;

@@ -135,8 +135,18 @@ void AtomicFile::discard() noexcept {
   forget_temporary(std::exchange(slot_, -1));
 }
 
+Error AtomicFile::give_up(int reason) {
+  discard();
+  return file_error("write", path_, reason);
+}
+
+Status AtomicFile::require_open() const {
+  if (descriptor_ >= 0) return {};
+  return fail(ErrorCode::io, "{} was discarded after an earlier error.", path_);
+}
+
 Status AtomicFile::write(std::string_view text) {
-  if (descriptor_ < 0) return fail(ErrorCode::io, "{} was discarded after an earlier error.", path_);
+  ASPIC_CHECK(require_open());
   buffer_ += text;
   return buffer_.size() >= buffer_size ? flush() : Status{};
 }
@@ -147,9 +157,7 @@ Status AtomicFile::flush() {
     if (written >= 0) {
       done += static_cast<std::size_t>(written);
     } else if (errno != EINTR) {
-      const Error error = file_error("write", path_, errno);
-      discard();
-      return error;
+      return give_up(errno);
     }
   }
   buffer_.clear();
@@ -172,19 +180,11 @@ Status AtomicFile::give_final_name() {
 }
 
 Status AtomicFile::commit() {
-  if (descriptor_ < 0) return fail(ErrorCode::io, "{} was discarded after an earlier error.", path_);
+  ASPIC_CHECK(require_open());
   ASPIC_CHECK(flush());
   const bool device = temporary_.empty();
-  if (!device && ::fsync(descriptor_) != 0) {
-    const Error error = file_error("write", path_, errno);
-    discard();
-    return error;
-  }
-  if (::close(std::exchange(descriptor_, -1)) != 0) {
-    const Error error = file_error("write", path_, errno);
-    discard();
-    return error;
-  }
+  if (!device && ::fsync(descriptor_) != 0) return give_up(errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) return give_up(errno);
   if (device) return {};
   if (const Status named = give_final_name(); !named) {
     discard();

@@ -48,6 +48,8 @@ class AtomicFile {
   Status flush();
   Status give_final_name();
   void discard() noexcept;
+  Error give_up(int reason);
+  Status require_open() const;
 
   std::string path_;       ///< as the user gave it
   std::string target_;     ///< the same with symbolic links followed

@@ -6,9 +6,6 @@
 #include <cctype>
 #include <vector>
 
-#include "io/frame_directory.h"
-#include "io/video_file.h"
-
 namespace aspic {
 namespace {
 

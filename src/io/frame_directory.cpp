@@ -1,5 +1,3 @@
-#include "io/frame_directory.h"
-
 #include <fmt/format.h>
 #include <stb_image_write.h>
 #include <sys/stat.h>
@@ -11,6 +9,8 @@
 #include <cerrno>
 #include <filesystem>
 #include <vector>
+
+#include "io/film_format.h"
 
 namespace aspic {
 namespace {

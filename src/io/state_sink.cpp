@@ -30,8 +30,7 @@ class StateFiles final : public StateSink {
                                                  Overwrite overwrite, const RunFacts&) {
     auto sink = std::make_unique<StateFiles>(path, every, overwrite, Writer);
     if (every == 0) {
-      ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
-      sink->file_ = std::move(file);
+      ASPIC_TRY(sink->file_, AtomicFile::create(path, overwrite));
     }
     return std::unique_ptr<StateSink>(std::move(sink));
   }
@@ -48,9 +47,7 @@ class StateFiles final : public StateSink {
   Status write(const Sample& sample) {
     if (last_step_ == sample.state.step) return {};
     if (every() > 0) {
-      ASPIC_TRY(auto file,
-                AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
-      file_ = std::move(file);
+      ASPIC_TRY(file_, AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
     }
     last_step_ = sample.state.step;
     ASPIC_CHECK(writer_(*file_, sample));
@@ -110,8 +107,7 @@ class CheckpointFile final : public StateSink {
   Status write(const Sample& sample) {
     if (written_) {
       // What is there now is our own.
-      ASPIC_TRY(auto file, AtomicFile::create(path(), Overwrite::allow));
-      file_ = std::move(file);
+      ASPIC_TRY(file_, AtomicFile::create(path(), Overwrite::allow));
     }
     const Checkpoint checkpoint = {ASPIC_VERSION, scene_toml_, sample.model.simulation.timestep,
                                    sample.state};
@@ -139,7 +135,8 @@ constexpr StateFormat table[] = {
     {"series", ".csv", "CSV", "write energies and momentum over time",
      "steps between rows of the series; default 1", 1, true, false, Series::open},
     {"checkpoint", ".aspic", "a checkpoint", "write scene and final state, to resume from,",
-     "steps between checkpoints, each replacing the previous one", 0, false, true, CheckpointFile::open},
+     "steps between checkpoints, each replacing the previous one", 0, false, true,
+     CheckpointFile::open},
 };
 
 }  // namespace

@@ -1,10 +1,9 @@
-#include "io/video_file.h"
-
 #include <fmt/format.h>
 
 #include <optional>
 
 #include "io/child_process.h"
+#include "io/film_format.h"
 
 namespace aspic {
 namespace {

@@ -31,14 +31,13 @@ std::array<float, 4> four(const Vec3& v, float w) {
 Result<std::unique_ptr<HighlightPainter>> HighlightPainter::create(gl::Context& context,
                                                                    const gl::ShaderLibrary& library) {
   std::unique_ptr<HighlightPainter> p(new HighlightPainter(context));
-  auto marks = gl::Program::graphics(context, library,
-                                     {"render/particles.vert", "render/marks.frag", "render/marks.geom"});
-  if (!marks) return marks.error();
-  p->marks_ = std::move(*marks);
-  auto pull = gl::Program::graphics(context, library,
-                                    {"render/particles.vert", "render/marks.frag", "render/pull.geom"});
-  if (!pull) return pull.error();
-  p->pull_ = std::move(*pull);
+  ASPIC_TRY(auto marks,
+            gl::Program::graphics(context, library,
+                                  {"render/particles.vert", "render/marks.frag", "render/marks.geom"}));
+  p->marks_ = std::move(marks);
+  ASPIC_TRY(p->pull_,
+            gl::Program::graphics(context, library,
+                                  {"render/particles.vert", "render/marks.frag", "render/pull.geom"}));
   auto frame =
       gl::Buffer::create(context, "marks' frame", sizeof(render_layout::Frame), gl::BufferKind::uniform);
   if (!frame) return frame.error();
@@ -48,9 +47,7 @@ Result<std::unique_ptr<HighlightPainter>> HighlightPainter::create(gl::Context& 
 
 Status HighlightPainter::list(const std::vector<std::uint32_t>& marked) {
   if (marked == listed_) return {};
-  auto made = gl::Buffer::of(*context_, "marked particles", std::span<const std::uint32_t>(marked));
-  if (!made) return made.error();
-  list_ = std::move(*made);
+  ASPIC_TRY(list_, gl::Buffer::of(*context_, "marked particles", std::span<const std::uint32_t>(marked)));
   listed_ = marked;
   return {};
 }

@@ -29,22 +29,21 @@ constexpr float glyph_shape = 0.0f, panel_shape = 1.0f, scale_shape = 2.0f;
 
 Result<OverlayPainter> OverlayPainter::create(gl::Context& context, const gl::ShaderLibrary& library) {
   OverlayPainter painter(context);
-  auto program = gl::Program::graphics(context, library,
-                                       {.vertex = "render/overlay.vert", .fragment = "render/overlay.frag"});
-  if (!program) return program.error();
-  painter.program_ = std::move(*program);
+  ASPIC_TRY(painter.program_,
+            gl::Program::graphics(context, library,
+                                  {.vertex = "render/overlay.vert", .fragment = "render/overlay.frag"}));
   return painter;
 }
 
 Status OverlayPainter::prepare_font(int pixel_height) {
   if (font_ && font_->pixel_height() == pixel_height) return {};
   auto font = std::make_unique<Font>(pixel_height);
-  auto texture = gl::Texture::create(
-      *context_, "glyphs",
-      {.format = gl::TexelFormat::r8, .width = font->atlas_width(), .height = font->atlas_height()});
-  if (!texture) return texture.error();
-  texture->upload(font->atlas());
-  glyphs_ = std::move(*texture);
+  ASPIC_TRY(auto texture, gl::Texture::create(*context_, "glyphs",
+                                              {.format = gl::TexelFormat::r8,
+                                               .width = font->atlas_width(),
+                                               .height = font->atlas_height()}));
+  texture.upload(font->atlas());
+  glyphs_ = std::move(texture);
   font_ = std::move(font);
   return {};
 }
@@ -145,8 +144,7 @@ Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<Ov
                             const Legend& legend) {
   if (lines.empty() && legend.empty()) return {};
   const int wanted = static_cast<int>(std::lround(picture.height() / 42.0));
-  const Status font = prepare_font(std::clamp(wanted, 11, 256));
-  if (!font) return font;
+  ASPIC_CHECK(prepare_font(std::clamp(wanted, 11, 256)));
   pending_.clear();
   if (!lines.empty()) facts(lines);
   if (!legend.empty())
@@ -154,9 +152,7 @@ Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<Ov
 
   const std::uint64_t bytes = pending_.size() * sizeof(Vertex);
   if (vertices_.bytes() < bytes) {
-    auto buffer = gl::Buffer::create(*context_, "overlay", 2 * bytes);
-    if (!buffer) return buffer.error();
-    vertices_ = std::move(*buffer);
+    ASPIC_TRY(vertices_, gl::Buffer::create(*context_, "overlay", 2 * bytes));
   }
   vertices_.upload_items(std::span<const Vertex>(pending_));
   const gl::Attribute attributes[] = {{0, &vertices_, 4, sizeof(Vertex), 0},

@@ -7,20 +7,16 @@ namespace aspic {
 Result<DrawableImage> DrawableImage::create(gl::Context& context, const std::string& name,
                                             const gl::TextureSettings& settings, bool with_depth) {
   DrawableImage image;
-  auto colour = gl::Texture::create(context, name, settings);
-  if (!colour) return colour.error();
-  image.colour = std::move(*colour);
+  ASPIC_TRY(auto colour, gl::Texture::create(context, name, settings));
+  image.colour = std::move(colour);
   if (with_depth) {
     gl::TextureSettings depth = settings;
     depth.format = gl::TexelFormat::depth32f;
     depth.mipmaps = false;
-    auto made = gl::Texture::create(context, name + " depth", depth);
-    if (!made) return made.error();
-    image.depth = std::move(*made);
+    ASPIC_TRY(image.depth, gl::Texture::create(context, name + " depth", depth));
   }
-  auto framebuffer = gl::Framebuffer::create(context, &image.colour, with_depth ? &image.depth : nullptr);
-  if (!framebuffer) return framebuffer.error();
-  image.framebuffer = std::move(*framebuffer);
+  ASPIC_TRY(image.framebuffer,
+            gl::Framebuffer::create(context, &image.colour, with_depth ? &image.depth : nullptr));
   return image;
 }
 

@@ -7,7 +7,6 @@
 
 #include "base/memory.h"
 #include "base/printable.h"
-#include "base/text.h"
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
 
@@ -20,8 +19,7 @@ Result<Backend> make_gpu(const Model& model, const BackendChoice& choice, const 
   Backend backend;
   gl::Context* context = host.context;
   if (context == nullptr) {
-    ASPIC_TRY(auto made, gl::Context::create_headless());
-    backend.context = std::move(made);
+    ASPIC_TRY(backend.context, gl::Context::create_headless());
     context = backend.context.get();
   }
   ASPIC_TRY(auto directory, shader_directory());
@@ -237,8 +235,7 @@ Result<ForcePath> parse_force_path(std::string_view word) {
 Result<BackendChoice> parse_backend(std::string_view text) {
   BackendChoice choice;
   const std::size_t colon = text.find(':');
-  ASPIC_TRY(const auto row, parse_backend_name(text.substr(0, colon)));
-  choice.row = row;
+  ASPIC_TRY(choice.row, parse_backend_name(text.substr(0, colon)));
   while (text.find(':') != std::string_view::npos) {
     text.remove_prefix(text.find(':') + 1);
     const std::string_view word = text.substr(0, text.find(':'));

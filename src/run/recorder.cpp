@@ -47,12 +47,10 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
   ASPIC_TRY(const auto directory, shader_directory());
   RendererOptions look;
   look.shaders = gl::ShaderLibrary(directory);
-  ASPIC_TRY(auto renderer, Renderer::create(*r->context_, look));
-  r->renderer_ = std::move(renderer);
+  ASPIC_TRY(r->renderer_, Renderer::create(*r->context_, look));
   ASPIC_CHECK(r->renderer_->set_model(model));
   FilmOptions film = {sinks.front()->path(), fps, output.size};
-  ASPIC_TRY(auto recording, Recording::start(*r->context_, std::move(sinks), std::move(film)));
-  r->recording_ = std::move(recording);
+  ASPIC_TRY(r->recording_, Recording::start(*r->context_, std::move(sinks), std::move(film)));
   return r;
 }
 
@@ -88,8 +86,7 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
     drawn_state = backend_.gpu->device_state();
   } else {
     ASPIC_TRY(const auto state, solver.state());
-    ASPIC_TRY(const auto uploaded, renderer_->upload(state));
-    drawn_state = uploaded;
+    ASPIC_TRY(drawn_state, renderer_->upload(state));
   }
   PictureOptions picture;
   picture.view = scene_.view;
@@ -97,8 +94,7 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   if (output_.text)
     picture.text =
         overlay_lines(scene_.model, static_cast<double>(step) * solver.model().simulation.timestep);
-  const Status drawn = renderer_->draw(output_.size.width, output_.size.height, drawn_state, picture);
-  if (!drawn) return drawn;
+  ASPIC_CHECK(renderer_->draw(output_.size.width, output_.size.height, drawn_state, picture));
   draw_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   last_shown_ = step;
   return recording_->add(renderer_->picture(), copies);

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <string>
 
-#include "scene/nesting.h"
-
 namespace aspic::document {
 namespace {
 

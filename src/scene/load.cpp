@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/embedded_file.h"
 #include "base/files.h"
 #include "base/printable.h"
 #include "scene/diagnostics.h"
@@ -13,6 +14,9 @@
 #include "scene/reader.h"
 
 namespace aspic {
+
+std::span<const EmbeddedFile> builtin_scene_files();  // generated
+
 namespace {
 
 /// Far beyond any scene: keeps a device or a wrong file from filling the memory.
@@ -32,6 +36,15 @@ Result<Scene> with_arguments(reader::Reader reader, std::vector<diagnostics::Sou
   auto problems = reader.problems(limits.memory_bytes ? limits.memory_bytes : available_memory());
   if (!problems.empty()) return diagnostics::rejection(sources, std::move(problems));
   return std::move(reader.scene());
+}
+
+constexpr std::string_view ending = ".toml";
+
+/// The text of the first comment line.
+std::string_view first_comment(std::string_view text) {
+  std::string_view line = text.substr(0, text.find('\n'));
+  const std::size_t start = line.find_first_not_of("# ");
+  return start == std::string_view::npos ? std::string_view{} : line.substr(start);
 }
 
 }  // namespace
@@ -71,6 +84,18 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
   }
   ASPIC_TRY(auto text, read_file(file_or_builtin, largest_file));
   return parse_scene(text, file_or_builtin, overrides, limits);
+}
+
+std::vector<BuiltinScene> list_builtin_scenes() {
+  std::vector<BuiltinScene> scenes;
+  for (const EmbeddedFile& file : builtin_scene_files()) {
+    scenes.push_back({file.name.substr(0, file.name.size() - ending.size()), first_comment(file.text)});
+  }
+  return scenes;
+}
+
+std::optional<std::string_view> builtin_scene_text(std::string_view name) {
+  return find_embedded(builtin_scene_files(), std::string(name).append(ending));
 }
 
 }  // namespace aspic

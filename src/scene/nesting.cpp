@@ -1,6 +1,6 @@
-#include "scene/nesting.h"
-
 #include <fmt/format.h>
+
+#include "scene/document.h"
 
 namespace aspic::document {
 namespace {

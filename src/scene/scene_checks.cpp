@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "base/text.h"
+#include "base/printable.h"
 #include "model/bodies.h"
 #include "scene/diagnostics.h"
 

@@ -53,8 +53,7 @@ Result<Depth> depth_without_ground(const Subject& subject, const Model& model, s
       worst.share = std::max(worst.share, (depth - rounding) / reach);
       worst.metres = std::max(worst.metres, depth);
     }
-    ASPIC_TRY(auto next, run(*solver, 1));
-    now = std::move(next);
+    ASPIC_TRY(now, run(*solver, 1));
   }
   return worst;
 }

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "app/stage.h"
-#include "io/frame_directory.h"
+#include "io/film_format.h"
 #include "render/camera.h"
 
 namespace aspic::test {

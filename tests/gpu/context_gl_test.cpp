@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "base/text.h"
+#include "base/printable.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "support/gl_fixture.h"

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "io/interrupt.h"
+#include "io/program.h"
 #include "support/temporary_directory.h"
 
 namespace aspic {

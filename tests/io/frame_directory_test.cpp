@@ -1,8 +1,7 @@
-#include "io/frame_directory.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/film_format.h"
 #include "support/temporary_directory.h"
 
 namespace aspic {
