@@ -154,19 +154,11 @@ void shown_springs(Gui& gui, SceneControl& scene) {
     // Large text needs more lines.
     if (end + width < ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
     end = ImGui::GetCursorPosX() + width;
-    bool on = std::ranges::find(words, type) != words.end();
-    const bool toggled = ImGui::Checkbox(std::string(type).c_str(), &on);
-    gui.mark("springs/show/{}", type);
-    tooltip(fmt::format(
-        "Whether {} springs are in the picture. Their colours are chosen under View.\n\nScene key: "
-        "view.draw",
-        type));
-    if (!toggled) continue;
-    if (on)
-      words.emplace_back(type);
-    else
-      std::erase(words, type);
-    scene.set_value(p, 0, Value(words));
+    const std::string help = fmt::format(
+        "Whether {} springs are in the picture. Their colours are chosen under View.\n\nScene key: view.draw",
+        type);
+    if (check_box(gui, type, words, fmt::format("springs/show/{}", type), help))
+      scene.set_value(p, 0, Value(words));
   }
 }
 
@@ -180,8 +172,7 @@ void kind_of_springs(Gui& gui, SceneControl& scene, std::size_t cube) {
   gui.mark("springs/{}/kind", cube);
   tooltip(
       "Stiffness and damping of each type of spring and the mass of a particle; or a material, which means "
-      "the "
-      "same jelly at every resolution.\n\nScene key: cube[].material");
+      "the same jelly at every resolution.\n\nScene key: cube[].material");
   if (!chosen || (kind == 1) == settings.material.has_value()) return;
   Scene changed = scene.scene();
   CubeSettings& c = changed.model.cubes[cube];

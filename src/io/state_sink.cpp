@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -140,9 +139,9 @@ constexpr StateFormat table[] = {
     {"state", ".vtp", "VTK PolyData", state_summary, state_every, 0, false, false,
      StateFiles::open<write_vtp>},
     {"series", ".csv", "CSV", "write energies and momentum over time",
-     "steps between rows of the series, 1 if left out", 1, true, false, Series::open},
+     "steps between rows of the series; default 1", 1, true, false, Series::open},
     {"checkpoint", ".aspic", "a checkpoint", "write scene and final state, to resume from,",
-     "steps between checkpoints, each of which replaces the one before", 0, false, true,
+     "steps between checkpoints, each replacing the previous one", 0, false, true,
      CheckpointFile::open},
 };
 
