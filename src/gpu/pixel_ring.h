@@ -24,8 +24,6 @@ class PixelRing {
   ~PixelRing();
   PixelRing(PixelRing&& other) noexcept;
   PixelRing& operator=(PixelRing&& other) noexcept;
-  PixelRing(const PixelRing&) = delete;
-  PixelRing& operator=(const PixelRing&) = delete;
 
   bool full() const { return pending_ == capacity; }
   std::size_t pending() const { return pending_; }
