@@ -235,7 +235,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add_outputs(c, run.outputs);
   add_pictures(c, run, raw);
   add(c, "--resume", "FILE", run.resume_file,
-      "go on from a checkpoint; --steps and --duration count from its start");
+      "continue from a checkpoint; --steps and --duration count from its start");
   c->add_flag("--force", run.force, "overwrite files");
   add_json(c, run.json, "summary on stdout as JSON");
   return c;
@@ -244,21 +244,21 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
 CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
   CLI::App* c = add_command(app, "view", "Show a scene in a window", view_examples);
   add(c, "scene", "SCENE", view.scene, "scene file or built-in name");
-  add(c, "--backend", "NAME", raw.backend, backend_words() + "; G changes it in the window");
+  add(c, "--backend", "NAME", raw.backend, backend_words() + "; G switches it in the window");
   add_overrides(c, view.overrides);
-  add(c, "--size", "WxH", raw.window_size, "size of the window; as it was last left, if absent");
+  add(c, "--size", "WxH", raw.window_size, "size of the window; default: its last size");
   return c;
 }
 
 CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
   CLI::App* c = add_command(app, "compare", "Run two backends side by side, step by step", compare_examples);
   add(c, "scene", "SCENE", compare.scene, "scene file or built-in name")->required();
-  c->add_option("--backends", raw.backends, "the two, options after colons: gpu:per-spring,reference:double")
+  c->add_option("--backends", raw.backends, "the two backends, options after colons: gpu:per-spring,reference:double")
       ->delimiter(',')
       ->expected(2)
       ->type_name("A,B")
       ->capture_default_str();
-  add(c, "--force-path", "NAME", raw.force_path, "force path of gpu backends that name none");
+  add(c, "--force-path", "NAME", raw.force_path, "force path of gpu backends without their own");
   add_length(c, compare.length);
   add_overrides(c, compare.overrides);
   add(c, "--tolerance", "T", compare.tolerance,
@@ -273,7 +273,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
   add(c, "scene", "SCENE", bench.scene, "scene file or built-in name");
   add(c, "--backend", "NAME", raw.bench_backends,
       "auto, gpu, gpu:per-spring, reference, reference:double; repeatable");
-  add(c, "--force-path", "NAME", raw.bench_force_paths, "of gpu backends that name none; repeatable");
+  add(c, "--force-path", "NAME", raw.bench_force_paths, "of gpu backends without their own; repeatable");
   add(c, "--size", "N", bench.sizes, "particles per edge of the scene's cubes; repeatable", most_of_int);
   add(c, "--integrator", "NAME", raw.bench_integrators, "instead of the scene's; repeatable");
   add(c, "--timestep", "WORD", raw.bench_timestep,
@@ -290,10 +290,10 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
 CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
   CLI::App* c = add_command(
       app, "verify", "Check physics and equivalence on this machine, as a table of figures", verify_examples);
-  c->add_flag("--quick", verify.quick, "only checks that are done in seconds");
+  c->add_flag("--quick", verify.quick, "only checks that take seconds");
   add(c, "--only", "NAME", verify.only, "one check or group, e.g. order or rest/midpoint; repeatable");
   c->add_flag("--require-gpu", verify.require_gpu,
-              "fail where a check finds no GL device, instead of leaving it out");
+              "fail if a check finds no GL device, instead of skipping it");
   add_json(c, verify.json, "the table on stdout as JSON");
   return c;
 }
@@ -305,7 +305,7 @@ std::array<CLI::App*, 4> add_scene(CLI::App& app, SceneListOptions& list, SceneS
   scene->require_subcommand(1);
   CLI::App* c = add_command(*scene, "list", "The built-in scenes");
   add_json(c, list.json, "as JSON");
-  CLI::App* s = add_command(*scene, "show", "Print a scene as complete TOML, every default spelt out");
+  CLI::App* s = add_command(*scene, "show", "Print a scene as complete TOML, with every default");
   add(s, "scene", "SCENE", show.scene, "scene file or built-in name")->required();
   add_overrides(s, show.overrides);
   CLI::App* k = add_command(*scene, "check", "Counts, memory and stable time steps of a scene");

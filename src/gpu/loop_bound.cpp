@@ -6,7 +6,7 @@ namespace aspic::gl {
 
 Error loop_error(std::string_view kernel, std::string_view rounds) {
   return fail(ErrorCode::no_device,
-              "The kernel {} would have to loop over {} more often than every device is sure to do. Make "
+              "The kernel {} would loop over {} more often than every device guarantees. Make "
               "the scene smaller, or use --backend reference.",
               kernel, rounds);
 }

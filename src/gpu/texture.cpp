@@ -60,8 +60,8 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
                               GL_TRUE);
   } else {
     const auto side = static_cast<unsigned>(std::max(settings.width, settings.height));
-    glTexStorage2D(target, settings.mipmaps ? std::bit_width(side) : 1, storage.internal, settings.width,
-                   settings.height);
+    glTexStorage2D(target, settings.mipmaps ? static_cast<GLsizei>(std::bit_width(side)) : 1,
+                   storage.internal, settings.width, settings.height);
     const GLint wrap = settings.wrap == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
     glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
     glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);

@@ -201,6 +201,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
   std::vector<gl::Define> defines = kernels.defines;
   if (implicit_) defines.push_back({"ASPIC_IMPLICIT", "1"});
   if (grid_) defines.push_back({"ASPIC_BALL_GRID", "1"});
+  static_assert(BINDING_SOLVE == BINDING_CONTROL, "one place for either");
   for (std::size_t k = 0; k < kernel_count; ++k) {
     if (!wanted(static_cast<Kernel>(k))) continue;
     const std::vector<Binding> bindings = {
@@ -210,7 +211,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
         {BINDING_BALL_TOUCHES, &touches_},
         {BINDING_BALL_GRID, &grid_words_},
         {BINDING_BALL_WORK, &work_},
-        {implicit_ ? std::uint32_t{BINDING_SOLVE} : std::uint32_t{BINDING_CONTROL}, surroundings.control}};
+        {BINDING_CONTROL, surroundings.control}};
     ASPIC_TRY(programs_[k], context.programs().compute(kernels.library, kernel_rows[k].path, defines));
     passes_[k].emplace(*programs_[k], bindings, Reader::compute_pass);
   }

@@ -72,14 +72,14 @@ Result<std::string> encode_png(const PictureSize& size, std::span<const std::byt
 Result<std::string> encode_jpeg(const PictureSize& size, std::span<const std::byte> rgb);
 
 /// A sink of files frame-000000.png, … in `directory`, which is made if its parent exists. Every file appears
-/// whole or not at all. Errors (io): the directory cannot be made or written to; it has frame-… pictures
+/// complete or not at all. Errors (io): the directory cannot be made or written to; it has frame-… pictures
 /// already and `overwrite` is refuse. With allow, those are removed first, so that pictures of two runs never
-/// stand side by side.
+/// exist side by side.
 Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& directory,
                                                         const FilmFormat& format, const PictureSize& size,
                                                         Overwrite overwrite);
 
-/// A sink that pipes pictures to ffmpeg, which writes to a temporary file beside `path`; it gets its name
+/// A sink that pipes pictures to ffmpeg, which writes to a temporary file next to `path`; it gets its name
 /// when ffmpeg has ended well. The format is a video's. Errors (io): the file exists, its place cannot be
 /// written, it is no file, or ffmpeg is missing, which names the Debian package.
 Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const FilmFormat& format,

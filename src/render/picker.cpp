@@ -37,7 +37,7 @@ Vec3 point_at(const render_layout::Frame& frame, int column, int row, int side, 
 }  // namespace
 
 Result<std::unique_ptr<Picker>> Picker::create(gl::Context& context, const gl::ShaderLibrary& library) {
-  std::unique_ptr<Picker> p(new Picker(context));
+  std::unique_ptr<Picker> p(new Picker);
   Status status;
   const auto program = [&](gl::Program& into, const gl::GraphicsStages& stages) {
     if (!status) return;
@@ -180,7 +180,8 @@ void Picker::read(Slot& slot) {
   int nearest = pick_reach * pick_reach;
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
-      const Word& word = words[static_cast<std::size_t>(row * side + column)];
+      const Word& word =
+          words[static_cast<std::size_t>(row) * std::size_t{side} + static_cast<std::size_t>(column)];
       const std::uint32_t kind = word.identity >> PICK_KIND_SHIFT;
       const int right = column - pick_reach, up = row - pick_reach;
       const int off = right * right + up * up;

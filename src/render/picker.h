@@ -74,13 +74,12 @@ class Picker {
     std::uint64_t request = 0;
     render_layout::Frame frame = {};
   };
-  explicit Picker(gl::Context& context) : context_(&context) {}
+  Picker() = default;
   void draw_image(const Model& model, const ModelBuffers& buffers, const DeviceState& state,
                   const DrawSettings& draw) const;
   void draw_terrain(const Model& model) const;
   void read(Slot& slot);
 
-  gl::Context* context_;
   gl::Program surface_, particles_, balls_, terrain_;
   gl::Buffer frame_;
   gl::VertexArray nothing_;

@@ -98,9 +98,9 @@ std::vector<Parameter> cloth_rows() {
               "Axis through the centre about which the cloth is turned out of the x–y plane; its length does "
               "not matter."))),
       fixed(row("cloth[].rotation.angle", "°", {-36000.0, 36000.0}, FIELD(model.cloths[i].rotation.angle),
-                "Angle of that turn, right-handed.")),
+                "Rotation angle, right-handed.")),
       fixed(row("cloth[].velocity", "m/s", within(divergence_speed), FIELD(model.cloths[i].velocity),
-                "Velocity of the particles that are not pinned at the start.")),
+                "Initial velocity of the particles that are not pinned.")),
       row("cloth[].particle-mass", "kg", {0.0, heaviest, true}, FIELD(model.cloths[i].particle_mass),
           "Mass m of each particle."),
       row("cloth[].structural.stiffness", "N/m", stiffness, FIELD(model.cloths[i].structural.stiffness),

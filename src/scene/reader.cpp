@@ -211,13 +211,16 @@ void Reader::read_parameter(const Parameter& p, const toml::node& node, std::siz
   const Converted result = converted(p, node);
   if (const auto* wrong = std::get_if<WrongType>(&result)) {
     written.problem = {position_of(wrong->culprit->source(), written.value.source), wrong->message};
-  } else if (const Value& value = std::get<Value>(result); p.type == ParameterType::pinned) {
-    p.set(scene_, index, value);  // checked with the size of its body
-  } else if (const auto complaint = check_value(p, value)) {
-    written.problem = {complaint->element ? written.elements[*complaint->element] : written.value,
-                       complaint->message};
   } else {
-    p.set(scene_, index, value);
+    const Value& value = std::get<Value>(result);
+    // Pinned particles are checked with the size of their body.
+    const auto complaint = p.type == ParameterType::pinned ? std::nullopt : check_value(p, value);
+    if (complaint) {
+      written.problem = {complaint->element ? written.elements[*complaint->element] : written.value,
+                         complaint->message};
+    } else {
+      p.set(scene_, index, value);
+    }
   }
   // What was written wrong was written: a shape that has no such key complains about that too.
   if (written.problem && p.belonging == Belonging::geometry) p.set(scene_, index, some_geometry(p));

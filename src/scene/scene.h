@@ -10,7 +10,7 @@ namespace aspic {
 /// Physics and picture of one scene. Default-constructed it has no terrain and no bodies, as an empty file
 /// would.
 struct Scene {
-  std::string name;  ///< for titles and reports; the file's name without ending if the file gives none
+  std::string name;  ///< for titles and reports; the file's name without extension if the file gives none
   ModelSettings model;
   ViewSettings view;
 };

@@ -160,7 +160,7 @@ Result<Finding> spring_force(const Subject& subject) {
   double worst = 0.0;
   for (int i = 0; i < pairs; ++i) {
     // The end at rest: v' = h·f exactly, so f = v'/h.
-    const auto a = static_cast<std::size_t>(2 * i), b = a + 1;
+    const auto a = 2 * static_cast<std::size_t>(i), b = a + 1;
     const Vec3 read = (1 / model.simulation.timestep) * end.velocity[b];
     const double L = length(start.position[a] - start.position[b]);
     const double scale = 2000.0 * (L + 0.5) + 60.0 * length(start.velocity[a] - start.velocity[b]);

@@ -80,7 +80,7 @@ void add_scene_checks(std::vector<Check>& checks) {
     const bool large = name == "large-cube";
     // The same jelly at 10 per edge: 64 per edge would take the reference half an hour.
     std::vector<std::string> overrides;
-    if (large) overrides.push_back("cube[0].particles-per-edge=10");
+    if (large) overrides.emplace_back("cube[0].particles-per-edge=10");
     checks.push_back(
         {"depth/" + name,
          fmt::format("depth that a step without the ground would reach, over h·max|v|, 10,000 steps{}",

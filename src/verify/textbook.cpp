@@ -142,7 +142,7 @@ Eigen::VectorXd dense_backward_euler(const Model& model, const State& start) {
 }
 
 WorstMode power_iteration(const Model& model, int iterations) {
-  const auto n = static_cast<Eigen::Index>(3 * model.particle_count());
+  const auto n = 3 * static_cast<Eigen::Index>(model.particle_count());
   Eigen::VectorXd shape(n);
   for (Eigen::Index i = 0; i < n; ++i) shape[i] = std::sin(1.0 + 1.7 * static_cast<double>(i * i));
   shape.normalize();

@@ -66,14 +66,10 @@ class Line {
       : root_(root), file_(file), number_(number), text_(text), found_(found) {}
 
   void outside() {
-    const std::string text = lower(text_);
-    for (const std::string_view words : {"spec §", "spec.md", "(spec ", "of the spec ", "shared/"}) {
-      const auto at = text.find(words);
-      // Longer words may end in these letters.
-      if (at == std::string::npos || (at > 0 && std::isalnum(static_cast<unsigned char>(text[at - 1]))))
-        continue;
-      add("outside", text_.substr(at, 30));
-    }
+    static const std::regex pages(R"(\bspec §|\bspec\.md|\(spec |\bof the spec |\bshared/[a-z]+\.md)",
+                                  std::regex::icase);
+    if (lower(text_).find("spec") == std::string::npos && text_.find("shared/") == std::string::npos) return;
+    for (const std::smatch& match : matches(text_, pages)) add("outside", match.str());
   }
 
   void pages() {

@@ -21,7 +21,7 @@ std::vector<std::string> rules_broken(const char* file, const std::string& text)
 
 TEST(TextLint, FindsEveryPlantedOffence) {
   EXPECT_THAT(
-      rules_broken("src/x.h", "// Contact, spec §2.5.\n// none\n// see shared/x.txt\n// (spec of balls)\n"),
+      rules_broken("src/x.h", "// Contact, spec §2.5.\n// none\n// see shared/page.md\n// (spec of balls)\n"),
       ::testing::ElementsAre("1: outside", "3: outside", "4: outside"));
   EXPECT_THAT(rules_broken("src/x.h", "// docs/no-such-page.md\n// docs/physics.md, section 99\n"),
               ::testing::ElementsAre("1: path", "2: section"));
