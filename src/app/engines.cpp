@@ -9,12 +9,10 @@ namespace aspic::app {
 namespace {
 
 Status advance(const Backend& engine, std::uint64_t steps, Advanced& into) {
-  const auto advanced = engine.solver->advance(steps);
-  if (!advanced) return advanced.error();
-  auto state = engine.solver->state();
-  if (!state) return state.error();
-  into.divergence = *advanced;
-  into.state = std::move(*state);
+  ASPIC_TRY(const auto advanced, engine.solver->advance(steps));
+  ASPIC_TRY(auto state, engine.solver->state());
+  into.divergence = advanced;
+  into.state = std::move(state);
   return {};
 }
 
@@ -98,17 +96,15 @@ Result<Backend> EngineFactory::make(const Model& model, const BackendRow& row, c
 
 Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup,
                                          std::optional<std::string>& message) {
-  auto built = build_model(setup);
-  if (!built) return built.error();
-  auto model = std::make_unique<Model>(std::move(*built));
+  ASPIC_TRY(auto built, build_model(setup));
+  auto model = std::make_unique<Model>(std::move(built));
   auto leader = make(*model, *like.leader().row, like.gpu());
   if (!leader && Engines::in_context(like.leader())) {
     message = fmt::format("{} The reference takes over.", leader.error().message);
     leader = make(*model, reference_backend(), nullptr);
   } else if (leader && like.shadowed()) {
-    auto shadow = make(*model, *like.shadow().row, like.gpu());
-    if (!shadow) return shadow.error();
-    return Engines(std::move(model), std::move(*leader), std::move(*shadow));
+    ASPIC_TRY(auto shadow, make(*model, *like.shadow().row, like.gpu()));
+    return Engines(std::move(model), std::move(*leader), std::move(shadow));
   }
   if (!leader) return leader.error();
   return Engines(std::move(model), std::move(*leader), {});

@@ -170,11 +170,11 @@ std::string to_text(const KeptState& s) {
 Result<KeptState> read_kept_state(const std::string& text) {
   const auto parsed = document::parse(text, 0);
   if (const auto* problem = std::get_if<document::Problem>(&parsed))
-    return Error{ErrorCode::io, fmt::format("line {}: {}", problem->at.line, problem->message)};
+    return fail(ErrorCode::io, "line {}: {}", problem->at.line, problem->message);
   const auto& root = std::get<toml::table>(parsed);
   const auto* const written = root.get_as<std::int64_t>("version");
   if (!written || written->get() != version)
-    return Error{ErrorCode::io, fmt::format("it does not say version = {}", version)};
+    return fail(ErrorCode::io, "it does not say version = {}", version);
   KeptState state;
   Taker taker;
   take_window(taker, root, state);
@@ -217,23 +217,22 @@ std::string kept_state_path() {
 Result<KeptState> load_kept_state(const std::string& path) {
   std::error_code error;
   if (path.empty() || !fs::exists(path, error)) return KeptState();
-  const auto text = read_file(path);
-  if (!text) return text.error();
-  auto state = read_kept_state(*text);
+  ASPIC_TRY(const auto text, read_file(path));
+  auto state = read_kept_state(text);
   if (state) return state;
-  return Error{ErrorCode::io, fmt::format("{} cannot be used ({}), so the window opens with its defaults. "
-                                          "The file is rewritten when the window closes.",
-                                          path, state.error().message)};
+  return fail(ErrorCode::io,
+              "{} cannot be used ({}), so the window opens with its defaults. "
+              "The file is rewritten when the window closes.",
+              path, state.error().message);
 }
 
 Status save_kept_state(const KeptState& state, const std::string& path) {
   if (path.empty()) return {};
   std::error_code error;
   fs::create_directories(fs::path(path).parent_path(), error);
-  auto file = AtomicFile::create(path, Overwrite::allow);
-  if (!file) return file.error();
-  ASPIC_CHECK(file->write(to_text(state)));
-  return file->commit();
+  ASPIC_TRY(auto file, AtomicFile::create(path, Overwrite::allow));
+  ASPIC_CHECK(file.write(to_text(state)));
+  return file.commit();
 }
 
 }  // namespace aspic::app

@@ -44,10 +44,9 @@ Effect effect_between(const Scene& before, const Scene& after) {
 }
 
 Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std::string> overrides) {
-  auto scene = load_scene(source, overrides);
-  if (!scene) return scene.error();
+  ASPIC_TRY(auto scene, load_scene(source, overrides));
   SceneEditor editor;
-  editor.scene_ = std::move(*scene);
+  editor.scene_ = std::move(scene);
   editor.source_ = source;
   editor.overrides_ = std::move(overrides);
   editor.look_at_file();
@@ -119,10 +118,9 @@ Effect SceneEditor::redo() {
 Status SceneEditor::save_as(const std::string& path, const CameraSettings& camera) const {
   Scene saved = scene_;
   saved.view.camera = camera;
-  auto file = AtomicFile::create(path, Overwrite::refuse);
-  if (!file) return file.error();
-  ASPIC_CHECK(file->write(to_toml(saved)));
-  return file->commit();
+  ASPIC_TRY(auto file, AtomicFile::create(path, Overwrite::refuse));
+  ASPIC_CHECK(file.write(to_toml(saved)));
+  return file.commit();
 }
 
 }  // namespace aspic::app

@@ -63,9 +63,8 @@ Status Simulation::single_step() {
 
 /// The shadow does so many steps, tried ones included, on this thread and is compared with the snapshot.
 Status Simulation::compare_shadow(std::uint64_t steps) {
-  const auto other = engines_.advance_shadow(steps);
-  if (!other) return other.error();
-  samples_.compare(time(), snapshot_, *other);
+  ASPIC_TRY(const auto other, engines_.advance_shadow(steps));
+  samples_.compare(time(), snapshot_, other);
   return {};
 }
 
@@ -121,9 +120,8 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
   while (done < steps && !divergence_) {
     const std::uint64_t count = std::min(batch_, steps - done);
     const auto before = Clock::now();
-    const auto advanced = engines_.leader().solver->advance(count);
-    if (!advanced) return advanced.error();
-    note(*advanced ? (*advanced)->step - 1 - step_ : count, *advanced);
+    ASPIC_TRY(const auto advanced, engines_.leader().solver->advance(count));
+    note(advanced ? advanced->step - 1 - step_ : count, advanced);
     done += count;
     const double took = seconds_since(before);
     // A batch is about a quarter of the budget, so that its end is not far beyond.

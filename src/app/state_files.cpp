@@ -11,21 +11,19 @@ namespace {
 
 /// The energies of the plot as a table.
 Status write_series(const std::string& path, const std::deque<EnergySample>& samples) {
-  auto series = SeriesWriter::create(path, Overwrite::refuse);
-  if (!series) return series.error();
+  ASPIC_TRY(auto series, SeriesWriter::create(path, Overwrite::refuse));
   for (const EnergySample& sample : samples) {
-    ASPIC_CHECK(series->add(sample.step, sample.time, sample.measures));
+    ASPIC_CHECK(series.add(sample.step, sample.time, sample.measures));
   }
-  return series->finish();
+  return series.finish();
 }
 
 Status write_state(const StateFormat& format, const std::string& path, Scene scene,
                    const Simulation& simulation) {
   scene.model = simulation.setup().settings;
   const RunFacts facts = {to_toml(scene), scene.model.simulation.integrator};
-  auto sink = format.open(path, 0, Overwrite::refuse, facts);
-  if (!sink) return sink.error();
-  return (*sink)->finish({simulation.model(), simulation.snapshot()});
+  ASPIC_TRY(auto sink, format.open(path, 0, Overwrite::refuse, facts));
+  return sink->finish({simulation.model(), simulation.snapshot()});
 }
 
 }  // namespace

@@ -45,10 +45,9 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   std::unique_ptr<Window> w(new Window);
   if (!glfwInit()) {
     const bool named = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
-    return Error{ErrorCode::no_device, fmt::format("No window can be opened: {} ({}). {}",
-                                                   named ? "the display does not answer"
-                                                         : "there is no display, DISPLAY is not set",
-                                                   last_error(), instead)};
+    return fail(ErrorCode::no_device, "No window can be opened: {} ({}). {}",
+                named ? "the display does not answer" : "there is no display, DISPLAY is not set",
+                last_error(), instead);
   }
   w->initialised_ = true;
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -67,16 +66,16 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
     w->window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   }
   if (!w->window_)
-    return Error{ErrorCode::no_device,
-                 fmt::format("No window with OpenGL 4.3 core can be opened: {}. Install a newer driver "
-                             "(libgl1-mesa-dri has a software one). {}",
-                             last_error(), instead)};
+    return fail(ErrorCode::no_device,
+                "No window with OpenGL 4.3 core can be opened: {}. Install a newer driver "
+                "(libgl1-mesa-dri has a software one). {}",
+                last_error(), instead);
   if (position && on_a_monitor(*position)) glfwSetWindowPos(w->window_, (*position)[0], (*position)[1]);
   glfwShowWindow(w->window_);
   glfwMakeContextCurrent(w->window_);
   glfwSwapInterval(1);
   auto context = gl::Context::adopt_current(glfwGetProcAddress);
-  if (!context) return Error{context.error().code, fmt::format("{} {}", context.error().message, instead)};
+  if (!context) return fail(context.error().code, "{} {}", context.error().message, instead);
   w->context_ = std::move(*context);
   w->connect();
   return w;

@@ -45,8 +45,6 @@ class Buffer {
   ~Buffer();
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;
-  Buffer(const Buffer&) = delete;
-  Buffer& operator=(const Buffer&) = delete;
 
   /// Writes `data` from byte `offset` on; must lie within bytes().
   void upload(std::span<const std::byte> data, std::uint64_t offset = 0);

@@ -23,8 +23,6 @@ class Name {
     std::swap(delete_, taken.delete_);
     return *this;
   }
-  Name(const Name&) = delete;
-  Name& operator=(const Name&) = delete;
 
   std::uint32_t id() const { return id_; }
 

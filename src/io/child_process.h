@@ -24,8 +24,6 @@ class ChildProcess {
   ~ChildProcess();
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
-  ChildProcess(const ChildProcess&) = delete;
-  ChildProcess& operator=(const ChildProcess&) = delete;
 
   /// Writes all of it; raises no SIGPIPE. False: the program has stopped reading.
   bool write(std::span<const std::byte> data);

@@ -47,7 +47,8 @@ class StateFiles final : public StateSink {
   Status write(const Sample& sample) {
     if (last_step_ == sample.state.step) return {};
     if (every() > 0) {
-      ASPIC_TRY(file_, AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
+      ASPIC_TRY(file_,
+                AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
     }
     last_step_ = sample.state.step;
     ASPIC_CHECK(writer_(*file_, sample));

@@ -10,7 +10,7 @@
 
 #include "base/result.h"
 #include "gpu/pixel_ring.h"
-#include "io/frame_sink.h"
+#include "io/film_format.h"
 
 namespace aspic {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "io/frame_sink.h"
+#include "io/film_format.h"
 #include "run/outputs.h"
 
 namespace aspic {

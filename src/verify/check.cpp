@@ -33,19 +33,11 @@ Subject product(gl::Context* context, std::string program) {
 
 std::vector<Check> battery() {
   std::vector<Check> checks;
-  add_order_checks(checks);
-  add_closed_form_checks(checks);
-  add_stability_checks(checks);
-  add_conservation_checks(checks);
-  add_force_checks(checks);
-  add_contact_checks(checks);
-  add_coulomb_checks(checks);
-  add_rest_checks(checks);
-  add_scene_checks(checks);
-  add_implicit_checks(checks);
-  add_body_checks(checks);
-  add_ball_checks(checks);
-  add_equality_checks(checks);
+  for (AddChecks* const add :
+       {add_order_checks, add_closed_form_checks, add_stability_checks, add_conservation_checks,
+        add_force_checks, add_contact_checks, add_coulomb_checks, add_rest_checks, add_scene_checks,
+        add_implicit_checks, add_body_checks, add_ball_checks, add_equality_checks})
+    add(checks);
   return checks;
 }
 

@@ -81,19 +81,10 @@ Finding at_most(double figure, double bound, std::string_view unit = "");
 /// "≤ 1e-12 m"
 std::string at_most_text(double bound, std::string_view unit = "");
 
-// The groups of rows, in the report's order (one source file each or two).
-void add_order_checks(std::vector<Check>& checks);
-void add_closed_form_checks(std::vector<Check>& checks);
-void add_stability_checks(std::vector<Check>& checks);
-void add_conservation_checks(std::vector<Check>& checks);
-void add_force_checks(std::vector<Check>& checks);
-void add_contact_checks(std::vector<Check>& checks);
-void add_coulomb_checks(std::vector<Check>& checks);
-void add_rest_checks(std::vector<Check>& checks);
-void add_scene_checks(std::vector<Check>& checks);
-void add_implicit_checks(std::vector<Check>& checks);
-void add_body_checks(std::vector<Check>& checks);
-void add_ball_checks(std::vector<Check>& checks);
-void add_equality_checks(std::vector<Check>& checks);
+/// Adds a group of rows. The groups are in the order of the report, one source file each.
+using AddChecks = void(std::vector<Check>& checks);
+AddChecks add_order_checks, add_closed_form_checks, add_stability_checks, add_conservation_checks,
+    add_force_checks, add_contact_checks, add_coulomb_checks, add_rest_checks, add_scene_checks,
+    add_implicit_checks, add_body_checks, add_ball_checks, add_equality_checks;
 
 }  // namespace aspic::verify
