@@ -11,6 +11,7 @@
 
 #include "app/app.h"
 #include "app/window.h"
+#include "run/backends.h"
 
 namespace {
 
@@ -30,7 +31,7 @@ struct Figures {
 struct Case {
   std::string scene;
   std::vector<std::string> overrides;
-  const char* backend = "reference";
+  std::string_view backend = "reference";
   bool edits = false;  ///< a value is changed ten times a second, as a slider under the mouse does
 };
 
@@ -118,7 +119,7 @@ Figures median_of(const Case& c, double seconds, int repeats) {
 
 /// The largest cube, of 4 to 35 particles an edge, whose median factor is 0.98 or more; 3: none. By
 /// bisection.
-void largest(const char* backend, Integrator integrator, double timestep) {
+void largest(std::string_view backend, Integrator integrator, double timestep) {
   int fits = 3, too_large = 36;
   while (too_large - fits > 1) {
     const int n = (fits + too_large) / 2;
@@ -148,10 +149,9 @@ int main(int argc, char** argv) {
         "usage: window_figures default | large | sizes [BACKEND/INTEGRATOR] | all\nPrints a JSON object a "
         "line; needs a display "
         "(xvfb-run).");
-  constexpr const char* names[] = {"reference", "gpu"};
   if (all || what == "default") {
-    for (const char* const backend : names) {
-      const Case c = {"cube-plane", {}, backend};
+    for (const BackendRow& backend : backends()) {
+      const Case c = {"cube-plane", {}, backend.name};
       report("default", c, median_of(c, 4.0, 5));
     }
   }
@@ -162,7 +162,8 @@ int main(int argc, char** argv) {
     }
   }
   if (all || what == "sizes") {
-    for (const char* const backend : names) {
+    for (const BackendRow& row : backends()) {
+      const std::string_view backend = row.name;
       for (const Integrator integrator : all_integrators) {
         const std::string name = fmt::format("{}/{}", backend, name_of(integrator));
         if (!only.empty() && only != name && only != backend) continue;

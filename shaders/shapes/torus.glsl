@@ -6,7 +6,8 @@ float torus_distance(uint t, vec3 x) {
   precise float along = dot3(e, axis.xyz);
   precise vec3 across = e - along * axis.xyz;
   precise float off = norm3(across) - centre.w;
-  precise float d = exact_sqrt(off * off + along * along) - axis.w;
+  precise float away_2 = off * off + along * along;
+  precise float d = exact_sqrt(away_2) - axis.w;
   return d;
 }
 
@@ -18,7 +19,8 @@ vec4 torus_gap(uint t, vec3 x) {
   precise vec3 across = e - along * axis.xyz;
   precise float L = norm3(across);
   precise float off = L - centre.w;
-  precise float away = exact_sqrt(off * off + along * along);
+  precise float away_2 = off * off + along * along;
+  precise float away = exact_sqrt(away_2);
   precise float d = away - axis.w;
   if (away == 0.0) return vec4(axis.xyz, d);
   if (L == 0.0) return vec4(along < 0.0 ? -axis.xyz : axis.xyz, d);

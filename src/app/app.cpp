@@ -16,12 +16,10 @@ namespace aspic::app {
 
 Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions& options, double scale,
                                          WindowServices services) {
-  auto editor = SceneEditor::open(options.scene, options.overrides);
-  if (!editor) return editor.error();
+  ASPIC_TRY(auto editor, SceneEditor::open(options.scene, options.overrides));
   const BackendRow& backend = options.backend ? *options.backend : *choose_automatically({}, &context).row;
-  auto simulation = Simulation::create(context, editor->scene(), backend);
-  if (!simulation) return simulation.error();
-  std::unique_ptr<App> app(new App(options, std::move(*editor), std::move(*simulation)));
+  ASPIC_TRY(auto simulation, Simulation::create(context, editor.scene(), backend));
+  std::unique_ptr<App> app(new App(options, std::move(editor), std::move(simulation)));
   ASPIC_CHECK(app->attach(context, scale, std::move(services)));
   app->restore(options.kept, options.overrides);
   return app;
@@ -99,9 +97,7 @@ std::vector<Command> App::make_commands() {
 
 Status App::attach(gl::Context& context, double scale, WindowServices services) {
   ASPIC_CHECK(picture.attach(context));
-  auto gui = Gui::create(scale, std::move(services), commands_, watcher_);
-  if (!gui) return gui.error();
-  gui_ = std::move(*gui);
+  ASPIC_TRY(gui_, Gui::create(scale, std::move(services), commands_, watcher_));
   gui_->set_text_size(layout.text_size);
   return {};
 }

@@ -24,11 +24,10 @@ void hand_slider(Gui& gui, const char* label, const char* name, double& value, d
 
 void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
   const float third = share_of_line(3);
-  command_button(
-      gui, "balls/throw", "Throw",
-      "Throws a ball from the camera into the middle of the picture; the key throws it at what is under the "
-      "mouse.",
-      "throw a ball", true, third);
+  command_button(gui, "balls/throw", "Throw",
+                 "Throws a ball from the camera into the middle of the picture; the key throws it at what is "
+                 "under the mouse.",
+                 "throw a ball", true, third);
   ImGui::SameLine();
   if (button(gui, "balls/many", "Throw many", "Throws a dozen balls, side by side.", true, third))
     hands.throw_many();

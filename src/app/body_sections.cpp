@@ -52,11 +52,35 @@ std::size_t body_count(const ModelSettings& settings) {
   return count;
 }
 
-/// Every key of one list of bodies, straight from the table.
-void all_keys_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
+/// "goal net", as people write the key goal-net.
+std::string name_of(const SettingsList& list) {
+  std::string name(list.key);
+  std::ranges::replace(name, '-', ' ');
+  return name;
+}
+
+/// The line of one body, with a button that removes it. True if it was removed.
+bool body_line(Gui& gui, SceneControl& scene, const SettingsList& list, std::size_t i) {
+  const bool last_body = body_count(scene.scene().model) == 1;
+  const std::string name = name_of(list);
+  const std::string help =
+      last_body
+          ? "The last body cannot be removed: without one, nothing would move."
+          : fmt::format("Removes this {}. Restarts the simulation.\n\nScene key: [[{}]]", name, list.key);
+  if (!element_line(gui, fmt::format("{} {}", name, i), fmt::format("{}/{}/remove", list.key, i), help,
+                    !last_body))
+    return false;
+  Scene changed = scene.scene();
+  list.remove(changed.model, i);
+  scene.apply(std::move(changed), fmt::format("remove {}", name));
+  return true;
+}
+
+/// Every body of one list with all its keys, straight from the table, and a button that adds one.
+void bodies_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
   const std::string prefix = fmt::format("{}[].", list.key);
   for (std::size_t i = 0; i < list.size(scene.scene().model); ++i) {
-    ImGui::TextDisabled("%.*s %zu", static_cast<int>(list.key.size()), list.key.data(), i);
+    if (body_line(gui, scene, list, i)) return;
     for (const Parameter& p : parameters()) {
       if (!p.path.starts_with(prefix) || !applies(p, scene.scene(), i)) continue;
       std::string label(p.path.substr(prefix.size()));
@@ -65,6 +89,15 @@ void all_keys_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
       edit(gui, scene, p.path, i, {label});
     }
   }
+  const std::string name = name_of(list), mark = fmt::format("{}/add", list.key);
+  if (!button(gui, mark.c_str(), fmt::format("Add a {}", name).c_str(),
+              fmt::format("Adds a {} with default values. Restarts the simulation.\n\nScene key: [[{}]]",
+                          name, list.key),
+              true, -1.0f))
+    return;
+  Scene changed = scene.scene();
+  list.append(changed.model);
+  scene.apply(std::move(changed), fmt::format("add {}", name));
 }
 
 void add_cube(Gui& gui, SceneControl& scene) {
@@ -92,18 +125,10 @@ void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
 }
 
 void bodies_section(Gui& gui, SceneControl& scene) {
-  const std::size_t count = scene.scene().model.cubes.size();
+  const SettingsList& cubes = body_rows().front().list;
+  const std::size_t count = cubes.size(scene.scene().model);
   for (std::size_t i = 0; i < count; ++i) {
-    const bool last_body = body_count(scene.scene().model) == 1;
-    if (element_line(gui, fmt::format("cube {}", i), fmt::format("cube/{}/remove", i),
-                     last_body ? "The last body cannot be removed: without one, nothing would move."
-                               : "Removes this cube. Restarts the simulation.\n\nScene key: [[cube]]",
-                     !last_body)) {
-      Scene changed = scene.scene();
-      changed.model.cubes.erase(changed.model.cubes.begin() + static_cast<std::ptrdiff_t>(i));
-      scene.apply(std::move(changed), "remove cube");
-      return;
-    }
+    if (body_line(gui, scene, cubes, i)) return;
     if (i > 0) placed_cube(gui, scene, i);
     edit(gui, scene, "cube[].edge-length", i, {"Edge"});
     edit(gui, scene, "cube[].velocity", i);
@@ -111,9 +136,7 @@ void bodies_section(Gui& gui, SceneControl& scene) {
     edit(gui, scene, "cube[].pinned", i);
   }
   add_cube(gui, scene);
-  for (const BodyRow& row : body_rows()) {
-    if (row.list.key != "cube") all_keys_of(gui, scene, row.list);
-  }
+  for (const BodyRow& row : body_rows().subspan(1)) bodies_of(gui, scene, row.list);
 }
 
 namespace {
@@ -131,19 +154,11 @@ void shown_springs(Gui& gui, SceneControl& scene) {
     // Large text needs more lines.
     if (end + width < ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
     end = ImGui::GetCursorPosX() + width;
-    bool on = std::ranges::find(words, type) != words.end();
-    const bool toggled = ImGui::Checkbox(std::string(type).c_str(), &on);
-    gui.mark("springs/show/{}", type);
-    tooltip(fmt::format(
-        "Whether {} springs are in the picture. Their colours are chosen under View.\n\nScene key: "
-        "view.draw",
-        type));
-    if (!toggled) continue;
-    if (on)
-      words.emplace_back(type);
-    else
-      std::erase(words, type);
-    scene.set_value(p, 0, Value(words));
+    const std::string help = fmt::format(
+        "Whether {} springs are in the picture. Their colours are chosen under View.\n\nScene key: view.draw",
+        type);
+    if (check_box(gui, type, words, fmt::format("springs/show/{}", type), help))
+      scene.set_value(p, 0, Value(words));
   }
 }
 
@@ -157,8 +172,7 @@ void kind_of_springs(Gui& gui, SceneControl& scene, std::size_t cube) {
   gui.mark("springs/{}/kind", cube);
   tooltip(
       "Stiffness and damping of each type of spring and the mass of a particle; or a material, which means "
-      "the "
-      "same jelly at every resolution.\n\nScene key: cube[].material");
+      "the same jelly at every resolution.\n\nScene key: cube[].material");
   if (!chosen || (kind == 1) == settings.material.has_value()) return;
   Scene changed = scene.scene();
   CubeSettings& c = changed.model.cubes[cube];
@@ -185,7 +199,7 @@ void springs_section(Gui& gui, SceneControl& scene) {
   static bool together = false;
   const std::size_t count = scene.scene().model.cubes.size();
   shown_springs(gui, scene);
-  if (count == 0) ImGui::TextDisabled("No cube; springs of nets are under Bodies.");
+  if (count == 0) ImGui::TextDisabled("No cube; springs of other bodies are under Bodies.");
   for (std::size_t i = 0; i < count; ++i) {
     ImGui::PushID(static_cast<int>(i));
     if (count > 1) ImGui::TextDisabled("cube %zu", i);

@@ -1,18 +1,36 @@
 #pragma once
 // The model of a run with the solvers that advance it.
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "analysis/energy.h"
 #include "app/setup.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "model/pull.h"
+#include "model/solver.h"
 #include "model/state.h"
 #include "run/backends.h"
 
 namespace aspic::app {
+
+/// What a solver did in a job.
+struct Advanced {
+  State state;
+  std::optional<Divergence> divergence;
+};
+
+/// What a worker's job leaves: steps done, or the energies of a state.
+struct Outcome {
+  std::optional<Error> error;
+  std::uint64_t steps = 0;
+  Advanced leader, shadow;  ///< each where it took part
+  Measures measures;        ///< of the one that set the pace
+};
 
 /// A model, the solver whose state is shown, and in shadow mode a second one that does the same steps.
 class Engines {
@@ -38,13 +56,22 @@ class Engines {
   /// One of the solvers on the context, to share buffers with; may be null.
   const GpuSolver* gpu() const { return leader_.gpu ? leader_.gpu : shadow_.gpu; }
 
-  /// Puts another solver of the same model in the place of one; it pulls nobody yet.
+  /// Puts another solver of the same model in the place of one; it has no pull yet.
   void set_leader(Backend engine) { leader_ = std::move(engine); }
   void set_shadow(Backend engine) { shadow_ = std::move(engine); }
   void swap() { std::swap(leader_, shadow_); }
   /// To all solvers.
   Status load(const State& state);
   Status set_pull(const std::optional<Pull>& pull);
+
+  /// For a worker: advances the solvers that do without the context by at most so many steps, for about
+  /// `budget` seconds or until `hurry`. The first of them sets the pace. `alone`: the leader without its
+  /// shadow.
+  Outcome advance_outside(std::uint64_t steps, double budget, bool alone, const std::atomic<bool>& hurry);
+  /// With the context: the solver that needs it does the steps of a job in shadow mode.
+  Status follow(Outcome& outcome);
+  /// The shadow alone does so many steps, tried ones included.
+  Result<State> advance_shadow(std::uint64_t steps);
 
  private:
   std::unique_ptr<Model> model_;

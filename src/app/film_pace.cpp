@@ -15,7 +15,7 @@ std::uint64_t FilmPace::take(std::uint64_t step, double timestep, double speed) 
   assert(timestep > 0.0 && speed > 0.0);
   const bool other_pace = timestep != timestep_ || speed != speed_;
   if (schedule_ && timestep != timestep_) {
-    // The same times, told in steps of the new length. Rounded down: however the run rounds its own step, it
+    // The same times in steps of the new length. Rounded down: however the run rounds its own step, it
     // has not gone back.
     const double ratio = timestep_ / timestep;
     last_taken_ = static_cast<std::uint64_t>(std::llround(static_cast<double>(last_taken_) * ratio));

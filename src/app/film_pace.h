@@ -21,7 +21,7 @@ class FilmPace {
   std::uint64_t take(std::uint64_t step, double timestep, double speed);
   /// The step of the next picture, which the run must not pass before take().
   std::uint64_t next_step() const;
-  /// The speed that take() was last told; 0 before.
+  /// The speed last given to take(); 0 before.
   double speed() const { return speed_; }
   /// The next take() counts from where it is.
   void restart() { schedule_.reset(); }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -27,28 +28,17 @@ constexpr float largest_font = 96.0f;
 constexpr ImWchar characters[] = {0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027, 0x2070, 0x209f,
                                   0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0};
 
-constexpr std::pair<ImGuiKey_, int> key_map[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
-                                                 {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
-                                                 {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
-                                                 {ImGuiKey_UpArrow, GLFW_KEY_UP},
-                                                 {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
-                                                 {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
-                                                 {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
-                                                 {ImGuiKey_Home, GLFW_KEY_HOME},
-                                                 {ImGuiKey_End, GLFW_KEY_END},
-                                                 {ImGuiKey_Insert, GLFW_KEY_INSERT},
-                                                 {ImGuiKey_Delete, GLFW_KEY_DELETE},
-                                                 {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
-                                                 {ImGuiKey_Space, GLFW_KEY_SPACE},
-                                                 {ImGuiKey_Enter, GLFW_KEY_ENTER},
-                                                 {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
-                                                 {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
-                                                 {ImGuiKey_A, GLFW_KEY_A},
-                                                 {ImGuiKey_C, GLFW_KEY_C},
-                                                 {ImGuiKey_V, GLFW_KEY_V},
-                                                 {ImGuiKey_X, GLFW_KEY_X},
-                                                 {ImGuiKey_Y, GLFW_KEY_Y},
-                                                 {ImGuiKey_Z, GLFW_KEY_Z}};
+/// Keys of ImGui, each followed by its name in GLFW.
+constexpr int keys[] = {
+    ImGuiKey_Tab,         GLFW_KEY_TAB,      ImGuiKey_LeftArrow, GLFW_KEY_LEFT,      ImGuiKey_RightArrow,
+    GLFW_KEY_RIGHT,       ImGuiKey_UpArrow,  GLFW_KEY_UP,        ImGuiKey_DownArrow, GLFW_KEY_DOWN,
+    ImGuiKey_PageUp,      GLFW_KEY_PAGE_UP,  ImGuiKey_PageDown,  GLFW_KEY_PAGE_DOWN, ImGuiKey_Home,
+    GLFW_KEY_HOME,        ImGuiKey_End,      GLFW_KEY_END,       ImGuiKey_Insert,    GLFW_KEY_INSERT,
+    ImGuiKey_Delete,      GLFW_KEY_DELETE,   ImGuiKey_Backspace, GLFW_KEY_BACKSPACE, ImGuiKey_Space,
+    GLFW_KEY_SPACE,       ImGuiKey_Enter,    GLFW_KEY_ENTER,     ImGuiKey_Escape,    GLFW_KEY_ESCAPE,
+    ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER, ImGuiKey_A,         GLFW_KEY_A,         ImGuiKey_C,
+    GLFW_KEY_C,           ImGuiKey_V,        GLFW_KEY_V,         ImGuiKey_X,         GLFW_KEY_X,
+    ImGuiKey_Y,           GLFW_KEY_Y,        ImGuiKey_Z,         GLFW_KEY_Z};
 
 ImVec4 grey(float value, float alpha = 1.0f) {
   return {value, value * 1.02f, value * 1.07f, alpha};
@@ -100,7 +90,7 @@ Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services, 
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
-  for (const auto& [name, key] : key_map) io.KeyMap[name] = key;
+  for (std::size_t i = 0; i < std::size(keys); i += 2) io.KeyMap[keys[i]] = keys[i + 1];
   io.ClipboardUserData = gui.get();
   io.GetClipboardTextFn = [](void* user) {
     Gui& self = *static_cast<Gui*>(user);
@@ -115,8 +105,8 @@ Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services, 
   gui->set_look();
   if (!ImGui_ImplOpenGL3_Init("#version 430 core"))
     return Error{ErrorCode::no_device,
-                 "The panels cannot be drawn: their OpenGL functions could not be loaded. "
-                 "Install libgl1, or use aspic run, which needs no window."};
+                 "The panels cannot be drawn: their OpenGL functions could not be loaded. Install libgl1, or "
+                 "use aspic run, which needs no window."};
   return gui;
 }
 

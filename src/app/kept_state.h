@@ -54,7 +54,7 @@ struct KeptState {
 
 /// Scenes whose cameras are kept; the one longest unused goes first.
 inline constexpr std::size_t most_kept_cameras = 12;
-/// Puts a scene's camera at the end; nothing takes it away.
+/// Puts a scene's camera at the end; without one it is removed.
 void keep_camera(std::vector<KeptCamera>& cameras, const std::string& scene,
                  const std::optional<CameraSettings>& camera);
 /// The name that a scene's camera is kept under: built-in scenes by name, files by absolute path.
@@ -69,7 +69,7 @@ Result<KeptState> read_kept_state(const std::string& text);
 std::string kept_state_path();
 /// Reads the file. One that is not there is no error and gives what a first time gives.
 Result<KeptState> load_kept_state(const std::string& path);
-/// Writes it whole, with the directories above. Error (io).
+/// Writes the file and makes the directories above it. Error (io).
 Status save_kept_state(const KeptState& state, const std::string& path);
 
 }  // namespace aspic::app

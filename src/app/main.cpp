@@ -52,7 +52,7 @@ int show(const ViewOptions& view) {
   while (!error && !(*window)->should_close() && !guard.interrupted()) {
     (*window)->poll((*app)->idle() ? 0.25 : 0.0);
     const auto now = Clock::now();
-    // After a pause of the whole program time goes on, it does not catch up.
+    // After a pause of the program itself time goes on; it does not catch up.
     const double dt = std::min(std::chrono::duration<double>(now - last).count(), 0.25);
     last = now;
     if (const Status drawn = (*app)->frame((*window)->size(), dt); !drawn) {

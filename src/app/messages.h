@@ -15,7 +15,7 @@ struct Notice {
   double age = 0.0;  ///< [s]
 };
 
-/// The one message that is shown. One that is no error goes by itself after a while.
+/// The one message that is shown. One that is not an error disappears after a while.
 class Messages {
  public:
   void info(const std::string& text) { notice_ = Notice{printable(text), false}; }

@@ -17,7 +17,7 @@ std::uint64_t Pacer::steps_due(double dt, const SimulationSettings& settings, st
   const double asked =
       pace == Pace::real_time ? speed * dt / settings.timestep : speed * settings.steps_per_frame;
   due_ += asked;
-  // What was not done within two pictures is never made good: the factor tells, the motion does not jump.
+  // What was not done within two pictures is dropped: the motion slows down, and does not jump.
   const double most = std::max(2.0 * asked, 1.0);
   behind_ = due_ > most;
   due_ = std::min(due_, most);

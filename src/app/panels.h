@@ -53,8 +53,6 @@ void recording_section(Gui& gui, const std::string& source, Film& film);
 /// A button for each format of states; part of the recording section.
 void state_files(Gui& gui, const StateFiles& files);
 void performance_section(Gui& gui, Simulation& simulation, const ScenePicture& picture);
-/// Of the gpu, by kind of pass; part of the performance section.
-void pass_times(Gui& gui, GpuSolver& solver);
 void energy_section(Gui& gui, const std::deque<EnergySample>& energies);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <variant>
 
 namespace aspic::app {
 namespace {
@@ -29,21 +30,26 @@ float drag_speed(double value, const Parameter& p) {
   return static_cast<float>(std::max(std::abs(value) / 200.0, floor));
 }
 
-const char* number_format(double value) {
-  return std::abs(value) < 1e-3 && value != 0.0 ? "%.4g" : "%.6g";
-}
-
-bool is_fraction(const Parameter& p) {
-  return p.range.min == 0.0 && p.range.max == 1.0 && !p.range.min_excluded;
-}
-
 std::string format_with_unit(const Parameter& p, double value) {
-  return p.unit.empty() ? number_format(value) : fmt::format("{} {}", number_format(value), p.unit);
+  const char* const format = std::abs(value) < 1e-3 && value != 0.0 ? "%.4g" : "%.6g";
+  return p.unit.empty() ? format : fmt::format("{} {}", format, p.unit);
 }
 
-std::optional<Value> number_widget(const Parameter& p, double value) {
+/// What a widget of a value needs; the overloads of `widget` return the value if it was changed.
+struct Field {
+  Gui& gui;
+  const Parameter& parameter;
+  std::string key, help;
+};
+
+std::optional<Value> widget(const Field&, bool on) {
+  return ImGui::Checkbox("##value", &on) ? std::optional<Value>(on) : std::nullopt;
+}
+
+std::optional<Value> widget(const Field& f, double value) {
+  const Parameter& p = f.parameter;
   bool changed = false;
-  if (is_fraction(p)) {
+  if (p.range.min == 0.0 && p.range.max == 1.0 && !p.range.min_excluded) {
     const double low = p.range.min, high = p.range.max;
     changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, "%.3g", as_typed);
   } else {
@@ -56,8 +62,9 @@ std::optional<Value> number_widget(const Parameter& p, double value) {
   return Value(value);
 }
 
-std::optional<Value> integer_widget(const Parameter& p, std::int64_t value) {
-  const auto low = static_cast<std::int64_t>(p.range.min), high = static_cast<std::int64_t>(p.range.max);
+std::optional<Value> widget(const Field& f, std::int64_t value) {
+  const Range& range = f.parameter.range;
+  const auto low = static_cast<std::int64_t>(range.min), high = static_cast<std::int64_t>(range.max);
   const std::int64_t one = 1, ten = 10;
   if (!ImGui::InputScalar("##value", ImGuiDataType_S64, &value, &one, &ten, "%lld",
                           ImGuiInputTextFlags_EnterReturnsTrue))
@@ -65,87 +72,78 @@ std::optional<Value> integer_widget(const Parameter& p, std::int64_t value) {
   return Value(std::clamp(value, low, high));
 }
 
-std::optional<Value> vector_widget(const Parameter& p, const Vec3& value) {
+std::optional<Value> widget(const Field& f, const Vec3& value) {
   std::array<double, 3> v = {value.x, value.y, value.z};
-  const double low = p.range.min, high = p.range.max;
+  const Range& range = f.parameter.range;
   const double size = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2]), 2.0});
   if (!ImGui::DragScalarN("##value", ImGuiDataType_Double, v.data(), 3, static_cast<float>(size / 200.0),
-                          &low, &high, "%.4g", as_typed))
+                          &range.min, &range.max, "%.4g", as_typed))
     return std::nullopt;
   return Value(Vec3{v[0], v[1], v[2]});
 }
 
-std::optional<Value> numbers_widget(const Parameter& p, std::vector<double> value) {
-  const double low = p.range.min, high = p.range.max, size = std::max(std::ranges::max(value), 2.0);
+std::optional<Value> widget(const Field& f, std::vector<double> value) {
+  const Range& range = f.parameter.range;
+  const double size = std::max(std::ranges::max(value), 2.0);
   const int count = static_cast<int>(value.size());
   const bool changed = ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), count,
-                                          static_cast<float>(size / 200.0), &low, &high, "%.4g", as_typed);
+                                          static_cast<float>(size / 200.0), &range.min, &range.max, "%.4g", as_typed);
   // A drag that runs into an open end stops there instead of complaining.
-  if (!changed || (p.range.min_excluded && std::ranges::min(value) <= p.range.min)) return std::nullopt;
+  if (!changed || (range.min_excluded && std::ranges::min(value) <= range.min)) return std::nullopt;
   return Value(value);
 }
 
-std::optional<Value> counts_widget(const Parameter& p, std::vector<int> value) {
+std::optional<Value> widget(const Field& f, std::vector<int> value) {
   if (!ImGui::InputScalarN("##value", ImGuiDataType_S32, value.data(), static_cast<int>(value.size()),
                            nullptr, nullptr, "%d", ImGuiInputTextFlags_EnterReturnsTrue))
     return std::nullopt;
-  for (int& n : value) n = std::clamp(n, static_cast<int>(p.range.min), static_cast<int>(p.range.max));
+  const Range& range = f.parameter.range;
+  for (int& n : value) n = std::clamp(n, static_cast<int>(range.min), static_cast<int>(range.max));
   return Value(value);
 }
 
-std::optional<Value> word_widget(Gui& gui, const Parameter& p, const std::string& value,
-                                 const std::string& mark, std::string_view help) {
+/// A choice of words, or a text that is only shown.
+std::optional<Value> widget(const Field& f, const std::string& value) {
+  if (f.parameter.type == ParameterType::text) {
+    ImGui::TextUnformatted(value.c_str());
+    return std::nullopt;
+  }
   std::optional<Value> chosen;
-  const bool open = ImGui::BeginCombo("##value", value.c_str());
-  if (!open) return chosen;
-  for (const std::string_view word : p.words) {
+  if (!ImGui::BeginCombo("##value", value.c_str())) return chosen;
+  for (const std::string_view word : f.parameter.words) {
     const std::string text(word);
     if (ImGui::Selectable(text.c_str(), text == value)) chosen = Value(text);
-    gui.mark("{}/{}", mark, text);
-    tooltip(help);
+    f.gui.mark("{}/{}", f.key, text);
+    tooltip(f.help);
   }
   ImGui::EndCombo();
   return chosen;
 }
 
 /// Boxes, in two columns where they fit, one for each word; those ticked stay in the order of the list.
-bool check_boxes(Gui& gui, const std::vector<std::string_view>& all, std::vector<std::string>& ticked,
-                 const std::string& mark, std::string_view help) {
-  const auto width_of = [](std::string_view word) {
-    return ImGui::CalcTextSize(word.data(), word.data() + word.size()).x + ImGui::GetFrameHeight() +
-           2.0f * ImGui::GetStyle().ItemInnerSpacing.x;
-  };
+bool check_boxes(const Field& f, std::vector<std::string>& ticked) {
   float widest = 0.0f;
-  for (const std::string_view word : all) widest = std::max(widest, width_of(word));
+  for (const std::string_view word : f.parameter.words)
+    widest = std::max(widest, ImGui::CalcTextSize(word.data(), word.data() + word.size()).x);
+  widest += ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().ItemInnerSpacing.x;
   const float middle = ImGui::GetWindowContentRegionMax().x * 0.52f;
   const bool two = ImGui::GetCursorPosX() + widest < middle;
   bool changed = false;
   int column = 0;
-  for (const std::string_view word : all) {
+  for (const std::string_view word : f.parameter.words) {
     if (two && column++ % 2 != 0) ImGui::SameLine(middle);
-    bool on = std::ranges::find(ticked, word) != ticked.end();
-    const bool toggled = ImGui::Checkbox(std::string(word).c_str(), &on);
-    gui.mark("{}/{}", mark, word);
-    tooltip(help);
-    if (!toggled) continue;
-    changed = true;
-    if (on)
-      ticked.emplace_back(word);
-    else
-      std::erase(ticked, word);
+    changed = check_box(f.gui, word, ticked, fmt::format("{}/{}", f.key, word), f.help) || changed;
   }
   return changed;
 }
 
-std::optional<Value> words_widget(Gui& gui, const Parameter& p, std::vector<std::string> value,
-                                  const std::string& mark, std::string_view help) {
-  return check_boxes(gui, p.words, value, mark, help) ? std::optional<Value>(value) : std::nullopt;
+std::optional<Value> widget(const Field& f, std::vector<std::string> value) {
+  return check_boxes(f, value) ? std::optional<Value>(value) : std::nullopt;
 }
 
 /// Sides by name; corners and indices that the file gives stay as they are.
-std::optional<Value> pinned_widget(Gui& gui, const Parameter& p, PinnedSettings value,
-                                   const std::string& mark, std::string_view help) {
-  return check_boxes(gui, p.words, value.names, mark, help) ? std::optional<Value>(value) : std::nullopt;
+std::optional<Value> widget(const Field& f, PinnedSettings value) {
+  return check_boxes(f, value.names) ? std::optional<Value>(value) : std::nullopt;
 }
 
 /// What a key starts with when it is set: the value that its absence stood for, where that is a number.
@@ -194,6 +192,17 @@ void tooltip(std::string_view text, std::string_view command) {
   ImGui::EndTooltip();
 }
 
+bool check_box(Gui& gui, std::string_view word, std::vector<std::string>& ticked, const std::string& name,
+               std::string_view help) {
+  bool on = std::ranges::find(ticked, word) != ticked.end();
+  const bool toggled = ImGui::Checkbox(std::string(word).c_str(), &on);
+  gui.mark("{}", name);
+  tooltip(help);
+  if (toggled && on) ticked.emplace_back(word);
+  if (toggled && !on) std::erase(ticked, word);
+  return toggled;
+}
+
 float share_of_line(int count) {
   const float gaps = static_cast<float>(count - 1) * ImGui::GetStyle().ItemSpacing.x;
   return (ImGui::GetContentRegionAvail().x - gaps) / static_cast<float>(count);
@@ -239,36 +248,6 @@ bool command_button(Gui& gui, const char* name, const char* label, std::string_v
 
 namespace {
 
-std::optional<Value> value_widget(Gui& gui, const Parameter& p, const Value& value, const std::string& key,
-                                  std::string_view help) {
-  switch (p.type) {
-    case ParameterType::boolean: {
-      bool on = std::get<bool>(value);
-      return ImGui::Checkbox("##value", &on) ? std::optional<Value>(on) : std::nullopt;
-    }
-    case ParameterType::integer:
-      return integer_widget(p, std::get<std::int64_t>(value));
-    case ParameterType::number:
-      return number_widget(p, std::get<double>(value));
-    case ParameterType::vector:
-      return vector_widget(p, std::get<Vec3>(value));
-    case ParameterType::counts:
-      return counts_widget(p, std::get<std::vector<int>>(value));
-    case ParameterType::numbers:
-      return numbers_widget(p, std::get<std::vector<double>>(value));
-    case ParameterType::word:
-      return word_widget(gui, p, std::get<std::string>(value), key, help);
-    case ParameterType::words:
-      return words_widget(gui, p, std::get<std::vector<std::string>>(value), key, help);
-    case ParameterType::pinned:
-      return pinned_widget(gui, p, std::get<PinnedSettings>(value), key, help);
-    case ParameterType::text:
-      ImGui::TextUnformatted(std::get<std::string>(value).c_str());
-      return std::nullopt;
-  }
-  return std::nullopt;
-}
-
 /// Where a value would stand: what its absence means, if there is room for that.
 void absent_text(std::string_view meaning) {
   const float width = ImGui::CalcTextSize(meaning.data(), meaning.data() + meaning.size()).x;
@@ -277,11 +256,10 @@ void absent_text(std::string_view meaning) {
 }
 
 /// The box before a key that may be absent; true if it was toggled.
-bool presence_box(Gui& gui, bool& present, const Parameter& p, const std::string& key,
-                  std::string_view help) {
+bool presence_box(const Field& f, bool& present) {
   const bool toggled = ImGui::Checkbox("##set", &present);
-  gui.mark("{}/set", key);
-  tooltip(fmt::format("Checked: use this value. Unchecked: {}.\n\n{}", p.when_absent, help));
+  f.gui.mark("{}/set", f.key);
+  tooltip(fmt::format("Checked: use this value. Unchecked: {}.\n\n{}", f.parameter.when_absent, f.help));
   ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
   ImGui::SetNextItemWidth(-1.0f);
   return toggled;
@@ -295,41 +273,38 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const
   const bool optional = p.can_be_absent() && p.belonging == Belonging::always;
   const auto value = p.get(scene, index);
   if (!value && !optional) return std::nullopt;
-  const std::string key = path_text(p.path, index);
   const std::string label = words.label.empty() ? words_of(p.path) : std::string(words.label);
-  std::string help = tooltip_of(p, index);
-  if (!words.note.empty()) help += fmt::format("\n\n{}", words.note);
-  ImGui::PushID(key.c_str());
+  Field field = {gui, p, path_text(p.path, index), tooltip_of(p, index)};
+  if (!words.note.empty()) field.help += fmt::format("\n\n{}", words.note);
+  ImGui::PushID(field.key.c_str());
   const bool many = p.type == ParameterType::words || p.type == ParameterType::pinned;
   if (many) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(label.c_str());
-    tooltip(help);
+    tooltip(field.help);
   } else {
     label_column(label);
   }
   std::optional<WidgetChange> change;
   bool present = value.has_value();
-  if (optional && presence_box(gui, present, p, key, help)) {
+  if (optional && presence_box(field, present)) {
     change.emplace();
     if (present) change->value = first_value(p, scene);
   }
   std::optional<Value> changed;
   if (value)
-    changed = value_widget(gui, p, *value, key, help);
+    changed = std::visit([&](const auto& v) { return widget(field, v); }, *value);
   else
     absent_text(p.when_absent);
   if (!many && !(p.type == ParameterType::word && changed)) {
-    gui.mark("{}", key);
-    tooltip(help);
+    gui.mark("{}", field.key);
+    tooltip(field.help);
   }
   ImGui::PopID();
   if (changed) {
     const bool continuous = p.type == ParameterType::number || p.type == ParameterType::vector ||
                             p.type == ParameterType::numbers;
-    change.emplace();
-    change->value = std::move(changed);
-    if (continuous) change->gesture = key;
+    change = WidgetChange{std::move(changed), continuous ? field.key : std::string()};
   }
   return change;
 }

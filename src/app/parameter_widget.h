@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/gui.h"
 #include "app/scene_control.h"
@@ -12,7 +13,7 @@ namespace aspic::app {
 
 /// What a widget did to a value, with what makes successive changes one for undo.
 struct WidgetChange {
-  std::optional<Value> value;  ///< absent: the key is taken away
+  std::optional<Value> value;  ///< absent: the key is removed
   std::string gesture;
 };
 
@@ -37,6 +38,9 @@ std::string tooltip_of(const Parameter& parameter, std::size_t index);
 void tooltip(std::string_view text, std::string_view command = "");
 /// Text broken at blanks alone, so that numbers stay whole, into lines of at most `width` [window units].
 void wrapped_text(std::string_view text, float width);
+/// A box that puts a word into a list and takes it out, with a name for the watcher. True if it was toggled.
+bool check_box(Gui& gui, std::string_view word, std::vector<std::string>& ticked, const std::string& name,
+               std::string_view help);
 /// Width of one of `count` equal widgets on a line [window units].
 float share_of_line(int count);
 /// A label on the left; the next widget fills the rest of the line.

@@ -99,9 +99,8 @@ Status Pointer::mark_and_ask(bool on_panel) {
     return {};
   }
   if (asked_ && asked_->x == x_ && asked_->y == y_ && asked_->picture == picture_.number()) return {};
-  const auto number = picture_.request_pick(x_, y_);
-  if (!number) return number.error();
-  asked_ = Question{x_, y_, picture_.number(), asked_ ? asked_->first : *number, *number};
+  ASPIC_TRY(const auto number, picture_.request_pick(x_, y_));
+  asked_ = Question{x_, y_, picture_.number(), asked_ ? asked_->first : number, number};
   return {};
 }
 

@@ -73,12 +73,11 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
     if (!recording->ready()) ImGui::TextDisabled("The motion waits for the encoder.");
     return;
   }
-  command_button(
-      gui, "record/start", "Start a film",
-      "Films the scene without the panels, in step with simulated time: no picture is lost or doubled, "
-      "however fast the solver and the window are. The film's size is that of the view now. While the motion "
-      "pauses, so does the film.",
-      start_or_end, true, -1.0f);
+  command_button(gui, "record/start", "Start a film",
+                 "Films the scene without the panels, in step with simulated time: no picture is lost or "
+                 "doubled, however fast the solver and the window are. The film's size is that of the view "
+                 "now. While the motion pauses, so does the film.",
+                 start_or_end, true, -1.0f);
   format_widget(gui, film.settings);
   rate_widget(gui, film.settings);
   name_widget(gui, source, film.settings);

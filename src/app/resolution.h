@@ -1,5 +1,5 @@
 #pragma once
-// How finely a software rasteriser draws: as finely as leaves time for events.
+// For software rasterisers only: how finely they draw, so that there is time for events.
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -7,11 +7,11 @@
 namespace aspic::app {
 
 /// Chooses the share of the full resolution, in each direction, from what pictures took: a time that does not
-/// depend on the pixels and one that grows with them. Of a share not tried yet the two finest ones that were
-/// tell; one alone is taken as if all its time grew with the pixels.
+/// depend on the pixels and one that grows with them. The two finest shares tried
+/// so far predict the others; one alone is taken as if all its time grew with the pixels.
 class Resolution {
  public:
-  /// Times that a picture may take in motion, and once all stands still [s].
+  /// Times that a picture may take in motion, and at rest [s].
   static constexpr double in_motion = 0.045, at_rest = 0.085;
   /// Few shares, so that pictures do not swim; each has about half the pixels of the one before.
   static constexpr std::array shares = {1.0, 0.75, 0.55, 0.4, 0.3};
@@ -20,7 +20,7 @@ class Resolution {
   /// The share for the next picture, one of `shares`.
   double share(bool still) const { return shares[still ? still_ : moving_]; }
   /// A picture at this share, one of `shares`, took so long [s], > 0. The first after a change of what is
-  /// drawn is not told.
+  /// drawn does not count.
   void took(double share, double seconds);
   /// Other things are drawn: begins coarsely again, where pictures may take long.
   void reset(bool large);

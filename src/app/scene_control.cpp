@@ -9,15 +9,18 @@
 
 namespace aspic::app {
 
+/// Puts a scene that was loaded in the place of the present one, if it can be simulated.
+bool SceneControl::replace(Result<SceneEditor> loaded, bool keep_state) {
+  if (!loaded) messages_.error(loaded.error().message);
+  if (!loaded || !messages_.check(simulation_.change(loaded->scene(), keep_state))) return false;
+  editor_ = std::move(*loaded);
+  pending_ = Effect::none;
+  return true;
+}
+
 void SceneControl::open(const std::string& source) {
   view_.keep_camera(editor_.source());
-  const SceneEditor before = editor_;
-  if (!messages_.check(editor_.replace(source))) return;
-  if (!messages_.check(simulation_.change(editor_.scene(), false))) {
-    editor_ = before;
-    return;
-  }
-  pending_ = Effect::none;
+  if (!replace(editor_.other(source), false)) return;
   messages_.dismiss();
   messages_.check(simulation_.reset());
   view_.camera = CameraControl(editor_.scene().view.camera);
@@ -41,16 +44,11 @@ void SceneControl::reload() {
 
 /// The file was written: constants take effect while the motion goes on.
 void SceneControl::reread_file() {
-  const SceneEditor before = editor_;
-  if (!messages_.check(editor_.reload())) return;
-  const Effect effect = effect_between(before.scene(), editor_.scene());
-  if (!messages_.check(simulation_.change(editor_.scene(), effect != Effect::restart))) {
-    editor_ = before;
-    return;
-  }
-  pending_ = Effect::none;
-  if (before.scene().view.camera != editor_.scene().view.camera)
-    view_.camera = CameraControl(editor_.scene().view.camera);
+  auto loaded = editor_.other(editor_.source());
+  const Effect effect = loaded ? effect_between(editor_.scene(), loaded->scene()) : Effect::none;
+  const CameraSettings camera = editor_.scene().view.camera;
+  if (!replace(std::move(loaded), effect != Effect::restart)) return;
+  if (camera != editor_.scene().view.camera) view_.camera = CameraControl(editor_.scene().view.camera);
   messages_.info(
       fmt::format("{} changed on disk and was reloaded{}.", editor_.source(),
                   effect == Effect::restart ? "; bodies changed, so the simulation was restarted" : ""));

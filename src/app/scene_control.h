@@ -49,6 +49,7 @@ class SceneControl {
 
  private:
   void take_effect(Result<Effect> effect);
+  bool replace(Result<SceneEditor> loaded, bool keep_state);
   void reread_file();
 
   SceneEditor editor_;

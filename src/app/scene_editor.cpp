@@ -58,16 +58,8 @@ void SceneEditor::look_at_file() {
   modified_ = builtin_scene_text(source_) ? std::nullopt : time_of(source_);
 }
 
-Status SceneEditor::replace(const std::string& source) {
-  // --set belongs to the scene it was given with.
-  auto other = open(source, source == source_ ? overrides_ : std::vector<std::string>{});
-  if (!other) return other.error();
-  *this = std::move(*other);
-  return {};
-}
-
-Status SceneEditor::reload() {
-  return replace(std::string(source_));
+Result<SceneEditor> SceneEditor::other(const std::string& source) const {
+  return open(source, source == source_ ? overrides_ : std::vector<std::string>{});
 }
 
 bool SceneEditor::file_changed() {

@@ -17,7 +17,7 @@ enum class Effect {
   none,       ///< nothing changed
   view,       ///< the picture alone
   constants,  ///< other constants; the state goes on
-  restart     ///< another body or another start: the simulation begins anew
+  restart     ///< another body or another start: the simulation restarts
 };
 
 /// What lies between two scenes, by the parameter table.
@@ -34,10 +34,9 @@ class SceneEditor {
   bool is_file() const { return modified_.has_value(); }
   bool changed() const { return !undo_.empty(); }
 
-  /// Loads another scene; its past begins anew. On an error nothing changes.
-  Status replace(const std::string& source);
-  /// Loads the same source again. On an error (a broken file, say) the scene stays as it is.
-  Status reload();
+  /// An editor of another source, or of the same one again, whose overrides (--set) stay with it. Errors:
+  /// those of load_scene.
+  Result<SceneEditor> other(const std::string& source) const;
   /// Whether the file was written since it was last looked at; true once for each time.
   bool file_changed();
 
@@ -45,7 +44,7 @@ class SceneEditor {
   /// Error (scene_rejected): what the scene checks say; nothing changes.
   Result<Effect> set(const Parameter& parameter, std::size_t index, const Value& value,
                      const std::string& gesture);
-  /// Takes on a whole changed scene, under a name for undo. Errors as set.
+  /// Replaces the scene, under a name for undo. Errors as set.
   Result<Effect> apply(Scene scene, const std::string& name, const std::string& gesture);
   /// The next change begins a new entry, whatever its gesture.
   void end_gesture() { gesture_.clear(); }

@@ -24,15 +24,12 @@ int rounded(double length) {
 }  // namespace
 
 Status ScenePicture::attach(gl::Context& context) {
-  const auto directory = shader_directory();
-  if (!directory) return directory.error();
+  ASPIC_TRY(const auto directory, shader_directory());
   context_ = &context;
   RendererOptions look;
   look.samples = in_full() ? 4 : 1;
-  look.shaders = gl::ShaderLibrary(*directory);
-  auto renderer = Renderer::create(context, look);
-  if (!renderer) return renderer.error();
-  renderer_ = std::move(*renderer);
+  look.shaders = gl::ShaderLibrary(directory);
+  ASPIC_TRY(renderer_, Renderer::create(context, look));
   drawn_.reset();
   return {};
 }
@@ -96,9 +93,7 @@ Status ScenePicture::draw() {
   }
   std::optional<DeviceState> state = simulation_.device_state();
   if (!state) {
-    const auto uploaded = renderer_->upload(simulation_.snapshot());
-    if (!uploaded) return uploaded.error();
-    state = *uploaded;
+    ASPIC_TRY(state, renderer_->upload(simulation_.snapshot()));
   }
   ASPIC_CHECK(renderer_->draw(content.size.width, content.size.height, *state, options));
   if (context_->info().is_software) glFinish();
@@ -172,12 +167,10 @@ Status save_screenshot(const WindowSize& size, const std::string& path) {
   for (std::size_t i = 0; i < height; ++i)
     std::copy_n(below.begin() + static_cast<std::ptrdiff_t>((height - 1 - i) * row), row,
                 rgb.begin() + static_cast<std::ptrdiff_t>(i * row));
-  const auto png = encode_png({size.pixel_width, size.pixel_height}, rgb);
-  if (!png) return png.error();
-  auto file = AtomicFile::create(path, Overwrite::refuse);
-  if (!file) return file.error();
-  ASPIC_CHECK(file->write(*png));
-  return file->commit();
+  ASPIC_TRY(const auto png, encode_png({size.pixel_width, size.pixel_height}, rgb));
+  ASPIC_TRY(auto file, AtomicFile::create(path, Overwrite::refuse));
+  ASPIC_CHECK(file.write(png));
+  return file.commit();
 }
 
 }  // namespace aspic::app

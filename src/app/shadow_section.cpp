@@ -26,10 +26,8 @@ void plot(const std::deque<DifferenceSample>& samples, double scale) {
   ImGui::Dummy(size);
   tooltip(
       "Largest difference of any component of the state over time, in units in the last place: the bottom is "
-      "0, "
-      "the top ten thousand million, each tenth of the height ten times as much. Green where every bit is "
-      "the "
-      "same.");
+      "0, the top ten thousand million, each tenth of the height ten times as much. Green where every bit is "
+      "the same.");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 21, 23, 255), 4.0f);
   if (samples.size() < 2) return;

@@ -18,12 +18,10 @@ constexpr std::uint64_t many_particles = 20000;
 Result<std::unique_ptr<Simulation>> Simulation::create(gl::Context& context, const Scene& scene,
                                                        const BackendRow& backend) {
   std::unique_ptr<Simulation> s(new Simulation(context, {scene.model, {}, {}}));
-  auto built = build_model(s->setup_);
-  if (!built) return built.error();
-  auto model = std::make_unique<Model>(std::move(*built));
-  auto leader = s->factory_.make(*model, backend, nullptr);
-  if (!leader) return leader.error();
-  s->engines_ = Engines(std::move(model), std::move(*leader), {});
+  ASPIC_TRY(auto built, build_model(s->setup_));
+  auto model = std::make_unique<Model>(std::move(built));
+  ASPIC_TRY(auto leader, s->factory_.make(*model, backend, nullptr));
+  s->engines_ = Engines(std::move(model), std::move(leader), {});
   ASPIC_CHECK(s->reset());
   return s;
 }
@@ -169,9 +167,8 @@ Status Simulation::set_backend(const BackendRow& row) {
   if (shadow_backend() == &row) {
     engines_.swap();  // both are at the same step
   } else {
-    auto engine = factory_.make(model(), row, engines_.gpu());
-    if (!engine) return engine.error();
-    engines_.set_leader(std::move(*engine));
+    ASPIC_TRY(auto engine, factory_.make(model(), row, engines_.gpu()));
+    engines_.set_leader(std::move(engine));
   }
   batch_ = 1;
   const Status loaded = load(State(snapshot_));
@@ -185,10 +182,9 @@ Status Simulation::set_shadow(const BackendRow* row) {
   samples_.clear_differences();
   engines_.set_shadow({});
   if (!row) return {};
-  auto engine = factory_.make(model(), *row, engines_.gpu());
-  if (!engine) return engine.error();
-  ASPIC_CHECK(engine->solver->load(snapshot_));
-  engines_.set_shadow(std::move(*engine));
+  ASPIC_TRY(auto engine, factory_.make(model(), *row, engines_.gpu()));
+  ASPIC_CHECK(engine.solver->load(snapshot_));
+  engines_.set_shadow(std::move(engine));
   return {};
 }
 
@@ -203,9 +199,8 @@ Status Simulation::fall_back(const Error& error) {
     message_ = fmt::format("{} Shadow mode has ended.", error.message);
     return load(State(snapshot_));  // the leader may be steps ahead of what was taken from it
   }
-  auto engine = factory_.make(model(), reference_backend(), nullptr);
-  if (!engine) return engine.error();
-  engines_.set_leader(std::move(*engine));
+  ASPIC_TRY(auto engine, factory_.make(model(), reference_backend(), nullptr));
+  engines_.set_leader(std::move(engine));
   engines_.set_shadow({});
   seek_.reset();
   const double age = std::chrono::duration<double>(Clock::now() - snapshot_time_).count();

@@ -141,18 +141,6 @@ class Simulation {
     std::optional<Result<Engines>> engines = {};
     std::optional<std::string> message = {};
   };
-  /// What a solver did in a job.
-  struct Advanced {
-    State state;
-    std::optional<Divergence> divergence;
-  };
-  /// What a worker's job leaves.
-  struct Outcome {
-    std::optional<Error> error;
-    std::uint64_t steps = 0;
-    Advanced leader, shadow;  ///< each where it took part
-    Measures measures;        ///< of the one that set the pace
-  };
   Simulation(gl::Context& context, Setup setup);
 
   Status install(Setup setup, Result<Engines> engines, std::optional<std::string> message);
@@ -169,9 +157,8 @@ class Simulation {
   Status prepare_to_advance();
   Status advance_run(double dt, double budget);
   Status advance_here(std::uint64_t steps, double budget);
-  Status advance_shadow(std::uint64_t steps);
+  Status compare_shadow(std::uint64_t steps);
   void start_job(std::uint64_t steps, double budget);
-  static Status advance(const Backend& engine, std::uint64_t steps, Advanced& into);
   Status take_outcome();
   Status follow(Outcome outcome);
   Status seek_on(double budget);

@@ -11,7 +11,7 @@ namespace {
 /// Keyframes are this far apart in running time, farther where memory would not hold the last half minute.
 constexpr double keyframe_interval = 0.1, history_seconds = 30.0;  // s
 constexpr auto sample_every = std::chrono::milliseconds(100);
-/// Nobody waits for a job, so it may take longer than a picture [s].
+/// The window does not wait for a job, so it may take longer than a picture [s].
 constexpr double shortest_job = 0.030;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -55,17 +55,17 @@ Status Simulation::single_step() {
   note(*advanced ? 0 : 1, *advanced);
   ASPIC_CHECK(refresh_snapshot());
   if (shadowed()) {
-    if (const Status followed = advance_shadow(1); !followed) return fall_back(followed.error());
+    if (const Status followed = compare_shadow(1); !followed) return fall_back(followed.error());
   }
   add_sample(snapshot_, measure(model(), snapshot_));
   return {};
 }
 
 /// The shadow does so many steps, tried ones included, on this thread and is compared with the snapshot.
-Status Simulation::advance_shadow(std::uint64_t steps) {
-  Advanced other;
-  ASPIC_CHECK(advance(engines_.shadow(), steps, other));
-  samples_.compare(time(), snapshot_, other.state);
+Status Simulation::compare_shadow(std::uint64_t steps) {
+  const auto other = engines_.advance_shadow(steps);
+  if (!other) return other.error();
+  samples_.compare(time(), snapshot_, *other);
   return {};
 }
 
@@ -111,7 +111,7 @@ Status Simulation::advance_run(double dt, double budget) {
   ASPIC_CHECK(advance_here(steps, budget));
   if (!shadowed()) return {};
   ASPIC_CHECK(refresh_snapshot());
-  return advance_shadow(step_ - before + (divergence_ ? 1 : 0));
+  return compare_shadow(step_ - before + (divergence_ ? 1 : 0));
 }
 
 /// Steps of the leader, in the context, in batches.
@@ -143,49 +143,11 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
   return {};
 }
 
-Status Simulation::advance(const Backend& engine, std::uint64_t steps, Advanced& into) {
-  const auto advanced = engine.solver->advance(steps);
-  if (!advanced) return advanced.error();
-  auto state = engine.solver->state();
-  if (!state) return state.error();
-  into.divergence = *advanced;
-  into.state = std::move(*state);
-  return {};
-}
-
-/// Sets the worker to work on the solvers that do without the context: the first of them sets the pace, the
-/// others follow it, here or in follow(). On the way through history the leader goes alone.
+/// On the way through history the leader goes alone.
 void Simulation::start_job(std::uint64_t steps, double budget) {
   has_outcome_ = true;
-  outcome_ = Outcome{};
   worker_.start([this, steps, budget, alone = seek_.has_value()](const std::atomic<bool>& hurry) {
-    const bool shadow_paces = engines_.shadow_paces();
-    const Backend& first = shadow_paces ? engines_.shadow() : engines_.leader();
-    Advanced& paced = shadow_paces ? outcome_.shadow : outcome_.leader;
-    const auto start = Clock::now();
-    Status status;
-    while (status && outcome_.steps < steps && !hurry && seconds_since(start) <= budget) {
-      const auto advanced = first.solver->advance(1);
-      if (!advanced)
-        status = advanced.error();
-      else if (paced.divergence = *advanced; paced.divergence)
-        break;
-      else
-        ++outcome_.steps;
-    }
-    auto state = status ? first.solver->state() : Result<State>(status.error());
-    if (state) {
-      paced.state = std::move(*state);
-      outcome_.measures = measure(model(), paced.state);
-    }
-    if (!state)
-      outcome_.error = state.error();
-    else if (shadowed() && !alone && !shadow_paces && !Engines::in_context(engines_.shadow())) {
-      // A step that failed on one side is tried on the other.
-      const std::uint64_t tried = outcome_.steps + (paced.divergence ? 1 : 0);
-      if (const Status followed = advance(engines_.shadow(), tried, outcome_.shadow); !followed)
-        outcome_.error = followed.error();
-    }
+    outcome_ = engines_.advance_outside(steps, budget, alone, hurry);
   });
 }
 
@@ -215,15 +177,7 @@ Status Simulation::take_outcome() {
 /// Shadow mode: the solver that needs the context does the steps that the job has done, and the two states
 /// are compared.
 Status Simulation::follow(Outcome outcome) {
-  const bool shadow_paced = engines_.shadow_paces();
-  const Advanced& paced = shadow_paced ? outcome.shadow : outcome.leader;
-  // A step that failed on one side is tried on the other.
-  const std::uint64_t tried = outcome.steps + (paced.divergence ? 1 : 0);
-  if (shadow_paced) {
-    ASPIC_CHECK(advance(engines_.leader(), tried, outcome.leader));
-  } else if (Engines::in_context(engines_.shadow())) {
-    ASPIC_CHECK(advance(engines_.shadow(), tried, outcome.shadow));
-  }
+  ASPIC_CHECK(engines_.follow(outcome));
   take_snapshot(std::move(outcome.leader.state));
   note(snapshot_.step - step_, outcome.leader.divergence);
   samples_.compare(time(), snapshot_, outcome.shadow.state);
@@ -231,7 +185,7 @@ Status Simulation::follow(Outcome outcome) {
     samples_.one_diverged();
     set_running(false);
   }
-  add_sample(shadow_paced ? paced.state : snapshot_, outcome.measures);
+  add_sample(engines_.shadow_paces() ? outcome.shadow.state : snapshot_, outcome.measures);
   return {};
 }
 

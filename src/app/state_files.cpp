@@ -35,10 +35,10 @@ void StateFiles::save(const StateFormat& format, std::string path) const {
   if (!messages.check(simulation.settle())) return;
   const Setup& setup = simulation.setup();
   if (format.holds_scene && !(setup.thrown.empty() && setup.pinned.empty())) {
-    return messages.error(fmt::format(
-        "A {} holds the scene and the state, and balls thrown or particles pinned by hand are not "
-        "part of the scene. Remove them first (Balls, or Reset), or save the state alone.",
-        format.option));
+    return messages.error(
+        fmt::format("A {} holds the scene and the state, and balls thrown or particles pinned by hand are "
+                    "not part of the scene. Remove them first (Balls, or Reset), or save the state alone.",
+                    format.option));
   }
   const auto& energies = simulation.samples().energies();
   if (!messages.check(format.over_time ? write_series(path, energies)

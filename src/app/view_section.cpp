@@ -76,8 +76,8 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& sh
   ImGui::Checkbox("shadows", &shadows);
   gui.mark("view/shadows");
   tooltip(
-      "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "
-      "this window only; aspic run always draws them.");
+      "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects this "
+      "window only; aspic run always draws them.");
   camera_buttons(gui, camera);
   edit_camera(gui, camera, "view.camera.position", "Camera");
   edit_camera(gui, camera, "view.camera.target", "Looks at");

@@ -12,8 +12,7 @@ namespace {
 
 constexpr const char* instead =
     "Without a window, aspic run simulates headless, and aspic run SCENE --video FILE.mp4 draws what the "
-    "window "
-    "would show.";
+    "window would show.";
 
 std::string last_error() {
   const char* text = nullptr;
@@ -57,11 +56,11 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, gl::debug_by_default ? GLFW_TRUE : GLFW_FALSE);
-  // To be told when the device is lost; where a driver refuses that, without.
+  // With notice of a lost device; where a driver refuses that, without.
   glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
-  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until it stands where it belongs
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until it is in its place
   w->window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (!w->window_) {
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);

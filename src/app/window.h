@@ -37,8 +37,7 @@ class Window {
  public:
   /// Opens a window of that size [window units] and makes its context current. Error (no_device): no display,
   /// or no OpenGL 4.3; says what to do instead.
-  /// It stands at `position` [screen units] where that is on a monitor still; the system chooses a place
-  /// else.
+  /// It is placed at `position` [screen units] if that is still on a monitor; otherwise the system chooses.
   static Result<std::unique_ptr<Window>> create(int width, int height, const std::string& title,
                                                 const std::optional<std::array<int, 2>>& position = {});
   ~Window();

@@ -5,42 +5,30 @@
 #endif
 
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 namespace aspic::app {
 
-Worker::Worker() : thread_([this] { loop(); }) {}
-
-void Worker::abandon() noexcept {
-  hurry_ = true;
-  await_end();
-}
-
-Worker::~Worker() {
-  abandon();
-  {
-    const std::lock_guard lock(mutex_);
-    end_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-}
-
 void Worker::start(Job job) {
-  rethrow();
-  {
-    const std::lock_guard lock(mutex_);
-    assert(!busy_);
-    job_ = std::move(job);
-    busy_ = true;
-    hurry_ = false;
-  }
-  changed_.notify_all();
+  assert(!busy());
+  wait();
+  hurry_ = false;
+  job_ = std::async(std::launch::async, [this, run = std::move(job)] {
+  // Pictures and events go first. Where there is no such call all threads are equal, as they are by default.
+#ifdef __linux__
+    setpriority(PRIO_PROCESS, 0, 5);  // of this thread: POSIX says process, Linux means thread
+#endif
+    run(hurry_);
+  });
 }
 
 bool Worker::busy() const {
-  const std::lock_guard lock(mutex_);
-  return busy_;
+  return job_.valid() && job_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+}
+
+void Worker::wait() {
+  if (job_.valid()) job_.get();
 }
 
 void Worker::finish() {
@@ -48,46 +36,9 @@ void Worker::finish() {
   wait();
 }
 
-void Worker::wait() {
-  await_end();
-  rethrow();
-}
-
-void Worker::rethrow() {
-  std::exception_ptr failure;
-  {
-    const std::lock_guard lock(mutex_);
-    failure = std::exchange(failure_, nullptr);
-  }
-  if (failure) std::rethrow_exception(failure);
-}
-
-void Worker::await_end() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return !busy_; });
-}
-
-void Worker::loop() {
-  // Pictures and events go first. Where there is no such call all threads are equal, as they are by default.
-#ifdef __linux__
-  setpriority(PRIO_PROCESS, 0, 5);  // of this thread: POSIX says process, Linux means thread
-#endif
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    changed_.wait(lock, [this] { return busy_ || end_; });
-    if (!busy_) return;
-    lock.unlock();
-    std::exception_ptr failure;
-    try {
-      job_(hurry_);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    lock.lock();
-    failure_ = failure;
-    busy_ = false;
-    changed_.notify_all();
-  }
+void Worker::abandon() noexcept {
+  hurry_ = true;
+  if (job_.valid()) job_.wait();
 }
 
 }  // namespace aspic::app

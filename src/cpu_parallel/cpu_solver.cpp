@@ -334,10 +334,9 @@ Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOpt
   try {
     return std::unique_ptr<Solver>(std::make_unique<parallel::CpuSolver>(model, options));
   } catch (const std::bad_alloc&) {
-    return Error{
-        ErrorCode::scene_rejected,
-        fmt::format("no memory left for the cpu solver of {} particles: use fewer particles-per-edge",
-                    model.particle_count())};
+    return fail(ErrorCode::scene_rejected,
+                "no memory left for the cpu solver of {} particles: use fewer particles-per-edge",
+                model.particle_count());
   }
 }
 

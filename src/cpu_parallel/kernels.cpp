@@ -1,7 +1,5 @@
 #include "cpu_parallel/kernels.h"
 
-#include <array>
-
 // Highway compiles this file once for each of these.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE

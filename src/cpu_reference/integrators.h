@@ -84,6 +84,17 @@ Phase<T> heun_3(const Forces& dynamics, const Phase<T>& s, double step) {
   return {s.x + quarter_h * (k1_x + three * k3_x), s.v + quarter_h * (k1_v + three * k3_v)};
 }
 
+/// x' = x + h/2·(v + v₁), v₁ = v + h·a(x, v);  v' = v + h/2·(a(x, v) + a(x', v₁)): velocity Verlet with the
+/// velocity predicted for dampers (Groot and Warren, J. Chem. Phys. 107, 4423, 1997, λ = 1).
+template <class T, class Forces>
+Phase<T> velocity_verlet(const Forces& dynamics, const Phase<T>& s, double step) {
+  const T h = static_cast<T>(step), half_h = static_cast<T>(step / 2);
+  const Field<T> a = dynamics.acceleration(s.x, s.v);
+  const Field<T> v_1 = s.v + h * a;
+  const Field<T> x = s.x + half_h * (s.v + v_1);
+  return {x, s.v + half_h * (a + dynamics.acceleration(x, v_1))};
+}
+
 /// One step of an explicit method, before the terrain's response. Precondition: `integrator` is one of
 /// explicit_integrators.
 template <class T, class Forces>
@@ -96,6 +107,7 @@ Phase<T> explicit_step(Integrator integrator, const Forces& dynamics, const Phas
       {Integrator::runge_kutta_4, runge_kutta_4<T, Forces>},
       {Integrator::implicit_euler_one_pass, implicit_euler_one_pass<T, Forces>},
       {Integrator::heun_3, heun_3<T, Forces>},
+      {Integrator::velocity_verlet, velocity_verlet<T, Forces>},
   };
   static_assert(std::all_of(explicit_integrators.begin(), explicit_integrators.end(),
                             [](Integrator wanted) {

@@ -56,12 +56,11 @@ Result<std::unique_ptr<Context>> Context::adopt_current(Loader loader) {
         "No OpenGL context is current on this thread, so there is none to use. Make the window's context "
         "current first."};
   if (version < GLAD_MAKE_VERSION(4, 3))
-    return Error{
-        ErrorCode::no_device,
-        fmt::format("The window's context is OpenGL {}.{} ({}), but 4.3 core is needed for compute shaders. "
-                    "Install a newer driver, or use --backend reference.",
-                    GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version),
-                    reinterpret_cast<const char*>(glGetString(GL_RENDERER)))};
+    return fail(ErrorCode::no_device,
+                "The window's context is OpenGL {}.{} ({}), but 4.3 core is needed for compute shaders. "
+                "Install a newer driver, or use --backend reference.",
+                GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version),
+                reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
   std::unique_ptr<Context> context(new Context);
   context->start("window", loader);
   return context;
@@ -137,11 +136,10 @@ void Context::forget_errors() {
 }
 
 Error Context::lost_error() const {
-  return {
-      ErrorCode::no_device,
-      fmt::format("The device {} was reset or lost, with everything it held. Resume from the last "
-                  "checkpoint, or choose --backend reference.",
-                  info_.renderer)};
+  return fail(ErrorCode::no_device,
+              "The device {} was reset or lost, with everything it held. Resume from the last "
+              "checkpoint, or choose --backend reference.",
+              info_.renderer);
 }
 
 Status Context::check(ErrorCode memory_code) {

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
-#include <optional>
 
 #include "base/memory.h"
 #include "base/printable.h"
@@ -38,26 +37,17 @@ F function(const char* name) {
 
 std::string egl_error() {
   const EGLint code = eglGetError();
-  switch (code) {
-    case EGL_SUCCESS:
-      return "no EGL error";
-    case EGL_NOT_INITIALIZED:
-      return "EGL_NOT_INITIALIZED";
-    case EGL_BAD_ACCESS:
-      return "EGL_BAD_ACCESS";
-    case EGL_BAD_ALLOC:
-      return "EGL_BAD_ALLOC";
-    case EGL_BAD_ATTRIBUTE:
-      return "EGL_BAD_ATTRIBUTE";
-    case EGL_BAD_MATCH:
-      return "EGL_BAD_MATCH";
-    case EGL_BAD_CONFIG:
-      return "EGL_BAD_CONFIG";
-    case EGL_BAD_PARAMETER:
-      return "EGL_BAD_PARAMETER";
-    default:
-      return fmt::format("EGL error 0x{:04x}", code);
-  }
+  constexpr std::pair<EGLint, const char*> names[] = {{EGL_SUCCESS, "no EGL error"},
+                                                      {EGL_NOT_INITIALIZED, "EGL_NOT_INITIALIZED"},
+                                                      {EGL_BAD_ACCESS, "EGL_BAD_ACCESS"},
+                                                      {EGL_BAD_ALLOC, "EGL_BAD_ALLOC"},
+                                                      {EGL_BAD_ATTRIBUTE, "EGL_BAD_ATTRIBUTE"},
+                                                      {EGL_BAD_MATCH, "EGL_BAD_MATCH"},
+                                                      {EGL_BAD_CONFIG, "EGL_BAD_CONFIG"},
+                                                      {EGL_BAD_PARAMETER, "EGL_BAD_PARAMETER"}};
+  for (const auto& [known, name] : names)
+    if (code == known) return name;
+  return fmt::format("EGL error 0x{:04x}", code);
 }
 
 std::vector<EGLDeviceEXT> egl_devices() {

@@ -16,22 +16,13 @@ struct Storage {
   std::size_t upload_bytes;
 };
 
-Storage storage_of(TexelFormat format) {
-  switch (format) {
-    case TexelFormat::r8:
-      return {GL_R8, GL_RED, 1};
-    case TexelFormat::srgba8:
-      return {GL_SRGB8_ALPHA8, GL_RGBA, 4};
-    case TexelFormat::r16f:
-      return {GL_R16F, 0, 0};
-    case TexelFormat::rg16f:
-      return {GL_RG16F, 0, 0};
-    case TexelFormat::rg32ui:
-      return {GL_RG32UI, 0, 0};
-    case TexelFormat::depth32f:
-      return {GL_DEPTH_COMPONENT32F, 0, 0};
-  }
-  return {};
+/// By TexelFormat.
+constexpr Storage storages[] = {{GL_R8, GL_RED, 1}, {GL_SRGB8_ALPHA8, GL_RGBA, 4},
+                                {GL_R16F, 0, 0},    {GL_RG16F, 0, 0},
+                                {GL_RG32UI, 0, 0},  {GL_DEPTH_COMPONENT32F, 0, 0}};
+
+const Storage& storage_of(TexelFormat format) {
+  return storages[static_cast<std::size_t>(format)];
 }
 
 GLenum target_of(const TextureSettings& settings) {

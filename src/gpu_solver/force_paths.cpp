@@ -65,8 +65,8 @@ std::string built_path_words(std::string_view between, bool implicit_alone) {
 
 Status check_built(ForcePath path) {
   if (row_of(path).built) return {};
-  return Error{ErrorCode::scene_rejected, fmt::format("the force path {} is not built yet; use {}.",
-                                                      name_of(path), built_path_words(" or "))};
+  return fail(ErrorCode::scene_rejected, "the force path {} is not built yet; use {}.", name_of(path),
+              built_path_words(" or "));
 }
 
 bool works_with(ForcePath path, Integrator integrator) {

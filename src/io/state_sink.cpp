@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 
 #include "io/checkpoint.h"
 #include "io/series_csv.h"
 #include "io/state_csv.h"
+#include "io/state_vtp.h"
 
 namespace aspic {
 namespace {
@@ -126,12 +126,18 @@ Status write_csv(AtomicFile& file, const Sample& sample) {
   return write_state_csv(file, sample.state);
 }
 
+Status write_vtp(AtomicFile& file, const Sample& sample) {
+  return write_state_vtp(file, sample.model, sample.state);
+}
+
 constexpr std::string_view state_summary = "write the final state";
 constexpr std::string_view state_every =
     "steps between states: FILE-00000040.csv and so on, from the first to the last";
 
 constexpr StateFormat table[] = {
     {"state", ".csv", "CSV", state_summary, state_every, 0, false, false, StateFiles::open<write_csv>},
+    {"state", ".vtp", "VTK PolyData", state_summary, state_every, 0, false, false,
+     StateFiles::open<write_vtp>},
     {"series", ".csv", "CSV", "write energies and momentum over time",
      "steps between rows of the series; default 1", 1, true, false, Series::open},
     {"checkpoint", ".aspic", "a checkpoint", "write scene and final state, to resume from,",

@@ -14,7 +14,8 @@ namespace aspic {
 struct SettingsList {
   std::string_view key;
   std::size_t (*size)(const ModelSettings&);
-  void (*append)(ModelSettings&);  ///< an element with default values
+  void (*append)(ModelSettings&);               ///< an element with default values
+  void (*remove)(ModelSettings&, std::size_t);  ///< one of them, by index
 };
 
 /// One kind of body. Model, parser, checks, --set and window iterate the table.
@@ -32,7 +33,10 @@ struct BodyRow {
 template <auto Member>
 SettingsList settings_list(std::string_view key) {
   return {key, [](const ModelSettings& s) { return (s.*Member).size(); },
-          [](ModelSettings& s) { (s.*Member).emplace_back(); }};
+          [](ModelSettings& s) { (s.*Member).emplace_back(); },
+          [](ModelSettings& s, std::size_t i) {
+            (s.*Member).erase((s.*Member).begin() + static_cast<std::ptrdiff_t>(i));
+          }};
 }
 
 /// The row of bodies in a vector of the settings: `Counts` takes the settings of one and returns its

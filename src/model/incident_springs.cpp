@@ -11,11 +11,10 @@ namespace {
 Status check_words(const Model& model) {
   const std::uint64_t limit = std::uint64_t{1} << (32 - class_bits(model));
   if (model.particle_count() <= limit) return {};
-  return Error{
-      ErrorCode::scene_rejected,
-      fmt::format("{} particles with {} kinds of springs are more than one 32-bit word a spring can name "
-                  "({} particles at most): use fewer particles-per-edge or --backend reference",
-                  model.particle_count(), model.spring_classes.size(), limit)};
+  return fail(ErrorCode::scene_rejected,
+              "{} particles with {} kinds of springs are more than one 32-bit word a spring can name "
+              "({} particles at most): use fewer particles-per-edge or --backend reference",
+              model.particle_count(), model.spring_classes.size(), limit);
 }
 
 /// Springs at each particle i, at i + 1.

@@ -58,6 +58,12 @@ StepMatrix heun_3(long double h, long double kappa, long double gamma) {
   return one + z + 0.5L * z2 + 1.0L / 6 * (z2 * z);
 }
 
+StepMatrix velocity_verlet(long double h, long double kappa, long double gamma) {
+  const long double p = h * gamma, q = h * h * kappa;
+  return {1 - q / 2, h * (1 - p / 2), (-q + q * q / 4 + p * q / 2) / h,
+          1 - p + p * p / 2 - q / 2 + p * q / 4};
+}
+
 StepMatrix implicit_euler(long double h, long double kappa, long double gamma) {
   const long double determinant = 1 + h * gamma + h * h * kappa;
   return 1 / determinant * StepMatrix{1 + h * gamma, h, -h * kappa, 1};
@@ -66,6 +72,14 @@ StepMatrix implicit_euler(long double h, long double kappa, long double gamma) {
 double symplectic_euler_limit(double kappa, double gamma) {
   // (−γ + √(γ² + 4κ))/κ without its cancellation for small κ.
   return 4.0 / (gamma + std::hypot(gamma, 2.0 * std::sqrt(kappa)));
+}
+
+double velocity_verlet_limit(double kappa, double gamma) {
+  // An eigenvalue leaves at 1 where hγ = 2, or before that at −1 where h²(κ − γ²) + 2hγ = 4.
+  const double root_kappa = std::sqrt(kappa);
+  if (root_kappa <= gamma) return 2.0 / gamma;
+  const double small = std::sqrt(3.0) * gamma, large = 2.0 * root_kappa;
+  return 4.0 / (gamma + std::sqrt(large - small) * std::sqrt(large + small));
 }
 
 double no_limit(double, double) {

@@ -26,7 +26,8 @@ enum class Integrator {
   runge_kutta_4,
   implicit_euler,
   implicit_euler_one_pass,
-  heun_3
+  heun_3,
+  velocity_verlet
 };
 
 struct Stage {
@@ -72,6 +73,7 @@ namespace integrator_rows {
 inline constexpr std::array<Stage, 1> one_stage = {{{0.0, 1.0}}};
 inline constexpr std::array<Stage, 2> midpoint = {{{0.5, 0.0}, {0.0, 1.0}}};
 inline constexpr std::array<Stage, 2> one_pass = {{{1.0, 0.0}, {0.0, 1.0}}};
+inline constexpr std::array<Stage, 2> verlet = {{{1.0, 1.0}, {0.0, 1.0}}};
 inline constexpr std::array<Stage, 3> heun = {{{1.0 / 3, 1.0}, {2.0 / 3, 0.0}, {0.0, 3.0}}};
 inline constexpr std::array<Stage, 4> kutta = {{{0.5, 1.0}, {0.5, 2.0}, {1.0, 2.0}, {0.0, 1.0}}};
 
@@ -82,7 +84,9 @@ StepMatrix runge_kutta_4(long double h, long double kappa, long double gamma);
 StepMatrix implicit_euler(long double h, long double kappa, long double gamma);
 StepMatrix implicit_euler_one_pass(long double h, long double kappa, long double gamma);
 StepMatrix heun_3(long double h, long double kappa, long double gamma);
+StepMatrix velocity_verlet(long double h, long double kappa, long double gamma);
 double symplectic_euler_limit(double kappa, double gamma);
+double velocity_verlet_limit(double kappa, double gamma);
 double no_limit(double kappa, double gamma);
 
 }  // namespace integrator_rows
@@ -116,6 +120,9 @@ inline constexpr std::array integrator_table = {
                   integrator_rows::implicit_euler_one_pass, nullptr, "the 2021 assignment"},
     IntegratorRow{Integrator::heun_3, "heun-3", "Heun 3", 3, integrator_rows::heun, 4.0,
                   Drift::stage_velocity, false, integrator_rows::heun_3, nullptr, "Heun, 1900"},
+    IntegratorRow{Integrator::velocity_verlet, "velocity-verlet", "velocity Verlet", 2,
+                  integrator_rows::verlet, 2.0, Drift::mean_velocity, true, integrator_rows::velocity_verlet,
+                  integrator_rows::velocity_verlet_limit, "Groot and Warren, 1997"},
 };
 
 /// The row of an integrator, which must be one of the enumeration.

@@ -15,9 +15,8 @@ namespace aspic {
 /// Number `index` of the sequence of `seed`, in [0, 1).
 double launcher_number(std::int64_t seed, std::uint64_t index);
 
-/// Ball n of a launcher, n from 0: it starts at step round(n·interval/h), never where that exceeds
-/// all step numbers, with velocity factor·(target −
-/// start), not spinning.
+/// Ball n of a launcher, n from 0: it starts at step round(n·interval/h), never where that exceeds all step
+/// numbers, with velocity factor·(target − start), not spinning.
 Ball launched_ball(const LauncherSettings& launcher, std::uint64_t n, double timestep);
 
 /// Appends the launcher's balls to the model.

@@ -101,19 +101,9 @@ ModelCounts count(const Model& model) {
   counts.balls = model.ball_count();
   counts.pinned =
       static_cast<std::uint64_t>(std::count(model.inverse_mass.begin(), model.inverse_mass.end(), 0.0));
-  for (const Spring& spring : model.springs) {
-    switch (model.spring_classes[spring.spring_class].type) {
-      case SpringType::structural:
-        ++counts.structural;
-        break;
-      case SpringType::shear:
-        ++counts.shear;
-        break;
-      case SpringType::bending:
-        ++counts.bending;
-        break;
-    }
-  }
+  std::uint64_t* const of_type[] = {&counts.structural, &counts.shear, &counts.bending};
+  for (const Spring& spring : model.springs)
+    ++*of_type[static_cast<std::size_t>(model.spring_classes[spring.spring_class].type)];
   return counts;
 }
 
@@ -151,15 +141,8 @@ std::string_view name_of(ContactModel model) {
 }
 
 std::string_view name_of(SpringType type) {
-  switch (type) {
-    case SpringType::structural:
-      return "structural";
-    case SpringType::shear:
-      return "shear";
-    case SpringType::bending:
-      return "bending";
-  }
-  return "";
+  constexpr std::string_view names[] = {"structural", "shear", "bending"};
+  return names[static_cast<std::size_t>(type)];
 }
 
 }  // namespace aspic

@@ -52,12 +52,9 @@ Result<std::vector<bool>> pinned_particles(const PinNames& names, const PinnedSe
   for (const std::string& name : pinned.names) {
     const auto places = places_of(names.sides, name);
     if (!places) {
-      return Error{
-          ErrorCode::scene_rejected,
-          fmt::format(
-              "pinned: \"{}\" is neither {} {} ({}) nor a corner ({})", name,
-              std::string_view("aeiou").find(names.side.front()) != std::string_view::npos ? "an" : "a",
-              names.side, fmt::join(names.words(), ", "), names.corner)};
+      return fail(ErrorCode::scene_rejected, "pinned: \"{}\" is neither {} {} ({}) nor a corner ({})", name,
+                  std::string_view("aeiou").find(names.side.front()) != std::string_view::npos ? "an" : "a",
+                  names.side, fmt::join(names.words(), ", "), names.corner);
     }
     const auto along = [&](std::size_t axis, int at) {
       return (*places)[axis] == Place::anywhere ||
@@ -74,9 +71,8 @@ Result<std::vector<bool>> pinned_particles(const PinNames& names, const PinnedSe
   }
   for (const std::int64_t index : pinned.indices) {
     if (index < 0 || index >= std::ssize(result)) {
-      return Error{ErrorCode::scene_rejected,
-                   fmt::format("pinned: index {} is not in the {}; allowed: 0 … {}", index, names.body,
-                               result.size() - 1)};
+      return fail(ErrorCode::scene_rejected, "pinned: index {} is not in the {}; allowed: 0 … {}", index,
+                  names.body, result.size() - 1);
     }
     result[static_cast<std::size_t>(index)] = true;
   }

@@ -43,17 +43,6 @@ double linear_to_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-Oklab to_oklab(const Colour& linear) {
-  const double r = static_cast<double>(linear[0]), g = static_cast<double>(linear[1]),
-               b = static_cast<double>(linear[2]);
-  const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
-  const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
-  const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
-          1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
-          0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
-}
-
 Colour from_oklab(const Oklab& lab) {
   const double l = std::pow(lab[0] + 0.3963377774 * lab[1] + 0.2158037573 * lab[2], 3.0);
   const double m = std::pow(lab[0] - 0.1055613458 * lab[1] - 0.0638541728 * lab[2], 3.0);
@@ -89,15 +78,9 @@ std::vector<std::byte> colour_map_texels() {
 }
 
 Colour spring_colour(SpringType type) {
-  switch (type) {
-    case SpringType::structural:
-      return encoded(0.05, 0.85, 0.90);
-    case SpringType::shear:
-      return encoded(0.98, 0.85, 0.10);
-    case SpringType::bending:
-      return encoded(0.16, 0.78, 0.22);
-  }
-  return {};
+  static const Colour colours[] = {encoded(0.05, 0.85, 0.90), encoded(0.98, 0.85, 0.10),
+                                   encoded(0.16, 0.78, 0.22)};
+  return colours[static_cast<std::size_t>(type)];
 }
 
 Colour body_colour(std::size_t body) {

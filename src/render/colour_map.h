@@ -17,7 +17,6 @@ double linear_to_srgb(double linear);
 
 /// Oklab (Ottosson, 2020): lightness and two opponent axes. Equal distances look about equally different.
 using Oklab = std::array<double, 3>;
-Oklab to_oklab(const Colour& linear);
 Colour from_oklab(const Oklab& lab);
 
 /// The scale of strain, force and speed: 256 colours, RGBA with 8 bits each, sRGB encoded. From dark violet

@@ -1,14 +1,13 @@
 #include "render/font.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <new>
 #include <span>
 
-// Compiled here rather than linked from libstb, which leaves out a glyph for which there is no memory: here that is
-// an exception.
+// Compiled here rather than linked from libstb, which leaves out a glyph for which there is no memory: here
+// that is an exception.
 #define STB_TRUETYPE_IMPLEMENTATION
 #define STBTT_STATIC
 #define STBTT_malloc(size, context) ((void)(context), ::operator new(size))

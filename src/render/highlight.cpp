@@ -2,9 +2,7 @@
 
 #include <glad/gl.h>
 
-#include <algorithm>
 #include <array>
-#include <cassert>
 
 #include "render/light_maps.h"
 

@@ -2,7 +2,6 @@
 
 #include <glad/gl.h>
 
-#include <algorithm>
 #include <bit>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

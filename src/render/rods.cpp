@@ -3,7 +3,6 @@
 #include <glad/gl.h>
 
 #include <cmath>
-#include <cstddef>
 
 #include "render/layout.h"
 #include "render/terrain_mesh.h"

@@ -15,8 +15,7 @@ namespace aspic::document {
 using diagnostics::Position;
 using diagnostics::Problem;
 
-/// Parses TOML. The first syntax error ends it; so does text that nests deeper than scenes do
-/// (too_deep).
+/// Parses TOML. The first syntax error ends it; so does text that nests deeper than scenes do (too_deep).
 std::variant<toml::table, Problem> parse(std::string_view text, std::uint32_t source);
 
 /// Where a key or a value begins.

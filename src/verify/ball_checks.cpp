@@ -141,17 +141,16 @@ Result<Finding> spin_turns_a_bounce(const Subject& subject) {
 Result<Finding> pit_overlap(const Subject& subject) {
   ASPIC_TRY(auto scene, load_scene("ball-pit"));
   ASPIC_TRY(auto model, build_model(scene.model));
-  const auto steps = static_cast<std::uint64_t>(std::lround(20.0 / model.simulation.timestep));
-  ASPIC_TRY(auto end, run_reference(subject, model, Precision::single, steps));
-  double deepest = 0.0;
+  ASPIC_TRY(auto end, run_reference(subject, model, Precision::single, steps_of(model, 20.0)));
+  double worst = 0.0;
   for (std::size_t a = 0; a < model.balls.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       const double radii = model.balls[a].radius + model.balls[b].radius;
       const double overlap = radii - length(end.ball_position[a] - end.ball_position[b]);
-      deepest = std::max(deepest, overlap / std::min(model.balls[a].radius, model.balls[b].radius));
+      worst = std::max(worst, overlap / std::min(model.balls[a].radius, model.balls[b].radius));
     }
   }
-  return at_most(deepest, 0.1, "of a radius");
+  return at_most(worst, 0.1, "of a radius");
 }
 
 /// Steps of a scene on a backend, on the gpu by every search, against the reference in single precision.

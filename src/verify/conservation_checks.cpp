@@ -1,8 +1,6 @@
 // Momentum and angular momentum of a free spinning cube.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "verify/experiments.h"
 
 namespace aspic::verify {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "analysis/amplification.h"
@@ -21,10 +20,7 @@ Model particle_on_plane(Integrator integrator, ContactModel contact, double slop
   model.simulation.integrator = integrator;
   model.simulation.implicit.tolerance = 1e-15;
   model.contact.model = contact;
-  TerrainSettings plane;
-  plane.geometry["point"] = Vec3{0, 0, 0};
-  plane.geometry["normal"] = Vec3{std::sin(slope_angle), std::cos(slope_angle), 0};
-  model.terrain.push_back(make_terrain(plane, model.contact));
+  model.terrain.push_back(plane_through_origin(model, {std::sin(slope_angle), std::cos(slope_angle), 0}));
   return model;
 }
 

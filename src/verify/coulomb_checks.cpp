@@ -16,17 +16,6 @@ constexpr double g = 9.8;
 constexpr double strong = 1.01 * g;                  // [N/m] of a pull 1 m long on 1 kg
 constexpr double pull_bound = 1e-3 * 1e-3 * strong;  // h²·k/m
 
-double usual_step(Integrator integrator) {
-  return row_of(integrator).solved() ? 1.0 / 60 : 1e-3;
-}
-
-Terrain plane_through_origin(const Model& model, const Vec3& normal) {
-  TerrainSettings settings;
-  settings.geometry["point"] = Vec3{0, 0, 0};
-  settings.geometry["normal"] = normal;
-  return make_terrain(settings, model.contact);
-}
-
 constexpr int phases = 16;
 constexpr double drop_height = 1.0;  // [m], and up to 3 cm more, more than a step's way
 
@@ -50,11 +39,11 @@ Result<Apexes> apexes(const Subject& subject, Integrator integrator, double e) {
   // Past the first apex of all, and with e = 1 some twenty bounces.
   const double fall = std::sqrt(2 * drop_height / g);
   const double duration = fall * (e < 1.0 ? 1 + 2.2 * e : 41.0) + 0.05;
-  const auto steps = static_cast<int>(std::lround(duration / model.simulation.timestep));
+  const std::uint64_t steps = steps_of(model, duration);
   std::vector<int> bounces(phases, 0);
   std::vector<double> first(phases, 0.0), later(phases, 0.0);
   State before = initial_state(model, Precision::double_);
-  for (int step = 0; step < steps; ++step) {
+  for (std::uint64_t step = 0; step < steps; ++step) {
     ASPIC_TRY(auto now, run(*solver, 1));
     for (std::size_t i = 0; i < phases; ++i) {
       if (before.velocity[i].y < -0.05 && now.velocity[i].y > 0) ++bounces[i];
@@ -110,11 +99,8 @@ Result<Slide> slide(const Subject& subject, Integrator integrator, double degree
     return sum / static_cast<double>(values.size());
   };
   ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
-  const auto steps = [&](double time) {
-    return static_cast<std::uint64_t>(std::lround(time / model.simulation.timestep));
-  };
-  ASPIC_TRY(auto early, run(*solver, steps(seconds - 2)));
-  ASPIC_TRY(auto end, run(*solver, steps(2)));
+  ASPIC_TRY(auto early, run(*solver, steps_of(model, seconds - 2)));
+  ASPIC_TRY(auto end, run(*solver, steps_of(model, 2)));
   return Slide{(mean(end.velocity) - mean(early.velocity)) / 2,
                (mean(end.position) - mean(early.position)) / 2};
 }

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "model/terrain.h"
@@ -35,6 +38,39 @@ Model loose_particles(std::vector<Vec3> positions, std::vector<Vec3> velocities,
   model.mass.assign(model.initial_position.size(), mass);
   model.inverse_mass.assign(model.initial_position.size(), 1.0 / mass);
   return model;
+}
+
+State shaken(const Model& model, double shift, double speed, std::uint64_t seed) {
+  State state = initial_state(model, Precision::double_);
+  Noise noise(seed);
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    state.position[i] = state.position[i] + shift * noise.vector();
+    state.velocity[i] = speed * noise.vector();
+  }
+  return state;
+}
+
+Terrain plane_through_origin(const Model& model, const Vec3& normal) {
+  TerrainSettings settings;
+  settings.geometry["point"] = Vec3{0, 0, 0};
+  settings.geometry["normal"] = normal;
+  return make_terrain(settings, model.contact);
+}
+
+double deepest(const Model& model, const State& state) {
+  double depth = -std::numeric_limits<double>::infinity();
+  for (const Terrain& terrain : model.terrain) {
+    for (const Vec3& x : state.position) depth = std::max(depth, -signed_distance(terrain, x));
+  }
+  return depth;
+}
+
+double usual_step(Integrator integrator) {
+  return row_of(integrator).solved() ? 1.0 / 60 : 1e-3;
+}
+
+std::uint64_t steps_of(const Model& model, double duration) {
+  return static_cast<std::uint64_t>(std::lround(duration / model.simulation.timestep));
 }
 
 Status require_good(const Result<std::optional<Divergence>>& advanced) {

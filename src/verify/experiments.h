@@ -2,7 +2,6 @@
 // Models and runs that several checks share.
 #include <array>
 #include <cstdint>
-#include <random>
 
 #include "base/split_mix.h"
 #include "model/integrator.h"
@@ -38,6 +37,22 @@ class Noise {
  private:
   SplitMix64 random_;
 };
+
+/// The model's start in double precision, each position moved by up to `shift` [m] and each velocity set up
+/// to `speed` [m/s] along every axis.
+State shaken(const Model& model, double shift, double speed, std::uint64_t seed);
+
+/// Ground through the origin with the model's contact constants.
+Terrain plane_through_origin(const Model& model, const Vec3& normal);
+
+/// How far the deepest particle is inside a terrain [m]; negative if all are outside.
+double deepest(const Model& model, const State& state);
+
+/// The step of a row: the scene's default, or what implicit Euler is there for [s].
+double usual_step(Integrator integrator);
+
+/// Steps that a duration [s] takes, the nearest whole number.
+std::uint64_t steps_of(const Model& model, double duration);
 
 /// The solver after `steps` steps from `start` (the model's own if null).
 /// Error (check_failed): it diverged.

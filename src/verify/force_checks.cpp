@@ -22,16 +22,6 @@ Result<Model> probe_model() {
   return build_model(settings);
 }
 
-State shaken(const Model& model, double shift, double speed, std::uint64_t seed) {
-  State state = initial_state(model, Precision::double_);
-  Noise noise(seed);
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
-    state.position[i] = state.position[i] + shift * noise.vector();
-    state.velocity[i] = speed * noise.vector();
-  }
-  return state;
-}
-
 Result<std::vector<Vec3>> forces(const Subject& subject, const Model& model, const State& state) {
   ASPIC_TRY(auto next, run_reference(subject, model, Precision::double_, 1, &state));
   std::vector<Vec3> f;

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "analysis/energy.h"
 #include "analysis/stability.h"
@@ -50,8 +49,7 @@ Result<Solves> solve(const Subject& subject, const std::string& scene, ContactMo
   loaded.model.contact.model = contact;
   ASPIC_TRY(auto model, build_model(loaded.model));
   ASPIC_TRY(auto solver, subject.reference(model, Precision::single));
-  const auto steps = static_cast<std::uint64_t>(std::lround(model.simulation.duration / h));
-  ASPIC_CHECK(require_good(solver->advance(steps)));
+  ASPIC_CHECK(require_good(solver->advance(steps_of(model, model.simulation.duration))));
   const auto statistics = solver->solve_statistics();
   if (!statistics) return Error{ErrorCode::check_failed, "the solver keeps no statistics"};
   return Solves{*statistics, implicit_tolerance(model.simulation.implicit, Precision::single)};
@@ -80,12 +78,7 @@ Result<Finding> dense(const Subject& subject) {
   ASPIC_TRY(auto model, build_model(settings));
   double worst = 0.0;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    State state = initial_state(model, Precision::double_);
-    Noise noise(seed);
-    for (std::size_t i = 0; i < state.position.size(); ++i) {
-      state.position[i] = state.position[i] + 0.05 * noise.vector();
-      state.velocity[i] = noise.vector();
-    }
+    const State state = shaken(model, 0.05, 1.0, seed);
     const Eigen::VectorXd expected = dense_backward_euler(model, state);
     ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1, &state));
     worst = std::max(worst, (motion_of<double>(end).v - expected).cwiseAbs().maxCoeff());

@@ -26,27 +26,16 @@ Result<Model> smooth_system(Integrator integrator, double h) {
   return build_model(settings);
 }
 
-State deformed(const Model& model) {
-  State state = initial_state(model, Precision::double_);
-  Noise noise(11);
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
-    state.position[i] = state.position[i] + 0.08 * noise.vector();
-    state.velocity[i] = 0.3 * noise.vector();
-  }
-  return state;
-}
-
 Result<Finding> order_of(const Subject& subject, Integrator integrator, int order) {
   double previous = 0.0, observed = 0.0, finest = 0.0;
   Motion<long double> truth;
   for (int halving = 0; halving <= halvings; ++halving) {
     const double h = first_step / (1 << halving);
     ASPIC_TRY(auto model, smooth_system(integrator, h));
-    const State start = deformed(model);
+    const State start = shaken(model, 0.08, 0.3, 11);
     // hω of the truth is 2e-3 at most: its error, of fourth order, is below 1e-14.
     if (halving == 0) truth = exact_motion(model, start, duration, 4000);
-    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_,
-                                      static_cast<std::uint64_t>(std::lround(duration / h)), &start));
+    ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, steps_of(model, duration), &start));
     const Motion<long double> reached = motion_of<long double>(end);
     const double error = static_cast<double>(
         std::sqrt((reached.x - truth.x).squaredNorm() + (reached.v - truth.v).squaredNorm()));

@@ -18,15 +18,6 @@ namespace {
 constexpr double bound_single = 1e-3, bound_double = 1e-6;  // [m/s]
 constexpr double bottom_bound = 1e-5;                       // [m]
 
-/// The step of a row: the scene's default, or what implicit Euler is there for [s].
-double usual_step(Integrator integrator) {
-  return row_of(integrator).solved() ? 1.0 / 60 : 1e-3;
-}
-
-std::uint64_t steps_of(const Model& model, double duration) {
-  return static_cast<std::uint64_t>(std::lround(duration / model.simulation.timestep));
-}
-
 Result<Model> dropped_cube(int particles_per_edge, const Vec3& centre, Integrator integrator,
                            double angle = 0.0) {
   ModelSettings settings = cube_settings(particles_per_edge, centre);
@@ -102,11 +93,7 @@ Result<Finding> rests_between(const Subject& subject, Integrator integrator, con
   settings.simulation.timestep = usual_step(integrator);
   ASPIC_TRY(auto model, build_model(settings));
   ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, steps_of(model, 30.0)));
-  double depth = 0.0;
-  for (const Vec3& x : end.position) {
-    for (const Terrain& terrain : model.terrain) depth = std::max(depth, -signed_distance(terrain, x));
-  }
-  const double speed = measure(model, end).max_speed;
+  const double speed = measure(model, end).max_speed, depth = std::max(0.0, deepest(model, end));
   return Finding{speed <= bound_double && depth <= bottom_bound,
                  fmt::format("{:.2g} m/s, {:.2g} m deep", speed, depth)};
 }

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "model/terrain.h"
 #include "scene/load.h"
@@ -16,14 +14,6 @@ double max_speed(const State& state) {
   double fastest = 0.0;
   for (const Vec3& v : state.velocity) fastest = std::max(fastest, length(v));
   return fastest;
-}
-
-double deepest(const Model& model, const State& state) {
-  double depth = -std::numeric_limits<double>::infinity();
-  for (const Terrain& terrain : model.terrain) {
-    for (const Vec3& x : state.position) depth = std::max(depth, -signed_distance(terrain, x));
-  }
-  return depth;
 }
 
 /// Largest depth without the ground as a share of h·max|v|, and in metres; and whether anything came near.

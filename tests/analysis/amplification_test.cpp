@@ -71,6 +71,7 @@ TEST(ModeLimit, UndampedModesAsTheLiteratureHasThem) {
   EXPECT_DOUBLE_EQ(*mode_limit(Integrator::symplectic_euler, 4.0, 0.0), 1.0);           // 2/ω
   EXPECT_NEAR(*mode_limit(Integrator::runge_kutta_4, 4.0, 0.0), std::sqrt(2.0), 1e-9);  // 2√2/ω
   EXPECT_NEAR(*mode_limit(Integrator::heun_3, 4.0, 0.0), 0.5 * std::sqrt(3.0), 1e-9);   // √3/ω
+  EXPECT_DOUBLE_EQ(*mode_limit(Integrator::velocity_verlet, 4.0, 0.0), 1.0);            // 2/ω
   // R = 1 + z + z²: |R(iy)|² = 1 − y² + y⁴ ≤ 1 for y ≤ 1.
   EXPECT_NEAR(*mode_limit(Integrator::implicit_euler_one_pass, 4.0, 0.0), 0.5, 1e-9);  // 1/ω
 }
@@ -79,6 +80,15 @@ TEST(ModeLimit, WeaklyDampedExplicitEulerIsLimitedByDampingOverStiffness) {
   // |1 + hλ|² = 1 + 2h Re λ + h²|λ|²: the limit is γ/κ for complex λ.
   EXPECT_NEAR(*mode_limit(Integrator::explicit_euler, 1e4, 1.0), 1e-4, 1e-12);
   EXPECT_NEAR(*mode_limit(Integrator::explicit_euler, 1e4, 1e-3), 1e-7, 1e-15);
+}
+
+// Both forms of the limit give 2/γ at κ = γ², where they meet.
+TEST(ModeLimit, DampedVelocityVerlet) {
+  EXPECT_DOUBLE_EQ(*mode_limit(Integrator::velocity_verlet, 9.0, 3.0), 2.0 / 3.0);
+  EXPECT_NEAR(*mode_limit(Integrator::velocity_verlet, 9.0 * (1 + 1e-9), 3.0), 2.0 / 3.0, 1e-8);
+  EXPECT_DOUBLE_EQ(*mode_limit(Integrator::velocity_verlet, 1.0, 3.0), 2.0 / 3.0);
+  // 4/(1 + √13)
+  EXPECT_DOUBLE_EQ(*mode_limit(Integrator::velocity_verlet, 4.0, 1.0), 4.0 / (1.0 + std::sqrt(13.0)));
 }
 
 TEST(ModeLimit, NothingLimitsImplicitEulerOrAFreeParticle) {

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "app/stage.h"
+#include "model/bodies.h"
 #include "scene/load.h"
 
 namespace aspic::test {
@@ -222,6 +223,23 @@ TEST_F(Panels, TerrainsAndCubesComeAndGo) {
   EXPECT_EQ(settings().cubes[0].position.y, 15.0) << "the other one stays";
 }
 
+TEST_F(Panels, EveryKindOfBodyIsAddedAndRemoved) {
+  open("cube-plane", {"cube[0].particles-per-edge=3"}, "reference", only("Bodies"));
+  for (const BodyRow& row : body_rows().subspan(1)) {
+    const std::string key(row.list.key);
+    const std::uint32_t particles = simulation().model().particle_count(),
+                        balls = simulation().model().ball_count();
+    click(key + "/add");
+    ASSERT_EQ(row.list.size(settings()), 1u) << key;
+    const ModelCounts more = row.counts(settings(), 0);
+    EXPECT_EQ(simulation().model().particle_count(), particles + more.particles) << key;
+    EXPECT_EQ(simulation().model().ball_count(), balls + more.balls) << key;
+    click(key + "/0/remove");
+    ASSERT_EQ(row.list.size(settings()), 0u) << key;
+    EXPECT_EQ(simulation().model().particle_count(), particles) << key;
+  }
+}
+
 TEST_F(Panels, SpringsAreShownAndHiddenByType) {
   open("cube-plane", {}, "reference", only("Springs"));
   click("springs/show/shear");
@@ -309,7 +327,8 @@ TEST_F(Files, ReloadsWhenTheFileChangesAndKeepsTheOldSceneWhileItIsBroken) {
   EXPECT_EQ(simulation().model().particle_count(), 27u);
   ASSERT_TRUE(app().messages.notice().has_value());
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("mine.toml:3"));
-  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("particles-per-edge = 1")) << "the line itself";
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("particles-per-edge = 1"))
+      << "the line itself";
   write("mine.toml", scene_text(5));
   frames(40);
   EXPECT_EQ(simulation().model().particle_count(), 125u);

@@ -125,12 +125,15 @@ TEST(SceneEditor, OverridesSurviveAReloadAndGoWithTheirScene) {
   auto editor = SceneEditor::open("cube-plane", {"simulation.timestep=0.0005"});
   ASSERT_TRUE(editor.ok());
   ASSERT_TRUE(editor->set(key("simulation.timestep"), 0, Value(0.002), "").ok());
-  ASSERT_TRUE(editor->reload().ok());
-  EXPECT_EQ(editor->scene().model.simulation.timestep, 0.0005);
-  ASSERT_TRUE(editor->replace("cube-sphere").ok());
-  EXPECT_EQ(editor->scene().model.simulation.timestep, load_scene("cube-sphere")->model.simulation.timestep);
-  EXPECT_FALSE(editor->replace("no-such-scene").ok());
-  EXPECT_EQ(editor->source(), "cube-sphere");
+  const auto reloaded = editor->other("cube-plane");
+  ASSERT_TRUE(reloaded.ok());
+  EXPECT_EQ(reloaded->scene().model.simulation.timestep, 0.0005);
+  EXPECT_FALSE(reloaded->changed());
+  const auto sphere = editor->other("cube-sphere");
+  ASSERT_TRUE(sphere.ok());
+  EXPECT_EQ(sphere->source(), "cube-sphere");
+  EXPECT_EQ(sphere->scene().model.simulation.timestep, load_scene("cube-sphere")->model.simulation.timestep);
+  EXPECT_FALSE(editor->other("no-such-scene").ok());
 }
 
 }  // namespace

@@ -38,6 +38,16 @@ TEST(Files, StateReadsBackToTheHashOfTheSummary) {
   }
 }
 
+TEST(Files, StatesTakeTheFormatOfTheirEnding) {
+  const test::TemporaryDirectory dir;
+  const auto run = aspic({"run", "flag", "--backend", "reference", "--steps", "25", "--state",
+                          dir.file("out.vtp"), "--state-every", "10"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"out-00000000.vtp", "out-00000010.vtp", "out-00000020.vtp", "out-00000025.vtp"})
+    EXPECT_THAT(dir.read(name), testing::HasSubstr("<VTKFile type=\"PolyData\"")) << name;
+  EXPECT_EQ(dir.entries(), 4u);
+}
+
 TEST(Files, SeriesHasStartEveryNthAndFinalStep) {
   const test::TemporaryDirectory dir;
   ASSERT_EQ(aspic(run_words({"--steps", "25", "--series", dir.file("e.csv"), "--every", "10"})).exit_code, 0);

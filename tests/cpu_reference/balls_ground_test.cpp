@@ -3,39 +3,18 @@
 
 #include <cmath>
 
-#include "cpu_reference/reference_solver.h"
 #include "support/model_building.h"
+#include "support/reference_runs.h"
 
 namespace aspic {
 namespace {
 
+using test::after;
+using test::expect_near;
+using test::solver_for;
+using test::weightless;
+
 constexpr double epsilon = 2.3e-16;
-
-/// Balls alone in space without gravity or spin, every contact fully elastic.
-ModelSettings weightless() {
-  ModelSettings settings;
-  settings.simulation.gravity = {};
-  settings.contact.spin = false;
-  return settings;
-}
-
-std::unique_ptr<Solver> solver_for(const Model& model, Precision precision = Precision::double_) {
-  auto solver = make_reference_solver(model, precision);
-  EXPECT_TRUE(solver.ok());
-  return std::move(solver).value();
-}
-
-State after(const Model& model, std::uint64_t steps, Precision precision = Precision::double_) {
-  auto solver = solver_for(model, precision);
-  const auto divergence = *solver->advance(steps);
-  EXPECT_FALSE(divergence.has_value());
-  return *solver->state();
-}
-
-void expect_near(const Vec3& a, const Vec3& b, double tolerance) {
-  EXPECT_LE(length(a - b), tolerance)
-      << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
-}
 
 /// A ball at rest on a slope of 30° that falls towards +x.
 ModelSettings on_slope(double friction) {

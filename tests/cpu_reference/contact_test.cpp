@@ -2,21 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "cpu_reference/ground.h"
 #include "model/terrain.h"
 
 namespace aspic::reference {
 namespace {
 
 using V = Vector<double>;
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-Ground<double> plane(double e = 0.5, double mu = 0.25, double mass = infinite) {
-  Terrain t;
-  t.restitution = e;
-  t.friction = mu;
-  t.mass = mass;
-  return Ground<double>(t);
-}
 
 Ground<double> round(TerrainShape shape) {
   TerrainSettings settings;

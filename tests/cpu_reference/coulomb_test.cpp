@@ -7,22 +7,14 @@
 #include <limits>
 #include <random>
 
+#include "cpu_reference/ground.h"
 #include "model/terrain.h"
 
 namespace aspic::reference {
 namespace {
 
 using V = Vector<double>;
-constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double eps = std::numeric_limits<double>::epsilon();
-
-Ground<double> plane(double e = 0.5, double mu = 0.25, double mass = infinite) {
-  Terrain t;
-  t.restitution = e;
-  t.friction = mu;
-  t.mass = mass;
-  return Ground<double>(t);
-}
 
 /// ε = 0.01, |g| = 9.8: v_rest = max(0.01, 19.6 h).
 ContactConstants<double> constants(double h = 0.001) {

@@ -1,5 +1,5 @@
-// What every row of the integrator table claims, against the solver and against its own step matrix. A row of
-// its own making fails here where its order, step matrix, stages or limit are wrong.
+// What every row of the integrator table claims, against the solver and against its own step matrix. A new
+// row fails here where its order, step matrix, stages or limit are wrong.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -117,7 +117,8 @@ double spectral_radius(const StepMatrix& m) {
 }
 
 TEST_P(IntegratorTable, SpectralRadiusPassesOneAtTheLimit) {
-  constexpr double rounding = 1e-12;
+  // Where the two eigenvalues meet, a rounding moves them by its square root.
+  const double rounding = 4 * std::sqrt(static_cast<double>(std::numeric_limits<long double>::epsilon()));
   for (const double kappa : {0.0, 1.0, 1e4}) {
     for (const double ratio : {0.0, 0.1, 0.5, 0.6, 1.0, 1.1, 1.2, 1.5, 1.9, 2.1, 5.0, 40.0}) {
       const double scale = kappa > 0.0 ? std::sqrt(kappa) : 1.0, gamma = ratio * scale;
@@ -130,7 +131,9 @@ TEST_P(IntegratorTable, SpectralRadiusPassesOneAtTheLimit) {
       } else if (kappa + gamma > 0.0) {
         const double last = std::isinf(*limit) ? 1e3 / scale : *limit * (1 - 1e-9);
         for (int i = 1; i <= 1000; ++i) ASSERT_LE(radius(last * i / 1000), 1.0 + rounding) << last * i / 1000;
-        if (std::isfinite(*limit)) EXPECT_GT(radius(1.001 * *limit), 1.0 + rounding) << *limit;
+        if (std::isfinite(*limit)) {
+          EXPECT_GT(radius(1.001 * *limit), 1.0 + rounding) << *limit;
+        }
       }
     }
   }

@@ -8,32 +8,24 @@
 #include <numbers>
 
 #include "analysis/energy.h"
-#include "cpu_reference/reference_solver.h"
 #include "model/pull.h"
 #include "model/terrain.h"
 #include "support/integrator_names.h"
 #include "support/model_building.h"
+#include "support/reference_runs.h"
 
 namespace aspic {
 namespace {
 
+using test::advanced;
+using test::after;
+using test::apexes;
+using test::fastest;
+using test::layer;
+using test::solver_for;
+
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double h = 0.001, g = 9.8;
-
-std::unique_ptr<Solver> solver_for(const Model& model, Precision precision = Precision::double_) {
-  auto solver = make_reference_solver(model, precision);
-  EXPECT_TRUE(solver.ok());
-  return std::move(solver).value();
-}
-
-State advanced(Solver& solver, std::uint64_t steps) {
-  EXPECT_FALSE((*solver.advance(steps)).has_value());
-  return *solver.state();
-}
-
-State after(const Model& model, std::uint64_t steps, Precision precision = Precision::double_) {
-  return advanced(*solver_for(model, precision), steps);
-}
 
 Terrain plane(const Vec3& point, const Vec3& normal, double e, double mu) {
   TerrainSettings settings;
@@ -42,20 +34,6 @@ Terrain plane(const Vec3& point, const Vec3& normal, double e, double mu) {
   settings.restitution = e;
   settings.friction = mu;
   return make_terrain(settings, ContactSettings{});
-}
-
-double fastest(const State& state) {
-  double most = 0.0;
-  for (const Vec3& v : state.velocity) most = std::max(most, length(v));
-  return most;
-}
-
-/// How far the lowest `count` particles are from the terrain, at most [m].
-double layer(const Terrain& terrain, const State& state, std::size_t count) {
-  std::vector<double> gaps;
-  for (const Vec3& x : state.position) gaps.push_back(signed_distance(terrain, x));
-  std::sort(gaps.begin(), gaps.end());
-  return std::max(-gaps.front(), gaps[count - 1]);
 }
 
 class Rest : public testing::TestWithParam<Integrator> {
@@ -238,18 +216,7 @@ TEST_P(Rest, ABounceKeepsRestitutionSquared) {
     std::vector<Vec3> positions, velocities(16);
     for (int i = 0; i < 16; ++i) positions.push_back({1.0 * i, 1.0 + 0.03 * i / 16.0, 0.0});
     const Model model = loose(positions, velocities, {plane({}, {0, 1, 0}, e, 0.3)});
-    const auto solver = solver_for(model);
-    std::vector<double> apex(16, 0.0);
-    std::vector<int> bounces(16, 0);
-    State before = *solver->state();
-    for (int n = 0; n < (e < 1.0 ? 1000 : 9000); ++n) {
-      const State now = advanced(*solver, 1);
-      for (std::size_t i = 0; i < 16; ++i) {
-        bounces[i] += before.velocity[i].y < 0.0 && now.velocity[i].y > 0.0;
-        if (bounces[i] == 1 || (bounces[i] > 1 && e == 1.0)) apex[i] = std::max(apex[i], now.position[i].y);
-      }
-      before = now;
-    }
+    const auto [bounces, apex] = apexes(model, e < 1.0 ? 1000 : 9000, e == 1.0);
     for (std::size_t i = 0; i < 16; ++i) {
       ASSERT_GE(bounces[i], e < 1.0 ? 1 : 9);
       const double start = positions[i].y;

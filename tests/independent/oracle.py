@@ -173,6 +173,12 @@ def heun_3(a, x, v, h):
     return x + h / 4 * (v + 3 * v3), v + h / 4 * (a1 + 3 * a3)
 
 
+def velocity_verlet(a, x, v, h):
+    a0 = a(x, v)
+    x1 = x + h * v + h * h / 2 * a0
+    return x1, v + h / 2 * (a0 + a(x1, v + h * a0))
+
+
 def implicit_euler_one_pass(a, x, v, h):
     x_p, v_p = x + h * v, v + h * a(x, v)
     return x + h * v_p, v + h * a(x_p, v_p)
@@ -181,7 +187,7 @@ def implicit_euler_one_pass(a, x, v, h):
 INTEGRATORS = {
     "explicit-euler": explicit_euler, "symplectic-euler": symplectic_euler, "midpoint": midpoint,
     "runge-kutta-4": runge_kutta_4, "implicit-euler-one-pass": implicit_euler_one_pass,
-    "heun-3": heun_3,
+    "heun-3": heun_3, "velocity-verlet": velocity_verlet,
 }
 
 

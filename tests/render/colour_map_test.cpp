@@ -11,6 +11,18 @@
 namespace aspic {
 namespace {
 
+/// The inverse of from_oklab (Ottosson, 2020).
+Oklab to_oklab(const Colour& linear) {
+  const double r = static_cast<double>(linear[0]), g = static_cast<double>(linear[1]),
+               b = static_cast<double>(linear[2]);
+  const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+  const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+  const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+          1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+          0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+}
+
 Colour texel(const std::vector<std::byte>& texels, std::size_t i) {
   const auto channel = [&](std::size_t c) {
     return static_cast<float>(srgb_to_linear(std::to_integer<int>(texels[4 * i + c]) / 255.0));

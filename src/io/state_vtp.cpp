@@ -1,0 +1,190 @@
+#include "io/state_vtp.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "io/state_csv.h"
+
+namespace aspic {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the file says byte_order=\"LittleEndian\"");
+
+template <class T>
+constexpr std::string_view type_name() {
+  if constexpr (std::is_same_v<T, float>) return "Float32";
+  if constexpr (std::is_same_v<T, double>) return "Float64";
+  if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
+  if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
+  if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
+}
+
+/// The document in the making: XML that names offsets, and behind it the arrays' bytes, each after its size.
+class Document {
+ public:
+  void add(std::string_view xml) { xml_ += xml; }
+
+  template <class T>
+  void array(std::string_view name, const std::vector<T>& values, int components = 1) {
+    // A reader takes the number of tuples from here in field data, where no count of points or cells says it.
+    xml_ += fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" NumberOfTuples=\"{}\" "
+        "format=\"appended\" "
+        "offset=\"{}\"/>\n",
+        type_name<T>(), name, components, values.size() / static_cast<std::size_t>(components),
+        bytes_.size());
+    append(std::uint64_t{values.size() * sizeof(T)});
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  }
+
+  Status write(AtomicFile& file) const {
+    ASPIC_CHECK(file.write(xml_));
+    ASPIC_CHECK(file.write("<AppendedData encoding=\"raw\">\n_"));
+    ASPIC_CHECK(file.write(bytes_));
+    return file.write("\n</AppendedData>\n</VTKFile>\n");
+  }
+
+ private:
+  void append(std::uint64_t size) {
+    char bytes[sizeof(size)];
+    std::memcpy(bytes, &size, sizeof(size));
+    bytes_.append(bytes, sizeof(size));
+  }
+  std::string xml_, bytes_;
+};
+
+/// Cells of one kind: points of all cells one after the other, and where each cell ends.
+struct Cells {
+  std::vector<std::int64_t> points, ends;
+
+  void add(std::initializer_list<std::uint64_t> corners) {
+    for (const std::uint64_t corner : corners) points.push_back(static_cast<std::int64_t>(corner));
+    ends.push_back(std::ssize(points));
+  }
+  void write(Document& document, std::string_view element) const {
+    document.add(fmt::format("<{}>\n", element));
+    document.array("connectivity", points);
+    document.array("offsets", ends);
+    document.add(fmt::format("</{}>\n", element));
+  }
+};
+
+/// Vectors of particles, then of balls, in the precision of the run.
+template <class T>
+std::vector<T> flat(std::span<const Vec3> particles, std::span<const Vec3> balls) {
+  std::vector<T> numbers;
+  numbers.reserve(3 * (particles.size() + balls.size()));
+  for (const auto& part : {particles, balls})
+    for (const Vec3& v : part)
+      for (const double x : {v.x, v.y, v.z}) numbers.push_back(static_cast<T>(x));
+  return numbers;
+}
+
+template <class T>
+void write_points(Document& document, const Model& model, const State& state) {
+  const std::vector<Vec3> no_turning(model.particle_count());
+  std::vector<double> mass = model.mass, radius(model.particle_count(), 0.0);
+  std::vector<std::uint8_t> pinned;
+  for (const double w : model.inverse_mass) pinned.push_back(w == 0.0 ? 1 : 0);
+  for (const Ball& ball : model.balls) {
+    mass.push_back(ball.mass);
+    radius.push_back(ball.radius);
+    pinned.push_back(0);
+  }
+  document.add("<Points>\n");
+  document.array("position", flat<T>(state.position, state.ball_position), 3);
+  document.add("</Points>\n<PointData Vectors=\"velocity\">\n");
+  document.array("velocity", flat<T>(state.velocity, state.ball_velocity), 3);
+  document.array("angular-velocity", flat<T>(no_turning, state.ball_angular_velocity), 3);
+  document.array("mass", mass);
+  document.array("radius", radius);
+  document.array("pinned", pinned);
+  document.add("</PointData>\n");
+}
+
+/// Cells with the number of their body, −1 for balls; of springs also the type and the strain.
+void write_cells(Document& document, const Model& model, const State& state) {
+  Cells balls, springs, quads;
+  std::vector<std::int32_t> body(model.ball_count(), -1);
+  std::vector<std::uint8_t> type(model.ball_count(), 255);
+  std::vector<double> strain(model.ball_count(), 0.0);
+  for (std::uint64_t b = 0; b < model.ball_count(); ++b) balls.add({model.particle_count() + b});
+  std::size_t owner = 0;
+  for (const Spring& s : model.springs) {
+    while (owner < model.bodies.size() &&
+           s.a >= model.bodies[owner].first_particle + model.bodies[owner].particle_count)
+      ++owner;
+    const SpringClass& c = model.spring_classes[s.spring_class];
+    springs.add({s.a, s.b});
+    body.push_back(static_cast<std::int32_t>(owner));
+    type.push_back(static_cast<std::uint8_t>(c.type));
+    strain.push_back(
+        c.rest_length > 0.0 ? length(state.position[s.a] - state.position[s.b]) / c.rest_length - 1.0 : 0.0);
+  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    for (const Patch& p : model.bodies[b].surface) {
+      const auto at = [&](std::uint32_t i, std::uint32_t j) {
+        return std::uint64_t{p.first} + i * p.stride[0] + j * p.stride[1];
+      };
+      for (std::uint32_t i = 0; i + 1 < p.count[0]; ++i) {
+        for (std::uint32_t j = 0; j + 1 < p.count[1]; ++j) {
+          if (p.clockwise)
+            quads.add({at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+          else
+            quads.add({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+          body.push_back(static_cast<std::int32_t>(b));
+          type.push_back(255);
+          strain.push_back(0.0);
+        }
+      }
+    }
+  }
+  balls.write(document, "Verts");
+  springs.write(document, "Lines");
+  quads.write(document, "Polys");
+  document.add("<CellData Scalars=\"strain\">\n");
+  document.array("body", body);
+  document.array("spring-type", type);
+  document.array("strain", strain);
+  document.add("</CellData>\n");
+}
+
+}  // namespace
+
+Status write_state_vtp(AtomicFile& file, const Model& model, const State& state) {
+  ASPIC_CHECK(check_finite(state, file.path()));
+  std::uint64_t quads = 0;
+  for (const Body& body : model.bodies)
+    for (const Patch& p : body.surface) quads += std::uint64_t{p.count[0] - 1} * (p.count[1] - 1);
+  Document document;
+  document.add(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n");
+  document.array("TimeValue",
+                 std::vector<double>{static_cast<double>(state.step) * model.simulation.timestep});
+  document.array("step", std::vector<std::int64_t>{static_cast<std::int64_t>(state.step)});
+  document.add("</FieldData>\n");
+  document.add(fmt::format(
+      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"{}\">\n",
+      std::uint64_t{model.particle_count()} + model.ball_count(), model.ball_count(), model.springs.size(),
+      quads));
+  if (state.precision == Precision::single)
+    write_points<float>(document, model, state);
+  else
+    write_points<double>(document, model, state);
+  write_cells(document, model, state);
+  document.add("</Piece>\n</PolyData>\n");
+  return document.write(file);
+}
+
+}  // namespace aspic

@@ -1,0 +1,88 @@
+#include "app/engines.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "cpu_reference/reference_solver.h"
+#include "scene/load.h"
+
+namespace aspic::test {
+namespace {
+
+using app::Engines;
+
+/// Rows of two backends that both compute as the reference does; one says that it needs the context.
+const BackendRow outside = [] {
+  BackendRow row;
+  row.name = "outside";
+  return row;
+}();
+const BackendRow in_context = [] {
+  BackendRow row;
+  row.name = "in context";
+  row.needs_context = true;
+  return row;
+}();
+
+Engines engines_of(const BackendRow& leader, const BackendRow* shadow) {
+  const std::vector<std::string> small = {"cube[0].particles-per-edge=3"};
+  auto model = build_model(load_scene("cube-plane", small)->model);
+  EXPECT_TRUE(model.ok());
+  auto own = std::make_unique<Model>(std::move(*model));
+  const auto engine = [&](const BackendRow& row) {
+    Backend made;
+    made.row = &row;
+    made.solver = std::move(*make_reference_solver(*own, Precision::single));
+    return made;
+  };
+  Backend first = engine(leader), second;
+  if (shadow) second = engine(*shadow);
+  return {std::move(own), std::move(first), std::move(second)};
+}
+
+std::string hash_after(std::uint64_t steps) {
+  const Engines engines = engines_of(outside, nullptr);
+  EXPECT_TRUE(engines.leader().solver->advance(steps).ok());
+  return state_hash_text(*engines.leader().solver->state());
+}
+
+TEST(Engines, AJobAndTheContextAdvanceAnyTwoByTheSameSteps) {
+  const std::string expected = hash_after(7);
+  for (const auto& [leader, shadow] :
+       {std::pair{&outside, &outside}, std::pair{&outside, &in_context}, std::pair{&in_context, &outside}}) {
+    Engines engines = engines_of(*leader, shadow);
+    EXPECT_FALSE(engines.only_context());
+    app::Outcome outcome = engines.advance_outside(7, 1e9, false, false);
+    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    ASSERT_TRUE(engines.follow(outcome).ok());
+    EXPECT_EQ(outcome.steps, 7u);
+    EXPECT_EQ(state_hash_text(outcome.leader.state), expected) << leader->name << ", " << shadow->name;
+    EXPECT_EQ(state_hash_text(outcome.shadow.state), expected) << leader->name << ", " << shadow->name;
+  }
+}
+
+TEST(Engines, TheShadowOfALeaderInTheContextMayBeThereToo) {
+  Engines engines = engines_of(in_context, &in_context);
+  EXPECT_TRUE(engines.only_context());
+  const auto state = engines.advance_shadow(7);
+  ASSERT_TRUE(state.ok());
+  EXPECT_EQ(state_hash_text(*state), hash_after(7));
+}
+
+TEST(Engines, AloneTheLeaderLeavesItsShadowBehind) {
+  Engines engines = engines_of(outside, &outside);
+  EXPECT_EQ(engines.advance_outside(7, 1e9, true, false).steps, 7u);
+  EXPECT_EQ(engines.leader().solver->state()->step, 7u);
+  EXPECT_EQ(engines.shadow().solver->state()->step, 0u);
+}
+
+TEST(Engines, AHurryOrASpentBudgetEndsAJobEarly) {
+  Engines engines = engines_of(outside, nullptr);
+  EXPECT_EQ(engines.advance_outside(1000, 1e9, false, true).steps, 0u);
+  EXPECT_EQ(engines.advance_outside(1000, 0.0, false, false).steps, 0u);
+}
+
+}  // namespace
+}  // namespace aspic::test

@@ -1,0 +1,83 @@
+#pragma once
+// Runs of the reference, and what tests look at in the state they end with.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "cpu_reference/reference_solver.h"
+#include "model/terrain.h"
+
+namespace aspic::test {
+
+inline std::unique_ptr<Solver> solver_for(const Model& model, Precision precision = Precision::double_) {
+  auto solver = make_reference_solver(model, precision);
+  EXPECT_TRUE(solver.ok());
+  return std::move(solver).value();
+}
+
+/// The state after further steps, none of which diverges.
+inline State advanced(Solver& solver, std::uint64_t steps) {
+  const auto divergence = *solver.advance(steps);
+  EXPECT_FALSE(divergence.has_value());
+  return *solver.state();
+}
+
+inline State after(const Model& model, std::uint64_t steps, Precision precision = Precision::double_) {
+  return advanced(*solver_for(model, precision), steps);
+}
+
+inline void expect_near(const Vec3& a, const Vec3& b, double tolerance) {
+  EXPECT_LE(length(a - b), tolerance)
+      << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
+}
+
+/// Speed of the fastest particle [m/s].
+inline double fastest(const State& state) {
+  double most = 0.0;
+  for (const Vec3& v : state.velocity) most = std::max(most, length(v));
+  return most;
+}
+
+/// How far the nearest `count` particles are from the terrain, at most [m].
+inline double layer(const Terrain& terrain, const State& state, std::size_t count) {
+  std::vector<double> gaps;
+  for (const Vec3& x : state.position) gaps.push_back(signed_distance(terrain, x));
+  std::sort(gaps.begin(), gaps.end());
+  return std::max(-gaps.front(), gaps[count - 1]);
+}
+
+/// Bounces of every particle, and how high it comes: its first apex, or its highest with `all`.
+struct Apexes {
+  std::vector<int> bounces;
+  std::vector<double> height;  ///< [m]
+};
+inline Apexes apexes(const Model& model, int steps, bool all) {
+  const auto solver = solver_for(model);
+  const std::size_t count = model.particle_count();
+  Apexes result = {std::vector<int>(count, 0), std::vector<double>(count, 0.0)};
+  State before = *solver->state();
+  for (int n = 0; n < steps; ++n) {
+    const State now = advanced(*solver, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      int& bounces = result.bounces[i];
+      bounces += before.velocity[i].y < 0.0 && now.velocity[i].y > 0.0;
+      if (bounces == 1 || (bounces > 1 && all))
+        result.height[i] = std::max(result.height[i], now.position[i].y);
+    }
+    before = now;
+  }
+  return result;
+}
+
+/// Balls alone in space without gravity or spin, every contact fully elastic.
+inline ModelSettings weightless() {
+  ModelSettings settings;
+  settings.simulation.gravity = {};
+  settings.contact.spin = false;
+  return settings;
+}
+
+}  // namespace aspic::test
