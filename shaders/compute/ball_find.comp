@@ -15,9 +15,9 @@ uint found_count = 0u;
 bool crowded = false;
 
 // Puts a ball into the sorted list if it is near.
-void consider(Seeker own, uint b) {
-  if (!is_partner(own, KIND_BALL, b) || !may_touch(own, KIND_BALL, b)) return;
-  if (!(partner(own, KIND_BALL, b).gap.w < epsilon)) return;
+void consider(Seeker seeker, uint b) {
+  if (!is_partner(seeker, KIND_BALL, b) || !may_touch(seeker, KIND_BALL, b)) return;
+  if (!(partner(seeker, KIND_BALL, b).gap.w < epsilon)) return;
   crowded = found_count == LIST_SIZE;
   if (crowded) return;
   uint at = found_count++;
@@ -26,10 +26,10 @@ void consider(Seeker own, uint b) {
 }
 
 #ifdef ASPIC_BALL_GRID
-void search(Seeker own) {
+void search(Seeker seeker) {
   // A particle reaches no further than half a cell, a ball no further than a whole one.
-  bool ball = own.kind == KIND_BALL;
-  ivec3 home = ivec3(floor(in_cells(own.x) - (ball ? 1.0 : 0.5)));
+  bool ball = seeker.kind == KIND_BALL;
+  ivec3 home = ivec3(floor(in_cells(seeker.x) - (ball ? 1.0 : 0.5)));
   int span = ball ? 3 : 2;
   int next_cell = 0;
   ivec3 cell = home;
@@ -43,31 +43,31 @@ void search(Seeker own) {
       b = grid[head_of(cell)];
     } else {
       // Cells that share a bucket must not be taken for each other.
-      if (cell_of(balls[slot_before(ball_phase) * ball_count + b].position.xyz) == cell) consider(own, b);
+      if (cell_of(balls[slot_before(ball_phase) * ball_count + b].position.xyz) == cell) consider(seeker, b);
       b = grid[link_of(b)];
     }
     if (n == MAX_WALK) crowded = true;
   }
 }
 #else
-void search(Seeker own) {
+void search(Seeker seeker) {
   for (uint b = 0u; b < ball_count && !crowded; ++b) {
-    consider(own, b);
+    consider(seeker, b);
     if (b == MAX_WALK) crowded = true;
   }
 }
 #endif
 
-void keep_list(Seeker own, inout BallTouches touch) {
+void keep_list(Seeker seeker, inout BallTouches touch) {
   touch.list = take_list(found_count);
   if (touch.list == NO_BODY) return;
   for (uint n = 0u; n < found_count; ++n) {
     uint b = found[n];
     lists[touch.list + n] = b;
-    Partner other = partner(own, KIND_BALL, b);
+    Partner other = partner(seeker, KIND_BALL, b);
     if (other.gap.w < 0.0) touch.overlapping |= 1u << n;
-    if (own.kind == KIND_PARTICLE) {
-      mark(b, own.index);
+    if (seeker.kind == KIND_PARTICLE) {
+      mark(b, seeker.index);
     } else if (dot3(other.dv, other.gap.xyz) < 0.0) {
       touch.acting |= 1u << n;
     }
@@ -89,17 +89,17 @@ void keep_items(uint body, inout BallTouches touch) {
 void main() {
   uint i = item_index();
   if (i >= ball_count + particle_count || idle()) return;
-  Seeker own = seeking(i);
-  bool waits = own.kind == KIND_BALL && ball_in(slot_before(ball_phase), i).velocity.w == 0.0;
-  if (!waits && finite(own.x)) search(own);
+  Seeker seeker = seeking(i);
+  bool waits = seeker.kind == KIND_BALL && ball_in(slot_before(ball_phase), i).velocity.w == 0.0;
+  if (!waits && finite(seeker.x)) search(seeker);
   BallTouches touch = BallTouches(uint[3](0u, 0u, 0u), 0u, 0u, 0u, 0u, NO_BODY);
   if (crowded) {
     keep_items(i, touch);
   } else if (found_count > 0u) {
-    keep_list(own, touch);
-  } else if (own.kind == KIND_PARTICLE) {
+    keep_list(seeker, touch);
+  } else if (seeker.kind == KIND_PARTICLE) {
     // It is at the end of its step.
-    uint bad = divergence_word(own.index, own.x, own.v);
+    uint bad = divergence_word(seeker.index, seeker.x, seeker.v);
     if (bad != NO_STEP) mark_divergence(bad);
   }
   touches[i] = touch;

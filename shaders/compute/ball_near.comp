@@ -14,19 +14,19 @@ void main() {
   uint i = item_index() / ITEM_WORDS, w = item_index() % ITEM_WORDS;
   if (idle() || i >= work.items_used || items[i].kind != sought) return;
   uint body = items[i].body;
-  Seeker own = seeking(body);
-  bool velocities_known = own.kind == KIND_BALL && sought == KIND_BALL;
+  Seeker seeker = seeking(body);
+  bool velocities_known = seeker.kind == KIND_BALL && sought == KIND_BALL;
   uint end = sought == KIND_BALL ? ball_count : particle_count;
   uint first = items[i].first + 32u * w;
   uint acts = 0u, overlaps = 0u;
   for (uint n = 0u; n < 32u && first + n < end; ++n) {
     uint index = first + n;
-    if (!is_partner(own, sought, index) || !may_touch(own, sought, index)) continue;
-    Partner other = partner(own, sought, index);
+    if (!is_partner(seeker, sought, index) || !may_touch(seeker, sought, index)) continue;
+    Partner other = partner(seeker, sought, index);
     if (!(other.gap.w < epsilon)) continue;
     if (!velocities_known || dot3(other.dv, other.gap.xyz) < 0.0) acts |= 1u << n;
     if (other.gap.w < 0.0) overlaps |= 1u << n;
-    if (own.kind == KIND_PARTICLE) mark(index, own.index);
+    if (seeker.kind == KIND_PARTICLE) mark(index, seeker.index);
   }
   items[i].acts[w] = acts;
   items[i].overlaps[w] = overlaps;

@@ -17,30 +17,30 @@ struct Partner {
   vec3 dv_0;
 };
 
-Partner partner(Seeker own, uint kind, uint index) {
+Partner partner(Seeker seeker, uint kind, uint index) {
   if (kind == KIND_PARTICLE) {
     Particle p = end_particle(index);
-    precise vec3 e = own.x - p.position.xyz, dv = own.v - p.velocity.xyz;
-    precise vec3 dv_0 = own.start - start_particle(index).velocity.xyz;
-    return Partner(pair_gap(e, own.radius, false), dv, dv_0);
+    precise vec3 e = seeker.x - p.position.xyz, dv = seeker.v - p.velocity.xyz;
+    precise vec3 dv_0 = seeker.start - start_particle(index).velocity.xyz;
+    return Partner(pair_gap(e, seeker.radius, false), dv, dv_0);
   }
   Ball b = ball_in(slot_before(ball_phase), index);
-  precise vec3 e = own.x - b.position.xyz, dv = own.v - b.velocity.xyz;
-  precise vec3 dv_0 = own.start - b.start_velocity.xyz;
+  precise vec3 e = seeker.x - b.position.xyz, dv = seeker.v - b.velocity.xyz;
+  precise vec3 dv_0 = seeker.start - b.start_velocity.xyz;
   precise float reach = b.position.w;
-  if (own.kind == KIND_BALL) reach = own.radius + reach;
-  return Partner(pair_gap(e, reach, own.kind == KIND_PARTICLE || own.index < index), dv, dv_0);
+  if (seeker.kind == KIND_BALL) reach = seeker.radius + reach;
+  return Partner(pair_gap(e, reach, seeker.kind == KIND_PARTICLE || seeker.index < index), dv, dv_0);
 }
 
 // Balls that wait and the body itself are no partners.
-bool is_partner(Seeker own, uint kind, uint index) {
+bool is_partner(Seeker seeker, uint kind, uint index) {
   if (kind == KIND_PARTICLE) return true;
-  if (own.kind == KIND_BALL && own.index == index) return false;
+  if (seeker.kind == KIND_BALL && seeker.index == index) return false;
   return ball_in(slot_before(ball_phase), index).velocity.w != 0.0;
 }
 
 // Whether a partner may be nearer than ε: what is rejected, far beyond rounding, is not.
-bool may_touch(Seeker own, uint kind, uint index) {
+bool may_touch(Seeker seeker, uint kind, uint index) {
   precise vec3 x = vec3(0.0);
   precise float reach = 0.0;
   if (kind == KIND_PARTICLE) {
@@ -50,8 +50,8 @@ bool may_touch(Seeker own, uint kind, uint index) {
     x = position.xyz;
     reach = position.w;
   }
-  precise vec3 e = own.x - x;
-  precise float limit = 1.01 * ((own.radius + reach) + epsilon);
+  precise vec3 e = seeker.x - x;
+  precise float limit = 1.01 * ((seeker.radius + reach) + epsilon);
   return !(dot3(e, e) > limit * limit);
 }
 

@@ -23,8 +23,8 @@ vec3 rolling_of(uint b) {
 }
 
 // What a body receives from one partner; in the position phase `linear` is its shift [m·kg].
-Impulse received(Seeker own, vec2 mine, vec3 own_rolling, uint kind, uint index) {
-  Partner other = partner(own, kind, index);
+Impulse received(Seeker seeker, vec2 mine, vec3 own_rolling, uint kind, uint index) {
+  Partner other = partner(seeker, kind, index);
   precise vec2 its = share_of(kind, index);
   precise float weight = mine.x + its.x;
   if (ball_phase == BALL_PHASE_POSITIONS) {
@@ -33,7 +33,7 @@ Impulse received(Seeker own, vec2 mine, vec3 own_rolling, uint kind, uint index)
   }
   precise vec3 rolling = own_rolling;
   precise float slip_share = mine.y;
-  if (own.kind == KIND_PARTICLE) {
+  if (seeker.kind == KIND_PARTICLE) {
     rolling = rolling_of(index);
     slip_share = its.y;
   } else if (kind == KIND_BALL) {
@@ -45,10 +45,10 @@ Impulse received(Seeker own, vec2 mine, vec3 own_rolling, uint kind, uint index)
 }
 
 // The sum over up to 256 partners from bit `left` of word w of item k on; k = NO_BODY: from the list on.
-Impulse sum_block(Seeker own, Partners of, uint k, uint w, uint left, uint kernel) {
-  precise vec2 mine = share_of(own.kind, own.index);
+Impulse sum_block(Seeker seeker, Partners of, uint k, uint w, uint left, uint kernel) {
+  precise vec2 mine = share_of(seeker.kind, seeker.index);
   precise vec3 rolling = vec3(0.0), linear = vec3(0.0), turning = vec3(0.0);
-  if (own.kind == KIND_BALL) rolling = rolling_of(own.index);
+  if (seeker.kind == KIND_BALL) rolling = rolling_of(seeker.index);
   bool in_list = k == NO_BODY;
   uint kind = in_list ? KIND_BALL : items[item_at(of, k)].kind;
   uint base = in_list ? 0u : items[item_at(of, k)].first + 32u * w;
@@ -59,7 +59,7 @@ Impulse sum_block(Seeker own, Partners of, uint k, uint w, uint left, uint kerne
       uint bit = uint(findLSB(left));
       left &= left - 1u;
       uint index = in_list ? lists[of.list + bit] : base + bit;
-      Impulse got = received(own, mine, rolling, kind, index);
+      Impulse got = received(seeker, mine, rolling, kind, index);
       linear = linear + got.linear;
       turning = turning + got.turning;
       ++taken;
@@ -85,9 +85,9 @@ Impulse sum_block(Seeker own, Partners of, uint k, uint w, uint left, uint kerne
 }
 
 // The sum over all partners; those of blocks other than the first have been summed (ball_partials.comp).
-Impulse sum_all(Seeker own, uint body, uint kernel) {
+Impulse sum_all(Seeker seeker, uint body, uint kernel) {
   Partners of = partners_of(body);
-  Impulse first = sum_block(own, of, NO_BODY, 0u, of.listed, kernel);
+  Impulse first = sum_block(seeker, of, NO_BODY, 0u, of.listed, kernel);
   if (touches[body].pairs[ball_phase] <= PARTNER_BLOCK) return first;
   precise vec3 linear = first.linear, turning = first.turning;
   uint before = uint(bitCount(of.listed));

@@ -8,8 +8,8 @@
 #include "compute/ball_pairs.glsl"
 #include "compute/ball_work.glsl"
 
-bool acts(Seeker own, uint kind, uint index) {
-  Partner other = partner(own, kind, index);
+bool acts(Seeker seeker, uint kind, uint index) {
+  Partner other = partner(seeker, kind, index);
   return dot3(other.dv, other.gap.xyz) < 0.0;
 }
 
@@ -18,11 +18,11 @@ void tally_word(uint i, uint w) {
   if (body < ball_count && kind == KIND_BALL) return;
   uint near = items[i].acts[w];
   if (near == 0u) return;
-  Seeker own = seeking(body);
+  Seeker seeker = seeking(body);
   uint acting = 0u;
   for (uint left = near; left != 0u; left &= left - 1u) {
     uint n = uint(findLSB(left));
-    if (acts(own, kind, items[i].first + 32u * w + n)) acting |= 1u << n;
+    if (acts(seeker, kind, items[i].first + 32u * w + n)) acting |= 1u << n;
   }
   items[i].acts[w] = acting;
   if (acting == 0u) return;
@@ -34,10 +34,10 @@ void tally_word(uint i, uint w) {
 void tally_list(uint p) {
   BallTouches touch = touches[ball_count + p];
   if (touch.listed == 0u || touch.listed == CROWDED) return;
-  Seeker own = seeking_particle(p);
+  Seeker seeker = seeking_particle(p);
   uint acting = 0u;
   for (uint n = 0u; n < touch.listed; ++n) {
-    if (acts(own, KIND_BALL, lists[touch.list + n])) acting |= 1u << n;
+    if (acts(seeker, KIND_BALL, lists[touch.list + n])) acting |= 1u << n;
   }
   touches[ball_count + p].acting = acting;
   touches[ball_count + p].pairs[BALL_PHASE_PARTICLES] = uint(bitCount(acting));

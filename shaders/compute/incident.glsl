@@ -23,9 +23,7 @@ Walk walk(uint i, uint count) {
   return Walk(first, first + count);
 }
 
-uint word_at(Walk w) { return incident[w.at]; }
-
 Link link_of(Walk w) {
-  uint word = word_at(w);
+  uint word = incident[w.at];
   return Link(word >> class_bits, spring_classes[word & ((1u << class_bits) - 1u)]);
 }

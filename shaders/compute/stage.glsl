@@ -9,7 +9,7 @@ layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer StageStat
 layout(std430, binding = BINDING_OUT_STATE) restrict writeonly buffer OutState { Particle out_state[]; };
 layout(std430, binding = BINDING_STAGE_SUMS) restrict buffer StageSums { Particle stage_sums[]; };
 
-void end_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
+void finish_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
   precise vec3 v = start.velocity.xyz + step_scale * slope_v;
   precise vec3 x = start.position.xyz + step_scale * (drift == DRIFT_NEW_VELOCITY ? v : slope_x);
   respond(start, x, v);
@@ -43,7 +43,7 @@ void finish_stage(uint i, Particle p, vec3 f_springs) {
     slope_v = stage_sums[i].velocity.xyz + slope_v;
   }
   if (stage.last != 0u) {
-    end_step(i, start, slope_x, slope_v);
+    finish_step(i, start, slope_x, slope_v);
     return;
   }
   if (stage.weight != 0.0) stage_sums[i] = Particle(vec4(slope_x, 0.0), vec4(slope_v, 0.0));

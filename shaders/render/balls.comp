@@ -5,7 +5,6 @@
 
 layout(std430, binding = BINDING_BALLS) restrict readonly buffer Balls { Ball balls[]; };
 layout(std430, binding = BINDING_TURNS) restrict buffer Turns { vec4 turns[]; };
-layout(std430, binding = BINDING_BOUNDS) restrict buffer BoundsBlock { Bounds bounds[LIGHTS]; };
 layout(location = LOCATION_COUNT) uniform uint ball_count;
 layout(location = LOCATION_FIRST) uniform uint first_ball;
 layout(location = LOCATION_ELAPSED) uniform float elapsed;
@@ -31,13 +30,6 @@ void main() {
   if (distance(ball.position.xyz, eye.xyz) > far_share * eye.w) return;
   for (int light = 0; light < LIGHTS; ++light) {
     vec3 p = mat3(lights[light]) * ball.position.xyz;
-    vec3 lower = p - ball.position.w;
-    vec3 upper = p + ball.position.w;
-    atomicMin(bounds[light].lower.x, ordered(lower.x));
-    atomicMin(bounds[light].lower.y, ordered(lower.y));
-    atomicMin(bounds[light].lower.z, ordered(lower.z));
-    atomicMax(bounds[light].upper.x, ordered(upper.x));
-    atomicMax(bounds[light].upper.y, ordered(upper.y));
-    atomicMax(bounds[light].upper.z, ordered(upper.z));
+    widen(light, ordered(p - ball.position.w), ordered(p + ball.position.w));
   }
 }

@@ -4,7 +4,6 @@
 #include "compute/dispatch.glsl"
 
 layout(std430, binding = BINDING_PARTICLES) restrict readonly buffer Particles { Particle particles[]; };
-layout(std430, binding = BINDING_BOUNDS) restrict buffer BoundsBlock { Bounds bounds[LIGHTS]; };
 
 shared uvec3 group_lower[LIGHTS];
 shared uvec3 group_upper[LIGHTS];
@@ -22,9 +21,8 @@ void main() {
     uvec3 lower = uvec3(0xffffffffu), upper = uvec3(0u);
     for (uint particle = i; particle < particle_count; particle += stride) {
       vec3 p = mat3(lights[light]) * particles[particle].position.xyz;
-      uvec3 place = uvec3(ordered(p.x), ordered(p.y), ordered(p.z));
-      lower = min(lower, place);
-      upper = max(upper, place);
+      lower = min(lower, ordered(p));
+      upper = max(upper, ordered(p));
     }
     atomicMin(group_lower[light].x, lower.x);
     atomicMin(group_lower[light].y, lower.y);
@@ -36,11 +34,6 @@ void main() {
   barrier();
   if (gl_LocalInvocationIndex < uint(LIGHTS)) {
     int light = int(gl_LocalInvocationIndex);
-    atomicMin(bounds[light].lower.x, group_lower[light].x);
-    atomicMin(bounds[light].lower.y, group_lower[light].y);
-    atomicMin(bounds[light].lower.z, group_lower[light].z);
-    atomicMax(bounds[light].upper.x, group_upper[light].x);
-    atomicMax(bounds[light].upper.y, group_upper[light].y);
-    atomicMax(bounds[light].upper.z, group_upper[light].z);
+    widen(light, group_lower[light], group_upper[light]);
   }
 }

@@ -3,7 +3,6 @@
 #include "render/bounds.glsl"
 #include "compute/dispatch.glsl"
 
-layout(std430, binding = BINDING_BOUNDS) restrict readonly buffer BoundsBlock { Bounds bounds[LIGHTS]; };
 layout(std430, binding = BINDING_LIGHT_BOXES_OUT) restrict writeonly buffer LightBoxes { LightBox light_boxes[LIGHTS]; };
 
 vec3 decoded(uvec3 bits) { return vec3(unordered(bits.x), unordered(bits.y), unordered(bits.z)); }

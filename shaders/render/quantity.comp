@@ -22,14 +22,13 @@ void main() {
   uint springs = degree(i);  // the host has looked at how many
   for (Walk w = walk(i, springs); w.at < w.end; ++w.at) {
     Link link = link_of(w);
-    SpringClass spring = link.spring;
     Particle other = particles[link.other];
     vec3 e = p.position.xyz - other.position.xyz;
     float L = length(e);
-    float stretch = L - spring.rest_length;
-    strain += abs(stretch) / spring.rest_length;
-    if (L == 0.0 || (spring.cord != 0u && L < spring.rest_length)) continue;
-    float s = spring.stiffness * stretch + spring.damping * dot(p.velocity.xyz - other.velocity.xyz, e) / L;
+    float stretch = L - link.spring.rest_length;
+    strain += abs(stretch) / link.spring.rest_length;
+    if (L == 0.0 || (link.spring.cord != 0u && L < link.spring.rest_length)) continue;
+    float s = link.spring.stiffness * stretch + link.spring.damping * dot(p.velocity.xyz - other.velocity.xyz, e) / L;
     force -= (s / L) * e;
   }
   quantity[i] = colour_mode == COLOUR_FORCE ? length(force) : strain / float(max(springs, 1u));

@@ -86,8 +86,9 @@ std::optional<Value> widget(const Field& f, std::vector<double> value) {
   const Range& range = f.parameter.range;
   const double size = std::max(std::ranges::max(value), 2.0);
   const int count = static_cast<int>(value.size());
-  const bool changed = ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), count,
-                                          static_cast<float>(size / 200.0), &range.min, &range.max, "%.4g", as_typed);
+  const bool changed =
+      ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), count,
+                         static_cast<float>(size / 200.0), &range.min, &range.max, "%.4g", as_typed);
   // A drag that runs into an open end stops there instead of complaining.
   if (!changed || (range.min_excluded && std::ranges::min(value) <= range.min)) return std::nullopt;
   return Value(value);

@@ -51,7 +51,7 @@ class Buffer {
   /// Writes `data` from byte `offset` on; must lie within bytes().
   void upload(std::span<const std::byte> data, std::uint64_t offset = 0);
   /// Reads from byte `offset` on, waiting for the device. What a pass wrote is seen only if that pass, or one
-  /// after it, named Reader::read_back.
+  /// after it, named ReadBy::read_back.
   void download(std::span<std::byte> data, std::uint64_t offset = 0) const;
   /// Sets every byte to zero, on the device.
   void clear();

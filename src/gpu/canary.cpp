@@ -105,7 +105,7 @@ Result<ArithmeticReport> measure_arithmetic(Context& context, const ShaderLibrar
   ASPIC_TRY(const auto output, Buffer::create(context, "canary outcomes", operands.size() * sizeof(Outcome)));
   const auto count = static_cast<std::uint32_t>(operands.size());
   program.set(0, count);
-  Pass(program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &output}}, Reader::read_back)
+  Pass(program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &output}}, ReadBy::read_back)
       .dispatch_for(count);
   return compare(operands, output.download_items<Outcome>(count));
 }

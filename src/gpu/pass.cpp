@@ -22,20 +22,20 @@ void bind(const Binding& b) {
 
 }  // namespace
 
-std::uint32_t barrier_bits(Reader readers) {
-  const auto set = [&](Reader r) {
+std::uint32_t barrier_bits(ReadBy readers) {
+  const auto set = [&](ReadBy r) {
     return (static_cast<std::uint32_t>(readers) & static_cast<std::uint32_t>(r)) != 0;
   };
   GLbitfield bits = 0;
-  if (set(Reader::compute_pass)) bits |= GL_SHADER_STORAGE_BARRIER_BIT;
-  if (set(Reader::uniform)) bits |= GL_UNIFORM_BARRIER_BIT;
-  if (set(Reader::vertex_draw)) bits |= GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT;
-  if (set(Reader::indirect)) bits |= GL_COMMAND_BARRIER_BIT;
-  if (set(Reader::read_back) || set(Reader::copy)) bits |= GL_BUFFER_UPDATE_BARRIER_BIT;
+  if (set(ReadBy::compute_pass)) bits |= GL_SHADER_STORAGE_BARRIER_BIT;
+  if (set(ReadBy::uniform)) bits |= GL_UNIFORM_BARRIER_BIT;
+  if (set(ReadBy::vertex_draw)) bits |= GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT;
+  if (set(ReadBy::indirect)) bits |= GL_COMMAND_BARRIER_BIT;
+  if (set(ReadBy::read_back) || set(ReadBy::copy)) bits |= GL_BUFFER_UPDATE_BARRIER_BIT;
   return bits;
 }
 
-void barrier(Reader readers) {
+void barrier(ReadBy readers) {
   glMemoryBarrier(barrier_bits(readers));
 }
 
@@ -55,7 +55,7 @@ void Pass::prepare(std::span<const Binding> extra) const {
   for (const Binding& b : extra) bind(b);
 }
 
-void Pass::dispatch_for(std::uint32_t count, std::span<const Binding> extra, Reader readers) const {
+void Pass::dispatch_for(std::uint32_t count, std::span<const Binding> extra, ReadBy readers) const {
   if (count == 0 || !program_->context().begins_dispatch()) return;
   prepare(extra);
   const GroupCount groups = groups_for(count, program_->group_size()[0]);

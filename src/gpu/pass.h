@@ -10,7 +10,7 @@
 namespace aspic::gl {
 
 /// Who reads a pass's output next: this picks the memory barrier. Combine with `|` where several may.
-enum class Reader : std::uint32_t {
+enum class ReadBy : std::uint32_t {
   compute_pass = 1 << 0,  ///< storage blocks of a following pass or shader
   uniform = 1 << 1,       ///< a uniform block
   vertex_draw = 1 << 2,   ///< vertex attributes or indices of a draw
@@ -18,15 +18,15 @@ enum class Reader : std::uint32_t {
   read_back = 1 << 4,     ///< Buffer::download, or mapping
   copy = 1 << 5           ///< Buffer::upload or clear
 };
-constexpr Reader operator|(Reader a, Reader b) {
-  return static_cast<Reader>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+constexpr ReadBy operator|(ReadBy a, ReadBy b) {
+  return static_cast<ReadBy>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
 
 /// The bits glMemoryBarrier takes for these readers.
-std::uint32_t barrier_bits(Reader readers);
+std::uint32_t barrier_bits(ReadBy readers);
 
 /// Makes what passes before wrote visible to these readers: for one who did not dispatch them himself.
-void barrier(Reader readers);
+void barrier(ReadBy readers);
 
 /// A buffer at a binding number of a program.
 struct Binding {
@@ -57,7 +57,7 @@ GroupCount groups_for(std::uint32_t count, std::uint32_t group_size);
 class Pass {
  public:
   /// `program` and the bindings' buffers must outlive the pass. `readers` is what comes next as a rule.
-  Pass(const Program& program, std::vector<Binding> bindings, Reader readers)
+  Pass(const Program& program, std::vector<Binding> bindings, ReadBy readers)
       : program_(&program), bindings_(std::move(bindings)), readers_(readers) {}
 
   /// Runs the kernel for items 0 … count − 1, then sets the barrier. 0 items: nothing at all happens.
@@ -66,10 +66,10 @@ class Pass {
   void dispatch_for(std::uint32_t count, std::span<const Binding> extra) const {
     dispatch_for(count, extra, readers_);
   }
-  void dispatch_for(std::uint32_t count, std::span<const Binding> extra, Reader readers) const;
+  void dispatch_for(std::uint32_t count, std::span<const Binding> extra, ReadBy readers) const;
 
   /// Runs with group counts read from `arguments` (three 32-bit words at byte `offset`, a multiple of 4),
-  /// which the pass that wrote them handed to Reader::indirect.
+  /// which the pass that wrote them handed to ReadBy::indirect.
   void dispatch_indirect(const Buffer& arguments, std::uint64_t offset = 0,
                          std::span<const Binding> extra = {}) const;
 
@@ -79,7 +79,7 @@ class Pass {
   void prepare(std::span<const Binding> extra) const;
   const Program* program_;
   std::vector<Binding> bindings_;
-  Reader readers_;
+  ReadBy readers_;
 };
 
 }  // namespace aspic::gl

@@ -23,7 +23,7 @@ void PassProfiler::stamp(Sample& sample, std::size_t index) {
   glQueryCounter(sample.queries[index], GL_TIMESTAMP);
 }
 
-bool PassProfiler::begin_step() {
+bool PassProfiler::begin() {
   measuring_ = false;
   collect();
   if (pending_ == samples_.size()) return false;
@@ -46,7 +46,7 @@ void PassProfiler::mark(std::size_t kind) {
   stamp(sample, sample.kinds.size());
 }
 
-void PassProfiler::end_step() {
+void PassProfiler::end() {
   if (!measuring_) return;
   measuring_ = false;
   ++pending_;

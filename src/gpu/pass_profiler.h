@@ -34,11 +34,12 @@ class PassProfiler {
   PassProfiler(const PassProfiler&) = delete;
   PassProfiler& operator=(const PassProfiler&) = delete;
 
-  /// Begins to measure a step, and forgets one that was begun and not ended; false, and nothing happens up to end_step(), while no place is free.
-  bool begin_step();
+  /// Begins to measure a step, and forgets one that was begun and not ended; false, and nothing happens up to
+  /// end(), while no place is free.
+  bool begin();
   /// A dispatch of this kind has just been queued. Nothing happens outside a step that is measured.
   void mark(std::size_t kind);
-  void end_step();
+  void end();
 
   /// Kinds that were dispatched in the recent steps, in the order of their names. Empty at first.
   std::vector<PassTime> times();

@@ -15,6 +15,25 @@ constexpr GLuint64 wait_ns = 100'000'000;
 
 }  // namespace
 
+void DeleteFence::operator()(void* sync) const {
+  glDeleteSync(static_cast<GLsync>(sync));
+}
+
+Fence fence() {
+  Fence made(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+  glFlush();
+  return made;
+}
+
+Name pixel_buffer(std::size_t bytes) {
+  GLuint id = 0;
+  glGenBuffers(1, &id);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, id);
+  glBufferData(GL_PIXEL_PACK_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  return Name(id, [](std::uint32_t owned) { glDeleteBuffers(1, &owned); });
+}
+
 Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
   assert(width >= 1 && height >= 1);
   while (glGetError() != GL_NO_ERROR) {
@@ -25,12 +44,7 @@ Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
   ring.height_ = height;
   const std::size_t bytes =
       stored_channels * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  glGenBuffers(capacity, ring.buffers_.data());
-  for (const GLuint buffer : ring.buffers_) {
-    glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
-    glBufferData(GL_PIXEL_PACK_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
-  }
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  for (Name& buffer : ring.buffers_) buffer = pixel_buffer(bytes);
   const GLenum error = glGetError();
   if (error != GL_NO_ERROR)
     return fail(ErrorCode::scene_rejected,
@@ -40,65 +54,31 @@ Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
   return ring;
 }
 
-PixelRing::~PixelRing() {
-  release();
-}
-
-PixelRing::PixelRing(PixelRing&& other) noexcept
-    : context_(other.context_),
-      width_(other.width_),
-      height_(other.height_),
-      buffers_(std::exchange(other.buffers_, {})),
-      fences_(std::exchange(other.fences_, {})),
-      first_(other.first_),
-      pending_(std::exchange(other.pending_, 0)) {}
-
-PixelRing& PixelRing::operator=(PixelRing&& other) noexcept {
-  if (this == &other) return *this;
-  release();
-  context_ = other.context_;
-  width_ = other.width_;
-  height_ = other.height_;
-  buffers_ = std::exchange(other.buffers_, {});
-  fences_ = std::exchange(other.fences_, {});
-  first_ = other.first_;
-  pending_ = std::exchange(other.pending_, 0);
-  return *this;
-}
-
-void PixelRing::release() {
-  for (void*& fence : fences_)
-    if (fence) glDeleteSync(static_cast<GLsync>(std::exchange(fence, nullptr)));
-  if (buffers_[0]) glDeleteBuffers(capacity, buffers_.data());
-  buffers_ = {};
-}
-
 void PixelRing::submit(const Framebuffer& source) {
   assert(!full() && source.width() == width_ && source.height() == height_);
   const std::size_t slot = (first_ + pending_) % capacity;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id());
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot]);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot].id());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  fences_[slot] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-  glFlush();
+  fences_[slot] = fence();
   ++pending_;
 }
 
 Status PixelRing::take(std::vector<std::byte>& rgb) {
   assert(pending_ > 0);
   const std::size_t slot = first_;
-  const auto fence = static_cast<GLsync>(std::exchange(fences_[slot], nullptr));
-  GLenum state = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait_ns);
-  while (state == GL_TIMEOUT_EXPIRED && !context_->lost()) state = glClientWaitSync(fence, 0, wait_ns);
-  glDeleteSync(fence);
+  const Fence drawn = std::move(fences_[slot]);
+  const auto sync = static_cast<GLsync>(drawn.get());
+  GLenum state = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, wait_ns);
+  while (state == GL_TIMEOUT_EXPIRED && !context_->lost()) state = glClientWaitSync(sync, 0, wait_ns);
   first_ = (first_ + 1) % capacity;
   --pending_;
 
   const auto width = static_cast<std::size_t>(width_);
   const auto height = static_cast<std::size_t>(height_);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot]);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot].id());
   const auto lost = [&] {
     return fail(ErrorCode::no_device, "A picture could not be read back: the device {} was lost.",
                 context_->info().renderer);

@@ -3,13 +3,26 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/result.h"
 #include "gpu/context.h"
 #include "gpu/framebuffer.h"
+#include "gpu/name.h"
 
 namespace aspic::gl {
+
+/// Tells when the device has done all calls before it; owns a GLsync.
+struct DeleteFence {
+  void operator()(void* sync) const;
+};
+using Fence = std::unique_ptr<void, DeleteFence>;
+/// A fence after all calls so far, which go to the device.
+Fence fence();
+
+/// A buffer for pixels on their way back.
+Name pixel_buffer(std::size_t bytes);
 
 /// A ring of pixel buffers with fences, for pictures of one size. OpenGL 4.3 has no persistent mapping, so a
 /// buffer is mapped when its fence has passed. Its context must outlive it and be current.
@@ -20,12 +33,6 @@ class PixelRing {
 
   /// Makes the buffers. Error (scene_rejected): no device memory for them.
   static Result<PixelRing> create(Context& context, int width, int height);
-
-  ~PixelRing();
-  PixelRing(PixelRing&& other) noexcept;
-  PixelRing& operator=(PixelRing&& other) noexcept;
-  PixelRing(const PixelRing&) = delete;
-  PixelRing& operator=(const PixelRing&) = delete;
 
   bool full() const { return pending_ == capacity; }
   std::size_t pending() const { return pending_; }
@@ -41,11 +48,10 @@ class PixelRing {
 
  private:
   PixelRing() = default;
-  void release();
   Context* context_ = nullptr;
   int width_ = 0, height_ = 0;
-  std::array<std::uint32_t, capacity> buffers_ = {};
-  std::array<void*, capacity> fences_ = {};
+  std::array<Name, capacity> buffers_;
+  std::array<Fence, capacity> fences_;
   std::size_t first_ = 0, pending_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 using gl::Binding;
 using gl::Buffer;
-using gl::Reader;
+using gl::ReadBy;
 
 struct KernelRow {
   const char *path, *title;
@@ -213,7 +213,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
         {BINDING_BALL_WORK, &work_},
         {BINDING_CONTROL, surroundings.control}};
     ASPIC_TRY(programs_[k], context.programs().compute(kernels.library, kernel_rows[k].path, defines));
-    passes_[k].emplace(*programs_[k], bindings, Reader::compute_pass);
+    passes_[k].emplace(*programs_[k], bindings, ReadBy::compute_pass);
   }
   return {};
 }
@@ -238,7 +238,7 @@ void BallPasses::set_base_step(std::uint64_t base_step) {
   bodies_.upload_items(std::span<const layout::BallBody>(bodies));
 }
 
-void BallPasses::dispatch(const Queue& queue, Kernel kernel, std::uint32_t items, Reader readers) const {
+void BallPasses::dispatch(const Queue& queue, Kernel kernel, std::uint32_t items, ReadBy readers) const {
   if (!passes_[kernel] || items == 0) return;
   passes_[kernel]->dispatch_for(items, queue.states, readers);
   mark(kernel);
@@ -253,7 +253,7 @@ void BallPasses::dispatch_indirect(const Queue& queue, Kernel kernel, std::size_
 /// Whom each body touches, all of it before anyone receives anything: where room is missing, the step can be
 /// repeated.
 void BallPasses::find_touches(const Queue& queue) const {
-  const Reader next = Reader::compute_pass, counted = Reader::compute_pass | Reader::indirect;
+  const ReadBy next = ReadBy::compute_pass, counted = ReadBy::compute_pass | ReadBy::indirect;
   const std::uint64_t marks = count_ * mark_words(particle_count_, mark_shift(count_, particle_count_));
   dispatch(queue, clear, static_cast<std::uint32_t>(grid_buckets(count_) + marks));
   dispatch(queue, insert, count_, next);
@@ -273,7 +273,7 @@ void BallPasses::queue_phase(const Queue& queue, std::uint32_t phase) const {
   for (const Kernel kernel : {partials, exchange, particles}) {
     if (programs_[kernel]) programs_[kernel]->set(LOCATION_BALL_PHASE, phase);
   }
-  const Reader after = phase + 1 == BALL_PHASES && !implicit_ ? queue.last : Reader(Reader::compute_pass);
+  const ReadBy after = phase + 1 == BALL_PHASES && !implicit_ ? queue.last : ReadBy(ReadBy::compute_pass);
   if (phase == BALL_PHASE_PARTICLES) {
     dispatch_indirect(queue, tally, offsetof(layout::BallWork, tally_groups));
   }
@@ -286,7 +286,7 @@ void BallPasses::queue_phase(const Queue& queue, std::uint32_t phase) const {
 }
 
 void BallPasses::queue(const Buffer& start, const Buffer& end, std::uint32_t step, std::uint32_t parity,
-                       Reader last) const {
+                       ReadBy last) const {
   if (!any()) return;
   const std::array<Binding, 2> states = {{{BINDING_STATE_A, &start}, {BINDING_STATE_B, &end}}};
   const Queue queue = {states, last};

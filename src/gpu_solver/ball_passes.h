@@ -58,7 +58,7 @@ class BallPasses {
   /// the step starts from) matter under explicit methods alone; under implicit Euler a and b are the two
   /// states.
   void queue(const gl::Buffer& start, const gl::Buffer& end, std::uint32_t step, std::uint32_t parity,
-             gl::Reader last) const;
+             gl::ReadBy last) const;
 
   /// Makes room for the contacts that found none, which the last passes have counted, or for twice as many;
   /// the passes can then be queued again for the same step. Error (scene_rejected): more than the device
@@ -99,7 +99,7 @@ class BallPasses {
   /// One queue() at work.
   struct Queue {
     std::span<const gl::Binding> states;
-    gl::Reader last;
+    gl::ReadBy last;
   };
   bool wanted(Kernel kernel) const;
   Status build_buffers();
@@ -109,7 +109,7 @@ class BallPasses {
     if (profiler_) profiler_->mark(first_kind_ + kernel);
   }
   void dispatch(const Queue& queue, Kernel kernel, std::uint32_t items,
-                gl::Reader readers = gl::Reader::compute_pass) const;
+                gl::ReadBy readers = gl::ReadBy::compute_pass) const;
   void dispatch_indirect(const Queue& queue, Kernel kernel, std::size_t arguments) const;
   void find_touches(const Queue& queue) const;
   void queue_phase(const Queue& queue, std::uint32_t phase) const;

@@ -82,7 +82,7 @@ Result<gl::Pass> DeviceSolver::pass(const KernelOptions& kernels, std::string_vi
                                     std::vector<gl::Binding> bindings) {
   ASPIC_TRY(auto program, context_.programs().compute(kernels.library, path, kernels.defines));
   programs_.push_back(std::move(program));
-  return gl::Pass(*programs_.back(), std::move(bindings), gl::Reader::compute_pass);
+  return gl::Pass(*programs_.back(), std::move(bindings), gl::ReadBy::compute_pass);
 }
 
 void DeviceSolver::keep_counting() {

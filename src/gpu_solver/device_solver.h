@@ -16,8 +16,8 @@
 namespace aspic {
 
 /// Readers of what is about to leave the solver.
-inline constexpr gl::Reader anyone =
-    gl::Reader::compute_pass | gl::Reader::vertex_draw | gl::Reader::read_back | gl::Reader::copy;
+inline constexpr gl::ReadBy anyone =
+    gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw | gl::ReadBy::read_back | gl::ReadBy::copy;
 
 class DeviceSolver : public GpuSolver {
  public:

@@ -11,7 +11,7 @@ namespace {
 
 using gl::Binding;
 using gl::Buffer;
-using gl::Reader;
+using gl::ReadBy;
 
 /// Steps queued between two looks at the control words: enough to hide the wait, few enough to answer Ctrl-C.
 constexpr std::uint64_t steps_per_look = 256;
@@ -95,12 +95,12 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
       mark(springs_kind);
     }
     const bool leaves = last_of_queue && s + 1 == stages && !balls_.any();
-    particle_pass_->dispatch_for(model_.particle_count(), states, leaves ? anyone : Reader::compute_pass);
+    particle_pass_->dispatch_for(model_.particle_count(), states, leaves ? anyone : ReadBy::compute_pass);
     mark(particles_kind);
     stage_state = out;
   }
   balls_.queue(states_[current_], states_[end], step_index, ball_slot_,
-               last_of_queue ? anyone : Reader::compute_pass);
+               last_of_queue ? anyone : ReadBy::compute_pass);
   ball_slot_ = 1 - ball_slot_;
   current_ = end;
 }
@@ -112,9 +112,9 @@ Result<std::optional<Divergence>> ExplicitSolver::advance(std::uint64_t steps) {
     const std::size_t first_state = current_;
     const std::uint32_t first_slot = ball_slot_;
     for (std::uint32_t n = 0; n < queue; ++n) {
-      if (profiler_ && n == 0) profiler_->begin_step();
+      if (profiler_ && n == 0) profiler_->begin();
       queue_step(steps_since_ + n, n + 1 == queue);
-      if (profiler_ && n == 0) profiler_->end_step();
+      if (profiler_ && n == 0) profiler_->end();
     }
     ASPIC_TRY(const layout::Control control, read_control());
     std::uint32_t good = queue;

@@ -11,7 +11,7 @@ namespace {
 
 using gl::Binding;
 using gl::Buffer;
-using gl::Reader;
+using gl::ReadBy;
 
 /// Steps queued between two looks at the Solve block.
 constexpr std::uint64_t steps_per_look = 16;
@@ -54,7 +54,7 @@ class ImplicitSolver final : public DeviceSolver {
   std::uint32_t group_size(const GpuOptions&) const override { return REDUCTION_BLOCK; }
   Status build_passes(const KernelOptions& kernels, const GpuOptions& options) override;
   void restart() override;
-  void dispatch(Kernel kernel, Reader readers = Reader::compute_pass) const {
+  void dispatch(Kernel kernel, ReadBy readers = ReadBy::compute_pass) const {
     passes_[kernel].dispatch_for(model_.particle_count(), {}, readers);
     mark(kernel);
   }
@@ -132,7 +132,7 @@ void ImplicitSolver::queue_rounds(std::uint32_t rounds) const {
   for (std::uint32_t r = 0; r < rounds; ++r) {
     for (const Kernel kernel : {evaluate, apply, update, direction}) dispatch(kernel);
   }
-  dispatch(finish, balls_.any() ? Reader::compute_pass : anyone);
+  dispatch(finish, balls_.any() ? ReadBy::compute_pass : anyone);
   balls_.queue(states_[0], states_[1], 0, 0, anyone);
 }
 
@@ -142,7 +142,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
   while (steps > 0 && !divergence_) {
     keep_counting();
     solve_.step = steps_since_;
-    const bool measured = std::exchange(measure, false) && profiler_->begin_step();
+    const bool measured = std::exchange(measure, false) && profiler_->begin();
     const auto queue = measured ? 1u : static_cast<std::uint32_t>(std::min(steps, steps_per_look));
     const std::uint32_t first = solve_.step;
     solve_.target_step = first + queue;
@@ -167,7 +167,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
       }
       rounds = std::max(more_rounds, solve_.last_ticks + solve_.last_ticks / 4 + 1);
     }
-    if (measured) profiler_->end_step();
+    if (measured) profiler_->end();
     if (solve_.phase == PHASE_HALTED) {
       divergence_ = divergence_from(solve_.bad_particle, solve_.step);
     }

@@ -13,7 +13,7 @@
 namespace aspic {
 namespace {
 
-using gl::Reader;
+using gl::ReadBy;
 using Four = std::array<float, 4>;
 
 std::vector<Four> unturned(std::uint32_t count) {
@@ -37,12 +37,9 @@ Result<BallBuffers> BallBuffers::create(gl::Context& context, const Model& model
   BallBuffers b;
   b.count_ = model.ball_count();
   b.timestep_ = model.simulation.timestep;
-  auto turns = gl::Buffer::of(context, "turns of balls", std::span<const Four>(unturned(b.count_)));
-  if (!turns) return turns.error();
-  b.turns_ = std::move(*turns);
-  auto colours = gl::Buffer::of(context, "colours of balls", std::span<const Four>(colours_of(model)));
-  if (!colours) return colours.error();
-  b.colours_ = std::move(*colours);
+  ASPIC_TRY(b.turns_, gl::Buffer::of(context, "turns of balls", std::span<const Four>(unturned(b.count_))));
+  ASPIC_TRY(b.colours_,
+            gl::Buffer::of(context, "colours of balls", std::span<const Four>(colours_of(model))));
   return b;
 }
 
@@ -58,7 +55,7 @@ void BallBuffers::prepare(const RenderPrograms& programs, const DeviceState& sta
   programs.balls_turn.set(LOCATION_ELAPSED, static_cast<float>(static_cast<double>(steps) * timestep_));
   gl::Pass(programs.balls_turn,
            {{BINDING_BALLS, state.balls}, {BINDING_TURNS, &turns_}, {BINDING_BOUNDS, &bounds}},
-           Reader::compute_pass | Reader::vertex_draw | Reader::read_back | Reader::copy)
+           ReadBy::compute_pass | ReadBy::vertex_draw | ReadBy::read_back | ReadBy::copy)
       .dispatch_for(count_);
 }
 

@@ -29,17 +29,14 @@ std::array<float, 4> four(const Vec3& v, float w) {
 Result<std::unique_ptr<HighlightPainter>> HighlightPainter::create(gl::Context& context,
                                                                    const gl::ShaderLibrary& library) {
   std::unique_ptr<HighlightPainter> p(new HighlightPainter(context));
-  ASPIC_TRY(auto marks,
+  ASPIC_TRY(p->marks_,
             gl::Program::graphics(context, library,
                                   {"render/particles.vert", "render/marks.frag", "render/marks.geom"}));
-  p->marks_ = std::move(marks);
   ASPIC_TRY(p->pull_,
             gl::Program::graphics(context, library,
                                   {"render/particles.vert", "render/marks.frag", "render/pull.geom"}));
-  auto frame =
-      gl::Buffer::create(context, "marks' frame", sizeof(render_layout::Frame), gl::BufferKind::uniform);
-  if (!frame) return frame.error();
-  p->frame_ = std::move(*frame);
+  ASPIC_TRY(p->frame_, gl::Buffer::create(context, "marks' frame", sizeof(render_layout::Frame),
+                                          gl::BufferKind::uniform));
   return p;
 }
 

@@ -48,9 +48,8 @@ Result<LightMaps> LightMaps::create(gl::Context& context) {
     if (!map) return map.error();
     result.maps_[static_cast<std::size_t>(light)] = std::move(*map);
   }
-  auto empty = DrawableImage::create(context, "empty light map", {.format = gl::TexelFormat::rg16f}, false);
-  if (!empty) return empty.error();
-  result.empty_ = std::move(*empty);
+  ASPIC_TRY(result.empty_,
+            DrawableImage::create(context, "empty light map", {.format = gl::TexelFormat::rg16f}, false));
   result.empty_.framebuffer.bind();
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);

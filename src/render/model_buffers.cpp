@@ -6,14 +6,12 @@
 #include "device/particles.h"
 #include "gpu/loop_bound.h"
 #include "gpu/pass.h"
+#include "render/software_rasteriser.h"
 
 namespace aspic {
 namespace {
 
-using gl::Reader;
-
-/// Invocations that find the particles' bounds; more particles are shared out among them.
-constexpr std::uint32_t most_bounding_invocations = 4096;
+using gl::ReadBy;
 
 /// Whether a state brings the words that name neighbours.
 bool has_neighbours(const DeviceState& state) {
@@ -59,8 +57,9 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   const Surface surface = make_surface(model);
   for (const Status& ok :
        {gl::check_loop("normals", "the faces at one particle", longest(surface.fan_start)),
-        gl::check_loop("bounds", "particles",
-                       LIGHTS * (std::uint64_t{b.particle_count_} / most_bounding_invocations + 1))}) {
+        gl::check_loop(
+            "bounds", "particles",
+            LIGHTS * (std::uint64_t{b.particle_count_} / software::most_bounding_invocations + 1))}) {
     if (!ok) return ok.error();
   }
   b.parts_ = surface.parts;
@@ -82,12 +81,8 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   fill(b.bounds_, "light bounds", std::vector<render_layout::Bounds>(LIGHTS));
   fill(b.light_boxes_, "light boxes", std::vector<render_layout::LightBox>(LIGHTS));
   if (!fill.status()) return fill.status().error();
-  auto balls = BallBuffers::create(context, model);
-  if (!balls) return balls.error();
-  b.balls_ = std::move(*balls);
-  auto rods = Rods::create(context, model);
-  if (!rods) return rods.error();
-  b.rods_ = std::move(*rods);
+  ASPIC_TRY(b.balls_, BallBuffers::create(context, model));
+  ASPIC_TRY(b.rods_, Rods::create(context, model));
   return b;
 }
 
@@ -124,7 +119,7 @@ void ModelBuffers::compute_normals(const RenderPrograms& programs, const gl::Buf
             {BINDING_FAN, &fan_},
             {BINDING_FAN_VERTEX, &fan_vertex_},
             {BINDING_NORMALS, &normals_}},
-           Reader::vertex_draw | Reader::read_back)
+           ReadBy::vertex_draw | ReadBy::read_back)
       .dispatch_for(skin_vertices_);
 }
 
@@ -136,7 +131,7 @@ void ModelBuffers::compute_quantity(const RenderPrograms& programs, const Device
     bindings.push_back({BINDING_INCIDENT, &springs->incident});
     bindings.push_back({BINDING_SPRING_CLASSES, &spring_classes_});
   }
-  gl::Pass(programs.quantity, std::move(bindings), Reader::vertex_draw | Reader::read_back)
+  gl::Pass(programs.quantity, std::move(bindings), ReadBy::vertex_draw | ReadBy::read_back)
       .dispatch_for(particle_count_);
 }
 
@@ -145,11 +140,11 @@ void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const Dev
   empty.fill({glm::uvec4(0xffffffffu), glm::uvec4(0u)});
   bounds_.upload_items(std::span<const render_layout::Bounds>(empty));
   gl::Pass(programs.bounds, {{BINDING_PARTICLES, state.particles}, {BINDING_BOUNDS, &bounds_}},
-           Reader::compute_pass | Reader::copy)
-      .dispatch_for(std::min(particle_count_, most_bounding_invocations));
+           ReadBy::compute_pass | ReadBy::copy)
+      .dispatch_for(std::min(particle_count_, software::most_bounding_invocations));
   balls_->prepare(programs, state, bounds_);
   gl::Pass(programs.light_boxes, {{BINDING_BOUNDS, &bounds_}, {BINDING_LIGHT_BOXES_OUT, &light_boxes_}},
-           Reader::uniform)
+           ReadBy::uniform)
       .dispatch_for(LIGHTS);
 }
 

@@ -5,7 +5,6 @@
 #include <bit>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <utility>
 
 #include "render/frame_block.h"
 #include "render/light_maps.h"
@@ -38,48 +37,29 @@ Vec3 point_at(const render_layout::Frame& frame, int column, int row, int side, 
 
 Result<std::unique_ptr<Picker>> Picker::create(gl::Context& context, const gl::ShaderLibrary& library) {
   std::unique_ptr<Picker> p(new Picker);
-  Status status;
-  const auto program = [&](gl::Program& into, const gl::GraphicsStages& stages) {
-    if (!status) return;
-    auto made = gl::Program::graphics(context, library, stages);
-    if (made)
-      into = std::move(*made);
-    else
-      status = made.error();
+  const auto program = [&](const gl::GraphicsStages& stages) {
+    return gl::Program::graphics(context, library, stages);
   };
-  program(p->surface_, {"render/pick_surface.vert", "render/pick_surface.frag", "render/pick_surface.geom"});
-  program(p->particles_,
-          {"render/particles.vert", "render/pick_particles.frag", "render/pick_particles.geom"});
-  program(p->balls_, {"render/balls.vert", "render/pick_balls.frag", "render/balls.geom"});
-  program(p->terrain_, {"render/screen.vert", "render/pick_terrain.frag"});
-  if (!status) return status.error();
-  auto frame =
-      gl::Buffer::create(context, "pick frame", sizeof(render_layout::Frame), gl::BufferKind::uniform);
-  if (!frame) return frame.error();
-  p->frame_ = std::move(*frame);
-  auto image = DrawableImage::create(
-      context, "identities", {.format = gl::TexelFormat::rg32ui, .width = side, .height = side}, true);
-  if (!image) return image.error();
-  p->image_ = std::move(*image);
+  ASPIC_TRY(p->surface_,
+            program({"render/pick_surface.vert", "render/pick_surface.frag", "render/pick_surface.geom"}));
+  ASPIC_TRY(p->particles_,
+            program({"render/particles.vert", "render/pick_particles.frag", "render/pick_particles.geom"}));
+  ASPIC_TRY(p->balls_, program({"render/balls.vert", "render/pick_balls.frag", "render/balls.geom"}));
+  ASPIC_TRY(p->terrain_, program({"render/screen.vert", "render/pick_terrain.frag"}));
+  ASPIC_TRY(p->frame_,
+            gl::Buffer::create(context, "pick frame", sizeof(render_layout::Frame), gl::BufferKind::uniform));
+  ASPIC_TRY(p->image_,
+            DrawableImage::create(context, "identities",
+                                  {.format = gl::TexelFormat::rg32ui, .width = side, .height = side}, true));
   p->nothing_ = gl::VertexArray::create({});
   for (Slot& slot : p->slots_) {
-    glGenBuffers(1, &slot.buffer);
-    glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
-    glBufferData(GL_PIXEL_PACK_BUFFER, GLsizeiptr{side} * side * GLsizeiptr{sizeof(Word)}, nullptr,
-                 GL_STREAM_READ);
+    slot.buffer = gl::pixel_buffer(sizeof(Word) * side * side);
   }
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   return p;
 }
 
-Picker::~Picker() {
-  forget();
-  for (Slot& slot : slots_) glDeleteBuffers(1, &slot.buffer);
-}
-
 void Picker::forget() {
-  for (Slot& slot : slots_)
-    if (slot.fence) glDeleteSync(static_cast<GLsync>(std::exchange(slot.fence, nullptr)));
+  for (Slot& slot : slots_) slot.fence.reset();
   pending_ = 0;
   answer_ = {};
 }
@@ -148,22 +128,20 @@ void Picker::submit(std::uint64_t request, const Model& model, const ModelBuffer
   glBindVertexArray(0);
   glUseProgram(0);
 
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.id());
   glReadPixels(0, 0, side, side, GL_RG_INTEGER, GL_UNSIGNED_INT, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  if (slot.fence) glDeleteSync(static_cast<GLsync>(slot.fence));
-  slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-  glFlush();
+  slot.fence = gl::fence();
   ++pending_;
 }
 
 const PickAnswer& Picker::answer() {
   while (pending_ > 0) {
     Slot& slot = slots_[first_];
-    const GLenum state = glClientWaitSync(static_cast<GLsync>(slot.fence), 0, 0);
+    const GLenum state = glClientWaitSync(static_cast<GLsync>(slot.fence.get()), 0, 0);
     if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED) break;
-    glDeleteSync(static_cast<GLsync>(std::exchange(slot.fence, nullptr)));
+    slot.fence.reset();
     first_ = (first_ + 1) % capacity;
     --pending_;
     read(slot);
@@ -172,7 +150,7 @@ const PickAnswer& Picker::answer() {
 }
 
 void Picker::read(Slot& slot) {
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.id());
   std::array<Word, std::size_t{side} * side> words;
   glGetBufferSubData(GL_PIXEL_PACK_BUFFER, 0, GLsizeiptr{sizeof(words)}, words.data());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);

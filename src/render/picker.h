@@ -8,6 +8,7 @@
 #include "base/result.h"
 #include "device/device_state.h"
 #include "gpu/context.h"
+#include "gpu/pixel_ring.h"
 #include "gpu/program.h"
 #include "render/layout.h"
 #include "render/model_buffers.h"
@@ -46,7 +47,6 @@ class Picker {
  public:
   /// Errors: those of Program and Texture.
   static Result<std::unique_ptr<Picker>> create(gl::Context& context, const gl::ShaderLibrary& library);
-  ~Picker();
   Picker(const Picker&) = delete;
   Picker& operator=(const Picker&) = delete;
 
@@ -69,8 +69,8 @@ class Picker {
   static constexpr std::size_t capacity = 3;
   /// An image on its way back.
   struct Slot {
-    std::uint32_t buffer = 0;
-    void* fence = nullptr;
+    gl::Name buffer;
+    gl::Fence fence;
     std::uint64_t request = 0;
     render_layout::Frame frame = {};
   };

@@ -119,9 +119,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
   if (!map) return map.error();
   map->upload(colour_map_texels());
   parts->colour_map = std::move(*map);
-  auto frame = gl::Buffer::create(context, "frame", sizeof(render_layout::Frame), gl::BufferKind::uniform);
-  if (!frame) return frame.error();
-  parts->frame = std::move(*frame);
+  ASPIC_TRY(parts->frame,
+            gl::Buffer::create(context, "frame", sizeof(render_layout::Frame), gl::BufferKind::uniform));
   parts->nothing = gl::VertexArray::create({});
   GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
@@ -161,9 +160,7 @@ Status Renderer::Parts::prepare_targets(int width, int height) {
 
 Status Renderer::Parts::prepare_highlight() {
   if (highlight) return {};
-  auto made = HighlightPainter::create(*context, shaders);
-  if (!made) return made.error();
-  highlight = std::move(*made);
+  ASPIC_TRY(highlight, HighlightPainter::create(*context, shaders));
   return {};
 }
 
@@ -302,7 +299,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   const bool flesh = p.has(SurfaceStyle::flesh), solid = view.draw.solid && flesh;
 
   // A solver's last pass named its own next step as reader, not us.
-  gl::barrier(gl::Reader::compute_pass | gl::Reader::vertex_draw);
+  gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
   p.drawn_frame = frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows});
   p.drawn_state = state;
   p.drawn_settings = view.draw;
@@ -355,9 +352,7 @@ Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
   Parts& p = *parts_;
   assert(p.drawn_state);
   if (!p.picker) {
-    auto made = Picker::create(*p.context, p.shaders);
-    if (!made) return made.error();
-    p.picker = std::move(*made);
+    ASPIC_TRY(p.picker, Picker::create(*p.context, p.shaders));
   }
   p.picker->submit(++p.picks, *p.model, *p.buffers, *p.drawn_state, p.drawn_settings, p.drawn_frame, place);
   return p.picks;

@@ -33,7 +33,7 @@ struct PictureOptions {
   std::vector<OverlayLine> text;       ///< empty: no panel
   bool legend = true;                  ///< of colours, where they mean something
   bool shadows = true;                 ///< on terrain; without them light maps are left out
-  bool coarse_skin = false;            ///< fewer triangles for large bodies, where time is short
+  bool coarse_skin = false;            ///< fewer triangles for large bodies: for software rasterisers
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
 };
 

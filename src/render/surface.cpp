@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include "render/software_rasteriser.h"
+
 namespace aspic {
 namespace {
 
@@ -39,7 +41,7 @@ std::vector<Quad> quads_of(const Body& body, std::uint32_t quads_along) {
 /// Whether a coarse skin would differ.
 bool is_fine(const Body& body) {
   return std::ranges::any_of(body.surface, [](const Patch& patch) {
-    return std::ranges::max(patch.count) - 1 > Surface::coarse_quads;
+    return std::ranges::max(patch.count) - 1 > software::coarse_quads;
   });
 }
 
@@ -58,9 +60,9 @@ Surface make_surface(const Model& model) {
     const std::vector<Quad> quads = quads_of(body, std::numeric_limits<std::uint32_t>::max());
     surface.parts.push_back(add_triangles(quads, surface.indices));
     all.insert(all.end(), quads.begin(), quads.end());
-    surface.coarse_parts.push_back(is_fine(body)
-                                       ? add_triangles(quads_of(body, Surface::coarse_quads), surface.indices)
-                                       : surface.parts.back());
+    surface.coarse_parts.push_back(
+        is_fine(body) ? add_triangles(quads_of(body, software::coarse_quads), surface.indices)
+                      : surface.parts.back());
   }
   std::vector<std::uint32_t> quads_at(model.particle_count(), 0);
   for (const Quad& q : all)

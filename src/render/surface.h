@@ -13,8 +13,6 @@ struct Surface {
   struct Part {
     std::uint32_t first_index = 0, index_count = 0;  ///< of one body, into `indices`
   };
-  /// Quads along an edge of a coarse skin at most.
-  static constexpr std::uint32_t coarse_quads = 16;
 
   std::vector<std::uint32_t> indices;  ///< three per triangle
   std::vector<Part> parts;             ///< by body, in the order of Model::bodies

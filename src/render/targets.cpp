@@ -22,23 +22,16 @@ Result<DrawableImage> DrawableImage::create(gl::Context& context, const std::str
 
 Result<PictureTargets> PictureTargets::create(gl::Context& context, int width, int height, int samples) {
   PictureTargets targets;
-  Status status;
-  const auto make = [&](DrawableImage& into, const std::string& name, const gl::TextureSettings& settings,
-                        bool depth) {
-    if (!status) return;
-    auto made = DrawableImage::create(context, name, settings, depth);
-    if (made)
-      into = std::move(*made);
-    else
-      status = made.error();
-  };
   const int half_width = std::max(width / 2, 1), half_height = std::max(height / 2, 1);
-  make(targets.samples, "picture samples", {.width = width, .height = height, .samples = samples}, true);
-  make(targets.picture, "picture", {.width = width, .height = height}, false);
-  make(targets.behind, "behind", {.width = half_width, .height = half_height}, false);
-  make(targets.thickness, "thickness",
-       {.format = gl::TexelFormat::r16f, .width = half_width, .height = half_height}, false);
-  if (!status) return status.error();
+  const auto make = [&](const char* name, const gl::TextureSettings& settings, bool depth = false) {
+    return DrawableImage::create(context, name, settings, depth);
+  };
+  ASPIC_TRY(targets.samples,
+            make("picture samples", {.width = width, .height = height, .samples = samples}, true));
+  ASPIC_TRY(targets.picture, make("picture", {.width = width, .height = height}));
+  ASPIC_TRY(targets.behind, make("behind", {.width = half_width, .height = half_height}));
+  ASPIC_TRY(targets.thickness,
+            make("thickness", {.format = gl::TexelFormat::r16f, .width = half_width, .height = half_height}));
   return targets;
 }
 

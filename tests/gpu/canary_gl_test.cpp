@@ -126,7 +126,7 @@ TEST_F(CanaryGl, CorrectedFormsKeepTheMeaningOfSpecialValues) {
   const auto output = Buffer::create(context(), "results", count * 8);
   ASSERT_TRUE(input.ok() && output.ok());
   program->set(0, count);
-  Pass(*program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &*output}}, Reader::read_back)
+  Pass(*program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &*output}}, ReadBy::read_back)
       .dispatch_for(count);
   const auto got = output->download_items<std::array<float, 2>>(count);
   const auto same = [](float x, float y) {

@@ -30,7 +30,7 @@ TEST_F(PassGl, VisitsEachItemOnceInOneAndTwoDimensions) {
     Buffer visits = buffer(count * 4ull);
     visits.clear();
     program.set(0, count);
-    const Pass pass(program, {{.binding = 2, .buffer = &visits}}, Reader::read_back);
+    const Pass pass(program, {{.binding = 2, .buffer = &visits}}, ReadBy::read_back);
     pass.dispatch_for(count);
     const auto got = visits.download_items<std::uint32_t>(count);
     EXPECT_EQ(std::ranges::count(got, 1u), count);
@@ -42,7 +42,7 @@ TEST_F(PassGl, DoesNothingForNoItems) {
   Buffer visits = buffer(4);
   visits.clear();
   program.set(0, 1u);
-  Pass(program, {{.binding = 2, .buffer = &visits}}, Reader::read_back).dispatch_for(0);
+  Pass(program, {{.binding = 2, .buffer = &visits}}, ReadBy::read_back).dispatch_for(0);
   EXPECT_EQ(visits.download_items<std::uint32_t>(1).front(), 0u);
 }
 
@@ -56,7 +56,7 @@ TEST_F(PassGl, NextPassAndIndirectDispatchSeeWhatWasWritten) {
   const Program twice = compile("double_items.comp", {{"ASPIC_GROUP_SIZE", "64"}});
   twice.set(0, count);
   // The two buffers take turns: bindings come with each dispatch.
-  const Pass pass(twice, {}, Reader::compute_pass | Reader::read_back);
+  const Pass pass(twice, {}, ReadBy::compute_pass | ReadBy::read_back);
   const Binding forth[] = {{.binding = 0, .buffer = &a}, {.binding = 1, .buffer = &b}};
   const Binding back[] = {{.binding = 0, .buffer = &b}, {.binding = 1, .buffer = &a}};
   for (int i = 0; i < 5; ++i) {
@@ -70,7 +70,7 @@ TEST_F(PassGl, NextPassAndIndirectDispatchSeeWhatWasWritten) {
   Buffer arguments = buffer(16);
   const Program writer = compile("arguments.comp");
   writer.set(0, 3u);
-  Pass(writer, {{.binding = 0, .buffer = &arguments}}, Reader::indirect).dispatch_for(1);
+  Pass(writer, {{.binding = 0, .buffer = &arguments}}, ReadBy::indirect).dispatch_for(1);
   b.clear();
   pass.dispatch_indirect(arguments, 4, forth);
   const auto got = b.download_items<std::uint32_t>(count);
@@ -83,7 +83,7 @@ TEST_F(PassGl, BindsARangeOfABuffer) {
   visits.clear();
   const Program program = compile("count.comp");
   program.set(0, 4u);
-  Pass(program, {{.binding = 2, .buffer = &visits, .offset = step, .bytes = step}}, Reader::read_back)
+  Pass(program, {{.binding = 2, .buffer = &visits, .offset = step, .bytes = step}}, ReadBy::read_back)
       .dispatch_for(4);
   const auto got = visits.download_items<std::uint32_t>(3 * step / 4);
   for (std::size_t i = 0; i < got.size(); ++i)

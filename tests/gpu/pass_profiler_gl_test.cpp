@@ -23,7 +23,7 @@ class PassProfilerGl : public testing::GlTest {
     program_.set(0, most);
   }
   void dispatch(std::uint32_t count) {
-    Pass(program_, {{.binding = 2, .buffer = &visits_}}, Reader::compute_pass).dispatch_for(count);
+    Pass(program_, {{.binding = 2, .buffer = &visits_}}, ReadBy::compute_pass).dispatch_for(count);
   }
   /// Waits until so many steps' results have been taken in, as the dispatches of kind 0 show: one in each.
   static std::vector<PassTime> wait(PassProfiler& profiler) {
@@ -42,14 +42,14 @@ TEST_F(PassProfilerGl, GivesEachDispatchItsTime) {
   PassProfiler profiler(context(), {"small", "never", "large"});
   EXPECT_TRUE(profiler.times().empty());
   dispatch(most);  // the driver finishes compiling
-  ASSERT_TRUE(profiler.begin_step());
+  ASSERT_TRUE(profiler.begin());
   dispatch(64);
   profiler.mark(0);
   dispatch(most);
   profiler.mark(2);
   dispatch(64);
   profiler.mark(0);
-  profiler.end_step();
+  profiler.end();
   const auto times = wait(profiler);
   ASSERT_EQ(times.size(), 2u);
   EXPECT_EQ(times[0].name, "small");
@@ -62,7 +62,7 @@ TEST_F(PassProfilerGl, GivesEachDispatchItsTime) {
 TEST_F(PassProfilerGl, TakesMeansOverTheLastSteps) {
   PassProfiler profiler(context(), {"one", "other"});
   for (std::size_t n = 0; n < 3 * PassProfiler::window; ++n) {
-    while (!profiler.begin_step()) {
+    while (!profiler.begin()) {
     }
     dispatch(64);
     profiler.mark(0);
@@ -71,7 +71,7 @@ TEST_F(PassProfilerGl, TakesMeansOverTheLastSteps) {
       dispatch(64);
       profiler.mark(1);
     }
-    profiler.end_step();
+    profiler.end();
     if (n == 9) {
       ASSERT_EQ(wait(profiler).size(), 2u);
     }
@@ -84,12 +84,12 @@ TEST_F(PassProfilerGl, TakesMeansOverTheLastSteps) {
 TEST_F(PassProfilerGl, MarksOutsideAStepAndUnfinishedStepsCountForNothing) {
   PassProfiler profiler(context(), {"one", "other"});
   profiler.mark(1);
-  profiler.end_step();
-  ASSERT_TRUE(profiler.begin_step());
+  profiler.end();
+  ASSERT_TRUE(profiler.begin());
   profiler.mark(1);
-  ASSERT_TRUE(profiler.begin_step());
+  ASSERT_TRUE(profiler.begin());
   profiler.mark(0);
-  profiler.end_step();
+  profiler.end();
   profiler.mark(1);
   const auto times = wait(profiler);
   ASSERT_EQ(times.size(), 1u);
@@ -98,12 +98,12 @@ TEST_F(PassProfilerGl, MarksOutsideAStepAndUnfinishedStepsCountForNothing) {
 
 TEST_F(PassProfilerGl, LeavesOutAStepThatIsTooLong) {
   PassProfiler profiler(context(), {"one", "other"});
-  ASSERT_TRUE(profiler.begin_step());
+  ASSERT_TRUE(profiler.begin());
   for (std::size_t n = 0; n <= PassProfiler::most_dispatches; ++n) profiler.mark(1);
-  profiler.end_step();
-  ASSERT_TRUE(profiler.begin_step());
+  profiler.end();
+  ASSERT_TRUE(profiler.begin());
   profiler.mark(0);
-  profiler.end_step();
+  profiler.end();
   const auto times = wait(profiler);
   ASSERT_EQ(times.size(), 1u);
   EXPECT_EQ(times[0].name, "one");

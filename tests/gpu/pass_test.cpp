@@ -26,14 +26,14 @@ TEST(GroupsFor, CoverTheItemsWithinTheLimits) {
 }
 
 TEST(BarrierBits, FollowFromTheReaders) {
-  EXPECT_EQ(barrier_bits(Reader::compute_pass), GLbitfield{GL_SHADER_STORAGE_BARRIER_BIT});
-  EXPECT_EQ(barrier_bits(Reader::uniform), GLbitfield{GL_UNIFORM_BARRIER_BIT});
-  EXPECT_EQ(barrier_bits(Reader::vertex_draw),
+  EXPECT_EQ(barrier_bits(ReadBy::compute_pass), GLbitfield{GL_SHADER_STORAGE_BARRIER_BIT});
+  EXPECT_EQ(barrier_bits(ReadBy::uniform), GLbitfield{GL_UNIFORM_BARRIER_BIT});
+  EXPECT_EQ(barrier_bits(ReadBy::vertex_draw),
             GLbitfield{GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT});
-  EXPECT_EQ(barrier_bits(Reader::indirect), GLbitfield{GL_COMMAND_BARRIER_BIT});
-  EXPECT_EQ(barrier_bits(Reader::read_back), GLbitfield{GL_BUFFER_UPDATE_BARRIER_BIT});
-  EXPECT_EQ(barrier_bits(Reader::copy), GLbitfield{GL_BUFFER_UPDATE_BARRIER_BIT});
-  EXPECT_EQ(barrier_bits(Reader::compute_pass | Reader::indirect),
+  EXPECT_EQ(barrier_bits(ReadBy::indirect), GLbitfield{GL_COMMAND_BARRIER_BIT});
+  EXPECT_EQ(barrier_bits(ReadBy::read_back), GLbitfield{GL_BUFFER_UPDATE_BARRIER_BIT});
+  EXPECT_EQ(barrier_bits(ReadBy::copy), GLbitfield{GL_BUFFER_UPDATE_BARRIER_BIT});
+  EXPECT_EQ(barrier_bits(ReadBy::compute_pass | ReadBy::indirect),
             GLbitfield{GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT});
 }
 

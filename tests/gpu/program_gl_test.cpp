@@ -90,7 +90,7 @@ TEST_F(ProgramGl, SetsUniformsOfEachKind) {
   program.set(4, std::array<float, 3>{1, 2, 3});
   Pass(program,
        {{.binding = 3, .buffer = &*items}, {.binding = 5, .buffer = &*classes, .kind = BufferKind::uniform}},
-       Reader::read_back)
+       ReadBy::read_back)
       .dispatch_for(2);
   const auto got = items->download_items<float>(24);
   testing::expect_finite(got);

@@ -106,7 +106,7 @@ void main() {
   const auto count = [&](std::uint32_t rounds) {
     counts.clear();
     program->set(0, rounds);
-    gl::Pass(*program, {{0, &counts}}, gl::Reader::read_back).dispatch_for(64);
+    gl::Pass(*program, {{0, &counts}}, gl::ReadBy::read_back).dispatch_for(64);
     return counts.download_items<std::uint32_t>(64);
   };
   const auto done = count(gl::max_rounds);
@@ -262,7 +262,7 @@ TEST_F(LoopBounds, OfTheBoxOfAllParticles) {
            {{BINDING_PARTICLES, &state},
             {BINDING_BOUNDS, &bounds},
             {BINDING_FRAME, &frame, gl::BufferKind::uniform}},
-           gl::Reader::read_back)
+           gl::ReadBy::read_back)
       .dispatch_for(group);
   const auto ordered = [](float value) {  // shaders/render/bounds.glsl
     const auto bits = std::bit_cast<std::uint32_t>(value);

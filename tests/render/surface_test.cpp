@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "render/software_rasteriser.h"
+#include "render/software_rasteriser.h"
 #include "render/terrain_mesh.h"
 #include "support/model_building.h"
 
@@ -52,7 +54,7 @@ TEST(Surface, ACoarseSkinIsClosedAndKeepsTheCorners) {
   const Surface surface = make_surface(model);
   ASSERT_EQ(surface.coarse_parts.size(), 1u);
   const Surface::Part part = surface.coarse_parts[0];
-  EXPECT_EQ(part.index_count, 6u * 6 * Surface::coarse_quads * Surface::coarse_quads);
+  EXPECT_EQ(part.index_count, 6u * 6 * software::coarse_quads * software::coarse_quads);
   EXPECT_EQ(part.first_index, surface.parts[0].index_count);
   const std::set<std::uint32_t> skin(surface.fan_vertex.begin(), surface.fan_vertex.end());
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
