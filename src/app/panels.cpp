@@ -100,7 +100,7 @@ void status_line(double scale, const Simulation& s, const Recording* film, bool 
     facts.push_back(fmt::format("{:.3g} × real time{}", s.real_time_factor(), why));
   }
   facts.push_back(fmt::format("step {}", s.step()));
-  facts.push_back("F1 all keys");
+  facts.emplace_back("F1 all keys");
   const float gap = 22.0f * static_cast<float>(scale);
   const float end = ImGui::GetWindowContentRegionMax().x;
   for (const std::string& fact : facts) {

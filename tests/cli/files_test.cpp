@@ -149,10 +149,10 @@ TEST(Files, ResumeExplainsWhatDoesNotFit) {
       aspic(run_words({"--steps", "40", "--resume", dir.file("c"), "--set", "simulation.timestep=0.0005"}));
   EXPECT_EQ(changed.exit_code, 3);
   EXPECT_THAT(changed.err, HasSubstr("0.0005"));
-  EXPECT_THAT(changed.err, HasSubstr("Leave SCENE and --set out"));
+  EXPECT_THAT(changed.err, HasSubstr("Omit SCENE and --set"));
   const auto past = aspic(run_words({"--steps", "10", "--resume", dir.file("c")}));
   EXPECT_EQ(past.exit_code, 2);
-  EXPECT_THAT(past.err, HasSubstr("at step 20 already"));
+  EXPECT_THAT(past.err, HasSubstr("already at step 20"));
   EXPECT_EQ(aspic(run_words({"--steps", "40", "--resume", dir.file("c"), "--precision", "double"})).exit_code,
             2);
 

@@ -143,12 +143,12 @@ TEST(Usage, WithoutADeviceGpuIsRefusedAndInfoSaysSo) {
   EXPECT_EQ(aspic({"compare", "cube-plane", "--steps", "1"}, no_device).exit_code, 4);
   const auto picked = aspic({"run", "cube-plane", "--steps", "1", "--json"}, no_device);
   EXPECT_EQ(picked.exit_code, 0) << picked.err;
-  EXPECT_EQ(test::json_member(picked.out, "backend"), "reference");
+  EXPECT_EQ(test::json_member(picked.out, "backend"), "cpu");
   EXPECT_EQ(aspic({"run", "cube-plane", "--steps", "1", "--force-path", "gather"}, no_device).exit_code, 4);
   const auto info = aspic({"info"}, no_device);
   EXPECT_EQ(info.exit_code, 0) << info.err;
   EXPECT_THAT(info.out, HasSubstr("No usable GL device"));
-  EXPECT_THAT(info.out, HasSubstr("Backend auto: reference"));
+  EXPECT_THAT(info.out, HasSubstr("Backend auto: cpu"));
 }
 
 TEST(Usage, InfoIsJsonOnRequest) {
