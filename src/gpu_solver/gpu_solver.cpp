@@ -147,7 +147,7 @@ Status ComputeSolver::build_buffers(const GpuOptions& options) {
 Status ComputeSolver::build_passes(const GpuOptions& options) {
   const gl::ShaderLibrary library(options.shader_directory);
   KernelOptions kernels;
-  ASPIC_ASSIGN_OR_RETURN(kernels, kernel_options(context_, library, options, options.group_size));
+  ASPIC_ASSIGN_OR_RETURN(kernels, kernel_options(context_, library, model_, options, options.group_size));
   arithmetic_ = kernels.arithmetic;
   const std::vector<gl::Define>& defines = kernels.defines;
   const Binding constants = {BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform};

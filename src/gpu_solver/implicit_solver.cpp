@@ -128,7 +128,7 @@ Status ImplicitSolver::build(const GpuOptions& options) {
 
   const gl::ShaderLibrary library(options.shader_directory);
   KernelOptions kernels;
-  ASPIC_ASSIGN_OR_RETURN(kernels, kernel_options(context_, library, options, REDUCTION_BLOCK));
+  ASPIC_ASSIGN_OR_RETURN(kernels, kernel_options(context_, library, model_, options, REDUCTION_BLOCK));
   arithmetic_ = kernels.arithmetic;
   const std::vector<Binding> bindings = {{BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform},
                                          pull_.binding(),

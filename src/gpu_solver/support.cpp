@@ -74,7 +74,8 @@ Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& 
 }
 
 Result<KernelOptions> kernel_options(gl::Context& context, const gl::ShaderLibrary& library,
-                                     const GpuOptions& options, std::uint32_t group_size) {
+                                     const Model& model, const GpuOptions& options,
+                                     std::uint32_t group_size) {
   KernelOptions kernels;
   if (options.arithmetic) {
     kernels.arithmetic = *options.arithmetic;
@@ -83,6 +84,9 @@ Result<KernelOptions> kernel_options(gl::Context& context, const gl::ShaderLibra
   }
   kernels.defines = kernels.arithmetic.defines;
   kernels.defines.push_back({"ASPIC_GROUP_SIZE", std::to_string(group_size)});
+  std::uint32_t shapes = 0;
+  for (const Terrain& terrain : model.terrain) shapes |= 1u << static_cast<std::uint32_t>(terrain.shape);
+  kernels.defines.push_back({"ASPIC_SHAPES", std::to_string(shapes)});
   kernels.defines.insert(kernels.defines.end(), options.defines.begin(), options.defines.end());
   return kernels;
 }

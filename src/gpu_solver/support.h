@@ -39,12 +39,13 @@ Status check_overrun(std::uint32_t overrun);
 /// The divergence a kernel's word for it means (layout.glsl, Control and Solve).
 Divergence divergence_from(std::uint32_t word, std::uint64_t step, const Model& model);
 
-/// Asks the canary unless the options know already, and adds the group size to its defines.
+/// Asks the canary unless the options know already, and adds the group size and the model's terrain shapes to
+/// its defines.
 struct KernelOptions {
   gl::Arithmetic arithmetic;
   std::vector<gl::Define> defines;
 };
 Result<KernelOptions> kernel_options(gl::Context& context, const gl::ShaderLibrary& library,
-                                     const GpuOptions& options, std::uint32_t group_size);
+                                     const Model& model, const GpuOptions& options, std::uint32_t group_size);
 
 }  // namespace aspic
