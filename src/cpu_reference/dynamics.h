@@ -27,10 +27,11 @@ struct PullConstants {
 template <class T>
 struct RestingContact {
   Eigen::Index particle;
-  T friction;       ///< μ of the ground
-  T least_speed;    ///< c: normal speed it may not fall below [m/s]
-  T hw;             ///< h·w [s/kg]
-  Vector<T> n, v0;  ///< the ground's normal and the velocity [m/s] at the start of the step
+  T friction;     ///< μ of the ground
+  T least_speed;  ///< c: normal speed it may not fall below [m/s]
+  T hw;           ///< h·w [s/kg]
+  Vector<T> n;    ///< the ground's normal at the start of the step
+  Vector<T> v0;   ///< the velocity there, relative to the ground's at the step's end [m/s]
 };
 
 template <class T>
@@ -48,6 +49,11 @@ class Dynamics {
       mass_[i] = static_cast<T>(model.mass[i]);
       inverse_mass_[i] = static_cast<T>(model.inverse_mass[i]);
     }
+  }
+
+  /// The step from the state of this number begins: moving ground takes its places at both ends of it.
+  void begin_step(std::uint64_t step) {
+    for (Ground<T>& ground : grounds_) ground.begin_step(model_.simulation.timestep, step);
   }
 
   /// f(x, v) [N], one column per particle.
@@ -96,11 +102,12 @@ class Dynamics {
     if (model_.contact.model == ContactModel::course) return contacts;
     for (const Ground<T>& ground : grounds_) {
       for (Eigen::Index i = 0; i < x0.cols(); ++i) {
-        if (!(distance<T>(ground, x0.col(i)) < contact_.epsilon) || inverse_mass_[i] == T(0)) continue;
-        const Gap<T> g = gap<T>(ground, x0.col(i));
-        if (!rests<T>(contact_, g.d, dot3<T>(v0.col(i), g.n))) continue;
+        if (!(distance<T>(ground, ground.start, x0.col(i)) < contact_.epsilon) || inverse_mass_[i] == T(0))
+          continue;
+        const Gap<T> g = gap<T>(ground, ground.start, x0.col(i));
+        if (!rests<T>(contact_, g.d, dot3<T>(ground.start.relative(v0.col(i)), g.n))) continue;
         contacts.push_back({i, ground.friction, least_normal_speed<T>(contact_, g.d),
-                            contact_.step * inverse_mass_[i], g.n, v0.col(i)});
+                            contact_.step * inverse_mass_[i], g.n, ground.end.relative(v0.col(i))});
       }
     }
     return contacts;

@@ -10,6 +10,7 @@
 #include "gpu/program_cache.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/implicit_solver.h"
+#include "gpu_solver/pose_buffer.h"
 #include "gpu_solver/pull_buffer.h"
 #include "gpu_solver/simulation_block.h"
 #include "gpu_solver/spring_buffers.h"
@@ -97,6 +98,7 @@ class ComputeSolver final : public GpuSolver {
   Buffer sums_, simulation_, control_, forces_;
   std::shared_ptr<const SpringBuffers> springs_;
   PullBuffer pull_;
+  PoseBuffer poses_;
   gl::Arithmetic arithmetic_;
   std::shared_ptr<const gl::Program> force_program_, particle_program_;
   BallPasses balls_;
@@ -135,6 +137,7 @@ Status ComputeSolver::build_buffers(const GpuOptions& options) {
                               std::span<const layout::Simulation>(&*block, 1), gl::BufferKind::uniform));
   ASPIC_ASSIGN_OR_RETURN(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
   if (const Status made = pull_.build(context_); !made) return made;
+  if (const Status made = poses_.build(context_, model_); !made) return made;
 
   ASPIC_ASSIGN_OR_RETURN(springs_, aspic::spring_buffers(context_, model_, path_, options.like));
   if (path_ == ForcePath::per_spring) {
@@ -166,12 +169,13 @@ Status ComputeSolver::build_passes(const GpuOptions& options) {
   std::vector<Binding> bindings = {constants,
                                    control,
                                    pull_.binding(),
+                                   poses_.binding(),
                                    {BINDING_STAGE_SUMS, &sums_},
                                    {BINDING_INCIDENT_START, &springs_->incident_start},
                                    {BINDING_INCIDENT, &springs_->incident}};
   if (path_ == ForcePath::per_spring) bindings.push_back({BINDING_SPRING_FORCES, &forces_});
   passes_.emplace_back(*particle_program_, std::move(bindings), Reader::compute_pass);
-  return balls_.build(context_, model_, library, kernels, {&simulation_, &control_, false},
+  return balls_.build(context_, model_, library, kernels, {&simulation_, &control_, false, poses_.binding()},
                       options.ball_search);
 }
 
@@ -183,6 +187,7 @@ Status ComputeSolver::take(const State& state) {
   balls_.load(state);
   ball_parity_ = 0;
   reset_control();
+  poses_.set_base_step(state.step);
   base_step_ = state.step;
   steps_since_ = 0;
   divergence_.reset();
@@ -190,6 +195,7 @@ Status ComputeSolver::take(const State& state) {
 }
 
 void ComputeSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
+  poses_.cover(step_index, 1);
   const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
   if (path_ == ForcePath::per_spring) force_program_->set(LOCATION_STEP, step_index);
   particle_program_->set(LOCATION_STEP, step_index);
@@ -224,6 +230,7 @@ Result<std::optional<Divergence>> ComputeSolver::advance(std::uint64_t steps) {
       base_step_ += steps_since_;
       steps_since_ = 0;
       balls_.set_base_step(base_step_);
+      poses_.set_base_step(base_step_);
     }
     const auto queue = static_cast<std::uint32_t>(std::min(steps, steps_per_look));
     const std::size_t first_state = current_;

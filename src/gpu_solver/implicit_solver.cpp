@@ -10,6 +10,7 @@
 #include "gpu/pass.h"
 #include "gpu/program_cache.h"
 #include "gpu_solver/ball_passes.h"
+#include "gpu_solver/pose_buffer.h"
 #include "gpu_solver/pull_buffer.h"
 #include "gpu_solver/simulation_block.h"
 #include "gpu_solver/spring_buffers.h"
@@ -87,6 +88,7 @@ class ImplicitSolver final : public GpuSolver {
   Buffer trial_, search_, own_, simulation_, solve_buffer_;
   std::shared_ptr<const SpringBuffers> springs_;
   PullBuffer pull_;
+  PoseBuffer poses_;
   gl::Arithmetic arithmetic_;
   std::array<std::shared_ptr<const gl::Program>, kernel_count> programs_;
   std::vector<gl::Pass> passes_;  // by Kernel
@@ -118,6 +120,7 @@ Status ImplicitSolver::build_buffers(const GpuOptions& options) {
       simulation_, Buffer::of(context_, "simulation constants", std::span<const layout::Simulation>(block),
                               gl::BufferKind::uniform));
   if (const Status made = pull_.build(context_); !made) return made;
+  if (const Status made = poses_.build(context_, model_); !made) return made;
   ASPIC_ASSIGN_OR_RETURN(springs_, aspic::spring_buffers(context_, model_, ForcePath::gather, options.like));
   return {};
 }
@@ -132,6 +135,7 @@ Status ImplicitSolver::build(const GpuOptions& options) {
   arithmetic_ = kernels.arithmetic;
   const std::vector<Binding> bindings = {{BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform},
                                          pull_.binding(),
+                                         poses_.binding(),
                                          {BINDING_STATE_A, &states_[0]},
                                          {BINDING_STATE_B, &states_[1]},
                                          {BINDING_TRIAL, &trial_},
@@ -145,8 +149,9 @@ Status ImplicitSolver::build(const GpuOptions& options) {
                            context_.programs().compute(library, kernel_paths[k], kernels.defines));
     passes_.emplace_back(*programs_[k], bindings, Reader::compute_pass);
   }
-  if (const Status made = balls_.build(context_, model_, library, kernels,
-                                       {&simulation_, &solve_buffer_, true}, options.ball_search);
+  if (const Status made =
+          balls_.build(context_, model_, library, kernels,
+                       {&simulation_, &solve_buffer_, true, poses_.binding()}, options.ball_search);
       !made) {
     return made;
   }
@@ -165,6 +170,7 @@ Status ImplicitSolver::take(const State& state) {
   solve_.bad_particle = NO_STEP;
   write_solve();
   base_step_ = state.step;
+  poses_.set_base_step(base_step_);
   statistics_ = {};
   divergence_.reset();
   return {};
@@ -226,9 +232,11 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
       base_step_ += solve_.step;
       solve_.step = 0;
       balls_.set_base_step(base_step_);
+      poses_.set_base_step(base_step_);
     }
     const bool measured = std::exchange(measure, false) && profiler_->begin_step();
-    const auto queue = measured ? 1u : static_cast<std::uint32_t>(std::min(steps, steps_per_look));
+    const auto wanted = measured ? 1u : static_cast<std::uint32_t>(std::min(steps, steps_per_look));
+    const std::uint32_t queue = poses_.cover(solve_.step, wanted);
     const std::uint32_t first = solve_.step;
     solve_.target_step = first + queue;
     solve_.phase = PHASE_BEGIN;

@@ -95,7 +95,11 @@ Result<layout::Simulation> simulation_block(const Model& model) {
     block.spring_classes[c] = {static_cast<float>(s.stiffness), static_cast<float>(s.damping),
                                static_cast<float>(s.rest_length), s.cord ? 1u : 0u};
   }
-  for (std::size_t t = 0; t < model.terrain.size(); ++t) block.terrains[t] = block_of(model.terrain[t]);
+  std::uint32_t moving = 0;
+  for (std::size_t t = 0; t < model.terrain.size(); ++t) {
+    block.terrains[t] = block_of(model.terrain[t]);
+    if (model.terrain[t].motion) block.terrains[t].motion = ++moving;
+  }
   return block;
 }
 

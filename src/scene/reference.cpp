@@ -38,6 +38,8 @@ std::string condition(const Parameter& p) {
       break;
     case Belonging::geometry:
       return fmt::format(" Only for {}.", diagnostics::list_text(shapes_with(p), false));
+    case Belonging::motion:
+      return " Without `motion` a terrain never moves.";
     case Belonging::explicit_springs:
       return " Not together with `material`.";
     case Belonging::material:

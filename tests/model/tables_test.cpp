@@ -15,6 +15,7 @@ TEST(TerrainShapes, HaveDistinctNamesAndAreFoundByThem) {
   for (const TerrainShapeRow& row : terrain_shapes) {
     EXPECT_EQ(&terrain_row(row.value), &row);
     EXPECT_EQ(name_of(row.value), row.name);
+    EXPECT_EQ(row.keys.front().kind, GeometryKind::place) << row.name;
     EXPECT_TRUE(names.insert(row.name).second) << row.name;
   }
 }

@@ -41,9 +41,10 @@ TEST_P(Golden, Picture) {
 INSTANTIATE_TEST_SUITE_P(
     Scenes, Golden,
     ::testing::Values(Shot{"cube-plane", 1500}, Shot{"cube-tilted-plane", 1300}, Shot{"cube-sphere", 1000},
-                      Shot{"cube-bowl", 1300}, Shot{"cube-torus", 1200}, Shot{"cube-hole", 1500}, Shot{"large-cube", 0},
-                      Shot{"goal-net", 300}, Shot{"penalty", 1080}, Shot{"cube-and-balls", 700},
-                      Shot{"ball-pit", 4000}, Shot{"cube-plane", 1500, {"view.colour=strain"}, "strain"},
+                      Shot{"cube-bowl", 1300}, Shot{"cube-torus", 1200}, Shot{"cube-hole", 1500},
+                      Shot{"elevator", 2600}, Shot{"large-cube", 0}, Shot{"goal-net", 300},
+                      Shot{"penalty", 1080}, Shot{"cube-and-balls", 700}, Shot{"ball-pit", 4000},
+                      Shot{"cube-plane", 1500, {"view.colour=strain"}, "strain"},
                       Shot{"cube-plane",
                            1500,
                            {"view.draw=[\"solid\", \"particles\", \"structural\", \"shear\", \"bending\"]",

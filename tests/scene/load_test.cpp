@@ -217,9 +217,9 @@ TEST(Builtin, ScenesLoadAndBuild) {
       for (const Terrain& t : model->terrain) ASSERT_GT(signed_distance(t, x), 0.05);
     }
   }
-  EXPECT_THAT(
-      names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "cube-torus", "cube-hole",
-                                  "goal-net", "penalty", "ball-pit", "cube-and-balls", "large-cube"));
+  EXPECT_THAT(names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
+                                          "cube-torus", "cube-hole", "elevator", "goal-net", "penalty",
+                                          "ball-pit", "cube-and-balls", "large-cube"));
 }
 
 // Spec §2.6: limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.
