@@ -19,7 +19,7 @@ TEST(Torus, DistanceIsThatToTheNearestPointOfTheRing) {
           {"centre", Vec3{1, 2, 3}}, {"axis", Vec3{1, 2, -2}}, {"major-radius", 2.0}, {"minor-radius", 0.5}}};
   const Terrain torus = make_terrain(settings, {});
   const Vec3 axis = Vec3{1, 2, -2} / 3.0;
-  const auto [first, second] = directions_across(axis);
+  const auto [first, second] = shapes::directions_across(axis);
   for (const Vec3& x : {Vec3{4, 2, 3}, Vec3{1, 2.1, 2.8}, Vec3{-0.3, 3.5, 4.0}, Vec3{9, -8, 7}}) {
     constexpr int count = 20000;
     double nearest = 1e300;
