@@ -122,8 +122,9 @@ std::vector<Parameter> terrain_rows() {
     }
   }
   const Parameter others[] = {
-      absent("infinite", row("terrain[].mass", "kg", {0.0, heaviest, true}, FIELD(model.terrain[i].mass),
-                             "Mass M in the bounce speed (m − e·M)/(m + M)·u; the terrain never moves.")),
+      absent("infinite",
+             row("terrain[].mass", "kg", {0.0, heaviest, true}, FIELD(model.terrain[i].mass),
+                 "Mass M in the bounce speed (m − e·M)/(m + M)·u; a bounce never moves the terrain.")),
       absent("that of [contact]", row("terrain[].restitution", "", fraction,
                                       FIELD(model.terrain[i].restitution), "Restitution of this terrain.")),
       absent("that of [contact]", row("terrain[].friction", "", friction, FIELD(model.terrain[i].friction),
