@@ -21,7 +21,6 @@ void report_overrun(uint kernel) { atomicMax(solve.overrun, kernel); }
 layout(location = LOCATION_BALL_PARITY) uniform uint ball_parity;
 
 bool idle() { return halted() || control.full_step == step_index; }
-uint steps_done() { return step_index; }
 uint particle_parity() { return 0u; }
 uint start_slot() { return ball_parity; }
 void mark_divergence(uint bad) {

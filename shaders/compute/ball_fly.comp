@@ -17,7 +17,7 @@ void fly(Ball ball, BallBody body, out precise vec3 end_x, out precise vec3 end_
     precise vec3 f = body.ball_mass * gravity.xyz;
     for (uint t = 0u; t < terrain_count; ++t) {
       if (contact_model == CONTACT_COURSE) {
-        f = resisted(t, ball_gap(t, ball.position.w, x), v, f);
+        f = resisted(t, ball_gap(t, AT_START, ball.position.w, x), v, f);
       } else {
         f = with_ball_reaction(t, ball, body, f);
       }

@@ -1,8 +1,9 @@
 // A ball and a terrain: src/cpu_reference/ball_contact.h in GLSL.
 #include "compute/terrain.glsl"
 
-vec4 ball_gap(uint t, float radius, vec3 x) {
-  precise vec4 g = gap(t, x);
+// At the step's start or end: AT_START, AT_END.
+vec4 ball_gap(uint t, uint end, float radius, vec3 x) {
+  precise vec4 g = gap(t, place(t, end, x));
   g.w = g.w - radius;
   return g;
 }
@@ -18,22 +19,25 @@ void rub_ball(uint t, Ball start, BallBody body, float gain, vec3 n, inout preci
 }
 
 void respond_ball_course(uint t, Ball start, BallBody body, vec3 x, inout precise vec3 v, inout precise vec3 omega) {
-  precise vec4 g = ball_gap(t, start.position.w, x);
-  precise float u = dot3(v, g.xyz);
+  precise vec4 g = ball_gap(t, AT_END, start.position.w, x);
+  precise vec3 v_r = relative_velocity(t, AT_END, v);
+  precise float u = dot3(v_r, g.xyz);
   if (!(g.w < epsilon && u < 0.0)) return;
   precise float u_after = bounce_speed(t, body.ball_mass, u);
-  precise vec3 v_t = v - u * g.xyz;
+  precise vec3 v_t = v_r - u * g.xyz;
   if (ball_spin != 0u) rub_ball(t, start, body, u_after - u, g.xyz, v_t, omega);
-  v = v_t + u_after * g.xyz;
+  precise vec3 left = v_t + u_after * g.xyz;
+  v = absolute_velocity(t, left);
 }
 
 // f [N] with the reaction of ground on which the ball rests at the start of the step; with spin its normal part alone.
 vec3 with_ball_reaction(uint t, Ball start, BallBody body, vec3 f) {
-  precise vec4 g = ball_gap(t, start.position.w, start.position.xyz);
-  if (!rests(g.w, dot3(start.velocity.xyz, g.xyz))) return f;
+  precise vec4 g = ball_gap(t, AT_START, start.position.w, start.position.xyz);
+  if (!rests(g.w, dot3(relative_velocity(t, AT_START, start.velocity.xyz), g.xyz))) return f;
+  precise vec3 v_0 = relative_velocity(t, AT_END, start.velocity.xyz);
   precise float friction = ball_spin != 0u ? 0.0 : terrains[t].friction;
   precise float hw = time_step * body.ball_inverse_mass;
-  precise vec3 sum = with_reaction(friction, g.xyz, least_normal_speed(g.w), hw, start.velocity.xyz, f);
+  precise vec3 sum = with_reaction(friction, g.xyz, least_normal_speed(g.w), hw, v_0, f);
   return sum;
 }
 
@@ -41,33 +45,35 @@ vec3 with_ball_reaction(uint t, Ball start, BallBody body, vec3 f) {
 void respond_ball_coulomb(uint t, Ball start, BallBody body, inout precise vec3 f, inout precise vec3 x,
                           inout precise vec3 v, inout precise vec3 omega) {
   precise float R = start.position.w;
-  precise vec4 g_0 = ball_gap(t, R, start.position.xyz);
-  precise float u_0 = dot3(start.velocity.xyz, g_0.xyz);
+  precise vec4 g_0 = ball_gap(t, AT_START, R, start.position.xyz);
+  precise float u_0 = dot3(relative_velocity(t, AT_START, start.velocity.xyz), g_0.xyz);
   precise float given = 0.0;
   if (ball_spin != 0u) {
     precise vec3 before = f;
     f = with_ball_reaction(t, start, body, before);
     given = (time_step * body.ball_inverse_mass) * dot3(f - before, g_0.xyz);
   }
-  precise vec4 g = ball_gap(t, R, x);
-  precise float u = dot3(v, g.xyz);
+  precise vec4 g = ball_gap(t, AT_END, R, x);
+  precise vec3 v_r = relative_velocity(t, AT_END, v);
+  precise float u = dot3(v_r, g.xyz);
   precise float u_after = u;
   if (g.w < epsilon) u_after = speed_after_contact(t, body.ball_mass, g_0.w, u_0, g.w, u);
   precise float gain = (u_after - u) + given;
   if (gain > 0.0) {
-    precise vec3 v_t = v - u * g.xyz;
+    precise vec3 v_t = v_r - u * g.xyz;
     if (ball_spin != 0u) {
       rub_ball(t, start, body, gain, g.xyz, v_t, omega);
     } else {
       v_t = rubbed(v_t, terrains[t].friction * gain);
     }
-    v = v_t + u_after * g.xyz;
+    precise vec3 left = v_t + u_after * g.xyz;
+    v = absolute_velocity(t, left);
   }
   if (!(g.w < epsilon)) return;
   precise float rise = undue_rise(g_0.w, u_0, g.w, u_after);
   if (rise > 0.0) {
     x = x - rise * g.xyz;
-    g = ball_gap(t, R, x);
+    g = ball_gap(t, AT_END, R, x);
   }
   if (g.w < 0.0) x = x - g.w * g.xyz;
 }

@@ -4,6 +4,8 @@ layout(location = LOCATION_STAGE) uniform uint stage_index;
 
 layout(std430, binding = BINDING_CONTROL) restrict buffer ControlBlock { Control control; };
 
+uint steps_done() { return step_index; }
+
 // An earlier step diverged, or is to be repeated: its start state must stay as it is. Or a loop was cut short: what
 // follows would build on it.
 bool halted() { return min(control.bad_step, control.full_step) < step_index || control.overrun != 0u; }

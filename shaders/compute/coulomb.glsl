@@ -47,7 +47,8 @@ vec3 projected(float friction, vec3 n, float c, vec3 v_1) {
   return left;
 }
 
-// The force f [N] with the ground's reaction: kept for a whole step it turns v_0 into P(v_0 + hw·f). hw = h·w.
+// The force f [N] with the ground's reaction: kept for a whole step it turns v_0 into P(v_0 + hw·f). hw = h·w; v_0 is
+// relative to the ground's velocity at the step's end.
 vec3 with_reaction(float friction, vec3 n, float c, float hw, vec3 v_0, vec3 f) {
   precise vec3 v_1 = v_0 + hw * f;
   if (!(dot3(v_1, n) < c)) return f;
@@ -92,20 +93,22 @@ float undue_rise(float d_0, float u_0, float d, float u) {
 
 // The end of a step that began at x_0, v_0.
 void respond_coulomb(uint t, float m, vec3 x_0, vec3 v_0, inout precise vec3 x, inout precise vec3 v) {
-  if (!(distance_to(t, x) < epsilon)) return;
-  precise vec4 g = gap(t, x);
-  precise vec4 g_0 = gap(t, x_0);
-  precise float u = dot3(v, g.xyz);
-  precise float u_0 = dot3(v_0, g_0.xyz);
+  if (!(distance_at_end(t, x) < epsilon)) return;
+  precise vec4 g = gap_at_end(t, x);
+  precise vec4 g_0 = gap_at_start(t, x_0);
+  precise vec3 v_r = relative_velocity(t, AT_END, v);
+  precise float u = dot3(v_r, g.xyz);
+  precise float u_0 = dot3(relative_velocity(t, AT_START, v_0), g_0.xyz);
   precise float u_after = speed_after_contact(t, m, g_0.w, u_0, g.w, u);
   if (u_after > u) {
-    precise vec3 v_t = v - u * g.xyz;
-    v = rubbed(v_t, terrains[t].friction * (u_after - u)) + u_after * g.xyz;
+    precise vec3 v_t = v_r - u * g.xyz;
+    precise vec3 left = rubbed(v_t, terrains[t].friction * (u_after - u)) + u_after * g.xyz;
+    v = absolute_velocity(t, left);
   }
   precise float rise = undue_rise(g_0.w, u_0, g.w, u_after);
   if (rise > 0.0) {
     x = x - rise * g.xyz;
-    g = gap(t, x);
+    g = gap_at_end(t, x);
   }
   if (g.w < 0.0) x = x - g.w * g.xyz;
 }

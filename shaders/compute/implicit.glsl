@@ -13,6 +13,8 @@ layout(std430, binding = BINDING_SOLVE) restrict coherent buffer SolveBlock {
 };
 layout(std430, binding = BINDING_OWN) restrict buffer Own { vec4 own_vectors[]; };
 
+uint steps_done() { return solve.step; }
+
 Particle state(uint i) {
   if (solve.parity == 0u) return state_a[i];
   return state_b[i];

@@ -34,9 +34,16 @@ bool word_holds(float word, uint t) {
   return false;
 }
 
-// Normal speed [m/s] that brings a particle with gap g to the surface by the step's end, c.
+// Normal speed [m/s] that brings a particle with gap g to the surface by the step's end, c, against still ground.
 float least_speed(vec4 g) {
   precise float c = -exact_div(g.w > 0.0 ? g.w : 0.0, time_step);
+  return c;
+}
+
+// The same against terrain t, which may move.
+float least_speed_of(uint t, vec4 g) {
+  precise float c = least_speed(g);
+  if (moves(t)) c = c + speed_along(t, g.xyz);
   return c;
 }
 
@@ -50,8 +57,8 @@ float slip_kept(float slip, float loss) {
 // Whether velocity r.v would take a particle at x through terrain t, which does not hold it.
 bool crosses(uint t, vec3 x, Reaction r) {
   if (holds(r, t)) return false;
-  precise vec4 g = gap(t, x);
-  return dot3(r.v, g.xyz) < least_speed(g);
+  precise vec4 g = gap_at_start(t, x);
+  return dot3(r.v, g.xyz) < least_speed_of(t, g);
 }
 
 #include "compute/implicit_hold.glsl"
@@ -87,19 +94,21 @@ Reaction react(vec3 x, float m, vec3 v) {
 
 // The end of a solved step that began at x_0, v_0: a particle that came fast and that terrain t held bounces.
 void respond_solved(uint t, float m, bool held, vec3 x_0, vec3 v_0, inout precise vec3 x, inout precise vec3 v) {
-  precise vec4 g = gap(t, x);
+  precise vec4 g = gap_at_end(t, x);
   if (held) {
-    precise vec4 g_0 = gap(t, x_0);
-    precise float u_0 = dot3(v_0, g_0.xyz);
-    precise float u = dot3(v, g.xyz);
+    precise vec4 g_0 = gap_at_start(t, x_0);
+    precise vec3 v_r = relative_velocity(t, AT_END, v);
+    precise float u_0 = dot3(relative_velocity(t, AT_START, v_0), g_0.xyz);
+    precise float u = dot3(v_r, g.xyz);
     if (-u_0 > resting_speed) {
       precise float du = time_step * dot3(gravity.xyz, g.xyz);
       precise float mean = u_0 + du;
       precise float fall = -(time_step * mean);
       precise float u_after = bounced_speed(t, m, g_0.w, fall, u_0, du, mean);
       if (u_after > u) {
-        precise vec3 v_t = v - u * g.xyz;
-        v = rubbed(v_t, terrains[t].friction * (u_after - u)) + u_after * g.xyz;
+        precise vec3 v_t = v_r - u * g.xyz;
+        precise vec3 left = rubbed(v_t, terrains[t].friction * (u_after - u)) + u_after * g.xyz;
+        v = absolute_velocity(t, left);
       }
     }
   }

@@ -5,6 +5,7 @@
 #define MAX_STAGES 4
 #define MAX_SPRING_CLASSES 256
 #define MAX_TERRAINS 64
+#define MAX_POSES 510  // of moving terrain, in the table of the next steps: 16 KiB with its head
 #define GEOMETRY_SIZE 3  // vectors, and numbers, of a shape: geometry_size in src/model/shapes/shape.h
 
 // Vectors of the OWN block, each an array over particles.
@@ -162,7 +163,14 @@ struct Terrain {
   float friction;     // μ
   uint movable;       // 1: M is finite
   uint shape;         // row of the table in src/model/shapes/table.h
-  uint padding0, padding1, padding2;
+  uint motion;        // its place among the terrains that move, + 1; 0: it never moves
+  uint padding0, padding1;
+};
+
+// Where a moving terrain is, and how fast: src/model/terrain.h.
+struct Pose {
+  vec4 offset;    // [m]; w: unused
+  vec4 velocity;  // V [m/s]; w: unused
 };
 
 // A damped spring of rest length 0 to a fixed anchor, see src/model/pull.h.

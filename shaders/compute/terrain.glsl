@@ -1,5 +1,6 @@
 // Terrain and contact (docs/physics.md, section 5).
 #include "shapes/all.glsl"
+#include "compute/motion.glsl"
 
 // B(u) = max(0, (m − e·M)/(m + M)·u), −e·u for M = ∞
 float bounce_speed(uint t, float m, float u) {
@@ -14,9 +15,11 @@ float bounce_speed(uint t, float m, float u) {
 
 #include "compute/coulomb.glsl"
 
-// The course model's contact force: f [N] on a body with gap g and velocity v, resisted and rubbed by one terrain.
-vec3 resisted(uint t, vec4 g, vec3 v, vec3 f_in) {
+// The course model's contact force: f [N] on a body with gap g and velocity v, resisted and rubbed by one terrain, which
+// is where it is at the step's start.
+vec3 resisted(uint t, vec4 g, vec3 v_in, vec3 f_in) {
   precise vec3 f = f_in;
+  precise vec3 v = relative_velocity(t, AT_START, v_in);
   precise float u = dot3(v, g.xyz);
   precise float f_n = dot3(f, g.xyz);
   if (g.w < epsilon && abs(u) < epsilon && f_n < 0.0) {
@@ -30,16 +33,18 @@ vec3 resisted(uint t, vec4 g, vec3 v, vec3 f_in) {
 // By every terrain, on a particle, after gravity and springs.
 vec3 with_contact_force(vec3 x, vec3 v, vec3 f_in) {
   precise vec3 f = f_in;
-  for (uint t = 0u; t < terrain_count; ++t) f = resisted(t, gap(t, x), v, f);
+  for (uint t = 0u; t < terrain_count; ++t) f = resisted(t, gap_at_start(t, x), v, f);
   return f;
 }
 
 void respond_course(uint t, float m, vec3 x, inout precise vec3 v) {
-  precise vec4 g = gap(t, x);
-  precise float u = dot3(v, g.xyz);
+  precise vec4 g = gap_at_end(t, x);
+  precise vec3 v_r = relative_velocity(t, AT_END, v);
+  precise float u = dot3(v_r, g.xyz);
   if (g.w < epsilon && u < 0.0) {
-    precise vec3 v_t = v - u * g.xyz;
-    v = v_t + bounce_speed(t, m, u) * g.xyz;
+    precise vec3 v_t = v_r - u * g.xyz;
+    precise vec3 left = v_t + bounce_speed(t, m, u) * g.xyz;
+    v = absolute_velocity(t, left);
   }
 }
 
@@ -48,10 +53,11 @@ vec3 with_ground_reaction(Particle start, vec3 f_in) {
   precise vec3 f = f_in;
   precise float hw = time_step * start.position.w;
   for (uint t = 0u; t < terrain_count; ++t) {
-    if (!(distance_to(t, start.position.xyz) < epsilon)) continue;
-    precise vec4 g_0 = gap(t, start.position.xyz);
-    if (!rests(g_0.w, dot3(start.velocity.xyz, g_0.xyz))) continue;
-    f = with_reaction(terrains[t].friction, g_0.xyz, least_normal_speed(g_0.w), hw, start.velocity.xyz, f);
+    if (!(distance_at_start(t, start.position.xyz) < epsilon)) continue;
+    precise vec4 g_0 = gap_at_start(t, start.position.xyz);
+    if (!rests(g_0.w, dot3(relative_velocity(t, AT_START, start.velocity.xyz), g_0.xyz))) continue;
+    precise vec3 v_0 = relative_velocity(t, AT_END, start.velocity.xyz);
+    f = with_reaction(terrains[t].friction, g_0.xyz, least_normal_speed(g_0.w), hw, v_0, f);
   }
   return f;
 }

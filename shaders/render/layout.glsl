@@ -36,6 +36,7 @@
 #define LOCATION_ELAPSED 9        // since the picture before [s]
 #define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it stands for the particle
 #define LOCATION_TERRAIN 12       // DrawnTerrain: its geometry, three vec4, and shape
+#define LOCATION_OFFSET 6         // of terrain that moves [m]
 #define LOCATION_MARK 11          // MARK_…, least radius [pixels], opacity, whether to encode as sRGB
 
 // Lights that the bodies keep off: the sun, and the sky straight above.

@@ -11,6 +11,7 @@ layout(location = LOCATION_PLANE_POINT) uniform vec4 plane_point;    // middle o
 layout(location = LOCATION_PLANE_NORMAL) uniform vec4 plane_normal;  // w: unused
 #else
 layout(location = ATTRIBUTE_NORMAL) in vec4 normal;
+layout(location = LOCATION_OFFSET) uniform vec4 offset;
 #endif
 out vec3 world;
 out vec3 local;  // planes: position along the texture [m]; else the normal
@@ -35,7 +36,7 @@ void main() {
   local = vec3(dot(world, along), dot(world, across), 0.0);
 #else
   local = normal.xyz;
-  world = position.xyz;
+  world = position.xyz + offset.xyz;
 #endif
   gl_Position = view_projection * vec4(world, 1.0);
 }

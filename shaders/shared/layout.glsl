@@ -42,6 +42,7 @@
 // Uniform blocks of the solvers' kernels, and of pictures.
 #define BINDING_SIMULATION 0
 #define BINDING_PULL 1
+#define BINDING_POSES 2
 #define BINDING_FRAME 1
 #define BINDING_LIGHT_BOXES 2
 

@@ -66,8 +66,11 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
   }
   if (model.contact.model != ContactModel::course || model.inverse_mass[particle] == 0.0) return force;
   const Vec3 before = force.net;
-  for (const Terrain& terrain : model.terrain)
-    force.net = after_contact(terrain, model.contact.epsilon, x, v, force.net);
+  const double h = model.simulation.timestep;
+  for (const Terrain& terrain : model.terrain) {
+    const Vec3 V = terrain.motion ? pose_at(*terrain.motion, h, state.step).velocity : Vec3{};
+    force.net = after_contact(terrain_at(terrain, h, state.step), model.contact.epsilon, x, v - V, force.net);
+  }
   force.contact = force.net - before;
   return force;
 }

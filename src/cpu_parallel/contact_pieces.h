@@ -20,22 +20,30 @@ inline void set(VectorArray& a, std::size_t i, const Vector& v) {
   for (std::size_t c = 0; c < 3; ++c) a[c][i] = v[static_cast<Eigen::Index>(c)];
 }
 
-/// How far the vectors of a terrain's geometry reach from the origin [m]: what rounding of its distance scales with.
+/// How far the vectors of a terrain's geometry reach from the origin [m]: what rounding of its distance
+/// scales with.
 inline double reach_of(const Terrain& terrain) {
   double reach = 0.0;
   for (const Vec3& v : terrain.geometry.vectors) reach += length(v);
   return reach;
 }
 
-/// Whether a point of the box may be nearer than ε to any terrain. Distances in single precision differ from
-/// true ones by a few rounding errors of the coordinates: 1e-5 of them is beyond all.
+/// How far a terrain may be from where it is at rest [m], at any time.
+inline double sway_of(const Terrain& terrain) {
+  return terrain.motion ? terrain.motion->amplitude : 0.0;
+}
+
+/// Whether a point of the box may be nearer than ε to any terrain, wherever a moving one is. Distances in
+/// single precision differ from true ones by a few rounding errors of the coordinates: 1e-5 of them is beyond
+/// all.
 inline bool near_terrain(const Model& model, const Box& box) {
   const Vec3 min = {box.min[0], box.min[1], box.min[2]}, max = {box.max[0], box.max[1], box.max[2]};
   const Vec3 centre = 0.5 * (min + max);
   const double radius = 0.5 * length(max - min);
   return std::ranges::any_of(model.terrain, [&](const Terrain& terrain) {
-    const double margin = 1e-5 * (length(centre) + radius + reach_of(terrain));
-    return !(signed_distance(terrain, centre) > model.contact.epsilon + radius + margin);
+    const double sway = sway_of(terrain);
+    const double margin = 1e-5 * (length(centre) + radius + reach_of(terrain) + sway);
+    return !(signed_distance(terrain, centre) > model.contact.epsilon + radius + sway + margin);
   });
 }
 

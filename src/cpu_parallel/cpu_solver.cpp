@@ -176,6 +176,7 @@ Result<State> CpuSolver::state() {
 
 void CpuSolver::step() {
   const double h = model_.simulation.timestep;
+  dynamics_.begin_step(step_);
   sound_.store(true, std::memory_order_relaxed);
   Particles* at = &state_;
   bool accumulate = false;

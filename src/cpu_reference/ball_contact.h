@@ -31,10 +31,10 @@ struct BallRules {
   bool spin;
 };
 
-/// Gap and normal of a ball and a terrain.
+/// Gap and normal of a ball and a terrain in that pose.
 template <class T>
-Gap<T> ball_gap(const Ground<T>& ground, T radius, const Vector<T>& x) {
-  Gap<T> g = gap<T>(ground, x);
+Gap<T> ball_gap(const Ground<T>& ground, const GroundPose<T>& pose, T radius, const Vector<T>& x) {
+  Gap<T> g = gap<T>(ground, pose, x);
   g.d = g.d - radius;
   return g;
 }
@@ -68,13 +68,14 @@ void rub_ball(const BallBody<T>& ball, T friction, T gain, const Vector<T>& n, V
 template <class T>
 void respond_ball_course(const Ground<T>& ground, const BallRules<T>& rules, const BallBody<T>& ball,
                          const Vector<T>& x, Vector<T>& v, Vector<T>& omega) {
-  const Gap<T> g = ball_gap<T>(ground, ball.radius, x);
-  const T u = dot3<T>(v, g.n);
+  const Gap<T> g = ball_gap<T>(ground, ground.end, ball.radius, x);
+  const Vector<T> v_r = ground.end.relative(v);
+  const T u = dot3<T>(v_r, g.n);
   if (!(g.d < rules.contact.epsilon && u < T(0))) return;
   const T u_after = bounce_speed<T>(ground, ball.mass, u);
-  Vector<T> v_t = v - u * g.n;
+  Vector<T> v_t = v_r - u * g.n;
   if (rules.spin) rub_ball<T>(ball, ground.friction, u_after - u, g.n, v_t, omega);
-  v = v_t + u_after * g.n;
+  v = ground.end.absolute(v_t + u_after * g.n);
 }
 
 /// f [N] on a ball with the reaction of ground on which it rests at the start (x0, v0) of the step. Without
@@ -83,10 +84,10 @@ void respond_ball_course(const Ground<T>& ground, const BallRules<T>& rules, con
 template <class T>
 Vector<T> with_ball_reaction(const Ground<T>& ground, const BallRules<T>& rules, const BallBody<T>& ball,
                              const Vector<T>& x0, const Vector<T>& v0, const Vector<T>& f) {
-  const Gap<T> g = ball_gap<T>(ground, ball.radius, x0);
-  if (!rests<T>(rules.contact, g.d, dot3<T>(v0, g.n))) return f;
+  const Gap<T> g = ball_gap<T>(ground, ground.start, ball.radius, x0);
+  if (!rests<T>(rules.contact, g.d, dot3<T>(ground.start.relative(v0), g.n))) return f;
   return with_reaction<T>(rules.spin ? T(0) : ground.friction, g.n, least_normal_speed<T>(rules.contact, g.d),
-                          rules.contact.step * ball.inverse_mass, v0, f);
+                          rules.contact.step * ball.inverse_mass, ground.end.relative(v0), f);
 }
 
 /// A ball against one terrain at the end of a step that began at x0, v0, by the Coulomb model: as a particle
@@ -97,34 +98,35 @@ template <class T>
 void respond_ball_coulomb(const Ground<T>& ground, const BallRules<T>& rules, const BallBody<T>& ball,
                           const Vector<T>& x0, const Vector<T>& v0, Vector<T>& f, Vector<T>& x, Vector<T>& v,
                           Vector<T>& omega) {
-  const Gap<T> g0 = ball_gap<T>(ground, ball.radius, x0);
-  const T u0 = dot3<T>(v0, g0.n);
+  const Gap<T> g0 = ball_gap<T>(ground, ground.start, ball.radius, x0);
+  const T u0 = dot3<T>(ground.start.relative(v0), g0.n);
   T given = T(0);
   if (rules.spin) {
     const Vector<T> before = f;
     f = with_ball_reaction<T>(ground, rules, ball, x0, v0, before);
     given = (rules.contact.step * ball.inverse_mass) * dot3<T>(f - before, g0.n);
   }
-  Gap<T> g = ball_gap<T>(ground, ball.radius, x);
-  const T u = dot3<T>(v, g.n);
+  Gap<T> g = ball_gap<T>(ground, ground.end, ball.radius, x);
+  const Vector<T> v_r = ground.end.relative(v);
+  const T u = dot3<T>(v_r, g.n);
   const T u_after = g.d < rules.contact.epsilon
                         ? speed_after_contact<T>(ground, rules.contact, ball.mass, g0.d, u0, g.d, u)
                         : u;
   const T gain = (u_after - u) + given;
   if (gain > T(0)) {
-    Vector<T> v_t = v - u * g.n;
+    Vector<T> v_t = v_r - u * g.n;
     if (rules.spin) {
       rub_ball<T>(ball, ground.friction, gain, g.n, v_t, omega);
     } else {
       v_t = rubbed<T>(v_t, ground.friction * gain);
     }
-    v = v_t + u_after * g.n;
+    v = ground.end.absolute(v_t + u_after * g.n);
   }
   if (!(g.d < rules.contact.epsilon)) return;
   const T rise = undue_rise<T>(rules.contact, g0.d, u0, g.d, u_after);
   if (rise > T(0)) {
     x = x - rise * g.n;
-    g = ball_gap<T>(ground, ball.radius, x);
+    g = ball_gap<T>(ground, ground.end, ball.radius, x);
   }
   if (g.d < T(0)) x = x - g.d * g.n;
 }

@@ -46,6 +46,7 @@ class Balls {
   /// to `particles`, their terrain's response included, and are changed by the balls they meet.
   BallPhase<T> step(std::uint64_t step, const BallPhase<T>& start, const Phase<T>& particle_start,
                     Phase<T>& particles) {
+    for (Ground<T>& ground : grounds_) ground.begin_step(model_.simulation.timestep, step);
     BallPhase<T> end = fly(step, start);
     find_touches(step, end, particles);
     exchange_among_balls(start, end);
@@ -82,7 +83,8 @@ class Balls {
         Vector<T> f = ball.mass * balls.gravity_;
         for (const Ground<T>& ground : balls.grounds_) {
           f = course ? with_contact_force<T>(ground, balls.rules_.contact.epsilon,
-                                             ball_gap<T>(ground, ball.radius, x.col(b)), v.col(b), f)
+                                             ball_gap<T>(ground, ground.start, ball.radius, x.col(b)),
+                                             v.col(b), f)
                      : with_ball_reaction<T>(ground, balls.rules_, ball, start.x.col(b), start.v.col(b), f);
         }
         a.col(b) = ball.inverse_mass * f;

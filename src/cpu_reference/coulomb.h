@@ -58,7 +58,7 @@ Vector<T> projected(T friction, const Vector<T>& n, T c, const Vector<T>& v1) {
 }
 
 /// The force f [N] with the ground's reaction: kept for a whole step it turns v0 into P(v0 + (h·w)·f).
-/// hw = h·w.
+/// hw = h·w. Of ground that moves, v0 is relative to its velocity at the step's end.
 template <class T>
 Vector<T> with_reaction(T friction, const Vector<T>& n, T c, T hw, const Vector<T>& v0, const Vector<T>& f) {
   const Vector<T> v1 = v0 + hw * f;
@@ -119,12 +119,13 @@ void respond_coulomb(const Ground<T>& ground, const ContactConstants<T>& contact
                      const Vector<T>& v0, Vector<T>& x, Vector<T>& v) {
   if (!(distance<T>(ground, x) < contact.epsilon)) return;
   Gap<T> g = gap<T>(ground, x);
-  const Gap<T> g0 = gap<T>(ground, x0);
-  const T u = dot3<T>(v, g.n), u0 = dot3<T>(v0, g0.n);
+  const Gap<T> g0 = gap<T>(ground, ground.start, x0);
+  const Vector<T> v_r = ground.end.relative(v);
+  const T u = dot3<T>(v_r, g.n), u0 = dot3<T>(ground.start.relative(v0), g0.n);
   const T u_after = speed_after_contact<T>(ground, contact, m, g0.d, u0, g.d, u);
   if (u_after > u) {
-    const Vector<T> v_t = v - u * g.n;
-    v = rubbed<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n;
+    const Vector<T> v_t = v_r - u * g.n;
+    v = ground.end.absolute(rubbed<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n);
   }
   const T rise = undue_rise<T>(contact, g0.d, u0, g.d, u_after);
   if (rise > T(0)) {

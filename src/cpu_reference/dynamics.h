@@ -27,10 +27,11 @@ struct PullConstants {
 template <class T>
 struct RestingContact {
   Eigen::Index particle;
-  T friction;       ///< μ of the ground
-  T least_speed;    ///< c: normal speed it may not fall below [m/s]
-  T hw;             ///< h·w [s/kg]
-  Vector<T> n, v0;  ///< the ground's normal and the velocity [m/s] at the start of the step
+  T friction;     ///< μ of the ground
+  T least_speed;  ///< c: normal speed it may not fall below [m/s]
+  T hw;           ///< h·w [s/kg]
+  Vector<T> n;    ///< the ground's normal at the start of the step
+  Vector<T> v0;   ///< the velocity there, relative to the ground's at the step's end [m/s]
 };
 
 /// The force f [N] on the particle with the ground's reaction.
@@ -54,6 +55,11 @@ class Dynamics {
       mass_[i] = static_cast<T>(model.mass[i]);
       inverse_mass_[i] = static_cast<T>(model.inverse_mass[i]);
     }
+  }
+
+  /// The step from the state of this number begins: moving ground takes its places at both ends of it.
+  void begin_step(std::uint64_t step) {
+    for (Ground<T>& ground : grounds_) ground.begin_step(model_.simulation.timestep, step);
   }
 
   /// f(x, v) [N], one column per particle.
@@ -101,11 +107,11 @@ class Dynamics {
                     std::vector<RestingContact<T>>& contacts) const {
     if (model_.contact.model == ContactModel::course || inverse_mass_[i] == T(0)) return;
     for (const Ground<T>& ground : grounds_) {
-      if (!(distance<T>(ground, x0) < contact_.epsilon)) continue;
-      const Gap<T> g = gap<T>(ground, x0);
-      if (!rests<T>(contact_, g.d, dot3<T>(v0, g.n))) continue;
+      if (!(distance<T>(ground, ground.start, x0) < contact_.epsilon)) continue;
+      const Gap<T> g = gap<T>(ground, ground.start, x0);
+      if (!rests<T>(contact_, g.d, dot3<T>(ground.start.relative(v0), g.n))) continue;
       contacts.push_back({i, ground.friction, least_normal_speed<T>(contact_, g.d),
-                          contact_.step * inverse_mass_[i], g.n, v0});
+                          contact_.step * inverse_mass_[i], g.n, ground.end.relative(v0)});
     }
   }
 

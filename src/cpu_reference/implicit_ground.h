@@ -90,7 +90,7 @@ class GroundAhead {
     gaps_.clear();
     if (!acts_) return;
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-      for (const Ground<T>& ground : grounds_) gaps_.push_back(gap<T>(ground, x.col(i)));
+      for (const Ground<T>& ground : grounds_) gaps_.push_back(gap<T>(ground, ground.start, x.col(i)));
     }
   }
 
@@ -111,11 +111,29 @@ class GroundAhead {
   }
 
  private:
-  /// Normal speed [m/s] that brings a particle to the surface by the step's end, c.
+  /// Normal speed [m/s] that brings a particle to the surface by the step's end, c, against still ground.
   T least_speed(const Gap<T>& at) const { return -((at.d > T(0) ? at.d : T(0)) / h_); }
 
+  /// The same against terrain t, which may move.
+  T least_speed(const Gap<T>* gaps, std::size_t t) const {
+    const GroundPose<T>& pose = grounds_[t].end;
+    const T c = least_speed(gaps[t]);
+    return pose.moves ? c + dot3<T>(pose.velocity, gaps[t].n) : c;
+  }
+
+  /// The speed along an axis at which two terrains stand still: the mean of theirs, weighed by their
+  /// friction.
+  T speed_along(const Vector<T>& axis, std::size_t a, std::size_t b, T loss_a, T loss_b) const {
+    const auto speed = [&](std::size_t t) {
+      const GroundPose<T>& pose = grounds_[t].end;
+      return pose.moves ? dot3<T>(pose.velocity, axis) : T(0);
+    };
+    const T loss = loss_a + loss_b;
+    return loss > T(0) ? (loss_a * speed(a) + loss_b * speed(b)) / loss : T(0);
+  }
+
   bool crosses(const Gap<T>* gaps, std::size_t t, const GroundReaction<T>& reaction) const {
-    return !reaction.holds(t) && dot3<T>(reaction.v, gaps[t].n) < least_speed(gaps[t]);
+    return !reaction.holds(t) && dot3<T>(reaction.v, gaps[t].n) < least_speed(gaps, t);
   }
 
   GroundReaction<T> joined(const Gap<T>* gaps, T m, const Vector<T>& v, const GroundReaction<T>& so_far,
@@ -143,8 +161,10 @@ class GroundAhead {
   /// Coulomb's law on one surface: P(v) = keep·v_t + c·n.
   bool on_one(const Gap<T>* gaps, T m, const Vector<T>& v, GroundReaction<T>& out) const {
     const Gap<T>& at = gaps[out.held[0]];
-    const T u = dot3<T>(v, at.n), c = least_speed(at);
-    const Vector<T> v_t = v - u * at.n;
+    const GroundPose<T>& pose = grounds_[out.held[0]].end;
+    const Vector<T> v_r = pose.relative(v);
+    const T u = dot3<T>(v_r, at.n), c = least_speed(at);
+    const Vector<T> v_t = v_r - u * at.n;
     const T slip = norm3<T>(v_t), keep = slip_kept<T>(slip, grounds_[out.held[0]].friction * (c - u));
     out.v = c * at.n;
     out.freedom = Freedom::none;
@@ -156,6 +176,7 @@ class GroundAhead {
       out.stiffness = m * (T(1) / turn - T(1));
       if (slip > T(0)) out.across = (T(1) / slip) * cross3<T>(at.n, v_t);
     }
+    out.v = pose.absolute(out.v);
     return u < c;
   }
 
@@ -166,20 +187,25 @@ class GroundAhead {
     const Vector<T> line = cross3<T>(a.n, b.n);
     const T sine2 = dot3<T>(line, line), cosine = dot3<T>(a.n, b.n);
     if (!(sine2 > static_cast<T>(least_wedge))) return false;
-    const T c_a = least_speed(a), c_b = least_speed(b);
+    const std::size_t i = out.held[0], j = out.held[1];
+    const T c_a = least_speed(gaps, i), c_b = least_speed(gaps, j);
     const T short_a = c_a - dot3<T>(v, a.n), short_b = c_b - dot3<T>(v, b.n);
     const T push_a = (short_a - cosine * short_b) / sine2, push_b = (short_b - cosine * short_a) / sine2;
     if (!last && (push_a < T(0) || push_b < T(0))) return false;
-    const T loss = grounds_[out.held[0]].friction * (push_a > T(0) ? push_a : T(0)) +
-                   grounds_[out.held[1]].friction * (push_b > T(0) ? push_b : T(0));
+    const T loss_a = grounds_[i].friction * (push_a > T(0) ? push_a : T(0));
+    const T loss_b = grounds_[j].friction * (push_b > T(0) ? push_b : T(0));
     out.axis = (T(1) / std::sqrt(sine2)) * line;
-    const T slip = dot3<T>(v, out.axis), keep = slip_kept<T>(std::abs(slip), loss);
+    const bool moves = grounds_[i].end.moves || grounds_[j].end.moves;
+    const T still = moves ? speed_along(out.axis, i, j, loss_a, loss_b) : T(0);
+    const T speed = dot3<T>(v, out.axis), slip = moves ? speed - still : speed;
+    const T keep = slip_kept<T>(std::abs(slip), loss_a + loss_b);
     out.v = ((c_a - cosine * c_b) / sine2) * a.n + ((c_b - cosine * c_a) / sine2) * b.n;
     out.freedom = Freedom::none;
     if (keep > T(0)) {
       out.v = (keep * slip) * out.axis + out.v;
       out.freedom = Freedom::line;
     }
+    if (moves) out.v = still * out.axis + out.v;
     return true;
   }
 
@@ -189,7 +215,8 @@ class GroundAhead {
     const Vector<T> bc = cross3<T>(b.n, c.n), ca = cross3<T>(c.n, a.n), ab = cross3<T>(a.n, b.n);
     const T volume = dot3<T>(a.n, bc);
     if (!(volume * volume > static_cast<T>(least_wedge))) return false;
-    const Vector<T> sum = (least_speed(a) * bc + least_speed(b) * ca) + least_speed(c) * ab;
+    const Vector<T> sum = (least_speed(gaps, out.held[0]) * bc + least_speed(gaps, out.held[1]) * ca) +
+                          least_speed(gaps, out.held[2]) * ab;
     out.v = (T(1) / volume) * sum;
     out.freedom = Freedom::none;
     return true;
@@ -209,15 +236,16 @@ void respond_solved(const Ground<T>& ground, const ContactConstants<T>& contact,
                     T m, bool held, const Vector<T>& x0, const Vector<T>& v0, Vector<T>& x, Vector<T>& v) {
   const Gap<T> g = gap<T>(ground, x);
   if (held) {
-    const Gap<T> g0 = gap<T>(ground, x0);
-    const T u0 = dot3<T>(v0, g0.n), u = dot3<T>(v, g.n);
+    const Gap<T> g0 = gap<T>(ground, ground.start, x0);
+    const Vector<T> v_r = ground.end.relative(v);
+    const T u0 = dot3<T>(ground.start.relative(v0), g0.n), u = dot3<T>(v_r, g.n);
     if (-u0 > contact.resting_speed) {
       const T du = contact.step * dot3<T>(gravity, g.n);
       const T mean = u0 + du, drop = -(contact.step * mean);
       const T u_after = bounced_speed<T>(ground, contact, m, g0.d, drop, u0, du, mean);
       if (u_after > u) {
-        const Vector<T> v_t = v - u * g.n;
-        v = rubbed<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n;
+        const Vector<T> v_t = v_r - u * g.n;
+        v = ground.end.absolute(rubbed<T>(v_t, ground.friction * (u_after - u)) + u_after * g.n);
       }
     }
   }

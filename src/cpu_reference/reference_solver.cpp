@@ -56,6 +56,7 @@ class ReferenceSolver final : public Solver {
     const bool solved = row_of(model_.simulation.integrator).solved();
     for (std::uint64_t n = 0; n < steps && !divergence_; ++n) {
       SolveReport report;
+      dynamics_.begin_step(step_);
       Phase<T> next = solved ? implicit_.step(phase_, report)
                              : explicit_step(model_.simulation.integrator,
                                              StepDynamics<T>(dynamics_, phase_.x, phase_.v), phase_, h);

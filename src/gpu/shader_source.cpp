@@ -61,17 +61,20 @@ Result<std::string> read_shader_file(const std::filesystem::path& file) {
   return text;
 }
 
-/// shapes/all.glsl: the kernels of all terrain shapes, and the choice among them by terrains[t].shape.
+/// shapes/all.glsl: the kernels of all terrain shapes, and the choice among them by terrains[t].shape. A
+/// program leaves out those whose bits ASPIC_SHAPES lacks: some devices evaluate both sides of every branch.
 std::string shape_choice() {
   std::string includes, distance, gap;
   for (const TerrainShapeRow& row : terrain_shapes) {
     const auto id = static_cast<unsigned>(row.value);
     includes += fmt::format("#include \"shapes/{}.glsl\"\n", row.kernel);
-    distance += fmt::format("  if (terrains[t].shape == {}u) return {}_distance(t, x);\n", id, row.kernel);
-    gap += fmt::format("  if (terrains[t].shape == {}u) return {}_gap(t, x);\n", id, row.kernel);
+    constexpr std::string_view choice =
+        "#if (ASPIC_SHAPES & {}) != 0\n  if (terrains[t].shape == {}u) return {}_{}(t, x);\n#endif\n";
+    distance += fmt::format(choice, 1u << id, id, row.kernel, "distance");
+    gap += fmt::format(choice, 1u << id, id, row.kernel, "gap");
   }
   return fmt::format(
-      "{}\n"
+      "#ifndef ASPIC_SHAPES\n#define ASPIC_SHAPES 0x7fffffff\n#endif\n{}\n"
       "// Signed distance [m], positive on the free side: the same bits as gap's.\n"
       "float distance_to(uint t, vec3 x) {{\n{}  return 0.0;\n}}\n\n"
       "// xyz: unit normal towards the free side; w: signed distance [m].\n"

@@ -206,6 +206,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
     if (!wanted(static_cast<Kernel>(k))) continue;
     const std::vector<Binding> bindings = {
         {BINDING_SIMULATION, surroundings.simulation, gl::BufferKind::uniform},
+        surroundings.poses,
         {BINDING_BALLS, &balls_},
         k == fly ? Binding{BINDING_BALL_BODIES, &bodies_} : Binding{BINDING_BALL_ITEMS, &items_},
         {BINDING_BALL_TOUCHES, &touches_},

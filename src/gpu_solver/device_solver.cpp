@@ -12,7 +12,7 @@ using gl::Buffer;
 Status DeviceSolver::build(const GpuOptions& options) {
   const std::uint64_t held_before = context_.bytes_held();
   ASPIC_CHECK(build_shared(options));
-  ASPIC_TRY(const KernelOptions kernels, kernel_options(context_, options, group_size(options)));
+  ASPIC_TRY(const KernelOptions kernels, kernel_options(context_, model_, options, group_size(options)));
   arithmetic_ = kernels.arithmetic;
   ASPIC_CHECK(build_passes(kernels, options));
   bytes_ = context_.bytes_held() - held_before;
@@ -30,6 +30,7 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
   ASPIC_TRY(simulation_,
             Buffer::of(context_, "simulation constants", std::span(&block, 1), gl::BufferKind::uniform));
   ASPIC_CHECK(pull_.build(context_));
+  ASPIC_CHECK(poses_.build(context_, model_));
   if (const GpuSolver* other = options.share_springs_of) {
     const auto& theirs = other->spring_buffers();
     if (theirs->context == &context_ && theirs->kind == path_.words && same_springs(other->model(), model_))
@@ -57,6 +58,7 @@ Status DeviceSolver::take(const State& state) {
   current_ = 0;
   ball_slot_ = 0;
   base_step_ = state.step;
+  poses_.set_base_step(base_step_);
   steps_since_ = 0;
   divergence_.reset();
   restart();
@@ -90,6 +92,7 @@ void DeviceSolver::keep_counting() {
   base_step_ += steps_since_;
   steps_since_ = 0;
   balls_.set_base_step(base_step_);
+  poses_.set_base_step(base_step_);
 }
 
 Divergence DeviceSolver::divergence_from(std::uint32_t word, std::uint64_t steps) const {

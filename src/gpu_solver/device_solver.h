@@ -11,6 +11,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"
+#include "gpu_solver/pose_buffer.h"
 #include "gpu_solver/pull_buffer.h"
 
 namespace aspic {
@@ -75,6 +76,7 @@ class DeviceSolver : public GpuSolver {
   std::uint32_t ball_slot_ = 0;  // the slot of its balls
   std::shared_ptr<const SpringBuffers> springs_;
   PullBuffer pull_;
+  PoseBuffer poses_;  // of moving terrain
   BallPasses balls_;
   gl::Buffer simulation_;
 

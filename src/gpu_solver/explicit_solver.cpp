@@ -54,6 +54,7 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   std::vector<Binding> bindings = {constants(),
                                    control,
                                    pull_.binding(),
+                                   poses_.binding(),
                                    {BINDING_STAGE_SUMS, &sums_},
                                    {BINDING_INCIDENT_START, &springs_->incident_start},
                                    {BINDING_INCIDENT, &springs_->incident}};
@@ -68,7 +69,8 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                   {BINDING_SPRING_FORCES, &forces_}}));
   }
   ASPIC_TRY(particle_pass_, pass(kernels, path_.particle_kernel, std::move(bindings)));
-  return balls_.build(context_, model_, kernels, {&simulation_, &control_, false}, options.ball_search);
+  return balls_.build(context_, model_, kernels, {&simulation_, &control_, false, poses_.binding()},
+                      options.ball_search);
 }
 
 void ExplicitSolver::restart() {
@@ -77,6 +79,7 @@ void ExplicitSolver::restart() {
 }
 
 void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
+  poses_.cover(step_index, 1);
   const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
   if (spring_pass_) spring_pass_->program().set(LOCATION_STEP, step_index);

@@ -77,6 +77,7 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   ASPIC_TRY(solve_buffer_, Buffer::create(context_, "solve control", solve_bytes(particles)));
   const std::vector<Binding> bindings = {constants(),
                                          pull_.binding(),
+                                         poses_.binding(),
                                          {BINDING_STATE_A, &states_[0]},
                                          {BINDING_STATE_B, &states_[1]},
                                          {BINDING_TRIAL, &trial_},
@@ -89,7 +90,8 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
     ASPIC_TRY(auto made, pass(kernels, row.path, bindings));
     passes_.push_back(std::move(made));
   }
-  return balls_.build(context_, model_, kernels, {&simulation_, &solve_buffer_, true}, options.ball_search);
+  return balls_.build(context_, model_, kernels, {&simulation_, &solve_buffer_, true, poses_.binding()},
+                      options.ball_search);
 }
 
 void ImplicitSolver::restart() {
@@ -143,7 +145,8 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
     keep_counting();
     solve_.step = steps_since_;
     const bool measured = std::exchange(measure, false) && profiler_->begin();
-    const auto queue = measured ? 1u : static_cast<std::uint32_t>(std::min(steps, steps_per_look));
+    const auto wanted = measured ? 1u : static_cast<std::uint32_t>(std::min(steps, steps_per_look));
+    const std::uint32_t queue = poses_.cover(solve_.step, wanted);
     const std::uint32_t first = solve_.step;
     solve_.target_step = first + queue;
     solve_.phase = PHASE_BEGIN;

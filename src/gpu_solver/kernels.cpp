@@ -9,7 +9,7 @@
 
 namespace aspic {
 
-Result<KernelOptions> kernel_options(gl::Context& context, const GpuOptions& options,
+Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, const GpuOptions& options,
                                      std::uint32_t group_size) {
   KernelOptions kernels{gl::ShaderLibrary(options.shader_directory), {}, {}};
   if (options.arithmetic) {
@@ -19,6 +19,11 @@ Result<KernelOptions> kernel_options(gl::Context& context, const GpuOptions& opt
   }
   kernels.defines = kernels.arithmetic.defines;
   kernels.defines.push_back({"ASPIC_GROUP_SIZE", std::to_string(group_size)});
+  std::uint32_t shapes = 0;
+  for (const Terrain& terrain : model.terrain) shapes |= 1u << static_cast<std::uint32_t>(terrain.shape);
+  kernels.defines.push_back({"ASPIC_SHAPES", std::to_string(shapes)});
+  if (std::ranges::any_of(model.terrain, [](const Terrain& t) { return t.motion.has_value(); }))
+    kernels.defines.push_back({"ASPIC_MOTION", "1"});
   kernels.defines.insert(kernels.defines.end(), options.defines.begin(), options.defines.end());
   return kernels;
 }

@@ -12,11 +12,12 @@ namespace aspic {
 struct KernelOptions {
   gl::ShaderLibrary library;
   gl::Arithmetic arithmetic;
-  std::vector<gl::Define> defines;  ///< of the arithmetic, the group size and GpuOptions
+  std::vector<gl::Define> defines;  ///< of the arithmetic, the group size, the model and GpuOptions
 };
 
-/// Asks the canary unless the options know the arithmetic already. Errors: those of choose_arithmetic.
-Result<KernelOptions> kernel_options(gl::Context& context, const GpuOptions& options,
+/// Asks the canary unless the options know the arithmetic already. The kernels leave out the terrain shapes,
+/// and the motion, that the model does not have. Errors: those of choose_arithmetic.
+Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, const GpuOptions& options,
                                      std::uint32_t group_size);
 
 /// Error (no_device): a kernel had a loop of more than MAX_ROUNDS (shaders/shared/layout.glsl), which

@@ -93,7 +93,11 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.least_wedge = static_cast<float>(least_wedge);
   for (std::size_t c = 0; c < model.spring_classes.size(); ++c)
     block.spring_classes[c] = rounded(model.spring_classes[c]);
-  for (std::size_t t = 0; t < model.terrain.size(); ++t) block.terrains[t] = block_of(model.terrain[t]);
+  std::uint32_t moving = 0;
+  for (std::size_t t = 0; t < model.terrain.size(); ++t) {
+    block.terrains[t] = block_of(model.terrain[t]);
+    if (model.terrain[t].motion) block.terrains[t].motion = ++moving;
+  }
   return block;
 }
 

@@ -47,6 +47,7 @@ Result<Model> build_model(const ModelSettings& settings) {
   for (const TerrainSettings& terrain : settings.terrain) {
     Terrain made = make_terrain(terrain, settings.contact);
     for (Vec3& v : made.geometry.vectors) v = without_negative_zero(v);
+    if (made.motion) made.motion->direction = without_negative_zero(made.motion->direction);
     model.terrain.push_back(made);
   }
   model.mass.reserve(predicted.particles);

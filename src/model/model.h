@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct Terrain {
   double mass = std::numeric_limits<double>::infinity();  ///< M [kg]
   double restitution = 0.8;                               ///< e
   double friction = 0.3;                                  ///< μ
+  std::optional<TerrainMotion> motion = {};               ///< of unit direction; absent: it never moves
 };
 
 /// How a body is drawn when it is drawn solid.

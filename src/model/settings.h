@@ -59,6 +59,14 @@ struct ContactSettings {
   bool spin = true;
 };
 
+/// How a terrain moves to and fro: displaced by amplitude·sin 2π(frequency·t + phase) along a direction.
+struct TerrainMotion {
+  Vec3 direction = {0.0, 1.0, 0.0};  ///< any length but zero; in a Model a unit vector
+  double amplitude = 1.0;            ///< [m], ≥ 0
+  double frequency = 0.25;           ///< [Hz], ≥ 0
+  double phase = 0.0;                ///< in turns
+};
+
 /// One terrain of the scene. Absent values take the shape's defaults (terrain_shapes) or the scene's
 /// contact values.
 struct TerrainSettings {
@@ -68,6 +76,7 @@ struct TerrainSettings {
   std::optional<double> mass = {};  ///< M [kg], > 0; absent: infinite
   std::optional<double> restitution = {};
   std::optional<double> friction = {};
+  std::optional<TerrainMotion> motion = {};  ///< absent: it never moves
 };
 
 struct BodyRow;  // model/bodies.h

@@ -1,6 +1,8 @@
 #include "model/terrain.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace aspic {
 
@@ -31,7 +33,30 @@ Terrain make_terrain(const TerrainSettings& settings, const ContactSettings& con
   t.mass = settings.mass.value_or(std::numeric_limits<double>::infinity());
   t.restitution = settings.restitution.value_or(contact.restitution);
   t.friction = settings.friction.value_or(contact.friction);
+  t.motion = settings.motion;
+  if (t.motion) t.motion->direction = t.motion->direction / length(t.motion->direction);
   return t;
+}
+
+Pose pose_at(const TerrainMotion& motion, double timestep, std::uint64_t step) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  const double turns = motion.frequency * (timestep * static_cast<double>(step)) + motion.phase;
+  const double angle = turn * (turns - std::floor(turns));
+  return {(motion.amplitude * std::sin(angle)) * motion.direction,
+          (motion.amplitude * (turn * motion.frequency) * std::cos(angle)) * motion.direction};
+}
+
+Terrain terrain_at(const Terrain& terrain, double timestep, std::uint64_t step) {
+  if (!terrain.motion) return terrain;
+  Terrain moved = terrain;
+  const Vec3 offset = pose_at(*terrain.motion, timestep, step).offset;
+  std::size_t vector = 0;
+  for (const GeometryKey& key : terrain_row(terrain.shape).keys) {
+    if (key.kind == GeometryKind::place)
+      moved.geometry.vectors[vector] = moved.geometry.vectors[vector] + offset;
+    if (key.kind != GeometryKind::length) ++vector;
+  }
+  return moved;
 }
 
 double signed_distance(const Terrain& terrain, const Vec3& x) {

@@ -77,6 +77,17 @@ const GeometryKey* geometry_key(TerrainShape shape, std::string_view name);
 /// left out.
 Terrain make_terrain(const TerrainSettings& settings, const ContactSettings& contact);
 
+/// Where a moving terrain is, and how fast: its displacement [m] and velocity [m/s].
+struct Pose {
+  Vec3 offset, velocity;
+};
+
+/// At the time step·timestep. Solvers round it once to their precision.
+Pose pose_at(const TerrainMotion& motion, double timestep, std::uint64_t step);
+
+/// A terrain displaced to where it is at that time; itself if it does not move.
+Terrain terrain_at(const Terrain& terrain, double timestep, std::uint64_t step);
+
 /// Signed distance d(x) [m] of a point from the terrain, positive on the free side, and the normal there, in
 /// double precision: for reports and pictures. Solvers evaluate the formulas in their own precision.
 double signed_distance(const Terrain& terrain, const Vec3& x);

@@ -76,8 +76,8 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
   for (const Terrain& t : model.terrain) {
     if (!content.shadows || !terrain_row(t.shape).ball || block.shadow_sphere_count == MAX_SHADOW_SPHERES)
       continue;
-    block.shadow_spheres[block.shadow_sphere_count++] =
-        glm::vec4(narrow(t.geometry.vectors[0]), t.geometry.numbers[0]);
+    const Geometry<double> ball = terrain_at(t, model.simulation.timestep, content.step).geometry;
+    block.shadow_spheres[block.shadow_sphere_count++] = glm::vec4(narrow(ball.vectors[0]), ball.numbers[0]);
   }
   switch (content.view.colour) {
     case ViewColour::material:

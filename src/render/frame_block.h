@@ -14,6 +14,7 @@ struct FrameContent {
   QuantityRange range = {};  ///< ends of the colour scale
   bool has_flesh = false;    ///< the model has translucent bodies
   bool shadows = true;
+  std::uint64_t step = 0;  ///< of the state: moving terrain is where it is then
 };
 
 /// The block of a picture of width × height pixels.

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "model/terrain.h"
 #include "render/frame_block.h"
 #include "render/light_maps.h"
 #include "render/terrain_painter.h"
@@ -64,19 +65,19 @@ void Picker::forget() {
   answer_ = {};
 }
 
-void Picker::draw_terrain(const Model& model) const {
+void Picker::draw_terrain(const Model& model, std::uint64_t step) const {
   nothing_.bind();
   glUseProgram(terrain_.id());
   for (std::size_t i = 0; i < model.terrain.size(); ++i) {
     terrain_.set(LOCATION_FIRST, static_cast<std::uint32_t>(i));
-    set_terrain(terrain_, model.terrain[i]);
+    set_terrain(terrain_, terrain_at(model.terrain[i], model.simulation.timestep, step));
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 }
 
 void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const DeviceState& state,
                         const DrawSettings& draw) const {
-  draw_terrain(model);
+  draw_terrain(model, state.step);
   if (draws_balls(draw)) buffers.balls().draw_with(balls_, state);
   if (!shows_particles(draw)) return;
   const float radius =

@@ -77,7 +77,7 @@ class Picker {
   Picker() = default;
   void draw_image(const Model& model, const ModelBuffers& buffers, const DeviceState& state,
                   const DrawSettings& draw) const;
-  void draw_terrain(const Model& model) const;
+  void draw_terrain(const Model& model, std::uint64_t step) const;
   void read(Slot& slot);
 
   gl::Program surface_, particles_, balls_, terrain_;

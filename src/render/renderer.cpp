@@ -7,6 +7,7 @@
 
 #include "device/particles.h"
 #include "gpu/pass.h"
+#include "model/terrain.h"
 #include "render/frame_block.h"
 #include "render/light_maps.h"
 #include "render/model_buffers.h"
@@ -300,7 +301,11 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
 
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
-  p.drawn_frame = frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows});
+  p.drawn_frame =
+      frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows, state.step});
+  std::vector<Terrain> terrain;
+  for (const Terrain& t : p.model->terrain)
+    terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
   p.drawn_state = state;
   p.drawn_settings = view.draw;
   p.bind_frame(p.drawn_frame);
@@ -313,7 +318,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
-  p.terrain.draw_solid(p.programs, p.model->terrain, view.camera, camera, options.shadows);
+  p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
   if (view.draw.solid) p.buffers->rods().draw(p.programs);
   if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
   p.draw_springs(particles, view.draw, view.colour);
@@ -323,7 +328,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   glUseProgram(p.programs.sky.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   if (view.draw.solid && p.has(SurfaceStyle::sheet)) p.draw_sheets(particles, view);
-  p.terrain.draw_far_glass(p.programs, p.model->terrain);
+  p.terrain.draw_far_glass(p.programs, terrain);
   if (solid) {
     p.draw_jelly(particles, view, JellySide::far);
     p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
@@ -331,7 +336,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
     p.targets->samples.framebuffer.bind();
     p.draw_jelly(particles, view, JellySide::near);
   }
-  p.terrain.draw_before_bodies(p.programs, p.model->terrain, view.camera, camera);
+  p.terrain.draw_before_bodies(p.programs, terrain, view.camera, camera);
   Status written;
   if (options.highlight)
     written = p.highlight->draw_within(*p.buffers, particles, view.draw, *options.highlight);

@@ -54,6 +54,7 @@ Status TerrainPainter::set_terrain(gl::Context& context, const std::vector<Terra
   for (const Terrain& t : terrain) {
     MeshBuffers& buffers = meshes.emplace_back();
     if (!terrain_row(t.shape).surface) continue;
+    buffers.place = t.geometry.vectors[0];
     const Mesh mesh = terrain_mesh(t, mesh_rings, mesh_sectors);
     fill(buffers.vertices, "terrain", mesh.vertices);
     fill(buffers.normals, "terrain normals", mesh.normals);
@@ -75,6 +76,7 @@ void TerrainPainter::draw_meshes(const gl::Program& program, const std::vector<T
     const MeshBuffers& mesh = meshes_[i];
     if (mesh.index_count == 0 || terrain_row(terrain[i].shape).glass != glass) continue;
     if (!glass) aspic::set_terrain(program, terrain[i]);
+    program.set(LOCATION_OFFSET, four(terrain[i].geometry.vectors[0] - mesh.place, 0.0));
     mesh.array.bind();
     glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
   }

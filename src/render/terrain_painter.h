@@ -43,6 +43,7 @@ class TerrainPainter {
   void draw_meshes(const gl::Program& program, const std::vector<Terrain>& terrain, bool glass) const;
   /// The surface of one terrain; without one it has no indices.
   struct MeshBuffers {
+    Vec3 place;  ///< vector 0 of the geometry it was made with
     gl::Buffer vertices, normals, indices;
     gl::VertexArray array;
     int index_count = 0;

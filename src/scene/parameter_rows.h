@@ -198,6 +198,16 @@ inline constexpr Range damping = {0.0, 1e9};
     return chosen->field;                                                        \
   }
 
+#define MOTION(field)                                                            \
+  [](auto& scene, std::size_t i) -> auto& {                                      \
+    auto& chosen = scene.model.terrain[i].motion;                                \
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(chosen)>>) { \
+      if (!chosen) chosen.emplace();                                             \
+    }                                                                            \
+    return chosen->field;                                                        \
+  }
+
+inline constexpr auto motion = Belonging::motion;
 inline constexpr auto springs = Belonging::explicit_springs;
 inline constexpr auto material = Belonging::material;
 

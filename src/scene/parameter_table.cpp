@@ -122,12 +122,20 @@ std::vector<Parameter> terrain_rows() {
     }
   }
   const Parameter others[] = {
-      absent("infinite", row("terrain[].mass", "kg", {0.0, heaviest, true}, FIELD(model.terrain[i].mass),
-                             "Mass M in the bounce speed (m − e·M)/(m + M)·u; the terrain never moves.")),
+      absent("infinite",
+             row("terrain[].mass", "kg", {0.0, heaviest, true}, FIELD(model.terrain[i].mass),
+                 "Mass M in the bounce speed (m − e·M)/(m + M)·u; a bounce never moves the terrain.")),
       absent("that of [contact]", row("terrain[].restitution", "", fraction,
                                       FIELD(model.terrain[i].restitution), "Restitution of this terrain.")),
       absent("that of [contact]", row("terrain[].friction", "", friction, FIELD(model.terrain[i].friction),
                                       "Friction coefficient of this terrain.")),
+      of(motion,
+         direction(row("terrain[].motion.direction", MOTION(direction),
+                       "Direction along which the terrain moves to and fro; its length does not matter."))),
+      of(motion, row("terrain[].motion.amplitude", "m", {0.0, far}, MOTION(amplitude),
+                     "Largest displacement A; the terrain is displaced by A·sin 2π(f·t + φ).")),
+      of(motion, row("terrain[].motion.frequency", "Hz", {0.0, 1e4}, MOTION(frequency), "Frequency f.")),
+      of(motion, row("terrain[].motion.phase", "turns", within(1e6), MOTION(phase), "Phase φ.")),
   };
   rows.insert(rows.end(), std::begin(others), std::end(others));
   return rows;

@@ -134,6 +134,8 @@ bool applies(const Parameter& parameter, const Scene& scene, std::size_t index) 
       return true;
     case Belonging::geometry:
       return belongs_to_shape(parameter, scene.model.terrain[index].shape);
+    case Belonging::motion:
+      return scene.model.terrain[index].motion.has_value();
     case Belonging::explicit_springs:
       return !scene.model.cubes[index].material.has_value();
     case Belonging::material:
@@ -226,6 +228,7 @@ std::string default_text(const Parameter& p) {
   Scene scene;
   for (const SettingsList& list : settings_lists()) list.append(scene.model);
   if (p.belonging == Belonging::material) scene.model.cubes[0].material.emplace();
+  if (p.belonging == Belonging::motion) scene.model.terrain[0].motion.emplace();
   return toml_value(*p.get(scene, 0));
 }
 

@@ -42,9 +42,10 @@ struct Range {
   bool min_excluded = false;
 };
 
-/// When a key has a meaning. Geometry belongs to the shapes that have the key (terrain_shapes); keys of
-/// explicit springs and of a material exclude each other by what the cube is made of.
-enum class Belonging { always, geometry, explicit_springs, material };
+/// When a key has a meaning. Geometry belongs to the shapes that have the key (terrain_shapes), the keys of a
+/// motion to terrain that has one; keys of explicit springs and of a material exclude each other by what the
+/// cube is made of.
+enum class Belonging { always, geometry, motion, explicit_springs, material };
 
 /// One key.
 struct Parameter {

@@ -176,6 +176,8 @@ void Reader::read_member(std::string_view path, std::size_t index, std::string_v
     // Even an empty `material = {}` makes the cube one of a material.
     if (child == "cube[].material" && !scene_.model.cubes[index].material)
       scene_.model.cubes[index].material.emplace();
+    if (child == "terrain[].motion" && !scene_.model.terrain[index].motion)
+      scene_.model.terrain[index].motion.emplace();
     read_table(*value.as_table(), child, index, source);
   }
 }

@@ -37,6 +37,8 @@ std::string condition(const Parameter& p) {
       break;
     case Belonging::geometry:
       return fmt::format(" Only for {}.", diagnostics::list_text(shapes_with(p), false));
+    case Belonging::motion:
+      return " Without `motion` a terrain never moves.";
     case Belonging::explicit_springs:
       return " Not together with `material`.";
     case Belonging::material:
@@ -57,7 +59,8 @@ std::string table_row(const Parameter& p) {
 std::string scene_reference() {
   std::string page =
       "# Scene file reference\n\n"
-      "A scene is one TOML file. This page is generated from the program's parameter table: every key, what it means,\n"
+      "A scene is one TOML file. This page is generated from the program's parameter table: every key, what "
+      "it means,\n"
       "what is allowed and the default. Units are SI. Every key can be set on the command "
       "line as well,\n"
       "by its path: `--set simulation.timestep=0.002`, `--set cube[0].shear.stiffness=10`, `--set "

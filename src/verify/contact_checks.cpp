@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/amplification.h"
 #include "model/terrain.h"
@@ -149,6 +150,27 @@ Result<Finding> gradient(const Subject&) {
   return at_most(worst, 1e-8);
 }
 
+/// A particle on a plane that rises and falls with a quarter of gravity: its largest distance from the plane
+/// in 8 s, over h² times the plane's largest acceleration. The particle moves by its velocity at one end of a
+/// step, the plane by the mean of both.
+Result<Finding> elevator(const Subject& subject) {
+  double worst = 0.0;
+  for (const Integrator integrator : all_integrators) {
+    Model model = particle_on_plane(integrator, ContactModel::coulomb, 0.0, {0, 0, 0});
+    const TerrainMotion motion = {{0, 1, 0}, 1.0, 0.25, 0.25};
+    model.terrain[0].motion = motion;
+    const double h = model.simulation.timestep, turn = 2 * std::numbers::pi * motion.frequency;
+    model.initial_position[0] = pose_at(motion, h, 0).offset;
+    ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
+    for (std::uint64_t step = 1; step <= 8000; ++step) {
+      ASPIC_TRY(auto now, run(*solver, 1));
+      const double d = signed_distance(terrain_at(model.terrain[0], h, step), now.position[0]);
+      worst = std::max(worst, std::abs(d) / (h * h * motion.amplitude * turn * turn));
+    }
+  }
+  return at_most(worst, 2.0);
+}
+
 }  // namespace
 
 void add_contact_checks(std::vector<Check>& checks) {
@@ -168,6 +190,10 @@ void add_contact_checks(std::vector<Check>& checks) {
   checks.push_back({"contact/gradient",
                     "every shape's normal is the gradient of its distance, 1,000 places each",
                     at_most_text(1e-8), true, false, gradient});
+  checks.push_back(
+      {"contact/elevator",
+       "a particle's distance from a plane that rises and falls, 8 s, over h²a; every integrator",
+       at_most_text(2.0), true, false, elevator});
   for (const Integrator integrator : all_integrators) {
     checks.push_back({fmt::format("contact/viscous/{}", name_of(integrator)),
                       "course friction slows a slide by R(−hμg) a step, 1,000 steps",

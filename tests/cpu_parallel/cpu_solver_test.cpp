@@ -51,8 +51,8 @@ ModelSettings low_cube(int n, Integrator integrator, ContactModel contact) {
 }
 
 TEST(CpuSolver, HasTheReferencesBitsInEveryBuiltInScene) {
-  for (const char* const name : {"cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "goal-net",
-                                 "penalty", "cube-and-balls"}) {
+  for (const char* const name : {"cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "elevator",
+                                 "goal-net", "penalty", "cube-and-balls"}) {
     for (const Integrator integrator : all_integrators) {
       for (const ContactModel contact : both_models) {
         SCOPED_TRACE(fmt::format("{}, {}, {}", name, name_of(integrator), name_of(contact)));
@@ -63,6 +63,41 @@ TEST(CpuSolver, HasTheReferencesBitsInEveryBuiltInScene) {
         for (CubeSettings& cube : scene->model.cubes) cube.position.y -= 4.0;  // contact soon
         expect_equal(test::build(scene->model), row_of(integrator).solved() ? 10 : 300);
       }
+    }
+  }
+}
+
+TEST(CpuSolver, HasTheReferencesBitsOnTerrainThatMovesSideways) {
+  for (const Integrator integrator : explicit_integrators) {
+    for (const ContactModel contact : both_models) {
+      SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
+      ModelSettings settings = low_cube(5, integrator, contact);
+      settings.terrain[0].motion = TerrainMotion{{1.0, 0.0, 0.4}, 0.3, 1.1, 0.2};
+      expect_equal(test::build(settings), 400, 2);
+      settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
+      expect_equal(test::build(settings), 400, 2);
+    }
+  }
+}
+
+// A cube in the air and a wall whose place at rest is 18 m away: it meets the cube after about 40 steps.
+TEST(CpuSolver, SeesTerrainThatComesFromFar) {
+  for (const Integrator integrator : explicit_integrators) {
+    for (const ContactModel contact : both_models) {
+      SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
+      ModelSettings settings = low_cube(5, integrator, contact);
+      settings.cubes[0].position.y = 50.0;
+      settings.cubes[0].velocity.x = -1.0;
+      settings.terrain.push_back(
+          {.geometry = {{"point", Vec3{-20.6, 0.0, 0.0}}, {"normal", Vec3{1.0, 0.0, 0.0}}}});
+      const Model still = test::build(settings);
+      settings.terrain[1].motion = TerrainMotion{{1.0, 0.0, 0.0}, 18.0, 0.1, 0.23};
+      const Model model = test::build(settings);
+      expect_equal(model, 400, 2);
+      const auto without = reference(still), with = reference(model);
+      ASSERT_FALSE((*without->advance(400)).has_value());
+      ASSERT_FALSE((*with->advance(400)).has_value());
+      EXPECT_FALSE(*without->state() == *with->state()) << "the wall does not reach the cube";
     }
   }
 }

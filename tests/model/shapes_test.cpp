@@ -28,9 +28,11 @@ TEST(Torus, DistanceIsThatToTheNearestPointOfTheRing) {
       const Vec3 ring = Vec3{1, 2, 3} + 2.0 * (std::cos(angle) * first + std::sin(angle) * second);
       nearest = std::min(nearest, length(x - ring));
     }
-    // Between two of them the ring is off by at most (half their distance)², over twice the distance.
-    const double half = 2.0 * std::numbers::pi / count;
-    EXPECT_NEAR(signed_distance(torus, x), nearest - 0.5, half * half / nearest);
+    // A place of the ring is at most δ = π/count from one of them: the squares of the two distances differ by
+    // 2·|e⊥|·R·(1 − cos δ) ≤ |e⊥|·R·δ².
+    const double found = signed_distance(torus, x), delta = std::numbers::pi / count;
+    EXPECT_LE(found, nearest - 0.5 + 1e-14);
+    EXPECT_GE(found, nearest - 0.5 - length(x - Vec3{1, 2, 3}) * 2.0 * delta * delta / (2.0 * (found + 0.5)));
   }
 }
 

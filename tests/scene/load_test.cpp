@@ -220,8 +220,8 @@ TEST(Builtin, ScenesLoadAndBuild) {
     }
   }
   EXPECT_THAT(names, testing::ElementsAre("cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl",
-                                          "cube-torus", "cube-hole", "goal-net", "penalty", "flag", "curtain",
-                                          "ball-pit", "cube-and-balls", "large-cube"));
+                                          "cube-torus", "cube-hole", "elevator", "goal-net", "penalty",
+                                          "flag", "curtain", "ball-pit", "cube-and-balls", "large-cube"));
 }
 
 // Limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.

@@ -68,6 +68,7 @@ TEST(Set, ReachesEveryKeyAndNoOther) {
     if (p.belonging == Belonging::geometry)
       arguments.push_back(fmt::format("terrain[0].shape={}", test::shape_with(p)));
     if (p.belonging == Belonging::material) arguments.emplace_back("cube[0].material={}");
+    if (p.belonging == Belonging::motion) arguments.emplace_back("terrain[0].motion={}");
     const Scene before = test::parsed(text, arguments);
     arguments.push_back(argument_for(p));
     const Scene after = test::parsed(text, arguments);
@@ -87,6 +88,7 @@ TEST(Set, RefusesWhatTheFileCouldNotSayEither) {
     if (p.belonging == Belonging::geometry)
       arguments.push_back(fmt::format("terrain[0].shape={}", test::shape_with(p)));
     if (p.belonging == Belonging::material) arguments.emplace_back("cube[0].material={}");
+    if (p.belonging == Belonging::motion) arguments.emplace_back("terrain[0].motion={}");
     arguments.push_back(argument);
     const std::string message = test::rejection(base, arguments);
     EXPECT_THAT(message, StartsWith(fmt::format("--set {}: ", argument))) << message;

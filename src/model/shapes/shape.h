@@ -19,7 +19,8 @@ enum class GeometryKind {
 /// The value of a geometry key: a vector (place, direction) or a number (length).
 using GeometryValue = std::variant<double, Vec3>;
 
-/// A key of a shape's geometry. Shapes that share a key give it the same kind.
+/// A key of a shape's geometry. Shapes that share a key give it the same kind; the first key of a shape is a
+/// place.
 struct GeometryKey {
   std::string_view name;  ///< in scene files
   GeometryKind kind;
