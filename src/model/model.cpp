@@ -18,7 +18,8 @@ Vec3 without_negative_zero(const Vec3& v) {
   return {without_negative_zero(v.x), without_negative_zero(v.y), without_negative_zero(v.z)};
 }
 
-/// x in single precision. A function that is called: g++ 12 drops the way to float and back where it vectorises it.
+/// x in single precision. A function that is called: g++ 12 drops the way to float and back where it
+/// vectorises it.
 [[gnu::noinline]] double in_single(double x) {
   return static_cast<double>(static_cast<float>(x));
 }

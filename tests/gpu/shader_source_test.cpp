@@ -103,7 +103,8 @@ TEST(ShaderLibrary, RefusesWithFileAndLine) {
       StartsWith("include/cycle_a.glsl:1 → include/cycle_b.glsl:2: the include of \"include/cycle_a.glsl\" "
                  "closes a cycle"));
   EXPECT_THAT(error_of("include/angled.comp"), StartsWith("include/angled.comp:1: "));
-  EXPECT_THAT(error_of("include/versioned.comp"), StartsWith("include/versioned.comp:2: the program adds #version"));
+  EXPECT_THAT(error_of("include/versioned.comp"),
+              StartsWith("include/versioned.comp:2: the program adds #version"));
   EXPECT_THAT(error_of("no/such.comp"), HasSubstr("There is no shader file \"no/such.comp\""));
 }
 

@@ -69,9 +69,7 @@ class LoopBounds : public aspic::testing::GlTest {
     return ran.error().message;
   }
 
-  static std::string named(const std::string& kernel) {
-    return "The kernel " + kernel + " would loop";
-  }
+  static std::string named(const std::string& kernel) { return "The kernel " + kernel + " would loop"; }
 
   /// 300 balls in one place on a cube's corner.
   static Model crowd() {
