@@ -80,7 +80,8 @@ Figures measure(const Case& c, double seconds) {
     if (c.edits && seconds_between(edited, now) > 0.1) {
       edited = now;
       pull = pull > 9.8 ? 9.8 : 9.9;
-      (*app)->scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -pull, 0.0}), "slider");
+      (*app)->scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -pull, 0.0}),
+                              "slider");
     }
     if (const Status drawn = (*app)->frame((*window)->size(), std::min(dt, 0.25)); !drawn)
       fail(drawn.error().message);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the program and attacks it: scripts/attack.sh [--thorough] [SUITE …], suites by name (scripts/attack.sh --list) or all.
-# --thorough tries every allocation, file operation and pass instead of samples, and takes hours. Exit code 1 on a finding.
+# --thorough tries every allocation, file operation and pass instead of samples; some suites take ten minutes then. Exit code 1 on a finding.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 

@@ -307,7 +307,8 @@ std::string stability_figure(const StabilityLimit& limit) {
 std::string stability_sentence(Integrator integrator, const StabilityLimit& limit) {
   if (!limit.step) {
     return fmt::format(
-        "no step is {}stable for {}, under which undamped springs gain energy at any step; add damping, or use symplectic-euler or runge-kutta-4",
+        "no step is {}stable for {}, under which undamped springs gain energy at any step; add damping, or "
+        "use symplectic-euler or runge-kutta-4",
         limit.exact ? "" : "certainly ", name_of(integrator));
   }
   if (std::isinf(*limit.step)) return fmt::format("nothing limits the step of {}", name_of(integrator));

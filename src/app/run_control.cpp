@@ -33,12 +33,15 @@ void RunControl::change_speed(double factor) {
 void RunControl::switch_backend() {
   const BackendRow& current = simulation_.backend();
   const BackendRow* row = &next_backend(current);
-  Status changed = simulation_.set_backend(*row);
-  while (!changed && (row = &next_backend(*row)) != &current) {
-    if (simulation_.set_backend(*row)) changed = {};
-  }
+  const Status first = simulation_.set_backend(*row);
+  Status changed = first;
+  while (!changed && (row = &next_backend(*row)) != &current) changed = simulation_.set_backend(*row);
   scene_.follow_history();
-  if (messages_.check(changed)) messages_.info(fmt::format("Now on {}.", simulation_.solver().description()));
+  const std::string now = fmt::format("Now on {}.", simulation_.solver().description());
+  if (first)
+    messages_.info(now);
+  else
+    messages_.error(changed ? fmt::format("{} {}", first.error().message, now) : first.error().message);
 }
 
 void RunControl::set_shadow(const BackendRow* backend) {

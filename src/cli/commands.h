@@ -10,8 +10,8 @@ inline Status execute(const ShowText& shown) {
   return print_data(shown.text);
 }
 
-/// Simulates; writes the files asked for. Errors in addition to those of its parts: diverged and interrupted, both
-/// after the files are complete.
+/// Simulates; writes the files asked for. Errors in addition to those of its parts: diverged and interrupted,
+/// both after the files are complete.
 Status execute(const RunOptions& options);
 
 /// Becomes the window program, aspic-view, installed next to this one. Error (no_device): it is not there.

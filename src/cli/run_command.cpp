@@ -219,7 +219,8 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
   const std::string hash = state_hash_text(state);
   if (options.json) {
     // Not within the list: g++ 12 destroys what it has not made yet when memory runs out in a list with `?:`.
-    const Json diverged = outcome.divergence ? to_json(*outcome.divergence, model.simulation.timestep) : Json();
+    const Json diverged =
+        outcome.divergence ? to_json(*outcome.divergence, model.simulation.timestep) : Json();
     const Json solves = outcome.solves ? to_json(*outcome.solves) : Json();
     const Json pictures = recorder ? to_json(*recorder) : Json();
     return print_data(to_text({

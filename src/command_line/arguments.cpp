@@ -253,7 +253,8 @@ CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
 CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
   CLI::App* c = add_command(app, "compare", "Run two backends side by side, step by step", compare_examples);
   add(c, "scene", "SCENE", compare.scene, "scene file or built-in name")->required();
-  c->add_option("--backends", raw.backends, "the two backends, options after colons: gpu:per-spring,reference:double")
+  c->add_option("--backends", raw.backends,
+                "the two backends, options after colons: gpu:per-spring,reference:double")
       ->delimiter(',')
       ->expected(2)
       ->type_name("A,B")

@@ -85,7 +85,8 @@ class SpringLists {
   std::vector<float> stiffness_, damping_, rest_length_, slack_;
 };
 
-/// Particles per edge of a body that is a cube with all its springs, so that a Lattice describes it; 0 of others.
+/// Particles per edge of a body that is a cube with all its springs, so that a Lattice describes it; 0 of
+/// others.
 std::size_t edge_of_lattice(const Model& model, const Body& body);
 
 }  // namespace aspic::parallel

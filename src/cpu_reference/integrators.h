@@ -1,6 +1,6 @@
 #pragma once
-// The explicit integrators (docs/physics.md, section 3), each as its textbook writes it. `h` is the time step [s].
-// `dynamics.acceleration(x, v)` gives a(x, v) of all particles, or of all balls.
+// The explicit integrators (docs/physics.md, section 3), each as its textbook writes it. `h` is the time step
+// [s]. `dynamics.acceleration(x, v)` gives a(x, v) of all particles, or of all balls.
 #include <algorithm>
 #include <cassert>
 #include <iterator>

@@ -142,8 +142,7 @@ constexpr StateFormat table[] = {
     {"series", ".csv", "CSV", "write energies and momentum over time",
      "steps between rows of the series; default 1", 1, true, false, Series::open},
     {"checkpoint", ".aspic", "a checkpoint", "write scene and final state, to resume from,",
-     "steps between checkpoints, each replacing the previous one", 0, false, true,
-     CheckpointFile::open},
+     "steps between checkpoints, each replacing the previous one", 0, false, true, CheckpointFile::open},
 };
 
 }  // namespace

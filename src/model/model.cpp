@@ -18,17 +18,16 @@ Vec3 without_negative_zero(const Vec3& v) {
   return {without_negative_zero(v.x), without_negative_zero(v.y), without_negative_zero(v.z)};
 }
 
-/// `volatile`: where GCC 12 joins the conversions of neighbouring numbers into one of vectors, it drops the
-/// way to float and back.
-double rounded_to_single(double x) {
-  const volatile float rounded = static_cast<float>(x);
-  return rounded;
+/// x in single precision. A function that is called: g++ 12 drops the way to float and back where it
+/// vectorises it.
+[[gnu::noinline]] double in_single(double x) {
+  return static_cast<double>(static_cast<float>(x));
 }
 
 Vec3 rounded_to(const Vec3& v, Precision precision) {
   if (precision == Precision::double_) return without_negative_zero(v);
   // A tiny negative double may round to −0 as a float: the sign is taken off after rounding.
-  return without_negative_zero(Vec3{rounded_to_single(v.x), rounded_to_single(v.y), rounded_to_single(v.z)});
+  return without_negative_zero({in_single(v.x), in_single(v.y), in_single(v.z)});
 }
 
 }  // namespace

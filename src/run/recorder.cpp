@@ -101,8 +101,13 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
 }
 
 Status Recorder::finish(Solver& solver, std::uint64_t step) {
-  if (recording_->pictures() == 0 || last_shown_ != step) ASPIC_CHECK(draw(solver, step, 1));
-  recording_->end();
+  if (recording_->pictures() == 0 || last_shown_ != step) {
+    if (const Status drawn = draw(solver, step, 1); !drawn) {
+      recording_->abandon();
+      return drawn;
+    }
+  }
+  ASPIC_CHECK(recording_->end_complete());
   return recording_->result();
 }
 

@@ -44,13 +44,17 @@ Recording::Recording(gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>>
 }
 
 Recording::~Recording() {
+  abandon();
+  thread_.join();
+}
+
+void Recording::abandon() {
   {
     const std::lock_guard lock(mutex_);
-    abandoned_ = !ended_;
-    no_more_ = true;
+    abandoned_ = abandoned_ || !ended_;
+    ended_ = no_more_ = true;
   }
   changed_.notify_all();
-  thread_.join();
 }
 
 bool Recording::ready() const {
@@ -100,6 +104,17 @@ void Recording::end() {
     no_more_ = true;
   }
   changed_.notify_all();
+}
+
+Status Recording::end_complete() {
+  while (ring_.pending() > 0) {
+    if (const Status read = hand_on(); !read) {
+      abandon();
+      return read;
+    }
+  }
+  end();
+  return {};
 }
 
 bool Recording::completed() const {

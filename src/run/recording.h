@@ -59,6 +59,11 @@ class Recording {
   /// No more pictures: the film is completed by the thread. Pictures that a lost device still held are
   /// missing.
   void end();
+  /// The same, but every picture must come from the device. Error (no_device): one did not; then no film file
+  /// is left, only the pictures of a directory.
+  Status end_complete();
+  /// Ends without a film file.
+  void abandon();
   /// The thread is through, be it with the film or with an error.
   bool completed() const;
   /// Waits for that. Error (io): a sink could not be written. A picture that one of them refuses ends the

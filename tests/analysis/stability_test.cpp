@@ -154,8 +154,8 @@ TEST(Stability, PureDampingIsARealSpectrum) {
 }
 
 /// Whether the limit of springs with different damping ratios follows from eigenvalues of the body: of a
-/// Runge–Kutta method from those of the first-order system, of symplectic Euler from λ_max(h²K + 2hC) = 4. Other
-/// step matrices do not divide into modes, and what stability_limit gives is a bound.
+/// Runge–Kutta method from those of the first-order system, of symplectic Euler from λ_max(h²K + 2hC) = 4.
+/// Other step matrices do not divide into modes, and what stability_limit gives is a bound.
 bool known_exactly(Integrator integrator) {
   return !row_of(integrator).mode_limit || integrator == Integrator::symplectic_euler;
 }
@@ -197,8 +197,7 @@ TEST_P(MixedCube, BoundOfALargeBodyIsBelowItsExactLimit) {
   EXPECT_GE(*bound.step, 0.5 * *exact.step);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllMethods, MixedCube, testing::ValuesIn(explicit_integrators),
-                         test::by_integrator);
+INSTANTIATE_TEST_SUITE_P(AllMethods, MixedCube, testing::ValuesIn(explicit_integrators), test::by_integrator);
 
 TEST(Stability, OfTwoBodiesTheStifferDecides) {
   ModelSettings settings;

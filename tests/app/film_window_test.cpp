@@ -56,7 +56,8 @@ class Film : public Stage {
   }
   void frames_to_pictures(std::uint64_t pictures) {
     for (int i = 0; app().film.recording() && app().film.recording()->pictures() < pictures; ++i) {
-      ASSERT_LT(i, 20000) << app().film.recording()->pictures() << " pictures at step " << simulation().step();
+      ASSERT_LT(i, 20000) << app().film.recording()->pictures() << " pictures at step "
+                          << simulation().step();
       frames(1);
     }
     ASSERT_TRUE(app().film.recording());
@@ -187,7 +188,8 @@ TEST_F(Film, PausesJumpsAndOtherScenesAreFilmedAsShown) {
   frames(5);
   EXPECT_EQ(app().film.recording()->pictures(), 1u) << "no time passes, no picture";
   for (int i = 0; i < 40; ++i) type(U'.');
-  EXPECT_EQ(app().film.recording()->pictures(), 3u) << "single steps pass no picture by, even between two frames";
+  EXPECT_EQ(app().film.recording()->pictures(), 3u)
+      << "single steps pass no picture by, even between two frames";
   press(GLFW_KEY_R);
   frames(1);
   EXPECT_EQ(app().film.recording()->pictures(), 4u) << "the start again, at once";

@@ -32,7 +32,8 @@ class Gallery : public Stage {
   }
   /// Writes what the window shows. A window with nothing in it compresses to less than this.
   void take(const std::string& name) {
-    EXPECT_FALSE(app().messages.notice() && app().messages.notice()->is_error) << app().messages.notice()->text;
+    EXPECT_FALSE(app().messages.notice() && app().messages.notice()->is_error)
+        << app().messages.notice()->text;
     const Image picture = image();
     const auto file = encode_jpeg({picture.width, picture.height}, picture.rgb);
     ASSERT_TRUE(file.ok()) << file.error().message;

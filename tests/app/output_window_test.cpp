@@ -75,7 +75,8 @@ TEST_F(Output, ASeriesHasARowForEachPointOfThePlot) {
   const auto text = read_file(path("aspic-cube-plane-0001.csv"));
   ASSERT_TRUE(text.ok()) << text.error().message;
   EXPECT_THAT(*text, testing::StartsWith(std::string(series_csv_header) + "\n0,0,"));
-  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(*text, '\n')), simulation().samples().energies().size() + 1);
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(*text, '\n')),
+            simulation().samples().energies().size() + 1);
   EXPECT_GT(simulation().samples().energies().size(), 1u);
 }
 

@@ -102,9 +102,11 @@ TEST_F(Pointer, SolidBodiesHideTheirInside) {
   // The very middle of the body lies behind its skin.
   point_at({0.0, 3.0, 0.0});
   ASSERT_TRUE(app().pointer.hovered().has_value());
-  const std::uint32_t i = app().pointer.hovered()->particle / 100, j = app().pointer.hovered()->particle / 10 % 10,
+  const std::uint32_t i = app().pointer.hovered()->particle / 100,
+                      j = app().pointer.hovered()->particle / 10 % 10,
                       k = app().pointer.hovered()->particle % 10;
-  EXPECT_TRUE(i == 9 || j == 9 || k == 9) << "on a face towards the eye, not " << app().pointer.hovered()->particle;
+  EXPECT_TRUE(i == 9 || j == 9 || k == 9)
+      << "on a face towards the eye, not " << app().pointer.hovered()->particle;
   point_at({0.0, -1.0, 6.0});
   EXPECT_FALSE(app().pointer.hovered().has_value()) << "the ground";
   app().cursor(5.0, 300.0);

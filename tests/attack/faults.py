@@ -148,7 +148,8 @@ def allocations(attack):
     for n in range(1, total + 1, stride):
         bench.strike(f"alloc:{n}", [OK, SCENE, IO])
     for n in range(2, total + 1, 2 * stride):
-        bench.strike(f"alloc:{n}+", [SCENE, IO])
+        # The last ones are those of stdio's buffer and of the process's end, which do without.
+        bench.strike(f"alloc:{n}+", [SCENE, IO] if n < total - 20 else [OK, SCENE, IO])
     directory = attack.fresh()
     scene = write(os.path.join(directory, "scene.toml"), attack.run("scene", "show", "goal-net").out)
     commands = [["scene", "check", scene], ["compare", scene, "--backends", "reference,reference:double", "--steps", "3"],

@@ -100,7 +100,8 @@ TEST(CompareGl, SolvesThatOverflowDivergeAlike) {
       for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
       const auto run = aspic(words);
       EXPECT_EQ(run.exit_code, 5) << run.err;
-      // Which of the two it becomes is the solve's affair; what leaves must be numbers, the same on each backend.
+      // Which of the two it becomes is the solve's affair; what leaves must be numbers, the same on each
+      // backend.
       EXPECT_THAT(run.err, testing::AnyOf(testing::HasSubstr("is no longer a finite number"),
                                           testing::HasSubstr("became faster than 1000 m/s")));
       for (const std::string& text : {run.out, dir.read("e.csv"), dir.read("s.csv")}) {

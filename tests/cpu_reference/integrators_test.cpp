@@ -27,7 +27,7 @@ TEST_P(EveryMethod, FreeFallFollowsItsOwnRecurrence) {
   // A step adds h·v + h²·g·(what the velocities that move it are ahead of v, in steps) to y.
   const double lead = free_fall_lead(GetParam());
   const double g_terms = n * (n - 1) / 2.0 + n * lead;  // y_n = y_0 + n·h·v_0 + h²·g·(this)
-  const double eps = n * 2.3e-16 * 10.0;                 // a rounding per step of numbers up to 10
+  const double eps = n * 2.3e-16 * 10.0;                // a rounding per step of numbers up to 10
   EXPECT_NEAR(s.x(1, 0), 2.0 + n * h * 4.0 + h * h * g * g_terms, eps);
   EXPECT_NEAR(s.v(1, 0), 4.0 + n * h * g, eps);
   EXPECT_NEAR(s.x(0, 0), 1.0 + n * h * 0.5, eps);

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "render/software_rasteriser.h"
-#include "render/software_rasteriser.h"
 #include "render/terrain_mesh.h"
 #include "support/model_building.h"
 

@@ -104,7 +104,8 @@ TEST(CheckScene, FindsASceneInWhichNothingMoves) {
   scene.model.terrain.emplace_back();
   const auto complaints = check_scene(scene);
   ASSERT_THAT(paths_of(complaints), ElementsAre(""));
-  EXPECT_THAT(complaints[0].message, HasSubstr("add a [[cube]], [[goal-net]], [[cloth]], [[ball]] or [[launcher]]"));
+  EXPECT_THAT(complaints[0].message,
+              HasSubstr("add a [[cube]], [[goal-net]], [[cloth]], [[ball]] or [[launcher]]"));
 }
 
 TEST(CheckScene, BlamesTheLargestBodyForTheMemory) {

@@ -28,9 +28,10 @@ TEST(Battery, NamesAreUniqueAndEveryRowIsComplete) {
 
 TEST(Battery, CoversEveryIntegrator) {
   const auto checks = battery();
-  for (const char* group : {"order", "closed-form/damped", "closed-form/undamped", "conservation/double",
-                            "conservation/single", "contact/stick", "contact/slide", "contact/restitution",
-                            "contact/cone", "rest", "rest/turned", "rest/groove", "rest/corner", "energy", "equality"}) {
+  for (const char* group :
+       {"order", "closed-form/damped", "closed-form/undamped", "conservation/double", "conservation/single",
+        "contact/stick", "contact/slide", "contact/restitution", "contact/cone", "rest", "rest/turned",
+        "rest/groove", "rest/corner", "energy", "equality"}) {
     for (const IntegratorRow& row : integrator_table) {
       const std::vector<std::string> name = {fmt::format("{}/{}", group, row.name)};
       EXPECT_TRUE(select(checks, name, false).ok()) << name[0];
