@@ -188,6 +188,29 @@ TEST(Model, NegativeZeroIsReadAsZero) {
   EXPECT_EQ(initial_state(*model, Precision::double_).velocity[0].y, -1e-60);
 }
 
+// Every number of particles: compilers treat those that are left over from vectors apart.
+TEST(InitialState, IsRoundedToItsPrecision) {
+  for (std::size_t n = 1; n <= 40; ++n) {
+    Model model;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = static_cast<double>(i);
+      model.initial_position.push_back({0.1 + x, 0.2 + x, 0.3 + x});
+      model.initial_velocity.push_back({0.6 - x, 0.7 - x, 0.9 - x});
+    }
+    const State exact = initial_state(model, Precision::double_);
+    EXPECT_EQ(exact.position, model.initial_position);
+    const State state = initial_state(model, Precision::single);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const auto& [rounded, given] : {std::pair{state.position[i], exact.position[i]},
+                                           std::pair{state.velocity[i], exact.velocity[i]}}) {
+        const volatile float x = static_cast<float>(given.x), y = static_cast<float>(given.y),
+                             z = static_cast<float>(given.z);
+        EXPECT_EQ(rounded, (Vec3{x, y, z})) << "particle " << i << " of " << n;
+      }
+    }
+  }
+}
+
 TEST(StateHash, SeesEveryBitAndThePrecision) {
   const Model model = cube_of(3);
   State state = initial_state(model, Precision::single);
