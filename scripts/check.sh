@@ -56,12 +56,26 @@ step_lints() {
   ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -R '^(TextLint|Rooms|PreciseLint|Reference)\.'
 }
 
+# tidy_one FILE: what was found clean is checked again once it changes. build/check/tidy keeps check sums of the file and of the
+# project's headers that it includes, under a name made from its command and the checks.
+tidy_one() {
+  local commands object stamp
+  commands=$(grep -F -B 1 "\"file\": \"$aspic_root/$1\"" build/clang/compile_commands.json) || return 0 # not built with clang
+  object=$(sed -n 's/.* -o \([^ ]*\) .*/\1/p' <<<"$commands" | head -n 1)
+  stamp=$logs/tidy/$({ clang-tidy --version; cat .clang-tidy; echo "$commands"; } | sha256sum | cut -c 1-32)
+  if [ -f "$stamp" ] && sha256sum --check --status "$stamp"; then return 0; fi
+  ninja -C build/clang -t deps "$object" | sed -n 's/^    //p' | grep -v '^/usr/' | (cd build/clang && xargs realpath) |
+    xargs sha256sum >"$stamp.new" || return 1
+  clang-tidy -p build/clang --quiet "$1" && mv "$stamp.new" "$stamp"
+}
+
+# After a build, which generates headers and records in Ninja what each file includes.
 step_tidy() {
-  [ -f build/clang/build.ninja ] || cmake --preset clang || return 1
-  cmake --build --preset clang --target aspic_glad -- --quiet || return 1 # its header is generated
-  files 'src/*.cpp' 'tests/*.cpp' 'bench/*.cpp' 'examples/*.cpp' |
-    while read -r file; do if grep -qF "/$file\"" build/clang/compile_commands.json; then echo "$file"; fi; done |
-    xargs -P "$(nproc)" -n 1 clang-tidy -p build/clang --quiet
+  build clang || return 1
+  mkdir -p "$logs/tidy"
+  export -f tidy_one
+  export aspic_root logs
+  files 'src/*.cpp' 'tests/*.cpp' 'bench/*.cpp' 'examples/*.cpp' | xargs -P "$(nproc)" -I '{}' bash -c 'tidy_one "$1"' tidy_one '{}'
 }
 
 step_clang() { build clang; }
