@@ -80,7 +80,7 @@ step_tidy() {
 
 step_clang() { build asan; }
 step_odr() { build odr; }
-step_asan() { build asan && test_in asan -LE 'independent|slow'; }
+step_asan() { build asan && test_in asan; }
 step_tsan() { build tsan && test_in tsan; }
 
 status=0
