@@ -25,6 +25,14 @@ struct Vector {
 HWY_INLINE Vector load(const VectorArray& a, std::size_t i) {
   return {hn::LoadU(tag, a[0].data() + i), hn::LoadU(tag, a[1].data() + i), hn::LoadU(tag, a[2].data() + i)};
 }
+HWY_INLINE void store(const Vector& v, VectorArray& a, std::size_t i) {
+  hn::StoreU(v.x, tag, a[0].data() + i);
+  hn::StoreU(v.y, tag, a[1].data() + i);
+  hn::StoreU(v.z, tag, a[2].data() + i);
+}
+HWY_INLINE Vector operator+(const Vector& a, const Vector& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
 HWY_INLINE Vector operator-(const Vector& a, const Vector& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
