@@ -98,7 +98,7 @@ TEST(Limits, FilmsThatLackMemoryOrStackLeaveNothing) {
   std::vector<test::ProcessOptions> limits;
   for (std::uint64_t size = 200; size <= 700; size += 100)
     limits.emplace_back().address_space_limit = size * mebi;
-  for (const std::uint64_t size : {64, 256, 512}) limits.emplace_back().stack_limit = size << 10;
+  for (const std::uint64_t size : {64u, 256u, 512u}) limits.emplace_back().stack_limit = size << 10;
   for (test::ProcessOptions& options : limits) {
     const test::TemporaryDirectory dir;
     options.environment = {{"ASPIC_EGL_DEVICE", "software"}};
