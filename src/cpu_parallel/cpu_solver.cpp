@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <new>
 #include <utility>
@@ -36,12 +37,13 @@ using Springs = std::variant<Lattice, SpringLists>;
 
 class CpuSolver final : public Solver {
  public:
-  CpuSolver(const Model& model, const CpuOptions& options)
+  CpuSolver(const Model& model, unsigned threads, Arithmetic arithmetic)
       : model_(model),
         method_(row_of(model.simulation.integrator)),
         dynamics_(model),
         balls_(model),
-        workers_(options.threads > 0 ? options.threads : threads_for(model)) {
+        workers_(threads),
+        arithmetic_(arithmetic) {
     std::size_t margin = slice;
     for (const Body& body : model.bodies) {
       if (edge_of_lattice(model, body) > 0) {
@@ -70,8 +72,9 @@ class CpuSolver final : public Solver {
 
   std::string_view backend() const override { return "cpu"; }
   std::string description() const override {
-    return fmt::format("cpu, {} thread{}, {}, single precision", workers_.threads(),
-                       workers_.threads() == 1 ? "" : "s", instruction_set());
+    return fmt::format("cpu, {} thread{}, {}, single precision{}", workers_.threads(),
+                       workers_.threads() == 1 ? "" : "s", instruction_set(),
+                       arithmetic_ == Arithmetic::fast ? ", fast arithmetic" : "");
   }
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return model_; }
@@ -97,11 +100,6 @@ class CpuSolver final : public Solver {
   Result<State> state() override;
 
  private:
-  static unsigned threads_for(const Model& model) {
-    const std::size_t worth = 2 * model.springs.size() / evaluations_per_thread;
-    return static_cast<unsigned>(std::clamp<std::size_t>(worth, 1, available_threads()));
-  }
-
   void cut_into_pieces();
   void set(const State& state);
   void step();
@@ -115,6 +113,7 @@ class CpuSolver final : public Solver {
   reference::Dynamics<float> dynamics_;
   reference::Balls<float> balls_;
   Workers workers_;
+  Arithmetic arithmetic_;
   std::vector<Springs> springs_;  // by body
   std::vector<Piece> pieces_;
   std::vector<std::vector<reference::RestingContact<float>>> resting_;  // by piece, for this step
@@ -219,7 +218,7 @@ void CpuSolver::move_piece(std::size_t n, const StageMove& stage) {
   const Forces forces = {{f[0], f[1], f[2]}};
   const Piece& piece = pieces_[n];
   const Vector g = dynamics_.gravity();
-  const ForceInput input = {stage.at, mass_.data(), {g.x(), g.y(), g.z()}};
+  const ForceInput input = {stage.at, mass_.data(), {g.x(), g.y(), g.z()}, arithmetic_};
   if (const auto* const lattice = std::get_if<Lattice>(&springs_[piece.body])) {
     lattice_forces(*lattice, input, piece.plane, piece.own, forces);
   } else {
@@ -328,12 +327,17 @@ class OneThread final : public Solver {
 }  // namespace parallel
 
 Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOptions& options) {
+  ASPIC_TRY(const unsigned available, parallel::available_threads());
   if (row_of(model.simulation.integrator).solved()) {
     ASPIC_TRY(auto reference, make_reference_solver(model, Precision::single));
     return std::unique_ptr<Solver>(std::make_unique<parallel::OneThread>(std::move(reference)));
   }
   try {
-    return std::unique_ptr<Solver>(std::make_unique<parallel::CpuSolver>(model, options));
+    const std::size_t worth = 2 * model.springs.size() / parallel::evaluations_per_thread;
+    const unsigned threads = options.threads > 0
+                                 ? options.threads
+                                 : static_cast<unsigned>(std::clamp<std::size_t>(worth, 1, available));
+    return std::unique_ptr<Solver>(std::make_unique<parallel::CpuSolver>(model, threads, options.arithmetic));
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::scene_rejected,
                 "no memory left for the cpu solver of {} particles: use fewer particles-per-edge",

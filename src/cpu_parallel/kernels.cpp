@@ -55,10 +55,40 @@ HWY_INLINE Mask mask_of(const std::uint16_t& word, std::size_t lane) {
   return hn::LoadMaskBits(tag, bits);
 }
 
+/// Constants of springs, one in each lane.
+struct Spring {
+  Float k, c, r, slack, nothing;  // as in Direction
+};
+
+/// a·b of fast arithmetic.
+HWY_INLINE Float fused_dot3(const Vector& a, const Vector& b) {
+  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
+}
+
+/// 1/√a in fast arithmetic. An estimate of n bits has 2n − 1 after a Newton step: x86 gives at least 11.
+HWY_INLINE Float fast_root(Float a) {
+  Float q = hn::ApproximateReciprocalSqrt(a);
+  for (int step = 0; step < (HWY_ARCH_X86 ? 1 : 2); ++step)
+    q = hn::Mul(hn::Mul(hn::Set(tag, 0.5f), q), hn::NegMulAdd(hn::Mul(a, q), q, hn::Set(tag, 3.0f)));
+  return q;
+}
+
+/// (k − q·(k·r − c·((v·e)·q)))·e with q = 1/|e|. A spring shorter than 1e-15 m counts as that long: e = 0
+/// gives no force and nothing that is not finite.
+HWY_INLINE Vector fast_spring(const Vector& e, const Vector& v, const Spring& of) {
+  const Float square = hn::Max(fused_dot3(e, e), hn::Set(tag, 1e-30f));
+  const Float q = fast_root(square);
+  const Float pull = hn::NegMulAdd(of.c, hn::Mul(fused_dot3(v, e), q), hn::Mul(of.k, of.r));
+  const Mask slack = hn::Lt(hn::Mul(square, q), of.slack);
+  return hn::IfThenZeroElse(slack, hn::NegMulAdd(q, pull, of.k)) * e;
+}
+
 /// What a spring takes off the force on its particle: ((s·q)·e), or `nothing` where it has no length or is
 /// slack.
-HWY_INLINE Vector spring(const Vector& e, const Vector& v, Float k, Float c, Float r, Float slack,
-                         Float nothing) {
+template <Arithmetic arithmetic>
+HWY_INLINE Vector spring(const Vector& e, const Vector& v, const Spring& of) {
+  if constexpr (arithmetic == Arithmetic::fast) return fast_spring(e, v, of);
+  const auto& [k, c, r, slack, nothing] = of;
   const Float L = hn::Sqrt(dot3(e, e));
   const Float q = hn::Div(hn::Set(tag, 1.0f), L);
   const Float s = hn::Add(hn::Mul(k, hn::Sub(L, r)), hn::Mul(c, hn::Mul(dot3(v, e), q)));
@@ -78,8 +108,9 @@ HWY_INLINE void store(const Vector& f, const Forces& forces, std::size_t at) {
   hn::StoreU(f.z, tag, forces.component[2] + at);
 }
 
-void LatticeForces(const Lattice& lattice, const ForceInput& input, std::size_t plane, Range range,
-                   const Forces& forces) {
+template <Arithmetic arithmetic>
+void lattice_forces_in(const Lattice& lattice, const ForceInput& input, std::size_t plane, Range range,
+                       const Forces& forces) {
   const auto planes = static_cast<int>(lattice.planes()), own = static_cast<int>(plane);
   const std::span<const Direction> directions = lattice.directions();
   const Particles& at = *input.at;
@@ -92,10 +123,10 @@ void LatticeForces(const Lattice& lattice, const ForceInput& input, std::size_t 
       const Direction& to = directions[d];
       if (neighbours[d] == 0 || own + to.planes < 0 || own + to.planes >= planes) continue;
       const std::size_t other = p + static_cast<std::size_t>(to.step);
-      const Vector pull =
-          spring(x - load(at.x, other), v - load(at.v, other), hn::Set(tag, to.constants.stiffness),
-                 hn::Set(tag, to.constants.damping), hn::Set(tag, to.constants.rest_length),
-                 hn::Set(tag, to.constants.slack), hn::Set(tag, to.nothing));
+      const Spring of = {hn::Set(tag, to.constants.stiffness), hn::Set(tag, to.constants.damping),
+                         hn::Set(tag, to.constants.rest_length), hn::Set(tag, to.constants.slack),
+                         hn::Set(tag, to.nothing)};
+      const Vector pull = spring<arithmetic>(x - load(at.x, other), v - load(at.v, other), of);
       f = chosen(mask_of(neighbours[d], m % slice), f - pull, f);
     }
     store(f, forces, n);
@@ -107,7 +138,8 @@ HWY_INLINE Vector gathered(const VectorArray& a, hn::Vec<hn::RebindToSigned<Tag>
           hn::GatherIndex(tag, a[2].data(), i)};
 }
 
-void ListedForces(const SpringLists& lists, const ForceInput& input, Range range, const Forces& forces) {
+template <Arithmetic arithmetic>
+void listed_forces_in(const SpringLists& lists, const ForceInput& input, Range range, const Forces& forces) {
   const hn::RebindToSigned<Tag> index_tag;
   const Particles& at = *input.at;
   for (std::size_t n = 0; n < range.count; n += lanes) {
@@ -117,16 +149,29 @@ void ListedForces(const SpringLists& lists, const ForceInput& input, Range range
     for (const SpringLists::Slot& slot : lists.slots(local / slice)) {
       const auto other = hn::LoadU(index_tag, slot.neighbour.data() + lane);
       const auto kind = hn::LoadU(index_tag, slot.spring_class.data() + lane);
-      const Vector pull = spring(x - gathered(at.x, other), v - gathered(at.v, other),
-                                 hn::GatherIndex(tag, lists.stiffness().data(), kind),
-                                 hn::GatherIndex(tag, lists.damping().data(), kind),
-                                 hn::GatherIndex(tag, lists.rest_length().data(), kind),
-                                 hn::GatherIndex(tag, lists.slack().data(), kind),
-                                 hn::LoadU(tag, slot.nothing.data() + lane));
+      const Spring of = {hn::GatherIndex(tag, lists.stiffness().data(), kind),
+                         hn::GatherIndex(tag, lists.damping().data(), kind),
+                         hn::GatherIndex(tag, lists.rest_length().data(), kind),
+                         hn::GatherIndex(tag, lists.slack().data(), kind),
+                         hn::LoadU(tag, slot.nothing.data() + lane)};
+      const Vector pull = spring<arithmetic>(x - gathered(at.x, other), v - gathered(at.v, other), of);
       f = chosen(mask_of(slot.present, lane), f - pull, f);
     }
     store(f, forces, n);
   }
+}
+
+void LatticeForces(const Lattice& lattice, const ForceInput& input, std::size_t plane, Range range,
+                   const Forces& forces) {
+  if (input.arithmetic == Arithmetic::fast)
+    return lattice_forces_in<Arithmetic::fast>(lattice, input, plane, range, forces);
+  lattice_forces_in<Arithmetic::exact>(lattice, input, plane, range, forces);
+}
+
+void ListedForces(const SpringLists& lists, const ForceInput& input, Range range, const Forces& forces) {
+  if (input.arithmetic == Arithmetic::fast)
+    return listed_forces_in<Arithmetic::fast>(lists, input, range, forces);
+  listed_forces_in<Arithmetic::exact>(lists, input, range, forces);
 }
 
 /// Reads and writes vectors of up to `lanes` particles: neighbouring particles may be another thread's.

@@ -1,7 +1,7 @@
 #pragma once
 // The inner loops, compiled for every instruction set of the processor's family and chosen at run time
-// (Highway). All of them give the same bits: each lane does what the reference does for one particle, in the
-// same order, without fused multiply-add.
+// (Highway). In exact arithmetic all of them give the same bits: each lane does what the reference does for
+// one particle, in the same order, without fused multiply-add.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -9,6 +9,7 @@
 #include "cpu_parallel/particles.h"
 #include "cpu_parallel/springs.h"
 #include "model/integrator.h"
+#include "model/solver.h"
 
 namespace aspic::parallel {
 
@@ -22,6 +23,7 @@ struct ForceInput {
   const Particles* at;  ///< the stage at which forces are taken
   const float* mass;    ///< [kg]
   float gravity[3];     ///< [m/s²]
+  Arithmetic arithmetic = Arithmetic::exact;
 };
 
 /// m·g and the springs of the particles first … first + count − 1 of one plane of a cube; `first` is a

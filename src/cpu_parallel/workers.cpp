@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "base/printable.h"
+
 namespace aspic::parallel {
 namespace {
 
@@ -72,19 +74,22 @@ void Workers::work() {
   }
 }
 
-unsigned available_threads() {
-  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0)
-    threads = std::max(1u, static_cast<unsigned>(CPU_COUNT(&set)));
-  if (const char* text = std::getenv("ASPIC_THREADS")) {
+Result<unsigned> available_threads() {
+  if (const char* const text = std::getenv("ASPIC_THREADS")) {
     const std::string_view word = text;
     unsigned asked = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), asked);
-    if (error == std::errc{} && end == word.data() + word.size() && asked >= 1 && asked <= 1024)
-      threads = asked;
+    if (error == std::errc{} && end == word.data() + word.size() && asked >= 1 && asked <= 1024) return asked;
+    return fail(
+        ErrorCode::usage,
+        "ASPIC_THREADS is \"{}\", which is not a number of threads: set a whole number from 1 to 1024, "
+        "or unset it.",
+        printable_line(word));
   }
-  return threads;
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0)
+    return std::max(1u, static_cast<unsigned>(CPU_COUNT(&set)));
+  return std::max(1u, std::thread::hardware_concurrency());
 }
 
 }  // namespace aspic::parallel

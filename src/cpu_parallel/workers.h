@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/result.h"
+
 namespace aspic::parallel {
 
 class Workers {
@@ -37,8 +39,8 @@ class Workers {
   std::atomic<bool> ending_ = false;
 };
 
-/// Threads this process may run at once: its share of the processors (sched_getaffinity), or
-/// ASPIC_THREADS where that is a number from 1 to 1024.
-unsigned available_threads();
+/// Threads this process may run at once: ASPIC_THREADS where that is set, else its share of the processors
+/// (sched_getaffinity). Error (usage): ASPIC_THREADS is not a whole number from 1 to 1024.
+Result<unsigned> available_threads();
 
 }  // namespace aspic::parallel
