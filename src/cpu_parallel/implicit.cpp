@@ -230,7 +230,7 @@ void ImplicitEuler::meet_ground(Block& block, const BlockVectors& free, const Bl
     gaps.clear();
     for (const reference::Ground<float>& ground : dynamics_.grounds())
       gaps.push_back(reference::gap<float>(ground, ground.start, parallel::vector_of(start_->x, i)));
-    const auto reaction = ahead_.react(gaps.data(), mass_[i], vector_of(free, n));
+    const auto reaction = ahead_.react_to(gaps.data(), mass_[i], vector_of(free, n));
     if (reaction.freedom == reference::Freedom::all) continue;
     const Vector residual = parallel::vector_of(end_->v, i) - reaction.v;
     const Vector prescribed = -reaction.held_part(residual);

@@ -104,11 +104,11 @@ class GroundAhead {
   /// which none is crossed and none pulls: without friction, the nearest velocity that crosses none. One more
   /// round looks whether a later terrain has pushed the particle through an earlier one.
   GroundReaction<T> react(Eigen::Index i, T m, const Vector<T>& v) const {
-    return react(&gaps_[static_cast<std::size_t>(i) * grounds_.size()], m, v);
+    return react_to(&gaps_[static_cast<std::size_t>(i) * grounds_.size()], m, v);
   }
 
   /// The same of a particle with the `gaps` to every terrain at the step's start.
-  GroundReaction<T> react(const Gap<T>* gaps, T m, const Vector<T>& v) const {
+  GroundReaction<T> react_to(const Gap<T>* gaps, T m, const Vector<T>& v) const {
     GroundReaction<T> reaction(v);
     for (int round = 0; round < 2; ++round) {
       for (std::size_t t = 0; t < grounds_.size(); ++t) {
