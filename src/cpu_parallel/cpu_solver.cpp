@@ -9,12 +9,12 @@
 #include <variant>
 
 #include "cpu_parallel/contact_pieces.h"
+#include "cpu_parallel/implicit.h"
 #include "cpu_parallel/kernels.h"
 #include "cpu_parallel/springs.h"
 #include "cpu_parallel/workers.h"
 #include "cpu_reference/balls.h"
 #include "cpu_reference/divergence.h"
-#include "cpu_reference/reference_solver.h"
 
 namespace aspic {
 namespace parallel {
@@ -32,8 +32,6 @@ struct Piece {
   Range own;          ///< within the plane or the body
   Range range;        ///< within all particles
 };
-
-using Springs = std::variant<Lattice, SpringLists>;
 
 class CpuSolver final : public Solver {
  public:
@@ -67,6 +65,9 @@ class CpuSolver final : public Solver {
       mass_[i] = static_cast<float>(model.mass[i]);
       inverse_mass_[i] = static_cast<float>(model.inverse_mass[i]);
     }
+    if (method_.solved())
+      implicit_ =
+          std::make_unique<ImplicitEuler>(model, dynamics_, springs_, mass_, inverse_mass_, margin, workers_);
     set(initial_state(model, Precision::single));
   }
 
@@ -74,7 +75,7 @@ class CpuSolver final : public Solver {
   std::string description() const override {
     return fmt::format("cpu, {} thread{}, {}, single precision{}", workers_.threads(),
                        workers_.threads() == 1 ? "" : "s", instruction_set(),
-                       arithmetic_ == Arithmetic::fast ? ", fast arithmetic" : "");
+                       arithmetic_ == Arithmetic::fast && !implicit_ ? ", fast arithmetic" : "");
   }
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return model_; }
@@ -97,12 +98,18 @@ class CpuSolver final : public Solver {
     return divergence_;
   }
 
+  std::optional<SolveStatistics> solve_statistics() override {
+    if (!implicit_) return std::nullopt;
+    return statistics_;
+  }
+
   Result<State> state() override;
 
  private:
   void cut_into_pieces();
   void set(const State& state);
   void step();
+  void run_stages();
   void move_piece(std::size_t n, const StageMove& stage);
   void add_contact(std::size_t n, const StageMove& stage, const Forces& forces);
   void respond(const Range& range);
@@ -116,6 +123,8 @@ class CpuSolver final : public Solver {
   Arithmetic arithmetic_;
   std::vector<Springs> springs_;  // by body
   std::vector<Piece> pieces_;
+  std::unique_ptr<ImplicitEuler> implicit_;  // for that method alone
+  SolveStatistics statistics_;
   std::vector<std::vector<reference::RestingContact<float>>> resting_;  // by piece, for this step
   FloatArray mass_, inverse_mass_;
   Particles state_, next_, between_, sums_;
@@ -154,6 +163,7 @@ void CpuSolver::set(const State& state) {
                  reference::field<float>(state.ball_angular_velocity)};
   step_ = state.step;
   divergence_.reset();
+  statistics_ = {};
 }
 
 Result<State> CpuSolver::state() {
@@ -173,10 +183,8 @@ Result<State> CpuSolver::state() {
   return state;
 }
 
-void CpuSolver::step() {
+void CpuSolver::run_stages() {
   const double h = model_.simulation.timestep;
-  dynamics_.begin_step(step_);
-  sound_.store(true, std::memory_order_relaxed);
   Particles* at = &state_;
   bool accumulate = false;
   for (std::size_t s = 0; s < method_.stages.size(); ++s) {
@@ -199,14 +207,28 @@ void CpuSolver::step() {
     accumulate = accumulate || stage.weight != 0.0;
     at = to;
   }
+}
+
+void CpuSolver::step() {
+  dynamics_.begin_step(step_);
+  sound_.store(true, std::memory_order_relaxed);
+  SolveReport report;
+  if (implicit_) {
+    sound_ = implicit_->step(state_, next_, report);
+  } else {
+    run_stages();
+  }
   if (model_.ball_count() > 0) move_balls();
   if (!sound_.load(std::memory_order_relaxed) || model_.ball_count() > 0) {
     divergence_ = reference::find_divergence<float>(
         model_, [&](Eigen::Index i) { return vector_of(next_.x, static_cast<std::size_t>(i)); },
         [&](Eigen::Index i) { return vector_of(next_.v, static_cast<std::size_t>(i)); }, next_balls_,
         step_ + 1);
-    if (divergence_) return;
   }
+  if (!divergence_ && !std::isfinite(report.residual))
+    divergence_ = Divergence{step_ + 1, 0, false, false, true};
+  if (divergence_) return;
+  if (implicit_) statistics_.add(report);
   std::swap(state_, next_);
   if (model_.ball_count() > 0) std::swap(ball_phase_, next_balls_);
   ++step_;
@@ -302,36 +324,11 @@ void CpuSolver::move_balls() {
   }
 }
 
-/// Implicit Euler: the reference's solve, on one thread.
-class OneThread final : public Solver {
- public:
-  explicit OneThread(std::unique_ptr<Solver> reference) : reference_(std::move(reference)) {}
-  std::string_view backend() const override { return "cpu"; }
-  std::string description() const override { return "cpu, one thread for implicit Euler, single precision"; }
-  Precision precision() const override { return reference_->precision(); }
-  const Model& model() const override { return reference_->model(); }
-  std::uint64_t bytes() const override { return reference_->bytes(); }
-  Status load(const State& state) override { return reference_->load(state); }
-  Status set_pull(const std::optional<Pull>& pull) override { return reference_->set_pull(pull); }
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
-    return reference_->advance(steps);
-  }
-  std::optional<SolveStatistics> solve_statistics() override { return reference_->solve_statistics(); }
-  Result<State> state() override { return reference_->state(); }
-
- private:
-  std::unique_ptr<Solver> reference_;
-};
-
 }  // namespace
 }  // namespace parallel
 
 Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOptions& options) {
   ASPIC_TRY(const unsigned available, parallel::available_threads());
-  if (row_of(model.simulation.integrator).solved()) {
-    ASPIC_TRY(auto reference, make_reference_solver(model, Precision::single));
-    return std::unique_ptr<Solver>(std::make_unique<parallel::OneThread>(std::move(reference)));
-  }
   try {
     const std::size_t worth = 2 * model.springs.size() / parallel::evaluations_per_thread;
     const unsigned threads = options.threads > 0
@@ -347,11 +344,12 @@ Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOpt
 
 std::uint64_t cpu_bytes(const ModelCounts& counts, Integrator integrator) {
   const IntegratorRow& method = row_of(integrator);
-  if (method.solved()) return reference_bytes(counts, Precision::single);
   // Start and end of a step, for several stages also the one between and the sums; mass and inverse mass.
   // Lists of springs are counted as those of a net, six places a particle; cubes have none.
   const std::uint64_t sets = method.stages.size() > 1 ? 4 : 2;
-  return counts.particles * sizeof(float) * (6 * sets + 2) + counts.balls * sizeof(float) * (3 * 17 + 7);
+  const std::uint64_t solve = method.solved() ? parallel::ImplicitEuler::bytes(counts) : 0;
+  return counts.particles * sizeof(float) * (6 * sets + 2) + counts.balls * sizeof(float) * (3 * 17 + 7) +
+         solve;
 }
 
 }  // namespace aspic
