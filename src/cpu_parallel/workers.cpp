@@ -15,6 +15,8 @@ namespace {
 /// Looks at a value before a thread goes to sleep over it: a few microseconds, less than waking up takes.
 constexpr int looks = 2000;
 
+thread_local unsigned current_thread = 0;
+
 void pause() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
@@ -33,7 +35,7 @@ void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
 }  // namespace
 
 Workers::Workers(unsigned threads) {
-  for (unsigned n = 1; n < threads; ++n) others_.emplace_back([this] { work(); });
+  for (unsigned n = 1; n < threads; ++n) others_.emplace_back([this, n] { work(n); });
 }
 
 Workers::~Workers() {
@@ -57,13 +59,18 @@ void Workers::run(std::size_t pieces, const std::function<void(std::size_t)>& ta
     wait_while(finished_, n);
 }
 
+unsigned Workers::current() {
+  return current_thread;
+}
+
 void Workers::take_pieces() {
   for (std::size_t n = next_.fetch_add(1, std::memory_order_relaxed); n < pieces_;
        n = next_.fetch_add(1, std::memory_order_relaxed))
     (*task_)(n);
 }
 
-void Workers::work() {
+void Workers::work(unsigned index) {
+  current_thread = index;
   for (std::uint32_t round = 0;;) {
     wait_while(round_, round);
     ++round;

@@ -21,13 +21,15 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
   unsigned threads() const { return static_cast<unsigned>(others_.size()) + 1; }
+  /// Which of them a task runs on, from 0.
+  static unsigned current();
 
   /// Calls task(n) for every n below `pieces`, in any order and on any thread, and returns when all are done.
   /// What the pieces wrote is visible then. The task must not throw.
   void run(std::size_t pieces, const std::function<void(std::size_t)>& task);
 
  private:
-  void work();
+  void work(unsigned index);
   void take_pieces();
 
   std::vector<std::jthread> others_;

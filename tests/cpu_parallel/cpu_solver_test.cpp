@@ -249,6 +249,7 @@ ModelSettings everything(Integrator integrator, ContactModel contact) {
   settings.cubes[0].pinned.names = {"left-top-front"};
   settings.goal_nets.emplace_back().cord = true;
   settings.goal_nets[0].position = {6.0, 1.4, 0.0};
+  settings.goal_nets[0].particles = {3, 6, 7};
   settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
   return settings;
 }
