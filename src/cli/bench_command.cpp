@@ -19,7 +19,8 @@ using Clock = std::chrono::steady_clock;
 
 /// One line of the table: a backend with a scene of one size and integrator, measured several times.
 struct Measurement {
-  std::string backend, force_path, device;
+  std::string backend, variant, force_path, device;
+  Arithmetic arithmetic = Arithmetic::exact;
   Integrator integrator = Integrator::explicit_euler;
   int size = 0;  ///< particles per edge of the first cube; 0 without cubes
   std::uint64_t particles = 0, springs = 0, bytes = 0;
@@ -97,7 +98,9 @@ Result<Measurement> measure_case(const BenchOptions& options, const Scene& scene
 
   Measurement m;
   m.backend = backend.row->name;
+  m.variant = backend.variant();
   m.force_path = backend.force_path;
+  m.arithmetic = backend.arithmetic;
   m.device = backend.device;
   m.integrator = model.simulation.integrator;
   m.size = settings.cubes.empty() ? 0 : settings.cubes.front().particles_per_edge;
@@ -124,6 +127,7 @@ Result<Measurement> measure_case(const BenchOptions& options, const Scene& scene
 Json to_json(const Measurement& m) {
   Json object = {{"backend", m.backend},
                  {"force_path", or_null(m.force_path)},
+                 {"arithmetic", name_of(m.arithmetic)},
                  {"renderer", m.device},
                  {"integrator", name_of(m.integrator)},
                  {"size", m.size},
@@ -146,9 +150,8 @@ Json to_json(const Measurement& m) {
 }
 
 std::string table_line(const Measurement& m) {
-  const std::string name = m.force_path.empty() ? m.backend : m.backend + ":" + m.force_path;
-  std::string line = fmt::format("{:<15} {:<23} {:>4} {:>10} {:>11.4g}", name, name_of(m.integrator), m.size,
-                                 m.springs, m.timestep);
+  std::string line = fmt::format("{:<15} {:<23} {:>4} {:>10} {:>11.4g}", m.variant, name_of(m.integrator),
+                                 m.size, m.springs, m.timestep);
   if (m.divergence) return line + fmt::format("  diverged in step {}\n", m.divergence->step);
   return line + fmt::format(" {:>10.4g} {:>13.3g} {:>12.4g} {:>7.0f}% {:>9.1f}\n", m.steps_per_second(),
                             m.spring_evaluations_per_second(), m.seconds_per_simulated_second(),
@@ -200,7 +203,7 @@ Status execute(const BenchOptions& options) {
   std::string text = fmt::format("{}, {} repeats each, medians\n", loaded.name, options.repeats);
   std::vector<std::string> devices;
   for (const Measurement& m : measurements) {
-    const std::string device = fmt::format("{}: {}\n", m.backend, m.device);
+    const std::string device = fmt::format("{}: {}\n", m.variant, m.device);
     if (std::find(devices.begin(), devices.end(), device) == devices.end()) devices.push_back(device);
   }
   for (const std::string& device : devices) text += device;
