@@ -36,6 +36,8 @@ class Bullet {
     body_->m_cfg.kDP = 0;
     body_->m_cfg.collisions = 0;
     world_.addSoftBody(body_);
+    // The first step takes the rest lengths from the positions it finds: before the start is stretched.
+    advance(1);
     load();
   }
   Bullet(const Bullet&) = delete;

@@ -1,8 +1,8 @@
 """The lattice in MuJoCo's flex: a flex of dimension one whose elements are the springs, each with MuJoCo's own passive
 stiffness and damping of edges; every particle is a body that slides along three axes."""
-import mujoco
-
 from peer import converse
+
+import mujoco
 
 
 class Peer:

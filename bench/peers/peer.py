@@ -8,6 +8,10 @@ import time
 
 import numpy
 
+# Libraries greet on standard output, which is for the conversation.
+answers = os.fdopen(os.dup(1), "w")
+os.dup2(2, 1)
+
 
 def offsets():
     """The springs of a particle to neighbours of higher index: docs/physics.md, section 2."""
@@ -61,9 +65,6 @@ def converse(make):
     for name in ("edge", "height", "mass", "stiffness", "damping", "timestep", "gravity", "stretch"):
         parser.add_argument("--" + name, type=float, required=True)
     lattice = Lattice(parser.parse_args())
-    # Libraries greet on standard output, which is for the conversation.
-    answers = os.fdopen(os.dup(1), "w")
-    os.dup2(2, 1)
 
     def say(line):
         answers.write(json.dumps(line) + "\n")

@@ -2,9 +2,9 @@
 grid, at offsets known when the kernel is compiled."""
 import math
 
-import taichi as ti
-
 from peer import converse, offsets
+
+import taichi as ti
 
 
 class Peer:

@@ -2,10 +2,10 @@
 forces of both ends, and a kernel that moves the particles."""
 import os
 
+from peer import converse
+
 import numpy
 import warp as wp
-
-from peer import converse
 
 
 @wp.kernel

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <map>
 #include <thread>
-#include <tuple>
+#include <utility>
 
 #include "cli/bench.h"
 
@@ -121,14 +121,14 @@ double Measurement::quantile(double q) const {
 }
 
 void compare_rows(std::vector<Measurement>& rows) {
-  std::map<std::tuple<std::string, Integrator, double>, double> first_of_name;
+  std::map<std::pair<std::string, Integrator>, double> first_of_name;
   const Measurement* first = nullptr;  // of this size and integrator: never a peer
   for (Measurement& m : rows) {
     if (!m.peer && (!first || first->size != m.size || first->integrator != m.integrator)) first = &m;
     if (!m.counts()) continue;
     const double throughput = m.spring_evaluations_per_second();
     if (!(throughput > 0.0)) continue;  // a scene without springs
-    const auto [earlier, is_first] = first_of_name.try_emplace({m.name, m.integrator, 0.0}, throughput);
+    const auto [earlier, is_first] = first_of_name.try_emplace({m.name, m.integrator}, throughput);
     m.growth = earlier->second / throughput;
     if (first && first->counts()) m.ratio = first->spring_evaluations_per_second() / throughput;
   }
