@@ -6,6 +6,7 @@
 #include <hwy/targets.h>
 
 #include <cstring>
+#include <set>
 
 #include "cpu_parallel/contact_pieces.h"
 #include "cpu_parallel/kernels.h"
@@ -23,13 +24,6 @@ using benchmark::State;
 /// Particles handled at a time, as by the cpu solver.
 constexpr std::size_t piece = 1024;
 
-struct InstructionSet {
-  const char* name;
-  std::int64_t target;
-};
-constexpr InstructionSet instruction_sets[] = {
-    {"SSE2", HWY_SSE2}, {"AVX2", HWY_AVX2}, {"AVX3", HWY_AVX3}};
-
 /// Until the end of its life only this instruction set is used.
 class Only {
  public:
@@ -46,7 +40,6 @@ struct Body {
 
   explicit Body(const ModelSettings& settings) : model(*build_model(settings)) {
     const std::size_t count = model.particle_count(), margin = count;
-    at = next = parallel::Particles();
     at = parallel::Particles(count, margin);
     next = parallel::Particles(count, margin);
     mass = parallel::FloatArray(count, parallel::slice);
@@ -95,8 +88,8 @@ void lattice_forces(State& state, std::int64_t target, int n) {
   for (auto _ : state) {
     for (std::size_t plane = 0; plane < lattice.planes(); ++plane) {
       for (std::size_t i = 0; i < lattice.plane_size(); i += piece)
-        parallel::lattice_forces(lattice, cube.input(), plane,
-                                 {i, std::min(piece, lattice.plane_size() - i)}, cube.forces());
+        parallel::lattice_forces(lattice, cube.input(), plane, {i, std::min(piece, lattice.plane_size() - i)},
+                                 cube.forces());
     }
     benchmark::ClobberMemory();
   }
@@ -118,9 +111,8 @@ void listed_forces(State& state, std::int64_t target) {
 void move(State& state, std::int64_t target) {
   Body cube(cube_settings(40));
   const Only only(target);
-  const parallel::StageMove stage = {&cube.at, &cube.at, &cube.next, nullptr, cube.inverse_mass.data(),
-                                     0.0f,     1.0f,     1e-3f,      false,   true,
-                                     Drift::stage_velocity};
+  const parallel::StageMove stage = {&cube.at, &cube.at, &cube.next, nullptr, cube.inverse_mass.data(), 0.0f,
+                                     1.0f,     1e-3f,    false,      true,    Drift::stage_velocity};
   for (auto _ : state) {
     cube.for_each_piece([&](parallel::Range range) { parallel::move(stage, range, cube.forces()); });
     benchmark::ClobberMemory();
@@ -182,8 +174,7 @@ void reduction(State& state) {
 /// Lists of a body's springs by particle, as the gpu needs them.
 void incident_lists(State& state) {
   const Body cube(cube_settings(static_cast<int>(state.range(0))));
-  for (auto _ : state)
-    benchmark::DoNotOptimize(incident_springs(cube.model, IncidentWords::neighbours));
+  for (auto _ : state) benchmark::DoNotOptimize(incident_springs(cube.model, IncidentWords::neighbours));
   count_items(state, "springs", count(cube.model).springs());
 }
 
@@ -209,14 +200,20 @@ void rate(State& state, std::int64_t target, bench::Operation operation) {
 void register_all() {
   using bench::Operation;
   constexpr std::pair<const char*, Operation> operations[] = {
-      {"add", Operation::add},   {"multiply", Operation::multiply}, {"fused", Operation::fused},
-      {"root", Operation::root}, {"quotient", Operation::quotient}, {"reciprocal_root", Operation::reciprocal_root}};
-  const std::int64_t usable = hwy::SupportedTargets();
-  for (const InstructionSet& set : instruction_sets) {
-    const std::int64_t target = set.target;
-    if ((usable & target) == 0) continue;
+      {"add", Operation::add},           {"multiply", Operation::multiply},
+      {"fused", Operation::fused},       {"root", Operation::root},
+      {"quotient", Operation::quotient}, {"reciprocal_root", Operation::reciprocal_root}};
+  std::set<std::string> names;
+  for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+    const std::int64_t target = targets & -targets;
+    const std::string set = [&] {
+      const Only only(target);
+      return std::string(parallel::instruction_set());
+    }();
+    // The kernels are not compiled for all that the processor has.
+    if (set != hwy::TargetName(target) || !names.insert(set).second) continue;
     const auto add = [&](const std::string& name, auto run) {
-      benchmark::RegisterBenchmark(fmt::format("{}/{}", name, set.name).c_str(), run);
+      benchmark::RegisterBenchmark(fmt::format("{}/{}", name, set).c_str(), run);
     };
     for (const int n : {10, 40, 100})
       add(fmt::format("lattice_forces/{}", n), [=](State& s) { lattice_forces(s, target, n); });

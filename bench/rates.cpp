@@ -2,7 +2,7 @@
 
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "rates.cpp"
+#define HWY_TARGET_INCLUDE "../bench/rates.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -35,11 +35,16 @@ std::size_t Rounds(std::size_t rounds, const Apply& apply) {
 std::size_t Repeat(Operation operation, std::size_t rounds) {
   const Float one = hn::Set(tag, 1.000001f), little = hn::Set(tag, 1e-7f);
   switch (operation) {
-    case Operation::add: return Rounds(rounds, [&](Float x) { return hn::Add(x, little); });
-    case Operation::multiply: return Rounds(rounds, [&](Float x) { return hn::Mul(x, one); });
-    case Operation::fused: return Rounds(rounds, [&](Float x) { return hn::MulAdd(x, one, little); });
-    case Operation::root: return Rounds(rounds, [&](Float x) { return hn::Sqrt(x); });
-    case Operation::quotient: return Rounds(rounds, [&](Float x) { return hn::Div(one, x); });
+    case Operation::add:
+      return Rounds(rounds, [&](Float x) { return hn::Add(x, little); });
+    case Operation::multiply:
+      return Rounds(rounds, [&](Float x) { return hn::Mul(x, one); });
+    case Operation::fused:
+      return Rounds(rounds, [&](Float x) { return hn::MulAdd(x, one, little); });
+    case Operation::root:
+      return Rounds(rounds, [&](Float x) { return hn::Sqrt(x); });
+    case Operation::quotient:
+      return Rounds(rounds, [&](Float x) { return hn::Div(one, x); });
     case Operation::reciprocal_root:
       return Rounds(rounds, [&](Float x) { return hn::ApproximateReciprocalSqrt(x); });
   }

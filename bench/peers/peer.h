@@ -78,6 +78,8 @@ int converse(int argc, char** argv, const Make& make) {
   Lattice lattice;
   int threads = 1;
   CLI::App app("A peer of aspic bench: bench/peers/README.md");
+  // Words of peers.txt come before those of aspic, and win.
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeFirst);
   app.add_option("--size", lattice.n)->required();
   app.add_option("--edge", lattice.edge)->required();
   app.add_option("--height", lattice.height)->required();

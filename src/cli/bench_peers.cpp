@@ -20,10 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The check: a small cube, far from all ground and close to the origin, where single precision is finest,
-/// starts stretched by a hundredth and is let go for 50 steps.
+/// starts stretched by a twentieth and is let go for 50 steps.
 constexpr int check_size = 6;
 constexpr std::uint64_t check_steps = 50;
-constexpr double check_stretch = 1.01;
+constexpr double check_stretch = 1.05;
 
 /// What a peer says of itself.
 struct Hello {
@@ -112,19 +112,21 @@ double fall(Integrator integrator, const PeerLattice& l, std::uint64_t steps) {
   return l.gravity * l.timestep * l.timestep * sum;
 }
 
-/// How far single precision may take a particle from where exact arithmetic has it after n steps [m]. With
-/// u = 2⁻²⁴, each step rounds the position, u·X, and the velocity: u·V, and h/m times the error of the force,
-/// eight roundings for each of up to 32 springs whose terms are below k·2s·√3 and c·V; or, where velocities
-/// are differences of positions, 2·u·X/h. Errors of the velocity act on all later positions. The factor 2 is
-/// for what the damped lattice makes of an error before it decays.
-double rounding_bound(const PeerLattice& l, int size, std::uint64_t steps, bool velocities_from_positions) {
+/// How far single precision may take a particle from where exact arithmetic has it after n steps [m], from a
+/// start stretched by `strain`. With u = 2⁻²⁴, a step rounds the position, u·X, the velocity, u·V, and the
+/// forces of up to 32 springs of lengths up to 2s: five roundings of a length, which count k times, and six
+/// of the tension itself. Where velocities are differences of positions they are off by 2u·X/h. An error of
+/// the velocity acts on all later positions. The factor 2 is for what the damped lattice makes of an error
+/// before it decays.
+double rounding_bound(const PeerLattice& l, int size, std::uint64_t steps, double strain,
+                      bool velocities_from_positions) {
   const double u = std::ldexp(1.0, -24), h = l.timestep, n = static_cast<double>(steps);
-  const double V = l.gravity * h * n + 0.01 * l.edge * std::sqrt(l.stiffness / l.mass);
-  // Coordinates between two powers of two are as coarse as the larger one.
-  const double reach = std::abs(l.height) + l.edge + V * h * n, X = std::exp2(std::ceil(std::log2(reach)));
-  const double longest = 2.0 * std::sqrt(3.0) * l.edge / (size - 1);
-  double velocity = u * V + h / l.mass * 32 * 8 * u * (l.stiffness * longest + l.damping * V);
-  if (velocities_from_positions) velocity += 2 * u * X / h;
+  const double longest = 2.0 * l.edge / (size - 1), stretch = strain * longest;
+  // The lattice's fastest vibration is at most √(18k/m) (docs/physics.md, section 2).
+  const double V = l.gravity * h * n + stretch * std::sqrt(18.0 * l.stiffness / l.mass);
+  const double X = std::abs(l.height) + 0.5 * l.edge * (1.0 + strain) + V * h * n;
+  const double force = 32 * u * (5 * l.stiffness * longest + 6 * (l.stiffness * stretch + l.damping * V));
+  const double velocity = u * V + h / l.mass * force + (velocities_from_positions ? 2 * u * X / h : 0.0);
   return 2 * (n * u * X + n * h * n * velocity / 2);
 }
 
@@ -160,7 +162,8 @@ Result<PeerCheck> checked(const PeerProgram& program, const ModelSettings& setti
   PeerCheck check;
   check.steps = check_steps;
   const double fallen = fall(hello.integrator, lattice, check_steps);
-  const double rounding = rounding_bound(lattice, check_size, check_steps, hello.velocities_from_positions);
+  const double rounding =
+      rounding_bound(lattice, check_size, check_steps, check_stretch - 1.0, hello.velocities_from_positions);
   double moved = 0.0, height = 0.0;  // moved: by springs alone
   const double spacing = lattice.edge / (check_size - 1);
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -189,7 +192,7 @@ class PeerContestant final : public Contestant {
     const Hello& hello = peer_.hello();
     const double off =
         std::abs(answer.value("height", 0.0) - lattice_.height + fall(hello.integrator, lattice_, steps));
-    const double bound = rounding_bound(lattice_, m.size, steps, hello.velocities_from_positions);
+    const double bound = rounding_bound(lattice_, m.size, steps, 0.0, hello.velocities_from_positions);
     if (!(off <= bound) && m.peer->passed)
       m.peer = PeerCheck{false, steps, m.peer->deviation, m.peer->bound, off, bound};
     return answer.value("seconds", 0.0);
