@@ -90,7 +90,7 @@ class CpuSolver final : public Solver {
   }
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
-    for (std::uint64_t n = 0; n < steps && !divergence_; ++n) step();
+    for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) step();
     return divergence_;
   }
 
@@ -196,10 +196,13 @@ void CpuSolver::step() {
                             accumulate,
                             last,
                             method_.drift};
-    workers_.run(pieces_.size(), [&](std::size_t n) { move_piece(n, move); });
+    workers_.run(pieces_.size(), [&](std::size_t n) {
+      if (!interrupted()) move_piece(n, move);
+    });
     accumulate = accumulate || stage.weight != 0.0;
     at = to;
   }
+  if (interrupted()) return;
   if (model_.ball_count() > 0) move_balls();
   if (!sound_.load(std::memory_order_relaxed) || model_.ball_count() > 0) {
     divergence_ = reference::find_divergence<float>(
@@ -314,6 +317,7 @@ class OneThread final : public Solver {
   std::uint64_t bytes() const override { return reference_->bytes(); }
   Status load(const State& state) override { return reference_->load(state); }
   Status set_pull(const std::optional<Pull>& pull) override { return reference_->set_pull(pull); }
+  void heed(const std::atomic<bool>* flag) override { reference_->heed(flag); }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     return reference_->advance(steps);
   }

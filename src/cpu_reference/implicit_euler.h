@@ -253,7 +253,7 @@ Field<T> ImplicitEuler<T>::solve(const Evaluation& at, T forcing, std::uint32_t&
   T rz = dot(r, z);
   if (at.prescribes && !(rz > T(0))) return delta;
   const T enough = (forcing * forcing) * rz;
-  for (std::uint32_t n = 0; n < max_cg_; ++n) {
+  for (std::uint32_t n = 0; n < max_cg_ && !dynamics_.interrupted(); ++n) {
     const Field<T> q = apply(at, p);
     const T pq = dot(p, q);
     ++iterations;
@@ -299,7 +299,7 @@ Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
       report.end = SolveEnd::stagnated;
       break;
     }
-    if (report.newton_iterations == max_newton_) break;
+    if (report.newton_iterations == max_newton_ || dynamics_.interrupted()) break;
     const Field<T> delta = solve(at, forcing, report.cg_iterations);
     ++report.newton_iterations;
     // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down. R bends where a particle meets
