@@ -98,7 +98,7 @@ void Simulation::build(Change& change) {
 Status Simulation::change_setup(Setup setup, bool keep_state) {
   // Another start has no use for the end of a way through history.
   if (!keep_state) seek_.reset();
-  ASPIC_CHECK(arrive());
+  ASPIC_CHECK(halt(true));
   Change change = begin_change(std::move(setup), keep_state);
   build(change);
   return finish_change(std::move(change));
@@ -227,7 +227,7 @@ std::optional<DeviceState> Simulation::device_state() const {
 // ---- hands ----
 
 Status Simulation::toggle_pin(std::uint32_t particle) {
-  ASPIC_CHECK(arrive());
+  ASPIC_CHECK(halt(true));
   if (particle >= model().particle_count()) return {};
   Setup setup = setup_;
   setup.pinned[particle] = model().inverse_mass[particle] != 0.0;
@@ -235,7 +235,7 @@ Status Simulation::toggle_pin(std::uint32_t particle) {
 }
 
 Status Simulation::throw_balls(const std::vector<BallSettings>& balls) {
-  ASPIC_CHECK(arrive());
+  ASPIC_CHECK(halt(true));
   Setup setup = setup_;
   for (const BallSettings& b : balls)
     setup.thrown.push_back({b.radius, b.mass, step_, b.position, b.velocity, b.angular_velocity});
@@ -243,7 +243,7 @@ Status Simulation::throw_balls(const std::vector<BallSettings>& balls) {
 }
 
 Status Simulation::clear_balls() {
-  ASPIC_CHECK(arrive());
+  ASPIC_CHECK(halt(true));
   if (setup_.thrown.empty()) return {};
   Setup setup = setup_;
   setup.thrown.clear();

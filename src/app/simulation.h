@@ -80,9 +80,10 @@ class Simulation {
   /// `budget` seconds. `dt` is the time since the last call [s]. A backend that fails in the context is
   /// replaced by the reference, see take_message().
   Status update(double dt, double budget);
-  /// Ends the run of steps in progress, so that snapshot() is the state to the step.
-  Status halt();
-  /// The same after a way through history and single steps, which it waits for.
+  /// Ends the work in progress, so that snapshot() is the state to the step; waits for a way through history
+  /// only to `arrive`.
+  Status halt(bool arrive = false);
+  /// Waits for all that was asked for, single steps included.
   Status settle();
   std::uint64_t step() const { return step_; }
   double time() const { return static_cast<double>(step_) * model().simulation.timestep; }
@@ -167,7 +168,6 @@ class Simulation {
   Status advance_run(double dt, double budget);
   Status advance_here(std::uint64_t steps, double budget);
   Status compare_shadow(std::uint64_t steps);
-  Status arrive();
   bool idle() const { return !worker_.busy() && outcomes_.empty(); }
   bool steps_quickly() const;
   Status step_now();

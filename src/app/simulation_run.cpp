@@ -70,7 +70,7 @@ Status Simulation::single_step() {
 Status Simulation::step_now() {
   if (const auto next = history_.after(here())) {
     ASPIC_CHECK(seek(*next));
-    return arrive();
+    return halt(true);
   }
   ASPIC_CHECK(start_steps(step_ + 1, std::numeric_limits<double>::infinity()));
   worker_.wait();
@@ -261,17 +261,10 @@ Status Simulation::follow(Outcome outcome) {
   return {};
 }
 
-Status Simulation::halt() {
+Status Simulation::halt(bool arrive) {
   worker_.finish();
-  const Status moved = collect();
-  return moved ? refresh_snapshot() : fall_back(moved.error());
-}
-
-/// The same after a way through history, which it waits for.
-Status Simulation::arrive() {
-  ASPIC_CHECK(halt());
-  Status moved;
-  while (moved && seek_) {
+  Status moved = collect();
+  while (arrive && moved && seek_) {
     moved = seek_on(std::numeric_limits<double>::infinity());
     worker_.wait();
     if (moved) moved = collect();
@@ -280,7 +273,7 @@ Status Simulation::arrive() {
 }
 
 Status Simulation::settle() {
-  ASPIC_CHECK(arrive());
+  ASPIC_CHECK(halt(true));
   while (single_steps_ > 0 && !divergence_) {
     --single_steps_;
     ASPIC_CHECK(step_now());
@@ -310,7 +303,7 @@ Status Simulation::seek(const Moment& moment) {
   worker_.finish();
   if (const Status taken = collect(); !taken) return fall_back(taken.error());
   const std::optional<std::uint64_t> underway = std::exchange(seek_, std::nullopt);
-  if (moment == here() && !underway) return arrive();
+  if (moment == here() && !underway) return halt(true);
   const Keyframe& keyframe = history_.keyframe(moment);
   const bool on_the_way = moment.stretch == stretch_ && step_ <= moment.step && step_ >= keyframe.step;
   if (moment.stretch != stretch_) {

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "cpu_reference/reference_solver.h"
+#include "app/endless.h"
 #include "scene/load.h"
 
 namespace aspic::test {
@@ -86,27 +86,17 @@ TEST(Engines, AHurryOrASpentBudgetEndsAJobEarly) {
   EXPECT_EQ(engines.advance_outside({0, 1000, 0.0}, false).steps, 0u);
 }
 
-/// Its steps never end but by a hurry, which arrives when the first has begun.
-class Endless final : public Solver {
+/// Its steps never end but by a hurry, which comes when the first has begun.
+class Hurrying final : public Endless {
  public:
-  Endless(std::unique_ptr<Solver> inner, std::atomic<bool>& hurry)
-      : inner_(std::move(inner)), hurry_(hurry) {}
-  std::string_view backend() const override { return "endless"; }
-  std::string description() const override { return "endless"; }
-  Precision precision() const override { return inner_->precision(); }
-  const Model& model() const override { return inner_->model(); }
-  std::uint64_t bytes() const override { return 0; }
-  Status load(const State& state) override { return inner_->load(state); }
-  Status set_pull(const std::optional<Pull>& pull) override { return inner_->set_pull(pull); }
-  Result<std::optional<Divergence>> advance(std::uint64_t) override {
+  Hurrying(std::unique_ptr<Solver> inner, std::atomic<bool>& hurry)
+      : Endless(std::move(inner)), hurry_(hurry) {}
+  Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     hurry_ = true;
-    while (!interrupted()) std::this_thread::yield();
-    return std::optional<Divergence>();
+    return Endless::advance(steps);
   }
-  Result<State> state() override { return inner_->state(); }
 
  private:
-  std::unique_ptr<Solver> inner_;
   std::atomic<bool>& hurry_;
 };
 
@@ -115,8 +105,8 @@ TEST(Engines, AHurryDropsTheStepInProgressOfBoth) {
   std::atomic<bool> hurry = false;
   Backend endless;
   endless.row = &outside;
-  endless.solver =
-      std::make_unique<Endless>(std::move(*make_reference_solver(engines.model(), Precision::single)), hurry);
+  endless.solver = std::make_unique<Hurrying>(
+      std::move(*make_reference_solver(engines.model(), Precision::single)), hurry);
   engines.set_shadow(std::move(endless));
   const std::string start = hash_after(0);
   const app::Outcome outcome = engines.advance_outside({0, 3, 1e9}, hurry);
