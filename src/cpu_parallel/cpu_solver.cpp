@@ -81,8 +81,13 @@ class CpuSolver final : public Solver {
     return {};
   }
 
+  void heed(const std::atomic<bool>* flag) override {
+    Solver::heed(flag);
+    dynamics_.heed(flag);
+  }
+
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
-    for (std::uint64_t n = 0; n < steps && !divergence_; ++n) step();
+    for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) step();
     return divergence_;
   }
 
@@ -150,6 +155,10 @@ void CpuSolver::step() {
   dynamics_.begin_step(step_);
   SolveReport report;
   const bool sound = implicit_ ? implicit_->step(state_, next_, report) : explicit_->step(state_, next_);
+  if (interrupted()) {  // the step is dropped
+    if (explicit_) explicit_->forget();
+    return;
+  }
   if (model_.ball_count() > 0) move_balls();
   if (!sound || model_.ball_count() > 0) {
     divergence_ = reference::find_divergence<float>(

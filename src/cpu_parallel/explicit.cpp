@@ -87,7 +87,9 @@ bool ExplicitSteps::step(Particles& start, Particles& end) {
                             accumulate,
                             s + 1 == stages,
                             method_.drift};
-    workers_.run(tasks_.size(), [&](std::size_t n) { run(tasks_[n], move); });
+    workers_.run(tasks_.size(), [&](std::size_t n) {
+      if (!dynamics_.interrupted()) run(tasks_[n], move);
+    });
     accumulate = accumulate || stage.weight != 0.0;
     at = to;
   }
