@@ -10,6 +10,7 @@
 #include "cli/json.h"
 #include "io/program.h"
 #include "model/integrator.h"
+#include "model/springs.h"
 #include "scene/load.h"
 
 namespace aspic::cli {
@@ -102,7 +103,7 @@ Result<Measurement> measure_case(const BenchOptions& options, const Scene& scene
   m.integrator = model.simulation.integrator;
   m.size = settings.cubes.empty() ? 0 : settings.cubes.front().particles_per_edge;
   m.particles = model.particle_count();
-  m.springs = model.springs.size();
+  m.springs = spring_count(model);
   m.bytes = solver.bytes();
   m.timestep = timestep;
   if (options.duration) {

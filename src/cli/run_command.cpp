@@ -11,6 +11,7 @@
 #include "cli/json.h"
 #include "io/checkpoint.h"
 #include "io/program.h"
+#include "model/springs.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
 #include "scene/load.h"
@@ -233,7 +234,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"integrator", name_of(model.simulation.integrator)},
         {"timestep", model.simulation.timestep},
         {"particles", model.particle_count()},
-        {"springs", model.springs.size()},
+        {"springs", spring_count(model)},
         {"balls", model.ball_count()},
         {"first_step", outcome.first_step},
         {"steps", state.step},
@@ -256,7 +257,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
     }));
   }
   std::string text = fmt::format("scene        {} ({} particles, {} springs{})\n", scene.name,
-                                 model.particle_count(), model.springs.size(),
+                                 model.particle_count(), spring_count(model),
                                  model.ball_count() > 0 ? fmt::format(", {} balls", model.ball_count()) : "");
   text += fmt::format("backend      {}{}, {} precision{}\n", backend.row->name,
                       backend.force_path.empty() ? "" : ", force path " + backend.force_path,

@@ -14,6 +14,7 @@
 #include "cpu_reference/balls.h"
 #include "cpu_reference/divergence.h"
 #include "cpu_reference/reference_solver.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace parallel {
@@ -44,7 +45,7 @@ class CpuSolver final : public Solver {
         workers_(options.threads > 0 ? options.threads : threads_for(model)) {
     std::size_t margin = slice;
     for (const Body& body : model.bodies) {
-      if (edge_of_lattice(model, body) > 0) {
+      if (body.lattice_edge > 0) {
         springs_.emplace_back(std::in_place_type<Lattice>, model, body);
         margin = std::max(margin, std::get<Lattice>(springs_.back()).reach() + slice);
       } else {
@@ -98,7 +99,7 @@ class CpuSolver final : public Solver {
 
  private:
   static unsigned threads_for(const Model& model) {
-    const std::size_t worth = 2 * model.springs.size() / evaluations_per_thread;
+    const std::size_t worth = 2 * spring_count(model) / evaluations_per_thread;
     return static_cast<unsigned>(std::clamp<std::size_t>(worth, 1, available_threads()));
   }
 

@@ -35,7 +35,7 @@ struct Direction {
 /// A cube. Plane i holds the particles i·n² … (i+1)·n² − 1 of the body.
 class Lattice {
  public:
-  /// The cube that `body` is: the model must have been made by build_model.
+  /// The cube that `body` is: its lattice_edge must not be 0.
   Lattice(const Model& model, const Body& body);
 
   std::size_t first() const { return first_; }
@@ -84,9 +84,5 @@ class SpringLists {
   std::vector<std::size_t> start_;  // of each slice's slots
   std::vector<float> stiffness_, damping_, rest_length_, slack_;
 };
-
-/// Particles per edge of a body that is a cube with all its springs, so that a Lattice describes it; 0 of
-/// others.
-std::size_t edge_of_lattice(const Model& model, const Body& body);
 
 }  // namespace aspic::parallel

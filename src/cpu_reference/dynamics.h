@@ -7,6 +7,7 @@
 #include "cpu_reference/spring.h"
 #include "model/model.h"
 #include "model/pull.h"
+#include "model/springs.h"
 
 namespace aspic::reference {
 
@@ -149,7 +150,7 @@ class Dynamics {
   Field<T> force_without_contact(const Field<T>& x, const Field<T>& v) const {
     Field<T> f(3, x.cols());
     for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass_[i] * gravity_;
-    for (const Spring& spring : model_.springs) {
+    for (const Spring& spring : springs_of(model_)) {
       const Vector<T> on_a = spring_force<T>(classes_[spring.spring_class], x.col(spring.a), v.col(spring.a),
                                              x.col(spring.b), v.col(spring.b));
       f.col(spring.a) += on_a;

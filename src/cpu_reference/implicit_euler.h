@@ -15,6 +15,7 @@
 #include "cpu_reference/integrators.h"
 #include "cpu_reference/reductions.h"
 #include "model/implicit.h"
+#include "model/springs.h"
 
 namespace aspic::reference {
 
@@ -90,7 +91,7 @@ class ImplicitEuler {
  public:
   ImplicitEuler(const Dynamics<T>& dynamics, const Model& model)
       : dynamics_(dynamics),
-        springs_(model.springs),
+        model_(model),
         ahead_(dynamics.grounds(), dynamics.contact().step, model.contact.model == ContactModel::coulomb),
         h_(static_cast<T>(model.simulation.timestep)),
         tolerance_(static_cast<T>(implicit_tolerance(
@@ -126,7 +127,7 @@ class ImplicitEuler {
   T dot(const Field<T>& a, const Field<T>& b) const;
 
   const Dynamics<T>& dynamics_;
-  const std::vector<Spring>& springs_;
+  const Model& model_;
   GroundAhead<T> ahead_;
   std::vector<GroundReaction<T>> ground_;  ///< of the solution
   T h_, tolerance_;
@@ -144,8 +145,8 @@ typename ImplicitEuler<T>::Evaluation ImplicitEuler<T>::evaluate(const Phase<T>&
     f.col(i) = dynamics_.mass(i) * dynamics_.gravity();
     blocks.emplace_back(dynamics_.mass(i));
   }
-  at.jacobian.reserve(springs_.size());
-  for (const Spring& spring : springs_) {
+  at.jacobian.reserve(spring_count(model_));
+  for (const Spring& spring : springs_of(model_)) {
     // Not from a rounded x': the difference of the positions is exact where they are close.
     const Vector<T> v = trial.col(spring.a) - trial.col(spring.b);
     const Vector<T> e = (s.x.col(spring.a) - s.x.col(spring.b)) + h_ * v;
@@ -215,10 +216,11 @@ template <class T>
 Field<T> ImplicitEuler<T>::apply(const Evaluation& at, const Field<T>& p) const {
   Field<T> product(3, p.cols());
   for (Eigen::Index i = 0; i < p.cols(); ++i) product.col(i) = dynamics_.mass(i) * p.col(i);
-  for (std::size_t n = 0; n < springs_.size(); ++n) {
-    const Vector<T> on_a = at.jacobian[n] * Vector<T>(p.col(springs_[n].a) - p.col(springs_[n].b));
-    product.col(springs_[n].a) += on_a;
-    product.col(springs_[n].b) -= on_a;
+  std::size_t n = 0;
+  for (const Spring& spring : springs_of(model_)) {
+    const Vector<T> on_a = at.jacobian[n++] * Vector<T>(p.col(spring.a) - p.col(spring.b));
+    product.col(spring.a) += on_a;
+    product.col(spring.b) -= on_a;
   }
   if (const auto& pull = dynamics_.pull()) {
     product.col(pull->particle) += at.pull_jacobian * Vector<T>(p.col(pull->particle));

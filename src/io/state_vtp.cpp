@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "io/state_csv.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace {
@@ -119,7 +120,7 @@ void write_cells(Document& document, const Model& model, const State& state) {
   std::vector<double> strain(model.ball_count(), 0.0);
   for (std::uint64_t b = 0; b < model.ball_count(); ++b) balls.add({model.particle_count() + b});
   std::size_t owner = 0;
-  for (const Spring& s : model.springs) {
+  for (const Spring& s : springs_of(model)) {
     while (owner < model.bodies.size() &&
            s.a >= model.bodies[owner].first_particle + model.bodies[owner].particle_count)
       ++owner;
@@ -176,7 +177,7 @@ Status write_state_vtp(AtomicFile& file, const Model& model, const State& state)
   document.add(fmt::format(
       "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"{}\">\n",
-      std::uint64_t{model.particle_count()} + model.ball_count(), model.ball_count(), model.springs.size(),
+      std::uint64_t{model.particle_count()} + model.ball_count(), model.ball_count(), spring_count(model),
       quads));
   if (state.precision == Precision::single)
     write_points<float>(document, model, state);

@@ -87,7 +87,7 @@ Status add_cloth(Model& model, const ClothSettings& cloth) {
       const std::uint32_t a = body.first_particle + static_cast<std::uint32_t>(local);
       for (const Direction& d : directions) {
         if (i + d.di >= w || j + d.dj < 0 || j + d.dj >= h) continue;
-        model.springs.push_back(
+        model.listed_springs.push_back(
             {a, a + static_cast<std::uint32_t>(d.di * h + d.dj), body.first_class + d.spring_class});
       }
     }

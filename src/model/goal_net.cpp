@@ -149,8 +149,8 @@ Status add_goal_net(Model& model, const GoalNetSettings& net) {
         for (const Offset& o : offsets) {
           const auto other = net_index(net.particles, i + o.di, j + o.dj, k + o.dk);
           if (!other || !share_face(net.particles, i, j, k, o)) continue;
-          model.springs.push_back({body.first_particle + *local, body.first_particle + *other,
-                                   body.first_class + o.spring_class});
+          model.listed_springs.push_back({body.first_particle + *local, body.first_particle + *other,
+                                          body.first_class + o.spring_class});
         }
       }
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "model/bodies.h"
+#include "model/springs.h"
 #include "model/terrain.h"
 
 namespace aspic {
@@ -55,7 +56,6 @@ Result<Model> build_model(const ModelSettings& settings) {
   model.inverse_mass.reserve(predicted.particles);
   model.initial_position.reserve(predicted.particles);
   model.initial_velocity.reserve(predicted.particles);
-  model.springs.reserve(predicted.springs());
   model.balls.reserve(predicted.balls);
   for (const BodyRow& body : body_rows()) {
     for (std::size_t i = 0; i < body.list.size(settings); ++i) {
@@ -108,8 +108,9 @@ ModelCounts count(const Model& model) {
   counts.pinned =
       static_cast<std::uint64_t>(std::count(model.inverse_mass.begin(), model.inverse_mass.end(), 0.0));
   std::uint64_t* const of_type[] = {&counts.structural, &counts.shear, &counts.bending};
-  for (const Spring& spring : model.springs)
-    ++*of_type[static_cast<std::size_t>(model.spring_classes[spring.spring_class].type)];
+  const std::vector<std::uint64_t> springs = springs_by_class(model);
+  for (std::size_t c = 0; c < springs.size(); ++c)
+    *of_type[static_cast<std::size_t>(model.spring_classes[c].type)] += springs[c];
   return counts;
 }
 

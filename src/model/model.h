@@ -70,8 +70,9 @@ struct Rod {
 struct Body {
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
-  bool cubic =
-      false;  ///< its springs are those of the infinite cube lattice (analysis/stability.h), or fewer
+  /// n of a whole cube: its n³ particles have the springs of lattice_directions() (model/springs.h), of the
+  /// classes from first_class on, and none in Model::listed_springs. 0: all its springs are listed.
+  std::uint32_t lattice_edge = 0;
 
   SurfaceStyle style = SurfaceStyle::flesh;
   std::vector<Patch> surface;  ///< none for cords
@@ -94,8 +95,8 @@ struct Ball {
   bool launched(std::uint64_t step) const { return step >= launch_step; }
 };
 
-/// The model. Springs are sorted by (a, b), so that adding spring forces in this order adds to every
-/// particle in ascending neighbour index.
+/// The model. Its springs are walked by springs_of (model/springs.h) in the order of (a, b), so that adding
+/// their forces in this order adds to every particle in ascending neighbour index.
 struct Model {
   SimulationSettings simulation;
   ContactSettings contact;
@@ -103,7 +104,7 @@ struct Model {
   std::vector<double> mass;          ///< m [kg] of each particle, > 0, finite for pinned particles too
   std::vector<double> inverse_mass;  ///< w [1/kg], 0 = pinned
   std::vector<SpringClass> spring_classes;
-  std::vector<Spring> springs;
+  std::vector<Spring> listed_springs;  ///< sorted by (a, b); without those of lattices
   std::vector<Body> bodies;
   std::vector<Vec3> initial_position, initial_velocity;
   std::vector<Ball> balls;

@@ -9,6 +9,7 @@
 #include "base/printable.h"
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace {
@@ -78,7 +79,7 @@ Status check_reference_memory(const Model& model, Precision precision) {
   bodies.balls = model.ball_count();
   const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
   std::uint64_t bytes = reference_bytes(bodies, precision);
-  if (model.simulation.integrator == Integrator::implicit_euler) bytes += 10 * real * model.springs.size();
+  if (model.simulation.integrator == Integrator::implicit_euler) bytes += 10 * real * spring_count(model);
   const std::optional<std::uint64_t> memory = available_memory();
   if (!memory || bytes <= *memory) return {};
   return fail(ErrorCode::scene_rejected,

@@ -113,7 +113,7 @@ TEST(ImplicitEuler, OneSpringFollowsTheResolvent) {
   model.simulation.gravity = {0, 0, 0};
   model.simulation.implicit.tolerance = 1e-15;
   model.spring_classes.push_back({SpringType::structural, k, c, 1.0, false});
-  model.springs.push_back({0, 1, 0});
+  model.listed_springs.push_back({0, 1, 0});
   const Dynamics<double> dynamics(model);
   ImplicitEuler<double> method(dynamics, model);
   Phase<double> s = start_of(model);
