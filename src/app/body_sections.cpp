@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "gpu/device_info.h"
 #include "model/bodies.h"
+#include "model/springs.h"
 #include "run/backends.h"
 #include "scene/load.h"
 
@@ -20,14 +21,12 @@ namespace {
 constexpr std::string_view spring_types[] = {"structural", "shear", "bending"};
 
 /// What the scene takes, and what a cube of another size would have to fit into.
-std::string memory_note(const ModelSettings& settings) {
-  const ModelCounts counts = predict_counts(settings);
-  std::string note = fmt::format(
-      "This scene: {} particles and {} springs. The model takes {}, and a backend more:", counts.particles,
-      counts.springs(), human_bytes(model_bytes(counts)));
+std::string memory_note(const Model& model) {
+  std::string note =
+      fmt::format("This scene: {} particles and {} springs. The model takes {}, and a backend more:",
+                  model.particle_count(), spring_count(model), human_bytes(model_bytes(model)));
   for (const BackendRow& row : backends()) {
-    note += fmt::format(" {} {}{}", row.title,
-                        human_bytes(row.bytes(counts, settings.simulation.integrator, {&row})),
+    note += fmt::format(" {} {}{}", row.title, human_bytes(row.bytes(model, {&row})),
                         &row == &backends().back() ? "." : ",");
   }
   if (const auto free = available_memory())
@@ -117,7 +116,7 @@ void add_cube(Gui& gui, SceneControl& scene) {
 }  // namespace
 
 void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
-  const std::string note = memory_note(scene.scene().model);
+  const std::string note = memory_note(scene.model());
   edit(gui, scene, "cube[].particles-per-edge", cube, {{}, note});
   edit(gui, scene, "cube[].position", cube, {"Offset"});
   edit(gui, scene, "cube[].rotation.axis", cube, {"Rotation axis"});

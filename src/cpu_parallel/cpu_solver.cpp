@@ -76,7 +76,7 @@ class CpuSolver final : public Solver {
   }
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return model_; }
-  std::uint64_t bytes() const override { return cpu_bytes(count(model_), model_.simulation.integrator); }
+  std::uint64_t bytes() const override { return cpu_bytes(model_); }
 
   Status load(const State& state) override {
     ASPIC_CHECK(check_sizes(model_, state));
@@ -342,13 +342,14 @@ Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOpt
   }
 }
 
-std::uint64_t cpu_bytes(const ModelCounts& counts, Integrator integrator) {
-  const IntegratorRow& method = row_of(integrator);
-  if (method.solved()) return reference_bytes(counts, Precision::single);
+std::uint64_t cpu_bytes(const Model& model) {
+  const IntegratorRow& method = row_of(model.simulation.integrator);
+  if (method.solved()) return reference_bytes(model, Precision::single);
   // Start and end of a step, for several stages also the one between and the sums; mass and inverse mass.
   // Lists of springs are counted as those of a net, six places a particle; cubes have none.
   const std::uint64_t sets = method.stages.size() > 1 ? 4 : 2;
-  return counts.particles * sizeof(float) * (6 * sets + 2) + counts.balls * sizeof(float) * (3 * 17 + 7);
+  return model.particle_count() * sizeof(float) * (6 * sets + 2) +
+         model.ball_count() * sizeof(float) * (3 * 17 + 7);
 }
 
 }  // namespace aspic

@@ -18,7 +18,7 @@ struct CpuOptions {
 /// its fields.
 Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOptions& options = {});
 
-/// Bytes a parallel solver would hold for a model of these counts.
-std::uint64_t cpu_bytes(const ModelCounts& counts, Integrator integrator);
+/// Bytes a parallel solver of the model holds.
+std::uint64_t cpu_bytes(const Model& model);
 
 }  // namespace aspic

@@ -9,18 +9,11 @@
 #include "cpu_reference/balls.h"
 #include "cpu_reference/divergence.h"
 #include "cpu_reference/implicit_euler.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace reference {
 namespace {
-
-/// Particles and balls alone: counting springs by type takes a walk over all of them.
-ModelCounts bodies(const Model& model) {
-  ModelCounts counts;
-  counts.particles = model.particle_count();
-  counts.balls = model.ball_count();
-  return counts;
-}
 
 template <class T>
 class ReferenceSolver final : public Solver {
@@ -37,7 +30,7 @@ class ReferenceSolver final : public Solver {
   }
   Precision precision() const override { return sizeof(T) == 4 ? Precision::single : Precision::double_; }
   const Model& model() const override { return model_; }
-  std::uint64_t bytes() const override { return reference_bytes(bodies(model_), precision()); }
+  std::uint64_t bytes() const override { return reference_bytes(model_, precision()); }
 
   Status load(const State& state) override {
     if (const Status fits = check_sizes(model_, state); !fits) return fits;
@@ -132,16 +125,20 @@ Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precis
     return fail(
         ErrorCode::scene_rejected,
         "no memory left for the reference solver of {} particles ({} bytes): use fewer particles-per-edge",
-        model.particle_count(), reference_bytes(reference::bodies(model), precision));
+        model.particle_count(), reference_bytes(model, precision));
   }
 }
 
-std::uint64_t reference_bytes(const ModelCounts& counts, Precision precision) {
+std::uint64_t reference_bytes(const Model& model, Precision precision) {
   // Start and end of a step, the four slopes of a Runge–Kutta method, one argument field and one force field:
   // x and v.
   const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
   // Balls: the same, ω, constants and their order along x.
-  return counts.particles * real * (3 * 14 + 2) + counts.balls * real * (3 * 17 + 7);
+  std::uint64_t bytes =
+      model.particle_count() * real * (3 * 14 + 2) + model.ball_count() * real * (3 * 17 + 7);
+  // Implicit Euler: also every spring's Jacobian, of the trial and of the iterate before.
+  if (row_of(model.simulation.integrator).solved()) bytes += 10 * real * spring_count(model);
+  return bytes;
 }
 
 }  // namespace aspic

@@ -93,7 +93,7 @@ std::vector<T> flat(std::span<const Vec3> particles, std::span<const Vec3> balls
 template <class T>
 void write_points(Document& document, const Model& model, const State& state) {
   const std::vector<Vec3> no_turning(model.particle_count());
-  std::vector<double> mass = model.mass, radius(model.particle_count(), 0.0);
+  std::vector<double> mass(model.mass.begin(), model.mass.end()), radius(model.particle_count(), 0.0);
   std::vector<std::uint8_t> pinned;
   for (const double w : model.inverse_mass) pinned.push_back(w == 0.0 ? 1 : 0);
   for (const Ball& ball : model.balls) {

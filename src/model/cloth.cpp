@@ -35,6 +35,7 @@ ModelCounts counts_of(const ClothSettings& cloth) {
   counts.structural = (w - 1) * h + w * (h - 1);
   counts.shear = 2 * (w - 1) * (h - 1);
   counts.bending = (w - 2) * h + w * (h - 2);
+  counts.listed = counts.springs();
   return counts;
 }
 

@@ -90,19 +90,12 @@ Status add_cube(Model& model, const CubeSettings& cube) {
       {SpringType::shear, shear.stiffness, shear.damping, s * std::sqrt(3.0), false});
   model.spring_classes.push_back({SpringType::bending, bending.stiffness, bending.damping, 2.0 * s, false});
 
-  const double half = cube.edge_length / 2.0;
-  const Rotation turned(cube.rotation.axis, cube.rotation.angle);
-  std::size_t local = 0;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      for (int k = 0; k < n; ++k, ++local) {
-        const Vec3 from_centre = {i * s - half, j * s - half, k * s - half};
-        model.initial_position.push_back(cube.position + turned(from_centre));
-        model.initial_velocity.push_back((pinned)[local] ? Vec3{} : cube.velocity);
-        model.mass.push_back(mass);
-        model.inverse_mass.push_back((pinned)[local] ? 0.0 : 1.0 / mass);
-      }
-    }
+  model.initial_position.append(
+      LatticePlaces{n, s, cube.edge_length / 2.0, cube.position, {cube.rotation.axis, cube.rotation.angle}});
+  model.mass.push_back(mass, pinned.size());
+  for (const bool held : pinned) {
+    model.initial_velocity.push_back(held ? Vec3{} : cube.velocity);
+    model.inverse_mass.push_back(held ? 0.0 : 1.0 / mass);
   }
   model.bodies.push_back(std::move(body));
   return {};

@@ -88,6 +88,7 @@ ModelCounts goal_net_counts(const GoalNetSettings& net) {
   if (net.bending.stiffness > 0.0) {
     counts.bending = along_x * (nw - 2) + along_y * (nh - 2) + along_z * (nl - 2);
   }
+  counts.listed = counts.springs();
   return counts;
 }
 

@@ -89,12 +89,15 @@ void SpringRange::enter(const Body& body) {
 SpringRange::Block SpringRange::springs_of_next_particle() {
   const std::uint32_t a = particle_++;
   const auto inside = [&](int x) { return x >= 0 && x < edge_; };
-  const bool inner = i_ + 2 < edge_ && j_ >= 1 && j_ + 2 < edge_ && k_ >= 1 && k_ + 2 < edge_;
   std::size_t count = 0;
-  for (std::size_t d = 0; d < directions.size(); ++d) {
-    const LatticeDirection& o = directions[d];
-    if (inner || (inside(i_ + o.di) && inside(j_ + o.dj) && inside(k_ + o.dk)))
-      buffer_[count++] = {a, a + ups_[d].b, ups_[d].spring_class};
+  const auto add = [&](const Spring& up) { buffer_[count++] = {a, a + up.b, up.spring_class}; };
+  if (i_ + 2 < edge_ && j_ >= 1 && j_ + 2 < edge_ && k_ >= 1 && k_ + 2 < edge_) {
+    for (const Spring& up : ups_) add(up);
+  } else {
+    for (std::size_t d = 0; d < directions.size(); ++d) {
+      const LatticeDirection& o = directions[d];
+      if (inside(i_ + o.di) && inside(j_ + o.dj) && inside(k_ + o.dk)) add(ups_[d]);
+    }
   }
   if (++k_ == edge_) k_ = 0, ++j_;
   if (j_ == edge_) j_ = 0, ++i_;

@@ -9,7 +9,6 @@
 #include "base/printable.h"
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
-#include "model/springs.h"
 
 namespace aspic {
 namespace {
@@ -71,15 +70,8 @@ Result<Backend> make_cpu(const Model& model, const BackendChoice&, const SolverH
 
 // ---- reference ----
 
-/// What it holds at work; under implicit Euler also every spring's Jacobian, of the trial and of the iterate
-/// before.
 Status check_reference_memory(const Model& model, Precision precision) {
-  ModelCounts bodies;
-  bodies.particles = model.particle_count();
-  bodies.balls = model.ball_count();
-  const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
-  std::uint64_t bytes = reference_bytes(bodies, precision);
-  if (model.simulation.integrator == Integrator::implicit_euler) bytes += 10 * real * spring_count(model);
+  const std::uint64_t bytes = reference_bytes(model, precision);
   const std::optional<std::uint64_t> memory = available_memory();
   if (!memory || bytes <= *memory) return {};
   return fail(ErrorCode::scene_rejected,
@@ -104,22 +96,18 @@ constexpr Precision both_precisions[] = {Precision::single, Precision::double_};
 
 constexpr BackendRow table[] = {
     {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, built_force_paths, true, make_gpu,
-     [](const ModelCounts& counts, Integrator integrator, const BackendChoice& choice) {
-       return gpu_bytes(counts, integrator, choice.force_path);
+     [](const Model& model, const BackendChoice& choice) {
+       return gpu_bytes(count(model), model.simulation.integrator, choice.force_path);
      },
      gpu_suitability},
     {"cpu", "CPU", "threads and vector instructions", single_alone, nullptr, false, make_cpu,
-     [](const ModelCounts& counts, Integrator integrator, const BackendChoice&) {
-       return cpu_bytes(counts, integrator);
-     },
+     [](const Model& model, const BackendChoice&) { return cpu_bytes(model); },
      [](const gl::Context*) {
        return Suitability{true, "", "", nullptr};
      }},
     {"reference", "reference", "one thread, Eigen, written to be read", both_precisions, nullptr, false,
      make_reference,
-     [](const ModelCounts& counts, Integrator, const BackendChoice& choice) {
-       return reference_bytes(counts, choice.precision);
-     },
+     [](const Model& model, const BackendChoice& choice) { return reference_bytes(model, choice.precision); },
      [](const gl::Context*) {
        return Suitability{true, "", "", nullptr};
      }},
@@ -291,15 +279,12 @@ Result<Backend> make_backend(const BackendChoice& choice, const Model& model, co
 }
 
 std::vector<BackendBytes> bytes_by_backend(const Model& model) {
-  const ModelCounts counts = count(model);
-  const Integrator integrator = model.simulation.integrator;
   std::vector<BackendBytes> result;
   for (const BackendRow& row : table) {
     for (const Precision precision : row.precisions) {
       const auto add = [&](const ForcePathRow* path) {
         const BackendChoice choice = {&row, precision, path ? path->path : ForcePath::automatic};
-        result.push_back(
-            {variant_of(row, path ? path->name : "", precision), row.bytes(counts, integrator, choice)});
+        result.push_back({variant_of(row, path ? path->name : "", precision), row.bytes(model, choice)});
       };
       if (row.force_paths().empty()) add(nullptr);
       for (const ForcePathRow& path : row.force_paths()) add(&path);

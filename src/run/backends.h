@@ -67,9 +67,8 @@ struct BackendRow {
   /// Makes the solver at the model's initial state; the model must outlive it. The choice has passed
   /// check_choice(). Errors: no_device, scene_rejected, io.
   Result<Backend> (*make)(const Model& model, const BackendChoice& choice, const SolverHost& host) = nullptr;
-  /// Bytes that its solver holds for a model of these counts.
-  std::uint64_t (*bytes)(const ModelCounts& counts, Integrator integrator,
-                         const BackendChoice& choice) = nullptr;
+  /// Bytes that its solver holds for a model.
+  std::uint64_t (*bytes)(const Model& model, const BackendChoice& choice) = nullptr;
   /// Whether `auto` takes it: in the window's context, or, if that is null, wherever it finds a device.
   Suitability (*suitability)(const gl::Context* window) = nullptr;
 

@@ -145,7 +145,7 @@ Eigen::VectorXd dense_backward_euler(const Model& model, const State& start) {
 
 WorstMode power_iteration(const Model& model, int iterations) {
   const auto n = 3 * static_cast<Eigen::Index>(model.particle_count());
-  Eigen::VectorXd shape(n);
+  Eigen::VectorXd shape = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) shape[i] = std::sin(1.0 + 1.7 * static_cast<double>(i * i));
   shape.normalize();
   WorstMode worst;

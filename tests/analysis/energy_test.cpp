@@ -42,7 +42,7 @@ TEST(Energy, SlackCordHoldsNone) {
 
 TEST(Energy, PinnedParticleHasPotentialButNoMotion) {
   Model model = pair(false);
-  model.inverse_mass[0] = 0.0;
+  model.inverse_mass.set(0, 0.0);
   const Measures m = measure(model, state_at(5.0));
   EXPECT_EQ(m.kinetic, 2.0);
   EXPECT_EQ(m.momentum, (Vec3{0.0, -4.0, 0.0}));

@@ -270,7 +270,7 @@ TEST(Stability, GershgorinBoundIsAboveTheEigenvalue) {
 
 TEST(Stability, OverflowHasAnAnswer) {
   Model model = model_of(cube_settings(2));
-  for (double& w : model.inverse_mass) w = 1e308;
+  model.inverse_mass.assign(model.particle_count(), 1e308);
   for (const Integrator integrator : explicit_integrators) {
     const StabilityLimit limit = stability_limit(model, integrator);
     EXPECT_EQ(limit.step.value_or(-1.0), 0.0);

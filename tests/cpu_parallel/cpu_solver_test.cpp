@@ -141,7 +141,7 @@ TEST(CpuSolver, GivesSpringsWithoutLengthNoForce) {
   ModelSettings settings = test::cube_on_plane(4);
   settings.cubes[0].pinned.names = {"left-top-front"};
   Model model = test::build(settings);
-  for (Vec3& x : model.initial_position) x = {0.0, 2.0, 0.0};
+  model.initial_position = std::vector<Vec3>(model.particle_count(), {0.0, 2.0, 0.0});
   expect_equal(model, 50, 2);
 }
 

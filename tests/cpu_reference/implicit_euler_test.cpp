@@ -20,9 +20,10 @@ Model deformed_cube() {
   settings.simulation.implicit.newton_iterations = 100;
   Model model = test::build(settings);
   for (std::size_t i = 0; i < model.initial_position.size(); ++i) {
-    Vec3& x = model.initial_position[i];
-    x = {1.1 * x.x + 0.2 * x.y, 0.7 * x.y, 1.05 * x.z};
-    model.initial_velocity[i] = {-3.0 * x.z + 0.2 * x.y, -5.0, 3.0 * x.x};
+    const Vec3 start = model.initial_position[i];
+    const Vec3 x = {1.1 * start.x + 0.2 * start.y, 0.7 * start.y, 1.05 * start.z};
+    model.initial_position.set(i, x);
+    model.initial_velocity.set(i, {-3.0 * x.z + 0.2 * x.y, -5.0, 3.0 * x.x});
   }
   return model;
 }
