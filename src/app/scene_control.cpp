@@ -18,10 +18,6 @@ bool SceneControl::replace(Result<SceneEditor> loaded, bool keep_state) {
   return true;
 }
 
-const Model& SceneControl::model() const {
-  return simulation_.model();
-}
-
 void SceneControl::open(const std::string& source) {
   view_.keep_camera(editor_.source());
   if (!replace(editor_.other(source), false)) return;

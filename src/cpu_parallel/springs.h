@@ -48,6 +48,7 @@ class Lattice {
   /// For each direction one word for `slice` particles of any plane, from the plane's particle `at` on, a
   /// multiple of `slice`: which of them have the neighbour, provided that its plane exists.
   const std::uint16_t* neighbours(std::size_t at) const { return &bits_[at / slice * directions_.size()]; }
+  std::uint64_t bytes() const { return bytes_of(directions_) + bytes_of(bits_); }
 
  private:
   std::size_t first_, n_;
@@ -77,6 +78,10 @@ class SpringLists {
   const std::vector<float>& damping() const { return damping_; }
   const std::vector<float>& rest_length() const { return rest_length_; }
   const std::vector<float>& slack() const { return slack_; }
+  std::uint64_t bytes() const {
+    return bytes_of(slots_) + bytes_of(start_) + bytes_of(stiffness_) + bytes_of(damping_) +
+           bytes_of(rest_length_) + bytes_of(slack_);
+  }
 
  private:
   std::size_t first_, count_;

@@ -83,6 +83,11 @@ class Dynamics {
     pull_.reset();
     if (pull) pull_.emplace(*pull);
   }
+  /// Bytes it holds on the heap.
+  std::uint64_t bytes() const {
+    return mass_.bytes() + inverse_mass_.bytes() + classes_.capacity() * sizeof(SpringConstants<T>) +
+           grounds_.capacity() * sizeof(Ground<T>);
+  }
   const std::optional<PullConstants<T>>& pull() const { return pull_; }
 
   /// Terrains in file order.

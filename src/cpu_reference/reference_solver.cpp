@@ -9,7 +9,6 @@
 #include "cpu_reference/balls.h"
 #include "cpu_reference/divergence.h"
 #include "cpu_reference/implicit_euler.h"
-#include "model/springs.h"
 
 namespace aspic {
 namespace reference {
@@ -130,15 +129,18 @@ Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precis
 }
 
 std::uint64_t reference_bytes(const Model& model, Precision precision) {
-  // Start and end of a step, the four slopes of a Runge–Kutta method, one argument field and one force field:
-  // x and v.
   const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
-  // Balls: the same, ω, constants and their order along x.
-  std::uint64_t bytes =
-      model.particle_count() * real * (3 * 14 + 2) + model.ball_count() * real * (3 * 17 + 7);
-  // Implicit Euler: also every spring's Jacobian, of the trial and of the iterate before.
-  if (row_of(model.simulation.integrator).solved()) bytes += 10 * real * spring_count(model);
-  return bytes;
+  const IntegratorRow& method = row_of(model.simulation.integrator);
+  // Balls: fields as below for x, v and ω, constants, and their order along x.
+  const std::uint64_t balls = model.ball_count() * real * (3 * 17 + 7);
+  if (!method.solved()) {
+    // Fields of a step at once: x and v at its start and its end, and for each stage a velocity and an
+    // acceleration.
+    return model.particle_count() * real * 3 * (4 + 2 * method.stages.size()) + balls;
+  }
+  const auto solve = precision == Precision::single ? reference::ImplicitEuler<float>::bytes(model)
+                                                    : reference::ImplicitEuler<double>::bytes(model);
+  return model.particle_count() * real * 3 * 4 + solve + balls;
 }
 
 }  // namespace aspic

@@ -72,7 +72,8 @@ struct Body {
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
   /// n of a whole cube: its n³ particles have the springs of lattice_directions() (model/springs.h), of the
-  /// classes from first_class on, and none in Model::listed_springs. 0: all its springs are listed.
+  /// classes from first_class on, none of them cords, and none in Model::listed_springs. 0: all its springs
+  /// are listed.
   std::uint32_t lattice_edge = 0;
 
   SurfaceStyle style = SurfaceStyle::flesh;
