@@ -11,6 +11,7 @@
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "base/printable.h"
+#include "model/springs.h"
 
 namespace aspic::app {
 namespace {
@@ -148,7 +149,7 @@ void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
   if (s.gpu()) pass_times(gui, *s.gpu());
   const Model& model = s.model();
   figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
-  figure("Springs", fmt::format("{}", model.springs.size()), "Springs of all types.");
+  figure("Springs", fmt::format("{}", spring_count(model)), "Springs of all types.");
   if (model.ball_count() > 0)
     figure("Balls", fmt::format("{}", model.ball_count()), "Balls, launched or waiting.");
   figure("Solver", fmt::format("{}, {}", s.solver().backend(), human_bytes(s.solver().bytes())),

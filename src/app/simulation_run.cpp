@@ -4,6 +4,7 @@
 
 #include "app/simulation.h"
 #include "model/integrator.h"
+#include "model/springs.h"
 
 namespace aspic::app {
 namespace {
@@ -360,7 +361,7 @@ void Simulation::add_sample(const State& state, const std::optional<Measures>& m
 std::optional<double> Simulation::spring_evaluations_per_second() const {
   const Integrator integrator = model().simulation.integrator;
   if (row_of(integrator).solved()) return std::nullopt;
-  return pacer_.steps_per_second() * static_cast<double>(model().springs.size()) *
+  return pacer_.steps_per_second() * static_cast<double>(spring_count(model())) *
          force_evaluations_per_step(integrator);
 }
 

@@ -4,6 +4,7 @@
 
 #include "cli/bench.h"
 #include "model/integrator.h"
+#include "model/springs.h"
 
 namespace aspic::cli {
 namespace {
@@ -79,7 +80,7 @@ Result<std::unique_ptr<Contestant>> make_backend_contestant(const BackendChoice&
   m.device = backend.device;
   m.integrator = model.simulation.integrator;
   m.particles = model.particle_count();
-  m.springs = model.springs.size();
+  m.springs = spring_count(model);
   m.bytes = backend.solver->bytes();
   m.timestep = model.simulation.timestep;
   m.evaluations_per_step = force_evaluations_per_step(m.integrator);

@@ -49,6 +49,13 @@ ExplicitSteps::ExplicitSteps(const Model& model, const reference::Dynamics<float
   between_ = Particles(model.particle_count(), margin);
 }
 
+std::uint64_t ExplicitSteps::bytes() const {
+  std::uint64_t sum = bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) + bytes_of(sweeps_);
+  for (const Task& task : tasks_) sum += bytes_of(task.resting);
+  for (const Sweep& sweep : sweeps_) sum += sweep.bytes();
+  return sum;
+}
+
 void ExplicitSteps::cut(std::size_t body) {
   const auto add = [&](Range range) { tasks_.push_back({body, range, {}, true, {}}); };
   if (const auto* const lists = std::get_if<SpringLists>(&springs_[body]))

@@ -23,6 +23,8 @@ class ExplicitSteps {
   bool step(Particles& start, Particles& end);
   /// The next step begins elsewhere than where the last one ended.
   void forget() { boxes_known_ = false; }
+  /// Bytes it holds on the heap.
+  std::uint64_t bytes() const;
 
  private:
   /// Consecutive particles of one body that one thread moves: whole planes of a cube, or a piece of any other

@@ -97,7 +97,7 @@ TEST(Backends, EveryVariantTellsItsBytes) {
   ASSERT_TRUE(model.ok());
   std::set<std::string> names;
   for (const BackendBytes& bytes : bytes_by_backend(*model)) {
-    EXPECT_GT(bytes.bytes, 24 * model->particle_count()) << bytes.backend;
+    EXPECT_GT(bytes.bytes.value(), 24 * model->particle_count()) << bytes.backend;
     EXPECT_TRUE(names.insert(bytes.backend).second) << bytes.backend;
     EXPECT_TRUE(parse_backend(bytes.backend).ok()) << bytes.backend;
   }
