@@ -115,6 +115,7 @@ class CpuSolver final : public Solver {
   void move_piece(std::size_t n, const StageMove& stage);
   void add_contact(std::size_t n, const StageMove& stage, const Forces& forces);
   void respond(const Range& range);
+  void look_for_divergence(const Range& range);
   void move_balls();
 
   const Model& model_;
@@ -219,8 +220,12 @@ void CpuSolver::step() {
   } else {
     run_stages();
   }
-  if (model_.ball_count() > 0) move_balls();
-  if (!sound_.load(std::memory_order_relaxed) || model_.ball_count() > 0) {
+  if (model_.ball_count() > 0) {
+    move_balls();
+    workers_.run(pieces_.size(), [&](std::size_t n) { look_for_divergence(pieces_[n].range); });
+    divergence_ = reference::find_divergence(model_, next_balls_, step_ + 1);
+  }
+  if (!sound_.load(std::memory_order_relaxed)) {
     divergence_ = reference::find_divergence<float>(
         model_, [&](Eigen::Index i) { return vector_of(next_.x, static_cast<std::size_t>(i)); },
         [&](Eigen::Index i) { return vector_of(next_.v, static_cast<std::size_t>(i)); }, next_balls_,
@@ -253,8 +258,13 @@ void CpuSolver::move_piece(std::size_t n, const StageMove& stage) {
   respond(piece.range);
   // With balls in the scene the step is not at its end yet.
   if (model_.ball_count() > 0) return;
+  look_for_divergence(piece.range);
+}
+
+/// Among the particles of a range at the step's end.
+void CpuSolver::look_for_divergence(const Range& range) {
   const auto limit = static_cast<float>(divergence_speed * divergence_speed);
-  if (!all_sound(next_, piece.range, limit)) sound_.store(false, std::memory_order_relaxed);
+  if (!all_sound(next_, range, limit)) sound_.store(false, std::memory_order_relaxed);
 }
 
 /// The pull, and what terrain adds to the forces.
@@ -311,18 +321,13 @@ void CpuSolver::respond(const Range& range) {
 
 /// Balls fly and meet particles, as in the reference.
 void CpuSolver::move_balls() {
-  const auto columns_of = [&](const VectorArray& a) {
-    reference::Field<float> field(3, model_.particle_count());
-    for (Eigen::Index i = 0; i < field.cols(); ++i) field.col(i) = vector_of(a, static_cast<std::size_t>(i));
-    return field;
+  const auto view = [](auto& particles) {
+    const auto of = [](auto& a) { return std::array{a[0].data(), a[1].data(), a[2].data()}; };
+    return std::pair(of(particles.x), of(particles.v));
   };
-  const reference::Phase<float> start = {columns_of(state_.x), columns_of(state_.v)};
-  reference::Phase<float> end = {columns_of(next_.x), columns_of(next_.v)};
-  next_balls_ = balls_.step(step_, ball_phase_, start, end);
-  for (Eigen::Index i = 0; i < end.x.cols(); ++i) {
-    parallel::set(next_.x, static_cast<std::size_t>(i), end.x.col(i));
-    parallel::set(next_.v, static_cast<std::size_t>(i), end.v.col(i));
-  }
+  const auto [x_0, v_0] = view(std::as_const(state_));
+  const auto [x, v] = view(next_);
+  next_balls_ = balls_.step(step_, ball_phase_, {x_0, v_0, 1}, {x, v, 1});
 }
 
 }  // namespace
