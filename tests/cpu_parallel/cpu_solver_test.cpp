@@ -1,11 +1,12 @@
 // The cpu backend ends with the same bits as the reference in single precision: any scene, integrator and
-// contact model, any number of threads, any instruction set.
+// contact model, any number of threads, any instruction set. In fast arithmetic it stays near them.
 #include "cpu_parallel/cpu_solver.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <array>
 
 #include "cpu_reference/reference_solver.h"
@@ -17,8 +18,9 @@ namespace {
 
 constexpr ContactModel both_models[] = {ContactModel::coulomb, ContactModel::course};
 
-std::unique_ptr<Solver> cpu(const Model& model, unsigned threads = 0) {
-  auto solver = make_cpu_solver(model, {threads});
+std::unique_ptr<Solver> cpu(const Model& model, unsigned threads = 0,
+                            Arithmetic arithmetic = Arithmetic::exact) {
+  auto solver = make_cpu_solver(model, {threads, arithmetic});
   EXPECT_TRUE(solver.ok());
   return std::move(*solver);
 }
@@ -51,6 +53,18 @@ ModelSettings low_cube(int n, Integrator integrator, ContactModel contact) {
   settings.simulation.integrator = integrator;
   settings.contact.model = contact;
   return settings;
+}
+
+/// Calls `test` with every instruction set of the machine.
+template <class Test>
+void with_every_instruction_set(const Test& test) {
+  for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+    const std::int64_t target = targets & -targets;
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    test();
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 TEST(CpuSolver, HasTheReferencesBitsInEveryBuiltInScene) {
@@ -128,15 +142,11 @@ ModelSettings cube_and_cords(Integrator integrator, ContactModel contact) {
 }
 
 TEST(CpuSolver, HasTheReferencesBitsWithEveryInstructionSet) {
-  for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
-    const std::int64_t target = targets & -targets;
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
+  with_every_instruction_set([] {
     expect_equal(test::build(cube_and_cords(Integrator::runge_kutta_4, ContactModel::coulomb)), 200, 2);
     for (const ContactModel contact : both_models)
       expect_equal(test::build(cube_and_cords(Integrator::implicit_euler, contact)), 30, 2);
-  }
-  hwy::SetSupportedTargetsForTest(0);
+  });
 }
 
 TEST(CpuSolver, HasTheReferencesBitsForEverySizeOfCube) {
@@ -219,6 +229,99 @@ TEST(CpuSolver, NamesTheSameDivergence) {
   EXPECT_EQ((*solver->advance(1))->step, divergence->step);
   ASSERT_TRUE(solver->load(initial_state(model, Precision::single)).ok());
   EXPECT_FALSE((*solver->advance(1)).has_value());
+}
+
+State after(Solver& solver, std::uint64_t steps) {
+  EXPECT_FALSE((*solver.advance(steps)).has_value());
+  return *solver.state();
+}
+
+/// Largest distance of a particle in one state from itself in the other [m].
+double distance(const State& a, const State& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.position.size(); ++i)
+    most = std::max(most, length(a.position[i] - b.position[i]));
+  return most;
+}
+
+/// A cube with a corner pinned, a net of cords and a ball, all near the ground.
+ModelSettings everything(Integrator integrator, ContactModel contact) {
+  ModelSettings settings = low_cube(6, integrator, contact);
+  settings.cubes[0].pinned.names = {"left-top-front"};
+  settings.goal_nets.emplace_back().cord = true;
+  settings.goal_nets[0].position = {6.0, 1.4, 0.0};
+  settings.goal_nets[0].particles = {3, 6, 7};
+  settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
+  return settings;
+}
+
+TEST(FastArithmetic, StaysNearExactArithmeticAndIsTheSameForAnyNumberOfThreads) {
+  with_every_instruction_set([] {
+    for (const Integrator integrator : explicit_integrators) {
+      for (const ContactModel contact : both_models) {
+        SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
+        const Model model = test::build(everything(integrator, contact));
+        const Pull pull = {100, {0.3, 4.0, 0.1}, 800.0, 20.0};
+        State states[3];
+        const unsigned threads[] = {1, 2, 5};
+        for (std::size_t n = 0; n < 3; ++n) {
+          const auto solver = cpu(model, threads[n], Arithmetic::fast);
+          ASSERT_TRUE(solver->set_pull(pull).ok());
+          states[n] = after(*solver, 100);
+        }
+        EXPECT_EQ(states[0], states[1]);
+        EXPECT_EQ(states[0], states[2]);
+        const auto exact = cpu(model);
+        ASSERT_TRUE(exact->set_pull(pull).ok());
+        const State expected = after(*exact, 100);
+        EXPECT_NE(states[0], expected) << "fast arithmetic is exact";
+        // A step adds at most 100 roundings of a coordinate below 16 m, and motion here does not grow them
+        // by more than 10 in 100 steps.
+        EXPECT_LE(distance(states[0], expected), 10.0 * 100 * 100 * 16.0 * 0x1p-24);
+        const State start = initial_state(model, Precision::single);
+        for (std::size_t i = 0; i < start.position.size(); ++i) {
+          if (model.inverse_mass[i] > 0.0) continue;
+          EXPECT_EQ(states[0].position[i], start.position[i]) << "pinned";
+        }
+      }
+    }
+  });
+}
+
+TEST(FastArithmetic, GivesSpringsWithoutLengthNoForce) {
+  with_every_instruction_set([] {
+    for (const bool net : {false, true}) {
+      ModelSettings settings = test::cube_on_plane(4);
+      settings.simulation.gravity = {0.0, 0.0, 0.0};
+      if (net) {
+        settings.cubes.clear();
+        settings.goal_nets.emplace_back();
+      }
+      Model model = test::build(settings);
+      for (Vec3& x : model.initial_position) x = {0.0, 2.0, 0.0};
+      const State start = initial_state(model, Precision::single);
+      EXPECT_EQ(after(*cpu(model, 2, Arithmetic::fast), 20).position, start.position);
+    }
+  });
+}
+
+TEST(FastArithmetic, LeavesSlackCordsSlack) {
+  with_every_instruction_set([] {
+    ModelSettings settings;
+    settings.goal_nets.emplace_back().cord = true;
+    settings.simulation.gravity = {0.0, 0.0, 0.0};
+    Model model = test::build(settings);
+    // Everything within half its size: every cord is shorter than it rests.
+    for (Vec3& x : model.initial_position) x = 0.5 * x;
+    const State start = initial_state(model, Precision::single);
+    EXPECT_EQ(after(*cpu(model, 2, Arithmetic::fast), 20).position, start.position);
+  });
+}
+
+TEST(FastArithmetic, IsSaidInTheDescription) {
+  const Model model = test::build(low_cube(3, Integrator::explicit_euler, ContactModel::coulomb));
+  EXPECT_NE(cpu(model, 1, Arithmetic::fast)->description().find("fast arithmetic"), std::string::npos);
+  EXPECT_EQ(cpu(model, 1)->description().find("fast"), std::string::npos);
 }
 
 TEST(CpuSolver, NamesTheSameDivergenceOfASolve) {
