@@ -69,7 +69,7 @@ void with_every_instruction_set(const Test& test) {
 
 TEST(CpuSolver, HasTheReferencesBitsInEveryBuiltInScene) {
   for (const char* const name : {"cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "elevator",
-                                 "goal-net", "penalty", "cube-and-balls"}) {
+                                 "goal-net", "penalty", "cube-and-balls", "curtain"}) {
     for (const Integrator integrator : all_integrators) {
       for (const ContactModel contact : both_models) {
         SCOPED_TRACE(fmt::format("{}, {}, {}", name, name_of(integrator), name_of(contact)));
