@@ -22,16 +22,18 @@ class ExplicitSteps {
   /// slower than the speed that counts as diverged.
   bool step(Particles& start, Particles& end);
   /// The next step begins elsewhere than where the last one ended.
-  void forget() { boxes_known_ = false; }
+  void forget() { known_ = false; }
 
  private:
   /// Consecutive particles of one body that one thread moves: whole planes of a cube, or a piece of any other
   /// body.
   struct Task {
     std::size_t body;
-    Range range;                                            ///< within all particles
-    Box box;                                                ///< around them at the stage at hand
-    bool sound;                                             ///< at the end of the step
+    Range range;  ///< within all particles
+    Box box;      ///< around them at the stage at hand
+    bool sound;   ///< at the end of the step
+    /// Those that may be near terrain at the step's start: at its end terrain moves none but them.
+    std::vector<Range> near;
     std::vector<reference::RestingContact<float>> resting;  ///< of this step, in ascending particle index
   };
 
@@ -41,6 +43,10 @@ class ExplicitSteps {
   void pull(const StageMove& stage, Range range, const Forces& forces);
   void add_contact(Task& task, const StageMove& stage, Range range, const Forces& forces);
   void respond(Task& task, const StageMove& stage);
+  void find_near(Task& task, const VectorArray& x) const;
+  void find_resting(Task& task, const StageMove& stage) const;
+  template <class F>
+  void for_near(const VectorArray& x, Range range, const F& f) const;
 
   const Model& model_;
   const IntegratorRow& method_;
@@ -52,7 +58,7 @@ class ExplicitSteps {
   std::vector<Task> tasks_;
   std::vector<Sweep> sweeps_;  // by thread
   Particles between_, sums_;
-  bool boxes_known_ = false;
+  bool known_ = false;  ///< the boxes, and what is near
 };
 
 }  // namespace aspic::parallel
