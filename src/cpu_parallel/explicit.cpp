@@ -14,8 +14,6 @@ constexpr std::size_t piece_size = 1024;
 /// lower side springs of two planes are evaluated again.
 constexpr std::size_t least_planes = 24;
 
-constexpr auto speed_limit = static_cast<float>(divergence_speed * divergence_speed);
-
 /// Calls f(part) for parts of a range of at most `size`.
 template <class F>
 void for_parts(Range range, std::size_t size, const F& f) {
@@ -64,13 +62,19 @@ void ExplicitSteps::cut(std::size_t body) {
   }
 }
 
-bool ExplicitSteps::step(Particles& start, Particles& end) {
-  if (!known_)
-    workers_.run(tasks_.size(), [&](std::size_t n) {
-      tasks_[n].box = box_of(start.x, tasks_[n].range);
-      find_near(tasks_[n], start.x);
-    });
+bool ExplicitSteps::look_at(const Particles& start) {
+  workers_.run(tasks_.size(), [&](std::size_t n) {
+    Task& task = tasks_[n];
+    task.box = box_of(start.x, task.range);
+    find_near(task, start.x);
+    task.sound = all_sound(start, task.range, speed_limit);
+  });
   known_ = true;
+  return std::ranges::all_of(tasks_, &Task::sound);
+}
+
+bool ExplicitSteps::step(Particles& start, Particles& end) {
+  if (!known_) look_at(start);
   const double h = model_.simulation.timestep;
   const std::size_t stages = method_.stages.size();
   const Particles* at = &start;

@@ -21,7 +21,9 @@ class ExplicitSteps {
   /// A step from `start`, the terrain's response included. Returns whether all particles ended it finite and
   /// slower than the speed that counts as diverged.
   bool step(Particles& start, Particles& end);
-  /// The next step begins elsewhere than where the last one ended.
+  /// What the next step begins at was changed since the last one. Returns as step().
+  bool look_at(const Particles& start);
+  /// The same without a look: the next step will.
   void forget() { known_ = false; }
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 /// Jacobians of springs are kept where those of a body fit into the caches nearest to the processor: there
 /// loading them costs less than a square root and a division. Beyond that it is the other way round.
-constexpr std::size_t most_kept_particles = 32'768;
+constexpr std::size_t most_kept_particles = 16'384;
 
 Vector vector_of(const BlockVectors& a, std::size_t n) {
   return {a[0].of[n], a[1].of[n], a[2].of[n]};
@@ -64,6 +64,7 @@ ImplicitEuler::ImplicitEuler(const Model& model, const reference::Dynamics<float
   cut_into_blocks();
   sums_.resize(blocks_.size());
   largest_.resize(blocks_.size());
+  falling_.resize(blocks_.size());
   const std::size_t count = model.particle_count();
   if (model.contact.model == ContactModel::course) held_force_ = vector_array(count, slice);
   if (ahead_.acts()) clearance_ = FloatArray(count, slice);
@@ -182,6 +183,16 @@ reference::Trial<float> ImplicitEuler::start() {
   return evaluate();
 }
 
+reference::Trial<float> ImplicitEuler::fall() {
+  const Vector gained = h_ * dynamics_.gravity();
+  for_each_block([&](Block& block, std::size_t) {
+    for (std::size_t i = block.range.first; i < block.range.first + block.range.count; ++i) {
+      if (inverse_mass_[i] != 0.0f) parallel::set(end_->v, i, parallel::vector_of(start_->v, i) + gained);
+    }
+  });
+  return evaluate();
+}
+
 reference::Trial<float> ImplicitEuler::try_step(float lambda, bool onwards) {
   for_each_block(
       [&](Block& block, std::size_t) { try_velocity(system_, end_->v, block.range, onwards, lambda); });
@@ -193,10 +204,12 @@ reference::Trial<float> ImplicitEuler::evaluate() {
     const ResidualShare share = evaluate_block(block);
     largest_[n] = share.largest;
     sums_[n] = share.merit;
+    falling_[n] = share.falling;
   });
   const auto holds = [](const Block& block) { return !block.held.empty(); };
   prescribes_ = std::ranges::any_of(blocks_, &Block::prescribes);
-  return {reference::tree_max(largest_), sum_of_blocks(), std::ranges::any_of(blocks_, holds)};
+  return {reference::tree_max(largest_), sum_of_blocks(), reference::tree_sum(falling_),
+          std::ranges::any_of(blocks_, holds)};
 }
 
 ResidualShare ImplicitEuler::evaluate_block(Block& block) {
@@ -217,7 +230,9 @@ ResidualShare ImplicitEuler::evaluate_block(Block& block) {
   if (residuals(at, block.range, at_trial.f, system_.r, R, free, meets))
     meet_ground(block, free, meets, R, at_trial.diagonal);
   invert(at_trial.diagonal, block.range, system_);
-  return share_of(R, block.range.count);
+  const Vector fall = h_ * dynamics_.gravity();
+  return share_of(R, inverse_mass_.data() + block.range.first, {fall.x(), fall.y(), fall.z()},
+                  block.range.count);
 }
 
 /// The ground's reaction on those particles of a block that may meet it.

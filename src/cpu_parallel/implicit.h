@@ -33,6 +33,7 @@ class ImplicitEuler {
 
   // What solve_step() asks of a system (cpu_reference/implicit_newton.h).
   reference::Trial<float> start();
+  reference::Trial<float> fall();
   reference::Trial<float> try_step(float lambda, bool onwards);
   float start_solve();
   bool prescribes() const { return prescribes_; }
@@ -88,7 +89,7 @@ class ImplicitEuler {
   float h_;
   std::vector<Jacobians> jacobians_;  // by body
   std::vector<Block> blocks_;
-  std::vector<float> sums_, largest_;  // by block
+  std::vector<float> sums_, largest_, falling_;  // by block
   LinearSystem system_;
   VectorArray held_force_;  // contact force of the course model [N]
   FloatArray clearance_;    // as BlockResidual::clearance

@@ -73,15 +73,20 @@ HWY_INLINE float tree(BlockNumbers& numbers, std::size_t count, const Combine& c
 constexpr auto sum = [](auto a, auto b) HWY_ATTR { return hn::Add(a, b); };
 constexpr auto larger = [](auto a, auto b) HWY_ATTR { return hn::IfThenElse(hn::Gt(b, a), b, a); };
 
-ResidualShare ShareOf(const BlockVectors& R, std::size_t count) {
-  BlockNumbers largest, squared;
+ResidualShare ShareOf(const BlockVectors& R, const float* inverse_mass, const std::array<float, 3>& fall,
+                      std::size_t count) {
+  BlockNumbers largest, squared, falling;
+  const Vector gained = {hn::Set(tag, fall[0]), hn::Set(tag, fall[1]), hn::Set(tag, fall[2])};
   for (std::size_t n = 0; n < count; n += lanes) {
     const Vector at = load(R, n);
     const Float xy = larger(hn::Abs(at.x), hn::Abs(at.y));
     hn::Store(larger(xy, hn::Abs(at.z)), tag, largest.of + n);
     hn::Store(dot3(at, at), tag, squared.of + n);
+    const Mask moves = hn::Ne(hn::LoadU(tag, inverse_mass + n), hn::Zero(tag));
+    const Vector after_fall = at + gained;
+    hn::Store(hn::IfThenElseZero(moves, dot3(after_fall, after_fall)), tag, falling.of + n);
   }
-  return {tree(largest, count, larger), tree(squared, count, sum)};
+  return {tree(largest, count, larger), tree(squared, count, sum), tree(falling, count, sum)};
 }
 
 void Invert(const std::array<BlockNumbers, 6>& blocks, Range range, LinearSystem& system) {
@@ -180,8 +185,9 @@ bool residuals(const BlockResidual& at, Range range, const BlockVectors& f, Vect
                BlockVectors& free, BlockNumbers& meets) {
   return HWY_DYNAMIC_DISPATCH(Residuals)(at, range, f, r, R, free, meets);
 }
-ResidualShare share_of(const BlockVectors& R, std::size_t count) {
-  return HWY_DYNAMIC_DISPATCH(ShareOf)(R, count);
+ResidualShare share_of(const BlockVectors& R, const float* inverse_mass, const std::array<float, 3>& fall,
+                       std::size_t count) {
+  return HWY_DYNAMIC_DISPATCH(ShareOf)(R, inverse_mass, fall, count);
 }
 void invert(const std::array<BlockNumbers, 6>& blocks, Range range, LinearSystem& system) {
   HWY_DYNAMIC_DISPATCH(Invert)(blocks, range, system);

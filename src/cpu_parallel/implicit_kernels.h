@@ -112,11 +112,12 @@ struct BlockResidual {
 bool residuals(const BlockResidual& at, Range range, const BlockVectors& f, VectorArray& r, BlockVectors& R,
                BlockVectors& free, BlockNumbers& meets);
 
-/// The largest component of |R| and Σ |R|² of a block, as the trees over blocks have it.
+/// A block's part in a Trial (cpu_reference/implicit_newton.h), as the trees over blocks have it.
 struct ResidualShare {
-  float largest, merit;
+  float largest, merit, falling;
 };
-ResidualShare share_of(const BlockVectors& R, std::size_t count);
+ResidualShare share_of(const BlockVectors& R, const float* inverse_mass, const std::array<float, 3>& fall,
+                       std::size_t count);
 
 /// B⁻¹ of every particle from the blocks.
 void invert(const std::array<BlockNumbers, 6>& blocks, Range range, LinearSystem& system);

@@ -111,6 +111,7 @@ class ImplicitEuler {
 
   // What solve_step() asks of a system (implicit_newton.h).
   Trial<T> start();
+  Trial<T> fall();
   Trial<T> try_step(T lambda, bool onwards);
   T start_solve();
   bool prescribes() const { return prescribes_; }
@@ -147,6 +148,15 @@ class ImplicitEuler {
 template <class T>
 Trial<T> ImplicitEuler<T>::start() {
   base_ = trial_ = s_->v;
+  return evaluate();
+}
+
+template <class T>
+Trial<T> ImplicitEuler<T>::fall() {
+  const Vector<T> gained = h_ * dynamics_.gravity();
+  for (Eigen::Index i = 0; i < trial_.cols(); ++i) {
+    if (dynamics_.inverse_mass(i) != T(0)) trial_.col(i) = s_->v.col(i) + gained;
+  }
   return evaluate();
 }
 
@@ -193,8 +203,8 @@ Trial<T> ImplicitEuler<T>::evaluate() {
   ground_.assign(static_cast<std::size_t>(count), {});
   prescribes_ = false;
   bool holds = false;
-  std::vector<T> largest(static_cast<std::size_t>(count), T(0)),
-      squared(static_cast<std::size_t>(count), T(0));
+  std::vector<T> largest(static_cast<std::size_t>(count), T(0)), squared = largest, falling = largest;
+  const Vector<T> fall = h_ * dynamics_.gravity();
   for (Eigen::Index i = 0; i < count; ++i) {
     DiagonalBlock<T>& block = blocks[static_cast<std::size_t>(i)];
     if (dynamics_.inverse_mass(i) == T(0)) {
@@ -221,8 +231,10 @@ Trial<T> ImplicitEuler<T>::evaluate() {
     preconditioner_.push_back(block.inverse());
     largest[static_cast<std::size_t>(i)] = largest_component<T>(R);
     squared[static_cast<std::size_t>(i)] = dot3<T>(R, R);
+    const Vector<T> after_fall = R + fall;
+    falling[static_cast<std::size_t>(i)] = dot3<T>(after_fall, after_fall);
   }
-  return {tree_max(std::move(largest)), tree_sum(std::move(squared)), holds};
+  return {tree_max(std::move(largest)), tree_sum(std::move(squared)), tree_sum(std::move(falling)), holds};
 }
 
 template <class T>

@@ -13,6 +13,7 @@ template <class T>
 struct Trial {
   T residual;  ///< largest component of |R|, R = (v' − v) − h·a, or v' − P(v + h·a) on the ground [m/s]
   T merit;     ///< Σ |R|² [m²/s²]
+  T falling;   ///< Σ |R + h·g|² over what is not pinned: the merit of v' + h·g, were nothing in the way
   bool holds;  ///< whether the ground holds any particle
 };
 
@@ -65,6 +66,7 @@ void conjugate_gradients(System& system, T forcing, std::uint32_t most, std::uin
 
 /// Solves for v' from the velocity v on. The system offers, besides what conjugate_gradients asks for,
 ///   Trial<T> start()  the base and the trial are v
+///   Trial<T> fall()   the trial becomes v + h·g, but v of pinned particles
 ///   Trial<T> try_step(T λ, bool onwards)  the trial becomes base + λ·δ; `onwards`: the base becomes the
 ///   trial
 ///                     before that
@@ -73,6 +75,8 @@ template <class T, class System>
 bool solve_step(System& system, const SolveLimits<T>& limits, SolveReport& report) {
   report = SolveReport{};
   Trial<T> at = system.start();
+  // In free flight that is the solution: nothing is left to solve.
+  if (!(at.residual <= limits.tolerance) && at.falling < at.merit) at = system.fall();
   T best = at.residual, forcing = static_cast<T>(first_forcing);
   int without_progress = 0;
   bool on_ground = at.holds, accepted = true;

@@ -66,7 +66,9 @@ class ReferenceSolver final : public Solver {
         dynamics_.respond(phase_.x, phase_.v, next.x, next.v);
       }
       BallPhase<T> next_balls;
-      if (model_.ball_count() > 0) next_balls = balls_.step(step_, ball_phase_, phase_, next);
+      if (model_.ball_count() > 0) {
+        next_balls = balls_.step(step_, ball_phase_, view_of(std::as_const(phase_)), view_of(next));
+      }
       divergence_ = find_divergence<T>(
           model_, [&](Eigen::Index i) { return Vector<T>(next.x.col(i)); },
           [&](Eigen::Index i) { return Vector<T>(next.v.col(i)); }, next_balls, step_ + 1);

@@ -153,8 +153,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
     write_solve();
     // As many rounds as the last step took and a quarter more; what is missing is queued on, what is too much
     // does nothing. Neither changes a bit.
-    std::uint32_t rounds =
-        solve_.last_ticks == 0 ? first_rounds : solve_.last_ticks + solve_.last_ticks / 4 + 1;
+    std::uint32_t rounds = solve_.ticks == 0 ? first_rounds : solve_.ticks + solve_.ticks / 4 + 1;
     while (solve_.phase != PHASE_IDLE && solve_.phase != PHASE_HALTED) {
       if (solve_.phase != PHASE_BEGIN) queue_rounds(more_rounds);
       for (std::uint32_t n = solve_.step; n < solve_.target_step; ++n) {
@@ -168,7 +167,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
         solve_.full = 0;
         write_solve();
       }
-      rounds = std::max(more_rounds, solve_.last_ticks + solve_.last_ticks / 4 + 1);
+      rounds = std::max(more_rounds, solve_.ticks + solve_.ticks / 4 + 1);
     }
     if (measured) profiler_->end();
     if (solve_.phase == PHASE_HALTED) {
