@@ -175,8 +175,8 @@ void CpuSolver::step() {
   }
   if (model_.ball_count() > 0) {
     move_balls();
-    const auto limit = static_cast<float>(divergence_speed * divergence_speed);
-    sound = all_sound(next_, {0, model_.particle_count()}, limit);
+    sound =
+        explicit_ ? explicit_->look_at(next_) : all_sound(next_, {0, model_.particle_count()}, speed_limit);
     divergence_ = reference::find_divergence(model_, next_balls_, step_ + 1);
   }
   if (!sound) {
