@@ -10,7 +10,6 @@ namespace aspic {
 namespace {
 
 using test::aspic;
-using test::json_member;
 
 TEST(Bench, ReportsWhatItMeasured) {
   const auto run = aspic(
