@@ -17,8 +17,9 @@ namespace aspic::app {
 Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions& options, double scale,
                                          WindowServices services) {
   ASPIC_TRY(auto editor, SceneEditor::open(options.scene, options.overrides));
-  const BackendRow& backend = options.backend ? *options.backend : *choose_automatically({}, &context).row;
-  ASPIC_TRY(auto simulation, Simulation::create(context, editor.scene(), backend));
+  const BackendRow& backend =
+      options.backend ? *options.backend : *choose_automatically(options.asked, &context).row;
+  ASPIC_TRY(auto simulation, Simulation::create(context, editor.scene(), backend, options.asked));
   std::unique_ptr<App> app(new App(options, std::move(editor), std::move(simulation)));
   ASPIC_CHECK(app->attach(context, scale, std::move(services)));
   app->restore(options.kept, options.overrides);

@@ -25,6 +25,7 @@ struct AppOptions {
   std::string scene = "cube-plane";     ///< file or built-in name
   std::vector<std::string> overrides;   ///< KEY=VALUE
   const BackendRow* backend = nullptr;  ///< null: what `auto` takes in the window's context
+  BackendChoice asked = {};             ///< of backends that have it; its row does not matter
   KeptState kept = {};                  ///< how the window was last left
   bool full_quality = false;            ///< on a software rasteriser too, however long pictures take
   WidgetWatcher* watcher = nullptr;     ///< sees the panels' widgets; must outlive the app

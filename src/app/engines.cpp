@@ -88,8 +88,7 @@ void EngineFactory::set_context(gl::Context& context) {
 }
 
 Result<Backend> EngineFactory::make(const Model& model, const BackendRow& row, const GpuSolver* like) {
-  auto engine =
-      make_backend({&row, Precision::single, ForcePath::automatic}, model, {context_, like, arithmetic_});
+  auto engine = make_backend(choice_for(&row, asked_), model, {context_, like, arithmetic_});
   if (engine && engine->gpu) arithmetic_ = engine->gpu->arithmetic();
   return engine;
 }

@@ -81,7 +81,9 @@ class Engines {
 /// Makes solvers in the window's context.
 class EngineFactory {
  public:
-  explicit EngineFactory(gl::Context& context) : context_(&context) {}
+  /// `asked`: what solvers that have it are asked for, beside their row.
+  explicit EngineFactory(gl::Context& context, const BackendChoice& asked = {})
+      : context_(&context), asked_(asked) {}
   void set_context(gl::Context& context);
   /// Errors: of make_backend().
   Result<Backend> make(const Model& model, const BackendRow& row, const GpuSolver* like);
@@ -92,6 +94,7 @@ class EngineFactory {
 
  private:
   gl::Context* context_;
+  BackendChoice asked_;
   std::optional<gl::Arithmetic> arithmetic_;  // what the canary found once; the device does not change
 };
 

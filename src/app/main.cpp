@@ -26,6 +26,8 @@ AppOptions options_from(const ViewOptions& view) {
   options.scene = view.scene;
   options.overrides = view.overrides;
   options.backend = view.backend.row;
+  options.asked = view.backend;
+  options.asked.row = nullptr;
   return options;
 }
 

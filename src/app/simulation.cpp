@@ -16,8 +16,9 @@ constexpr std::uint64_t many_particles = 20000;
 }  // namespace
 
 Result<std::unique_ptr<Simulation>> Simulation::create(gl::Context& context, const Scene& scene,
-                                                       const BackendRow& backend) {
-  std::unique_ptr<Simulation> s(new Simulation(context, {scene.model, {}, {}}));
+                                                       const BackendRow& backend,
+                                                       const BackendChoice& asked) {
+  std::unique_ptr<Simulation> s(new Simulation(context, {scene.model, {}, {}}, asked));
   ASPIC_TRY(auto built, build_model(s->setup_));
   auto model = std::make_unique<Model>(std::move(built));
   ASPIC_TRY(auto leader, s->factory_.make(*model, backend, nullptr));
@@ -26,8 +27,8 @@ Result<std::unique_ptr<Simulation>> Simulation::create(gl::Context& context, con
   return s;
 }
 
-Simulation::Simulation(gl::Context& context, Setup setup)
-    : setup_(std::move(setup)), factory_(context), history_(most_history_bytes) {}
+Simulation::Simulation(gl::Context& context, Setup setup, const BackendChoice& asked)
+    : setup_(std::move(setup)), factory_(context, asked), history_(most_history_bytes) {}
 
 Simulation::~Simulation() {
   worker_.abandon();

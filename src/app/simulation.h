@@ -30,7 +30,8 @@ class Simulation {
  public:
   /// `context` must outlive it. Errors: those of the scene and of make_backend().
   static Result<std::unique_ptr<Simulation>> create(gl::Context& context, const Scene& scene,
-                                                    const BackendRow& backend);
+                                                    const BackendRow& backend,
+                                                    const BackendChoice& asked = {});
   ~Simulation();
 
   // ---- what is simulated, and by whom ----
@@ -141,7 +142,7 @@ class Simulation {
     std::optional<Result<Engines>> engines = {};
     std::optional<std::string> message = {};
   };
-  Simulation(gl::Context& context, Setup setup);
+  Simulation(gl::Context& context, Setup setup, const BackendChoice& asked);
 
   Status install(Setup setup, Result<Engines> engines, std::optional<std::string> message);
   Status rebuild(Setup setup);

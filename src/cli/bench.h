@@ -32,6 +32,7 @@ struct PeerCheck {
 struct Measurement {
   std::string name;  ///< "gpu:gather", "taichi"
   std::string backend, force_path, device;
+  Arithmetic arithmetic = Arithmetic::exact;
   std::optional<PeerCheck> peer;
   Integrator integrator = Integrator::explicit_euler;
   int size = 0;  ///< particles per edge of the first cube; 0 without cubes

@@ -75,6 +75,7 @@ Result<std::unique_ptr<Contestant>> make_backend_contestant(const BackendChoice&
   m.name = backend.variant();
   m.backend = backend.row->name;
   m.force_path = backend.force_path;
+  m.arithmetic = backend.arithmetic;
   m.device = backend.device;
   m.integrator = model.simulation.integrator;
   m.particles = model.particle_count();

@@ -45,6 +45,7 @@ Json row_json(const Measurement& m) {
   Json object = {{"name", m.name},
                  {"backend", m.backend},
                  {"force_path", or_null(m.force_path)},
+                 {"arithmetic", m.peer ? Json() : Json(name_of(m.arithmetic))},
                  {"renderer", m.device},
                  {"check", m.peer ? check_json(*m.peer) : Json()},
                  {"integrator", name_of(m.integrator)},

@@ -28,6 +28,13 @@ std::string body_text(const Divergence& divergence);
 /// How it did, after body_text: `became faster than 1000 m/s` or `is no longer a finite number`.
 std::string fault_text(const Divergence& divergence);
 
+/// How a solver may round.
+enum class Arithmetic {
+  exact,  ///< every operation once, in the documented order (docs/determinism.md): the reference's bits
+  fast  ///< may fuse operations and use reciprocal roots: other last bits, on each kind of processor its own
+};
+std::string_view name_of(Arithmetic arithmetic);
+
 /// Speed above which a step counts as diverged [m/s].
 inline constexpr double divergence_speed = 1000.0;
 
