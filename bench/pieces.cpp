@@ -10,6 +10,7 @@
 
 #include "cpu_parallel/contact_pieces.h"
 #include "cpu_parallel/kernels.h"
+#include "cpu_parallel/lattice_kernels.h"
 #include "cpu_parallel/springs.h"
 #include "cpu_reference/reductions.h"
 #include "model/incident_springs.h"
@@ -81,14 +82,21 @@ void count_items(State& state, const char* name, std::size_t per_iteration) {
   state.counters[name] = Counter(static_cast<double>(per_iteration), Counter::kIsIterationInvariantRate);
 }
 
-void lattice_forces(State& state, std::int64_t target, int n) {
+void lattice_forces(State& state, std::int64_t target, int n, Arithmetic arithmetic) {
   Body cube(cube_settings(n));
   const parallel::Lattice lattice(cube.model, cube.model.bodies[0]);
+  parallel::Sweep sweep(lattice.planes());
+  parallel::ForceInput input = cube.input();
+  input.arithmetic = arithmetic;
   const Only only(target);
   while (state.KeepRunning()) {
+    parallel::begin_plane(lattice, input, sweep, 0);
+    parallel::begin_plane(lattice, input, sweep, 1);
     for (std::size_t plane = 0; plane < lattice.planes(); ++plane) {
-      for (std::size_t i = 0; i < lattice.plane_size(); i += piece)
-        parallel::lattice_forces(lattice, cube.input(), plane, {i, std::min(piece, lattice.plane_size() - i)},
+      if (plane + 2 < lattice.planes()) parallel::begin_plane(lattice, input, sweep, plane + 2);
+      for (std::size_t i = 0; i < lattice.plane_size(); i += parallel::chunk_size)
+        parallel::lattice_forces(lattice, input, sweep, plane,
+                                 {i, std::min(parallel::chunk_size, lattice.plane_size() - i)},
                                  cube.forces());
     }
     benchmark::ClobberMemory();
@@ -113,8 +121,9 @@ void move(State& state, std::int64_t target) {
   const Only only(target);
   const parallel::StageMove stage = {&cube.at, &cube.at, &cube.next, nullptr, cube.inverse_mass.data(), 0.0f,
                                      1.0f,     1e-3f,    false,      true,    Drift::stage_velocity};
+  parallel::Moved moved(1e6f);
   while (state.KeepRunning()) {
-    cube.for_each_piece([&](parallel::Range range) { parallel::move(stage, range, cube.forces()); });
+    cube.for_each_piece([&](parallel::Range range) { parallel::move(stage, range, cube.forces(), moved); });
     benchmark::ClobberMemory();
   }
   count_items(state, "particles", cube.model.particle_count());
@@ -216,8 +225,11 @@ void register_all() {
     const auto add = [&](const std::string& name, auto run) {
       benchmark::RegisterBenchmark(fmt::format("{}/{}", name, set).c_str(), run);
     };
-    for (const int n : {10, 40, 100})
-      add(fmt::format("lattice_forces/{}", n), [=](State& s) { lattice_forces(s, target, n); });
+    for (const Arithmetic arithmetic : {Arithmetic::exact, Arithmetic::fast}) {
+      for (const int n : {10, 20, 40, 100, 200})
+        add(fmt::format("lattice_forces/{}/{}", name_of(arithmetic), n),
+            [=](State& s) { lattice_forces(s, target, n, arithmetic); });
+    }
     add("listed_forces", [=](State& s) { listed_forces(s, target); });
     add("move", [=](State& s) { move(s, target); });
     add("box", [=](State& s) { box(s, target); });

@@ -1,6 +1,6 @@
 #include "rates.h"
 
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#include "cpu_parallel/targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "../bench/rates.cpp"
 #include <hwy/foreach_target.h>
