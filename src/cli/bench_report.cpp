@@ -186,19 +186,20 @@ std::string table_of(const BenchReport& report) {
     if (std::ranges::find(devices, device) == devices.end()) devices.push_back(device);
   }
   for (const std::string& device : devices) text += device;
-  text += fmt::format("\n{:<15} {:<16} {:>4} {:>10} {:>9} {:>10} {:>9} {:>12} {:>7} {:>7} {:>7} {:>9}\n",
-                      "backend", "integrator", "n", "springs", "h [s]", "steps/s", "ev./s", "s per sim. s",
-                      "spread", "busy", "growth", "ratio", "cpu r.", "MiB");
+  text += fmt::format(
+      "\n{:<15} {:<16} {:>4} {:>10} {:>9} {:>10} {:>9} {:>12} {:>7} {:>5} {:>7} {:>7} {:>7} {:>9}\n",
+      "backend", "integrator", "n", "springs", "h [s]", "steps/s", "ev./s", "s per sim. s", "spread", "busy",
+      "growth", "ratio", "cpu r.", "MiB");
   for (const Measurement& m : report.rows) text += table_line(m);
   for (const Measurement& m : report.rows) {
     if (!m.passes.empty()) text += pass_lines(m);
   }
   text +=
       "\nev./s: spring evaluations; spread: (slowest - fastest) / median; busy: processors in use; growth: "
-      "cost of an evaluation "
-      "relative to "
-      "the first size;\nratio: the first row's ev./s with this size over this row's; cpu r.: "
-      "the same by processor time, for busy machines.\n";
+      "cost of\n"
+      "an evaluation relative to the first size; ratio: ev./s of the first row with this size over this "
+      "row's;\n"
+      "cpu r.: the same by processor time, for busy machines.\n";
   if (report.interrupted)
     text += "Interrupted: rows that are missing or have fewer repeats were not finished.\n";
   return text;
