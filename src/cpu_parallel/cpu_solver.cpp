@@ -75,7 +75,12 @@ class CpuSolver final : public Solver {
   }
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return model_; }
-  std::uint64_t bytes() const override { return cpu_bytes(count(model_), model_.simulation.integrator); }
+  std::uint64_t bytes() const override {
+    ModelCounts bodies;
+    bodies.particles = model_.particle_count();
+    bodies.balls = model_.ball_count();
+    return cpu_bytes(bodies, model_.simulation.integrator);
+  }
 
   Status load(const State& state) override {
     ASPIC_CHECK(check_sizes(model_, state));
@@ -107,6 +112,8 @@ class CpuSolver final : public Solver {
   void step();
   void move_piece(std::size_t n, const StageMove& stage);
   void add_contact(std::size_t n, const StageMove& stage, const Forces& forces);
+  template <class Act>
+  void each_near(const VectorArray& x, const Range& range, const Act& act) const;
   void respond(const Range& range);
   void move_balls();
 
@@ -216,6 +223,18 @@ void CpuSolver::step() {
   ++step_;
 }
 
+/// Calls act(i) for the particles of a range that terrain may touch. Of a body on the ground that is a small
+/// part, which boxes around a few particles at a time find.
+template <class Act>
+void CpuSolver::each_near(const VectorArray& x, const Range& range, const Act& act) const {
+  if (!near_terrain(model_, box_of(x, range))) return;
+  for (std::size_t at = 0; at < range.count; at += slice) {
+    const Range few = {range.first + at, std::min(slice, range.count - at)};
+    if (!near_terrain(model_, box_of(x, few))) continue;
+    for (std::size_t i = few.first; i < few.first + few.count; ++i) act(i);
+  }
+}
+
 /// One stage of the particles of a piece.
 void CpuSolver::move_piece(std::size_t n, const StageMove& stage) {
   alignas(64) float f[3][piece_size + slice];
@@ -257,21 +276,18 @@ void CpuSolver::add_contact(std::size_t n, const StageMove& stage, const Forces&
                                                     vector_of(stage.at->v, i), pull->anchor, Vector::Zero()));
   }
   if (model_.contact.model == ContactModel::course) {
-    if (!near_terrain(model_, box_of(stage.at->x, range))) return;
-    for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+    return each_near(stage.at->x, range, [&](std::size_t i) {
       if (inverse_mass_[i] != 0.0f)
         put(i, dynamics_.with_contact(vector_of(stage.at->x, i), vector_of(stage.at->v, i), force(i)));
-    }
-    return;
+    });
   }
   std::vector<reference::RestingContact<float>>& resting = resting_[n];
   if (stage.at == stage.start) {  // the step's first stage
     resting.clear();
-    if (near_terrain(model_, box_of(stage.at->x, range))) {
-      for (std::size_t i = range.first; i < range.first + range.count; ++i)
-        dynamics_.find_resting(static_cast<Eigen::Index>(i), vector_of(stage.at->x, i),
-                               vector_of(stage.at->v, i), resting);
-    }
+    each_near(stage.at->x, range, [&](std::size_t i) {
+      dynamics_.find_resting(static_cast<Eigen::Index>(i), vector_of(stage.at->x, i),
+                             vector_of(stage.at->v, i), resting);
+    });
   }
   for (const reference::RestingContact<float>& at : resting) {
     const auto i = static_cast<std::size_t>(at.particle);
@@ -281,13 +297,12 @@ void CpuSolver::add_contact(std::size_t n, const StageMove& stage, const Forces&
 
 /// Terrain response at the end of the step.
 void CpuSolver::respond(const Range& range) {
-  if (!near_terrain(model_, box_of(next_.x, range))) return;
-  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+  each_near(next_.x, range, [&](std::size_t i) {
     Vector x = vector_of(next_.x, i), v = vector_of(next_.v, i);
     dynamics_.respond(static_cast<Eigen::Index>(i), vector_of(state_.x, i), vector_of(state_.v, i), x, v);
     parallel::set(next_.x, i, x);
     parallel::set(next_.v, i, v);
-  }
+  });
 }
 
 /// Balls fly and meet particles, as in the reference.
