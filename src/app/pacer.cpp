@@ -17,8 +17,10 @@ std::uint64_t Pacer::steps_due(double dt, const SimulationSettings& settings, st
   const double asked =
       pace == Pace::real_time ? speed * dt / settings.timestep : speed * settings.steps_per_frame;
   due_ += asked;
-  // What was not done within two pictures is dropped: the motion slows down, and does not jump.
-  const double most = std::max(2.0 * asked, 1.0);
+  // What was not done within two pictures or a tenth of a second is dropped: the motion slows down, and does
+  // not jump.
+  const double tenth = pace == Pace::real_time ? speed * 0.1 / settings.timestep : 0.0;
+  const double most = std::max({2.0 * asked, tenth, 1.0});
   behind_ = due_ > most;
   due_ = std::min(due_, most);
   if (const double window = std::chrono::duration<double>(Clock::now() - rate_start_).count();

@@ -99,6 +99,9 @@ void status_line(double scale, const Simulation& s, const Recording* film, bool 
                                                           : "";
     facts.push_back(fmt::format("{:.3g} × real time{}", s.real_time_factor(), why));
   }
+  if (s.working())
+    facts.insert(facts.begin(), s.changing() ? "working: rebuilds the scene"
+                                             : fmt::format("working on step {}", s.step() + 1));
   facts.push_back(fmt::format("step {}", s.step()));
   facts.emplace_back("F1 all keys");
   const float gap = 22.0f * static_cast<float>(scale);

@@ -230,6 +230,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"device", backend.device},
         {"precision", name_of(state.precision)},
         {"force_path", or_null(backend.force_path)},
+        {"arithmetic", name_of(backend.arithmetic)},
         {"integrator", name_of(model.simulation.integrator)},
         {"timestep", model.simulation.timestep},
         {"particles", model.particle_count()},

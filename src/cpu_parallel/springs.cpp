@@ -27,7 +27,8 @@ std::span<const Spring> springs_of(const Model& model, const Body& body) {
 }  // namespace
 
 std::size_t edge_of_lattice(const Model& model, const Body& body) {
-  if (!body.cubic) return 0;
+  const auto classes = std::span(model.spring_classes).subspan(body.first_class, body.class_count);
+  if (!body.cubic || std::ranges::any_of(classes, &SpringClass::cord)) return 0;
   const auto edge = static_cast<int>(std::lround(std::cbrt(body.particle_count)));
   const ModelCounts complete = cube_counts(edge);
   if (complete.particles != body.particle_count) return 0;

@@ -59,6 +59,10 @@ class ImplicitSolver final : public DeviceSolver {
     mark(kernel);
   }
   void queue_rounds(std::uint32_t rounds) const;
+  /// At a step, before it must be at its end: each look queues `more_rounds` of what Newton's method may
+  /// take, or room for the balls.
+  std::uint64_t most_looks() const;
+  Error idle_device() const;
   void write_solve();
   Status read_solve();
   void take_statistics(const layout::Solve& before);
@@ -99,6 +103,21 @@ void ImplicitSolver::restart() {
   solve_.bad_particle = NO_STEP;
   write_solve();
   statistics_ = {};
+}
+
+std::uint64_t ImplicitSolver::most_looks() const {
+  const ImplicitSettings& implicit = model_.simulation.implicit;
+  const auto iterations = static_cast<std::uint64_t>(implicit.newton_iterations),
+             rounds = static_cast<std::uint64_t>(implicit.cg_iterations) + max_halvings + 3;
+  return iterations * rounds / more_rounds + 64;
+}
+
+Error ImplicitSolver::idle_device() const {
+  return fail(
+      ErrorCode::no_device,
+      "{} does not carry out the kernels of implicit-euler: after {} rounds step {} is not at its end. Use "
+      "another device, or --backend cpu.",
+      context_.info().renderer, most_looks() * more_rounds, base_step_ + solve_.step + 1);
 }
 
 void ImplicitSolver::write_solve() {
@@ -153,9 +172,13 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
     write_solve();
     // As many rounds as the last step took and a quarter more; what is missing is queued on, what is too much
     // does nothing. Neither changes a bit.
-    std::uint32_t rounds =
-        solve_.last_ticks == 0 ? first_rounds : solve_.last_ticks + solve_.last_ticks / 4 + 1;
+    std::uint32_t rounds = solve_.ticks == 0 ? first_rounds : solve_.ticks + solve_.ticks / 4 + 1;
+    std::uint32_t looked = solve_.step;
+    std::uint64_t looks = 0;  // at this step, one after the other
     while (solve_.phase != PHASE_IDLE && solve_.phase != PHASE_HALTED) {
+      looks = solve_.step == looked ? looks + 1 : 0;
+      looked = solve_.step;
+      if (looks > most_looks()) return idle_device();
       if (solve_.phase != PHASE_BEGIN) queue_rounds(more_rounds);
       for (std::uint32_t n = solve_.step; n < solve_.target_step; ++n) {
         dispatch(begin);
@@ -168,7 +191,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
         solve_.full = 0;
         write_solve();
       }
-      rounds = std::max(more_rounds, solve_.last_ticks + solve_.last_ticks / 4 + 1);
+      rounds = std::max(more_rounds, solve_.ticks + solve_.ticks / 4 + 1);
     }
     if (measured) profiler_->end();
     if (solve_.phase == PHASE_HALTED) {

@@ -161,7 +161,7 @@ Result<Finding> equal_bits(const Subject& subject, const BackendRow& row, const 
   ASPIC_TRY(auto expected, run_reference(subject, model, Precision::single, steps));
   std::vector<std::unique_ptr<Solver>> solvers;
   if (!row.needs_context) {
-    ASPIC_TRY(auto solver, subject.other(model, row));
+    ASPIC_TRY(auto solver, subject.other(model, {&row}));
     solvers.push_back(std::move(solver));
   } else {
     for (const BallSearch search : {BallSearch::all_pairs, BallSearch::grid}) {

@@ -61,7 +61,7 @@ Result<Finding> same_bits(const Subject& subject, const BackendRow& backend, con
     if (backend.needs_context) {
       ASPIC_TRY(solver, subject.gpu(model, {}));
     } else {
-      ASPIC_TRY(solver, subject.other(model, backend));
+      ASPIC_TRY(solver, subject.other(model, {&backend}));
     }
     ASPIC_TRY(auto end, run(*solver, steps));
     equal += state_hash_text(end) == state_hash_text(expected) ? 1u : 0u;

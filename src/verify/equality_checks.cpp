@@ -28,7 +28,7 @@ struct Worst {
 /// A solver of any backend but the reference.
 Result<std::unique_ptr<Solver>> make_solver(const Subject& subject, const BackendRow& row, const Model& model,
                                             ForcePath path) {
-  if (!row.needs_context) return subject.other(model, row);
+  if (!row.needs_context) return subject.other(model, {&row});
   GpuOptions options;
   options.force_path = path;
   ASPIC_TRY(auto solver, subject.gpu(model, options));

@@ -57,6 +57,32 @@ TEST(ImplicitEuler, SolvesTheEquationItIsNamedAfter) {
   }
 }
 
+// A body that touches nothing falls by h·g and turns no spring: that is where the solve begins.
+TEST(ImplicitEuler, NeedsNoIterationInFreeFlight) {
+  ModelSettings settings = test::cube_on_plane(4, 5.0);
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = 1.0 / 60.0;
+  Model model = test::build(settings);
+  const Dynamics<double> dynamics(model);
+  ImplicitEuler<double> method(dynamics, model);
+  SolveReport report;
+  const Phase<double> next = method.step(start_of(model), report);
+  EXPECT_EQ(report.end, SolveEnd::converged);
+  EXPECT_EQ(report.newton_iterations, 0u);
+  const double h = model.simulation.timestep;
+  EXPECT_TRUE((next.v.row(1).array() == -9.8 * h).all());
+  // Not where a pinned particle holds the body: then v is nearer to the solution than the fall, or is not,
+  // but either way the equation decides.
+  model.inverse_mass[0] = 0.0;
+  const Dynamics<double> pinned(model);
+  ImplicitEuler<double> again(pinned, model);
+  const Phase<double> held = again.step(start_of(model), report);
+  EXPECT_EQ(report.end, SolveEnd::converged);
+  EXPECT_GT(report.newton_iterations, 0u);
+  EXPECT_EQ(held.v(1, 0), 0.0);
+  EXPECT_GT(held.v(1, 1), -9.8 * h) << "its neighbour is held back";
+}
+
 // A dense Newton's method with finite-difference Jacobian knows nothing of springs, blocks or conjugate
 // gradients.
 TEST(ImplicitEuler, EqualsADenseSolve) {
