@@ -157,12 +157,12 @@ double App::wait(double since) const {
   constexpr double shortest = 1.0 / 60.0, longest = 0.1, nap = 0.004;  // s
   if (idle()) return std::max(0.25 - since, 0.0);
   // Displays set the pace of hardware. A software rasteriser draws on the processors that simulate: it draws
-  // at no more than that pace, only what is new, and where steps are late for half of the time at most.
+  // at no more than that pace, only what is new, and where steps are late for a third of the time at most.
   if (!picture.context().info().is_software) return 0.0;
   const bool nothing_new = simulation.busy() && !simulation.has_news() && !touched_ && !camera_moves_;
-  const bool late = simulation.running() && simulation.pacer().behind();
+  const bool late = simulation.running() && simulation.pacer().late();
   const double interval = nothing_new ? longest
-                          : late      ? std::clamp(2.0 * frame_seconds_, shortest, longest)
+                          : late      ? std::clamp(3.0 * frame_seconds_, shortest, longest)
                                       : shortest;
   return std::clamp(interval - since, 0.0, nap);
 }

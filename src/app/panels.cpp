@@ -49,7 +49,7 @@ constexpr Heading right_sections[] = {
      [](Parts p) {
        recording_section(p.gui, p.scene.editor().source(), p.film);
        ImGui::Separator();
-       state_files(p.gui, {p.scene.editor(), p.simulation, p.messages});
+       state_files(p.gui, p.scene.editor(), p.simulation, p.messages);
      },
      false, "Films of the scene; its states, energies and checkpoints as files."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); }, true,

@@ -49,7 +49,7 @@ ExplicitSteps::ExplicitSteps(const Model& model, const reference::Dynamics<float
 
 std::uint64_t ExplicitSteps::bytes() const {
   std::uint64_t sum = bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) + bytes_of(sweeps_);
-  for (const Task& task : tasks_) sum += bytes_of(task.resting);
+  for (const Task& task : tasks_) sum += bytes_of(task.near) + bytes_of(task.resting);
   for (const Sweep& sweep : sweeps_) sum += sweep.bytes();
   return sum;
 }

@@ -36,7 +36,7 @@ TEST_F(LongStep, PauseAndOtherBackendsComeAtOnce) {
   run_endlessly();
   press(GLFW_KEY_SPACE);
   EXPECT_FALSE(simulation().running());
-  while (simulation().busy()) frames(1);
+  frames_until([&] { return !simulation().busy(); });
   EXPECT_EQ(simulation().step(), 5u) << "the step in progress is dropped";
   press(GLFW_KEY_SPACE);
   frames(2);
@@ -45,7 +45,7 @@ TEST_F(LongStep, PauseAndOtherBackendsComeAtOnce) {
 
 TEST_F(LongStep, TheWindowSaysThatItWorks) {
   run_endlessly();
-  while (!simulation().working()) frames(1);
+  frames_until([&] { return simulation().working(); });
   EXPECT_GT(app().wait(0.0), 0.0) << "with nothing new to show pictures wait";
   press(GLFW_KEY_R);
   EXPECT_FALSE(simulation().working());
@@ -79,7 +79,7 @@ TEST_F(LongStep, AWayThroughHistoryGoesOnOnAnotherBackend) {
   frames(5);
   EXPECT_TRUE(simulation().seeking());
   ASSERT_TRUE(simulation().set_backend(*find_backend("cpu")).ok());
-  while (simulation().seeking()) frames(1);
+  frames_until([&] { return !simulation().seeking(); });
   EXPECT_EQ(simulation().step(), 3u);
   EXPECT_EQ(hash(), reference_hash(app().scene.scene(), 3));
 }
@@ -116,7 +116,7 @@ TEST_F(LongStep, ASingleStepIsDoneByTheBackendThatCan) {
   EXPECT_TRUE(simulation().busy());
   EXPECT_EQ(simulation().step(), 0u);
   ASSERT_TRUE(simulation().set_backend(reference_backend()).ok());
-  while (simulation().busy()) frames(1);
+  frames_until([&] { return !simulation().busy(); });
   EXPECT_EQ(simulation().step(), 1u);
   EXPECT_EQ(hash(), reference_hash(app().scene.scene(), 1));
 }

@@ -83,13 +83,6 @@ void Stage::lose_device(std::uint64_t chance) {
   }
 }
 
-void Stage::frames_to_step(std::uint64_t step) {
-  for (int i = 0; simulation().step() < step; ++i) {
-    ASSERT_LT(i, 10000) << "stuck at step " << simulation().step();
-    frames(1);
-  }
-}
-
 void Stage::frames_to_rest() {
   for (int i = 0; app_->view.camera.shown() != app_->view.camera.goal(); ++i) {
     ASSERT_LT(i, 600);
