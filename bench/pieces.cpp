@@ -10,6 +10,7 @@
 
 #include "cpu_parallel/contact_pieces.h"
 #include "cpu_parallel/kernels.h"
+#include "cpu_parallel/lattice_kernels.h"
 #include "cpu_parallel/springs.h"
 #include "cpu_reference/reductions.h"
 #include "model/incident_springs.h"
@@ -81,14 +82,21 @@ void count_items(State& state, const char* name, std::size_t per_iteration) {
   state.counters[name] = Counter(static_cast<double>(per_iteration), Counter::kIsIterationInvariantRate);
 }
 
-void lattice_forces(State& state, std::int64_t target, int n) {
+void lattice_forces(State& state, std::int64_t target, int n, Arithmetic arithmetic) {
   Body cube(cube_settings(n));
   const parallel::Lattice lattice(cube.model, cube.model.bodies[0]);
+  parallel::Sweep sweep(lattice.planes());
+  parallel::ForceInput input = cube.input();
+  input.arithmetic = arithmetic;
   const Only only(target);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
+    parallel::begin_plane(lattice, input, sweep, 0);
+    parallel::begin_plane(lattice, input, sweep, 1);
     for (std::size_t plane = 0; plane < lattice.planes(); ++plane) {
-      for (std::size_t i = 0; i < lattice.plane_size(); i += piece)
-        parallel::lattice_forces(lattice, cube.input(), plane, {i, std::min(piece, lattice.plane_size() - i)},
+      if (plane + 2 < lattice.planes()) parallel::begin_plane(lattice, input, sweep, plane + 2);
+      for (std::size_t i = 0; i < lattice.plane_size(); i += parallel::chunk_size)
+        parallel::lattice_forces(lattice, input, sweep, plane,
+                                 {i, std::min(parallel::chunk_size, lattice.plane_size() - i)},
                                  cube.forces());
     }
     benchmark::ClobberMemory();
@@ -100,7 +108,7 @@ void listed_forces(State& state, std::int64_t target) {
   Body net(net_settings());
   const parallel::SpringLists lists(net.model, net.model.bodies[0]);
   const Only only(target);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     net.for_each_piece(
         [&](parallel::Range range) { parallel::listed_forces(lists, net.input(), range, net.forces()); });
     benchmark::ClobberMemory();
@@ -113,8 +121,9 @@ void move(State& state, std::int64_t target) {
   const Only only(target);
   const parallel::StageMove stage = {&cube.at, &cube.at, &cube.next, nullptr, cube.inverse_mass.data(), 0.0f,
                                      1.0f,     1e-3f,    false,      true,    Drift::stage_velocity};
-  for (auto _ : state) {
-    cube.for_each_piece([&](parallel::Range range) { parallel::move(stage, range, cube.forces()); });
+  parallel::Moved moved(1e6f);
+  while (state.KeepRunning()) {
+    cube.for_each_piece([&](parallel::Range range) { parallel::move(stage, range, cube.forces(), moved); });
     benchmark::ClobberMemory();
   }
   count_items(state, "particles", cube.model.particle_count());
@@ -123,7 +132,7 @@ void move(State& state, std::int64_t target) {
 void box(State& state, std::int64_t target) {
   Body cube(cube_settings(40));
   const Only only(target);
-  for (auto _ : state)
+  while (state.KeepRunning())
     cube.for_each_piece(
         [&](parallel::Range range) { benchmark::DoNotOptimize(parallel::box_of(cube.at.x, range)); });
   count_items(state, "particles", cube.model.particle_count());
@@ -132,7 +141,7 @@ void box(State& state, std::int64_t target) {
 void all_sound(State& state, std::int64_t target) {
   Body cube(cube_settings(40));
   const Only only(target);
-  for (auto _ : state)
+  while (state.KeepRunning())
     cube.for_each_piece(
         [&](parallel::Range range) { benchmark::DoNotOptimize(parallel::all_sound(cube.at, range, 1e6f)); });
   count_items(state, "particles", cube.model.particle_count());
@@ -143,7 +152,7 @@ void far_terrain(State& state) {
   const Body cube(cube_settings(40));
   std::vector<parallel::Box> boxes;
   cube.for_each_piece([&](parallel::Range range) { boxes.push_back(parallel::box_of(cube.at.x, range)); });
-  for (auto _ : state)
+  while (state.KeepRunning())
     for (const parallel::Box& at : boxes) benchmark::DoNotOptimize(parallel::near_terrain(cube.model, at));
   count_items(state, "pieces", boxes.size());
 }
@@ -153,7 +162,7 @@ void contact(State& state) {
   const Body cube(cube_settings(40));
   reference::Dynamics<float> dynamics(cube.model);
   dynamics.begin_step(0);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     for (Eigen::Index i = 0; i < 1000; ++i) {
       const parallel::Vector start(0.0f, 1e-3f, 0.0f), v(0.1f, -1.0f, 0.0f);
       parallel::Vector x(0.0f, -1e-3f, 0.0f), after = v;
@@ -167,14 +176,15 @@ void contact(State& state) {
 
 void reduction(State& state) {
   const std::vector<float> values(static_cast<std::size_t>(state.range(0)), 1.5f);
-  for (auto _ : state) benchmark::DoNotOptimize(reference::tree_sum(values));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(reference::tree_sum(values));
   count_items(state, "numbers", values.size());
 }
 
 /// Lists of a body's springs by particle, as the gpu needs them.
 void incident_lists(State& state) {
   const Body cube(cube_settings(static_cast<int>(state.range(0))));
-  for (auto _ : state) benchmark::DoNotOptimize(incident_springs(cube.model, IncidentWords::neighbours));
+  while (state.KeepRunning())
+    benchmark::DoNotOptimize(incident_springs(cube.model, IncidentWords::neighbours));
   count_items(state, "springs", count(cube.model).springs());
 }
 
@@ -183,7 +193,7 @@ void copy(State& state) {
   const auto bytes = static_cast<std::size_t>(state.range(0));
   const std::vector<float> from(bytes / 2 / sizeof(float), 1.0f);
   std::vector<float> to(from.size());
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     std::memcpy(to.data(), from.data(), from.size() * sizeof(float));
     benchmark::ClobberMemory();
   }
@@ -193,7 +203,7 @@ void copy(State& state) {
 void rate(State& state, std::int64_t target, bench::Operation operation) {
   const Only only(target);
   std::size_t numbers = 0;
-  for (auto _ : state) numbers += bench::repeat(operation, 1000);
+  while (state.KeepRunning()) numbers += bench::repeat(operation, 1000);
   state.counters["numbers"] = Counter(static_cast<double>(numbers), Counter::kIsRate);
 }
 
@@ -215,8 +225,11 @@ void register_all() {
     const auto add = [&](const std::string& name, auto run) {
       benchmark::RegisterBenchmark(fmt::format("{}/{}", name, set).c_str(), run);
     };
-    for (const int n : {10, 40, 100})
-      add(fmt::format("lattice_forces/{}", n), [=](State& s) { lattice_forces(s, target, n); });
+    for (const Arithmetic arithmetic : {Arithmetic::exact, Arithmetic::fast}) {
+      for (const int n : {10, 20, 40, 100, 200})
+        add(fmt::format("lattice_forces/{}/{}", name_of(arithmetic), n),
+            [=](State& s) { lattice_forces(s, target, n, arithmetic); });
+    }
     add("listed_forces", [=](State& s) { listed_forces(s, target); });
     add("move", [=](State& s) { move(s, target); });
     add("box", [=](State& s) { box(s, target); });

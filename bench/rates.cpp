@@ -1,6 +1,6 @@
 #include "rates.h"
 
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#include "cpu_parallel/targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "../bench/rates.cpp"
 #include <hwy/foreach_target.h>
@@ -21,7 +21,7 @@ HWY_INLINE void used(Float& value) {
 }
 
 template <class Apply>
-std::size_t Rounds(std::size_t rounds, const Apply& apply) {
+std::size_t in_rounds(std::size_t rounds, const Apply& apply) {
   Float a = hn::Set(tag, 1.1f), b = a, c = a, d = a, e = a, f = a, g = a, h = a;
   for (std::size_t n = 0; n < rounds; ++n) {
     for (Float* const value : {&a, &b, &c, &d, &e, &f, &g, &h}) {
@@ -32,21 +32,21 @@ std::size_t Rounds(std::size_t rounds, const Apply& apply) {
   return rounds * 8 * hn::Lanes(tag);
 }
 
-std::size_t Repeat(Operation operation, std::size_t rounds) {
+std::size_t repeated(Operation operation, std::size_t rounds) {
   const Float one = hn::Set(tag, 1.000001f), little = hn::Set(tag, 1e-7f);
   switch (operation) {
     case Operation::add:
-      return Rounds(rounds, [&](Float x) { return hn::Add(x, little); });
+      return in_rounds(rounds, [&](Float x) { return hn::Add(x, little); });
     case Operation::multiply:
-      return Rounds(rounds, [&](Float x) { return hn::Mul(x, one); });
+      return in_rounds(rounds, [&](Float x) { return hn::Mul(x, one); });
     case Operation::fused:
-      return Rounds(rounds, [&](Float x) { return hn::MulAdd(x, one, little); });
+      return in_rounds(rounds, [&](Float x) { return hn::MulAdd(x, one, little); });
     case Operation::root:
-      return Rounds(rounds, [&](Float x) { return hn::Sqrt(x); });
+      return in_rounds(rounds, [&](Float x) { return hn::Sqrt(x); });
     case Operation::quotient:
-      return Rounds(rounds, [&](Float x) { return hn::Div(one, x); });
+      return in_rounds(rounds, [&](Float x) { return hn::Div(one, x); });
     case Operation::reciprocal_root:
-      return Rounds(rounds, [&](Float x) { return hn::ApproximateReciprocalSqrt(x); });
+      return in_rounds(rounds, [&](Float x) { return hn::ApproximateReciprocalSqrt(x); });
   }
   return 0;
 }
@@ -58,10 +58,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace aspic::bench {
 
-HWY_EXPORT(Repeat);
+HWY_EXPORT(repeated);
 
 std::size_t repeat(Operation operation, std::size_t rounds) {
-  return HWY_DYNAMIC_DISPATCH(Repeat)(operation, rounds);
+  return HWY_DYNAMIC_DISPATCH(repeated)(operation, rounds);
 }
 
 }  // namespace aspic::bench

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
+#include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -101,12 +101,16 @@ int converse(int argc, char** argv, const Make& make) {
   for (long steps = 0; std::cin >> word >> steps;) {
     peer.load();
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t processor_start = std::clock();
     peer.advance(steps);
+    const double processor_seconds = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     const std::vector<double> x = peer.positions();
     double sum = 0.0;
     for (std::size_t i = 1; i < x.size(); i += 3) sum += x[i];
-    Json answer = {{"seconds", took.count()}, {"height", sum / static_cast<double>(lattice.count())}};
+    Json answer = {{"seconds", took.count()},
+                   {"processor_seconds", processor_seconds},
+                   {"height", sum / static_cast<double>(lattice.count())}};
     if (word == "positions") answer["positions"] = x;
     say(answer);
   }

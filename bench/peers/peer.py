@@ -75,11 +75,11 @@ def converse(make):
     for line in sys.stdin:
         word, steps = line.split()
         peer.load()
-        start = time.perf_counter()
+        start, processor_start = time.perf_counter(), time.process_time()
         peer.advance(int(steps))
-        seconds = time.perf_counter() - start
+        seconds, processor_seconds = time.perf_counter() - start, time.process_time() - processor_start
         x = numpy.asarray(peer.positions(), dtype=numpy.float64)
-        answer = {"seconds": seconds, "height": float(x[:, 1].mean())}
+        answer = {"seconds": seconds, "processor_seconds": processor_seconds, "height": float(x[:, 1].mean())}
         if word == "positions":
             answer["positions"] = x.ravel().tolist()
         say(answer)

@@ -22,7 +22,7 @@ class Textbook {
         h_(static_cast<float>(lattice.timestep)),
         gravity_(0.0f, -static_cast<float>(lattice.gravity), 0.0f) {
     lattice.for_each_particle(lattice.stretch, [&](double x, double y, double z) {
-      start_.push_back(Eigen::Vector3d(x, y, z).cast<float>());
+      start_.emplace_back(Eigen::Vector3d(x, y, z).cast<float>());
     });
     lattice.for_each_spring([&](int a, int b, double length) {
       springs_.push_back({a, b, static_cast<float>(length)});

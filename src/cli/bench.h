@@ -19,6 +19,11 @@ inline double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// What a run took [s]: by the clock, and of all processors together.
+struct Took {
+  double seconds = 0.0, processor_seconds = 0.0;
+};
+
 /// Whether a peer moves as it should (docs/performance.md, "The peers").
 struct PeerCheck {
   bool passed = false;
@@ -41,22 +46,30 @@ struct Measurement {
   double timestep = 0.0;
   std::uint64_t steps = 0;          ///< of each repeat
   double evaluations_per_step = 1;  ///< of all spring forces, Jacobians counted as such
-  std::vector<double> seconds;      ///< of each repeat, in the order of measuring
+  std::vector<Took> repeats;        ///< in the order of measuring
   std::vector<gl::PassTime> passes;
   std::optional<Divergence> divergence;
   std::optional<double> growth;  ///< cost of a spring evaluation, relative to the first size's
   std::optional<double> ratio;   ///< the first row's throughput with this size and integrator over this one's
+  std::optional<double> processor_ratio;  ///< the same by a second of processor time
 
   /// Whether it has figures: at least one repeat, of what moves as it should.
-  bool counts() const { return !seconds.empty() && !divergence && (!peer || peer->passed); }
+  bool counts() const { return !repeats.empty() && !divergence && (!peer || peer->passed); }
   /// Seconds below which a share q of the repeats lies, from 0 (fastest) to 1, linear between two of them;
   /// counts() first.
   double quantile(double q) const;
   double median() const { return quantile(0.5); }
+  /// Median of the repeats' processor time [s]; counts() first.
+  double processor_median() const;
+  /// Processors that it kept busy: below its number of threads where others had them meanwhile.
+  double processors() const { return processor_median() / median(); }
   double spread() const { return (quantile(1.0) - quantile(0.0)) / median(); }
   double steps_per_second() const { return static_cast<double>(steps) / median(); }
   double spring_evaluations_per_second() const {
     return static_cast<double>(springs) * evaluations_per_step * steps_per_second();
+  }
+  double spring_evaluations_per_processor_second() const {
+    return spring_evaluations_per_second() / processors();
   }
   double seconds_per_simulated_second() const { return 1.0 / (steps_per_second() * timestep); }
 };
@@ -72,9 +85,9 @@ class Contestant {
   Contestant(const Contestant&) = delete;
   Contestant& operator=(const Contestant&) = delete;
 
-  /// Seconds from the start over `steps` steps, the wait for the device included; notes a divergence. Errors:
+  /// From the start over `steps` steps, the wait for the device included; notes a divergence. Errors:
   /// interrupted, and those of the backend.
-  virtual Result<double> run(std::uint64_t steps) = 0;
+  virtual Result<Took> run(std::uint64_t steps) = 0;
   /// After the last run: what is not measured within runs.
   virtual Status finish() { return {}; }
 

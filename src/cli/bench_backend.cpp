@@ -1,5 +1,6 @@
 // A backend as a contestant of `aspic bench`.
 #include <algorithm>
+#include <ctime>
 #include <utility>
 
 #include "cli/bench.h"
@@ -18,11 +19,12 @@ class BackendContestant final : public Contestant {
       : Contestant(std::move(measurement)), backend_(std::move(backend)), interrupt_(interrupt) {}
   ~BackendContestant() override { (void)make_current(); }
 
-  Result<double> run(std::uint64_t steps) override {
+  Result<Took> run(std::uint64_t steps) override {
     ASPIC_CHECK(make_current());
     Solver& solver = *backend_.solver;
     ASPIC_CHECK(solver.load(initial_state(solver.model(), solver.precision())));
     const auto start = Clock::now();
+    const std::clock_t processor_start = std::clock();
     for (std::uint64_t done = 0; done < steps && !m.divergence;) {
       if (interrupt_.interrupted()) return Error{ErrorCode::interrupted, ""};
       const auto before = Clock::now();
@@ -32,14 +34,15 @@ class BackendContestant final : public Contestant {
       if (count == at_once_ && seconds_since(before) < patience) at_once_ *= 2;
     }
     ASPIC_TRY(const auto state, solver.state());
-    const double seconds = seconds_since(start);
+    const Took took = {seconds_since(start),
+                       static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC};
     if (const auto solves = solver.solve_statistics()) {
       // A residual at the start of the step and after each Newton iteration, and an application of the
       // Jacobian in each conjugate gradient iteration.
       const auto iterations = static_cast<double>(solves->newton_iterations + solves->cg_iterations);
       m.evaluations_per_step = 1.0 + iterations / static_cast<double>(steps);
     }
-    return seconds;
+    return took;
   }
 
   /// Device time by pass, from steps of their own: the time stamps are none of what is measured.

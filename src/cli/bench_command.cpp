@@ -30,8 +30,8 @@ Result<std::uint64_t> steps_for(Contestant& contestant, double seconds, std::uin
   for (std::uint64_t steps = 1;; steps *= 2) {
     ASPIC_TRY(const auto took, contestant.run(std::min(steps, most)));
     if (contestant.m.divergence || steps >= most) return std::min(steps, most);
-    if (took > seconds / 4) {
-      const double wanted = static_cast<double>(steps) * seconds / took;
+    if (took.seconds > seconds / 4) {
+      const double wanted = static_cast<double>(steps) * seconds / took.seconds;
       return wanted < static_cast<double>(most)
                  ? std::max<std::uint64_t>(1, static_cast<std::uint64_t>(wanted))
                  : most;
@@ -97,7 +97,7 @@ class Case {
         if (m.divergence || (m.peer && !m.peer->passed)) continue;
         if (interrupt_.interrupted()) return Error{ErrorCode::interrupted, ""};
         ASPIC_TRY(const auto took, contestant->run(m.steps));
-        if (repeat >= 0 && !m.divergence) m.seconds.push_back(took);
+        if (repeat >= 0 && !m.divergence) m.repeats.push_back(took);
       }
     }
     for (const auto& contestant : contestants_) {

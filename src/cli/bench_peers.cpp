@@ -187,7 +187,7 @@ class PeerContestant final : public Contestant {
       : Contestant(std::move(measurement)), peer_(std::move(peer)), lattice_(lattice) {}
 
   /// Also checks the fall of every run.
-  Result<double> run(std::uint64_t steps) override {
+  Result<Took> run(std::uint64_t steps) override {
     ASPIC_TRY(const auto answer, peer_.ask("run", steps));
     const Hello& hello = peer_.hello();
     const double off =
@@ -195,7 +195,7 @@ class PeerContestant final : public Contestant {
     const double bound = rounding_bound(lattice_, m.size, steps, 0.0, hello.velocities_from_positions);
     if (!(off <= bound) && m.peer->passed)
       m.peer = PeerCheck{false, steps, m.peer->deviation, m.peer->bound, off, bound};
-    return answer.value("seconds", 0.0);
+    return Took{answer.value("seconds", 0.0), answer.value("processor_seconds", 0.0)};
   }
 
  private:

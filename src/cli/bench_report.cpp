@@ -57,19 +57,27 @@ Json row_json(const Measurement& m) {
                  {"steps", m.steps},
                  {"diverged", m.divergence.has_value()}};
   if (!m.counts()) return object;
-  object.update({{"seconds", m.seconds},
-                 {"fastest_seconds", m.quantile(0.0)},
+  object.update({{"fastest_seconds", m.quantile(0.0)},
                  {"lower_quartile_seconds", m.quantile(0.25)},
                  {"median_seconds", m.median()},
                  {"upper_quartile_seconds", m.quantile(0.75)},
                  {"slowest_seconds", m.quantile(1.0)},
                  {"spread", m.spread()},
+                 {"processors", m.processors()},
                  {"steps_per_second", m.steps_per_second()},
                  {"evaluations_per_step", m.evaluations_per_step},
                  {"spring_evaluations_per_second", m.spring_evaluations_per_second()},
                  {"seconds_per_simulated_second", m.seconds_per_simulated_second()},
                  {"growth", or_null(m.growth)},
-                 {"ratio", or_null(m.ratio)}});
+                 {"ratio", or_null(m.ratio)},
+                 {"processor_ratio", or_null(m.processor_ratio)}});
+  Json seconds = Json::array(), processor_seconds = Json::array();
+  for (const Took& took : m.repeats) {
+    seconds.push_back(took.seconds);
+    processor_seconds.push_back(took.processor_seconds);
+  }
+  object["seconds"] = seconds;
+  object["processor_seconds"] = processor_seconds;
   // null: this backend does not say; a device's passes are told apart by its time stamps.
   Json passes;
   for (const gl::PassTime& pass : m.passes)
@@ -93,9 +101,10 @@ std::string table_line(const Measurement& m) {
     return value ? fmt::format("{:.2f}", *value) : "-";
   };
   return line + fmt::format(
-                    " {:>10.4g} {:>9.3g} {:>12.4g} {:>6.0f}% {:>7} {:>7} {:>9}\n", m.steps_per_second(),
-                    m.spring_evaluations_per_second(), m.seconds_per_simulated_second(), 100.0 * m.spread(),
-                    factor(m.growth), factor(m.ratio),
+                    " {:>10.4g} {:>9.3g} {:>12.4g} {:>6.0f}% {:>5.2f} {:>7} {:>7} {:>7} {:>9}\n",
+                    m.steps_per_second(), m.spring_evaluations_per_second(), m.seconds_per_simulated_second(),
+                    100.0 * m.spread(), m.processors(), factor(m.growth), factor(m.ratio),
+                    factor(m.processor_ratio),
                     m.bytes ? fmt::format("{:.1f}", static_cast<double>(*m.bytes) / (1024.0 * 1024.0)) : "-");
 }
 
@@ -113,12 +122,24 @@ std::string pass_lines(const Measurement& m) {
 
 }  // namespace
 
-double Measurement::quantile(double q) const {
-  std::vector<double> sorted = seconds;
+namespace {
+
+double quantile_of(const std::vector<Took>& repeats, double Took::*what, double q) {
+  std::vector<double> sorted;
+  for (const Took& took : repeats) sorted.push_back(took.*what);
   std::ranges::sort(sorted);
   const double at = q * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(at), above = std::min(below + 1, sorted.size() - 1);
   return std::lerp(sorted[below], sorted[above], at - static_cast<double>(below));
+}
+
+}  // namespace
+
+double Measurement::quantile(double q) const {
+  return quantile_of(repeats, &Took::seconds, q);
+}
+double Measurement::processor_median() const {
+  return quantile_of(repeats, &Took::processor_seconds, 0.5);
 }
 
 void compare_rows(std::vector<Measurement>& rows) {
@@ -131,7 +152,11 @@ void compare_rows(std::vector<Measurement>& rows) {
     if (!(throughput > 0.0)) continue;  // a scene without springs
     const auto [earlier, is_first] = first_of_name.try_emplace({m.name, m.integrator}, throughput);
     m.growth = earlier->second / throughput;
-    if (first && first->counts()) m.ratio = first->spring_evaluations_per_second() / throughput;
+    if (!first || !first->counts()) continue;
+    m.ratio = first->spring_evaluations_per_second() / throughput;
+    const double by_processor = m.spring_evaluations_per_processor_second();
+    if (std::isfinite(by_processor) && by_processor > 0.0)
+      m.processor_ratio = first->spring_evaluations_per_processor_second() / by_processor;
   }
 }
 
@@ -161,17 +186,20 @@ std::string table_of(const BenchReport& report) {
     if (std::ranges::find(devices, device) == devices.end()) devices.push_back(device);
   }
   for (const std::string& device : devices) text += device;
-  text += fmt::format("\n{:<15} {:<16} {:>4} {:>10} {:>9} {:>10} {:>9} {:>12} {:>7} {:>7} {:>7} {:>9}\n",
-                      "backend", "integrator", "n", "springs", "h [s]", "steps/s", "ev./s", "s per sim. s",
-                      "spread", "growth", "ratio", "MiB");
+  text += fmt::format(
+      "\n{:<15} {:<16} {:>4} {:>10} {:>9} {:>10} {:>9} {:>12} {:>7} {:>5} {:>7} {:>7} {:>7} {:>9}\n",
+      "backend", "integrator", "n", "springs", "h [s]", "steps/s", "ev./s", "s per sim. s", "spread", "busy",
+      "growth", "ratio", "cpu r.", "MiB");
   for (const Measurement& m : report.rows) text += table_line(m);
   for (const Measurement& m : report.rows) {
     if (!m.passes.empty()) text += pass_lines(m);
   }
   text +=
-      "\nev./s: spring evaluations; spread: (slowest - fastest) / median; growth: cost of an evaluation "
-      "relative to "
-      "the first size;\nratio: the first row's ev./s with this size over this row's.\n";
+      "\nev./s: spring evaluations; spread: (slowest - fastest) / median; busy: processors in use; growth: "
+      "cost of\n"
+      "an evaluation relative to the first size; ratio: ev./s of the first row with this size over this "
+      "row's;\n"
+      "cpu r.: the same by processor time, for busy machines.\n";
   if (report.interrupted)
     text += "Interrupted: rows that are missing or have fewer repeats were not finished.\n";
   return text;

@@ -83,8 +83,13 @@ class CpuSolver final : public Solver {
     return {};
   }
 
+  void heed(const std::atomic<bool>* flag) override {
+    Solver::heed(flag);
+    dynamics_.heed(flag);
+  }
+
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
-    for (std::uint64_t n = 0; n < steps && !divergence_; ++n) step();
+    for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) step();
     return divergence_;
   }
 
@@ -163,9 +168,18 @@ Result<State> CpuSolver::state() {
 void CpuSolver::step() {
   dynamics_.begin_step(step_);
   SolveReport report;
-  const bool sound = implicit_ ? implicit_->step(state_, next_, report) : explicit_->step(state_, next_);
-  if (model_.ball_count() > 0) move_balls();
-  if (!sound || model_.ball_count() > 0) {
+  bool sound = implicit_ ? implicit_->step(state_, next_, report) : explicit_->step(state_, next_);
+  if (interrupted()) {  // the step is dropped
+    if (explicit_) explicit_->forget();
+    return;
+  }
+  if (model_.ball_count() > 0) {
+    move_balls();
+    sound =
+        explicit_ ? explicit_->look_at(next_) : all_sound(next_, {0, model_.particle_count()}, speed_limit);
+    divergence_ = reference::find_divergence(model_, next_balls_, step_ + 1);
+  }
+  if (!sound) {
     divergence_ = reference::find_divergence<float>(
         model_, [&](Eigen::Index i) { return vector_of(next_.x, static_cast<std::size_t>(i)); },
         [&](Eigen::Index i) { return vector_of(next_.v, static_cast<std::size_t>(i)); }, next_balls_,
@@ -182,19 +196,13 @@ void CpuSolver::step() {
 
 /// Balls fly and meet particles, as in the reference.
 void CpuSolver::move_balls() {
-  const auto columns_of = [&](const VectorArray& a) {
-    reference::Field<float> field(3, model_.particle_count());
-    for (Eigen::Index i = 0; i < field.cols(); ++i) field.col(i) = vector_of(a, static_cast<std::size_t>(i));
-    return field;
+  const auto view = [](auto& particles) {
+    const auto of = [](auto& a) { return std::array{a[0].data(), a[1].data(), a[2].data()}; };
+    return std::pair(of(particles.x), of(particles.v));
   };
-  const reference::Phase<float> start = {columns_of(state_.x), columns_of(state_.v)};
-  reference::Phase<float> end = {columns_of(next_.x), columns_of(next_.v)};
-  next_balls_ = balls_.step(step_, ball_phase_, start, end);
-  for (Eigen::Index i = 0; i < end.x.cols(); ++i) {
-    parallel::set(next_.x, static_cast<std::size_t>(i), end.x.col(i));
-    parallel::set(next_.v, static_cast<std::size_t>(i), end.v.col(i));
-  }
-  if (explicit_) explicit_->forget();
+  const auto [x_0, v_0] = view(std::as_const(state_));
+  const auto [x, v] = view(next_);
+  next_balls_ = balls_.step(step_, ball_phase_, {x_0, v_0, 1}, {x, v, 1});
 }
 
 }  // namespace

@@ -14,8 +14,6 @@ constexpr std::size_t piece_size = 1024;
 /// lower side springs of two planes are evaluated again.
 constexpr std::size_t least_planes = 24;
 
-constexpr auto speed_limit = static_cast<float>(divergence_speed * divergence_speed);
-
 /// Calls f(part) for parts of a range of at most `size`.
 template <class F>
 void for_parts(Range range, std::size_t size, const F& f) {
@@ -51,13 +49,13 @@ ExplicitSteps::ExplicitSteps(const Model& model, const reference::Dynamics<float
 
 std::uint64_t ExplicitSteps::bytes() const {
   std::uint64_t sum = bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) + bytes_of(sweeps_);
-  for (const Task& task : tasks_) sum += bytes_of(task.resting);
+  for (const Task& task : tasks_) sum += bytes_of(task.near) + bytes_of(task.resting);
   for (const Sweep& sweep : sweeps_) sum += sweep.bytes();
   return sum;
 }
 
 void ExplicitSteps::cut(std::size_t body) {
-  const auto add = [&](Range range) { tasks_.push_back({body, range, {}, true, {}}); };
+  const auto add = [&](Range range) { tasks_.push_back({body, range, {}, true, {}, {}}); };
   if (const auto* const lists = std::get_if<SpringLists>(&springs_[body]))
     return for_parts({lists->first(), lists->count()}, piece_size, add);
   const auto& lattice = std::get<Lattice>(springs_[body]);
@@ -71,10 +69,19 @@ void ExplicitSteps::cut(std::size_t body) {
   }
 }
 
+bool ExplicitSteps::look_at(const Particles& start) {
+  workers_.run(tasks_.size(), [&](std::size_t n) {
+    Task& task = tasks_[n];
+    task.box = box_of(start.x, task.range);
+    find_near(task, start.x);
+    task.sound = all_sound(start, task.range, speed_limit);
+  });
+  known_ = true;
+  return std::ranges::all_of(tasks_, &Task::sound);
+}
+
 bool ExplicitSteps::step(Particles& start, Particles& end) {
-  if (!boxes_known_)
-    workers_.run(tasks_.size(), [&](std::size_t n) { tasks_[n].box = box_of(start.x, tasks_[n].range); });
-  boxes_known_ = true;
+  if (!known_) look_at(start);
   const double h = model_.simulation.timestep;
   const std::size_t stages = method_.stages.size();
   const Particles* at = &start;
@@ -94,7 +101,9 @@ bool ExplicitSteps::step(Particles& start, Particles& end) {
                             accumulate,
                             s + 1 == stages,
                             method_.drift};
-    workers_.run(tasks_.size(), [&](std::size_t n) { run(tasks_[n], move); });
+    workers_.run(tasks_.size(), [&](std::size_t n) {
+      if (!dynamics_.interrupted()) run(tasks_[n], move);
+    });
     accumulate = accumulate || stage.weight != 0.0;
     at = to;
   }
@@ -108,7 +117,7 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
   const Vector g = dynamics_.gravity();
   const ForceInput input = {stage.at, mass_.data(), {g.x(), g.y(), g.z()}, arithmetic_};
   const bool near = near_terrain(model_, task.box);
-  if (stage.at == stage.start) task.resting.clear();
+  if (stage.at == stage.start) find_resting(task, stage);
   Moved moved(speed_limit);
   if (const auto* const lattice = std::get_if<Lattice>(&springs_[task.body])) {
     const std::size_t size = lattice->plane_size();
@@ -133,7 +142,9 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
   }
   task.box = moved.box();
   task.sound = moved.sound;
-  if (stage.last && near_terrain(model_, task.box)) respond(task, stage);
+  if (!stage.last) return;
+  find_near(task, stage.next->x);
+  respond(task, stage);
 }
 
 /// What comes after the springs of some of a task's particles.
@@ -166,37 +177,56 @@ void ExplicitSteps::pull(const StageMove& stage, Range range, const Forces& forc
                                                vector_of(stage.at->v, i), pull->anchor, Vector::Zero()));
 }
 
-/// What terrain adds to the forces.
-void ExplicitSteps::add_contact(Task& task, const StageMove& stage, Range range, const Forces& forces) {
-  const std::size_t end = range.first + range.count;
-  if (model_.contact.model == ContactModel::course) {
-    if (!near_terrain(model_, box_of(stage.at->x, range))) return;
-    for (std::size_t i = range.first; i < end; ++i) {
-      if (inverse_mass_[i] != 0.0f)
-        put_force(forces, i - range.first,
-                  dynamics_.with_contact(vector_of(stage.at->x, i), vector_of(stage.at->v, i),
-                                         force_at(forces, i - range.first)));
-    }
-    return;
-  }
-  if (stage.at == stage.start && near_terrain(model_, box_of(stage.at->x, range))) {
-    for (std::size_t i = range.first; i < end; ++i)
+/// Calls f(part) for the slices of a range with a particle that may be near terrain.
+template <class F>
+void ExplicitSteps::for_near(const VectorArray& x, Range range, const F& f) const {
+  for_parts(range, piece_size, [&](Range piece) {
+    if (!near_terrain(model_, box_of(x, piece))) return;
+    for_parts(piece, slice, [&](Range part) {
+      if (near_terrain(model_, box_of(x, part))) f(part);
+    });
+  });
+}
+
+void ExplicitSteps::find_near(Task& task, const VectorArray& x) const {
+  task.near.clear();
+  if (near_terrain(model_, task.box)) for_near(x, task.range, [&](Range part) { task.near.push_back(part); });
+}
+
+void ExplicitSteps::find_resting(Task& task, const StageMove& stage) const {
+  task.resting.clear();
+  for (const Range& part : task.near) {
+    for (std::size_t i = part.first; i < part.first + part.count; ++i)
       dynamics_.find_resting(static_cast<Eigen::Index>(i), vector_of(stage.at->x, i),
                              vector_of(stage.at->v, i), task.resting);
+  }
+}
+
+/// What terrain adds to the forces.
+void ExplicitSteps::add_contact(Task& task, const StageMove& stage, Range range, const Forces& forces) {
+  const VectorArray &x = stage.at->x, &v = stage.at->v;
+  if (model_.contact.model == ContactModel::course) {
+    return for_near(x, range, [&](Range part) {
+      for (std::size_t i = part.first; i < part.first + part.count; ++i) {
+        const std::size_t n = i - range.first;
+        if (inverse_mass_[i] != 0.0f)
+          put_force(forces, n, dynamics_.with_contact(vector_of(x, i), vector_of(v, i), force_at(forces, n)));
+      }
+    });
   }
   using Contact = reference::RestingContact<float>;
   const auto particle = [](const Contact& at) { return static_cast<std::size_t>(at.particle); };
   for (auto at = std::ranges::lower_bound(task.resting, range.first, {}, particle);
-       at != task.resting.end() && particle(*at) < end; ++at)
-    put_force(forces, particle(*at) - range.first,
-              reference::with_reaction<float>(*at, force_at(forces, particle(*at) - range.first)));
+       at != task.resting.end() && particle(*at) < range.first + range.count; ++at) {
+    const std::size_t n = particle(*at) - range.first;
+    put_force(forces, n, reference::with_reaction<float>(*at, force_at(forces, n)));
+  }
 }
 
-/// Terrain response at the end of the step.
+/// Terrain response at the end of the step. What it moves is looked at again, for the box and for divergence.
 void ExplicitSteps::respond(Task& task, const StageMove& stage) {
   Particles& next = *stage.next;
-  for_parts(task.range, piece_size, [&](Range part) {
-    if (!near_terrain(model_, box_of(next.x, part))) return;
+  for (const Range& part : task.near) {
     for (std::size_t i = part.first; i < part.first + part.count; ++i) {
       Vector x = vector_of(next.x, i), v = vector_of(next.v, i);
       dynamics_.respond(static_cast<Eigen::Index>(i), vector_of(stage.start->x, i),
@@ -204,9 +234,14 @@ void ExplicitSteps::respond(Task& task, const StageMove& stage) {
       set(next.x, i, x);
       set(next.v, i, v);
     }
-  });
-  task.box = box_of(next.x, task.range);
-  task.sound = all_sound(next, task.range, speed_limit);
+    const Box moved = box_of(next.x, part);
+    for (std::size_t c = 0; c < 3; ++c) {
+      task.box.min[c] = std::min(task.box.min[c], moved.min[c]);
+      task.box.max[c] = std::max(task.box.max[c], moved.max[c]);
+    }
+    task.sound = task.sound && all_sound(next, part, speed_limit);
+  }
+  if (!task.sound) task.sound = all_sound(next, task.range, speed_limit);
 }
 
 }  // namespace aspic::parallel

@@ -21,8 +21,10 @@ class ExplicitSteps {
   /// A step from `start`, the terrain's response included. Returns whether all particles ended it finite and
   /// slower than the speed that counts as diverged.
   bool step(Particles& start, Particles& end);
-  /// The next step begins elsewhere than where the last one ended.
-  void forget() { boxes_known_ = false; }
+  /// What the next step begins at was changed since the last one. Returns as step().
+  bool look_at(const Particles& start);
+  /// The same without a look: the next step will.
+  void forget() { known_ = false; }
   /// Bytes it holds on the heap.
   std::uint64_t bytes() const;
 
@@ -31,9 +33,11 @@ class ExplicitSteps {
   /// body.
   struct Task {
     std::size_t body;
-    Range range;                                            ///< within all particles
-    Box box;                                                ///< around them at the stage at hand
-    bool sound;                                             ///< at the end of the step
+    Range range;  ///< within all particles
+    Box box;      ///< around them at the stage at hand
+    bool sound;   ///< at the end of the step
+    /// Those that may be near terrain at the step's start: at its end terrain moves none but them.
+    std::vector<Range> near;
     std::vector<reference::RestingContact<float>> resting;  ///< of this step, in ascending particle index
   };
 
@@ -43,6 +47,10 @@ class ExplicitSteps {
   void pull(const StageMove& stage, Range range, const Forces& forces);
   void add_contact(Task& task, const StageMove& stage, Range range, const Forces& forces);
   void respond(Task& task, const StageMove& stage);
+  void find_near(Task& task, const VectorArray& x) const;
+  void find_resting(Task& task, const StageMove& stage) const;
+  template <class F>
+  void for_near(const VectorArray& x, Range range, const F& f) const;
 
   const Model& model_;
   const IntegratorRow& method_;
@@ -54,7 +62,7 @@ class ExplicitSteps {
   std::vector<Task> tasks_;
   std::vector<Sweep> sweeps_;  // by thread
   Particles between_, sums_;
-  bool boxes_known_ = false;
+  bool known_ = false;  ///< the boxes, and what is near
 };
 
 }  // namespace aspic::parallel

@@ -12,7 +12,7 @@ namespace {
 
 /// Jacobians of springs are kept where those of a body fit into the caches nearest to the processor: there
 /// loading them costs less than a square root and a division. Beyond that it is the other way round.
-constexpr std::size_t most_kept_particles = 32'768;
+constexpr std::size_t most_kept_particles = 16'384;
 
 Vector vector_of(const BlockVectors& a, std::size_t n) {
   return {a[0].of[n], a[1].of[n], a[2].of[n]};

@@ -36,6 +36,7 @@ class ImplicitEuler {
   reference::Trial<float> try_step(float lambda, bool onwards);
   float start_solve();
   bool prescribes() const { return prescribes_; }
+  bool interrupted() const { return dynamics_.interrupted(); }
   float apply();
   float advance(float alpha, bool first);
   void turn(float beta);

@@ -25,15 +25,16 @@ void listed_forces_in(const SpringLists& lists, const ForceInput& input, Range r
     for (const SpringLists::Slot& slot : lists.slots(local / slice)) {
       const auto other = hn::LoadU(index_tag, slot.neighbour.data() + lane);
       const auto kind = hn::LoadU(index_tag, slot.spring_class.data() + lane);
-      const Spring of = {hn::GatherIndex(tag, lists.stiffness().data(), kind),
-                         hn::GatherIndex(tag, lists.damping().data(), kind),
-                         hn::GatherIndex(tag, lists.rest_length().data(), kind)};
-      const Vector e = x - gathered(at.x, other);
-      const Pull found = pull<arithmetic>(e, v - gathered(at.v, other), of);
+      const Spring of[] = {{hn::GatherIndex(tag, lists.stiffness().data(), kind),
+                            hn::GatherIndex(tag, lists.damping().data(), kind),
+                            hn::GatherIndex(tag, lists.rest_length().data(), kind)}};
+      const Vector e[] = {x - gathered(at.x, other)}, dv[] = {v - gathered(at.v, other)};
+      Float factor[1], length[1];
+      evaluate_springs<arithmetic>(e, dv, of, factor, length);
       const Float nothing = hn::LoadU(tag, slot.nothing.data() + lane);
-      const Mask idle = hn::Or(hn::Eq(found.length, hn::Zero(tag)),
-                               hn::Lt(found.length, hn::GatherIndex(tag, lists.slack().data(), kind)));
-      const Vector taken = chosen(idle, {nothing, nothing, nothing}, found.factor * e);
+      const Mask idle = hn::Or(hn::Eq(length[0], hn::Zero(tag)),
+                               hn::Lt(length[0], hn::GatherIndex(tag, lists.slack().data(), kind)));
+      const Vector taken = chosen(idle, {nothing, nothing, nothing}, factor[0] * e[0]);
       f = chosen(mask_of(slot.present, lane), f - taken, f);
     }
     store(f, forces, n);

@@ -66,6 +66,9 @@ void move(const StageMove& stage, Range range, const Forces& forces, Moved& move
 /// Smallest box around the positions of a range [m].
 Box box_of(const VectorArray& x, Range range);
 
+/// On the square of a speed: above it a step has diverged [m²/s²].
+inline constexpr auto speed_limit = static_cast<float>(divergence_speed * divergence_speed);
+
 /// Whether all positions are finite and no speed is above the square root of `limit` [m²/s²].
 bool all_sound(const Particles& particles, Range range, float limit);
 

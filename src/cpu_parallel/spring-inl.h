@@ -18,42 +18,53 @@ struct Spring {
   Float k, c, r;
 };
 
-/// What a spring takes off the force on its end a, (s·q)·e with e = xₐ − x_b and v = vₐ − v_b, and its
-/// length; in exact arithmetic not a number where it has none.
-struct Pull {
-  Float factor;  ///< of e
-  Float length;
-};
-
-/// a·b of fast arithmetic.
-HWY_INLINE Float fused_dot3(const Vector& a, const Vector& b) {
-  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
+/// What springs take off the forces on their ends a: factor·e, where e = xₐ − x_b, v = vₐ − v_b and spring i
+/// has the constants of[i % size]; and their lengths. All are treated in parallel, since one after the other
+/// they would fill the processor's scheduler with waiting operations.
+///
+/// Exact: s·q with s = k(L − r) + c((v·e)·q), q = 1/L; not a number for a spring of no length.
+template <Arithmetic arithmetic, std::size_t size, std::size_t springs>
+HWY_INLINE void evaluate_springs(const Vector (&e)[springs], const Vector (&v)[springs],
+                                 const Spring (&of)[size], Float (&factor)[springs],
+                                 Float (&length)[springs]) requires(arithmetic == Arithmetic::exact) {
+  Float q[springs], along[springs];
+  for (std::size_t i = 0; i < springs; ++i) length[i] = dot3(e[i], e[i]);
+  for (std::size_t i = 0; i < springs; ++i) length[i] = hn::Sqrt(length[i]);
+  for (std::size_t i = 0; i < springs; ++i) along[i] = dot3(v[i], e[i]);
+  for (std::size_t i = 0; i < springs; ++i) q[i] = hn::Div(hn::Set(tag, 1.0f), length[i]);
+  for (std::size_t i = 0; i < springs; ++i)
+    factor[i] = hn::Mul(of[i % size].k, hn::Sub(length[i], of[i % size].r));
+  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::Mul(of[i % size].c, hn::Mul(along[i], q[i]));
+  for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::Mul(hn::Add(factor[i], along[i]), q[i]);
 }
 
-/// 1/√a in fast arithmetic. An estimate of n bits has 2n − 1 after a Newton step: x86 gives at least 11.
-HWY_INLINE Float fast_root(Float a) {
-  Float q = hn::ApproximateReciprocalSqrt(a);
-  for (int step = 0; step < (HWY_ARCH_X86 ? 1 : 2); ++step)
-    q = hn::Mul(hn::Mul(hn::Set(tag, 0.5f), q), hn::NegMulAdd(hn::Mul(a, q), q, hn::Set(tag, 3.0f)));
-  return q;
-}
-
-/// k − q·(k·r − c·((v·e)·q)) with q = 1/|e|. A spring shorter than 1e-15 m counts as that long: e = 0 gives
-/// no force and nothing that is not finite.
-HWY_INLINE Pull fast_pull(const Vector& e, const Vector& v, const Spring& of) {
-  const Float square = hn::Max(fused_dot3(e, e), hn::Set(tag, 1e-30f));
-  const Float q = fast_root(square);
-  const Float inner = hn::NegMulAdd(of.c, hn::Mul(fused_dot3(v, e), q), hn::Mul(of.k, of.r));
-  return {hn::NegMulAdd(q, inner, of.k), hn::Mul(square, q)};
-}
-
-template <Arithmetic arithmetic>
-HWY_INLINE Pull pull(const Vector& e, const Vector& v, const Spring& of) {
-  if constexpr (arithmetic == Arithmetic::fast) return fast_pull(e, v, of);
-  const Float L = hn::Sqrt(dot3(e, e));
-  const Float q = hn::Div(hn::Set(tag, 1.0f), L);
-  const Float s = hn::Add(hn::Mul(of.k, hn::Sub(L, of.r)), hn::Mul(of.c, hn::Mul(dot3(v, e), q)));
-  return {hn::Mul(s, q), L};
+/// Fast: k − q·(k·r − c·((v·e)·q)), q by an estimate of 1/L and a Newton step. An estimate of n bits has 2n −
+/// 1 after that: x86 gives at least 11. A spring shorter than 1e-15 m counts as that long: e = 0 gives no
+/// force and nothing that is not finite.
+template <Arithmetic arithmetic, std::size_t size, std::size_t springs>
+HWY_INLINE void evaluate_springs(const Vector (&e)[springs], const Vector (&v)[springs],
+                                 const Spring (&of)[size], Float (&factor)[springs],
+                                 Float (&length)[springs]) requires(arithmetic == Arithmetic::fast) {
+  Float square[springs], q[springs], along[springs];
+  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::Mul(e[i].x, e[i].x);
+  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::Mul(v[i].x, e[i].x);
+  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::MulAdd(e[i].y, e[i].y, square[i]);
+  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::MulAdd(v[i].y, e[i].y, along[i]);
+  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::MulAdd(e[i].z, e[i].z, square[i]);
+  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::MulAdd(v[i].z, e[i].z, along[i]);
+  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::Max(square[i], hn::Set(tag, 1e-30f));
+  for (std::size_t i = 0; i < springs; ++i) q[i] = hn::ApproximateReciprocalSqrt(square[i]);
+  for (int step = 0; step < (HWY_ARCH_X86 ? 1 : 2); ++step) {
+    for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::Mul(square[i], q[i]);
+    for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::NegMulAdd(factor[i], q[i], hn::Set(tag, 3.0f));
+    for (std::size_t i = 0; i < springs; ++i) q[i] = hn::Mul(q[i], hn::Set(tag, 0.5f));
+    for (std::size_t i = 0; i < springs; ++i) q[i] = hn::Mul(q[i], factor[i]);
+  }
+  for (std::size_t i = 0; i < springs; ++i) length[i] = hn::Mul(square[i], q[i]);
+  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::Mul(along[i], q[i]);
+  for (std::size_t i = 0; i < springs; ++i)
+    along[i] = hn::NegMulAdd(of[i % size].c, along[i], hn::Mul(of[i % size].k, of[i % size].r));
+  for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::NegMulAdd(q[i], along[i], of[i % size].k);
 }
 
 HWY_INLINE Vector weight_of(const ForceInput& input, std::size_t i) {
@@ -62,11 +73,14 @@ HWY_INLINE Vector weight_of(const ForceInput& input, std::size_t i) {
           hn::Mul(m, hn::Set(tag, input.gravity[2]))};
 }
 
-HWY_INLINE Vector load(const Forces& forces, std::size_t at) {
+/// Places as in load() of particles.
+HWY_INLINE Vector load(const Forces& forces, std::size_t i) {
+  const auto at = static_cast<std::ptrdiff_t>(i);
   return {hn::LoadU(tag, forces.component[0] + at), hn::LoadU(tag, forces.component[1] + at),
           hn::LoadU(tag, forces.component[2] + at)};
 }
-HWY_INLINE void store(const Vector& f, const Forces& forces, std::size_t at) {
+HWY_INLINE void store(const Vector& f, const Forces& forces, std::size_t i) {
+  const auto at = static_cast<std::ptrdiff_t>(i);
   hn::StoreU(f.x, tag, forces.component[0] + at);
   hn::StoreU(f.y, tag, forces.component[1] + at);
   hn::StoreU(f.z, tag, forces.component[2] + at);

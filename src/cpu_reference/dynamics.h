@@ -1,5 +1,6 @@
 #pragma once
 // Force and acceleration of all particles: a(x, v) = w·f(x, v) with f = m·g + springs + pull + contact force.
+#include <atomic>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -59,6 +60,10 @@ class Dynamics {
   void begin_step(std::uint64_t step) {
     for (Ground<T>& ground : grounds_) ground.begin_step(model_.simulation.timestep, step);
   }
+
+  /// While `*flag` is true forces are left incomplete, for a step that is dropped; see Solver::heed.
+  void heed(const std::atomic<bool>* flag) { flag_ = flag; }
+  bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
 
   /// f(x, v) [N], one column per particle.
   Field<T> force(const Field<T>& x, const Field<T>& v) const {
@@ -155,6 +160,7 @@ class Dynamics {
   Field<T> force_without_contact(const Field<T>& x, const Field<T>& v) const {
     Field<T> f(3, x.cols());
     for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass(i) * gravity_;
+    if (interrupted()) return f;
     for (const Spring& spring : springs_of(model_)) {
       const Vector<T> on_a = spring_force<T>(classes_[spring.spring_class], x.col(spring.a), v.col(spring.a),
                                              x.col(spring.b), v.col(spring.b));
@@ -175,6 +181,7 @@ class Dynamics {
   }
 
   const Model& model_;
+  const std::atomic<bool>* flag_ = nullptr;
   Vector<T> gravity_;
   ContactConstants<T> contact_;
   std::vector<SpringConstants<T>> classes_;

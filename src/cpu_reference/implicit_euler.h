@@ -124,6 +124,7 @@ class ImplicitEuler {
   Trial<T> try_step(T lambda, bool onwards);
   T start_solve();
   bool prescribes() const { return prescribes_; }
+  bool interrupted() const { return dynamics_.interrupted(); }
   T apply();
   T advance(T alpha, bool first);
   void turn(T beta) { p_ = z_ + beta * p_; }

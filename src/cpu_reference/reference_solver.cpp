@@ -43,10 +43,15 @@ class ReferenceSolver final : public Solver {
     return {};
   }
 
+  void heed(const std::atomic<bool>* flag) override {
+    Solver::heed(flag);
+    dynamics_.heed(flag);
+  }
+
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     const double h = model_.simulation.timestep;
     const bool solved = row_of(model_.simulation.integrator).solved();
-    for (std::uint64_t n = 0; n < steps && !divergence_; ++n) {
+    for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) {
       SolveReport report;
       dynamics_.begin_step(step_);
       Phase<T> next = solved ? implicit_.step(phase_, report)
@@ -57,8 +62,11 @@ class ReferenceSolver final : public Solver {
       } else {
         dynamics_.respond(phase_.x, phase_.v, next.x, next.v);
       }
+      if (interrupted()) break;
       BallPhase<T> next_balls;
-      if (model_.ball_count() > 0) next_balls = balls_.step(step_, ball_phase_, phase_, next);
+      if (model_.ball_count() > 0) {
+        next_balls = balls_.step(step_, ball_phase_, view_of(std::as_const(phase_)), view_of(next));
+      }
       divergence_ = find_divergence<T>(
           model_, [&](Eigen::Index i) { return Vector<T>(next.x.col(i)); },
           [&](Eigen::Index i) { return Vector<T>(next.v.col(i)); }, next_balls, step_ + 1);

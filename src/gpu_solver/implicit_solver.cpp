@@ -59,9 +59,8 @@ class ImplicitSolver final : public DeviceSolver {
     mark(kernel);
   }
   void queue_rounds(std::uint32_t rounds) const;
-  /// At a step, before it must be at its end: each look queues `more_rounds` of what Newton's method may
-  /// take, or room for the balls.
-  std::uint64_t most_looks() const;
+  /// More than a step can take.
+  std::uint64_t most_rounds() const;
   Error idle_device() const;
   void write_solve();
   Status read_solve();
@@ -105,11 +104,11 @@ void ImplicitSolver::restart() {
   statistics_ = {};
 }
 
-std::uint64_t ImplicitSolver::most_looks() const {
+std::uint64_t ImplicitSolver::most_rounds() const {
   const ImplicitSettings& implicit = model_.simulation.implicit;
   const auto iterations = static_cast<std::uint64_t>(implicit.newton_iterations),
              rounds = static_cast<std::uint64_t>(implicit.cg_iterations) + max_halvings + 3;
-  return iterations * rounds / more_rounds + 64;
+  return (iterations + 1) * rounds;
 }
 
 Error ImplicitSolver::idle_device() const {
@@ -117,7 +116,7 @@ Error ImplicitSolver::idle_device() const {
       ErrorCode::no_device,
       "{} does not carry out the kernels of implicit-euler: after {} rounds step {} is not at its end. Use "
       "another device, or --backend cpu.",
-      context_.info().renderer, most_looks() * more_rounds, base_step_ + solve_.step + 1);
+      context_.info().renderer, most_rounds(), base_step_ + solve_.step + 1);
 }
 
 void ImplicitSolver::write_solve() {
@@ -174,11 +173,12 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
     // does nothing. Neither changes a bit.
     std::uint32_t rounds = solve_.ticks == 0 ? first_rounds : solve_.ticks + solve_.ticks / 4 + 1;
     std::uint32_t looked = solve_.step;
-    std::uint64_t looks = 0;  // at this step, one after the other
+    std::uint64_t queued = 0;  // rounds of this step
     while (solve_.phase != PHASE_IDLE && solve_.phase != PHASE_HALTED) {
-      looks = solve_.step == looked ? looks + 1 : 0;
+      if (solve_.step != looked) queued = 0;
       looked = solve_.step;
-      if (looks > most_looks()) return idle_device();
+      if (queued > most_rounds()) return idle_device();
+      queued += rounds;
       if (solve_.phase != PHASE_BEGIN) queue_rounds(more_rounds);
       for (std::uint32_t n = solve_.step; n < solve_.target_step; ++n) {
         dispatch(begin);
@@ -189,6 +189,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
         // The balls' part of the step is repeated, from the state it began with, where nothing was written.
         ASPIC_CHECK(balls_.grow());
         solve_.full = 0;
+        queued = 0;
         write_solve();
       }
       rounds = std::max(more_rounds, solve_.ticks + solve_.ticks / 4 + 1);

@@ -1,5 +1,7 @@
 #include "render/model_buffers.h"
 
+#include <glad/gl.h>
+
 #include <algorithm>
 #include <array>
 
@@ -80,7 +82,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   fill(b.quantity_, "coloured quantity", std::vector<float>(b.particle_count_, 0.0f));
   fill(b.bounds_, "light bounds", std::vector<render_layout::Bounds>(LIGHTS));
   fill(b.light_boxes_, "light boxes", std::vector<render_layout::LightBox>(LIGHTS));
-  if (!fill.status()) return fill.status().error();
+  ASPIC_CHECK(fill.status());
   ASPIC_TRY(b.balls_, BallBuffers::create(context, model));
   ASPIC_TRY(b.rods_, Rods::create(context, model));
   return b;
@@ -147,6 +149,23 @@ void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const Dev
   gl::Pass(programs.light_boxes, {{BINDING_BOUNDS, &bounds_}, {BINDING_LIGHT_BOXES_OUT, &light_boxes_}},
            ReadBy::uniform)
       .dispatch_for(LIGHTS);
+}
+
+namespace {
+
+void draw_elements(GLenum mode, std::uint32_t first, std::uint32_t count) {
+  glDrawElements(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{first}));
+}
+
+}  // namespace
+
+void draw_triangles(const Surface::Part& part) {
+  draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
+}
+
+void draw_lines(const SpringRun& run) {
+  draw_elements(GL_LINES, run.first_index, run.index_count);
 }
 
 gl::VertexArray ModelBuffers::array(const gl::Buffer& particles, const gl::Buffer* indices) const {

@@ -201,7 +201,8 @@ const BackendRow* find_backend(std::string_view name) {
 }
 
 const BackendRow& next_backend(const BackendRow& row) {
-  return &row == &backends().back() ? backends().front() : *(&row + 1);
+  const auto* const found = std::ranges::find(table, row.name, &BackendRow::name);
+  return std::end(table) - found > 1 ? found[1] : *std::begin(table);
 }
 
 std::string backend_words() {

@@ -93,7 +93,7 @@ inline const BackendRow& reference_backend() {
 }
 /// The row of that name; null if there is none.
 const BackendRow* find_backend(std::string_view name);
-/// The row after it in the table, the first after the last.
+/// The row after it in the table, the first after the last or a row of no table.
 const BackendRow& next_backend(const BackendRow& row);
 /// Every word of --backend: "auto, gpu, reference".
 std::string backend_words();

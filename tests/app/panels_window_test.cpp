@@ -336,10 +336,7 @@ TEST_F(Files, BrokenAndMendedWhileItRuns) {
   press(GLFW_KEY_SPACE);
   frames_to_step(20);
   write("mine.toml", scene_text(4) + "[contact]\nfriction = much\n");
-  for (int i = 0; !(app().messages.notice() && app().messages.notice()->is_error); ++i) {
-    ASSERT_LT(i, 1000);
-    frames(1);
-  }
+  frames_until([&] { return app().messages.notice() && app().messages.notice()->is_error; });
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("mine.toml:5"));
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("friction = much"));
   EXPECT_TRUE(simulation().running()) << "the old scene keeps running";
@@ -348,25 +345,16 @@ TEST_F(Files, BrokenAndMendedWhileItRuns) {
       << "the message stays as long as the file is broken";
   const std::uint64_t before = simulation().step();
   write("mine.toml", scene_text(4) + "[contact]\nfriction = 0.9\n");
-  for (int i = 0; simulation().model().contact.friction != 0.9; ++i) {
-    ASSERT_LT(i, 1000);
-    frames(1);
-  }
+  frames_until([&] { return simulation().model().contact.friction == 0.9; });
   EXPECT_FALSE(app().messages.notice() && app().messages.notice()->is_error) << "mended";
   EXPECT_TRUE(simulation().running());
   EXPECT_GE(simulation().step(), before) << "constants alone: the motion goes on";
   frames_to_step(before + 20);
   // Broken and mended to the very same content: the message goes too.
   write("mine.toml", "[");
-  for (int i = 0; !(app().messages.notice() && app().messages.notice()->is_error); ++i) {
-    ASSERT_LT(i, 1000);
-    frames(1);
-  }
+  frames_until([&] { return app().messages.notice() && app().messages.notice()->is_error; });
   write("mine.toml", scene_text(4) + "[contact]\nfriction = 0.9\n");
-  for (int i = 0; app().messages.notice() && app().messages.notice()->is_error; ++i) {
-    ASSERT_LT(i, 1000);
-    frames(1);
-  }
+  frames_until([&] { return !(app().messages.notice() && app().messages.notice()->is_error); });
   EXPECT_TRUE(simulation().running());
 }
 

@@ -10,7 +10,6 @@ namespace aspic {
 namespace {
 
 using test::aspic;
-using test::json_member;
 
 TEST(Bench, ReportsWhatItMeasured) {
   const auto run = aspic(
@@ -52,6 +51,8 @@ TEST(Bench, OrdersItsSamplesStatistics) {
     EXPECT_DOUBLE_EQ(row["median_seconds"], 0.5 * (seconds[1] + seconds[2]));
     EXPECT_DOUBLE_EQ(row["upper_quartile_seconds"], 0.75 * seconds[2] + 0.25 * seconds[3]);
     EXPECT_EQ(row["slowest_seconds"], seconds[3]);
+    EXPECT_EQ(row["processor_seconds"].size(), 4u);
+    EXPECT_GT(row["processors"], 0.0);
     EXPECT_TRUE(row["passes"].is_null());
   }
   const auto throughput = [&](std::size_t i) {
@@ -62,6 +63,7 @@ TEST(Bench, OrdersItsSamplesStatistics) {
     EXPECT_EQ(rows[i]["name"], i % 2 == 0 ? "reference" : "cpu");
     EXPECT_EQ(rows[i]["size"], i < 2 ? 3 : 5);
     EXPECT_TRUE(near(rows[i]["growth"], throughput(i % 2) / throughput(i))) << i;
+    EXPECT_GT(rows[i]["processor_ratio"], 0.0);
     EXPECT_TRUE(near(rows[i]["ratio"], throughput(i / 2 * 2) / throughput(i))) << i;
   }
 }

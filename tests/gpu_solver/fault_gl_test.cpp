@@ -137,9 +137,12 @@ TEST_F(FaultySolverGl, ADeviceThatDoesNothingEndsTheRun) {
     std::filesystem::create_directory(shaders.path() / "compute");
     shaders.write(std::string("compute/implicit_") + kernel + ".comp",
                   "layout(local_size_x = 256) in;\nvoid main() {}\n");
-    Model model = scene(Integrator::implicit_euler);
-    model.simulation.implicit.newton_iterations = 3;
-    model.simulation.implicit.cg_iterations = 10;
+    ModelSettings settings =
+        test::cube_on_plane(4, 0.99);  // on the ground, so that there is something to solve
+    settings.simulation.integrator = Integrator::implicit_euler;
+    settings.simulation.implicit.newton_iterations = 3;
+    settings.simulation.implicit.cg_iterations = 10;
+    const Model model = test::build(settings);
     GpuOptions options;
     options.shader_directory = shaders.path();
     auto solver = make_gpu_solver(own(), model, options);
