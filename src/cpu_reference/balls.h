@@ -43,6 +43,12 @@ class Balls {
     for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
   }
 
+  /// Bytes it holds on the heap, without contacts.
+  std::uint64_t bytes() const {
+    return particle_weight_.bytes() + bodies_.capacity() * sizeof(BallBody<T>) +
+           grounds_.capacity() * sizeof(Ground<T>);
+  }
+
   /// One step of all balls launched by step number `step`, from `start`; particles went from `particle_start`
   /// to `particles`, their terrain's response included, and are changed by the balls they meet.
   BallPhase<T> step(std::uint64_t step, const BallPhase<T>& start,

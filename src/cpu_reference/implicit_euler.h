@@ -211,6 +211,7 @@ Trial<T> ImplicitEuler<T>::evaluate() {
   }
   r_ = prescribed_ = Field<T>::Zero(3, count);
   preconditioner_.clear();
+  preconditioner_.reserve(static_cast<std::size_t>(count));
   ground_.assign(static_cast<std::size_t>(count), {});
   prescribes_ = false;
   bool holds = false;

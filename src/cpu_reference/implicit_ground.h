@@ -21,7 +21,7 @@ enum class Freedom { all, plane, line, none };
 /// P at one velocity, and the part of its derivative that the linear system takes.
 template <class T>
 struct GroundReaction {
-  Vector<T> v;  ///< P(v) [m/s]
+  Vector<T> v = Vector<T>::Zero();  ///< P(v) [m/s]
   Freedom freedom = Freedom::all;
   Vector<T> axis = Vector<T>::Zero();    ///< plane: its normal; line: its direction; unit vectors
   Vector<T> across = Vector<T>::Zero();  ///< plane: unit vector in it across the slip; zero without slip

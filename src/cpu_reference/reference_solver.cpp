@@ -141,14 +141,15 @@ std::uint64_t reference_bytes(const Model& model, Precision precision) {
   const IntegratorRow& method = row_of(model.simulation.integrator);
   // Balls: fields as below for x, v and ω, constants, and their order along x.
   const std::uint64_t balls = model.ball_count() * real * (3 * 17 + 7);
+  const std::uint64_t masses = model.mass.bytes() + 2 * model.inverse_mass.bytes();
   if (!method.solved()) {
     // Fields of a step at once: x and v at its start and its end, and for each stage a velocity and an
     // acceleration.
-    return model.particle_count() * real * 3 * (4 + 2 * method.stages.size()) + balls;
+    return model.particle_count() * real * 3 * (4 + 2 * method.stages.size()) + masses + balls;
   }
   const auto solve = precision == Precision::single ? reference::ImplicitEuler<float>::bytes(model)
                                                     : reference::ImplicitEuler<double>::bytes(model);
-  return model.particle_count() * real * 3 * 4 + solve + balls;
+  return model.particle_count() * real * 3 * 4 + solve + masses + balls;
 }
 
 }  // namespace aspic

@@ -66,6 +66,7 @@ State initial_state(const Model& model, Precision precision) {
   State state;
   state.precision = precision;
   state.position = model.initial_position.list(0, model.initial_position.size());
+  state.velocity.reserve(model.initial_velocity.size());
   state.velocity.assign(model.initial_velocity.begin(), model.initial_velocity.end());
   for (const Ball& ball : model.balls) {
     state.ball_position.push_back(ball.initial_position);
