@@ -33,7 +33,8 @@ class BackendContestant final : public Contestant {
       done += count;
       if (count == at_once_ && seconds_since(before) < patience) at_once_ *= 2;
     }
-    ASPIC_TRY(const auto state, solver.state());
+    // A device is waited for by reading from it; the others are done when they return.
+    if (backend_.row->needs_context) ASPIC_CHECK(read());
     const Took took = {seconds_since(start),
                        static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC};
     if (const auto solves = solver.solve_statistics()) {
@@ -55,7 +56,7 @@ class BackendContestant final : public Contestant {
       if (interrupt_.interrupted()) break;
       ASPIC_TRY(m.divergence, backend_.solver->advance(1));
       // Reading waits for the device, so that every step finds a free place for its time stamps.
-      ASPIC_TRY(const auto state, backend_.solver->state());
+      ASPIC_CHECK(read());
     }
     m.passes = backend_.gpu->pass_times();
     backend_.gpu->set_profiling(false);
@@ -63,6 +64,10 @@ class BackendContestant final : public Contestant {
   }
 
  private:
+  Status read() {
+    ASPIC_TRY(const auto state, backend_.solver->state());
+    return {};
+  }
   Status make_current() { return backend_.context ? backend_.context->make_current() : Status(); }
 
   Backend backend_;
