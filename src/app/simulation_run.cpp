@@ -55,7 +55,7 @@ bool Simulation::steps_quickly() const {
   const Integrator method = model().simulation.integrator;
   const double evaluations = row_of(method).solved() ? solve : force_evaluations_per_step(method);
   return Engines::in_context(engines_.leader()) ||
-         evaluations * static_cast<double>(model().springs.size()) < quick;
+         evaluations * static_cast<double>(spring_count(model())) < quick;
 }
 
 Status Simulation::single_step() {
