@@ -263,7 +263,7 @@ Result<PeerLattice> peer_lattice(const ModelSettings& settings, const Model& mod
   PeerLattice l;
   l.edge = cube.edge_length;
   l.height = cube.position.y;
-  l.mass = model.mass.front();
+  l.mass = model.mass[0];
   l.stiffness = model.spring_classes.front().stiffness;
   l.damping = model.spring_classes.front().damping;
   l.timestep = settings.simulation.timestep;

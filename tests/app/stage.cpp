@@ -52,14 +52,14 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
   services.clipboard = [this] { return clipboard; };
   services.set_clipboard = [this](const std::string& text) { clipboard = text; };
   services.toggle_full_screen = [this] { ++full_screen_toggles; };
-  app::AppOptions options;
-  options.scene = scene;
-  options.overrides = std::move(overrides);
-  options.backend = find_backend(backend);
-  options.kept = kept;
-  options.full_quality = full_quality();
-  options.watcher = &log_;
-  auto made = app::App::create(window_->context(), options, 1.0, services);
+  auto made = app::App::create(window_->context(),
+                               {.scene = scene,
+                                .overrides = std::move(overrides),
+                                .backend = find_backend(backend),
+                                .kept = kept,
+                                .full_quality = full_quality(),
+                                .watcher = &log_},
+                               1.0, services);
   ASSERT_TRUE(made.ok()) << made.error().message;
   app_ = std::move(*made);
   window_->set_receiver(app_.get());
