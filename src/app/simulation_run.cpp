@@ -1,6 +1,7 @@
 // What moves a run, forward and through its history.
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "app/simulation.h"
 #include "model/integrator.h"
@@ -275,8 +276,7 @@ Status Simulation::halt(bool arrive) {
 
 Status Simulation::settle() {
   ASPIC_CHECK(halt(true));
-  while (single_steps_ > 0 && !divergence_) {
-    --single_steps_;
+  for (std::uint64_t n = std::exchange(single_steps_, 0); n > 0 && !divergence_; --n) {
     ASPIC_CHECK(step_now());
   }
   return {};
