@@ -7,7 +7,7 @@
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
-#include "run/outputs.h"
+#include "run/run_files.h"
 
 namespace aspic::app {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/series_csv.h"
-#include "run/outputs.h"
+#include "run/run_files.h"
 #include "scene/write.h"
 
 namespace aspic::app {

@@ -5,9 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "gpu/canary_operands.h"
 #include "gpu/pass.h"
-#include "gpu/program_cache.h"
 
 namespace aspic::gl {
 namespace {
@@ -43,14 +41,6 @@ void judge(OperationCheck& check, const CanaryOperands& o, std::uint32_t got, fl
 
 ArithmeticReport compare(std::span<const CanaryOperands> operands, std::span<const Outcome> outcomes) {
   ArithmeticReport report;
-  report.quotient.name = "quotients a / b";
-  report.reciprocal.name = "reciprocals 1 / b";
-  report.root.name = "square roots of |a|";
-  report.product.name = "products a b";
-  report.sum.name = "sums a + c";
-  report.product_sum.name = "products with sums a b + c";
-  report.denormals.name = "operations with denormal numbers";
-  report.fma_fused = true;
   for (std::size_t i = 0; i < operands.size(); ++i) {
     const CanaryOperands& o = operands[i];
     const auto file = [&](OperationCheck& check, std::uint32_t got, float expected, bool small) {
@@ -99,8 +89,7 @@ Result<ArithmeticReport> measure_arithmetic(Context& context, const ShaderLibrar
                      std::bit_cast<std::uint32_t>(o.c), 0});
   ASPIC_TRY(const auto found, context.programs().compute(library, "compute/canary.comp", defines));
   const Program& program = *found;
-  const auto input =
-      Buffer::of(context, "canary operands", std::span<const std::array<std::uint32_t, 4>>(words));
+  const auto input = Buffer::of(context, "canary operands", words);
   if (!input) return input.error();
   ASPIC_TRY(const auto output, Buffer::create(context, "canary outcomes", operands.size() * sizeof(Outcome)));
   const auto count = static_cast<std::uint32_t>(operands.size());

@@ -15,7 +15,7 @@
 #include "base/printable.h"
 #include "gpu/context.h"
 #include "gpu/device_info.h"
-#include "gpu/program_cache.h"
+#include "gpu/program.h"
 
 namespace aspic::gl {
 namespace {
@@ -210,6 +210,12 @@ EGLContext create_context(EGLDisplay display, const ContextOptions& options) {
   return EGL_NO_CONTEXT;
 }
 
+/// An error in the words that follow a candidate's name.
+template <class... T>
+Error unfit(fmt::format_string<T...> why, T&&... arguments) {
+  return fail(ErrorCode::no_device, why, std::forward<T>(arguments)...);
+}
+
 }  // namespace
 
 std::vector<EglDevice> list_devices() {
@@ -224,54 +230,35 @@ class EglContextMaker {
  public:
   explicit EglContextMaker(const ContextOptions& options) : options_(options) {}
 
-  /// The context on this candidate; null with the reason in `why`.
-  std::unique_ptr<Context> attempt(const Candidate& candidate, std::string& why) const {
-    if (candidate.demand != Demand::hardware && vector_width_crashes()) {
-      why =
+  /// The context on this candidate. The error says why it does not do.
+  Result<std::unique_ptr<Context>> attempt(const Candidate& candidate) const {
+    if (candidate.demand != Demand::hardware && vector_width_crashes())
+      return unfit(
           "may be a software rasteriser, which the environment variable LP_NATIVE_VECTOR_WIDTH makes crash "
-          "(allowed "
-          "are 128, 256 and 512)";
-      return nullptr;
-    }
+          "(allowed are 128, 256 and 512)");
     const EGLDisplay display = candidate.platform
                                    ? eglGetPlatformDisplay(candidate.platform, candidate.native, nullptr)
                                    : eglGetDisplay(EGL_DEFAULT_DISPLAY);
     // A display is never terminated: EGL returns the same one to every caller in the process.
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
-      why = fmt::format("cannot be opened ({})", egl_error());
-      return nullptr;
-    }
-    if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
-      why = "cannot work without a window surface";
-      return nullptr;
-    }
-    if (!eglBindAPI(EGL_OPENGL_API)) {
-      why = fmt::format("has no desktop OpenGL ({})", egl_error());
-      return nullptr;
-    }
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
+      return unfit("cannot be opened ({})", egl_error());
+    if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
+      return unfit("cannot work without a window surface");
+    if (!eglBindAPI(EGL_OPENGL_API)) return unfit("has no desktop OpenGL ({})", egl_error());
     const EGLContext egl_context = create_context(display, options_);
-    if (egl_context == EGL_NO_CONTEXT) {
-      why = fmt::format("provides no OpenGL 4.3 core context ({})", egl_error());
-      return nullptr;
-    }
+    if (egl_context == EGL_NO_CONTEXT) return unfit("provides no OpenGL 4.3 core context ({})", egl_error());
     std::unique_ptr<Context> context(new Context);
     context->display_ = display;
     context->context_ = egl_context;
-    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context)) {
-      why = fmt::format("cannot make its context current ({})", egl_error());
-      return nullptr;
-    }
-    if (gladLoadGL(eglGetProcAddress) < GLAD_MAKE_VERSION(4, 3)) {
-      why = "lacks functions of OpenGL 4.3";
-      return nullptr;
-    }
+    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context))
+      return unfit("cannot make its context current ({})", egl_error());
+    if (gladLoadGL(eglGetProcAddress) < GLAD_MAKE_VERSION(4, 3))
+      return unfit("lacks functions of OpenGL 4.3");
     const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     const bool software = is_software_renderer(renderer);
     if ((candidate.demand == Demand::hardware && software) ||
-        (candidate.demand == Demand::software && !software)) {
-      why = fmt::format("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
-      return nullptr;
-    }
+        (candidate.demand == Demand::software && !software))
+      return unfit("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
     context->start(candidate.name, eglGetProcAddress);
     return context;
   }
@@ -284,16 +271,14 @@ Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& 
   if (const std::string missing = missing_resource(); !missing.empty()) {
     return Error{ErrorCode::no_device, missing + ". Raise it, or use --backend reference without pictures."};
   }
-  const Result<Choice> choice = choose(options);
-  if (!choice) return choice.error();
-  const Result<std::vector<Candidate>> ways = candidates(*choice);
-  if (!ways) return ways.error();
+  ASPIC_TRY(const Choice choice, choose(options));
+  ASPIC_TRY(const std::vector<Candidate> ways, candidates(choice));
   const EglContextMaker maker(options);
   std::string tried;
-  for (const Candidate& candidate : *ways) {
-    std::string why;
-    if (auto context = maker.attempt(candidate, why)) return context;
-    tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, why);
+  for (const Candidate& candidate : ways) {
+    auto context = maker.attempt(candidate);
+    if (context) return context;
+    tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, context.error().message);
   }
   return fail(ErrorCode::no_device,
               "No usable OpenGL 4.3 core device was found without a display. Tried: {}. Install the "

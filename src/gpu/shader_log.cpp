@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
+#include <regex>
 
 #include "gpu/shader_source.h"
 
@@ -17,54 +17,19 @@ struct Message {
   std::string text;
 };
 
-/// Eats a run of digits.
-std::optional<int> number(std::string_view& text) {
-  int value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc() || value < 0) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(result.ptr - text.data()));
-  return value;
-}
-
-bool eat(std::string_view& text, std::string_view token) {
-  if (!text.starts_with(token)) return false;
-  text.remove_prefix(token.size());
-  return true;
-}
-
-void eat_blanks(std::string_view& text) {
-  while (eat(text, " ") || eat(text, "\t")) {
-  }
-}
-
 /// Mesa "0:12(5): error: …", NVIDIA "0(12) : error C1008: …", AMD and Intel "ERROR: 0:12: …".
 std::optional<Message> parse(std::string_view line) {
-  Message message;
-  std::string_view prefix;
-  for (const std::string_view word : {"ERROR: ", "WARNING: "})
-    if (eat(line, word)) prefix = word == "ERROR: " ? "error: " : "warning: ";
-  if (!number(line)) return std::nullopt;
-  if (eat(line, ":")) {
-    const auto row = number(line);
-    if (!row) return std::nullopt;
-    message.line = *row;
-    if (eat(line, "(")) {
-      const auto column = number(line);
-      if (!column || !eat(line, ")")) return std::nullopt;
-      message.column = *column;
-    }
-  } else if (eat(line, "(")) {
-    const auto row = number(line);
-    if (!row || !eat(line, ")")) return std::nullopt;
-    message.line = *row;
-  } else {
+  // Counts are bounded: the library's matcher descends once for each character.
+  static const std::regex shape(
+      R"((ERROR: |WARNING: )?\d{1,9}(?::(\d{1,9})(?:\((\d{1,9})\))?|\((\d{1,9})\))[ \t]{0,9}:[ \t]{0,9})");
+  std::cmatch found;
+  const char* const end = line.data() + line.size();
+  if (!std::regex_search(line.data(), end, found, shape, std::regex_constants::match_continuous))
     return std::nullopt;
-  }
-  eat_blanks(line);
-  if (!eat(line, ":")) return std::nullopt;
-  eat_blanks(line);
-  message.text = fmt::format("{}{}", prefix, line);
-  return message;
+  const std::string_view prefix = !found[1].matched ? "" : found[1] == "ERROR: " ? "error: " : "warning: ";
+  return Message{std::stoi(found[2].matched ? found[2] : found[4]),
+                 found[3].matched ? std::stoi(found[3]) : 0,
+                 fmt::format("{}{}", prefix, found.suffix().str())};
 }
 
 }  // namespace

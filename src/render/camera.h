@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "model/vec3.h"
-#include "scene/view_settings.h"
+#include "scene/scene.h"
 
 namespace aspic {
 

@@ -60,12 +60,17 @@ Suitability gpu_suitability(const gl::Context* window) {
 
 // ---- cpu ----
 
-Result<Backend> make_cpu(const Model& model, const BackendChoice&, const SolverHost&) {
-  ASPIC_TRY(auto solver, make_cpu_solver(model));
+/// A backend that needs nothing but its solver.
+Result<Backend> on_processor(Result<std::unique_ptr<Solver>> made) {
+  ASPIC_TRY(auto solver, std::move(made));
   Backend backend;
   backend.device = solver->description();
   backend.solver = std::move(solver);
   return backend;
+}
+
+Result<Backend> make_cpu(const Model& model, const BackendChoice&, const SolverHost&) {
+  return on_processor(make_cpu_solver(model));
 }
 
 // ---- reference ----
@@ -78,7 +83,7 @@ Status check_reference_memory(const Model& model, Precision precision) {
   bodies.balls = model.ball_count();
   const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
   std::uint64_t bytes = reference_bytes(bodies, precision);
-  if (model.simulation.integrator == Integrator::implicit_euler) bytes += 10 * real * model.springs.size();
+  if (row_of(model.simulation.integrator).solved()) bytes += 10 * real * model.springs.size();
   const std::optional<std::uint64_t> memory = available_memory();
   if (!memory || bytes <= *memory) return {};
   return fail(ErrorCode::scene_rejected,
@@ -89,11 +94,7 @@ Status check_reference_memory(const Model& model, Precision precision) {
 
 Result<Backend> make_reference(const Model& model, const BackendChoice& choice, const SolverHost&) {
   ASPIC_CHECK(check_reference_memory(model, choice.precision));
-  ASPIC_TRY(auto solver, make_reference_solver(model, choice.precision));
-  Backend backend;
-  backend.device = solver->description();
-  backend.solver = std::move(solver);
-  return backend;
+  return on_processor(make_reference_solver(model, choice.precision));
 }
 
 // ---- the table ----
@@ -110,17 +111,11 @@ constexpr BackendRow table[] = {
     {"cpu", "CPU", "threads and vector instructions", single_alone, nullptr, false, make_cpu,
      [](const ModelCounts& counts, Integrator integrator, const BackendChoice&) {
        return cpu_bytes(counts, integrator);
-     },
-     [](const gl::Context*) {
-       return Suitability{true, "", "", nullptr};
      }},
     {"reference", "reference", "one thread, Eigen, written to be read", both_precisions, nullptr, false,
      make_reference,
      [](const ModelCounts& counts, Integrator, const BackendChoice& choice) {
        return reference_bytes(counts, choice.precision);
-     },
-     [](const gl::Context*) {
-       return Suitability{true, "", "", nullptr};
      }},
 };
 
@@ -199,7 +194,8 @@ AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Cont
   AutomaticChoice result;
   for (const BackendRow& row : table) {
     const bool able = has(row.precisions, choice.precision);
-    Suitability found = able ? row.suitability(window) : Suitability{};
+    Suitability found =
+        able && row.suitability ? row.suitability(window) : Suitability{able, "", "", nullptr};
     if (!able) found.reason = only_those_with(choice.precision);
     // The backend that would have come first says why another is taken.
     if (result.reason.empty() || (found.suits && !found.reason.empty()))

@@ -70,7 +70,8 @@ struct BackendRow {
   /// Bytes that its solver holds for a model of these counts.
   std::uint64_t (*bytes)(const ModelCounts& counts, Integrator integrator,
                          const BackendChoice& choice) = nullptr;
-  /// Whether `auto` takes it: in the window's context, or, if that is null, wherever it finds a device.
+  /// Whether `auto` takes it: in the window's context, or, if that is null, wherever it finds a device. Null:
+  /// it does.
   Suitability (*suitability)(const gl::Context* window) = nullptr;
 
   std::span<const ForcePathRow> force_paths() const {

@@ -40,16 +40,6 @@ void expect_equal(const Model& model, std::uint64_t steps, unsigned threads = 0)
   EXPECT_EQ(state_hash_text(*expected->state()), state_hash_text(*solver->state()));
 }
 
-/// A tilted cube that touches the plane within the first tenth of the run.
-ModelSettings low_cube(int n, Integrator integrator, ContactModel contact) {
-  ModelSettings settings = test::cube_on_plane(n, 1.9);
-  settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
-  settings.cubes[0].velocity = {1.0, -1.0, 0.5};
-  settings.simulation.integrator = integrator;
-  settings.contact.model = contact;
-  return settings;
-}
-
 TEST(CpuSolver, HasTheReferencesBitsInEveryBuiltInScene) {
   for (const char* const name : {"cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "elevator",
                                  "goal-net", "penalty", "cube-and-balls"}) {
@@ -71,7 +61,7 @@ TEST(CpuSolver, HasTheReferencesBitsOnTerrainThatMovesSideways) {
   for (const Integrator integrator : explicit_integrators) {
     for (const ContactModel contact : both_models) {
       SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
-      ModelSettings settings = low_cube(5, integrator, contact);
+      ModelSettings settings = test::low_cube(5, integrator, contact);
       settings.terrain[0].motion = TerrainMotion{{1.0, 0.0, 0.4}, 0.3, 1.1, 0.2};
       expect_equal(test::build(settings), 400, 2);
       settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
@@ -85,7 +75,7 @@ TEST(CpuSolver, SeesTerrainThatComesFromFar) {
   for (const Integrator integrator : explicit_integrators) {
     for (const ContactModel contact : both_models) {
       SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
-      ModelSettings settings = low_cube(5, integrator, contact);
+      ModelSettings settings = test::low_cube(5, integrator, contact);
       settings.cubes[0].position.y = 50.0;
       settings.cubes[0].velocity.x = -1.0;
       settings.terrain.push_back(
@@ -105,7 +95,7 @@ TEST(CpuSolver, SeesTerrainThatComesFromFar) {
 TEST(CpuSolver, HasTheReferencesBitsWithAnyNumberOfThreads) {
   for (const Integrator integrator : explicit_integrators) {
     for (const ContactModel contact : both_models) {
-      const Model model = test::build(low_cube(9, integrator, contact));
+      const Model model = test::build(test::low_cube(9, integrator, contact));
       for (const unsigned threads : {1u, 2u, 5u}) {
         SCOPED_TRACE(fmt::format("{}, {}, {} threads", name_of(integrator), name_of(contact), threads));
         expect_equal(model, 400, threads);
@@ -115,7 +105,7 @@ TEST(CpuSolver, HasTheReferencesBitsWithAnyNumberOfThreads) {
 }
 
 TEST(CpuSolver, HasTheReferencesBitsWithEveryInstructionSet) {
-  ModelSettings settings = low_cube(7, Integrator::runge_kutta_4, ContactModel::coulomb);
+  ModelSettings settings = test::low_cube(7, Integrator::runge_kutta_4, ContactModel::coulomb);
   settings.goal_nets.emplace_back();
   settings.goal_nets[0].cord = true;
   settings.goal_nets[0].shear.stiffness = settings.goal_nets[0].bending.stiffness = 300.0;
@@ -132,7 +122,7 @@ TEST(CpuSolver, HasTheReferencesBitsWithEveryInstructionSet) {
 TEST(CpuSolver, HasTheReferencesBitsForEverySizeOfCube) {
   for (const int n : {2, 3, 4, 5, 6, 8, 16, 17, 33}) {
     SCOPED_TRACE(n);
-    expect_equal(test::build(low_cube(n, Integrator::symplectic_euler, ContactModel::coulomb)), 30);
+    expect_equal(test::build(test::low_cube(n, Integrator::symplectic_euler, ContactModel::coulomb)), 30);
   }
 }
 
@@ -146,7 +136,7 @@ TEST(CpuSolver, GivesSpringsWithoutLengthNoForce) {
 }
 
 TEST(CpuSolver, PullsAsTheReferenceDoes) {
-  const Model model = test::build(low_cube(6, Integrator::midpoint, ContactModel::course));
+  const Model model = test::build(test::low_cube(6, Integrator::midpoint, ContactModel::course));
   const auto expected = reference(model), solver = cpu(model, 2);
   for (const std::uint32_t particle : {0u, 215u, 100u}) {
     const Pull pull = {particle, {0.3, 4.0, 0.1}, 800.0, 20.0};
@@ -160,7 +150,7 @@ TEST(CpuSolver, PullsAsTheReferenceDoes) {
 }
 
 TEST(CpuSolver, NamesTheSameDivergence) {
-  ModelSettings settings = low_cube(6, Integrator::explicit_euler, ContactModel::coulomb);
+  ModelSettings settings = test::low_cube(6, Integrator::explicit_euler, ContactModel::coulomb);
   settings.simulation.timestep = 0.02;
   const Model model = test::build(settings);
   const auto solver = cpu(model, 2);
@@ -175,7 +165,7 @@ TEST(CpuSolver, NamesTheSameDivergence) {
 }
 
 TEST(CpuSolver, TakesOverAStateInMidRun) {
-  const Model model = test::build(low_cube(6, Integrator::runge_kutta_4, ContactModel::coulomb));
+  const Model model = test::build(test::low_cube(6, Integrator::runge_kutta_4, ContactModel::coulomb));
   const auto first = reference(model), second = cpu(model, 2), complete = reference(model);
   ASSERT_TRUE(first->advance(123).ok());
   ASSERT_TRUE(second->load(*first->state()).ok());
