@@ -79,14 +79,12 @@ EglDevice describe_device(int index, EGLDeviceEXT device) {
   return result;
 }
 
-enum class Demand { anything, hardware, software };
-
 /// One way to a display.
 struct Candidate {
   std::string name;
   EGLenum platform = 0;  // 0: eglGetDisplay
   void* native = nullptr;
-  Demand demand = Demand::anything;
+  DeviceChoice demand = DeviceChoice::automatic;  // not index
 };
 
 /// The choice after the environment had its say.
@@ -124,7 +122,7 @@ Result<Choice> choose(const ContextOptions& options) {
 Result<std::vector<Candidate>> candidates(const Choice& choice) {
   const std::vector<EGLDeviceEXT> devices = egl_devices();
   std::vector<Candidate> result;
-  const auto add_device = [&](std::size_t i, Demand demand) {
+  const auto add_device = [&](std::size_t i, DeviceChoice demand) {
     result.push_back({fmt::format("EGL device {}", i), EGL_PLATFORM_DEVICE_EXT, devices[i], demand});
   };
   if (choice.device == DeviceChoice::index && choice.platform.empty()) {
@@ -134,18 +132,16 @@ Result<std::vector<Candidate>> candidates(const Choice& choice) {
                   "EGL device {} was asked for, but EGL lists {} device{}. Choose an index of the list "
                   "that aspic info prints.",
                   choice.index, devices.size(), devices.size() == 1 ? "" : "s");
-    add_device(i, Demand::anything);
+    add_device(i, DeviceChoice::automatic);
     return result;
   }
-  Demand general = Demand::anything;
-  if (choice.device == DeviceChoice::hardware) general = Demand::hardware;
-  if (choice.device == DeviceChoice::software) general = Demand::software;
+  const DeviceChoice general = choice.device == DeviceChoice::index ? DeviceChoice::automatic : choice.device;
   if (choice.platform.empty() && client_has("EGL_EXT_platform_device")) {
     // A hardware node that may not be opened can quietly become a rasteriser: then a later device may still
     // be real.
-    for (std::size_t i = 0; i < devices.size() && general != Demand::software; ++i)
-      if (!describe_device(static_cast<int>(i), devices[i]).software) add_device(i, Demand::hardware);
-    for (std::size_t i = 0; i < devices.size() && general != Demand::hardware; ++i)
+    for (std::size_t i = 0; i < devices.size() && general != DeviceChoice::software; ++i)
+      if (!describe_device(static_cast<int>(i), devices[i]).software) add_device(i, DeviceChoice::hardware);
+    for (std::size_t i = 0; i < devices.size() && general != DeviceChoice::hardware; ++i)
       if (describe_device(static_cast<int>(i), devices[i]).software) add_device(i, general);
   }
   if (choice.platform != "default" && client_has("EGL_MESA_platform_surfaceless"))
@@ -232,7 +228,7 @@ class EglContextMaker {
 
   /// The context on this candidate. The error says why it does not do.
   Result<std::unique_ptr<Context>> attempt(const Candidate& candidate) const {
-    if (candidate.demand != Demand::hardware && vector_width_crashes())
+    if (candidate.demand != DeviceChoice::hardware && vector_width_crashes())
       return unfit(
           "may be a software rasteriser, which the environment variable LP_NATIVE_VECTOR_WIDTH makes crash "
           "(allowed are 128, 256 and 512)");
@@ -256,8 +252,8 @@ class EglContextMaker {
       return unfit("lacks functions of OpenGL 4.3");
     const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     const bool software = is_software_renderer(renderer);
-    if ((candidate.demand == Demand::hardware && software) ||
-        (candidate.demand == Demand::software && !software))
+    if ((candidate.demand == DeviceChoice::hardware && software) ||
+        (candidate.demand == DeviceChoice::software && !software))
       return unfit("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
     context->start(candidate.name, eglGetProcAddress);
     return context;
