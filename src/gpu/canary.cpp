@@ -82,19 +82,13 @@ std::string sentence(const OperationCheck& check, std::string_view remedy) {
 Result<ArithmeticReport> measure_arithmetic(Context& context, const ShaderLibrary& library,
                                             std::span<const Define> defines) {
   const std::vector<CanaryOperands> operands = canary_operands();
-  std::vector<std::array<std::uint32_t, 4>> words;
-  words.reserve(operands.size());
-  for (const CanaryOperands& o : operands)
-    words.push_back({std::bit_cast<std::uint32_t>(o.a), std::bit_cast<std::uint32_t>(o.b),
-                     std::bit_cast<std::uint32_t>(o.c), 0});
   ASPIC_TRY(const auto found, context.programs().compute(library, "compute/canary.comp", defines));
   const Program& program = *found;
-  const auto input = Buffer::of(context, "canary operands", words);
-  if (!input) return input.error();
+  ASPIC_TRY(const auto input, Buffer::of(context, "canary operands", operands));
   ASPIC_TRY(const auto output, Buffer::create(context, "canary outcomes", operands.size() * sizeof(Outcome)));
   const auto count = static_cast<std::uint32_t>(operands.size());
   program.set(0, count);
-  Pass(program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &output}}, ReadBy::read_back)
+  Pass(program, {{.binding = 0, .buffer = &input}, {.binding = 1, .buffer = &output}}, ReadBy::read_back)
       .dispatch_for(count);
   return compare(operands, output.download_items<Outcome>(count));
 }

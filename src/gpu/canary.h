@@ -19,6 +19,7 @@ struct CanaryOperands {
   float a;
   float b;  ///< not zero
   float c;
+  float unused = 0.0f;  ///< to the size of a vec4
 };
 
 /// The same cases on every machine: all finite, b ≠ 0.

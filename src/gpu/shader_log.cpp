@@ -5,6 +5,7 @@
 #include <optional>
 #include <regex>
 
+#include "base/lines.h"
 #include "gpu/shader_source.h"
 
 namespace aspic::gl {
@@ -41,20 +42,11 @@ FlatShader::Origin FlatShader::origin(int line) const {
   return {files_[static_cast<std::size_t>(mapped.file)], mapped.line};
 }
 
-std::string_view FlatShader::line_text(int line) const {
-  std::string_view rest = text_;
-  for (int i = 1; i < line && !rest.empty(); ++i)
-    rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
-  return rest.substr(0, rest.find('\n'));
-}
-
 std::string FlatShader::rewrite_log(std::string_view log) const {
   std::string result;
   while (!log.empty()) {
-    const auto end = std::min(log.find('\n'), log.size());
-    std::string_view line = log.substr(0, end);
-    log.remove_prefix(std::min(end + 1, log.size()));
-    if (line.ends_with('\r') || line.ends_with('\0')) line.remove_suffix(1);
+    std::string_view line = take_line(log);
+    if (line.ends_with('\0')) line.remove_suffix(1);
     if (line.empty()) continue;
     const auto message = parse(line);
     const Origin from = message ? origin(message->line) : Origin{};
@@ -62,7 +54,7 @@ std::string FlatShader::rewrite_log(std::string_view log) const {
       result += fmt::format("{}\n", line);
       continue;
     }
-    const std::string_view source = line_text(message->line);
+    const std::string_view source = line_of(text_, static_cast<std::size_t>(message->line));
     result += fmt::format("{}:{}: {}\n  {}\n", from.file, from.line, message->text, source);
     if (message->column < 1 || static_cast<std::size_t>(message->column) > source.size() + 1) continue;
     std::string indent(source.substr(0, static_cast<std::size_t>(message->column) - 1));

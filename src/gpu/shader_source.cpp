@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/files.h"
+#include "base/lines.h"
 #include "base/printable.h"
 #include "model/terrain.h"
 
@@ -115,8 +116,7 @@ Result<FlatShader> ShaderLibrary::flatten(std::string_view path, std::span<const
   work.put(-1, 1, "#version 430 core");
   int line = 2;
   for (const Define& d : defines) work.put(-1, line++, fmt::format("#define {} {}", d.name, d.value));
-  const Status status = append(work, std::string(path));
-  if (!status) return status.error();
+  ASPIC_CHECK(append(work, std::string(path)));
   return std::move(work.shader);
 }
 
@@ -146,10 +146,7 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
   work.open.push_back({file, 0});
   std::string_view rest = *text;
   while (!rest.empty()) {
-    const auto end = std::min(rest.find('\n'), rest.size());
-    std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
+    const std::string_view line = take_line(rest);
     const int number = ++work.open.back().line;
     if (directive(line, "version"))
       return fail(ErrorCode::io, "{}: the program adds #version to every shader. Remove the line.",
@@ -165,8 +162,7 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
                   "{}: an include is written #include \"folder/file.glsl\", with a path "
                   "relative to shaders/.",
                   work.chain());
-    const Status status = append(work, *target);
-    if (!status) return status;
+    ASPIC_CHECK(append(work, *target));
   }
   work.open.pop_back();
   return {};

@@ -21,7 +21,7 @@ std::string numbered(const std::string& path, const std::string& step) {
 }
 
 /// Writes one state to a file that is not committed yet. Error (diverged): a number is not finite.
-using StateWriter = Status (*)(AtomicFile&, const Sample&, const RunFacts&);
+using StateWriter = Status (*)(AtomicFile&, const Sample&);
 
 /// Which states become files.
 enum class Keep {
@@ -32,14 +32,14 @@ enum class Keep {
 /// States, each alone in a file.
 class StateFiles final : public StateSink {
  public:
-  template <StateWriter Writer, Keep Kept>
+  template <StateWriter Writer, Keep Kept = Keep::last_or_all>
   static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
                                                  Overwrite overwrite, const RunFacts& facts) {
     const bool numbers = every > 0 && Kept == Keep::last_or_all;
     auto sink = std::make_unique<StateFiles>(numbers ? numbered(path, "*") : path, every);
     sink->overwrite_ = overwrite;
     sink->writer_ = Writer;
-    sink->facts_ = facts;
+    sink->scene_toml_ = facts.scene_toml;
     if (numbers) {
       sink->pattern_ = path;
     } else {
@@ -67,13 +67,13 @@ class StateFiles final : public StateSink {
       ASPIC_TRY(file_, AtomicFile::create(path(), Overwrite::allow));
     }
     last_step_ = sample.state.step;
-    ASPIC_CHECK(writer_(*file_, sample, facts_));
+    ASPIC_CHECK(writer_(*file_, {sample.model, sample.state, sample.solves, scene_toml_}));
     return file_->commit();
   }
   std::string pattern_;  // of the names of many files; empty: there is one
   Overwrite overwrite_ = Overwrite::refuse;
   StateWriter writer_ = nullptr;
-  RunFacts facts_;
+  std::string scene_toml_;
   std::optional<AtomicFile> file_;
   std::optional<std::uint64_t> last_step_;  // written
   bool begun_ = false;
@@ -100,17 +100,17 @@ class Series final : public StateSink {
   SeriesWriter writer_;
 };
 
-Status write_csv(AtomicFile& file, const Sample& sample, const RunFacts&) {
+Status write_csv(AtomicFile& file, const Sample& sample) {
   return write_state_csv(file, sample.state);
 }
 
-Status write_vtp(AtomicFile& file, const Sample& sample, const RunFacts&) {
+Status write_vtp(AtomicFile& file, const Sample& sample) {
   return write_state_vtp(file, sample.model, sample.state);
 }
 
-Status write_whole_run(AtomicFile& file, const Sample& sample, const RunFacts& facts) {
-  return write_checkpoint(file,
-                          {ASPIC_VERSION, facts.scene_toml, sample.model.simulation.timestep, sample.state});
+Status write_whole_run(AtomicFile& file, const Sample& sample) {
+  return write_checkpoint(
+      file, {ASPIC_VERSION, std::string(sample.scene_toml), sample.model.simulation.timestep, sample.state});
 }
 
 constexpr std::string_view state_summary = "write the final state";
@@ -118,10 +118,9 @@ constexpr std::string_view state_every =
     "steps between states: FILE-00000040.csv and so on, from the first to the last";
 
 constexpr StateFormat table[] = {
-    {"state", ".csv", "CSV", state_summary, state_every, 0, false, false,
-     StateFiles::open<write_csv, Keep::last_or_all>},
+    {"state", ".csv", "CSV", state_summary, state_every, 0, false, false, StateFiles::open<write_csv>},
     {"state", ".vtp", "VTK PolyData", state_summary, state_every, 0, false, false,
-     StateFiles::open<write_vtp, Keep::last_or_all>},
+     StateFiles::open<write_vtp>},
     {"series", ".csv", "CSV", "write energies and momentum over time",
      "steps between rows of the series; default 1", 1, true, false, Series::open},
     {"checkpoint", ".aspic", "a checkpoint", "write scene and final state, to resume from,",

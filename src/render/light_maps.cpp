@@ -42,11 +42,10 @@ Result<LightMaps> LightMaps::create(gl::Context& context) {
   LightMaps result;
   for (int light = 0; light < LIGHTS; ++light) {
     const int size = light == LIGHT_SUN ? sun_size : sky_size;
-    auto map = DrawableImage::create(
-        context, light == LIGHT_SUN ? "sun map" : "sky map",
-        {.format = gl::TexelFormat::rg16f, .width = size, .height = size, .mipmaps = true}, true);
-    if (!map) return map.error();
-    result.maps_[static_cast<std::size_t>(light)] = std::move(*map);
+    ASPIC_TRY(result.maps_[static_cast<std::size_t>(light)],
+              DrawableImage::create(
+                  context, light == LIGHT_SUN ? "sun map" : "sky map",
+                  {.format = gl::TexelFormat::rg16f, .width = size, .height = size, .mipmaps = true}, true));
   }
   ASPIC_TRY(result.empty_,
             DrawableImage::create(context, "empty light map", {.format = gl::TexelFormat::rg16f}, false));

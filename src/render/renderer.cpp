@@ -105,21 +105,15 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Renderer::~Renderer() = default;
 
 Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const RendererOptions& options) {
-  auto programs = RenderPrograms::create(context, options.shaders);
-  if (!programs) return programs.error();
-  auto overlay = OverlayPainter::create(context, options.shaders);
-  if (!overlay) return overlay.error();
-  auto terrain = TerrainPainter::create(context);
-  if (!terrain) return terrain.error();
-  auto lights = LightMaps::create(context);
-  if (!lights) return lights.error();
-  auto parts = std::make_unique<Parts>(context, std::move(*programs), std::move(*overlay),
-                                       std::move(*terrain), std::move(*lights));
+  ASPIC_TRY(auto programs, RenderPrograms::create(context, options.shaders));
+  ASPIC_TRY(auto overlay, OverlayPainter::create(context, options.shaders));
+  ASPIC_TRY(auto terrain, TerrainPainter::create(context));
+  ASPIC_TRY(auto lights, LightMaps::create(context));
+  auto parts = std::make_unique<Parts>(context, std::move(programs), std::move(overlay), std::move(terrain),
+                                       std::move(lights));
   parts->shaders = options.shaders;
-  auto map = gl::Texture::create(context, "colour map", {.width = 256, .height = 1});
-  if (!map) return map.error();
-  map->upload(colour_map_texels());
-  parts->colour_map = std::move(*map);
+  ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
+  parts->colour_map.upload(colour_map_texels());
   ASPIC_TRY(parts->frame,
             gl::Buffer::create(context, "frame", sizeof(render_layout::Frame), gl::BufferKind::uniform));
   parts->nothing = gl::VertexArray::create({});
@@ -130,11 +124,10 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
 }
 
 Status Renderer::set_model(const Model& model) {
-  auto buffers = ModelBuffers::create(*parts_->context, model);
-  if (!buffers) return buffers.error();
+  ASPIC_TRY(auto buffers, ModelBuffers::create(*parts_->context, model));
   ASPIC_CHECK(parts_->terrain.set_terrain(*parts_->context, model.terrain));
   parts_->buffers.reset();
-  parts_->buffers.emplace(std::move(*buffers));
+  parts_->buffers.emplace(std::move(buffers));
   parts_->model = &model;
   parts_->drawn_state.reset();
   if (parts_->picker) parts_->picker->forget();
@@ -153,9 +146,7 @@ Status Renderer::Parts::prepare_targets(int width, int height) {
   if (targets && targets->picture.colour.width() == width && targets->picture.colour.height() == height)
     return {};
   targets.reset();
-  auto made = PictureTargets::create(*context, width, height, samples);
-  if (!made) return made.error();
-  targets.emplace(std::move(*made));
+  ASPIC_TRY(targets, PictureTargets::create(*context, width, height, samples));
   return {};
 }
 

@@ -30,13 +30,11 @@ void set_terrain(const gl::Program& program, const Terrain& terrain) {
 
 Result<TerrainPainter> TerrainPainter::create(gl::Context& context) {
   TerrainPainter painter;
-  auto ground = gl::Texture::create(
-      context, "ground",
-      {.width = ground_size, .height = ground_size, .mipmaps = true, .wrap = gl::Wrap::repeat});
-  if (!ground) return ground.error();
-  ground->upload(ground_texels(ground_size));
-  ground->generate_mipmaps();
-  painter.ground_ = std::move(*ground);
+  const gl::TextureSettings tiles = {
+      .width = ground_size, .height = ground_size, .mipmaps = true, .wrap = gl::Wrap::repeat};
+  ASPIC_TRY(painter.ground_, gl::Texture::create(context, "ground", tiles));
+  painter.ground_.upload(ground_texels(ground_size));
+  painter.ground_.generate_mipmaps();
 
   const Mesh square = square_mesh();
   ASPIC_TRY(painter.square_vertices_, gl::Buffer::of(context, "square", square.vertices));
