@@ -1,5 +1,6 @@
 // Implicit Euler, the end of a round: within a linear system the next search direction p = z + β·p; after one, or after a
-// trial was refused, the next trial v' = base + λ·δ. The accepted trial has become the base by then.
+// trial was refused, the next trial v' = base + λ·δ. The accepted trial has become the base by then. A step's second
+// trial may be v + h·g.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/implicit.glsl"
@@ -15,6 +16,10 @@ void main() {
     precise vec3 base = solve.halvings == 0u ? trial[i].xyz : own(OWN_BASE, i);
     precise vec3 delta = solve.updates == 0u ? vec3(0.0) : own(OWN_DELTA, i);
     precise vec3 next = base + solve.lambda * delta;
+    if (solve.first == 2u) {
+      Particle start = state(i);
+      next = start.position.w == 0.0 ? base : start.velocity.xyz + time_step * gravity.xyz;
+    }
     set_own(OWN_BASE, i, base);
     trial[i] = vec4(next, 0.0);
   }

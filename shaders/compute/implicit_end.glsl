@@ -4,7 +4,6 @@ void report() {
   solve.last_cg = solve.cg_total;
   solve.last_residual = solve.residual;
   solve.last_end = solve.end;
-  solve.last_ticks = solve.ticks;
   if (solve.residual > solve.worst_residual) solve.worst_residual = solve.residual;
   if (solve.end == SOLVE_CONVERGED) ++solve.converged;
   if (solve.end == SOLVE_STAGNATED) ++solve.stagnated;

@@ -25,9 +25,8 @@ Reaction meet_ground(Particle p, vec3 free, vec3 v, inout precise vec3 R, inout 
   return reaction;
 }
 
-// Keeps what the linear system needs of a reaction. Returns its share in what the last group is told: more than 0 if any
-// particle is held, 1 or more if any part of δ is prescribed.
-float keep_reaction(uint i, Reaction reaction, vec3 R) {
+// Keeps what the linear system needs of a reaction, and tells the last group of it.
+void keep_reaction(uint i, Reaction reaction, vec3 R) {
   set_own4(OWN_GROUND, i, vec4(reaction.axis, reaction.freedom));
   set_own4(OWN_ACROSS, i, vec4(reaction.across, reaction.stiffness));
   precise vec3 prescribed = -R;
@@ -35,11 +34,10 @@ float keep_reaction(uint i, Reaction reaction, vec3 R) {
   if (reaction.freedom == FREE_PLANE) prescribed = -(dot3(R, reaction.axis) * reaction.axis);
   if (reaction.freedom == FREE_LINE) prescribed = -(R - dot3(R, reaction.axis) * reaction.axis);
   set_own4(OWN_PRESCRIBED, i, vec4(prescribed, held_word(reaction)));
-  if (reaction.freedom == FREE_ALL) return 0.0;
-  return prescribed == vec3(0.0) ? HOLDS_ONLY : 1.0;
+  if (reaction.freedom != FREE_ALL) atomicMax(solve.ground, prescribed == vec3(0.0) ? 1u : 2u);
 }
 
-// Returns largest |residual| component, its square sum, r·z, and what keep_reaction says.
+// Returns largest |residual| component, its square sum, r·z, and the square sum after a fall.
 vec4 evaluate(uint i) {
   Particle p = state(i);
   precise vec3 v = trial[i].xyz;
@@ -60,6 +58,7 @@ vec4 evaluate(uint i) {
   }
   precise vec3 r = vec3(0.0);
   precise vec3 R = vec3(0.0);
+  precise vec3 fall = vec3(0.0);
   Reaction reaction = no_reaction(v);
   if (p.position.w != 0.0) {
     precise vec3 all_forces = f + own(OWN_HELD, i);
@@ -67,10 +66,11 @@ vec4 evaluate(uint i) {
     precise vec3 gained = time_step * (p.position.w * all_forces);
     r = time_step * all_forces - p.velocity.w * change;
     R = change - gained;
+    fall = time_step * gravity.xyz;
     precise vec3 free = p.velocity.xyz + gained;
     if (contact_model == CONTACT_COULOMB) reaction = meet_ground(p, free, v, R, r, block);
   }
-  precise float told = keep_reaction(i, reaction, R);
+  keep_reaction(i, reaction, R);
   DiagonalBlock inverted = inverse_of(block);
   precise vec3 z = free_part(vec4(reaction.axis, reaction.freedom), times(inverted, r));
   set_own(OWN_RESIDUAL, i, r);
@@ -79,7 +79,8 @@ vec4 evaluate(uint i) {
   set_own(OWN_INVERSE_B, i, inverted.mixed);
   search[i] = vec4(z, 0.0);
   precise float xy = abs(R.y) > abs(R.x) ? abs(R.y) : abs(R.x);
-  return vec4(abs(R.z) > xy ? abs(R.z) : xy, dot3(R, R), dot3(r, z), told);
+  precise vec3 after_fall = R + fall;
+  return vec4(abs(R.z) > xy ? abs(R.z) : xy, dot3(R, R), dot3(r, z), dot3(after_fall, after_fall));
 }
 
 void main() {

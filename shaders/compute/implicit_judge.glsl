@@ -1,9 +1,5 @@
 // Implicit Euler: the last group judges the trial, and what comes next.
 
-// Share in a sum over particles of one that the ground holds without prescribing anything: so many that they made 1 do
-// not fit into any memory.
-const float HOLDS_ONLY = 1.0 / 67108864.0;
-
 void end_solve(uint how, uint use_trial) {
   solve.end = how;
   solve.use_trial = use_trial;
@@ -17,11 +13,16 @@ float next_forcing(float ratio) {
   return wanted > most_forcing ? most_forcing : wanted;
 }
 
-// total: largest |residual| component, its square sum, r·z, and what the ground does (keep_reaction).
+// total: largest |residual| component, its square sum, r·z, and the square sum after a fall.
 void judge(vec4 total) {
   precise float residual = total.x;
   precise float merit = total.y;
-  bool held = total.w > 0.0;
+  uint ground = atomicExchange(solve.ground, 0u);
+  bool held = ground > 0u;
+  if (solve.first == 1u && !(residual <= tolerance) && total.w < merit) {
+    solve.first = 2u;
+    return;
+  }
   bool on_ground = held || (solve.first == 0u && solve.on_ground != 0u);
   if (solve.first == 0u && !(merit < solve.merit) && solve.halvings <= max_halvings) {
     solve.on_ground = on_ground ? 1u : 0u;
@@ -58,7 +59,7 @@ void judge(vec4 total) {
     solve.halvings = 0u;
     solve.lambda = 1.0;
     solve.on_ground = held ? 1u : 0u;
-    solve.prescribing = total.w < 1.0 ? 0u : 1u;
+    solve.prescribing = ground > 1u ? 1u : 0u;
     solve.rz = total.z;
     precise float enough = (forcing * forcing) * total.z;
     solve.enough = enough;

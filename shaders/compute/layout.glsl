@@ -197,7 +197,7 @@ struct Solve {
   uint parity;       // 0: the state is in A, 1: in B
   uint bad_particle;  // as in Control, or BAD_RESIDUAL
   uint blocks_done;   // of the reduction under way
-  uint first;         // 1: the trial is the step's first and is accepted whatever it is
+  uint first;         // 1: the trial is v, the step's first; 2: v + h·g, taken in its place; accepted whatever it is
   uint use_trial;     // 1: v' is the trial, 0: the base
   uint newton;        // iterations in this step
   uint cg;            // iterations in this linear system
@@ -206,7 +206,7 @@ struct Solve {
   uint halvings;      // of Newton's step
   uint without_progress;  // Newton iterations without a smaller residual
   uint end;           // SolveEnd
-  uint ticks;         // rounds of kernels in this step
+  uint ticks;         // rounds of kernels in this step, or in the last if none is under way
   float lambda;       // fraction of δ under trial
   float merit;        // Σ |(v' − v) − h·a|² of the accepted iterate
   float residual;     // its largest component of |(v' − v) − h·a| [m/s]
@@ -219,7 +219,7 @@ struct Solve {
   uint last_cg;
   float last_residual;
   uint last_end;
-  uint last_ticks;
+  uint ground;        // of the trial: 1: the ground holds a particle, 2: and prescribes a part of δ
   float worst_residual;  // since the state was loaded; counters wrap and are read as differences
   uint converged;
   uint stagnated;

@@ -57,17 +57,41 @@ Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
   return check_film(*format, pictures.size, frames_per_second(pictures));
 }
 
-/// Whether the backend was named and has force paths to choose from.
-bool has_force_paths(const BackendChoice& choice) {
-  return choice.row && !choice.row->force_paths().empty();
+/// The options that every backend may be asked for.
+Result<BackendChoice> asked_of_all(const RawOptions& raw) {
+  BackendChoice asked;
+  ASPIC_TRY(asked.precision, parse_precision(raw.precision.empty() ? "single" : raw.precision));
+  ASPIC_TRY(asked.force_path, parse_force_path(raw.force_path));
+  ASPIC_TRY(asked.arithmetic, parse_arithmetic(raw.arithmetic));
+  if (raw.threads == 0u) return usage("--threads must be a whole number from 1 to 1024.");
+  asked.threads = raw.threads.value_or(0);
+  return asked;
+}
+
+/// Options given for all backends must be ones that some of them have, if only by their own words.
+Status check_choices(const std::vector<BackendChoice>& choices, const BackendChoice& asked) {
+  for (const BackendChoice& choice : choices) ASPIC_CHECK(check_choice(choice));
+  const auto takes = [&](auto BackendChoice::*option) {
+    return asked.*option == BackendChoice{}.*option ||
+           std::ranges::any_of(choices, [&](const BackendChoice& c) {
+             return choice_for(c.row, asked).*option == asked.*option;
+           });
+  };
+  if (takes(&BackendChoice::force_path) && takes(&BackendChoice::arithmetic) &&
+      takes(&BackendChoice::threads))
+    return {};
+  BackendChoice refused = asked;
+  refused.row = choices.front().row;
+  return check_choice(refused);
 }
 
 Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
+  ASPIC_TRY(const auto asked, asked_of_all(raw));
   std::vector<BackendChoice> backends;
   for (const std::string& text : raw.bench_backends) {
-    ASPIC_TRY(const auto choice, parse_backend(text));
-    const bool open = has_force_paths(choice) && choice.force_path == ForcePath::automatic;
-    if (!open || raw.bench_force_paths.empty()) {
+    ASPIC_TRY(const auto choice, parse_backend(text, asked));
+    const bool paths = choice.row && !choice.row->force_paths().empty();
+    if (!paths || choice.force_path != ForcePath::automatic || raw.bench_force_paths.empty()) {
       backends.push_back(choice);
       continue;
     }
@@ -77,19 +101,15 @@ Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
       backends.back().force_path = path;
     }
   }
-  for (const BackendChoice& choice : backends) {
-    ASPIC_CHECK(check_choice(choice));
-  }
+  ASPIC_CHECK(check_choices(backends, asked));
   return backends;
 }
 
 }  // namespace
 
 Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
-  ASPIC_TRY(const auto row, parse_backend_name(raw.backend));
-  ASPIC_TRY(const auto precision, parse_precision(raw.precision.empty() ? "single" : raw.precision));
-  ASPIC_TRY(const auto path, parse_force_path(raw.force_path));
-  run.backend = {row, precision, path};
+  ASPIC_TRY(run.backend, asked_of_all(raw));
+  ASPIC_TRY(run.backend.row, parse_backend_name(raw.backend));
   run.precision_given = !raw.precision.empty();
   ASPIC_CHECK(check_length(run.length));
   for (const StateOutput& output : run.outputs) {
@@ -109,18 +129,10 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
 }
 
 Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
-  ASPIC_TRY(const auto path, parse_force_path(raw.force_path));
-  const auto choose = [&](const std::string& text) -> Result<BackendChoice> {
-    auto choice = parse_backend(text);
-    if (!choice) return choice;
-    if (has_force_paths(*choice) && choice->force_path == ForcePath::automatic) choice->force_path = path;
-    ASPIC_CHECK(check_choice(*choice));
-    return choice;
-  };
-  ASPIC_TRY(const auto first, choose(raw.backends.front()));
-  ASPIC_TRY(const auto second, choose(raw.backends.back()));
-  compare.first = first;
-  compare.second = second;
+  ASPIC_TRY(const auto asked, asked_of_all(raw));
+  ASPIC_TRY(compare.first, parse_backend(raw.backends.front(), asked));
+  ASPIC_TRY(compare.second, parse_backend(raw.backends.back(), asked));
+  ASPIC_CHECK(check_choices({compare.first, compare.second}, asked));
   ASPIC_CHECK(check_length(compare.length));
   if (!(std::isfinite(compare.tolerance) && compare.tolerance >= 0.0)) {
     return usage("--tolerance must be a finite number, 0 or more, not {}.", compare.tolerance);
@@ -129,6 +141,7 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
 }
 
 Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
+  ASPIC_TRY(view.backend, asked_of_all(raw));
   ASPIC_TRY(view.backend.row, parse_backend_name(raw.backend));
   ASPIC_CHECK(check_choice(view.backend));
   if (!raw.window_size.empty()) {
@@ -140,12 +153,16 @@ Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
 Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
   ASPIC_TRY(bench.backends, bench_backends(raw));
   for (const std::string& word : raw.bench_integrators) {
+    if (word == "all") {
+      bench.integrators.assign(std::begin(all_integrators), std::end(all_integrators));
+      break;
+    }
     const auto known = std::find_if(std::begin(all_integrators), std::end(all_integrators),
                                     [&](Integrator i) { return name_of(i) == word; });
     if (known == std::end(all_integrators)) {
       std::vector<std::string_view> names;
       for (const Integrator i : all_integrators) names.push_back(name_of(i));
-      return usage("--integrator does not know \"{}\"; allowed: {}.", printable_line(word),
+      return usage("--integrator does not know \"{}\"; allowed: all, {}.", printable_line(word),
                    fmt::join(names, ", "));
     }
     bench.integrators.push_back(*known);
@@ -161,6 +178,7 @@ Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
     return usage("--duration must be a number above 0.");
   }
   if (bench.repeats < 1) return usage("--repeats must be 1 or more.");
+  bench.with_peers = bench.with_peers || !bench.peers.empty();
   return Command(std::move(bench));
 }
 

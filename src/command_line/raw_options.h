@@ -1,5 +1,6 @@
 #pragma once
 // From the words the command line parser read to the values the commands take.
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +11,8 @@ namespace aspic {
 
 /// What the parser fills in before words become values.
 struct RawOptions {
-  std::string backend = "auto", precision, force_path = "auto";
+  std::string backend = "auto", precision, force_path = "auto", arithmetic = "exact";
+  std::optional<unsigned> threads;
   std::vector<std::string> backends = {"gpu", "reference"};
   std::vector<std::string> bench_backends = {"auto"}, bench_force_paths, bench_integrators;
   std::string bench_timestep = "scene";

@@ -1,6 +1,6 @@
 #pragma once
-// The fast CPU solver: threads and vector instructions, with the bits of the reference for any number of
-// threads and any instruction set.
+// The parallel CPU solver: threads and vector instructions, in exact arithmetic with the bits of the
+// reference for any number of threads and any instruction set.
 #include <memory>
 
 #include "model/solver.h"
@@ -11,14 +11,14 @@ struct CpuOptions {
   /// Threads, 1 to 1024; 0: as many as there are processors (or ASPIC_THREADS), fewer for scenes too small
   /// for them.
   unsigned threads = 0;
+  /// Of the springs' forces; the rest, and implicit Euler, is exact. Fast forces are the same for any number
+  /// of threads.
+  Arithmetic arithmetic = Arithmetic::exact;
 };
 
 /// A parallel solver at the model's initial state, in single precision. Implicit Euler runs on one thread,
-/// the reference's. The model must outlive the solver. Error (scene_rejected): there is no memory left for
-/// its fields.
+/// the reference's. The model must outlive the solver. Errors: usage where ASPIC_THREADS is no number of
+/// threads; scene_rejected where there is no memory left for its fields.
 Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOptions& options = {});
-
-/// Bytes a parallel solver would hold for a model of these counts.
-std::uint64_t cpu_bytes(const ModelCounts& counts, Integrator integrator);
 
 }  // namespace aspic

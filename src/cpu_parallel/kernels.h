@@ -1,7 +1,7 @@
 #pragma once
 // The inner loops, compiled for every instruction set of the processor's family and chosen at run time
-// (Highway). All of them give the same bits: each lane does what the reference does for one particle, in the
-// same order, without fused multiply-add.
+// (Highway). In exact arithmetic all of them give the same bits: each lane does what the reference does for
+// one particle, in the same order, without fused multiply-add.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -9,6 +9,7 @@
 #include "cpu_parallel/particles.h"
 #include "cpu_parallel/springs.h"
 #include "model/integrator.h"
+#include "model/solver.h"
 
 namespace aspic::parallel {
 
@@ -22,14 +23,11 @@ struct ForceInput {
   const Particles* at;  ///< the stage at which forces are taken
   const float* mass;    ///< [kg]
   float gravity[3];     ///< [m/s²]
+  Arithmetic arithmetic = Arithmetic::exact;
 };
 
-/// m·g and the springs of the particles first … first + count − 1 of one plane of a cube; `first` is a
-/// multiple of `slice` within the plane. Writes up to `slice` − 1 values more than `count`.
-void lattice_forces(const Lattice& lattice, const ForceInput& input, std::size_t plane, Range range,
-                    const Forces& forces);
-
-/// The same of a body with lists; `range` is relative to the body, its first a multiple of `slice`.
+/// m·g and the springs of particles of a body with lists; `range` is relative to the body, its first a
+/// multiple of `slice`. Writes up to `slice` − 1 values more than there are particles.
 void listed_forces(const SpringLists& lists, const ForceInput& input, Range range, const Forces& forces);
 
 /// One stage of an explicit method (model/integrator.h has the formulas).
@@ -47,14 +45,29 @@ struct StageMove {
   Drift drift;
 };
 
-/// Moves the particles of a range, whose forces are given.
-void move(const StageMove& stage, Range range, const Forces& forces);
-
-/// Smallest box around the positions of a range [m].
+/// Smallest box around positions [m].
 struct Box {
   float min[3], max[3];
 };
+
+/// What moves of particles came to, by lane.
+struct Moved {
+  alignas(64) float low[3][slice], high[3][slice];  ///< of the new positions [m]
+  float limit;                                      ///< on the square of speeds [m²/s²]
+  bool sound = true;  ///< all new positions are finite and no new speed is above the limit
+
+  explicit Moved(float limit_of_square);
+  Box box() const;
+};
+
+/// Moves the particles of a range, whose forces are given.
+void move(const StageMove& stage, Range range, const Forces& forces, Moved& moved);
+
+/// Smallest box around the positions of a range [m].
 Box box_of(const VectorArray& x, Range range);
+
+/// On the square of a speed: above it a step has diverged [m²/s²].
+inline constexpr auto speed_limit = static_cast<float>(divergence_speed * divergence_speed);
 
 /// Whether all positions are finite and no speed is above the square root of `limit` [m²/s²].
 bool all_sound(const Particles& particles, Range range, float limit);

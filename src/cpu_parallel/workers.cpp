@@ -7,11 +7,15 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "base/printable.h"
+
 namespace aspic::parallel {
 namespace {
 
 /// Looks at a value before a thread goes to sleep over it: a few microseconds, less than waking up takes.
 constexpr int looks = 2000;
+
+thread_local unsigned current_thread = 0;
 
 void pause() {
 #if defined(__x86_64__)
@@ -31,7 +35,7 @@ void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
 }  // namespace
 
 Workers::Workers(unsigned threads) {
-  for (unsigned n = 1; n < threads; ++n) others_.emplace_back([this] { work(); });
+  for (unsigned n = 1; n < threads; ++n) others_.emplace_back([this, n] { work(n); });
 }
 
 Workers::~Workers() {
@@ -55,13 +59,18 @@ void Workers::run(std::size_t pieces, const std::function<void(std::size_t)>& ta
     wait_while(finished_, n);
 }
 
+unsigned Workers::current() {
+  return current_thread;
+}
+
 void Workers::take_pieces() {
   for (std::size_t n = next_.fetch_add(1, std::memory_order_relaxed); n < pieces_;
        n = next_.fetch_add(1, std::memory_order_relaxed))
     (*task_)(n);
 }
 
-void Workers::work() {
+void Workers::work(unsigned index) {
+  current_thread = index;
   for (std::uint32_t round = 0;;) {
     wait_while(round_, round);
     ++round;
@@ -72,19 +81,22 @@ void Workers::work() {
   }
 }
 
-unsigned available_threads() {
-  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0)
-    threads = std::max(1u, static_cast<unsigned>(CPU_COUNT(&set)));
-  if (const char* text = std::getenv("ASPIC_THREADS")) {
+Result<unsigned> available_threads() {
+  if (const char* const text = std::getenv("ASPIC_THREADS")) {
     const std::string_view word = text;
     unsigned asked = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), asked);
-    if (error == std::errc{} && end == word.data() + word.size() && asked >= 1 && asked <= 1024)
-      threads = asked;
+    if (error == std::errc{} && end == word.data() + word.size() && asked >= 1 && asked <= 1024) return asked;
+    return fail(
+        ErrorCode::usage,
+        "ASPIC_THREADS is \"{}\", which is not a number of threads: set a whole number from 1 to 1024, "
+        "or unset it.",
+        printable_line(word));
   }
-  return threads;
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0)
+    return std::max(1u, static_cast<unsigned>(CPU_COUNT(&set)));
+  return std::max(1u, std::thread::hardware_concurrency());
 }
 
 }  // namespace aspic::parallel

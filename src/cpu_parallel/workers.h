@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/result.h"
+
 namespace aspic::parallel {
 
 class Workers {
@@ -19,13 +21,15 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
   unsigned threads() const { return static_cast<unsigned>(others_.size()) + 1; }
+  /// Which of them a task runs on, from 0.
+  static unsigned current();
 
   /// Calls task(n) for every n below `pieces`, in any order and on any thread, and returns when all are done.
   /// What the pieces wrote is visible then. The task must not throw.
   void run(std::size_t pieces, const std::function<void(std::size_t)>& task);
 
  private:
-  void work();
+  void work(unsigned index);
   void take_pieces();
 
   std::vector<std::jthread> others_;
@@ -37,8 +41,8 @@ class Workers {
   std::atomic<bool> ending_ = false;
 };
 
-/// Threads this process may run at once: its share of the processors (sched_getaffinity), or
-/// ASPIC_THREADS where that is a number from 1 to 1024.
-unsigned available_threads();
+/// Threads this process may run at once: ASPIC_THREADS where that is set, else its share of the processors
+/// (sched_getaffinity). Error (usage): ASPIC_THREADS is not a whole number from 1 to 1024.
+Result<unsigned> available_threads();
 
 }  // namespace aspic::parallel

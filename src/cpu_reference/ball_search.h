@@ -11,36 +11,19 @@
 #include <utility>
 #include <vector>
 
+#include "cpu_reference/ball_particles.h"
 #include "cpu_reference/vectors.h"
 
 namespace aspic::reference {
-
-/// Bodies' partners, body after body, each in ascending index.
-struct Contacts {
-  std::vector<std::size_t> start;     ///< of each body's partners; one more entry than bodies
-  std::vector<std::uint32_t> other;   ///< the partners
-  std::vector<std::uint8_t> acting;   ///< of each pair: it takes part in the phase of velocities
-  std::vector<std::uint8_t> overlap;  ///< of each pair: its gap is negative
-
-  void clear() {
-    start.assign(1, 0);
-    other.clear();
-    overlap.clear();
-  }
-  void add(std::uint32_t partner, bool overlaps) {
-    other.push_back(partner);
-    overlap.push_back(overlaps);
-  }
-  /// The partners of the next body have been added.
-  void end_body() { start.push_back(other.size()); }
-};
 
 /// The balls that take part in a step, for one step.
 template <class T>
 class BallSearch {
  public:
-  /// `balls`: ascending indices of balls with finite positions `x`; `reach`: largest radius + ε [m].
-  BallSearch(const Field<T>& x, const std::vector<std::uint32_t>& balls, double reach) : reach_(reach) {
+  /// `balls`: ascending indices of balls with finite positions `x`, which must outlive this; `reach`: largest
+  /// radius + ε [m].
+  BallSearch(const Field<T>& x, const std::vector<std::uint32_t>& balls, double reach)
+      : x_(x), reach_(reach) {
     along_x_.reserve(balls.size());
     for (const std::uint32_t b : balls) along_x_.push_back({x(0, b), b});
     std::sort(along_x_.begin(), along_x_.end());
@@ -49,18 +32,30 @@ class BallSearch {
 
   bool empty() const { return along_x_.empty(); }
 
+  /// False only if the surfaces of all balls are further than ε from the box.
+  bool any_near(const SearchBox<T>& box) const {
+    const double reach = margin * reach_;
+    const auto within = [&](std::uint32_t ball, std::size_t axis) {
+      const auto x = static_cast<double>(x_(static_cast<Eigen::Index>(axis), ball));
+      return x >= static_cast<double>(box.min[axis]) - reach &&
+             x <= static_cast<double>(box.max[axis]) + reach;
+    };
+    for (auto at = first_from(static_cast<double>(box.min[0]) - reach);
+         at != along_x_.end() && within(at->second, 0); ++at) {
+      if (within(at->second, 1) && within(at->second, 2)) return true;
+    }
+    return false;
+  }
+
   /// Calls take(b) for every ball whose surface may be within ε of that of a ball at x (`of_ball`) or of x,
   /// in no particular order.
   template <class Take>
   void candidates(const Vector<T>& x, bool of_ball, const Take& take) const {
     if (entries_.empty()) {
-      // A relative margin far above rounding keeps every pair that the exact test would take.
-      const double reach = 1.001 * (of_ball ? 2.0 * reach_ : reach_);
-      const double from = static_cast<double>(x(0)) - reach, to = static_cast<double>(x(0)) + reach;
-      auto at = std::lower_bound(along_x_.begin(), along_x_.end(), from, [](const auto& entry, double limit) {
-        return static_cast<double>(entry.first) < limit;
-      });
-      for (; at != along_x_.end() && static_cast<double>(at->first) <= to; ++at) take(at->second);
+      const double reach = margin * (of_ball ? 2.0 * reach_ : reach_), at_x = static_cast<double>(x(0));
+      for (auto at = first_from(at_x - reach);
+           at != along_x_.end() && static_cast<double>(at->first) <= at_x + reach; ++at)
+        take(at->second);
       return;
     }
     // A ball reaches less than one cell, a particle less than half of one.
@@ -81,6 +76,8 @@ class BallSearch {
     Cell cell;
     std::uint32_t ball = 0;
   };
+  /// A relative margin far above rounding keeps every pair that the exact test would take.
+  static constexpr double margin = 1.001;
   /// Candidates along x that a ball may have on average; a grid's 27 cells cost about as much.
   static constexpr std::size_t few = 32;
   /// Cells past these are one with those at the edge; within, rounding moves no body by a tenth of a cell.
@@ -94,6 +91,13 @@ class BallSearch {
       pairs += 2 * (last - first);
     }
     return pairs > few * along_x_.size();
+  }
+
+  /// The first ball along x that is not below `from`.
+  auto first_from(double from) const {
+    return std::lower_bound(along_x_.begin(), along_x_.end(), from, [](const auto& entry, double limit) {
+      return static_cast<double>(entry.first) < limit;
+    });
   }
 
   void fill_grid(const Field<T>& x, const std::vector<std::uint32_t>& balls) {
@@ -130,6 +134,7 @@ class BallSearch {
     return hash & mask_;
   }
 
+  const Field<T>& x_;
   double reach_, cells_per_metre_ = 0.0;
   std::vector<std::pair<T, std::uint32_t>> along_x_;
   std::size_t mask_ = 0;

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "cpu_reference/ball_contact.h"
+#include "cpu_reference/ball_pairs.h"
+#include "cpu_reference/ball_particles.h"
 #include "cpu_reference/ball_search.h"
 #include "cpu_reference/integrators.h"
 #include "cpu_reference/reductions.h"
@@ -32,20 +34,19 @@ class Balls {
       : model_(model),
         gravity_(rounded<T>(model.simulation.gravity)),
         rules_{ContactConstants<T>(model), static_cast<T>(model.contact.ball_restitution),
-               static_cast<T>(model.contact.ball_friction), model.contact.spin} {
+               static_cast<T>(model.contact.ball_friction), model.contact.spin},
+        particle_weight_(model.inverse_mass) {
     for (const Ball& ball : model.balls) {
       bodies_.emplace_back(ball);
       largest_radius_ = std::max(largest_radius_, static_cast<double>(bodies_.back().radius));
     }
     for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
-    for (std::uint32_t i = 0; i < model.particle_count(); ++i)
-      particle_weight_.push_back(static_cast<T>(model.inverse_mass[i]));
   }
 
   /// One step of all balls launched by step number `step`, from `start`; particles went from `particle_start`
   /// to `particles`, their terrain's response included, and are changed by the balls they meet.
-  BallPhase<T> step(std::uint64_t step, const BallPhase<T>& start, const Phase<T>& particle_start,
-                    Phase<T>& particles) {
+  BallPhase<T> step(std::uint64_t step, const BallPhase<T>& start,
+                    const ParticleView<const T>& particle_start, const ParticleView<T>& particles) {
     for (Ground<T>& ground : grounds_) ground.begin_step(model_.simulation.timestep, step);
     BallPhase<T> end = fly(step, start);
     find_touches(step, end, particles);
@@ -56,6 +57,9 @@ class Balls {
   }
 
  private:
+  /// Particles next to each other in number, which are mostly so in space: a box around them is far from all
+  /// balls, or each of them looks for its own.
+  static constexpr std::uint32_t neighbourhood = 64;
   using Counts = std::vector<std::uint32_t>;
   /// What balls receive in a phase.
   using Impulses = std::vector<std::pair<std::uint32_t, Impulse<T>>>;
@@ -120,30 +124,30 @@ class Balls {
     return end;
   }
 
-  void find_touches(std::uint64_t step, const BallPhase<T>& balls, const Phase<T>& particles);
+  void find_touches(std::uint64_t step, const BallPhase<T>& balls, const ParticleView<T>& particles);
   void find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls, std::uint32_t own);
-  void find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls, const Phase<T>& particles,
+  void find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls, const ParticleView<T>& particles,
                      std::uint32_t own);
   void list_particles_of_balls();
   void exchange_among_balls(const BallPhase<T>& start, BallPhase<T>& balls);
-  void exchange_with_particles(const BallPhase<T>& start, BallPhase<T>& balls, const Phase<T>& particle_start,
-                               Phase<T>& particles);
+  void exchange_with_particles(const BallPhase<T>& start, BallPhase<T>& balls,
+                               const ParticleView<const T>& particle_start, const ParticleView<T>& particles);
   void receive(BallPhase<T>& balls, const Impulses& impulses) const;
-  void separate(BallPhase<T>& balls, Phase<T>& particles);
+  void separate(BallPhase<T>& balls, const ParticleView<T>& particles);
 
   /// Of two balls, of a particle and a ball, and of a ball and a particle: as the first of them sees it.
   Gap<T> between_balls(const BallPhase<T>& balls, std::uint32_t own, std::uint32_t other) const {
     const Vector<T> e = balls.x.col(own) - balls.x.col(other);
     return pair_gap<T>(e, body(own).radius + body(other).radius, own < other);
   }
-  Gap<T> from_particle(const BallPhase<T>& balls, const Phase<T>& particles, std::uint32_t p,
+  Gap<T> from_particle(const BallPhase<T>& balls, const ParticleView<T>& particles, std::uint32_t p,
                        std::uint32_t b) const {
-    const Vector<T> e = particles.x.col(p) - balls.x.col(b);
+    const Vector<T> e = particles.position(p) - balls.x.col(b);
     return pair_gap<T>(e, body(b).radius, true);
   }
-  Gap<T> from_ball(const BallPhase<T>& balls, const Phase<T>& particles, std::uint32_t b,
+  Gap<T> from_ball(const BallPhase<T>& balls, const ParticleView<T>& particles, std::uint32_t b,
                    std::uint32_t p) const {
-    const Vector<T> e = balls.x.col(b) - particles.x.col(p);
+    const Vector<T> e = balls.x.col(b) - particles.position(p);
     return pair_gap<T>(e, body(b).radius, false);
   }
 
@@ -162,16 +166,17 @@ class Balls {
   double largest_radius_ = 0.0;
   std::vector<BallBody<T>> bodies_;
   std::vector<Ground<T>> grounds_;
-  std::vector<T> particle_weight_;  // w of every particle
+  Runs<T> particle_weight_;  // w of every particle
   // Of the step under way.
   Contacts ball_ball_, ball_particle_, particle_ball_;
-  std::vector<std::uint32_t> present_;  // balls that have been launched
-  std::vector<std::uint32_t> near_;     // partners of one body
+  std::vector<std::uint32_t> present_;   // balls that have been launched
+  std::vector<std::uint32_t> near_;      // partners of one body
+  std::vector<std::uint32_t> touching_;  // particles near balls: the bodies of particle_ball_
 };
 
 /// All pairs closer than ε, from candidates that a grid offers: the test itself is that of all pairs.
 template <class T>
-void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const Phase<T>& particles) {
+void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const ParticleView<T>& particles) {
   present_.clear();
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     if (model_.balls[b].launched(step) && balls.x.col(b).allFinite()) present_.push_back(b);
@@ -188,9 +193,14 @@ void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const
     ball_ball_.end_body();
   }
   particle_ball_.clear();
-  for (std::uint32_t p = 0; p < particle_weight_.size(); ++p) {
-    if (!search.empty() && particles.x.col(p).allFinite()) find_balls_of(search, balls, particles, p);
-    particle_ball_.end_body();
+  touching_.clear();
+  const auto count = static_cast<std::uint32_t>(search.empty() ? 0 : particle_weight_.size());
+  for (std::uint32_t first = 0; first < count; first += neighbourhood) {
+    const std::uint32_t end = std::min(count, first + neighbourhood);
+    if (!search.any_near(box_of(particles, first, end))) continue;
+    for (std::uint32_t p = first; p < end; ++p) {
+      if (particles.position(p).allFinite()) find_balls_of(search, balls, particles, p);
+    }
   }
   list_particles_of_balls();
 }
@@ -212,20 +222,23 @@ void Balls<T>::find_balls_of(const BallSearch<T>& search, const BallPhase<T>& ba
 
 template <class T>
 void Balls<T>::find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls,
-                             const Phase<T>& particles, std::uint32_t own) {
+                             const ParticleView<T>& particles, std::uint32_t own) {
   near_.clear();
-  search.candidates(particles.x.col(own), false, [&](std::uint32_t b) {
-    if (!may_touch(particles.x.col(own) - balls.x.col(b), body(b).radius)) return;
+  search.candidates(particles.position(own), false, [&](std::uint32_t b) {
+    if (!may_touch(particles.position(own) - balls.x.col(b), body(b).radius)) return;
     if (from_particle(balls, particles, own, b).d < rules_.contact.epsilon) near_.push_back(b);
   });
   if (!std::is_sorted(near_.begin(), near_.end())) std::sort(near_.begin(), near_.end());
+  if (near_.empty()) return;
   for (const std::uint32_t b : near_) {
     particle_ball_.add(b, from_particle(balls, particles, own, b).d < T(0));
   }
+  particle_ball_.end_body();
+  touching_.push_back(own);
 }
 
-/// The particles' pairs once more, ball by ball: particles come in ascending index, so they do in each ball's
-/// list.
+/// The particles' pairs once more, ball by ball: partners are numbers in touching_. Particles come in
+/// ascending index, so they do in each ball's list.
 template <class T>
 void Balls<T>::list_particles_of_balls() {
   std::vector<std::size_t>& start = ball_particle_.start;
@@ -235,48 +248,14 @@ void Balls<T>::list_particles_of_balls() {
   std::vector<std::size_t> next(start.begin(), start.end() - 1);
   ball_particle_.other.resize(particle_ball_.other.size());
   ball_particle_.overlap.resize(particle_ball_.other.size());
-  for (std::uint32_t p = 0; p < particle_weight_.size(); ++p) {
-    for (std::size_t k = particle_ball_.start[p]; k < particle_ball_.start[p + 1]; ++k) {
+  for (std::uint32_t n = 0; n < touching_.size(); ++n) {
+    for (std::size_t k = particle_ball_.start[n]; k < particle_ball_.start[n + 1]; ++k) {
       const std::size_t place = next[particle_ball_.other[k]]++;
-      ball_particle_.other[place] = p;
+      ball_particle_.other[place] = n;
       ball_particle_.overlap[place] = particle_ball_.overlap[k];
     }
   }
 }
-
-namespace detail {
-
-/// Marks the pairs that act, and counts each body's.
-template <class Acts>
-std::vector<std::uint32_t> tally(Contacts& contacts, const Acts& acts) {
-  std::vector<std::uint32_t> c(contacts.start.size() - 1, 0);
-  contacts.acting.resize(contacts.other.size());
-  for (std::uint32_t own = 0; own < c.size(); ++own) {
-    for (std::size_t k = contacts.start[own]; k < contacts.start[own + 1]; ++k) {
-      contacts.acting[k] = acts(own, contacts.other[k]);
-      c[own] += contacts.acting[k];
-    }
-  }
-  return c;
-}
-
-/// Adds each body's pairs that overlap to its count.
-inline void tally_overlaps(const Contacts& contacts, std::vector<std::uint32_t>& c) {
-  for (std::size_t own = 0; own < c.size(); ++own) {
-    for (std::size_t k = contacts.start[own]; k < contacts.start[own + 1]; ++k) c[own] += contacts.overlap[k];
-  }
-}
-
-/// Calls take(other) for the partners of a body that `flags` marks.
-template <class Take>
-void for_each(const Contacts& contacts, const std::vector<std::uint8_t>& flags, std::uint32_t own,
-              const Take& take) {
-  for (std::size_t k = contacts.start[own]; k < contacts.start[own + 1]; ++k) {
-    if (flags[k] != 0) take(contacts.other[k]);
-  }
-}
-
-}  // namespace detail
 
 template <class T>
 void Balls<T>::receive(BallPhase<T>& balls, const Impulses& impulses) const {
@@ -289,7 +268,7 @@ void Balls<T>::receive(BallPhase<T>& balls, const Impulses& impulses) const {
 template <class T>
 void Balls<T>::exchange_among_balls(const BallPhase<T>& start, BallPhase<T>& balls) {
   if (ball_ball_.other.empty()) return;
-  const Counts c = detail::tally(ball_ball_, [&](std::uint32_t i, std::uint32_t j) {
+  const Counts c = tally(ball_ball_, [&](std::uint32_t i, std::uint32_t j) {
     const Vector<T> dv = balls.v.col(i) - balls.v.col(j);
     return dot3<T>(dv, between_balls(balls, i, j).n) < T(0);
   });
@@ -297,7 +276,7 @@ void Balls<T>::exchange_among_balls(const BallPhase<T>& start, BallPhase<T>& bal
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
     if (c[i] == 0) continue;
     ImpulseSum sum;
-    detail::for_each(ball_ball_, ball_ball_.acting, i, [&](std::uint32_t j) {
+    for_each(ball_ball_, ball_ball_.acting, i, [&](std::uint32_t j) {
       const Vector<T> dv = balls.v.col(i) - balls.v.col(j), dv0 = start.v.col(i) - start.v.col(j);
       const Vector<T> rolling = body(i).radius * balls.omega.col(i) + body(j).radius * balls.omega.col(j);
       const T weight = number(c[i]) * body(i).inverse_mass + number(c[j]) * body(j).inverse_mass;
@@ -311,81 +290,88 @@ void Balls<T>::exchange_among_balls(const BallPhase<T>& start, BallPhase<T>& bal
 
 template <class T>
 void Balls<T>::exchange_with_particles(const BallPhase<T>& start, BallPhase<T>& balls,
-                                       const Phase<T>& particle_start, Phase<T>& particles) {
+                                       const ParticleView<const T>& particle_start,
+                                       const ParticleView<T>& particles) {
   if (particle_ball_.other.empty()) return;
-  const Counts c_ball = detail::tally(ball_particle_, [&](std::uint32_t b, std::uint32_t p) {
-    const Vector<T> dv = balls.v.col(b) - particles.v.col(p);
-    return dot3<T>(dv, from_ball(balls, particles, b, p).n) < T(0);
+  const Counts c_ball = tally(ball_particle_, [&](std::uint32_t b, std::uint32_t n) {
+    const Vector<T> dv = balls.v.col(b) - particles.velocity(touching_[n]);
+    return dot3<T>(dv, from_ball(balls, particles, b, touching_[n]).n) < T(0);
   });
-  const Counts c_particle = detail::tally(particle_ball_, [&](std::uint32_t p, std::uint32_t b) {
-    const Vector<T> dv = particles.v.col(p) - balls.v.col(b);
-    return dot3<T>(dv, from_particle(balls, particles, p, b).n) < T(0);
+  const Counts c_particle = tally(particle_ball_, [&](std::uint32_t n, std::uint32_t b) {
+    const Vector<T> dv = particles.velocity(touching_[n]) - balls.v.col(b);
+    return dot3<T>(dv, from_particle(balls, particles, touching_[n], b).n) < T(0);
   });
-  const auto received = [&](const Vector<T>& n, std::uint32_t b, std::uint32_t p, const Vector<T>& dv,
+  const auto received = [&](const Vector<T>& normal, std::uint32_t b, std::uint32_t n, const Vector<T>& dv,
                             const Vector<T>& dv0) {
     const Vector<T> rolling = body(b).radius * balls.omega.col(b);
-    const T weight = number(c_ball[b]) * body(b).inverse_mass + number(c_particle[p]) * particle_weight_[p];
+    const T weight =
+        number(c_ball[b]) * body(b).inverse_mass + number(c_particle[n]) * particle_weight_[touching_[n]];
     const T slip_weight = weight + number(c_ball[b]) * body(b).slip;
-    return impact<T>(rules_, n, dv, dv0, rolling, weight, slip_weight);
+    return impact<T>(rules_, normal, dv, dv0, rolling, weight, slip_weight);
   };
   Impulses on_ball;
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     if (c_ball[b] == 0) continue;
     ImpulseSum sum;
-    detail::for_each(ball_particle_, ball_particle_.acting, b, [&](std::uint32_t p) {
-      sum.add(received(from_ball(balls, particles, b, p).n, b, p, balls.v.col(b) - particles.v.col(p),
-                       start.v.col(b) - particle_start.v.col(p)));
+    for_each(ball_particle_, ball_particle_.acting, b, [&](std::uint32_t n) {
+      const std::uint32_t p = touching_[n];
+      sum.add(received(from_ball(balls, particles, b, p).n, b, n, balls.v.col(b) - particles.velocity(p),
+                       start.v.col(b) - particle_start.velocity(p)));
     });
     on_ball.push_back({b, sum.total()});
   }
   std::vector<std::pair<std::uint32_t, Vector<T>>> on_particle;
-  for (std::uint32_t p = 0; p < particle_weight_.size(); ++p) {
-    if (c_particle[p] == 0 || particle_weight_[p] == T(0)) continue;
+  for (std::uint32_t n = 0; n < touching_.size(); ++n) {
+    const std::uint32_t p = touching_[n];
+    if (c_particle[n] == 0 || particle_weight_[p] == T(0)) continue;
     PartnerSum<Vector<T>> sum(Vector<T>::Zero());
-    detail::for_each(particle_ball_, particle_ball_.acting, p, [&](std::uint32_t b) {
-      sum.add(received(from_particle(balls, particles, p, b).n, b, p, particles.v.col(p) - balls.v.col(b),
-                       particle_start.v.col(p) - start.v.col(b))
+    for_each(particle_ball_, particle_ball_.acting, n, [&](std::uint32_t b) {
+      sum.add(received(from_particle(balls, particles, p, b).n, b, n, particles.velocity(p) - balls.v.col(b),
+                       particle_start.velocity(p) - start.v.col(b))
                   .linear);
     });
     on_particle.push_back({p, sum.total()});
   }
   receive(balls, on_ball);
-  for (const auto& [p, sum] : on_particle) particles.v.col(p) += particle_weight_[p] * sum;
+  for (const auto& [p, sum] : on_particle) particles.add_to(particles.v, p, particle_weight_[p] * sum);
 }
 
 /// The position phase, over all overlapping pairs at once: a ball's balls come before its particles.
 template <class T>
-void Balls<T>::separate(BallPhase<T>& balls, Phase<T>& particles) {
+void Balls<T>::separate(BallPhase<T>& balls, const ParticleView<T>& particles) {
   if (ball_ball_.other.empty() && particle_ball_.other.empty()) return;
-  Counts c_ball(bodies_.size(), 0), c_particle(particle_weight_.size(), 0);
-  detail::tally_overlaps(ball_ball_, c_ball);
-  detail::tally_overlaps(ball_particle_, c_ball);
-  detail::tally_overlaps(particle_ball_, c_particle);
+  Counts c_ball(bodies_.size(), 0), c_particle(touching_.size(), 0);
+  tally_overlaps(ball_ball_, c_ball);
+  tally_overlaps(ball_particle_, c_ball);
+  tally_overlaps(particle_ball_, c_particle);
   const auto ball_weight = [&](std::uint32_t b) { return number(c_ball[b]) * body(b).inverse_mass; };
-  const auto particle_weight = [&](std::uint32_t p) { return number(c_particle[p]) * particle_weight_[p]; };
+  const auto particle_weight = [&](std::uint32_t n) {
+    return number(c_particle[n]) * particle_weight_[touching_[n]];
+  };
   const auto push = [](const Gap<T>& gap, T weight) { return Vector<T>((-gap.d / weight) * gap.n); };
   std::vector<std::pair<std::uint32_t, Vector<T>>> on_ball, on_particle;
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     if (c_ball[b] == 0) continue;
     PartnerSum<Vector<T>> sum(Vector<T>::Zero());
-    detail::for_each(ball_ball_, ball_ball_.overlap, b, [&](std::uint32_t other) {
+    for_each(ball_ball_, ball_ball_.overlap, b, [&](std::uint32_t other) {
       sum.add(push(between_balls(balls, b, other), ball_weight(b) + ball_weight(other)));
     });
-    detail::for_each(ball_particle_, ball_particle_.overlap, b, [&](std::uint32_t p) {
-      sum.add(push(from_ball(balls, particles, b, p), ball_weight(b) + particle_weight(p)));
+    for_each(ball_particle_, ball_particle_.overlap, b, [&](std::uint32_t n) {
+      sum.add(push(from_ball(balls, particles, b, touching_[n]), ball_weight(b) + particle_weight(n)));
     });
     on_ball.push_back({b, sum.total()});
   }
-  for (std::uint32_t p = 0; p < particle_weight_.size(); ++p) {
-    if (c_particle[p] == 0 || particle_weight_[p] == T(0)) continue;
+  for (std::uint32_t n = 0; n < touching_.size(); ++n) {
+    const std::uint32_t p = touching_[n];
+    if (c_particle[n] == 0 || particle_weight_[p] == T(0)) continue;
     PartnerSum<Vector<T>> sum(Vector<T>::Zero());
-    detail::for_each(particle_ball_, particle_ball_.overlap, p, [&](std::uint32_t b) {
-      sum.add(push(from_particle(balls, particles, p, b), ball_weight(b) + particle_weight(p)));
+    for_each(particle_ball_, particle_ball_.overlap, n, [&](std::uint32_t b) {
+      sum.add(push(from_particle(balls, particles, p, b), ball_weight(b) + particle_weight(n)));
     });
     on_particle.push_back({p, sum.total()});
   }
   for (const auto& [b, sum] : on_ball) balls.x.col(b) += body(b).inverse_mass * sum;
-  for (const auto& [p, sum] : on_particle) particles.x.col(p) += particle_weight_[p] * sum;
+  for (const auto& [p, sum] : on_particle) particles.add_to(particles.x, p, particle_weight_[p] * sum);
 }
 
 }  // namespace aspic::reference

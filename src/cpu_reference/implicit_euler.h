@@ -12,9 +12,10 @@
 #include <utility>
 
 #include "cpu_reference/implicit_ground.h"
+#include "cpu_reference/implicit_newton.h"
 #include "cpu_reference/integrators.h"
 #include "cpu_reference/reductions.h"
-#include "model/implicit.h"
+#include "model/springs.h"
 
 namespace aspic::reference {
 
@@ -84,19 +85,32 @@ struct DiagonalBlock {
   }
 };
 
+/// max(|x|, |y|, |z|)
+template <class T>
+T largest_component(const Vector<T>& R) {
+  const T x = std::abs(R.x()), y = std::abs(R.y()), z = std::abs(R.z());
+  const T xy = y > x ? y : x;
+  return z > xy ? z : xy;
+}
+
 /// Steps of backward Euler, one after another.
 template <class T>
 class ImplicitEuler {
  public:
   ImplicitEuler(const Dynamics<T>& dynamics, const Model& model)
       : dynamics_(dynamics),
-        springs_(model.springs),
+        model_(model),
         ahead_(dynamics.grounds(), dynamics.contact().step, model.contact.model == ContactModel::coulomb),
-        h_(static_cast<T>(model.simulation.timestep)),
-        tolerance_(static_cast<T>(implicit_tolerance(
-            model.simulation.implicit, sizeof(T) == 4 ? Precision::single : Precision::double_))),
-        max_newton_(static_cast<std::uint32_t>(model.simulation.implicit.newton_iterations)),
-        max_cg_(static_cast<std::uint32_t>(model.simulation.implicit.cg_iterations)) {}
+        limits_(model.simulation.implicit),
+        h_(static_cast<T>(model.simulation.timestep)) {}
+
+  /// Bytes that the solve holds at most: nine fields and those of two products, a force and two copies of the
+  /// diagonal blocks, what the ground does to each particle, a Jacobian for each spring, three sums.
+  static std::uint64_t bytes(const Model& model) {
+    return model.particle_count() *
+               (sizeof(T) * (3 * 12 + 3) + 2 * sizeof(DiagonalBlock<T>) + sizeof(GroundReaction<T>)) +
+           spring_count(model) * sizeof(SpringJacobian<T>);
+  }
 
   /// The equation's solution from `s`, before the terrain's response.
   Phase<T> step(const Phase<T>& s, SolveReport& report);
@@ -104,102 +118,134 @@ class ImplicitEuler {
   /// The terrain's response at the end of the step from `s` that step() was last asked for.
   void respond(const Phase<T>& s, Phase<T>& end) const;
 
- private:
-  /// Everything about one trial velocity.
-  struct Evaluation {
-    Field<T> r;  ///< right-hand side of the linear system: m·(v − v') + h·f [kg·m/s]
-    std::vector<SpringJacobian<T>> jacobian;  ///< of every spring
-    SpringJacobian<T> pull_jacobian;          ///< of the pull, where there is one
-    std::vector<DiagonalBlock<T>> preconditioner;
-    std::vector<GroundReaction<T>> ground;  ///< on every particle
-    Field<T> prescribed;                    ///< the part of δ that the ground leaves no choice in [m/s]
-    bool holds = false;                     ///< whether the ground holds any particle
-    bool prescribes = false;                ///< whether any prescribed part is not zero
-    T residual;  ///< largest component of |R|, R = (v' − v) − h·a, or v' − P(v + h·a) on the ground [m/s]
-    T merit;  ///< Σ |R|² [m²/s²]
-  };
+  // What solve_step() asks of a system (implicit_newton.h).
+  Trial<T> start();
+  Trial<T> fall();
+  Trial<T> try_step(T lambda, bool onwards);
+  T start_solve();
+  bool prescribes() const { return prescribes_; }
+  bool interrupted() const { return dynamics_.interrupted(); }
+  T apply();
+  T advance(T alpha, bool first);
+  void turn(T beta) { p_ = z_ + beta * p_; }
 
-  Evaluation evaluate(const Phase<T>& s, const Field<T>& held, const Field<T>& trial) const;
-  Field<T> solve(const Evaluation& at, T forcing, std::uint32_t& iterations) const;
-  Field<T> apply(const Evaluation& at, const Field<T>& p) const;
-  Field<T> precondition(const Evaluation& at, const Field<T>& r) const;
+ private:
+  Trial<T> evaluate();
+  Field<T> product(const Field<T>& p) const;
+  Field<T> precondition(const Field<T>& r) const;
   T dot(const Field<T>& a, const Field<T>& b) const;
 
   const Dynamics<T>& dynamics_;
-  const std::vector<Spring>& springs_;
+  const Model& model_;
   GroundAhead<T> ahead_;
-  std::vector<GroundReaction<T>> ground_;  ///< of the solution
-  T h_, tolerance_;
-  std::uint32_t max_newton_, max_cg_;
+  SolveLimits<T> limits_;
+  T h_;
+
+  // Of the step under way.
+  const Phase<T>* s_ = nullptr;    ///< where it began
+  Field<T> held_;                  ///< contact force of the course model [N]
+  Field<T> base_, trial_, delta_;  ///< velocities [m/s]: trial = base + λ·δ
+  Field<T> r_, z_, p_, q_;         ///< of the linear system; r begins as m·(v − v') + h·f [kg·m/s]
+  // At the trial.
+  std::vector<SpringJacobian<T>> jacobian_;  ///< of every spring
+  SpringJacobian<T> pull_jacobian_;          ///< of the pull, where there is one
+  std::vector<DiagonalBlock<T>> preconditioner_;
+  std::vector<GroundReaction<T>> ground_;  ///< on every particle
+  Field<T> prescribed_;                    ///< the part of δ that the ground leaves no choice in [m/s]
+  bool prescribes_ = false;                ///< whether any of it is not zero
 };
 
 template <class T>
-typename ImplicitEuler<T>::Evaluation ImplicitEuler<T>::evaluate(const Phase<T>& s, const Field<T>& held,
-                                                                 const Field<T>& trial) const {
+Trial<T> ImplicitEuler<T>::start() {
+  base_ = trial_ = s_->v;
+  return evaluate();
+}
+
+template <class T>
+Trial<T> ImplicitEuler<T>::fall() {
+  const Vector<T> gained = h_ * dynamics_.gravity();
+  for (Eigen::Index i = 0; i < trial_.cols(); ++i) {
+    if (dynamics_.inverse_mass(i) != T(0)) trial_.col(i) = s_->v.col(i) + gained;
+  }
+  return evaluate();
+}
+
+template <class T>
+Trial<T> ImplicitEuler<T>::try_step(T lambda, bool onwards) {
+  if (onwards) base_ = trial_;
+  trial_ = base_ + lambda * delta_;
+  return evaluate();
+}
+
+template <class T>
+Trial<T> ImplicitEuler<T>::evaluate() {
+  const Phase<T>& s = *s_;
   const Eigen::Index count = s.x.cols();
-  Evaluation at;
   Field<T> f(3, count);
   std::vector<DiagonalBlock<T>> blocks;
+  blocks.reserve(static_cast<std::size_t>(count));
   for (Eigen::Index i = 0; i < count; ++i) {
     f.col(i) = dynamics_.mass(i) * dynamics_.gravity();
     blocks.emplace_back(dynamics_.mass(i));
   }
-  at.jacobian.reserve(springs_.size());
-  for (const Spring& spring : springs_) {
+  jacobian_.clear();
+  jacobian_.reserve(spring_count(model_));
+  for (const Spring& spring : springs_of(model_)) {
     // Not from a rounded x': the difference of the positions is exact where they are close.
-    const Vector<T> v = trial.col(spring.a) - trial.col(spring.b);
+    const Vector<T> v = trial_.col(spring.a) - trial_.col(spring.b);
     const Vector<T> e = (s.x.col(spring.a) - s.x.col(spring.b)) + h_ * v;
     const auto [on_a, H] = linearised<T>(dynamics_.spring_class(spring), h_, e, v);
     f.col(spring.a) += on_a;
     f.col(spring.b) -= on_a;
     blocks[spring.a].add(H);
     blocks[spring.b].add(H);
-    at.jacobian.push_back(H);
+    jacobian_.push_back(H);
   }
   if (const auto& pull = dynamics_.pull()) {  // a spring whose other end neither moves nor gives way
-    const Vector<T> v = trial.col(pull->particle);
+    const Vector<T> v = trial_.col(pull->particle);
     const Vector<T> e = (s.x.col(pull->particle) - pull->anchor) + h_ * v;
     const auto [on_particle, H] = linearised<T>(pull->spring, h_, e, v);
     f.col(pull->particle) += on_particle;
     blocks[static_cast<std::size_t>(pull->particle)].add(H);
-    at.pull_jacobian = H;
+    pull_jacobian_ = H;
   }
-  at.r = at.prescribed = Field<T>::Zero(3, count);
-  at.ground.resize(static_cast<std::size_t>(count));
-  std::vector<T> largest(static_cast<std::size_t>(count), T(0)),
-      squared(static_cast<std::size_t>(count), T(0));
+  r_ = prescribed_ = Field<T>::Zero(3, count);
+  preconditioner_.clear();
+  ground_.assign(static_cast<std::size_t>(count), {});
+  prescribes_ = false;
+  bool holds = false;
+  std::vector<T> largest(static_cast<std::size_t>(count), T(0)), squared = largest, falling = largest;
+  const Vector<T> fall = h_ * dynamics_.gravity();
   for (Eigen::Index i = 0; i < count; ++i) {
     DiagonalBlock<T>& block = blocks[static_cast<std::size_t>(i)];
     if (dynamics_.inverse_mass(i) == T(0)) {
-      at.preconditioner.push_back(block.inverse());
+      preconditioner_.push_back(block.inverse());
       continue;
     }
-    const Vector<T> total = f.col(i) + held.col(i), change = trial.col(i) - s.v.col(i);
+    const Vector<T> total = f.col(i) + held_.col(i), change = trial_.col(i) - s.v.col(i);
     const Vector<T> gained = h_ * (dynamics_.inverse_mass(i) * total);
-    at.r.col(i) = h_ * total - dynamics_.mass(i) * change;
+    r_.col(i) = h_ * total - dynamics_.mass(i) * change;
     Vector<T> R = change - gained;
     if (ahead_.acts()) {
       const Vector<T> free = s.v.col(i) + gained;
       const GroundReaction<T> reaction = ahead_.react(i, dynamics_.mass(i), free);
       if (reaction.freedom != Freedom::all) {
-        R = trial.col(i) - reaction.v;
-        at.prescribed.col(i) = -reaction.held_part(R);
-        at.r.col(i) = reaction.right_hand_side(dynamics_.mass(i), R);
-        at.ground[static_cast<std::size_t>(i)] = reaction;
+        R = trial_.col(i) - reaction.v;
+        prescribed_.col(i) = -reaction.held_part(R);
+        r_.col(i) = reaction.right_hand_side(dynamics_.mass(i), R);
+        ground_[static_cast<std::size_t>(i)] = reaction;
         block.add({reaction.stiffness, T(0), reaction.across});
-        at.holds = true;
-        at.prescribes = at.prescribes || (at.prescribed.col(i).array() != T(0)).any();
+        holds = true;
+        prescribes_ = prescribes_ || (prescribed_.col(i).array() != T(0)).any();
       }
     }
-    at.preconditioner.push_back(block.inverse());
-    const T x = std::abs(R.x()), y = std::abs(R.y()), z = std::abs(R.z());
-    const T xy = y > x ? y : x;
-    largest[static_cast<std::size_t>(i)] = z > xy ? z : xy;
+    preconditioner_.push_back(block.inverse());
+    largest[static_cast<std::size_t>(i)] = largest_component<T>(R);
     squared[static_cast<std::size_t>(i)] = dot3<T>(R, R);
+    const Vector<T> after_fall = R + fall;
+    falling[static_cast<std::size_t>(i)] = dot3<T>(after_fall, after_fall);
   }
-  at.residual = tree_max(std::move(largest));
-  at.merit = tree_sum(std::move(squared));
-  return at;
+  return {tree_max(std::move(largest)), tree_sum(std::move(squared)), tree_sum(std::move(falling)), holds};
 }
 
 template <class T>
@@ -212,21 +258,21 @@ T ImplicitEuler<T>::dot(const Field<T>& a, const Field<T>& b) const {
 
 /// A·p with A = m − h·∂f/∂v' at the trial; rows of pinned particles are empty.
 template <class T>
-Field<T> ImplicitEuler<T>::apply(const Evaluation& at, const Field<T>& p) const {
+Field<T> ImplicitEuler<T>::product(const Field<T>& p) const {
   Field<T> product(3, p.cols());
   for (Eigen::Index i = 0; i < p.cols(); ++i) product.col(i) = dynamics_.mass(i) * p.col(i);
-  for (std::size_t n = 0; n < springs_.size(); ++n) {
-    const Vector<T> on_a = at.jacobian[n] * Vector<T>(p.col(springs_[n].a) - p.col(springs_[n].b));
-    product.col(springs_[n].a) += on_a;
-    product.col(springs_[n].b) -= on_a;
+  std::size_t n = 0;
+  for (const Spring& spring : springs_of(model_)) {
+    const Vector<T> on_a = jacobian_[n++] * Vector<T>(p.col(spring.a) - p.col(spring.b));
+    product.col(spring.a) += on_a;
+    product.col(spring.b) -= on_a;
   }
   if (const auto& pull = dynamics_.pull()) {
-    product.col(pull->particle) += at.pull_jacobian * Vector<T>(p.col(pull->particle));
+    product.col(pull->particle) += pull_jacobian_ * Vector<T>(p.col(pull->particle));
   }
   for (Eigen::Index i = 0; i < p.cols(); ++i) {
-    const GroundReaction<T>& ground = at.ground[static_cast<std::size_t>(i)];
-    if (ground.freedom == Freedom::plane) product.col(i) += ground.turning(p.col(i));
-    if (ground.freedom != Freedom::all) product.col(i) = ground.free_part(product.col(i));
+    const GroundReaction<T>& ground = ground_[static_cast<std::size_t>(i)];
+    product.col(i) = ground.free_product(p.col(i), product.col(i));
     if (dynamics_.inverse_mass(i) == T(0)) product.col(i).setZero();
   }
   return product;
@@ -234,107 +280,46 @@ Field<T> ImplicitEuler<T>::apply(const Evaluation& at, const Field<T>& p) const 
 
 /// B⁻¹·r in the directions that the ground leaves free.
 template <class T>
-Field<T> ImplicitEuler<T>::precondition(const Evaluation& at, const Field<T>& r) const {
+Field<T> ImplicitEuler<T>::precondition(const Field<T>& r) const {
   Field<T> z(3, r.cols());
   for (Eigen::Index i = 0; i < r.cols(); ++i) {
     const auto n = static_cast<std::size_t>(i);
-    z.col(i) = at.ground[n].free_part(at.preconditioner[n] * Vector<T>(r.col(i)));
+    z.col(i) = ground_[n].free_part(preconditioner_[n] * Vector<T>(r.col(i)));
   }
   return z;
 }
 
-/// A·δ = r by preconditioned conjugate gradients (Hestenes and Stiefel, 1952), from the prescribed part of δ
-/// on.
 template <class T>
-Field<T> ImplicitEuler<T>::solve(const Evaluation& at, T forcing, std::uint32_t& iterations) const {
-  Field<T> delta = at.prescribed, r = at.r;
-  if (at.prescribes) r -= apply(at, delta);
-  Field<T> z = precondition(at, r), p = z;
-  T rz = dot(r, z);
-  if (at.prescribes && !(rz > T(0))) return delta;
-  const T enough = (forcing * forcing) * rz;
-  for (std::uint32_t n = 0; n < max_cg_; ++n) {
-    const Field<T> q = apply(at, p);
-    const T pq = dot(p, q);
-    ++iterations;
-    if (!(pq > T(0))) break;
-    const T alpha = rz / pq;
-    delta = n == 0 && !at.prescribes ? Field<T>(alpha * p) : Field<T>(delta + alpha * p);
-    r -= alpha * q;
-    z = precondition(at, r);
-    const T rz_next = dot(r, z);
-    if (!(rz_next > enough)) break;
-    const T beta = rz_next / rz;
-    rz = rz_next;
-    p = z + beta * p;
-  }
-  return delta;
+T ImplicitEuler<T>::start_solve() {
+  delta_ = prescribed_;
+  if (prescribes_) r_ -= product(delta_);
+  p_ = z_ = precondition(r_);
+  return dot(r_, z_);
 }
 
-/// Eisenstat and Walker's forcing term from the ratio of two successive square sums of residuals.
 template <class T>
-T next_forcing(T ratio) {
-  const T wanted = static_cast<T>(forcing_factor) * ratio;
-  if (wanted < static_cast<T>(least_forcing)) return static_cast<T>(least_forcing);
-  return wanted > static_cast<T>(most_forcing) ? static_cast<T>(most_forcing) : wanted;
+T ImplicitEuler<T>::apply() {
+  q_ = product(p_);
+  return dot(p_, q_);
+}
+
+template <class T>
+T ImplicitEuler<T>::advance(T alpha, bool first) {
+  delta_ = first ? Field<T>(alpha * p_) : Field<T>(delta_ + alpha * p_);
+  r_ -= alpha * q_;
+  z_ = precondition(r_);
+  return dot(r_, z_);
 }
 
 template <class T>
 Phase<T> ImplicitEuler<T>::step(const Phase<T>& s, SolveReport& report) {
-  report = SolveReport{};
-  const Field<T> held = dynamics_.held_contact_force(s.x, s.v);
+  s_ = &s;
+  held_ = dynamics_.held_contact_force(s.x, s.v);
   ahead_.start(s.x);
-  Field<T> v = s.v;
-  Evaluation at = evaluate(s, held, v);
-  T best = at.residual, forcing = static_cast<T>(first_forcing);
-  int without_progress = 0;
-  bool on_ground = at.holds;
-  report.end = SolveEnd::not_converged;
-  while (true) {
-    if (at.residual <= tolerance_) {
-      report.end = SolveEnd::converged;
-      break;
-    }
-    if (without_progress >= (on_ground ? max_without_progress_on_ground : max_without_progress)) {
-      report.end = SolveEnd::stagnated;
-      break;
-    }
-    if (report.newton_iterations == max_newton_) break;
-    const Field<T> delta = solve(at, forcing, report.cg_iterations);
-    ++report.newton_iterations;
-    // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down. R bends where a particle meets
-    // or leaves the ground or stops to slide, so with the ground in the equation there may be none: then δ
-    // itself, for Newton's method finds its way over a larger residual.
-    T lambda = 1;
-    Field<T> trial = v + lambda * delta;
-    Evaluation next = evaluate(s, held, trial);
-    on_ground = at.holds || next.holds;
-    int halvings = 0;
-    while (!(next.merit < at.merit) && halvings < max_halvings + (on_ground ? 1 : 0)) {
-      ++halvings;
-      lambda = halvings > max_halvings ? T(1) : lambda / 2;
-      trial = v + lambda * delta;
-      next = evaluate(s, held, trial);
-      on_ground = on_ground || next.holds;
-    }
-    if (!(next.merit < at.merit) &&
-        halvings <= max_halvings) {  // any further iteration would only repeat this one
-      report.end = SolveEnd::stagnated;
-      break;
-    }
-    forcing = next_forcing(next.merit / at.merit);
-    v = trial;
-    at = std::move(next);
-    const double share = on_ground ? progress_share_on_ground : progress_share;
-    without_progress = at.residual < static_cast<T>(share) * best ? 0 : without_progress + 1;
-    best = at.residual < best ? at.residual : best;
-  }
-  // A largest component passes over those that are no numbers; the sum of squares does not.
-  report.residual = static_cast<double>(std::isnan(at.merit) ? at.merit : at.residual);
+  Field<T> v = solve_step(*this, limits_, report) ? trial_ : base_;
   for (Eigen::Index i = 0; i < v.cols(); ++i) {  // the ground gives way by no tolerance
-    if (at.ground[static_cast<std::size_t>(i)].freedom != Freedom::all) v.col(i) += at.prescribed.col(i);
+    if (ground_[static_cast<std::size_t>(i)].freedom != Freedom::all) v.col(i) += prescribed_.col(i);
   }
-  ground_ = std::move(at.ground);
   return {s.x + h_ * v, v};
 }
 

@@ -59,6 +59,11 @@ struct GroundReaction {
   /// Friction's part of the matrix times p: it turns with the slip, so it resists whatever turns that.
   Vector<T> turning(const Vector<T>& p) const { return (stiffness * dot3<T>(across, p)) * across; }
 
+  /// What the ground leaves free of the matrix times p, given the springs' part of the product.
+  Vector<T> free_product(const Vector<T>& p, const Vector<T>& product) const {
+    return free_part(freedom == Freedom::plane ? Vector<T>(product + turning(p)) : product);
+  }
+
   bool holds(std::size_t terrain) const {
     for (std::size_t k = 0; k < count; ++k) {
       if (held[k] == terrain) return true;
@@ -99,7 +104,11 @@ class GroundAhead {
   /// which none is crossed and none pulls: without friction, the nearest velocity that crosses none. One more
   /// round looks whether a later terrain has pushed the particle through an earlier one.
   GroundReaction<T> react(Eigen::Index i, T m, const Vector<T>& v) const {
-    const Gap<T>* gaps = &gaps_[static_cast<std::size_t>(i) * grounds_.size()];
+    return react_to(&gaps_[static_cast<std::size_t>(i) * grounds_.size()], m, v);
+  }
+
+  /// The same of a particle with the `gaps` to every terrain at the step's start.
+  GroundReaction<T> react_to(const Gap<T>* gaps, T m, const Vector<T>& v) const {
     GroundReaction<T> reaction(v);
     for (int round = 0; round < 2; ++round) {
       for (std::size_t t = 0; t < grounds_.size(); ++t) {

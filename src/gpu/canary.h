@@ -48,12 +48,13 @@ struct ArithmeticReport {
   OperationCheck product{"products a b"};
   OperationCheck sum{"sums a + c"};
   OperationCheck product_sum{"products with sums a b + c"};      ///< a·b + c in two roundings
+  OperationCheck vector_sum{"products with sums of vectors"};    ///< the same by component
   OperationCheck denormals{"operations with denormal numbers"};  ///< any of the above
   bool fma_fused = true;                                         ///< fma() rounds once
 
   bool division_exact() const { return quotient.exact() && reciprocal.exact(); }
   bool sqrt_exact() const { return root.exact(); }
-  bool products_uncontracted() const { return product_sum.exact(); }
+  bool products_uncontracted() const { return product_sum.exact() && vector_sum.exact(); }
   bool basics_exact() const { return product.exact() && sum.exact(); }
   bool denormals_kept() const { return denormals.exact(); }
   /// Same bits as the reference wherever no denormal occurs.

@@ -14,4 +14,8 @@ std::string fault_text(const Divergence& divergence) {
                            : "is no longer a finite number";
 }
 
+std::string_view name_of(Arithmetic arithmetic) {
+  return arithmetic == Arithmetic::exact ? "exact" : "fast";
+}
+
 }  // namespace aspic

@@ -82,9 +82,7 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
       programs.light_surface.set(LOCATION_LIGHT, light);
       glUseProgram(programs.light_surface.id());
       skin.bind();
-      for (const Surface::Part& part : model.parts())
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{part.first_index}));
+      for (const Surface::Part& part : model.parts()) draw_triangles(part);
     }
     if (draw.solid) model.rods().draw_into_light(programs, light);
     if (draws_balls(draw)) model.balls().draw_into_light(programs, state, light);
@@ -102,8 +100,7 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
                                  static_cast<float>(spring_radius(model.spacing(), run.constants.type)));
       glUseProgram(programs.light_springs.id());
       lines.bind();
-      glDrawElements(GL_LINES, static_cast<GLsizei>(run.index_count), GL_UNSIGNED_INT,
-                     reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{run.first_index}));
+      draw_lines(run);
     }
     map.colour.generate_mipmaps();
     map.colour.bind(light == LIGHT_SUN ? UNIT_SUN_MAP : UNIT_SKY_MAP);

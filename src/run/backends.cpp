@@ -69,21 +69,23 @@ Result<Backend> on_processor(Result<std::unique_ptr<Solver>> made) {
   return backend;
 }
 
-Result<Backend> make_cpu(const Model& model, const BackendChoice&, const SolverHost&) {
-  return on_processor(make_cpu_solver(model));
+Result<Backend> make_cpu(const Model& model, const BackendChoice& choice, const SolverHost&) {
+  return on_processor(make_cpu_solver(model, {choice.threads, choice.arithmetic}));
+}
+
+/// A solver counts what it holds: threads and the kinds of bodies decide it.
+std::optional<std::uint64_t> cpu_bytes(const Model& model) {
+  const std::optional<std::uint64_t> memory = available_memory();
+  if (memory && run_bytes(count(model)) > *memory) return std::nullopt;
+  const auto solver = make_cpu_solver(model);
+  if (!solver) return std::nullopt;
+  return (*solver)->bytes();
 }
 
 // ---- reference ----
 
-/// What it holds at work; under implicit Euler also every spring's Jacobian, of the trial and of the iterate
-/// before.
 Status check_reference_memory(const Model& model, Precision precision) {
-  ModelCounts bodies;
-  bodies.particles = model.particle_count();
-  bodies.balls = model.ball_count();
-  const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
-  std::uint64_t bytes = reference_bytes(bodies, precision);
-  if (row_of(model.simulation.integrator).solved()) bytes += 10 * real * model.springs.size();
+  const std::uint64_t bytes = reference_bytes(model, precision);
   const std::optional<std::uint64_t> memory = available_memory();
   if (!memory || bytes <= *memory) return {};
   return fail(ErrorCode::scene_rejected,
@@ -104,18 +106,23 @@ constexpr Precision both_precisions[] = {Precision::single, Precision::double_};
 
 constexpr BackendRow table[] = {
     {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, built_force_paths, true, make_gpu,
-     [](const ModelCounts& counts, Integrator integrator, const BackendChoice& choice) {
-       return gpu_bytes(counts, integrator, choice.force_path);
+     [](const Model& model, const BackendChoice& choice) -> std::optional<std::uint64_t> {
+       return gpu_bytes(count(model), model.simulation.integrator, choice.force_path);
      },
      gpu_suitability},
     {"cpu", "CPU", "threads and vector instructions", single_alone, nullptr, false, make_cpu,
-     [](const ModelCounts& counts, Integrator integrator, const BackendChoice&) {
-       return cpu_bytes(counts, integrator);
-     }},
+     [](const Model& model, const BackendChoice&) { return cpu_bytes(model); },
+     [](const gl::Context*) {
+       return Suitability{true, "", "", nullptr};
+     },
+     true, true},
     {"reference", "reference", "one thread, Eigen, written to be read", both_precisions, nullptr, false,
      make_reference,
-     [](const ModelCounts& counts, Integrator, const BackendChoice& choice) {
-       return reference_bytes(counts, choice.precision);
+     [](const Model& model, const BackendChoice& choice) -> std::optional<std::uint64_t> {
+       return reference_bytes(model, choice.precision);
+     },
+     [](const gl::Context*) {
+       return Suitability{true, "", "", nullptr};
      }},
 };
 
@@ -141,15 +148,46 @@ std::vector<std::string_view> names_where(Predicate holds) {
   return names;
 }
 
-std::string only_those_with(Precision precision) {
-  const auto names = names_where([&](const BackendRow& row) { return has(row.precisions, precision); });
-  return fmt::format("only the {} compute{} in {} precision", fmt::join(names, " and the "),
-                     names.size() == 1 ? "s" : "", name_of(precision));
+/// Something that a choice may ask for, beside a force path, and not every row has.
+struct Ability {
+  bool (*asked)(const BackendChoice&);
+  bool (*had)(const BackendRow&);
+  std::string_view verb, object;  ///< what a row does that has it
+};
+constexpr Ability abilities[] = {
+    {[](const BackendChoice& choice) { return choice.precision == Precision::single; },
+     [](const BackendRow& row) { return has(row.precisions, Precision::single); }, "compute",
+     "in single precision"},
+    {[](const BackendChoice& choice) { return choice.precision == Precision::double_; },
+     [](const BackendRow& row) { return has(row.precisions, Precision::double_); }, "compute",
+     "in double precision"},
+    {[](const BackendChoice& choice) { return choice.arithmetic == Arithmetic::fast; },
+     [](const BackendRow& row) { return row.fast; }, "compute", "in fast arithmetic"},
+    {[](const BackendChoice& choice) { return choice.threads > 0; },
+     [](const BackendRow& row) { return row.threaded; }, "take", "a number of threads"},
+};
+
+/// The first thing asked for that the row does not have; null if there is none.
+const Ability* lacking(const BackendRow& row, const BackendChoice& choice) {
+  const auto* const found = std::ranges::find_if(
+      abilities, [&](const Ability& ability) { return ability.asked(choice) && !ability.had(row); });
+  return found == std::end(abilities) ? nullptr : found;
 }
 
-std::string variant_of(const BackendRow& row, std::string_view force_path, Precision precision) {
-  if (!force_path.empty()) return fmt::format("{}:{}", row.name, force_path);
-  return precision == Precision::double_ ? fmt::format("{}:double", row.name) : std::string(row.name);
+/// "only the reference computes in double precision"
+std::string only_those_with(const Ability& ability) {
+  const auto names = names_where(ability.had);
+  return fmt::format("only the {} {}{} {}", fmt::join(names, " and the "), ability.verb,
+                     names.size() == 1 ? "s" : "", ability.object);
+}
+
+std::string variant_of(const BackendRow& row, std::string_view force_path, Precision precision,
+                       Arithmetic arithmetic) {
+  std::string name(row.name);
+  if (!force_path.empty()) name += fmt::format(":{}", force_path);
+  if (precision == Precision::double_) name += ":double";
+  if (arithmetic == Arithmetic::fast) name += ":fast";
+  return name;
 }
 
 }  // namespace
@@ -164,7 +202,8 @@ const BackendRow* find_backend(std::string_view name) {
 }
 
 const BackendRow& next_backend(const BackendRow& row) {
-  return &row == &backends().back() ? backends().front() : *(&row + 1);
+  const auto* const found = std::ranges::find(table, row.name, &BackendRow::name);
+  return std::end(table) - found > 1 ? found[1] : *std::begin(table);
 }
 
 std::string backend_words() {
@@ -174,7 +213,7 @@ std::string backend_words() {
 }
 
 std::string Backend::variant() const {
-  return variant_of(*row, force_path, solver->precision());
+  return variant_of(*row, force_path, solver->precision(), arithmetic);
 }
 
 Result<std::filesystem::path> shader_directory() {
@@ -193,10 +232,9 @@ Result<std::filesystem::path> shader_directory() {
 AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Context* window) {
   AutomaticChoice result;
   for (const BackendRow& row : table) {
-    const bool able = has(row.precisions, choice.precision);
-    Suitability found =
-        able && row.suitability ? row.suitability(window) : Suitability{able, "", "", nullptr};
-    if (!able) found.reason = only_those_with(choice.precision);
+    const Ability* const lacks = lacking(row, choice);
+    Suitability found = lacks ? Suitability{} : row.suitability(window);
+    if (lacks) found.reason = only_those_with(*lacks);
     // The backend that would have come first says why another is taken.
     if (result.reason.empty() || (found.suits && !found.reason.empty()))
       result.reason = std::move(found.reason);
@@ -228,10 +266,27 @@ Result<ForcePath> parse_force_path(std::string_view word) {
   return unknown_word("force path", word, force_path_words());
 }
 
-Result<BackendChoice> parse_backend(std::string_view text) {
-  BackendChoice choice;
+Result<Arithmetic> parse_arithmetic(std::string_view word) {
+  for (const Arithmetic arithmetic : {Arithmetic::exact, Arithmetic::fast})
+    if (word == name_of(arithmetic)) return arithmetic;
+  return unknown_word("arithmetic", word, "exact, fast");
+}
+
+BackendChoice choice_for(const BackendRow* row, const BackendChoice& asked) {
+  BackendChoice choice = asked;
+  choice.row = row;
+  if (!row) return choice;
+  if (!has(row->precisions, choice.precision)) choice.precision = Precision::single;
+  if (!has_path(*row, choice.force_path)) choice.force_path = ForcePath::automatic;
+  if (!row->fast) choice.arithmetic = Arithmetic::exact;
+  if (!row->threaded) choice.threads = 0;
+  return choice;
+}
+
+Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& asked) {
   const std::size_t colon = text.find(':');
-  ASPIC_TRY(choice.row, parse_backend_name(text.substr(0, colon)));
+  ASPIC_TRY(const BackendRow* const row, parse_backend_name(text.substr(0, colon)));
+  BackendChoice choice = choice_for(row, asked);
   while (text.find(':') != std::string_view::npos) {
     text.remove_prefix(text.find(':') + 1);
     const std::string_view word = text.substr(0, text.find(':'));
@@ -239,8 +294,10 @@ Result<BackendChoice> parse_backend(std::string_view text) {
       choice.precision = *precision;
     } else if (const auto path = parse_force_path(word)) {
       choice.force_path = *path;
+    } else if (const auto arithmetic = parse_arithmetic(word)) {
+      choice.arithmetic = *arithmetic;
     } else {
-      return unknown_word("backend option", word, "single, double, " + force_path_words());
+      return unknown_word("backend option", word, "single, double, exact, fast, " + force_path_words());
     }
   }
   return choice;
@@ -248,15 +305,20 @@ Result<BackendChoice> parse_backend(std::string_view text) {
 
 Status check_choice(const BackendChoice& choice) {
   ASPIC_CHECK(check_built(choice.force_path));
-  const auto with_precision =
-      names_where([&](const BackendRow& row) { return has(row.precisions, choice.precision); });
-  if (choice.row && !has(choice.row->precisions, choice.precision)) {
-    return fail(ErrorCode::usage, "the {0} does not compute in {1} precision; for {1} use --backend {2}.",
-                choice.row->name, name_of(choice.precision), fmt::join(with_precision, " or "));
+  if (choice.row) {
+    if (const Ability* const lacks = lacking(*choice.row, choice)) {
+      return fail(ErrorCode::usage, "the {} does not {} {}; use --backend {}.", choice.row->name, lacks->verb,
+                  lacks->object, fmt::join(names_where(lacks->had), " or "));
+    }
+  } else if (names_where([&](const BackendRow& row) { return !lacking(row, choice); }).empty()) {
+    std::vector<std::string> wishes;
+    for (const Ability& ability : abilities)
+      if (ability.asked(choice)) wishes.push_back(only_those_with(ability));
+    return fail(ErrorCode::usage, "no backend does all that is asked for: {}.", fmt::join(wishes, ", "));
   }
   if (choice.force_path == ForcePath::automatic) return {};
   const auto possible = [&](const BackendRow& row) {
-    return has(row.precisions, choice.precision) && has_path(row, choice.force_path);
+    return !lacking(row, choice) && has_path(row, choice.force_path);
   };
   if (choice.row ? possible(*choice.row) : std::ranges::any_of(table, possible)) return {};
   const std::string with_path = fmt::format(
@@ -280,21 +342,20 @@ Result<Backend> make_backend(const BackendChoice& choice, const Model& model, co
   if (automatic.context) place.context = automatic.context.get();
   ASPIC_TRY(auto backend, row.make(model, choice, place));
   backend.row = &row;
+  backend.arithmetic = choice.arithmetic;
   if (automatic.context) backend.context = std::move(automatic.context);
   backend.reason = std::move(automatic.reason);
   return backend;
 }
 
 std::vector<BackendBytes> bytes_by_backend(const Model& model) {
-  const ModelCounts counts = count(model);
-  const Integrator integrator = model.simulation.integrator;
   std::vector<BackendBytes> result;
   for (const BackendRow& row : table) {
     for (const Precision precision : row.precisions) {
       const auto add = [&](const ForcePathRow* path) {
         const BackendChoice choice = {&row, precision, path ? path->path : ForcePath::automatic};
-        result.push_back(
-            {variant_of(row, path ? path->name : "", precision), row.bytes(counts, integrator, choice)});
+        result.push_back({variant_of(row, path ? path->name : "", precision, Arithmetic::exact),
+                          row.bytes(model, choice)});
       };
       if (row.force_paths().empty()) add(nullptr);
       for (const ForcePathRow& path : row.force_paths()) add(&path);

@@ -22,6 +22,10 @@ struct BackendChoice {
   const BackendRow* row = nullptr;              ///< null: auto
   Precision precision = Precision::single;      ///< one that the row has
   ForcePath force_path = ForcePath::automatic;  ///< one that the row has, or automatic
+  Arithmetic arithmetic = Arithmetic::exact;    ///< fast: only if the row has it
+  unsigned threads = 0;  ///< 1 to 1024, only if the row takes a number; 0: as many as pay
+
+  friend bool operator==(const BackendChoice&, const BackendChoice&) = default;
 };
 
 /// What a solver may use of its surroundings; nothing is required.
@@ -42,9 +46,10 @@ struct Backend {
   GpuSolver* gpu = nullptr;  ///< the solver, where its state lies on a device: for drawing without a copy
   std::string device;        ///< GL_RENDERER, or what the solver says of itself
   std::string force_path;    ///< "gather", …; empty if the backend has none
-  std::string reason;        ///< why `auto` took it; empty if it was named
+  Arithmetic arithmetic = Arithmetic::exact;
+  std::string reason;  ///< why `auto` took it; empty if it was named
 
-  /// "gpu:gather", "reference:double", "reference".
+  /// "gpu:gather", "cpu:fast", "reference:double", "reference".
   std::string variant() const;
 };
 
@@ -67,12 +72,13 @@ struct BackendRow {
   /// Makes the solver at the model's initial state; the model must outlive it. The choice has passed
   /// check_choice(). Errors: no_device, scene_rejected, io.
   Result<Backend> (*make)(const Model& model, const BackendChoice& choice, const SolverHost& host) = nullptr;
-  /// Bytes that its solver holds for a model of these counts.
-  std::uint64_t (*bytes)(const ModelCounts& counts, Integrator integrator,
-                         const BackendChoice& choice) = nullptr;
-  /// Whether `auto` takes it: in the window's context, or, if that is null, wherever it finds a device. Null:
-  /// it does.
+  /// Bytes that its solver holds for a model; nothing if there is no such memory. May make the solver to
+  /// know.
+  std::optional<std::uint64_t> (*bytes)(const Model& model, const BackendChoice& choice) = nullptr;
+  /// Whether `auto` takes it: in the window's context, or, if that is null, wherever it finds a device.
   Suitability (*suitability)(const gl::Context* window) = nullptr;
+  bool fast = false;      ///< it has fast arithmetic
+  bool threaded = false;  ///< its number of threads can be chosen
 
   std::span<const ForcePathRow> force_paths() const {
     return paths ? paths() : std::span<const ForcePathRow>();
@@ -87,7 +93,7 @@ inline const BackendRow& reference_backend() {
 }
 /// The row of that name; null if there is none.
 const BackendRow* find_backend(std::string_view name);
-/// The row after it in the table, the first after the last.
+/// The row after it in the table, the first after the last or a row of no table.
 const BackendRow& next_backend(const BackendRow& row);
 /// Every word of --backend: "auto, gpu, reference".
 std::string backend_words();
@@ -99,20 +105,26 @@ struct AutomaticChoice {
   std::string detail;                    ///< what was tried on the way; may be empty
   std::unique_ptr<gl::Context> context;  ///< the context found, current; null without
 };
-/// The first row of the table that has the precision and suits; `window` as for BackendRow::suitability.
+/// The first row of the table that has what the choice asks for and suits; `window` as for
+/// BackendRow::suitability. The choice has passed check_choice().
 AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Context* window = nullptr);
 
-/// Words of --backend (null: auto), --precision and --force-path. Error (usage): an unknown word, with those
-/// allowed.
+/// Words of --backend (null: auto), --precision, --force-path and --arithmetic. Error (usage): an unknown
+/// word, with those allowed.
 Result<const BackendRow*> parse_backend_name(std::string_view word);
 Result<Precision> parse_precision(std::string_view word);
 Result<ForcePath> parse_force_path(std::string_view word);
+Result<Arithmetic> parse_arithmetic(std::string_view word);
 
-/// A backend with its options after colons: "gpu:per-spring", "reference:double". Errors as above.
-Result<BackendChoice> parse_backend(std::string_view text);
+/// What the row has of `asked`, with this row; all of it for auto (null).
+BackendChoice choice_for(const BackendRow* row, const BackendChoice& asked);
 
-/// Finds choices that no machine could satisfy, before any work: a precision or a force path that the backend
-/// does not have (usage); what is not built yet (scene_rejected).
+/// A backend with its options after colons: "gpu:per-spring", "reference:double", "cpu:fast". What the text
+/// leaves open is as choice_for() has it. Errors as above.
+Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& asked = {});
+
+/// Finds choices that no machine could satisfy, before any work: a precision, a force path, an arithmetic or
+/// a number of threads that the backend does not have (usage); what is not built yet (scene_rejected).
 Status check_choice(const BackendChoice& choice);
 
 /// The directory in the environment variable ASPIC_SHADER_DIR, whose shaders go before the embedded ones;
@@ -123,10 +135,10 @@ Result<std::filesystem::path> shader_directory();
 /// Errors: as check_choice and BackendRow::make.
 Result<Backend> make_backend(const BackendChoice& choice, const Model& model, const SolverHost& host = {});
 
-/// Bytes that a backend in one of its variants needs for a model.
+/// Bytes that a backend in one of its variants holds for a model.
 struct BackendBytes {
-  std::string backend;  ///< "gpu:gather"
-  std::uint64_t bytes = 0;
+  std::string backend;                 ///< "gpu:gather"
+  std::optional<std::uint64_t> bytes;  ///< its solver; absent: there is no such memory
 };
 std::vector<BackendBytes> bytes_by_backend(const Model& model);
 

@@ -17,8 +17,8 @@ Subject product(gl::Context* context, std::string program) {
   subject.reference = [](const Model& model, Precision precision) {
     return make_reference_solver(model, precision);
   };
-  subject.other = [](const Model& model, const BackendRow& row) -> Result<std::unique_ptr<Solver>> {
-    ASPIC_TRY(auto backend, make_backend({&row}, model));
+  subject.other = [](const Model& model, const BackendChoice& choice) -> Result<std::unique_ptr<Solver>> {
+    ASPIC_TRY(auto backend, make_backend(choice, model));
     return std::move(backend.solver);
   };
   if (context != nullptr) {
@@ -36,7 +36,7 @@ std::vector<Check> battery() {
   for (AddChecks* const add :
        {add_order_checks, add_closed_form_checks, add_stability_checks, add_conservation_checks,
         add_force_checks, add_contact_checks, add_coulomb_checks, add_rest_checks, add_scene_checks,
-        add_implicit_checks, add_body_checks, add_ball_checks, add_equality_checks})
+        add_implicit_checks, add_body_checks, add_ball_checks, add_equality_checks, add_fast_checks})
     add(checks);
   return checks;
 }

@@ -23,7 +23,7 @@ struct Subject {
   /// A device's solver; empty where there is no device.
   std::function<Result<std::unique_ptr<GpuSolver>>(const Model&, const GpuOptions&)> gpu;
   /// A solver of a backend that is neither of the two, in single precision; never empty.
-  std::function<Result<std::unique_ptr<Solver>>(const Model&, const BackendRow&)> other;
+  std::function<Result<std::unique_ptr<Solver>>(const Model&, const BackendChoice&)> other;
   bool software_device = false;  ///< llvmpipe and its like, where equality of bits is the bound
   std::string program;           ///< the aspic to start as child process
 };
@@ -85,6 +85,6 @@ std::string at_most_text(double bound, std::string_view unit = "");
 using AddChecks = void(std::vector<Check>& checks);
 AddChecks add_order_checks, add_closed_form_checks, add_stability_checks, add_conservation_checks,
     add_force_checks, add_contact_checks, add_coulomb_checks, add_rest_checks, add_scene_checks,
-    add_implicit_checks, add_body_checks, add_ball_checks, add_equality_checks;
+    add_implicit_checks, add_body_checks, add_ball_checks, add_equality_checks, add_fast_checks;
 
 }  // namespace aspic::verify

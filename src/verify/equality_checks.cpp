@@ -92,7 +92,7 @@ Result<Finding> spring_force(const Subject& subject) {
   model.simulation.gravity = {0, 0, 0};
   model.simulation.timestep = 0x1p-20;
   model.spring_classes.push_back({SpringType::structural, 2000.0, 60.0, 0.5, false});
-  model.springs = springs;
+  model.listed_springs = springs;
   const State start = initial_state(model, Precision::single);
   const auto f = force(model, motion_of<double>(start));
   ASPIC_TRY(auto solver, subject.gpu(model, {}));

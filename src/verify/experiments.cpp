@@ -106,7 +106,7 @@ Status BitComparison::add(const Model& model, const std::function<Result<State>(
       arithmetic_ = fmt::format("{}", fmt::join(gpu->arithmetic().sentences(), " "));
       solver = std::move(gpu);
     } else {
-      ASPIC_TRY(solver, subject_.other(model, row_));
+      ASPIC_TRY(solver, subject_.other(model, {&row_}));
     }
     ASPIC_TRY(const auto end, run(*solver));
     ASPIC_TRY(const auto difference, compare_states(end, expected));

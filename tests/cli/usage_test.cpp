@@ -108,6 +108,22 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"run", "cube-plane", "--backend", "reference", "--force-path", "gather"},
                 2,
                 "belongs to the gpu"},
+        Failure{{"run", "cube-plane", "--backend", "gpu", "--arithmetic", "fast"},
+                2,
+                "the gpu does not compute in fast arithmetic; use --backend cpu."},
+        Failure{{"run", "cube-plane", "--arithmetic", "quick"}, 2, "allowed: exact, fast"},
+        Failure{{"run", "cube-plane", "--arithmetic", "fast", "--precision", "double"}, 2, "no backend does"},
+        Failure{{"run", "cube-plane", "--backend", "reference", "--threads", "2"},
+                2,
+                "the reference does not take a number of threads; use --backend cpu."},
+        Failure{{"run", "cube-plane", "--threads", "0"}, 2, "from 1 to 1024"},
+        Failure{{"run", "cube-plane", "--threads", "1025"}, 2, "--threads"},
+        Failure{{"view", "--backend", "reference", "--arithmetic", "fast"}, 2, "the reference does not"},
+        Failure{{"bench", "--backend", "reference", "--arithmetic", "fast"}, 2, "the reference does not"},
+        Failure{{"compare", "cube-plane", "--backends", "gpu,reference", "--arithmetic", "fast"},
+                2,
+                "the gpu does not"},
+        Failure{{"compare", "cube-plane", "--backends", "cpu,reference:fast"}, 2, "the reference does not"},
         Failure{{"run", "cube-plane", "--state", "same.csv", "--series", "./same.csv"}, 2, "its own name"},
         Failure{{"run", "--resume", "x", "--set", "a=1"}, 2, "--set cannot change"},
         Failure{{"compare", "cube-plane", "--backends", "reference"}, 2, "--backends"},
@@ -149,6 +165,33 @@ TEST(Usage, WithoutADeviceGpuIsRefusedAndInfoSaysSo) {
   EXPECT_EQ(info.exit_code, 0) << info.err;
   EXPECT_THAT(info.out, HasSubstr("No usable GL device"));
   EXPECT_THAT(info.out, HasSubstr("Backend auto: cpu"));
+}
+
+TEST(Usage, ThreadsOfTheEnvironmentMustBeANumber) {
+  const Words run = {"run", "cube-plane", "--backend", "cpu", "--steps", "1"};
+  const auto refused = aspic(run, {{{"ASPIC_THREADS", "abc"}}, "", {}});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err,
+              HasSubstr("ASPIC_THREADS is \"abc\", which is not a number of threads: set a whole "
+                        "number from 1 to 1024, or unset it."));
+  EXPECT_EQ(aspic(run, {{{"ASPIC_THREADS", "3"}}, "", {}}).exit_code, 0);
+}
+
+TEST(Usage, ThreadsAndArithmeticReachTheCpu) {
+  const auto equal =
+      aspic({"compare", "cube-plane", "--backends", "cpu,reference", "--threads", "5", "--steps", "20"});
+  EXPECT_EQ(equal.exit_code, 0) << equal.err;
+  EXPECT_THAT(equal.out, HasSubstr("cpu, 5 threads"));
+  EXPECT_THAT(equal.out, HasSubstr("no step differs"));
+  const auto fast = aspic({"compare", "cube-plane", "--backends", "cpu,cpu:exact", "--arithmetic", "fast",
+                           "--steps", "20", "--tolerance", "1e-3"});
+  EXPECT_EQ(fast.exit_code, 0) << fast.err;
+  EXPECT_THAT(fast.out, HasSubstr("cpu:fast"));
+  EXPECT_THAT(fast.out, Not(HasSubstr("no step differs")));
+  const auto run = aspic({"run", "cube-plane", "--arithmetic", "fast", "--steps", "1", "--json"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(test::json_member(run.out, "backend"), "cpu");
+  EXPECT_EQ(test::json_member(run.out, "arithmetic"), "fast");
 }
 
 TEST(Usage, InfoIsJsonOnRequest) {

@@ -33,14 +33,18 @@ TEST(Workers, SeeWhatTheRoundBeforeWrote) {
 
 TEST(Workers, AreAsManyAsTheEnvironmentSays) {
   setenv("ASPIC_THREADS", "3", 1);
-  EXPECT_EQ(available_threads(), 3u);
-  for (const char* const word : {"0", "-1", "many", "2 ", "99999"}) {
+  EXPECT_EQ(*available_threads(), 3u);
+  setenv("ASPIC_THREADS", "1024", 1);
+  EXPECT_EQ(*available_threads(), 1024u);
+  for (const char* const word : {"", "0", "-1", "+2", "many", "2 ", "2.0", "1025", "99999999999"}) {
     setenv("ASPIC_THREADS", word, 1);
-    EXPECT_GE(available_threads(), 1u) << word;
-    EXPECT_NE(available_threads(), 99999u);
+    const auto threads = available_threads();
+    ASSERT_FALSE(threads.ok()) << word;
+    EXPECT_EQ(threads.error().code, ErrorCode::usage);
+    EXPECT_NE(threads.error().message.find("a whole number from 1 to 1024"), std::string::npos);
   }
   unsetenv("ASPIC_THREADS");
-  EXPECT_GE(available_threads(), 1u);
+  EXPECT_GE(*available_threads(), 1u);
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 // The table of backends, and choosing by it.
 #include "run/backends.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <set>
+#include <thread>
 
 #include "scene/load.h"
 
@@ -44,6 +47,38 @@ TEST(Backends, WhatARowLacksIsRefusedBeforeAnyWork) {
   EXPECT_FALSE(check_choice({nullptr, Precision::double_, ForcePath::gather}).ok());
 }
 
+TEST(Backends, FastArithmeticAndThreadsAreForThoseThatHaveThem) {
+  for (const BackendRow& row : backends()) {
+    for (const auto& [choice, has] :
+         {std::pair{BackendChoice{.row = &row, .arithmetic = Arithmetic::fast}, row.fast},
+          std::pair{BackendChoice{.row = &row, .threads = 5}, row.threaded}}) {
+      const Status checked = check_choice(choice);
+      EXPECT_EQ(checked.ok(), has) << row.name;
+      if (has) continue;
+      EXPECT_EQ(checked.error().code, ErrorCode::usage);
+      EXPECT_THAT(checked.error().message, HasSubstr(fmt::format("the {} does not", row.name)));
+      EXPECT_THAT(checked.error().message, HasSubstr("use --backend cpu"));
+      EXPECT_TRUE(check_choice(choice_for(&row, choice)).ok()) << row.name;
+    }
+  }
+  EXPECT_EQ(choose_automatically({.arithmetic = Arithmetic::fast}).row, find_backend("cpu"));
+  EXPECT_EQ(choose_automatically({.threads = 2}).row, find_backend("cpu"));
+  const Status nobody = check_choice({.precision = Precision::double_, .arithmetic = Arithmetic::fast});
+  ASSERT_FALSE(nobody.ok());
+  EXPECT_THAT(nobody.error().message, HasSubstr("no backend does all that is asked for"));
+}
+
+TEST(Backends, OptionsOfItsOwnGoBeforeThoseAskedOfAll) {
+  const BackendChoice asked = {.arithmetic = Arithmetic::fast, .threads = 3};
+  EXPECT_EQ(*parse_backend("cpu", asked),
+            (BackendChoice{.row = find_backend("cpu"), .arithmetic = Arithmetic::fast, .threads = 3}));
+  EXPECT_EQ(*parse_backend("cpu:exact", asked), (BackendChoice{.row = find_backend("cpu"), .threads = 3}));
+  EXPECT_EQ(*parse_backend("reference:double", asked),
+            (BackendChoice{.row = find_backend("reference"), .precision = Precision::double_}));
+  EXPECT_EQ(parse_backend("cpu:fast")->arithmetic, Arithmetic::fast);
+  EXPECT_FALSE(parse_backend("cpu:quick").ok());
+}
+
 TEST(Backends, AutoTakesTheFirstThatHasThePrecision) {
   const AutomaticChoice choice = choose_automatically({nullptr, Precision::double_, ForcePath::automatic});
   ASSERT_NE(choice.row, nullptr);
@@ -62,7 +97,7 @@ TEST(Backends, EveryVariantTellsItsBytes) {
   ASSERT_TRUE(model.ok());
   std::set<std::string> names;
   for (const BackendBytes& bytes : bytes_by_backend(*model)) {
-    EXPECT_GT(bytes.bytes, 24 * model->particle_count()) << bytes.backend;
+    EXPECT_GT(bytes.bytes.value(), 24 * model->particle_count()) << bytes.backend;
     EXPECT_TRUE(names.insert(bytes.backend).second) << bytes.backend;
     EXPECT_TRUE(parse_backend(bytes.backend).ok()) << bytes.backend;
   }
@@ -78,6 +113,44 @@ TEST(Backends, ASolverSaysWhatItIs) {
   EXPECT_EQ(backend->variant(), "reference:double");
   EXPECT_EQ(backend->row, &reference_backend());
   EXPECT_EQ(backend->gpu, nullptr);
+  const auto fast = make_backend({.row = find_backend("cpu"), .arithmetic = Arithmetic::fast}, *model);
+  ASSERT_TRUE(fast.ok()) << fast.error().message;
+  EXPECT_EQ(fast->variant(), "cpu:fast");
+}
+
+TEST(Backends, AnInterruptedStepIsDroppedAndTheRunGoesOnWithItsBits) {
+  for (const char* integrator : {"explicit-euler", "runge-kutta-4", "implicit-euler"}) {
+    const std::vector<std::string> set = {fmt::format("simulation.integrator={}", integrator)};
+    const auto model = build_model(load_scene("cube-plane", set)->model);
+    ASSERT_TRUE(model.ok());
+    for (const BackendRow& row : backends()) {
+      if (row.needs_context) continue;
+      const auto backend = make_backend({&row}, *model);
+      ASSERT_TRUE(backend.ok()) << backend.error().message;
+      Solver& solver = *backend->solver;
+      std::atomic<bool> flag = false;
+      std::atomic<int> begun = 0;
+      solver.heed(&flag);
+      {
+        const std::jthread hand([&] {
+          while (begun < 1) std::this_thread::yield();
+          flag = true;
+        });
+        begun = 1;
+        const auto advanced = solver.advance(1'000'000'000);
+        ASSERT_TRUE(advanced.ok());
+        EXPECT_FALSE(advanced->has_value()) << "an interruption is no divergence";
+      }
+      ASSERT_TRUE(solver.advance(5).ok());
+      const std::uint64_t step = solver.state()->step;
+      flag = false;
+      ASSERT_TRUE(solver.advance(3).ok());
+      const auto other = make_backend({&reference_backend()}, *model);
+      ASSERT_TRUE(other->solver->advance(step + 3).ok());
+      EXPECT_EQ(state_hash_text(*solver.state()), state_hash_text(*other->solver->state()))
+          << row.name << ", " << integrator << ", interrupted after " << step;
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,247 @@
+#include "cpu_parallel/explicit.h"
+
+#include <algorithm>
+
+#include "cpu_parallel/contact_pieces.h"
+
+namespace aspic::parallel {
+namespace {
+
+/// Particles whose box is looked at together where terrain is near, and of a task of a body with lists: their
+/// forces stay in the first-level cache.
+constexpr std::size_t piece_size = 1024;
+/// Planes of a task of a cube, at least, where a cube is cut into more tasks than there are threads: at its
+/// lower side springs of two planes are evaluated again.
+constexpr std::size_t least_planes = 24;
+
+/// Calls f(part) for parts of a range of at most `size`.
+template <class F>
+void for_parts(Range range, std::size_t size, const F& f) {
+  for (std::size_t at = 0; at < range.count; at += size)
+    f(Range{range.first + at, std::min(size, range.count - at)});
+}
+
+}  // namespace
+
+ExplicitSteps::ExplicitSteps(const Model& model, const reference::Dynamics<float>& dynamics,
+                             const std::vector<Springs>& springs, const FloatArray& mass,
+                             const FloatArray& inverse_mass, std::size_t margin, Arithmetic arithmetic,
+                             Workers& workers)
+    : model_(model),
+      method_(row_of(model.simulation.integrator)),
+      dynamics_(dynamics),
+      springs_(springs),
+      mass_(mass),
+      inverse_mass_(inverse_mass),
+      arithmetic_(arithmetic),
+      workers_(workers) {
+  std::size_t edge = 0;
+  for (std::size_t body = 0; body < springs.size(); ++body) {
+    if (const auto* const lattice = std::get_if<Lattice>(&springs[body]))
+      edge = std::max(edge, lattice->planes());
+    cut(body);
+  }
+  for (unsigned n = 0; edge > 0 && n < workers.threads(); ++n) sweeps_.emplace_back(edge);
+  if (method_.stages.size() == 1) return;
+  sums_ = Particles(model.particle_count(), slice);
+  between_ = Particles(model.particle_count(), margin);
+}
+
+std::uint64_t ExplicitSteps::bytes() const {
+  std::uint64_t sum = bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) + bytes_of(sweeps_);
+  for (const Task& task : tasks_) sum += bytes_of(task.near) + bytes_of(task.resting);
+  for (const Sweep& sweep : sweeps_) sum += sweep.bytes();
+  return sum;
+}
+
+void ExplicitSteps::cut(std::size_t body) {
+  const auto add = [&](Range range) { tasks_.push_back({body, range, {}, true, {}, {}}); };
+  if (const auto* const lists = std::get_if<SpringLists>(&springs_[body]))
+    return for_parts({lists->first(), lists->count()}, piece_size, add);
+  const auto& lattice = std::get<Lattice>(springs_[body]);
+  const std::size_t planes = lattice.planes(), threads = workers_.threads();
+  const std::size_t tasks =
+      threads == 1 ? 1
+                   : std::min(planes, threads * std::max<std::size_t>(1, planes / (threads * least_planes)));
+  for (std::size_t n = 0; n < tasks; ++n) {
+    const std::size_t from = planes * n / tasks, to = planes * (n + 1) / tasks;
+    add({lattice.first() + from * lattice.plane_size(), (to - from) * lattice.plane_size()});
+  }
+}
+
+bool ExplicitSteps::look_at(const Particles& start) {
+  workers_.run(tasks_.size(), [&](std::size_t n) {
+    Task& task = tasks_[n];
+    task.box = box_of(start.x, task.range);
+    find_near(task, start.x);
+    task.sound = all_sound(start, task.range, speed_limit);
+  });
+  known_ = true;
+  return std::ranges::all_of(tasks_, &Task::sound);
+}
+
+bool ExplicitSteps::step(Particles& start, Particles& end) {
+  if (!known_) look_at(start);
+  const double h = model_.simulation.timestep;
+  const std::size_t stages = method_.stages.size();
+  const Particles* at = &start;
+  bool accumulate = false;
+  for (std::size_t s = 0; s < stages; ++s) {
+    const Stage& stage = method_.stages[s];
+    // Stages take turns between two sets of arrays, so that the last one is in `end`.
+    Particles* const to = (stages - s) % 2 == 1 ? &end : &between_;
+    const StageMove move = {&start,
+                            at,
+                            to,
+                            &sums_,
+                            inverse_mass_.data(),
+                            static_cast<float>(h * stage.advance),
+                            static_cast<float>(stage.weight),
+                            static_cast<float>(h / method_.divisor),
+                            accumulate,
+                            s + 1 == stages,
+                            method_.drift};
+    workers_.run(tasks_.size(), [&](std::size_t n) {
+      if (!dynamics_.interrupted()) run(tasks_[n], move);
+    });
+    accumulate = accumulate || stage.weight != 0.0;
+    at = to;
+  }
+  return std::ranges::all_of(tasks_, &Task::sound);
+}
+
+/// One stage of the particles of a task.
+void ExplicitSteps::run(Task& task, const StageMove& stage) {
+  alignas(64) float f[3][piece_size + slice];
+  const Forces forces = {{f[0], f[1], f[2]}};
+  const Vector g = dynamics_.gravity();
+  const ForceInput input = {stage.at, mass_.data(), {g.x(), g.y(), g.z()}, arithmetic_};
+  const bool near = near_terrain(model_, task.box);
+  if (stage.at == stage.start) find_resting(task, stage);
+  Moved moved(speed_limit);
+  if (const auto* const lattice = std::get_if<Lattice>(&springs_[task.body])) {
+    const std::size_t size = lattice->plane_size();
+    const std::size_t from = (task.range.first - lattice->first()) / size,
+                      to = from + task.range.count / size;
+    Sweep& sweep = sweeps_[Workers::current()];
+    for (std::size_t plane = from; plane < std::min(from + 2, lattice->planes()); ++plane)
+      begin_plane(*lattice, input, sweep, plane);
+    for (std::size_t below = std::min<std::size_t>(from, 2); below > 0; --below)
+      lattice_ghosts(*lattice, input, sweep, from - below, static_cast<int>(below));
+    for (std::size_t plane = from; plane < to; ++plane) {
+      if (plane + 2 < lattice->planes()) begin_plane(*lattice, input, sweep, plane + 2);
+      for_parts({0, size}, chunk_size, [&](Range own) {
+        lattice_forces(*lattice, input, sweep, plane, own, forces);
+        finish(task, stage, near, {lattice->first() + plane * size + own.first, own.count}, forces, moved);
+      });
+    }
+  } else {
+    const auto& lists = std::get<SpringLists>(springs_[task.body]);
+    listed_forces(lists, input, {task.range.first - lists.first(), task.range.count}, forces);
+    finish(task, stage, near, task.range, forces, moved);
+  }
+  task.box = moved.box();
+  task.sound = moved.sound;
+  if (!stage.last) return;
+  find_near(task, stage.next->x);
+  respond(task, stage);
+}
+
+/// What comes after the springs of some of a task's particles.
+void ExplicitSteps::finish(Task& task, const StageMove& stage, bool near, Range range, const Forces& forces,
+                           Moved& moved) {
+  pull(stage, range, forces);
+  if (near || !task.resting.empty()) add_contact(task, stage, range, forces);
+  move(stage, range, forces, moved);
+}
+
+namespace {
+
+Vector force_at(const Forces& forces, std::size_t n) {
+  return {forces.component[0][n], forces.component[1][n], forces.component[2][n]};
+}
+void put_force(const Forces& forces, std::size_t n, const Vector& f) {
+  for (std::size_t c = 0; c < 3; ++c) forces.component[c][n] = f[static_cast<Eigen::Index>(c)];
+}
+
+}  // namespace
+
+void ExplicitSteps::pull(const StageMove& stage, Range range, const Forces& forces) {
+  const auto& pull = dynamics_.pull();
+  if (!pull) return;
+  const auto i = static_cast<std::size_t>(pull->particle);
+  if (i - range.first >= range.count) return;
+  put_force(forces, i - range.first,
+            force_at(forces, i - range.first) +
+                reference::spring_force<float>(pull->spring, vector_of(stage.at->x, i),
+                                               vector_of(stage.at->v, i), pull->anchor, Vector::Zero()));
+}
+
+/// Calls f(part) for the slices of a range with a particle that may be near terrain.
+template <class F>
+void ExplicitSteps::for_near(const VectorArray& x, Range range, const F& f) const {
+  for_parts(range, piece_size, [&](Range piece) {
+    if (!near_terrain(model_, box_of(x, piece))) return;
+    for_parts(piece, slice, [&](Range part) {
+      if (near_terrain(model_, box_of(x, part))) f(part);
+    });
+  });
+}
+
+void ExplicitSteps::find_near(Task& task, const VectorArray& x) const {
+  task.near.clear();
+  if (near_terrain(model_, task.box)) for_near(x, task.range, [&](Range part) { task.near.push_back(part); });
+}
+
+void ExplicitSteps::find_resting(Task& task, const StageMove& stage) const {
+  task.resting.clear();
+  for (const Range& part : task.near) {
+    for (std::size_t i = part.first; i < part.first + part.count; ++i)
+      dynamics_.find_resting(static_cast<Eigen::Index>(i), vector_of(stage.at->x, i),
+                             vector_of(stage.at->v, i), task.resting);
+  }
+}
+
+/// What terrain adds to the forces.
+void ExplicitSteps::add_contact(Task& task, const StageMove& stage, Range range, const Forces& forces) {
+  const VectorArray &x = stage.at->x, &v = stage.at->v;
+  if (model_.contact.model == ContactModel::course) {
+    return for_near(x, range, [&](Range part) {
+      for (std::size_t i = part.first; i < part.first + part.count; ++i) {
+        const std::size_t n = i - range.first;
+        if (inverse_mass_[i] != 0.0f)
+          put_force(forces, n, dynamics_.with_contact(vector_of(x, i), vector_of(v, i), force_at(forces, n)));
+      }
+    });
+  }
+  using Contact = reference::RestingContact<float>;
+  const auto particle = [](const Contact& at) { return static_cast<std::size_t>(at.particle); };
+  for (auto at = std::ranges::lower_bound(task.resting, range.first, {}, particle);
+       at != task.resting.end() && particle(*at) < range.first + range.count; ++at) {
+    const std::size_t n = particle(*at) - range.first;
+    put_force(forces, n, reference::with_reaction<float>(*at, force_at(forces, n)));
+  }
+}
+
+/// Terrain response at the end of the step. What it moves is looked at again, for the box and for divergence.
+void ExplicitSteps::respond(Task& task, const StageMove& stage) {
+  Particles& next = *stage.next;
+  for (const Range& part : task.near) {
+    for (std::size_t i = part.first; i < part.first + part.count; ++i) {
+      Vector x = vector_of(next.x, i), v = vector_of(next.v, i);
+      dynamics_.respond(static_cast<Eigen::Index>(i), vector_of(stage.start->x, i),
+                        vector_of(stage.start->v, i), x, v);
+      set(next.x, i, x);
+      set(next.v, i, v);
+    }
+    const Box moved = box_of(next.x, part);
+    for (std::size_t c = 0; c < 3; ++c) {
+      task.box.min[c] = std::min(task.box.min[c], moved.min[c]);
+      task.box.max[c] = std::max(task.box.max[c], moved.max[c]);
+    }
+    task.sound = task.sound && all_sound(next, part, speed_limit);
+  }
+  if (!task.sound) task.sound = all_sound(next, task.range, speed_limit);
+}
+
+}  // namespace aspic::parallel

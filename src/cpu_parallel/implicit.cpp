@@ -1,0 +1,381 @@
+#include "cpu_parallel/implicit.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "cpu_parallel/contact_pieces.h"
+#include "model/solver.h"
+
+namespace aspic::parallel {
+namespace {
+
+/// Jacobians of springs are kept where those of a body fit into the caches nearest to the processor: there
+/// loading them costs less than a square root and a division. Beyond that it is the other way round.
+constexpr std::size_t most_kept_particles = 16'384;
+
+Vector vector_of(const BlockVectors& a, std::size_t n) {
+  return {a[0].of[n], a[1].of[n], a[2].of[n]};
+}
+void set(BlockVectors& a, std::size_t n, const Vector& v) {
+  for (std::size_t c = 0; c < 3; ++c) a[c].of[n] = v[static_cast<Eigen::Index>(c)];
+}
+
+/// Adds a spring to the diagonal block of particle n.
+void add(std::array<BlockNumbers, 6>& blocks, std::size_t n, const reference::SpringJacobian<float>& H) {
+  reference::DiagonalBlock<float> block(0.0f);
+  float* const numbers[6] = {&block.xx, &block.yy, &block.zz, &block.xy, &block.xz, &block.yz};
+  for (std::size_t c = 0; c < 6; ++c) *numbers[c] = blocks[c].of[n];
+  block.add(H);
+  for (std::size_t c = 0; c < 6; ++c) blocks[c].of[n] = *numbers[c];
+}
+
+std::array<float*, 3> from(BlockVectors& a, std::size_t n) {
+  return {a[0].of + n, a[1].of + n, a[2].of + n};
+}
+
+Jacobians jacobians_of(const Springs& springs, float h) {
+  return std::visit(
+      [&](const auto& each) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(each)>, Lattice>)
+          return Jacobians(each, h, each.planes() * each.plane_size() <= most_kept_particles);
+        else
+          return Jacobians(each, h, each.count() <= most_kept_particles);
+      },
+      springs);
+}
+
+}  // namespace
+
+ImplicitEuler::ImplicitEuler(const Model& model, const reference::Dynamics<float>& dynamics,
+                             const std::vector<Springs>& springs, const FloatArray& mass,
+                             const FloatArray& inverse_mass, std::size_t margin, Workers& workers)
+    : model_(model),
+      dynamics_(dynamics),
+      springs_(springs),
+      mass_(mass),
+      inverse_mass_(inverse_mass),
+      workers_(workers),
+      ahead_(dynamics.grounds(), dynamics.contact().step, model.contact.model == ContactModel::coulomb),
+      limits_(model.simulation.implicit),
+      h_(static_cast<float>(model.simulation.timestep)),
+      system_(model.particle_count(), margin) {
+  for (const Springs& each : springs) jacobians_.push_back(jacobians_of(each, h_));
+  cut_into_blocks();
+  sums_.resize(blocks_.size());
+  largest_.resize(blocks_.size());
+  falling_.resize(blocks_.size());
+  const std::size_t count = model.particle_count();
+  if (model.contact.model == ContactModel::course) held_force_ = vector_array(count, slice);
+  if (ahead_.acts()) clearance_ = FloatArray(count, slice);
+}
+
+std::uint64_t ImplicitEuler::bytes() const {
+  std::uint64_t sum = system_.bytes() + bytes_of(held_force_) + bytes_of(clearance_) + bytes_of(blocks_) +
+                      bytes_of(sums_) + bytes_of(largest_) + bytes_of(falling_) + bytes_of(jacobians_);
+  for (const Block& block : blocks_) sum += bytes_of(block.segments) + bytes_of(block.held);
+  for (const Jacobians& each : jacobians_) sum += each.bytes();
+  return sum;
+}
+
+void ImplicitEuler::cut_into_blocks() {
+  for (std::size_t at = 0; at < model_.particle_count(); at += block_size)
+    blocks_.push_back(
+        {{at, std::min<std::size_t>(block_size, model_.particle_count() - at)}, {}, {}, false, false});
+  const auto cut = [&](std::size_t body, std::size_t plane, std::size_t first, std::size_t count) {
+    for (std::size_t at = first; at < first + count;) {
+      const std::size_t end = std::min(first + count, (at / block_size + 1) * block_size);
+      blocks_[at / block_size].segments.push_back({body, plane, {at - first, end - at}, at});
+      at = end;
+    }
+  };
+  for (std::size_t b = 0; b < springs_.size(); ++b) {
+    if (const auto* const lattice = std::get_if<Lattice>(&springs_[b])) {
+      for (std::size_t plane = 0; plane < lattice->planes(); ++plane)
+        cut(b, plane, lattice->first() + plane * lattice->plane_size(), lattice->plane_size());
+    } else {
+      const auto& lists = std::get<SpringLists>(springs_[b]);
+      cut(b, 0, lists.first(), lists.count());
+    }
+  }
+}
+
+template <class Task>
+void ImplicitEuler::for_each_block(const Task& task) {
+  workers_.run(blocks_.size(), [&](std::size_t n) { task(blocks_[n], n); });
+}
+
+float ImplicitEuler::sum_of_blocks() const {
+  return reference::tree_sum(sums_);
+}
+
+Linearisation ImplicitEuler::at(const VectorArray& v, float h) const {
+  const Vector g = dynamics_.gravity();
+  return {&start_->x, &v, mass_.data(), {g.x(), g.y(), g.z()}, h};
+}
+
+/// Square of the way [m²] that a particle at x may go in this step without meeting ground; negative if it may
+/// meet some however slowly it moves.
+float ImplicitEuler::clearance(const Vector& x) const {
+  float least = std::numeric_limits<float>::infinity();
+  for (const reference::Ground<float>& ground : dynamics_.grounds()) {
+    float d = reference::distance<float>(ground, ground.start, x);
+    if (ground.end.moves) d -= 1.001f * (h_ * reference::norm3<float>(ground.end.velocity));
+    if (!(d >= least)) least = d;
+  }
+  return least > 0.0f ? least * least : -1.0f;
+}
+
+void ImplicitEuler::begin_block(Block& block) {
+  block.near = near_terrain(model_, box_of(start_->x, block.range));
+  if (model_.contact.model == ContactModel::course) return hold_contact_force(block);
+  if (!ahead_.acts()) return;
+  for (std::size_t i = block.range.first; i < block.range.first + block.range.count; ++i)
+    clearance_[i] = clearance(parallel::vector_of(start_->x, i));
+}
+
+/// The course model's contact force at the step's start. A step of no length linearises there.
+void ImplicitEuler::hold_contact_force(const Block& block) {
+  const Range& range = block.range;
+  if (!block.near) {
+    for (FloatArray& component : held_force_) std::fill_n(component.data() + range.first, range.count, 0.0f);
+    return;
+  }
+  BlockForces before;
+  forces(block, at(start_->v, 0.0f), before);
+  for (std::size_t n = 0; n < range.count; ++n) {
+    const std::size_t i = range.first + n;
+    const Vector f = vector_of(before.f, n);
+    const Vector with =
+        inverse_mass_[i] == 0.0f
+            ? f
+            : dynamics_.with_contact(parallel::vector_of(start_->x, i), parallel::vector_of(start_->v, i), f);
+    parallel::set(held_force_, i, with - f);
+  }
+}
+
+/// Springs and pull, at the trial velocity and with the step of `at`.
+void ImplicitEuler::forces(const Block& block, const Linearisation& at, BlockForces& out) {
+  for (const Segment& segment : block.segments) {
+    const std::size_t n = segment.first - block.range.first;
+    LinearisedForces to = {from(out.f, n), {}};
+    for (std::size_t c = 0; c < 6; ++c) to.block[c] = out.diagonal[c].of + n;
+    std::visit([&](const auto& springs) { linearise(springs, jacobians_[segment.body], at, segment, to); },
+               springs_[segment.body]);
+  }
+  const auto& pull = dynamics_.pull();
+  if (!pull) return;
+  const auto i = static_cast<std::size_t>(pull->particle);
+  const std::size_t n = i - block.range.first;
+  if (n >= block.range.count) return;
+  const Vector v = parallel::vector_of(*at.v, i);
+  const Vector e = (parallel::vector_of(*at.x, i) - pull->anchor) + at.h * v;
+  const auto [f, H] = reference::linearised<float>(pull->spring, at.h, e, v);
+  set(out.f, n, vector_of(out.f, n) + f);
+  add(out.diagonal, n, H);
+  pull_jacobian_ = H;
+}
+
+reference::Trial<float> ImplicitEuler::start() {
+  for_each_block([&](Block& block, std::size_t) {
+    begin_block(block);
+    for (std::size_t c = 0; c < 3; ++c)
+      std::copy_n(start_->v[c].data() + block.range.first, block.range.count,
+                  end_->v[c].data() + block.range.first);
+  });
+  return evaluate();
+}
+
+reference::Trial<float> ImplicitEuler::fall() {
+  const Vector gained = h_ * dynamics_.gravity();
+  for_each_block([&](Block& block, std::size_t) {
+    for (std::size_t i = block.range.first; i < block.range.first + block.range.count; ++i) {
+      if (inverse_mass_[i] != 0.0f) parallel::set(end_->v, i, parallel::vector_of(start_->v, i) + gained);
+    }
+  });
+  return evaluate();
+}
+
+reference::Trial<float> ImplicitEuler::try_step(float lambda, bool onwards) {
+  for_each_block(
+      [&](Block& block, std::size_t) { try_velocity(system_, end_->v, block.range, onwards, lambda); });
+  return evaluate();
+}
+
+reference::Trial<float> ImplicitEuler::evaluate() {
+  for_each_block([&](Block& block, std::size_t n) {
+    const ResidualShare share = evaluate_block(block);
+    largest_[n] = share.largest;
+    sums_[n] = share.merit;
+    falling_[n] = share.falling;
+  });
+  const auto holds = [](const Block& block) { return !block.held.empty(); };
+  prescribes_ = std::ranges::any_of(blocks_, &Block::prescribes);
+  return {reference::tree_max(largest_), sum_of_blocks(), reference::tree_sum(falling_),
+          std::ranges::any_of(blocks_, holds)};
+}
+
+ResidualShare ImplicitEuler::evaluate_block(Block& block) {
+  BlockForces at_trial;
+  forces(block, at(end_->v, h_), at_trial);
+  const bool course = model_.contact.model == ContactModel::course;
+  const BlockResidual at = {&start_->v,
+                            &end_->v,
+                            course ? &held_force_ : nullptr,
+                            mass_.data(),
+                            inverse_mass_.data(),
+                            h_,
+                            ahead_.acts() ? clearance_.data() : nullptr};
+  BlockVectors R, free;
+  BlockNumbers meets;
+  block.held.clear();
+  block.prescribes = false;
+  if (residuals(at, block.range, at_trial.f, system_.r, R, free, meets))
+    meet_ground(block, free, meets, R, at_trial.diagonal);
+  invert(at_trial.diagonal, block.range, system_);
+  const Vector fall = h_ * dynamics_.gravity();
+  return share_of(R, inverse_mass_.data() + block.range.first, {fall.x(), fall.y(), fall.z()},
+                  block.range.count);
+}
+
+/// The ground's reaction on those particles of a block that may meet it.
+void ImplicitEuler::meet_ground(Block& block, const BlockVectors& free, const BlockNumbers& meets,
+                                BlockVectors& R, std::array<BlockNumbers, 6>& diagonal) {
+  std::vector<reference::Gap<float>> gaps;
+  for (std::size_t n = 0; n < block.range.count; ++n) {
+    if (meets.of[n] == 0.0f) continue;
+    const std::size_t i = block.range.first + n;
+    gaps.clear();
+    for (const reference::Ground<float>& ground : dynamics_.grounds())
+      gaps.push_back(reference::gap<float>(ground, ground.start, parallel::vector_of(start_->x, i)));
+    const auto reaction = ahead_.react_to(gaps.data(), mass_[i], vector_of(free, n));
+    if (reaction.freedom == reference::Freedom::all) continue;
+    const Vector residual = parallel::vector_of(end_->v, i) - reaction.v;
+    const Vector prescribed = -reaction.held_part(residual);
+    set(R, n, residual);
+    parallel::set(system_.r, i, reaction.right_hand_side(mass_[i], residual));
+    add(diagonal, n, {reaction.stiffness, 0.0f, reaction.across});
+    block.held.push_back({i, reaction, prescribed});
+    block.prescribes = block.prescribes || (prescribed.array() != 0.0f).any();
+  }
+}
+
+/// z = A·p
+void ImplicitEuler::multiply_block(const Block& block, const VectorArray& p) {
+  const Range& range = block.range;
+  BlockVectors product;
+  for (const Segment& segment : block.segments) {
+    std::visit(
+        [&](const auto& springs) {
+          multiply(springs, jacobians_[segment.body], at(end_->v, h_), p, segment,
+                   from(product, segment.first - range.first));
+        },
+        springs_[segment.body]);
+  }
+  if (const auto& pull = dynamics_.pull()) {
+    const auto i = static_cast<std::size_t>(pull->particle);
+    if (i - range.first < range.count)
+      set(product, i - range.first,
+          vector_of(product, i - range.first) + pull_jacobian_ * parallel::vector_of(p, i));
+  }
+  for (const Held& held : block.held) {
+    const std::size_t n = held.particle - range.first;
+    const Vector p_i = parallel::vector_of(p, held.particle);
+    set(product, n, held.reaction.free_product(p_i, vector_of(product, n)));
+  }
+  const float* const w = inverse_mass_.data() + range.first;
+  for (std::size_t c = 0; c < 3; ++c) {
+    float* const z = system_.z[c].data() + range.first;
+    for (std::size_t n = 0; n < range.count; ++n) z[n] = w[n] == 0.0f ? 0.0f : product[c].of[n];
+  }
+}
+
+void ImplicitEuler::update_block(const Block& block, Update how, float alpha) {
+  update(system_, block.range, how, alpha);
+  for (const Held& held : block.held) {
+    const Vector z = parallel::vector_of(system_.z, held.particle);
+    parallel::set(system_.z, held.particle, held.reaction.free_part(z));
+  }
+}
+
+float ImplicitEuler::start_solve() {
+  if (prescribes_) {
+    for_each_block([&](Block& block, std::size_t) {
+      for (FloatArray& component : system_.delta)
+        std::fill_n(component.data() + block.range.first, block.range.count, 0.0f);
+      for (const Held& held : block.held) parallel::set(system_.delta, held.particle, held.prescribed);
+    });
+    for_each_block([&](Block& block, std::size_t) { multiply_block(block, system_.delta); });
+  }
+  for_each_block([&](Block& block, std::size_t n) {
+    update_block(block, prescribes_ ? Update::prescribed : Update::none, 1.0f);
+    parallel::turn(system_, block.range, true, 0.0f);
+    sums_[n] = dot(system_.r, system_.z, block.range);
+  });
+  return sum_of_blocks();
+}
+
+float ImplicitEuler::apply() {
+  for_each_block([&](Block& block, std::size_t n) {
+    multiply_block(block, system_.p);
+    sums_[n] = dot(system_.p, system_.z, block.range);
+  });
+  return sum_of_blocks();
+}
+
+float ImplicitEuler::advance(float alpha, bool first) {
+  for_each_block([&](Block& block, std::size_t n) {
+    update_block(block, first ? Update::first : Update::further, alpha);
+    sums_[n] = dot(system_.r, system_.z, block.range);
+  });
+  return sum_of_blocks();
+}
+
+void ImplicitEuler::turn(float beta) {
+  for_each_block([&](Block& block, std::size_t) { parallel::turn(system_, block.range, false, beta); });
+}
+
+bool ImplicitEuler::step(const Particles& start, Particles& end, SolveReport& report) {
+  start_ = &start;
+  end_ = &end;
+  const bool accepted = reference::solve_step(*this, limits_, report);
+  std::atomic<bool> sound = true;
+  for_each_block([&](Block& block, std::size_t) {
+    if (!accepted) {
+      for (std::size_t c = 0; c < 3; ++c)
+        std::copy_n(system_.base[c].data() + block.range.first, block.range.count,
+                    end.v[c].data() + block.range.first);
+    }
+    if (!end_block(block)) sound.store(false, std::memory_order_relaxed);
+  });
+  return sound;
+}
+
+/// What the ground prescribes, the positions, and the terrain's response.
+bool ImplicitEuler::end_block(const Block& block) {
+  const Range& range = block.range;
+  std::array<const reference::GroundReaction<float>*, block_size> reactions{};
+  for (const Held& held : block.held) {  // the ground gives way by no tolerance
+    parallel::set(end_->v, held.particle, parallel::vector_of(end_->v, held.particle) + held.prescribed);
+    reactions[held.particle - range.first] = &held.reaction;
+  }
+  drift(start_->x, end_->v, h_, end_->x, range);
+  if (!block.held.empty() || near_terrain(model_, box_of(end_->x, range))) {
+    for (std::size_t n = 0; n < range.count; ++n) {
+      const std::size_t i = range.first + n;
+      if (inverse_mass_[i] == 0.0f) continue;
+      const Vector x_0 = parallel::vector_of(start_->x, i), v_0 = parallel::vector_of(start_->v, i);
+      Vector x = parallel::vector_of(end_->x, i), v = parallel::vector_of(end_->v, i);
+      if (!ahead_.acts()) dynamics_.respond(static_cast<Eigen::Index>(i), x_0, v_0, x, v);
+      for (std::size_t t = 0; ahead_.acts() && t < dynamics_.grounds().size(); ++t)
+        reference::respond_solved<float>(dynamics_.grounds()[t], dynamics_.contact(), dynamics_.gravity(),
+                                         mass_[i], reactions[n] != nullptr && reactions[n]->holds(t), x_0,
+                                         v_0, x, v);
+      parallel::set(end_->x, i, x);
+      parallel::set(end_->v, i, v);
+    }
+  }
+  return all_sound(*end_, range, static_cast<float>(divergence_speed * divergence_speed));
+}
+
+}  // namespace aspic::parallel

@@ -1,0 +1,102 @@
+#pragma once
+// Steps of implicit Euler for the parallel solver. The method is that of cpu_reference/implicit_euler.h, and
+// so is every bit; here the work is shared by blocks of 256 particles, those of the reductions, so that a
+// pass over them ends with the blocks' sums and the tree over these is the same for any number of threads.
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "cpu_parallel/implicit_kernels.h"
+#include "cpu_parallel/workers.h"
+#include "cpu_reference/implicit_euler.h"
+
+namespace aspic::parallel {
+
+using Springs = std::variant<Lattice, SpringLists>;
+
+class ImplicitEuler {
+ public:
+  /// Everything must outlive this. `springs`: by body; `mass` and `inverse_mass`: by particle, with room of
+  /// `slice` behind the last; `margin`: particles that the springs' loops may read on both sides of an array.
+  ImplicitEuler(const Model& model, const reference::Dynamics<float>& dynamics,
+                const std::vector<Springs>& springs, const FloatArray& mass, const FloatArray& inverse_mass,
+                std::size_t margin, Workers& workers);
+
+  /// A step from `start`, the terrain's response included. Returns whether all particles ended it finite and
+  /// slower than the speed that counts as diverged. The residual in `report` may still not be finite.
+  bool step(const Particles& start, Particles& end, SolveReport& report);
+
+  /// Bytes it holds on the heap.
+  std::uint64_t bytes() const;
+
+  // What solve_step() asks of a system (cpu_reference/implicit_newton.h).
+  reference::Trial<float> start();
+  reference::Trial<float> fall();
+  reference::Trial<float> try_step(float lambda, bool onwards);
+  float start_solve();
+  bool prescribes() const { return prescribes_; }
+  bool interrupted() const { return dynamics_.interrupted(); }
+  float apply();
+  float advance(float alpha, bool first);
+  void turn(float beta);
+
+ private:
+  using Vector = reference::Vector<float>;
+  /// A particle that the ground holds at the trial.
+  struct Held {
+    std::size_t particle;
+    reference::GroundReaction<float> reaction;
+    Vector prescribed;  ///< the part of δ that the ground leaves no choice in [m/s]
+  };
+  /// A block's forces and diagonal blocks at the trial.
+  struct BlockForces {
+    BlockVectors f;
+    std::array<BlockNumbers, 6> diagonal;
+  };
+  struct Block {
+    Range range;
+    std::vector<Segment> segments;
+    std::vector<Held> held;
+    bool near;        ///< near terrain at the step's start
+    bool prescribes;  ///< whether a prescribed part is not zero
+  };
+
+  void cut_into_blocks();
+  template <class Task>
+  void for_each_block(const Task& task);
+  Linearisation at(const VectorArray& v, float h) const;
+  void begin_block(Block& block);
+  void hold_contact_force(const Block& block);
+  float clearance(const Vector& x) const;
+  void forces(const Block& block, const Linearisation& at, BlockForces& out);
+  ResidualShare evaluate_block(Block& block);
+  void meet_ground(Block& block, const BlockVectors& free, const BlockNumbers& meets, BlockVectors& R,
+                   std::array<BlockNumbers, 6>& diagonal);
+  reference::Trial<float> evaluate();
+  void multiply_block(const Block& block, const VectorArray& p);
+  void update_block(const Block& block, Update how, float alpha);
+  float sum_of_blocks() const;
+  bool end_block(const Block& block);
+
+  const Model& model_;
+  const reference::Dynamics<float>& dynamics_;
+  const std::vector<Springs>& springs_;
+  const FloatArray &mass_, &inverse_mass_;
+  Workers& workers_;
+  reference::GroundAhead<float> ahead_;
+  reference::SolveLimits<float> limits_;
+  float h_;
+  std::vector<Jacobians> jacobians_;  // by body
+  std::vector<Block> blocks_;
+  std::vector<float> sums_, largest_, falling_;  // by block
+  LinearSystem system_;
+  VectorArray held_force_;  // contact force of the course model [N]
+  FloatArray clearance_;    // as BlockResidual::clearance
+  bool prescribes_ = false;
+  const Particles* start_ = nullptr;
+  Particles* end_ = nullptr;  // its velocities are the trial
+  reference::SpringJacobian<float> pull_jacobian_;
+};
+
+}  // namespace aspic::parallel

@@ -1,0 +1,92 @@
+// The force of a spring in each lane, for files that Highway compiles once for each instruction set.
+#if defined(ASPIC_SPRING_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ASPIC_SPRING_INL_H
+#undef ASPIC_SPRING_INL_H
+#else
+#define ASPIC_SPRING_INL_H
+#endif
+
+#include "cpu_parallel/kernels.h"
+#include "cpu_parallel/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace aspic::parallel::HWY_NAMESPACE {
+namespace {
+
+/// Stiffness, damping and rest length of a spring in each lane.
+struct Spring {
+  Float k, c, r;
+};
+
+/// What springs take off the forces on their ends a: factor·e, where e = xₐ − x_b, v = vₐ − v_b and spring i
+/// has the constants of[i % size]; and their lengths. All are treated in parallel, since one after the other
+/// they would fill the processor's scheduler with waiting operations.
+///
+/// Exact: s·q with s = k(L − r) + c((v·e)·q), q = 1/L; not a number for a spring of no length.
+template <Arithmetic arithmetic, std::size_t size, std::size_t springs>
+HWY_INLINE void evaluate_springs(const Vector (&e)[springs], const Vector (&v)[springs],
+                                 const Spring (&of)[size], Float (&factor)[springs],
+                                 Float (&length)[springs]) requires(arithmetic == Arithmetic::exact) {
+  Float q[springs], along[springs];
+  for (std::size_t i = 0; i < springs; ++i) length[i] = dot3(e[i], e[i]);
+  for (std::size_t i = 0; i < springs; ++i) length[i] = hn::Sqrt(length[i]);
+  for (std::size_t i = 0; i < springs; ++i) along[i] = dot3(v[i], e[i]);
+  for (std::size_t i = 0; i < springs; ++i) q[i] = hn::Div(hn::Set(tag, 1.0f), length[i]);
+  for (std::size_t i = 0; i < springs; ++i)
+    factor[i] = hn::Mul(of[i % size].k, hn::Sub(length[i], of[i % size].r));
+  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::Mul(of[i % size].c, hn::Mul(along[i], q[i]));
+  for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::Mul(hn::Add(factor[i], along[i]), q[i]);
+}
+
+/// Fast: k − q·(k·r − c·((v·e)·q)), q by an estimate of 1/L and a Newton step. An estimate of n bits has 2n −
+/// 1 after that: x86 gives at least 11. A spring shorter than 1e-15 m counts as that long: e = 0 gives no
+/// force and nothing that is not finite.
+template <Arithmetic arithmetic, std::size_t size, std::size_t springs>
+HWY_INLINE void evaluate_springs(const Vector (&e)[springs], const Vector (&v)[springs],
+                                 const Spring (&of)[size], Float (&factor)[springs],
+                                 Float (&length)[springs]) requires(arithmetic == Arithmetic::fast) {
+  Float square[springs], q[springs], along[springs];
+  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::Mul(e[i].x, e[i].x);
+  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::Mul(v[i].x, e[i].x);
+  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::MulAdd(e[i].y, e[i].y, square[i]);
+  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::MulAdd(v[i].y, e[i].y, along[i]);
+  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::MulAdd(e[i].z, e[i].z, square[i]);
+  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::MulAdd(v[i].z, e[i].z, along[i]);
+  for (std::size_t i = 0; i < springs; ++i) square[i] = hn::Max(square[i], hn::Set(tag, 1e-30f));
+  for (std::size_t i = 0; i < springs; ++i) q[i] = hn::ApproximateReciprocalSqrt(square[i]);
+  for (int step = 0; step < (HWY_ARCH_X86 ? 1 : 2); ++step) {
+    for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::Mul(square[i], q[i]);
+    for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::NegMulAdd(factor[i], q[i], hn::Set(tag, 3.0f));
+    for (std::size_t i = 0; i < springs; ++i) q[i] = hn::Mul(q[i], hn::Set(tag, 0.5f));
+    for (std::size_t i = 0; i < springs; ++i) q[i] = hn::Mul(q[i], factor[i]);
+  }
+  for (std::size_t i = 0; i < springs; ++i) length[i] = hn::Mul(square[i], q[i]);
+  for (std::size_t i = 0; i < springs; ++i) along[i] = hn::Mul(along[i], q[i]);
+  for (std::size_t i = 0; i < springs; ++i)
+    along[i] = hn::NegMulAdd(of[i % size].c, along[i], hn::Mul(of[i % size].k, of[i % size].r));
+  for (std::size_t i = 0; i < springs; ++i) factor[i] = hn::NegMulAdd(q[i], along[i], of[i % size].k);
+}
+
+HWY_INLINE Vector weight_of(const ForceInput& input, std::size_t i) {
+  const Float m = hn::LoadU(tag, input.mass + i);
+  return {hn::Mul(m, hn::Set(tag, input.gravity[0])), hn::Mul(m, hn::Set(tag, input.gravity[1])),
+          hn::Mul(m, hn::Set(tag, input.gravity[2]))};
+}
+
+/// Places as in load() of particles.
+HWY_INLINE Vector load(const Forces& forces, std::size_t i) {
+  const auto at = static_cast<std::ptrdiff_t>(i);
+  return {hn::LoadU(tag, forces.component[0] + at), hn::LoadU(tag, forces.component[1] + at),
+          hn::LoadU(tag, forces.component[2] + at)};
+}
+HWY_INLINE void store(const Vector& f, const Forces& forces, std::size_t i) {
+  const auto at = static_cast<std::ptrdiff_t>(i);
+  hn::StoreU(f.x, tag, forces.component[0] + at);
+  hn::StoreU(f.y, tag, forces.component[1] + at);
+  hn::StoreU(f.z, tag, forces.component[2] + at);
+}
+
+}  // namespace
+}  // namespace aspic::parallel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
