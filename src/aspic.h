@@ -16,9 +16,8 @@
 
 // run: backends and recording
 #include "run/backends.h"   // backends(), make_backend()
-#include "run/outputs.h"    // what a run can write
 #include "run/recorder.h"   // films without a window
-#include "run/run_files.h"  // states, series and checkpoints while a run goes on
+#include "run/run_files.h"  // what a run can write, and states, series and checkpoints while it goes on
 
 // analysis: what a state comes to
 #include "analysis/compare.h"    // compare_states()

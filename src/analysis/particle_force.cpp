@@ -3,34 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <ranges>
 
+#include "cpu_reference/contact.h"
+#include "cpu_reference/spring.h"
 #include "model/springs.h"
-#include "model/terrain.h"
 
 namespace aspic {
 namespace {
-
-/// Force of a spring on its end at xa.
-Vec3 spring_force(const SpringClass& spring, const Vec3& xa, const Vec3& va, const Vec3& xb, const Vec3& vb) {
-  const Vec3 e = xa - xb;
-  const double length_now = length(e);
-  if (length_now == 0.0 || (spring.cord && length_now < spring.rest_length)) return {};
-  const double q = 1.0 / length_now;
-  const double s =
-      spring.stiffness * (length_now - spring.rest_length) + spring.damping * (dot(va - vb, e) * q);
-  return -(s * q) * e;
-}
-
-/// What is left of f after the course model's contact with one terrain.
-Vec3 after_contact(const Terrain& terrain, double epsilon, const Vec3& x, const Vec3& v, const Vec3& f) {
-  const auto [d, n] = terrain_gap(terrain, x);
-  const double u = dot(v, n), along = dot(f, n);
-  if (!(d < epsilon && std::abs(u) < epsilon && along < 0.0)) return f;
-  const Vec3 slip = v - u * n;
-  return (f - along * n) + (terrain.friction * along) * slip;
-}
 
 std::vector<Spring> of_lattice(const Body& body, std::uint32_t particle) {
   const auto n = static_cast<int>(body.lattice_edge);
@@ -70,30 +50,42 @@ std::vector<Spring> SpringFinder::of(const Model& model, std::uint32_t particle)
 
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
                              std::uint32_t particle, const std::optional<Pull>& pull) {
+  using Vector = reference::Vector<double>;
   assert(check_sizes(model, state) && particle < model.particle_count());
-  const Vec3 &x = state.position[particle], &v = state.velocity[particle];
+  const auto exact = [](const Vec3& v) { return reference::rounded<double>(v); };
+  const auto back = [](const Vector& v) { return Vec3{v.x(), v.y(), v.z()}; };
+  const Vector x = exact(state.position[particle]), v = exact(state.velocity[particle]);
   ParticleForce force;
-  force.gravity = force.net = model.mass[particle] * model.simulation.gravity;
+  force.gravity = model.mass[particle] * model.simulation.gravity;
+  Vector net = exact(force.gravity), sum = Vector::Zero();
+  const auto pulled = [&](const SpringClass& spring, const Vec3& other_x, const Vec3& other_v) -> Vector {
+    return reference::spring_force<double>(reference::SpringConstants<double>(spring), x, v, exact(other_x),
+                                           exact(other_v));
+  };
   for (const Spring& spring : springs.of(model, particle)) {
     const std::uint32_t other = spring.a == particle ? spring.b : spring.a;
-    const Vec3 f = spring_force(model.spring_classes[spring.spring_class], x, v, state.position[other],
-                                state.velocity[other]);
-    force.springs = force.springs + f;
-    force.net = force.net + f;
+    const Vector f =
+        pulled(model.spring_classes[spring.spring_class], state.position[other], state.velocity[other]);
+    sum += f;
+    net += f;
   }
+  force.springs = back(sum);
   if (pull && pull->particle == particle) {
-    const SpringClass band = {SpringType::structural, pull->stiffness, pull->damping, 0.0, false};
-    force.pull = spring_force(band, x, v, pull->anchor, {});
-    force.net = force.net + force.pull;
+    const Vector f =
+        pulled({SpringType::structural, pull->stiffness, pull->damping, 0.0, false}, pull->anchor, {});
+    force.pull = back(f);
+    net += f;
   }
-  if (model.contact.model != ContactModel::course || model.inverse_mass[particle] == 0.0) return force;
-  const Vec3 before = force.net;
-  const double h = model.simulation.timestep;
-  for (const Terrain& terrain : model.terrain) {
-    const Vec3 V = terrain.motion ? pose_at(*terrain.motion, h, state.step).velocity : Vec3{};
-    force.net = after_contact(terrain_at(terrain, h, state.step), model.contact.epsilon, x, v - V, force.net);
+  const Vector before = net;
+  if (model.contact.model == ContactModel::course && model.inverse_mass[particle] != 0.0) {
+    for (const Terrain& terrain : model.terrain) {
+      reference::Ground<double> ground(terrain);
+      ground.begin_step(model.simulation.timestep, state.step);
+      net = reference::with_contact_force<double>(ground, model.contact.epsilon, x, v, net);
+    }
   }
-  force.contact = force.net - before;
+  force.contact = back(net - before);
+  force.net = back(net);
   return force;
 }
 

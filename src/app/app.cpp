@@ -10,7 +10,7 @@
 #include "analysis/stability.h"
 #include "app/panels.h"
 #include "run/backends.h"
-#include "run/outputs.h"
+#include "run/run_files.h"
 
 namespace aspic::app {
 

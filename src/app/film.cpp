@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "run/outputs.h"
+#include "run/run_files.h"
 
 namespace aspic::app {
 namespace {

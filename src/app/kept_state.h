@@ -10,7 +10,7 @@
 #include "app/pacer.h"
 #include "base/result.h"
 #include "io/film_format.h"
-#include "scene/view_settings.h"
+#include "scene/scene.h"
 
 namespace aspic::app {
 

@@ -9,7 +9,7 @@
 #include "app/parameter_widget.h"
 #include "io/series_csv.h"
 #include "io/state_sink.h"
-#include "run/outputs.h"
+#include "run/run_files.h"
 #include "scene/write.h"
 
 namespace aspic::app {

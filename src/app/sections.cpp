@@ -141,7 +141,7 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
   edit(gui, scene, "simulation.gravity");
   // The cube that the assignments speak of; the rest of it, and other bodies, are under Bodies.
   if (!scene.scene().model.cubes.empty()) placed_cube(gui, scene, 0);
-  if (scene.scene().model.simulation.integrator == Integrator::implicit_euler) {
+  if (row_of(scene.scene().model.simulation.integrator).solved()) {
     edit(gui, scene, "simulation.implicit.newton-iterations");
     edit(gui, scene, "simulation.implicit.cg-iterations");
     edit(gui, scene, "simulation.implicit.tolerance");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
 
@@ -57,6 +58,11 @@ Utf8Character first_character(std::string_view text) {
   const std::uint32_t least = size == 4 ? 0x10000 : size == 3 ? 0x800 : 0x80;
   if (code < least || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff)) return {lead, 1, false};
   return {code, size, true};
+}
+
+std::size_t character_count(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
 }
 
 bool acts_on_terminal(std::uint32_t code) {

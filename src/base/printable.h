@@ -17,6 +17,9 @@ struct Utf8Character {
 };
 Utf8Character first_character(std::string_view text);
 
+/// Characters of a text: bytes of UTF-8 that do not continue one.
+std::size_t character_count(std::string_view text);
+
 /// Whether a character acts on a terminal: controls, and characters that change the direction or the end of a
 /// line.
 bool acts_on_terminal(std::uint32_t code);

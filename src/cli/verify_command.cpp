@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "gpu/context.h"
@@ -24,31 +25,19 @@ std::size_t count(const std::vector<Row>& rows, Verdict verdict) {
       std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return row.verdict == verdict; }));
 }
 
-/// Characters a terminal shows: UTF-8 continuation bytes are none.
-std::size_t width(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
-}
-
-std::string padded(std::string_view text, std::size_t columns) {
-  std::string result(text);
-  result.append(columns > width(text) ? columns - width(text) : 0, ' ');
-  return result;
-}
-
 /// A line per claim, with its rows below: a claim that holds for every integrator is said once.
 std::string table(const std::vector<Row>& rows, const std::string& device, double seconds) {
   std::size_t names = 0, bounds = 0;
   for (const Row& row : rows) {
-    names = std::max(names, width(row.name));
-    bounds = std::max(bounds, width(row.bound));
+    names = std::max(names, character_count(row.name));
+    bounds = std::max(bounds, character_count(row.bound));
   }
   std::string text = fmt::format("device: {}\n", device);
   const Row* before = nullptr;
   for (const Row& row : rows) {
     if (before == nullptr || before->claim != row.claim) text += fmt::format("\n{}\n", row.claim);
-    text += fmt::format("  {:<7}  {}  {}  {}  ({:.1f} s)\n", name_of(row.verdict), padded(row.name, names),
-                        padded(row.bound, bounds), row.measured, row.seconds);
+    text += fmt::format("  {:<7}  {:<{}}  {:<{}}  {}  ({:.1f} s)\n", name_of(row.verdict), row.name, names,
+                        row.bound, bounds, row.measured, row.seconds);
     before = &row;
   }
   return text + fmt::format("\n{} passed, {} failed, {} not run, in {:.0f} s\n", count(rows, Verdict::passed),

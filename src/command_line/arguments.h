@@ -9,7 +9,7 @@
 #include "base/result.h"
 #include "model/state.h"
 #include "run/backends.h"
-#include "run/outputs.h"
+#include "run/run_files.h"
 
 namespace aspic {
 

@@ -1,11 +1,30 @@
 #pragma once
-// Where the moving things of a picture lie on the device.
+// What solvers leave on the device for pictures: the state, and the springs of the model.
 #include <cstdint>
+#include <memory>
 
-#include "device/spring_buffers.h"
 #include "gpu/buffer.h"
+#include "model/incident_springs.h"
 
 namespace aspic {
+
+/// Nothing writes them once they are made, so solvers and pictures of one context may share them.
+struct SpringBuffers {
+  const gl::Context* context = nullptr;
+  IncidentWords kind = IncidentWords::neighbours;  ///< what the incident words mean
+  gl::Buffer incident_start;                       ///< BINDING_INCIDENT_START
+  gl::Buffer incident;                             ///< BINDING_INCIDENT
+  gl::Buffer springs;  ///< BINDING_SPRINGS: packed_springs(), with words that name springs alone
+
+  std::uint64_t bytes() const { return incident_start.bytes() + incident.bytes() + springs.bytes(); }
+};
+
+/// Errors: as incident_springs and Buffer::create.
+Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& context, const Model& model,
+                                                                 IncidentWords kind);
+
+/// Whether both models' springs are the same words on the device; constants of their classes do not matter.
+bool same_springs(const Model& a, const Model& b);
 
 /// A state on the device. The buffers must outlive every use of it.
 struct DeviceState {

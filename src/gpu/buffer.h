@@ -2,6 +2,7 @@
 // A block of device memory for shader storage or uniform blocks.
 #include <cstddef>
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -33,12 +34,12 @@ class Buffer {
                                BufferKind kind = BufferKind::storage);
 
   /// Allocates and fills: the bytes of `items`.
-  template <class T>
-  static Result<Buffer> of(Context& context, std::string name, std::span<const T> items,
+  template <std::ranges::contiguous_range Items>
+  static Result<Buffer> of(Context& context, std::string name, const Items& items,
                            BufferKind kind = BufferKind::storage) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    Result<Buffer> made = create(context, std::move(name), items.size_bytes(), kind);
-    if (made) made->upload(std::as_bytes(items));
+    const std::span<const std::byte> bytes = bytes_of(items);
+    Result<Buffer> made = create(context, std::move(name), bytes.size(), kind);
+    if (made) made->upload(bytes);
     return made;
   }
 
@@ -55,10 +56,9 @@ class Buffer {
   void clear();
 
   /// upload() of items, from item `first` on.
-  template <class T>
-  void upload_items(std::span<const T> items, std::uint64_t first = 0) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    upload(std::as_bytes(items), first * sizeof(T));
+  template <std::ranges::contiguous_range Items>
+  void upload_items(const Items& items, std::uint64_t first = 0) {
+    upload(bytes_of(items), first * sizeof(std::ranges::range_value_t<Items>));
   }
   /// download() of `count` items, from item `first` on.
   template <class T>
@@ -75,34 +75,15 @@ class Buffer {
   std::uint32_t id() const { return id_; }
 
  private:
+  template <class Items>
+  static std::span<const std::byte> bytes_of(const Items& items) {
+    static_assert(std::is_trivially_copyable_v<std::ranges::range_value_t<Items>>);
+    return std::as_bytes(std::span(items));
+  }
   void release();
   Context* context_ = nullptr;
   std::uint32_t id_ = 0;
   std::uint64_t bytes_ = 0;
-};
-
-/// Makes and fills one buffer after another, and stops at the first that cannot be made: status() has its
-/// error.
-class BufferFiller {
- public:
-  /// The context must be current and outlive the buffers.
-  explicit BufferFiller(Context& context) : context_(context) {}
-
-  template <class T>
-  void operator()(Buffer& into, std::string name, const std::vector<T>& items) {
-    if (!status_) return;
-    auto made = Buffer::of(context_, std::move(name), std::span<const T>(items));
-    if (made) {
-      into = std::move(*made);
-    } else {
-      status_ = made.error();
-    }
-  }
-  const Status& status() const { return status_; }
-
- private:
-  Context& context_;
-  Status status_;
 };
 
 }  // namespace aspic::gl

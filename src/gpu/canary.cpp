@@ -5,9 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "gpu/canary_operands.h"
 #include "gpu/pass.h"
-#include "gpu/program_cache.h"
 
 namespace aspic::gl {
 namespace {
@@ -43,15 +41,6 @@ void judge(OperationCheck& check, const CanaryOperands& o, std::uint32_t got, fl
 
 ArithmeticReport compare(std::span<const CanaryOperands> operands, std::span<const Outcome> outcomes) {
   ArithmeticReport report;
-  report.quotient.name = "quotients a / b";
-  report.reciprocal.name = "reciprocals 1 / b";
-  report.root.name = "square roots of |a|";
-  report.product.name = "products a b";
-  report.sum.name = "sums a + c";
-  report.product_sum.name = "products with sums a b + c";
-  report.vector_sum.name = "products with sums of vectors";
-  report.denormals.name = "operations with denormal numbers";
-  report.fma_fused = true;
   for (std::size_t i = 0; i < operands.size(); ++i) {
     const CanaryOperands& o = operands[i];
     const auto file = [&](OperationCheck& check, std::uint32_t got, float expected, bool small) {
@@ -94,20 +83,13 @@ std::string sentence(const OperationCheck& check, std::string_view remedy) {
 Result<ArithmeticReport> measure_arithmetic(Context& context, const ShaderLibrary& library,
                                             std::span<const Define> defines) {
   const std::vector<CanaryOperands> operands = canary_operands();
-  std::vector<std::array<std::uint32_t, 4>> words;
-  words.reserve(operands.size());
-  for (const CanaryOperands& o : operands)
-    words.push_back({std::bit_cast<std::uint32_t>(o.a), std::bit_cast<std::uint32_t>(o.b),
-                     std::bit_cast<std::uint32_t>(o.c), 0});
   ASPIC_TRY(const auto found, context.programs().compute(library, "compute/canary.comp", defines));
   const Program& program = *found;
-  const auto input =
-      Buffer::of(context, "canary operands", std::span<const std::array<std::uint32_t, 4>>(words));
-  if (!input) return input.error();
+  ASPIC_TRY(const auto input, Buffer::of(context, "canary operands", operands));
   ASPIC_TRY(const auto output, Buffer::create(context, "canary outcomes", operands.size() * sizeof(Outcome)));
   const auto count = static_cast<std::uint32_t>(operands.size());
   program.set(0, count);
-  Pass(program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &output}}, ReadBy::read_back)
+  Pass(program, {{.binding = 0, .buffer = &input}, {.binding = 1, .buffer = &output}}, ReadBy::read_back)
       .dispatch_for(count);
   return compare(operands, output.download_items<Outcome>(count));
 }

@@ -14,6 +14,17 @@
 
 namespace aspic::gl {
 
+/// One case: a / b, 1 / b, √|a|, a·b, a + c, a·b + c.
+struct CanaryOperands {
+  float a;
+  float b;  ///< not zero
+  float c;
+  float unused = 0.0f;  ///< to the size of a vec4
+};
+
+/// The same cases on every machine: all finite, b ≠ 0.
+std::vector<CanaryOperands> canary_operands();
+
 /// What one operation gave against IEEE single precision, round to nearest even.
 struct OperationCheck {
   std::string_view name;      ///< "quotients a / b"
@@ -31,15 +42,15 @@ struct OperationCheck {
 /// What the canary found. Cases with a denormal operand, intermediate or result count under `denormals`
 /// alone: a device that flushes them may still be exact everywhere else.
 struct ArithmeticReport {
-  OperationCheck quotient;
-  OperationCheck reciprocal;
-  OperationCheck root;
-  OperationCheck product;
-  OperationCheck sum;
-  OperationCheck product_sum;  ///< a·b + c in two roundings
-  OperationCheck vector_sum;   ///< the same by component
-  OperationCheck denormals;    ///< any of the above
-  bool fma_fused = false;      ///< fma() rounds once
+  OperationCheck quotient{"quotients a / b"};
+  OperationCheck reciprocal{"reciprocals 1 / b"};
+  OperationCheck root{"square roots of |a|"};
+  OperationCheck product{"products a b"};
+  OperationCheck sum{"sums a + c"};
+  OperationCheck product_sum{"products with sums a b + c"};      ///< a·b + c in two roundings
+  OperationCheck vector_sum{"products with sums of vectors"};    ///< the same by component
+  OperationCheck denormals{"operations with denormal numbers"};  ///< any of the above
+  bool fma_fused = true;                                         ///< fma() rounds once
 
   bool division_exact() const { return quotient.exact() && reciprocal.exact(); }
   bool sqrt_exact() const { return root.exact(); }

@@ -1,11 +1,11 @@
-#include "gpu/canary_operands.h"
-
+// The operands on which a device's arithmetic is judged.
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "base/split_mix.h"
+#include "gpu/canary.h"
 
 namespace aspic::gl {
 namespace {

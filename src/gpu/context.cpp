@@ -7,12 +7,11 @@
 #include <string_view>
 
 #include "base/printable.h"
-#include "gpu/program_cache.h"
+#include "gpu/program.h"
 
 namespace aspic::gl {
 namespace {
 
-constexpr std::size_t max_messages = 256;
 /// A lost context may have an error for every call.
 constexpr int most_errors = 64;
 
@@ -29,19 +28,6 @@ bool has_extension(std::string_view name) {
     if (found && name == reinterpret_cast<const char*>(found)) return true;
   }
   return false;
-}
-
-Severity severity_of(GLenum severity) {
-  switch (severity) {
-    case GL_DEBUG_SEVERITY_HIGH:
-      return Severity::high;
-    case GL_DEBUG_SEVERITY_MEDIUM:
-      return Severity::medium;
-    case GL_DEBUG_SEVERITY_LOW:
-      return Severity::low;
-    default:
-      return Severity::notification;
-  }
 }
 
 }  // namespace
@@ -88,26 +74,10 @@ void Context::start(std::string platform, Loader loader) {
                                  const GLchar* text, const void* user) {
     const std::size_t size =
         length >= 0 ? static_cast<std::size_t>(length) : std::char_traits<char>::length(text);
-    static_cast<Context*>(const_cast<void*>(user))
-        ->receive({severity_of(severity), id, std::string(text, size)});
+    const Context& self = *static_cast<const Context*>(user);
+    if (self.sink_) self.sink_({severity == GL_DEBUG_SEVERITY_HIGH, id, std::string(text, size)});
   };
   glDebugMessageCallback(forward, this);
-}
-
-void Context::receive(DebugMessage message) {
-  if (message.severity == Severity::high) ++high_severity_count_;
-  if (sink_) sink_(message);
-  if (messages_.size() == max_messages) {
-    const auto lesser =
-        std::ranges::find_if(messages_, [](const auto& m) { return m.severity != Severity::high; });
-    messages_.erase(lesser != messages_.end() ? lesser : messages_.begin());
-  }
-  messages_.push_back(std::move(message));
-}
-
-void Context::clear_messages() {
-  messages_.clear();
-  high_severity_count_ = 0;
 }
 
 bool Context::lost() {
@@ -124,7 +94,7 @@ bool Context::ran_out_of_memory() {
     if (error == GL_OUT_OF_MEMORY) {
       found = true;
     } else if (error != context_lost) {
-      receive({Severity::high, error, fmt::format("GL error 0x{:04x}", error)});
+      if (sink_) sink_({true, error, fmt::format("GL error 0x{:04x}", error)});
     }
   }
   return found;

@@ -32,7 +32,7 @@ inline constexpr bool debug_by_default = true;
 /// How a context is made. The environment variable ASPIC_EGL_DEVICE (automatic, hardware, software,
 /// surfaceless, default, or an index) goes before `device`.
 struct ContextOptions {
-  bool debug = debug_by_default;  ///< collect KHR_debug messages, synchronously
+  bool debug = debug_by_default;  ///< ask for KHR_debug messages, synchronously
   bool robust = true;             ///< ask for notice of a lost device; done without where refused
   DeviceChoice device = DeviceChoice::automatic;  ///< which device
   int device_index = 0;                           ///< ≥ 0; read only with DeviceChoice::index
@@ -48,11 +48,9 @@ struct EglDevice {
 /// Every device of EGL_EXT_device_enumeration, in EGL's order; empty where EGL does not enumerate.
 std::vector<EglDevice> list_devices();
 
-enum class Severity { notification, low, medium, high };
-
 /// One KHR_debug message.
 struct DebugMessage {
-  Severity severity = Severity::notification;
+  bool severe = false;  ///< of high severity
   std::uint32_t id = 0;
   std::string text;
 };
@@ -122,13 +120,8 @@ class Context {
   /// Dispatches of passes since the context was made.
   std::uint64_t dispatches() const { return dispatches_; }
 
-  /// The last KHR_debug messages, oldest first: at most 256, high severity kept in preference. Empty without
-  /// debug.
-  const std::vector<DebugMessage>& messages() const { return messages_; }
-  /// Messages of high severity since the context was made, kept or not.
-  std::uint64_t high_severity_count() const { return high_severity_count_; }
-  void clear_messages();
-  /// Called with every message as it comes; an empty function ends that.
+  /// Called with every message as it comes, none without debug but the errors of ran_out_of_memory(); an
+  /// empty function ends that.
   void set_message_sink(std::function<void(const DebugMessage&)> sink) { sink_ = std::move(sink); }
 
   /// Compute programs that were linked in this context, to be used again.
@@ -144,7 +137,6 @@ class Context {
   friend class EglContextMaker;
   Context();
   void start(std::string platform, Loader loader);
-  void receive(DebugMessage message);
   /// Whether an injected fault's time has come; it has only one.
   bool strikes(Fault fault);
   /// A buffer of read_part_bytes, for nothing but what is to be read; made when it is first asked for.
@@ -164,8 +156,6 @@ class Context {
   std::unique_ptr<ProgramCache> programs_;
   std::uint64_t bytes_held_ = 0;
   unsigned int read_buffer_ = 0;
-  std::uint64_t high_severity_count_ = 0;
-  std::vector<DebugMessage> messages_;
   std::function<void(const DebugMessage&)> sink_;
 };
 

@@ -15,7 +15,7 @@
 #include "base/printable.h"
 #include "gpu/context.h"
 #include "gpu/device_info.h"
-#include "gpu/program_cache.h"
+#include "gpu/program.h"
 
 namespace aspic::gl {
 namespace {
@@ -79,14 +79,12 @@ EglDevice describe_device(int index, EGLDeviceEXT device) {
   return result;
 }
 
-enum class Demand { anything, hardware, software };
-
 /// One way to a display.
 struct Candidate {
   std::string name;
   EGLenum platform = 0;  // 0: eglGetDisplay
   void* native = nullptr;
-  Demand demand = Demand::anything;
+  DeviceChoice demand = DeviceChoice::automatic;  // not index
 };
 
 /// The choice after the environment had its say.
@@ -124,7 +122,7 @@ Result<Choice> choose(const ContextOptions& options) {
 Result<std::vector<Candidate>> candidates(const Choice& choice) {
   const std::vector<EGLDeviceEXT> devices = egl_devices();
   std::vector<Candidate> result;
-  const auto add_device = [&](std::size_t i, Demand demand) {
+  const auto add_device = [&](std::size_t i, DeviceChoice demand) {
     result.push_back({fmt::format("EGL device {}", i), EGL_PLATFORM_DEVICE_EXT, devices[i], demand});
   };
   if (choice.device == DeviceChoice::index && choice.platform.empty()) {
@@ -134,18 +132,16 @@ Result<std::vector<Candidate>> candidates(const Choice& choice) {
                   "EGL device {} was asked for, but EGL lists {} device{}. Choose an index of the list "
                   "that aspic info prints.",
                   choice.index, devices.size(), devices.size() == 1 ? "" : "s");
-    add_device(i, Demand::anything);
+    add_device(i, DeviceChoice::automatic);
     return result;
   }
-  Demand general = Demand::anything;
-  if (choice.device == DeviceChoice::hardware) general = Demand::hardware;
-  if (choice.device == DeviceChoice::software) general = Demand::software;
+  const DeviceChoice general = choice.device == DeviceChoice::index ? DeviceChoice::automatic : choice.device;
   if (choice.platform.empty() && client_has("EGL_EXT_platform_device")) {
     // A hardware node that may not be opened can quietly become a rasteriser: then a later device may still
     // be real.
-    for (std::size_t i = 0; i < devices.size() && general != Demand::software; ++i)
-      if (!describe_device(static_cast<int>(i), devices[i]).software) add_device(i, Demand::hardware);
-    for (std::size_t i = 0; i < devices.size() && general != Demand::hardware; ++i)
+    for (std::size_t i = 0; i < devices.size() && general != DeviceChoice::software; ++i)
+      if (!describe_device(static_cast<int>(i), devices[i]).software) add_device(i, DeviceChoice::hardware);
+    for (std::size_t i = 0; i < devices.size() && general != DeviceChoice::hardware; ++i)
       if (describe_device(static_cast<int>(i), devices[i]).software) add_device(i, general);
   }
   if (choice.platform != "default" && client_has("EGL_MESA_platform_surfaceless"))
@@ -210,6 +206,12 @@ EGLContext create_context(EGLDisplay display, const ContextOptions& options) {
   return EGL_NO_CONTEXT;
 }
 
+/// An error in the words that follow a candidate's name.
+template <class... T>
+Error unfit(fmt::format_string<T...> why, T&&... arguments) {
+  return fail(ErrorCode::no_device, why, std::forward<T>(arguments)...);
+}
+
 }  // namespace
 
 std::vector<EglDevice> list_devices() {
@@ -224,54 +226,35 @@ class EglContextMaker {
  public:
   explicit EglContextMaker(const ContextOptions& options) : options_(options) {}
 
-  /// The context on this candidate; null with the reason in `why`.
-  std::unique_ptr<Context> attempt(const Candidate& candidate, std::string& why) const {
-    if (candidate.demand != Demand::hardware && vector_width_crashes()) {
-      why =
+  /// The context on this candidate. The error says why it does not do.
+  Result<std::unique_ptr<Context>> attempt(const Candidate& candidate) const {
+    if (candidate.demand != DeviceChoice::hardware && vector_width_crashes())
+      return unfit(
           "may be a software rasteriser, which the environment variable LP_NATIVE_VECTOR_WIDTH makes crash "
-          "(allowed "
-          "are 128, 256 and 512)";
-      return nullptr;
-    }
+          "(allowed are 128, 256 and 512)");
     const EGLDisplay display = candidate.platform
                                    ? eglGetPlatformDisplay(candidate.platform, candidate.native, nullptr)
                                    : eglGetDisplay(EGL_DEFAULT_DISPLAY);
     // A display is never terminated: EGL returns the same one to every caller in the process.
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
-      why = fmt::format("cannot be opened ({})", egl_error());
-      return nullptr;
-    }
-    if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
-      why = "cannot work without a window surface";
-      return nullptr;
-    }
-    if (!eglBindAPI(EGL_OPENGL_API)) {
-      why = fmt::format("has no desktop OpenGL ({})", egl_error());
-      return nullptr;
-    }
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
+      return unfit("cannot be opened ({})", egl_error());
+    if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
+      return unfit("cannot work without a window surface");
+    if (!eglBindAPI(EGL_OPENGL_API)) return unfit("has no desktop OpenGL ({})", egl_error());
     const EGLContext egl_context = create_context(display, options_);
-    if (egl_context == EGL_NO_CONTEXT) {
-      why = fmt::format("provides no OpenGL 4.3 core context ({})", egl_error());
-      return nullptr;
-    }
+    if (egl_context == EGL_NO_CONTEXT) return unfit("provides no OpenGL 4.3 core context ({})", egl_error());
     std::unique_ptr<Context> context(new Context);
     context->display_ = display;
     context->context_ = egl_context;
-    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context)) {
-      why = fmt::format("cannot make its context current ({})", egl_error());
-      return nullptr;
-    }
-    if (gladLoadGL(eglGetProcAddress) < GLAD_MAKE_VERSION(4, 3)) {
-      why = "lacks functions of OpenGL 4.3";
-      return nullptr;
-    }
+    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context))
+      return unfit("cannot make its context current ({})", egl_error());
+    if (gladLoadGL(eglGetProcAddress) < GLAD_MAKE_VERSION(4, 3))
+      return unfit("lacks functions of OpenGL 4.3");
     const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     const bool software = is_software_renderer(renderer);
-    if ((candidate.demand == Demand::hardware && software) ||
-        (candidate.demand == Demand::software && !software)) {
-      why = fmt::format("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
-      return nullptr;
-    }
+    if ((candidate.demand == DeviceChoice::hardware && software) ||
+        (candidate.demand == DeviceChoice::software && !software))
+      return unfit("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
     context->start(candidate.name, eglGetProcAddress);
     return context;
   }
@@ -284,16 +267,14 @@ Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& 
   if (const std::string missing = missing_resource(); !missing.empty()) {
     return Error{ErrorCode::no_device, missing + ". Raise it, or use --backend reference without pictures."};
   }
-  const Result<Choice> choice = choose(options);
-  if (!choice) return choice.error();
-  const Result<std::vector<Candidate>> ways = candidates(*choice);
-  if (!ways) return ways.error();
+  ASPIC_TRY(const Choice choice, choose(options));
+  ASPIC_TRY(const std::vector<Candidate> ways, candidates(choice));
   const EglContextMaker maker(options);
   std::string tried;
-  for (const Candidate& candidate : *ways) {
-    std::string why;
-    if (auto context = maker.attempt(candidate, why)) return context;
-    tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, why);
+  for (const Candidate& candidate : ways) {
+    auto context = maker.attempt(candidate);
+    if (context) return context;
+    tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, context.error().message);
   }
   return fail(ErrorCode::no_device,
               "No usable OpenGL 4.3 core device was found without a display. Tried: {}. Install the "

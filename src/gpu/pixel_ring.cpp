@@ -36,8 +36,7 @@ Name pixel_buffer(std::size_t bytes) {
 
 Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
   assert(width >= 1 && height >= 1);
-  while (glGetError() != GL_NO_ERROR) {
-  }
+  context.forget_errors();
   PixelRing ring;
   ring.context_ = &context;
   ring.width_ = width;

@@ -8,8 +8,8 @@
 
 #include "base/result.h"
 #include "gpu/context.h"
-#include "gpu/framebuffer.h"
 #include "gpu/name.h"
+#include "gpu/texture.h"
 
 namespace aspic::gl {
 

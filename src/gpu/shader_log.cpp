@@ -2,9 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
+#include <regex>
 
+#include "base/lines.h"
 #include "gpu/shader_source.h"
 
 namespace aspic::gl {
@@ -17,54 +18,19 @@ struct Message {
   std::string text;
 };
 
-/// Eats a run of digits.
-std::optional<int> number(std::string_view& text) {
-  int value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc() || value < 0) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(result.ptr - text.data()));
-  return value;
-}
-
-bool eat(std::string_view& text, std::string_view token) {
-  if (!text.starts_with(token)) return false;
-  text.remove_prefix(token.size());
-  return true;
-}
-
-void eat_blanks(std::string_view& text) {
-  while (eat(text, " ") || eat(text, "\t")) {
-  }
-}
-
 /// Mesa "0:12(5): error: …", NVIDIA "0(12) : error C1008: …", AMD and Intel "ERROR: 0:12: …".
 std::optional<Message> parse(std::string_view line) {
-  Message message;
-  std::string_view prefix;
-  for (const std::string_view word : {"ERROR: ", "WARNING: "})
-    if (eat(line, word)) prefix = word == "ERROR: " ? "error: " : "warning: ";
-  if (!number(line)) return std::nullopt;
-  if (eat(line, ":")) {
-    const auto row = number(line);
-    if (!row) return std::nullopt;
-    message.line = *row;
-    if (eat(line, "(")) {
-      const auto column = number(line);
-      if (!column || !eat(line, ")")) return std::nullopt;
-      message.column = *column;
-    }
-  } else if (eat(line, "(")) {
-    const auto row = number(line);
-    if (!row || !eat(line, ")")) return std::nullopt;
-    message.line = *row;
-  } else {
+  // Counts are bounded: the library's matcher descends once for each character.
+  static const std::regex shape(
+      R"((ERROR: |WARNING: )?\d{1,9}(?::(\d{1,9})(?:\((\d{1,9})\))?|\((\d{1,9})\))[ \t]{0,9}:[ \t]{0,9})");
+  std::cmatch found;
+  const char* const end = line.data() + line.size();
+  if (!std::regex_search(line.data(), end, found, shape, std::regex_constants::match_continuous))
     return std::nullopt;
-  }
-  eat_blanks(line);
-  if (!eat(line, ":")) return std::nullopt;
-  eat_blanks(line);
-  message.text = fmt::format("{}{}", prefix, line);
-  return message;
+  const std::string_view prefix = !found[1].matched ? "" : found[1] == "ERROR: " ? "error: " : "warning: ";
+  return Message{std::stoi(found[2].matched ? found[2] : found[4]),
+                 found[3].matched ? std::stoi(found[3]) : 0,
+                 fmt::format("{}{}", prefix, found.suffix().str())};
 }
 
 }  // namespace
@@ -76,20 +42,11 @@ FlatShader::Origin FlatShader::origin(int line) const {
   return {files_[static_cast<std::size_t>(mapped.file)], mapped.line};
 }
 
-std::string_view FlatShader::line_text(int line) const {
-  std::string_view rest = text_;
-  for (int i = 1; i < line && !rest.empty(); ++i)
-    rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
-  return rest.substr(0, rest.find('\n'));
-}
-
 std::string FlatShader::rewrite_log(std::string_view log) const {
   std::string result;
   while (!log.empty()) {
-    const auto end = std::min(log.find('\n'), log.size());
-    std::string_view line = log.substr(0, end);
-    log.remove_prefix(std::min(end + 1, log.size()));
-    if (line.ends_with('\r') || line.ends_with('\0')) line.remove_suffix(1);
+    std::string_view line = take_line(log);
+    if (line.ends_with('\0')) line.remove_suffix(1);
     if (line.empty()) continue;
     const auto message = parse(line);
     const Origin from = message ? origin(message->line) : Origin{};
@@ -97,7 +54,7 @@ std::string FlatShader::rewrite_log(std::string_view log) const {
       result += fmt::format("{}\n", line);
       continue;
     }
-    const std::string_view source = line_text(message->line);
+    const std::string_view source = line_of(text_, static_cast<std::size_t>(message->line));
     result += fmt::format("{}:{}: {}\n  {}\n", from.file, from.line, message->text, source);
     if (message->column < 1 || static_cast<std::size_t>(message->column) > source.size() + 1) continue;
     std::string indent(source.substr(0, static_cast<std::size_t>(message->column) - 1));

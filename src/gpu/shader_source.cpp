@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 
+#include "base/files.h"
+#include "base/lines.h"
 #include "base/printable.h"
 #include "model/terrain.h"
 
@@ -41,24 +42,14 @@ std::optional<std::string> quoted(std::string_view text) {
 }
 
 /// Larger than any shader by far: keeps a wrong file from filling the memory.
-constexpr std::streamsize largest_shader_file = 4 << 20;
+constexpr std::uint64_t largest_shader_file = 4 << 20;
 /// Includes inside each other. Those of the program are four deep.
 constexpr std::size_t deepest_include = 32;
 
-Result<std::string> read_shader_file(const std::filesystem::path& file) {
-  const auto error = [&](std::string_view what) {
-    return Error{ErrorCode::io, fmt::format("The shader file {} {}.", printable_line(file.string()), what)};
-  };
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored))
-    return error("is a directory, a device or a pipe, not a file");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(static_cast<std::size_t>(largest_shader_file) + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream.is_open() || stream.bad()) return error("cannot be read");
-  if (stream.gcount() > largest_shader_file) return error("is larger than 4 MiB");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
+Result<std::string> read_shader_file(const std::string& file) {
+  ASPIC_TRY(auto start, read_regular_file(file, largest_shader_file));
+  if (start.size <= largest_shader_file) return std::move(start.content);
+  return fail(ErrorCode::io, "The shader file {} is larger than 4 MiB.", printable_line(file));
 }
 
 /// shapes/all.glsl: the kernels of all terrain shapes, and the choice among them by terrains[t].shape. A
@@ -111,15 +102,13 @@ Result<std::string> ShaderLibrary::read(std::string_view path) const {
   if (!directory_.empty()) {
     const std::filesystem::path file = directory_ / std::filesystem::path(path);
     std::error_code ignored;
-    if (std::filesystem::exists(file, ignored)) return read_shader_file(file);
+    if (std::filesystem::exists(file, ignored)) return read_shader_file(file.string());
   }
   if (const auto text = find_embedded(embedded_shaders(), path)) return std::string(*text);
   if (path == "shapes/all.glsl") return shape_choice();
-  return Error{
-      ErrorCode::io,
-      fmt::format("There is no shader file \"{}\"{}. Paths are relative to shaders/.", path,
-                  directory_.empty() ? " in the program"
-                                     : fmt::format(" in {} or in the program", directory_.string()))};
+  return fail(
+      ErrorCode::io, "There is no shader file \"{}\"{}. Paths are relative to shaders/.", path,
+      directory_.empty() ? " in the program" : fmt::format(" in {} or in the program", directory_.string()));
 }
 
 Result<FlatShader> ShaderLibrary::flatten(std::string_view path, std::span<const Define> defines) const {
@@ -127,8 +116,7 @@ Result<FlatShader> ShaderLibrary::flatten(std::string_view path, std::span<const
   work.put(-1, 1, "#version 430 core");
   int line = 2;
   for (const Define& d : defines) work.put(-1, line++, fmt::format("#define {} {}", d.name, d.value));
-  const Status status = append(work, std::string(path));
-  if (!status) return status.error();
+  ASPIC_CHECK(append(work, std::string(path)));
   return std::move(work.shader);
 }
 
@@ -139,35 +127,30 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
   if (seen != files.end()) {
     const int file = static_cast<int>(seen - files.begin());
     if (std::ranges::any_of(work.open, [&](const auto& o) { return o.file == file; }))
-      return Error{ErrorCode::io,
-                   fmt::format("{}the include of \"{}\" closes a cycle. Remove one of these includes.",
-                               where(), path)};
+      return fail(ErrorCode::io, "{}the include of \"{}\" closes a cycle. Remove one of these includes.",
+                  where(), path);
     return {};
   }
   const Result<std::string> text = read(path);
   if (!text) return Error{text.error().code, where() + text.error().message};
 
   if (work.open.size() == deepest_include) {
-    return Error{ErrorCode::io,
-                 fmt::format("{}:{}: includes are nested more than {} deep. Include the files from "
-                             "fewer levels.",
-                             files[static_cast<std::size_t>(work.open.back().file)], work.open.back().line,
-                             deepest_include)};
+    return fail(ErrorCode::io,
+                "{}:{}: includes are nested more than {} deep. Include the files from "
+                "fewer levels.",
+                files[static_cast<std::size_t>(work.open.back().file)], work.open.back().line,
+                deepest_include);
   }
   const int file = static_cast<int>(files.size());
   files.push_back(path);
   work.open.push_back({file, 0});
   std::string_view rest = *text;
   while (!rest.empty()) {
-    const auto end = std::min(rest.find('\n'), rest.size());
-    std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
+    const std::string_view line = take_line(rest);
     const int number = ++work.open.back().line;
     if (directive(line, "version"))
-      return Error{
-          ErrorCode::io,
-          fmt::format("{}: the program adds #version to every shader. Remove the line.", work.chain())};
+      return fail(ErrorCode::io, "{}: the program adds #version to every shader. Remove the line.",
+                  work.chain());
     const auto include = directive(line, "include");
     if (!include) {
       work.put(file, number, line);
@@ -175,12 +158,11 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
     }
     const auto target = quoted(*include);
     if (!target)
-      return Error{ErrorCode::io,
-                   fmt::format("{}: an include is written #include \"folder/file.glsl\", with a path "
-                               "relative to shaders/.",
-                               work.chain())};
-    const Status status = append(work, *target);
-    if (!status) return status;
+      return fail(ErrorCode::io,
+                  "{}: an include is written #include \"folder/file.glsl\", with a path "
+                  "relative to shaders/.",
+                  work.chain());
+    ASPIC_CHECK(append(work, *target));
   }
   work.open.pop_back();
   return {};

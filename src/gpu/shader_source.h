@@ -50,7 +50,6 @@ class FlatShader {
     int file = 0;  // -1: the lines put in front
     int line = 0;
   };
-  std::string_view line_text(int line) const;
 
   std::string text_;
   std::vector<std::string> files_;

@@ -14,9 +14,6 @@ using gl::Binding;
 using gl::Buffer;
 using gl::ReadBy;
 
-struct KernelRow {
-  const char *path, *title;
-};
 /// By BallPasses::Kernel.
 constexpr KernelRow kernel_rows[] = {{"compute/ball_fly.comp", "balls: flight and terrain"},
                                      {"compute/ball_clear.comp", "balls: empty grid and marks"},
@@ -97,9 +94,7 @@ std::uint64_t ball_bytes(const ModelCounts& counts) {
 }
 
 std::vector<std::string> BallPasses::pass_names() {
-  std::vector<std::string> names;
-  for (const KernelRow& row : kernel_rows) names.emplace_back(row.title);
-  return names;
+  return titles_of(kernel_rows);
 }
 
 /// Which kernels the scene needs. Only with more than LIST_SIZE other balls can a body be crowded.
@@ -153,7 +148,7 @@ void BallPasses::reset_work() {
   layout::BallWork work{};
   work.list_capacity = static_cast<std::uint32_t>(list_capacity_);
   work.item_capacity = static_cast<std::uint32_t>(item_capacity_);
-  work_.upload_items(std::span<const layout::BallWork>(&work, 1));
+  work_.upload_items(std::span(&work, 1));
 }
 
 Status BallPasses::grow() {
@@ -222,7 +217,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
 void BallPasses::load(const State& state) {
   if (!any()) return;
   const std::vector<layout::Ball> balls = packed_balls(*model_, state);
-  balls_.upload_items(std::span<const layout::Ball>(balls));
+  balls_.upload_items(balls);
   reset_work();
   set_base_step(state.step);
 }
@@ -236,7 +231,7 @@ void BallPasses::set_base_step(std::uint64_t base_step) {
     bodies[b] = {static_cast<float>(ball.mass), static_cast<float>(1.0 / ball.mass),
                  static_cast<std::uint32_t>(std::min<std::uint64_t>(wait, 0xffffffffu)), 0};
   }
-  bodies_.upload_items(std::span<const layout::BallBody>(bodies));
+  bodies_.upload_items(bodies);
 }
 
 void BallPasses::dispatch(const Queue& queue, Kernel kernel, std::uint32_t items, ReadBy readers) const {

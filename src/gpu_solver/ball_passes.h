@@ -10,7 +10,7 @@
 
 #include "gpu/pass.h"
 #include "gpu/pass_profiler.h"
-#include "gpu/program_cache.h"
+#include "gpu/program.h"
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"

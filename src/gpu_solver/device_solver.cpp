@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "device/particles.h"
-#include "gpu_solver/simulation_block.h"
+#include "gpu_solver/kernels.h"
 
 namespace aspic {
 
@@ -53,7 +53,7 @@ DeviceState DeviceSolver::device_state() const {
 Status DeviceSolver::take(const State& state) {
   ASPIC_CHECK(check_sizes(model_, state));
   const std::vector<layout::Particle> particles = packed_particles(model_, state);
-  states_[0].upload_items(std::span<const layout::Particle>(particles));
+  states_[0].upload_items(particles);
   balls_.load(state);
   current_ = 0;
   ball_slot_ = 0;

@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "gpu/pass.h"
-#include "gpu/program_cache.h"
+#include "gpu/program.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"
-#include "gpu_solver/pose_buffer.h"
-#include "gpu_solver/pull_buffer.h"
+#include "gpu_solver/step_inputs.h"
 
 namespace aspic {
 
@@ -94,5 +93,19 @@ class DeviceSolver : public GpuSolver {
   gl::Arithmetic arithmetic_;
   std::uint64_t bytes_ = 0;
 };
+
+/// Explicit methods: every stage one or two dispatches, no read-back inside a step. Called by make_gpu_solver
+/// for scenes with an explicit method, or without particles; same contract.
+Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, const Model& model,
+                                                        const GpuOptions& options, const ForcePathRow& path);
+
+/// Implicit Euler, without a read-back inside a step (shaders/compute/implicit.glsl). Called by
+/// make_gpu_solver; same contract. `path`: one with ForcePathRow::implicit.
+Result<std::unique_ptr<GpuSolver>> make_implicit_solver(gl::Context& context, const Model& model,
+                                                        const GpuOptions& options, const ForcePathRow& path);
+
+/// gpu_bytes() of each, but what they share.
+std::uint64_t explicit_bytes(const ModelCounts& counts, Integrator integrator);
+std::uint64_t implicit_bytes(const ModelCounts& counts);
 
 }  // namespace aspic

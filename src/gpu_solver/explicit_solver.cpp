@@ -1,5 +1,3 @@
-#include "gpu_solver/explicit_solver.h"
-
 #include <algorithm>
 #include <array>
 
@@ -76,7 +74,7 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
 
 void ExplicitSolver::restart() {
   const layout::Control control = {NO_STEP, NO_STEP, NO_STEP, 0};
-  control_.upload_items(std::span<const layout::Control>(&control, 1));
+  control_.upload_items(std::span(&control, 1));
 }
 
 void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {

@@ -70,7 +70,7 @@ Status check_built(ForcePath path) {
 }
 
 bool works_with(ForcePath path, Integrator integrator) {
-  return integrator != Integrator::implicit_euler || row_of(path).implicit;
+  return !aspic::row_of(integrator).solved() || row_of(path).implicit;
 }
 
 }  // namespace aspic

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include "gpu_solver/ball_passes.h"
-#include "gpu_solver/explicit_solver.h"
-#include "gpu_solver/implicit_solver.h"
+#include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
 
 namespace aspic {

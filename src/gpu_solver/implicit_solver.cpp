@@ -1,5 +1,3 @@
-#include "gpu_solver/implicit_solver.h"
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -20,9 +18,6 @@ constexpr std::uint64_t steps_per_look = 16;
 constexpr std::uint32_t first_rounds = 32, more_rounds = 16;
 
 enum Kernel : std::size_t { begin, evaluate, apply, update, direction, finish, kernel_count };
-struct KernelRow {
-  const char *path, *title;
-};
 constexpr std::array<KernelRow, kernel_count> kernel_rows = {
     {{"compute/implicit_begin.comp", "start of the step"},
      {"compute/implicit_evaluate.comp", "residual"},
@@ -30,12 +25,6 @@ constexpr std::array<KernelRow, kernel_count> kernel_rows = {
      {"compute/implicit_update.comp", "solution update"},
      {"compute/implicit_direction.comp", "search direction"},
      {"compute/implicit_finish.comp", "end of the step, contact"}}};
-
-std::vector<std::string> titles() {
-  std::vector<std::string> names;
-  for (const KernelRow& row : kernel_rows) names.emplace_back(row.title);
-  return names;
-}
 
 std::uint64_t solve_bytes(std::uint64_t particles) {
   const std::uint64_t blocks = (particles + REDUCTION_BLOCK - 1) / REDUCTION_BLOCK;
@@ -45,7 +34,7 @@ std::uint64_t solve_bytes(std::uint64_t particles) {
 class ImplicitSolver final : public DeviceSolver {
  public:
   ImplicitSolver(gl::Context& context, const Model& model, const ForcePathRow& path)
-      : DeviceSolver(context, model, path, 2, titles()) {}
+      : DeviceSolver(context, model, path, 2, titles_of(kernel_rows)) {}
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   std::optional<SolveStatistics> solve_statistics() override { return statistics_; }
@@ -120,7 +109,7 @@ Error ImplicitSolver::idle_device() const {
 }
 
 void ImplicitSolver::write_solve() {
-  solve_buffer_.upload_items(std::span<const layout::Solve>(&solve_, 1));
+  solve_buffer_.upload_items(std::span(&solve_, 1));
 }
 
 Status ImplicitSolver::read_solve() {

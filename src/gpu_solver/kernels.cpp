@@ -1,13 +1,64 @@
 #include "gpu_solver/kernels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
+#include "device/particles.h"
 #include "gpu/loop_bound.h"
+#include "gpu_solver/ball_passes.h"
 #include "gpu_solver/layout.h"
+#include "model/incident_springs.h"
+#include "model/integrator.h"
+#include "model/solver.h"
+#include "model/springs.h"
 
 namespace aspic {
+namespace {
+
+layout::Terrain block_of(const Terrain& t) {
+  layout::Terrain block{};
+  for (std::size_t k = 0; k < geometry_size; ++k)
+    block.geometry[k] = rounded(t.geometry.vectors[k], t.geometry.numbers[k]);
+  block.shape = static_cast<std::uint32_t>(t.shape);
+  block.movable = std::isfinite(t.mass) ? 1u : 0u;
+  block.mass = block.movable ? static_cast<float>(t.mass) : 0.0f;
+  block.restitution = static_cast<float>(t.restitution);
+  block.friction = static_cast<float>(t.friction);
+  return block;
+}
+
+std::uint32_t drift_word(Drift drift) {
+  switch (drift) {
+    case Drift::new_velocity:
+      return DRIFT_NEW_VELOCITY;
+    case Drift::mean_velocity:
+      return DRIFT_MEAN_VELOCITY;
+    case Drift::stage_velocity:
+      break;
+  }
+  return DRIFT_STAGE_VELOCITY;
+}
+
+void fill_stages(layout::Simulation& block, const IntegratorRow& method, double h) {
+  bool accumulate = false;
+  for (std::size_t s = 0; s < method.stages.size(); ++s) {
+    const Stage& stage = method.stages[s];
+    layout::Stage& row = block.stages[s];
+    row.advance = static_cast<float>(h * stage.advance);
+    row.weight = static_cast<float>(stage.weight);
+    row.accumulate = accumulate ? 1u : 0u;
+    row.last = s + 1 == method.stages.size() ? 1u : 0u;
+    accumulate = accumulate || stage.weight != 0.0;
+  }
+  block.step_scale = static_cast<float>(h / method.divisor);
+  block.drift = drift_word(method.drift);
+}
+
+}  // namespace
 
 Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, const GpuOptions& options,
                                      std::uint32_t group_size) {
@@ -28,6 +79,12 @@ Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, c
   return kernels;
 }
 
+std::vector<std::string> titles_of(std::span<const KernelRow> rows) {
+  std::vector<std::string> titles;
+  for (const KernelRow& row : rows) titles.emplace_back(row.title);
+  return titles;
+}
+
 Status check_overrun(std::uint32_t overrun) {
   // By KERNEL_… of layout.glsl: the kernel, and what its loop goes over.
   constexpr std::array<std::array<std::string_view, 2>, KERNEL_COUNT> kernels = {
@@ -45,6 +102,53 @@ Status check_overrun(std::uint32_t overrun) {
   if (overrun == 0) return {};
   const auto& [name, rounds] = kernels[std::min<std::uint32_t>(overrun, KERNEL_COUNT - 1)];
   return gl::loop_error(name, rounds);
+}
+
+Result<layout::Simulation> simulation_block(const Model& model) {
+  if (model.spring_classes.size() > MAX_SPRING_CLASSES || model.terrain.size() > MAX_TERRAINS) {
+    return Error{
+        ErrorCode::scene_rejected,
+        fmt::format("the scene has {} kinds of springs and {} terrains; the gpu backend holds {} and {}: "
+                    "use --backend reference, or fewer bodies and terrains",
+                    model.spring_classes.size(), model.terrain.size(), MAX_SPRING_CLASSES, MAX_TERRAINS)};
+  }
+  layout::Simulation block{};
+  block.gravity = rounded(model.simulation.gravity, fall_speed(model));
+  block.epsilon = static_cast<float>(model.contact.epsilon);
+  block.resting_speed = static_cast<float>(resting_speed(model));
+  block.divergence_speed_squared = static_cast<float>(divergence_speed * divergence_speed);
+  block.particle_count = model.particle_count();
+  block.spring_count = static_cast<std::uint32_t>(spring_count(model));
+  block.terrain_count = static_cast<std::uint32_t>(model.terrain.size());
+  block.contact_model = model.contact.model == ContactModel::coulomb ? CONTACT_COULOMB : CONTACT_COURSE;
+  block.class_bits = class_bits(model);
+  // A solved method stages nothing but its balls.
+  fill_stages(block, free_flight_row(model.simulation.integrator), model.simulation.timestep);
+  fill_balls(block, model);
+  const ImplicitSettings& implicit = model.simulation.implicit;
+  block.time_step = static_cast<float>(model.simulation.timestep);
+  block.max_newton = static_cast<std::uint32_t>(implicit.newton_iterations);
+  block.max_cg = static_cast<std::uint32_t>(implicit.cg_iterations);
+  block.tolerance = static_cast<float>(implicit_tolerance(implicit, Precision::single));
+  block.first_forcing = static_cast<float>(first_forcing);
+  block.forcing_factor = static_cast<float>(forcing_factor);
+  block.least_forcing = static_cast<float>(least_forcing);
+  block.most_forcing = static_cast<float>(most_forcing);
+  block.progress_share = static_cast<float>(progress_share);
+  block.max_halvings = max_halvings;
+  block.max_without_progress = max_without_progress;
+  block.progress_share_on_ground = static_cast<float>(progress_share_on_ground);
+  block.max_without_progress_on_ground = max_without_progress_on_ground;
+  block.least_turn = static_cast<float>(least_turn);
+  block.least_wedge = static_cast<float>(least_wedge);
+  for (std::size_t c = 0; c < model.spring_classes.size(); ++c)
+    block.spring_classes[c] = rounded(model.spring_classes[c]);
+  std::uint32_t moving = 0;
+  for (std::size_t t = 0; t < model.terrain.size(); ++t) {
+    block.terrains[t] = block_of(model.terrain[t]);
+    if (model.terrain[t].motion) block.terrains[t].motion = ++moving;
+  }
+  return block;
 }
 
 }  // namespace aspic

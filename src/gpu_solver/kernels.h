@@ -1,11 +1,15 @@
 #pragma once
-// How a solver's kernels are compiled, and what they say of loops they had to cut short.
+// How a solver's kernels are compiled, the constants they read, and what they say of loops they had to cut
+// short.
+#include <span>
+#include <string>
 #include <vector>
 
 #include "gpu/canary.h"
 #include "gpu/context.h"
 #include "gpu/shader_source.h"
 #include "gpu_solver/gpu_solver.h"
+#include "gpu_solver/layout.h"
 
 namespace aspic {
 
@@ -15,6 +19,13 @@ struct KernelOptions {
   std::vector<gl::Define> defines;  ///< of the arithmetic, the group size, the model and GpuOptions
 };
 
+/// A kernel, and what readers of a profile call its passes.
+struct KernelRow {
+  const char *path, *title;
+};
+/// Their titles.
+std::vector<std::string> titles_of(std::span<const KernelRow> rows);
+
 /// Asks the canary unless the options know the arithmetic already. The kernels leave out the terrain shapes,
 /// and the motion, that the model does not have. Errors: those of choose_arithmetic.
 Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, const GpuOptions& options,
@@ -23,5 +34,9 @@ Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, c
 /// Error (no_device): a kernel had a loop of more than MAX_ROUNDS (shaders/shared/layout.glsl), which
 /// `overrun` of Control or Solve names; 0: none had. The state is not to be trusted then.
 Status check_overrun(std::uint32_t overrun);
+
+/// Fills the block. Errors (scene_rejected): more spring classes or
+/// terrains than the block holds.
+Result<layout::Simulation> simulation_block(const Model& model);
 
 }  // namespace aspic

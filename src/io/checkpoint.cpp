@@ -11,6 +11,7 @@
 #include "base/fnv.h"
 #include "base/memory.h"
 #include "base/printable.h"
+#include "io/state_csv.h"
 #include "model/model.h"
 
 namespace aspic {
@@ -180,9 +181,7 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
 }
 
 Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint) {
-  if (const auto bad = first_not_finite(checkpoint.state)) {
-    return fail(ErrorCode::diverged, "{} was not written: {} is not a finite number.", file.path(), *bad);
-  }
+  ASPIC_CHECK(check_finite(checkpoint.state, file.path()));
   return file.write(encode_checkpoint(checkpoint));
 }
 

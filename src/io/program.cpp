@@ -95,7 +95,7 @@ void handle_signals() {
 
 // A signal handler can reach nothing but static storage.
 volatile sig_atomic_t signal_count = 0;
-struct sigaction old_interrupt, old_terminate, old_file_size;
+struct sigaction old_interrupt, old_terminate;
 
 void on_signal(int number) {
   signal_count = signal_count + 1;
@@ -136,14 +136,11 @@ InterruptGuard::InterruptGuard() {
   action.sa_flags = SA_RESTART;
   ::sigaction(SIGINT, &action, &old_interrupt);
   ::sigaction(SIGTERM, &action, &old_terminate);
-  action.sa_handler = SIG_IGN;
-  ::sigaction(SIGXFSZ, &action, &old_file_size);
 }
 
 InterruptGuard::~InterruptGuard() {
   ::sigaction(SIGINT, &old_interrupt, nullptr);
   ::sigaction(SIGTERM, &old_terminate, nullptr);
-  ::sigaction(SIGXFSZ, &old_file_size, nullptr);
 }
 
 bool InterruptGuard::interrupted() const {

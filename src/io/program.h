@@ -18,9 +18,8 @@ namespace aspic {
 int run_program(const std::function<int()>& work);
 
 /// While one lives, the first SIGINT or SIGTERM only raises the flag; a second one removes temporary files
-/// and ends the process at once, as the signal would have. SIGXFSZ is ignored, so that a file past the size
-/// limit is an error of write() like a full disk. At most one may live at a time; the old handlers return
-/// with its end.
+/// and ends the process at once, as the signal would have. At most one may live at a time; the old handlers
+/// return with its end.
 class InterruptGuard {
  public:
   InterruptGuard();

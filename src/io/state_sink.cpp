@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "io/checkpoint.h"
 #include "io/series_csv.h"
@@ -22,43 +23,60 @@ std::string numbered(const std::string& path, const std::string& step) {
 /// Writes one state to a file that is not committed yet. Error (diverged): a number is not finite.
 using StateWriter = Status (*)(AtomicFile&, const Sample&);
 
-/// The last state in a file, or a file for each of many steps.
+/// Which states become files.
+enum class Keep {
+  last_or_all,  ///< the last one, or with an interval one file for each
+  newest        ///< the last one, with an interval the newest so far, which replaces the one before
+};
+
+/// States, each alone in a file.
 class StateFiles final : public StateSink {
  public:
-  template <StateWriter Writer>
+  template <StateWriter Writer, Keep Kept = Keep::last_or_all>
   static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
-                                                 Overwrite overwrite, const RunFacts&) {
-    auto sink = std::make_unique<StateFiles>(path, every, overwrite, Writer);
-    if (every == 0) {
+                                                 Overwrite overwrite, const RunFacts& facts) {
+    const bool numbers = every > 0 && Kept == Keep::last_or_all;
+    auto sink = std::make_unique<StateFiles>(numbers ? numbered(path, "*") : path, every);
+    sink->overwrite_ = overwrite;
+    sink->writer_ = Writer;
+    sink->scene_toml_ = facts.scene_toml;
+    if (numbers) {
+      sink->pattern_ = path;
+    } else {
       ASPIC_TRY(sink->file_, AtomicFile::create(path, overwrite));
     }
     return std::unique_ptr<StateSink>(std::move(sink));
   }
-  StateFiles(const std::string& path, std::uint64_t every, Overwrite overwrite, StateWriter writer)
-      : StateSink(every > 0 ? numbered(path, "*") : path, every),
-        pattern_(path),
-        overwrite_(overwrite),
-        writer_(writer) {}
+  using StateSink::StateSink;
 
-  Status take(const Sample& sample) override { return every() > 0 ? write(sample) : Status(); }
+  Status take(const Sample& sample) override {
+    // The newest state alone is of no use before the run has gone anywhere.
+    const bool first = !std::exchange(begun_, true);
+    return every() > 0 && !(first && pattern_.empty()) ? write(sample) : Status();
+  }
   Status finish(const Sample& last) override { return write(last); }
 
  private:
   Status write(const Sample& sample) {
     if (last_step_ == sample.state.step) return {};
-    if (every() > 0) {
+    if (!pattern_.empty()) {
       ASPIC_TRY(file_,
                 AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
+    } else if (last_step_) {
+      // What is there now is our own.
+      ASPIC_TRY(file_, AtomicFile::create(path(), Overwrite::allow));
     }
     last_step_ = sample.state.step;
-    ASPIC_CHECK(writer_(*file_, sample));
+    ASPIC_CHECK(writer_(*file_, {sample.model, sample.state, sample.solves, scene_toml_}));
     return file_->commit();
   }
-  std::string pattern_;
-  Overwrite overwrite_;
-  StateWriter writer_;
+  std::string pattern_;  // of the names of many files; empty: there is one
+  Overwrite overwrite_ = Overwrite::refuse;
+  StateWriter writer_ = nullptr;
+  std::string scene_toml_;
   std::optional<AtomicFile> file_;
-  std::optional<std::uint64_t> last_step_;
+  std::optional<std::uint64_t> last_step_;  // written
+  bool begun_ = false;
 };
 
 /// Energies and momentum, a row for each of many steps.
@@ -66,8 +84,7 @@ class Series final : public StateSink {
  public:
   static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
                                                  Overwrite overwrite, const RunFacts& facts) {
-    ASPIC_TRY(auto writer,
-              SeriesWriter::create(path, overwrite, facts.integrator == Integrator::implicit_euler));
+    ASPIC_TRY(auto writer, SeriesWriter::create(path, overwrite, row_of(facts.integrator).solved()));
     return std::unique_ptr<StateSink>(std::make_unique<Series>(path, every, std::move(writer)));
   }
   Series(const std::string& path, std::uint64_t every, SeriesWriter writer)
@@ -83,52 +100,17 @@ class Series final : public StateSink {
   SeriesWriter writer_;
 };
 
-/// The scene with the last state, or with the newest of many, which replaces the one before.
-class CheckpointFile final : public StateSink {
- public:
-  static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
-                                                 Overwrite overwrite, const RunFacts& facts) {
-    ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
-    return std::unique_ptr<StateSink>(
-        std::make_unique<CheckpointFile>(path, every, std::move(file), facts.scene_toml));
-  }
-  CheckpointFile(const std::string& path, std::uint64_t every, AtomicFile file, std::string scene_toml)
-      : StateSink(path, every), file_(std::move(file)), scene_toml_(std::move(scene_toml)) {}
-
-  Status take(const Sample& sample) override {
-    const bool first = !last_step_;
-    if (first) last_step_ = sample.state.step;
-    return every() > 0 && !first ? write(sample) : Status();
-  }
-  Status finish(const Sample& last) override {
-    return written_ && last_step_ == last.state.step ? Status() : write(last);
-  }
-
- private:
-  Status write(const Sample& sample) {
-    if (written_) {
-      // What is there now is our own.
-      ASPIC_TRY(file_, AtomicFile::create(path(), Overwrite::allow));
-    }
-    const Checkpoint checkpoint = {ASPIC_VERSION, scene_toml_, sample.model.simulation.timestep,
-                                   sample.state};
-    ASPIC_CHECK(write_checkpoint(file_, checkpoint));
-    last_step_ = sample.state.step;
-    written_ = true;
-    return file_.commit();
-  }
-  AtomicFile file_;
-  std::string scene_toml_;
-  std::optional<std::uint64_t> last_step_;
-  bool written_ = false;
-};
-
 Status write_csv(AtomicFile& file, const Sample& sample) {
   return write_state_csv(file, sample.state);
 }
 
 Status write_vtp(AtomicFile& file, const Sample& sample) {
   return write_state_vtp(file, sample.model, sample.state);
+}
+
+Status write_whole_run(AtomicFile& file, const Sample& sample) {
+  return write_checkpoint(
+      file, {ASPIC_VERSION, std::string(sample.scene_toml), sample.model.simulation.timestep, sample.state});
 }
 
 constexpr std::string_view state_summary = "write the final state";
@@ -142,7 +124,8 @@ constexpr StateFormat table[] = {
     {"series", ".csv", "CSV", "write energies and momentum over time",
      "steps between rows of the series; default 1", 1, true, false, Series::open},
     {"checkpoint", ".aspic", "a checkpoint", "write scene and final state, to resume from,",
-     "steps between checkpoints, each replacing the previous one", 0, false, true, CheckpointFile::open},
+     "steps between checkpoints, each replacing the previous one", 0, false, true,
+     StateFiles::open<write_whole_run, Keep::newest>},
 };
 
 }  // namespace

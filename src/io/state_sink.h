@@ -24,7 +24,8 @@ struct RunFacts {
 struct Sample {
   const Model& model;
   const State& state;
-  SolveStatistics solves = {};  ///< of the run so far; zeros unless the integrator is implicit-euler
+  SolveStatistics solves = {};       ///< of the run so far; zeros unless the integrator is implicit-euler
+  std::string_view scene_toml = {};  ///< the complete scene; empty except within a sink that was told it
 };
 
 /// Takes states of a run in the order of their steps. One that is destroyed before finish() leaves nothing

@@ -37,9 +37,8 @@ Result<BallBuffers> BallBuffers::create(gl::Context& context, const Model& model
   BallBuffers b;
   b.count_ = model.ball_count();
   b.timestep_ = model.simulation.timestep;
-  ASPIC_TRY(b.turns_, gl::Buffer::of(context, "turns of balls", std::span<const Four>(unturned(b.count_))));
-  ASPIC_TRY(b.colours_,
-            gl::Buffer::of(context, "colours of balls", std::span<const Four>(colours_of(model))));
+  ASPIC_TRY(b.turns_, gl::Buffer::of(context, "turns of balls", unturned(b.count_)));
+  ASPIC_TRY(b.colours_, gl::Buffer::of(context, "colours of balls", colours_of(model)));
   return b;
 }
 
@@ -47,7 +46,7 @@ void BallBuffers::prepare(const RenderPrograms& programs, const DeviceState& sta
                           const gl::Buffer& bounds) {
   if (!shows(state)) return;
   const bool back = turned_to_ && state.step < *turned_to_;
-  if (back) turns_.upload_items(std::span<const Four>(unturned(count_)));
+  if (back) turns_.upload_items(unturned(count_));
   const std::uint64_t steps = turned_to_ && !back ? state.step - *turned_to_ : 0;
   turned_to_ = state.step;
   programs.balls_turn.set(LOCATION_COUNT, count_);

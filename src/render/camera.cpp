@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
-#include <glm/vec4.hpp>
 
 namespace aspic {
 namespace {
@@ -32,16 +31,6 @@ Camera::Camera(const CameraSettings& settings, int width, int height)
                                  40.0f * target_distance_);
 }
 
-std::optional<Projected> Camera::project(const Vec3& point) const {
-  const glm::vec4 clip = projection_ * view_ * glm::vec4(to_glm(point), 1.0f);
-  if (clip.w <= 0.0f) return std::nullopt;
-  Projected result;
-  result.x = (0.5 + 0.5 * static_cast<double>(clip.x / clip.w)) * width_;
-  result.y = (0.5 - 0.5 * static_cast<double>(clip.y / clip.w)) * height_;
-  result.distance = static_cast<double>(clip.w);
-  return result;
-}
-
 Ray Camera::ray_through(double x, double y) const {
   const double right = (2.0 * x / width_ - 1.0) / static_cast<double>(projection_[0][0]);
   const double up = (1.0 - 2.0 * y / height_) / static_cast<double>(projection_[1][1]);
@@ -49,10 +38,6 @@ Ray Camera::ray_through(double x, double y) const {
   const glm::dvec3 d = glm::normalize(to_world * glm::dvec3(right, up, -1.0));
   const glm::dvec3 e(eye_);
   return {{e.x, e.y, e.z}, {d.x, d.y, d.z}};
-}
-
-double Camera::pixels_per_metre(double distance) const {
-  return 0.5 * height_ * static_cast<double>(projection_[1][1]) / distance;
 }
 
 }  // namespace aspic

@@ -2,10 +2,9 @@
 // A perspective camera over a picture: matrices, and the way between world and pixels.
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
-#include <optional>
 
 #include "model/vec3.h"
-#include "scene/view_settings.h"
+#include "scene/scene.h"
 
 namespace aspic {
 
@@ -13,12 +12,6 @@ namespace aspic {
 struct Ray {
   Vec3 origin;     ///< [m]
   Vec3 direction;  ///< unit
-};
-
-/// Where a point appears.
-struct Projected {
-  double x = 0.0, y = 0.0;  ///< [pixels] from the left and from the top; outside the picture is legal
-  double distance = 0.0;    ///< along the camera's axis [m], > 0
 };
 
 class Camera {
@@ -33,12 +26,11 @@ class Camera {
   /// From the eye to the target [m].
   float target_distance() const { return target_distance_; }
 
-  /// The pixel a point appears at; nothing for a point next to or behind the camera.
-  std::optional<Projected> project(const Vec3& point) const;
+  /// Of the picture [pixels].
+  int width() const { return width_; }
+  int height() const { return height_; }
   /// The sight line through a place of the picture [pixels from left and top].
   Ray ray_through(double x, double y) const;
-  /// How many pixels a metre is, square to the axis at that distance [pixels/m].
-  double pixels_per_metre(double distance) const;
 
  private:
   glm::mat4 view_, projection_;

@@ -4,7 +4,7 @@
 #include "render/camera.h"
 #include "render/layout.h"
 #include "render/quantity.h"
-#include "scene/view_settings.h"
+#include "scene/scene.h"
 
 namespace aspic {
 

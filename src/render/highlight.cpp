@@ -42,7 +42,7 @@ Result<std::unique_ptr<HighlightPainter>> HighlightPainter::create(gl::Context& 
 
 Status HighlightPainter::list(const std::vector<std::uint32_t>& marked) {
   if (marked == listed_) return {};
-  ASPIC_TRY(list_, gl::Buffer::of(*context_, "marked particles", std::span<const std::uint32_t>(marked)));
+  ASPIC_TRY(list_, gl::Buffer::of(*context_, "marked particles", marked));
   listed_ = marked;
   return {};
 }
@@ -108,7 +108,7 @@ Status HighlightPainter::draw_over(const ModelBuffers& model, const gl::Buffer& 
                                    const DrawSettings& draw, const HighlightOptions& options,
                                    const render_layout::Frame& frame) {
   ASPIC_CHECK(list(options.marked));
-  frame_.upload_items(std::span<const render_layout::Frame>(&frame, 1));
+  frame_.upload_items(std::span(&frame, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_.id());
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);

@@ -10,7 +10,7 @@
 #include "gpu/program.h"
 #include "render/layout.h"
 #include "render/model_buffers.h"
-#include "scene/view_settings.h"
+#include "scene/scene.h"
 
 namespace aspic {
 

@@ -4,7 +4,7 @@
 
 #include "render/model_buffers.h"
 #include "render/targets.h"
-#include "scene/view_settings.h"
+#include "scene/scene.h"
 
 namespace aspic {
 

@@ -55,7 +55,6 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   ModelBuffers b;
   b.particle_count_ = model.particle_count();
   b.class_bits_ = class_bits(model);
-  gl::BufferFiller fill(context);
   const Surface surface = make_surface(model);
   for (const Status& ok :
        {gl::check_loop("normals", "the faces at one particle", longest(surface.fan_start)),
@@ -67,10 +66,10 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   b.parts_ = surface.parts;
   b.coarse_parts_ = surface.coarse_parts;
   b.skin_vertices_ = static_cast<std::uint32_t>(surface.fan_vertex.size());
-  fill(b.skin_indices_, "skin indices", surface.indices);
-  fill(b.fan_vertex_, "skin vertices", surface.fan_vertex);
-  fill(b.fan_start_, "skin fan starts", surface.fan_start);
-  fill(b.fan_, "skin fans", surface.fan);
+  ASPIC_TRY(b.skin_indices_, gl::Buffer::of(context, "skin indices", surface.indices));
+  ASPIC_TRY(b.fan_vertex_, gl::Buffer::of(context, "skin vertices", surface.fan_vertex));
+  ASPIC_TRY(b.fan_start_, gl::Buffer::of(context, "skin fan starts", surface.fan_start));
+  ASPIC_TRY(b.fan_, gl::Buffer::of(context, "skin fans", surface.fan));
 
   double least = 0.0;
   for (const SpringClass& c : model.spring_classes) {
@@ -78,11 +77,13 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   }
   if (least > 0.0) b.spacing_ = least;
 
-  fill(b.normals_, "normals", std::vector<std::array<float, 4>>(b.particle_count_));
-  fill(b.quantity_, "coloured quantity", std::vector<float>(b.particle_count_, 0.0f));
-  fill(b.bounds_, "light bounds", std::vector<render_layout::Bounds>(LIGHTS));
-  fill(b.light_boxes_, "light boxes", std::vector<render_layout::LightBox>(LIGHTS));
-  ASPIC_CHECK(fill.status());
+  ASPIC_TRY(b.normals_,
+            gl::Buffer::of(context, "normals", std::vector<std::array<float, 4>>(b.particle_count_)));
+  ASPIC_TRY(b.quantity_,
+            gl::Buffer::of(context, "coloured quantity", std::vector<float>(b.particle_count_, 0.0f)));
+  ASPIC_TRY(b.bounds_, gl::Buffer::of(context, "light bounds", std::vector<render_layout::Bounds>(LIGHTS)));
+  ASPIC_TRY(b.light_boxes_,
+            gl::Buffer::of(context, "light boxes", std::vector<render_layout::LightBox>(LIGHTS)));
   ASPIC_TRY(b.balls_, BallBuffers::create(context, model));
   ASPIC_TRY(b.rods_, Rods::create(context, model));
   return b;
@@ -91,10 +92,8 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
 Status ModelBuffers::prepare_lines(gl::Context& context, const Model& model) {
   if (lines_ready_) return {};
   ASPIC_CHECK(check_spring_words(model));
-  gl::BufferFiller fill(context);
   std::vector<SpringRun> runs;
-  fill(spring_indices_, "spring indices", spring_pairs(model, runs));
-  ASPIC_CHECK(fill.status());
+  ASPIC_TRY(spring_indices_, gl::Buffer::of(context, "spring indices", spring_pairs(model, runs)));
   springs_ = std::move(runs);
   lines_ready_ = true;
   return {};
@@ -105,9 +104,7 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
     ASPIC_CHECK(gl::check_loop("quantity", "the springs of one particle", highest_degree(model)));
     std::vector<layout::SpringClass> classes;
     for (const SpringClass& c : model.spring_classes) classes.push_back(rounded(c));
-    gl::BufferFiller fill(context);
-    fill(spring_classes_, "spring classes", classes);
-    ASPIC_CHECK(fill.status());
+    ASPIC_TRY(spring_classes_, gl::Buffer::of(context, "spring classes", classes));
   }
   if (has_neighbours(state) || own_springs_) return {};
   ASPIC_TRY(own_springs_, make_spring_buffers(context, model, IncidentWords::neighbours));
@@ -141,7 +138,7 @@ void ModelBuffers::compute_quantity(const RenderPrograms& programs, const Device
 void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const DeviceState& state) {
   std::array<render_layout::Bounds, LIGHTS> empty;
   empty.fill({glm::uvec4(0xffffffffu), glm::uvec4(0u)});
-  bounds_.upload_items(std::span<const render_layout::Bounds>(empty));
+  bounds_.upload_items(empty);
   gl::Pass(programs.bounds, {{BINDING_PARTICLES, state.particles}, {BINDING_BOUNDS, &bounds_}},
            ReadBy::compute_pass | ReadBy::copy)
       .dispatch_for(std::min(particle_count_, software::most_bounding_invocations));

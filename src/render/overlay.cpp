@@ -154,7 +154,7 @@ Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<Ov
   if (vertices_.bytes() < bytes) {
     ASPIC_TRY(vertices_, gl::Buffer::create(*context_, "overlay", 2 * bytes));
   }
-  vertices_.upload_items(std::span<const Vertex>(pending_));
+  vertices_.upload_items(pending_);
   const gl::Attribute attributes[] = {{0, &vertices_, 4, sizeof(Vertex), 0},
                                       {1, &vertices_, 4, sizeof(Vertex), 16},
                                       {2, &vertices_, 4, sizeof(Vertex), 32}};

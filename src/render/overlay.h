@@ -7,8 +7,8 @@
 
 #include "base/result.h"
 #include "gpu/buffer.h"
-#include "gpu/framebuffer.h"
 #include "gpu/program.h"
+#include "gpu/texture.h"
 #include "render/colour_map.h"
 #include "render/font.h"
 

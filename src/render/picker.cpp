@@ -107,7 +107,7 @@ void Picker::submit(std::uint64_t request, const Model& model, const ModelBuffer
   Slot& slot = slots_[(first_ + pending_) % capacity];
   slot.request = request;
   slot.frame = frame_around(frame, place.x, place.y, place.width, place.height, side);
-  frame_.upload_items(std::span<const render_layout::Frame>(&slot.frame, 1));
+  frame_.upload_items(std::span(&slot.frame, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_.id());
 
   image_.framebuffer.bind();

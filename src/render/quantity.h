@@ -4,7 +4,7 @@
 
 #include "model/model.h"
 #include "render/overlay.h"
-#include "scene/view_settings.h"
+#include "scene/scene.h"
 
 namespace aspic {
 

@@ -43,7 +43,7 @@ Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const 
   if (buffer.id() == 0 || buffer.bytes() < bytes) {
     ASPIC_TRY(buffer, gl::Buffer::create(context, name, bytes));
   }
-  buffer.upload_items(std::span<const T>(items));
+  buffer.upload_items(items);
   return {};
 }
 
@@ -168,7 +168,7 @@ Status Renderer::Parts::prepare_highlight() {
 }
 
 void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
-  frame.upload_items(std::span<const render_layout::Frame>(&block, 1));
+  frame.upload_items(std::span(&block, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
 }
 

@@ -8,8 +8,8 @@
 #include "device/device_state.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
-#include "gpu/framebuffer.h"
 #include "gpu/shader_source.h"
+#include "gpu/texture.h"
 #include "model/model.h"
 #include "model/state.h"
 #include "render/camera.h"
@@ -17,7 +17,7 @@
 #include "render/overlay.h"
 #include "render/picker.h"
 #include "render/quantity.h"
-#include "scene/view_settings.h"
+#include "scene/scene.h"
 
 namespace aspic {
 

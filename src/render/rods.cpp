@@ -63,11 +63,9 @@ TubeMesh rod_mesh(const Model& model) {
 Result<Rods> Rods::create(gl::Context& context, const Model& model) {
   const TubeMesh mesh = rod_mesh(model);
   Rods rods;
-  gl::BufferFiller fill(context);
-  fill(rods.vertices_, "rods", mesh.vertices);
-  fill(rods.normals_, "rods' normals", mesh.normals);
-  fill(rods.indices_, "rods' indices", mesh.indices);
-  ASPIC_CHECK(fill.status());
+  ASPIC_TRY(rods.vertices_, gl::Buffer::of(context, "rods", mesh.vertices));
+  ASPIC_TRY(rods.normals_, gl::Buffer::of(context, "rods' normals", mesh.normals));
+  ASPIC_TRY(rods.indices_, gl::Buffer::of(context, "rods' indices", mesh.indices));
   rods.index_count_ = static_cast<int>(mesh.indices.size());
   const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &rods.vertices_},
                                       {ATTRIBUTE_NORMAL, &rods.normals_}};

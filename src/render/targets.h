@@ -1,7 +1,6 @@
 #pragma once
 // The images a picture is made in.
 #include "base/result.h"
-#include "gpu/framebuffer.h"
 #include "gpu/texture.h"
 
 namespace aspic {

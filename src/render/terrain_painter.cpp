@@ -30,18 +30,15 @@ void set_terrain(const gl::Program& program, const Terrain& terrain) {
 
 Result<TerrainPainter> TerrainPainter::create(gl::Context& context) {
   TerrainPainter painter;
-  ASPIC_TRY(painter.ground_,
-            gl::Texture::create(
-                context, "ground",
-                {.width = ground_size, .height = ground_size, .mipmaps = true, .wrap = gl::Wrap::repeat}));
+  const gl::TextureSettings tiles = {
+      .width = ground_size, .height = ground_size, .mipmaps = true, .wrap = gl::Wrap::repeat};
+  ASPIC_TRY(painter.ground_, gl::Texture::create(context, "ground", tiles));
   painter.ground_.upload(ground_texels(ground_size));
   painter.ground_.generate_mipmaps();
 
-  gl::BufferFiller fill(context);
   const Mesh square = square_mesh();
-  fill(painter.square_vertices_, "square", square.vertices);
-  fill(painter.square_indices_, "square indices", square.indices);
-  ASPIC_CHECK(fill.status());
+  ASPIC_TRY(painter.square_vertices_, gl::Buffer::of(context, "square", square.vertices));
+  ASPIC_TRY(painter.square_indices_, gl::Buffer::of(context, "square indices", square.indices));
   const gl::Attribute of_square[] = {{ATTRIBUTE_POSITION, &painter.square_vertices_}};
   painter.square_ = gl::VertexArray::create(of_square, &painter.square_indices_);
   return painter;
@@ -49,16 +46,14 @@ Result<TerrainPainter> TerrainPainter::create(gl::Context& context) {
 
 Status TerrainPainter::set_terrain(gl::Context& context, const std::vector<Terrain>& terrain) {
   std::vector<MeshBuffers> meshes;
-  gl::BufferFiller fill(context);
   for (const Terrain& t : terrain) {
     MeshBuffers& buffers = meshes.emplace_back();
     if (!terrain_row(t.shape).surface) continue;
     buffers.place = t.geometry.vectors[0];
     const Mesh mesh = terrain_mesh(t, mesh_rings, mesh_sectors);
-    fill(buffers.vertices, "terrain", mesh.vertices);
-    fill(buffers.normals, "terrain normals", mesh.normals);
-    fill(buffers.indices, "terrain indices", mesh.indices);
-    if (!fill.status()) return fill.status();
+    ASPIC_TRY(buffers.vertices, gl::Buffer::of(context, "terrain", mesh.vertices));
+    ASPIC_TRY(buffers.normals, gl::Buffer::of(context, "terrain normals", mesh.normals));
+    ASPIC_TRY(buffers.indices, gl::Buffer::of(context, "terrain indices", mesh.indices));
     const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &buffers.vertices},
                                         {ATTRIBUTE_NORMAL, &buffers.normals}};
     buffers.array = gl::VertexArray::create(attributes, &buffers.indices);

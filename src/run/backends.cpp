@@ -60,12 +60,17 @@ Suitability gpu_suitability(const gl::Context* window) {
 
 // ---- cpu ----
 
-Result<Backend> make_cpu(const Model& model, const BackendChoice& choice, const SolverHost&) {
-  ASPIC_TRY(auto solver, make_cpu_solver(model, {choice.threads, choice.arithmetic}));
+/// A backend that needs nothing but its solver.
+Result<Backend> on_processor(Result<std::unique_ptr<Solver>> made) {
+  ASPIC_TRY(auto solver, std::move(made));
   Backend backend;
   backend.device = solver->description();
   backend.solver = std::move(solver);
   return backend;
+}
+
+Result<Backend> make_cpu(const Model& model, const BackendChoice& choice, const SolverHost&) {
+  return on_processor(make_cpu_solver(model, {choice.threads, choice.arithmetic}));
 }
 
 /// A solver counts what it holds: threads and the kinds of bodies decide it.
@@ -91,11 +96,7 @@ Status check_reference_memory(const Model& model, Precision precision) {
 
 Result<Backend> make_reference(const Model& model, const BackendChoice& choice, const SolverHost&) {
   ASPIC_CHECK(check_reference_memory(model, choice.precision));
-  ASPIC_TRY(auto solver, make_reference_solver(model, choice.precision));
-  Backend backend;
-  backend.device = solver->description();
-  backend.solver = std::move(solver);
-  return backend;
+  return on_processor(make_reference_solver(model, choice.precision));
 }
 
 // ---- the table ----

@@ -9,8 +9,8 @@
 #include "io/frame_schedule.h"
 #include "render/renderer.h"
 #include "run/backends.h"
-#include "run/outputs.h"
 #include "run/recording.h"
+#include "run/run_files.h"
 #include "scene/scene.h"
 
 namespace aspic {

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "base/lines.h"
 #include "base/printable.h"
 #include "scene/parameters.h"
 
@@ -16,17 +17,6 @@ namespace {
 constexpr std::size_t shown_characters = 100;
 /// Arguments longer than this are named in part; the line below shows the place.
 constexpr std::size_t longest_label = 200;
-
-std::string_view line_of(std::string_view text, std::uint32_t line) {
-  for (std::uint32_t current = 1; current < line; ++current) {
-    const std::size_t end = text.find('\n');
-    if (end == std::string_view::npos) return {};
-    text.remove_prefix(end + 1);
-  }
-  text = text.substr(0, text.find('\n'));
-  if (text.ends_with('\r')) text.remove_suffix(1);
-  return text;
-}
 
 /// The line as UTF-8 characters, fit for a terminal and each as wide as in the file, so that the caret stays
 /// below the culprit: tabs as single spaces, what acts on a terminal or is not UTF-8 as question marks.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "base/lines.h"
+
 namespace aspic::document {
 namespace {
 
@@ -27,13 +29,7 @@ std::string reworded(std::string_view description) {
 
 /// toml++ points at the value of a repeated key; the key itself is the culprit.
 Position start_of_key_before(std::string_view text, Position at) {
-  std::size_t line_start = 0;
-  for (std::uint32_t line = 1; line < at.line; ++line) {
-    const std::size_t end = text.find('\n', line_start);
-    if (end == std::string_view::npos) return at;
-    line_start = end + 1;
-  }
-  const std::string_view line = text.substr(line_start, at.column - 1);
+  const std::string_view line = line_of(text, at.line).substr(0, at.column - 1);
   const std::size_t equals = line.find_last_of('=');
   if (equals == std::string_view::npos || equals == 0) return at;
   const std::size_t key_end = line.find_last_not_of(" \t", equals - 1);
@@ -72,22 +68,19 @@ std::variant<toml::table, Problem> parse(std::string_view text, std::uint32_t so
 }
 
 std::string_view kind_text(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::string:
-      return "a string";
-    case toml::node_type::integer:
-      return "a whole number";
-    case toml::node_type::floating_point:
-      return "a number with a decimal point";
-    case toml::node_type::boolean:
-      return "true or false";
-    case toml::node_type::array:
-      return "an array";
-    case toml::node_type::table:
-      return "a table";
-    default:
-      return "a date or time";
-  }
+  // By toml::node_type; what follows are dates and times.
+  constexpr std::string_view kinds[] = {"",
+                                        "a table",
+                                        "an array",
+                                        "a string",
+                                        "a whole number",
+                                        "a number with a decimal point",
+                                        "true or false"};
+  static_assert(static_cast<int>(toml::node_type::boolean) == 6 &&
+                static_cast<int>(toml::node_type::table) == 1 &&
+                static_cast<int>(toml::node_type::string) == 3);
+  const auto kind = static_cast<std::size_t>(node.type());
+  return kind < std::size(kinds) ? kinds[kind] : "a date or time";
 }
 
 }  // namespace aspic::document

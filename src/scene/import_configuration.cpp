@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "base/lines.h"
 #include "base/printable.h"
 #include "model/model.h"
 #include "scene/diagnostics.h"
@@ -89,9 +90,7 @@ class Importer {
   Result<ImportedConfiguration> read(std::string_view text) {
     while (!text.empty()) {
       ++line_;
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      take(trimmed(text.substr(0, end)));
-      text.remove_prefix(std::min(end + 1, text.size()));
+      take(trimmed(take_line(text)));
     }
     if (!key_.empty()) missing_value();
     if (seen_.empty() && problems_.empty()) {

@@ -10,7 +10,6 @@
 #include "base/printable.h"
 #include "scene/diagnostics.h"
 #include "scene/document.h"
-#include "scene/overrides.h"
 #include "scene/reader.h"
 
 namespace aspic {

@@ -1,99 +1,71 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "base/printable.h"
 #include "scene/document.h"
 
 namespace aspic::document {
 namespace {
 
-class Scanner {
- public:
-  Scanner(std::string_view text, std::uint32_t source) : text_(text) { here_.source = source; }
+/// Any character that some parser might take for the end of a line: nothing hides behind one.
+bool ends_line(char c) {
+  return c == '\n' || c == '\r' || c == '\v' || c == '\f';
+}
 
-  std::optional<Problem> scan() {
-    while (at_ < text_.size()) {
-      const char c = text_[at_];
-      if (c == '"' || c == '\'') {
-        pass_string(c);
-        continue;
-      }
-      if (c == '#') {
-        while (at_ < text_.size() && !ends_line(text_[at_])) advance();
-        continue;
-      }
-      if (const auto problem = count(c)) return problem;
-      advance();
-    }
-    return std::nullopt;
-  }
-
- private:
-  void advance() {
-    const auto byte = static_cast<unsigned char>(text_[at_++]);
-    if (byte == '\n') {
-      ++here_.line;
-      here_.column = 1;
-    } else if (at_ == text_.size() || (static_cast<unsigned char>(text_[at_]) & 0xc0u) != 0x80u) {
-      ++here_.column;  // in characters: the next byte begins one
+/// Bytes of the string that begins a text.
+std::size_t string_size(std::string_view text) {
+  const char quote = text.front();
+  const std::string three(3, quote);
+  const bool long_one = text.starts_with(three);
+  for (std::size_t at = long_one ? 3 : 1; at < text.size(); ++at) {
+    if (quote == '"' && text[at] == '\\') {
+      ++at;
+    } else if (long_one && text.substr(at).starts_with(three)) {
+      // Up to two more quotation marks belong to the string.
+      const std::size_t end = std::min(text.find_first_not_of(quote, at), text.size());
+      return std::min(end, at + 5);
+    } else if (!long_one && (text[at] == quote || ends_line(text[at]))) {
+      return at + 1;
     }
   }
-  void advance(std::size_t bytes) {
-    for (; bytes > 0 && at_ < text_.size(); --bytes) advance();
-  }
-  /// Any character that some parser might take for the end of a line: nothing hides behind one.
-  static bool ends_line(char c) { return c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
-  bool follows(std::string_view word) const { return text_.substr(at_).starts_with(word); }
-
-  void pass_string(char quote) {
-    const std::string three(3, quote);
-    const bool long_one = follows(three);
-    advance(long_one ? 3 : 1);
-    while (at_ < text_.size()) {
-      if (quote == '"' && text_[at_] == '\\') {
-        advance(2);
-      } else if (long_one && follows(three)) {
-        // Up to two more quotation marks belong to the string.
-        advance(3);
-        for (int n = 0; n < 2 && at_ < text_.size() && text_[at_] == quote; ++n) advance();
-        return;
-      } else if (!long_one && (text_[at_] == quote || ends_line(text_[at_]))) {
-        advance();
-        return;
-      } else {
-        advance();
-      }
-    }
-  }
-
-  /// Brackets of table headers count as arrays do: they hold no values.
-  std::optional<Problem> count(char c) {
-    if (c == '.') {
-      if (++dots_ == deepest_nesting)
-        return Problem{
-            here_, fmt::format("a key has more than {} parts here: no scene is that deep", deepest_nesting)};
-      return std::nullopt;
-    }
-    if (c == '[' || c == '{') {
-      if (++depth_ > deepest_nesting)
-        return Problem{
-            here_,
-            fmt::format("more than {} arrays and tables are inside each other here: no scene is that deep",
-                        deepest_nesting)};
-    }
-    if ((c == ']' || c == '}') && depth_ > 0) --depth_;
-    if (c == '[' || c == ']' || c == '{' || c == '}' || c == ',' || c == '=' || c == '\n') dots_ = 0;
-    return std::nullopt;
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-  Position here_;
-  int dots_ = 0, depth_ = 0;
-};
+  return text.size();
+}
 
 }  // namespace
 
 std::optional<Problem> too_deep(std::string_view text, std::uint32_t source) {
-  return Scanner(text, source).scan();
+  const auto problem = [&](std::size_t at, std::string message) {
+    const std::string_view before = text.substr(0, at);
+    const auto line = std::ranges::count(before, '\n');
+    const std::size_t column = character_count(before.substr(before.rfind('\n') + 1));
+    return Problem{{source, static_cast<std::uint32_t>(line) + 1, static_cast<std::uint32_t>(column) + 1},
+                   std::move(message)};
+  };
+  int dots = 0, depth = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    if (c == '"' || c == '\'') {
+      at += string_size(text.substr(at));
+      continue;
+    }
+    if (c == '#') {
+      while (at < text.size() && !ends_line(text[at])) ++at;
+      continue;
+    }
+    if (c == '.' && ++dots == deepest_nesting)
+      return problem(
+          at, fmt::format("a key has more than {} parts here: no scene is that deep", deepest_nesting));
+    // Brackets of table headers count as arrays do: they hold no values.
+    if ((c == '[' || c == '{') && ++depth > deepest_nesting)
+      return problem(
+          at, fmt::format("more than {} arrays and tables are inside each other here: no scene is that deep",
+                          deepest_nesting));
+    if ((c == ']' || c == '}') && depth > 0) --depth;
+    if (std::string_view("[]{},=\n").find(c) != std::string_view::npos) dots = 0;
+    ++at;
+  }
+  return std::nullopt;
 }
 
 }  // namespace aspic::document

@@ -1,5 +1,3 @@
-#include "scene/overrides.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +5,10 @@
 #include <optional>
 #include <string_view>
 
+#include "base/printable.h"
 #include "model/bodies.h"
 #include "scene/parameters.h"
+#include "scene/reader.h"
 
 namespace aspic::overrides {
 namespace {
@@ -25,8 +25,7 @@ struct Segment {
 };
 
 std::uint32_t characters(std::string_view text) {
-  return static_cast<std::uint32_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+  return static_cast<std::uint32_t>(character_count(text));
 }
 
 bool is_bare_word(std::string_view text) {

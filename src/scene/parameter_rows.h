@@ -2,6 +2,7 @@
 // How rows of the parameter table are written: a field of the scene, its type and range, one sentence.
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -162,9 +163,18 @@ inline Parameter fixed(Parameter p) {
   return p;
 }
 
-inline Parameter of(Belonging belonging, Parameter p) {
-  p.belonging = belonging;
-  return p;
+using Rows = std::vector<Parameter>;
+
+inline Rows of(Belonging belonging, Rows rows) {
+  for (Parameter& p : rows) p.belonging = belonging;
+  return rows;
+}
+
+/// The rows of several groups, one after the other.
+inline Rows joined(std::initializer_list<Rows> groups) {
+  Rows all;
+  for (const Rows& group : groups) all.insert(all.end(), group.begin(), group.end());
+  return all;
 }
 
 inline Parameter absent(std::string_view meaning_of_absence, Parameter p) {
@@ -179,6 +189,7 @@ inline constexpr double longest = 1e6;    // s
 inline constexpr double stiffest = 1e12;  // N/m, Pa
 inline constexpr double heaviest = 1e9;   // kg, kg/m³
 inline constexpr Range positive_length = {0.0, far, true};
+inline constexpr Range positive_mass = {0.0, heaviest, true};
 inline constexpr Range fraction = {0.0, 1.0};
 inline constexpr Range friction = {0.0, 1e6};
 inline constexpr Range stiffness = {0.0, stiffest};
@@ -189,27 +200,15 @@ inline constexpr Range damping = {0.0, 1e9};
   [](auto& scene, [[maybe_unused]] std::size_t i) -> auto& { \
     return scene.expression;                                 \
   }
-#define MATERIAL(field)                                                          \
+// The same of a field in an optional table, which is made where the scene may change.
+#define FIELD_IN(table, field)                                                   \
   [](auto& scene, std::size_t i) -> auto& {                                      \
-    auto& chosen = scene.model.cubes[i].material;                                \
+    auto& chosen = scene.table;                                                  \
     if constexpr (!std::is_const_v<std::remove_reference_t<decltype(chosen)>>) { \
       if (!chosen) chosen.emplace();                                             \
     }                                                                            \
     return chosen->field;                                                        \
   }
-
-#define MOTION(field)                                                            \
-  [](auto& scene, std::size_t i) -> auto& {                                      \
-    auto& chosen = scene.model.terrain[i].motion;                                \
-    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(chosen)>>) { \
-      if (!chosen) chosen.emplace();                                             \
-    }                                                                            \
-    return chosen->field;                                                        \
-  }
-
-inline constexpr auto motion = Belonging::motion;
-inline constexpr auto springs = Belonging::explicit_springs;
-inline constexpr auto material = Belonging::material;
 
 }  // namespace aspic::rows
 

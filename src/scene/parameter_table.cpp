@@ -12,7 +12,7 @@ namespace {
 
 using namespace rows;
 
-std::vector<Parameter> root_rows() {
+Rows root_rows() {
   Parameter schema;
   schema.path = "schema";
   schema.type = ParameterType::integer;
@@ -30,7 +30,7 @@ std::vector<Parameter> root_rows() {
   };
 }
 
-std::vector<Parameter> simulation_rows() {
+Rows simulation_rows() {
   return {
       word<all_integrators>("simulation.integrator", FIELD(model.simulation.integrator),
                             "Time integration method."),
@@ -54,7 +54,7 @@ std::vector<Parameter> simulation_rows() {
   };
 }
 
-std::vector<Parameter> contact_rows() {
+Rows contact_rows() {
   return {
       word<contact_models>(
           "contact.model", FIELD(model.contact.model),
@@ -110,10 +110,9 @@ Parameter geometry_row(const GeometryKey& key) {
   return p;
 }
 
-std::vector<Parameter> terrain_rows() {
-  std::vector<Parameter> rows = {
-      word<terrain_shapes>("terrain[].shape", FIELD(model.terrain[i].shape),
-                           "Shape of the resting surface; a bowl is the inside of a sphere.")};
+Rows terrain_rows() {
+  Rows rows = {word<terrain_shapes>("terrain[].shape", FIELD(model.terrain[i].shape),
+                                    "Shape of the resting surface; a bowl is the inside of a sphere.")};
   for (const TerrainShapeRow& shape : terrain_shapes) {
     for (const GeometryKey& key : shape.keys) {
       Parameter geometry = geometry_row(key);
@@ -121,27 +120,28 @@ std::vector<Parameter> terrain_rows() {
         rows.push_back(std::move(geometry));
     }
   }
-  const Parameter others[] = {
+  const Rows others = {
       absent("infinite",
-             row("terrain[].mass", "kg", {0.0, heaviest, true}, FIELD(model.terrain[i].mass),
+             row("terrain[].mass", "kg", positive_mass, FIELD(model.terrain[i].mass),
                  "Mass M in the bounce speed (m − e·M)/(m + M)·u; a bounce never moves the terrain.")),
       absent("that of [contact]", row("terrain[].restitution", "", fraction,
                                       FIELD(model.terrain[i].restitution), "Restitution of this terrain.")),
       absent("that of [contact]", row("terrain[].friction", "", friction, FIELD(model.terrain[i].friction),
                                       "Friction coefficient of this terrain.")),
-      of(motion,
-         direction(row("terrain[].motion.direction", MOTION(direction),
-                       "Direction along which the terrain moves to and fro; its length does not matter."))),
-      of(motion, row("terrain[].motion.amplitude", "m", {0.0, far}, MOTION(amplitude),
-                     "Largest displacement A; the terrain is displaced by A·sin 2π(f·t + φ).")),
-      of(motion, row("terrain[].motion.frequency", "Hz", {0.0, 1e4}, MOTION(frequency), "Frequency f.")),
-      of(motion, row("terrain[].motion.phase", "turns", within(1e6), MOTION(phase), "Phase φ.")),
   };
-  rows.insert(rows.end(), std::begin(others), std::end(others));
-  return rows;
+#define MOTION(field) FIELD_IN(model.terrain[i].motion, field)
+  const Rows motion =
+      of(Belonging::motion,
+         {direction(row("terrain[].motion.direction", MOTION(direction),
+                        "Direction along which the terrain moves to and fro; its length does not matter.")),
+          row("terrain[].motion.amplitude", "m", {0.0, far}, MOTION(amplitude),
+              "Largest displacement A; the terrain is displaced by A·sin 2π(f·t + φ)."),
+          row("terrain[].motion.frequency", "Hz", {0.0, 1e4}, MOTION(frequency), "Frequency f."),
+          row("terrain[].motion.phase", "turns", within(1e6), MOTION(phase), "Phase φ.")});
+  return joined({rows, others, motion});
 }
 
-std::vector<Parameter> view_rows() {
+Rows view_rows() {
   Parameter draw = row("view.draw", FIELD(view.draw),
                        "Parts of the bodies that are drawn: surface, particles, springs by type.");
   draw.words = {"solid", "particles", "structural", "shear", "bending"};
@@ -162,14 +162,8 @@ std::string_view name_of(ViewColour colour) {
 }
 
 std::span<const Parameter> parameters() {
-  static const std::vector<Parameter> table = [] {
-    std::vector<Parameter> all;
-    for (auto rows :
-         {root_rows(), simulation_rows(), contact_rows(), terrain_rows(), body_parameters(), view_rows()}) {
-      all.insert(all.end(), rows.begin(), rows.end());
-    }
-    return all;
-  }();
+  static const Rows table = joined(
+      {root_rows(), simulation_rows(), contact_rows(), terrain_rows(), body_parameters(), view_rows()});
   return table;
 }
 

@@ -31,59 +31,36 @@ WrongType wrong_type(const Parameter& p, const toml::node& culprit) {
           fmt::format("'{}' must be {}, not {}", key_text(p), allowed_text(p), document::kind_text(culprit))};
 }
 
-Converted converted_words(const Parameter& p, const toml::array& array) {
-  std::vector<std::string> words;
-  for (const toml::node& element : array) {
-    if (!element.is_string()) return wrong_type(p, element);
-    words.push_back(element.as_string()->get());
-  }
-  return Value(words);
+/// An array whose elements `take` takes into `result`, or refuses with false.
+template <class T, class Take>
+Converted gathered(const Parameter& p, const toml::array& array, T result, const Take& take) {
+  for (const toml::node& element : array)
+    if (!take(result, element)) return wrong_type(p, element);
+  return Value(std::move(result));
 }
 
-Converted converted_vector(const Parameter& p, const toml::array& array) {
-  Vec3 v;
-  for (int axis = 0; axis < 3; ++axis) {
-    const toml::node& element = array[static_cast<std::size_t>(axis)];
-    const auto number = number_of(element);
-    if (!number) return wrong_type(p, element);
-    v[axis] = *number;
-  }
-  return Value(v);
+bool take_word(std::vector<std::string>& words, const toml::node& element) {
+  if (const auto* word = element.as_string()) return words.push_back(word->get()), true;
+  return false;
 }
 
-Converted converted_counts(const Parameter& p, const toml::array& array) {
-  std::vector<int> counts;
-  for (const toml::node& element : array) {
-    if (!element.is_integer()) return wrong_type(p, element);
-    // Far numbers are out of every range: the nearest int says so as well.
-    counts.push_back(
-        static_cast<int>(std::clamp<std::int64_t>(element.as_integer()->get(), -2147483647, 2147483647)));
-  }
-  return Value(counts);
+bool take_number(std::vector<double>& numbers, const toml::node& element) {
+  if (const auto number = number_of(element)) return numbers.push_back(*number), true;
+  return false;
 }
 
-Converted converted_numbers(const Parameter& p, const toml::array& array) {
-  std::vector<double> numbers;
-  for (const toml::node& element : array) {
-    const auto number = number_of(element);
-    if (!number) return wrong_type(p, element);
-    numbers.push_back(*number);
-  }
-  return Value(numbers);
+bool take_count(std::vector<int>& counts, const toml::node& element) {
+  const auto* count = element.as_integer();
+  // Far numbers are out of every range: the nearest int says so as well.
+  if (count)
+    counts.push_back(static_cast<int>(std::clamp<std::int64_t>(count->get(), -2147483647, 2147483647)));
+  return count != nullptr;
 }
 
-Converted converted_pinned(const Parameter& p, const toml::array& array) {
-  PinnedSettings pinned;
-  for (const toml::node& element : array) {
-    if (const auto* name = element.as_string()) {
-      pinned.names.push_back(name->get());
-    } else if (const auto* index = element.as_integer()) {
-      pinned.indices.push_back(index->get());
-    } else {
-      return wrong_type(p, element);
-    }
-  }
-  return Value(pinned);
+bool take_pinned(PinnedSettings& pinned, const toml::node& element) {
+  const auto* index = element.as_integer();
+  if (index) pinned.indices.push_back(index->get());
+  return index || take_word(pinned.names, element);
 }
 
 Converted converted(const Parameter& p, const toml::node& node) {
@@ -103,22 +80,25 @@ Converted converted(const Parameter& p, const toml::node& node) {
       if (const auto* x = node.as_string()) return Value(x->get());
       break;
     case ParameterType::words:
-      if (array) return converted_words(p, *array);
+      if (array) return gathered(p, *array, std::vector<std::string>(), take_word);
       break;
     case ParameterType::pinned:
-      if (array) return converted_pinned(p, *array);
+      if (array) return gathered(p, *array, PinnedSettings(), take_pinned);
       break;
     case ParameterType::vector:
     case ParameterType::counts:
-    case ParameterType::numbers:
+    case ParameterType::numbers: {
       if (!array) break;
       if (array->size() != p.components) {
         return WrongType{&node, fmt::format("'{}' must be {}, not {} of them", key_text(p), allowed_text(p),
                                             array->size())};
       }
-      return p.type == ParameterType::vector   ? converted_vector(p, *array)
-             : p.type == ParameterType::counts ? converted_counts(p, *array)
-                                               : converted_numbers(p, *array);
+      if (p.type == ParameterType::counts) return gathered(p, *array, std::vector<int>(), take_count);
+      Converted numbers = gathered(p, *array, std::vector<double>(), take_number);
+      if (p.type == ParameterType::numbers || !std::holds_alternative<Value>(numbers)) return numbers;
+      const auto& xyz = std::get<std::vector<double>>(std::get<Value>(numbers));
+      return Value(Vec3{xyz[0], xyz[1], xyz[2]});
+    }
   }
   return wrong_type(p, node);
 }

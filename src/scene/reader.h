@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -68,3 +69,15 @@ class Reader {
 };
 
 }  // namespace aspic::reader
+
+namespace aspic::overrides {
+
+/// Reads each KEY=VALUE argument of --set into the reader's scene, in order, and adds one source for each.
+///
+/// A `material` key takes the place of the scene's masses and springs; masses and springs take the place of
+/// the scene's material only if all seven are given. A new terrain shape takes the place of geometry keys it
+/// does not have.
+void apply(std::span<const std::string> arguments, reader::Reader& reader,
+           std::vector<diagnostics::Source>& sources);
+
+}  // namespace aspic::overrides

@@ -1,11 +1,53 @@
 #pragma once
-// A scene: what one TOML file says.
+// A scene: what one TOML file says of physics and picture, as plain data.
 #include <string>
+#include <string_view>
 
 #include "model/settings.h"
-#include "scene/view_settings.h"
 
 namespace aspic {
+
+/// A perspective camera. Position and target never coincide in a scene that was accepted.
+struct CameraSettings {
+  Vec3 position = {10.0, 6.0, 14.0};  ///< of the eye [m]
+  Vec3 target = {0.0, 2.0, 0.0};      ///< point in the middle of the picture [m]
+  double fov = 45.0;                  ///< vertical field of view [degrees], 1…179
+
+  friend bool operator==(const CameraSettings&, const CameraSettings&) = default;
+};
+
+/// Which parts of the bodies are drawn; `draw = ["solid"]` in a file. All false draws the terrain alone.
+struct DrawSettings {
+  bool solid = true;        ///< the bodies' surfaces
+  bool particles = false;   ///< every particle as a point
+  bool structural = false;  ///< springs, by type
+  bool shear = false;
+  bool bending = false;
+
+  friend bool operator==(const DrawSettings&, const DrawSettings&) = default;
+};
+
+/// What the colours of bodies mean.
+enum class ViewColour { material, type, strain, force, speed };
+
+/// Every one, in the order in which they are listed for users.
+inline constexpr Named<ViewColour> view_colours[] = {{ViewColour::material, "material"},
+                                                     {ViewColour::type, "type"},
+                                                     {ViewColour::strain, "strain"},
+                                                     {ViewColour::force, "force"},
+                                                     {ViewColour::speed, "speed"}};
+
+/// The `view` table of a scene.
+struct ViewSettings {
+  CameraSettings camera;
+  DrawSettings draw;
+  ViewColour colour = ViewColour::material;
+
+  friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
+};
+
+/// Name in scene files.
+std::string_view name_of(ViewColour colour);
 
 /// Physics and picture of one scene. Default-constructed it has no terrain and no bodies, as an empty file
 /// would.

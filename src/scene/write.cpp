@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 #include <vector>
 
 #include "base/printable.h"
@@ -43,18 +44,16 @@ struct Writer {
   }
   std::string operator()(const std::vector<int>& x) const { return fmt::format("[{}]", fmt::join(x, ", ")); }
   std::string operator()(const std::vector<double>& x) const {
-    std::string text;
-    for (const double number : x) text += (text.empty() ? "" : ", ") + number_text(number);
-    return "[" + text + "]";
+    return fmt::format("[{}]", fmt::join(x | std::views::transform(number_text), ", "));
   }
-  std::string operator()(const std::vector<std::string>& x) const { return list(x, {}); }
-  std::string operator()(const PinnedSettings& x) const { return list(x.names, x.indices); }
-
-  static std::string list(const std::vector<std::string>& words, const std::vector<std::int64_t>& numbers) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + string_text(word);
-    for (const std::int64_t number : numbers) text += fmt::format("{}{}", text.empty() ? "" : ", ", number);
-    return "[" + text + "]";
+  std::string operator()(const std::vector<std::string>& x) const {
+    return fmt::format("[{}]", fmt::join(x | std::views::transform(string_text), ", "));
+  }
+  std::string operator()(const PinnedSettings& x) const {
+    std::vector<std::string> all;
+    for (const std::string& name : x.names) all.push_back(string_text(name));
+    for (const std::int64_t index : x.indices) all.push_back(fmt::format("{}", index));
+    return fmt::format("[{}]", fmt::join(all, ", "));
   }
 };
 

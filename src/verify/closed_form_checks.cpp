@@ -65,13 +65,12 @@ Result<Finding> follows_matrix(const Subject& subject, Integrator integrator, do
 void add_closed_form_checks(std::vector<Check>& checks) {
   constexpr std::array<std::pair<const char*, double>, 2> kinds = {{{"undamped", 0.0}, {"damped", 0.5}}};
   for (const auto& [kind, damping] : kinds) {
-    for (const Integrator integrator : all_integrators) {
-      checks.push_back(
-          {fmt::format("closed-form/{}/{}", kind, name_of(integrator)),
-           fmt::format("one {} spring follows powers of the amplification matrix for 10,000 steps", kind),
-           at_most_text(bound, "m"), true, false,
-           [=, c = damping](const Subject& subject) { return follows_matrix(subject, integrator, c); }});
-    }
+    add_for_each_integrator(
+        checks, fmt::format("closed-form/{}", kind),
+        fmt::format("one {} spring follows powers of the amplification matrix for 10,000 steps", kind),
+        at_most_text(bound, "m"), true, [c = damping](const Subject& subject, Integrator integrator) {
+          return follows_matrix(subject, integrator, c);
+        });
   }
 }
 

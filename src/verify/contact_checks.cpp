@@ -194,22 +194,14 @@ void add_contact_checks(std::vector<Check>& checks) {
       {"contact/elevator",
        "a particle's distance from a plane that rises and falls, 8 s, over h²a; every integrator",
        at_most_text(2.0), true, false, elevator});
-  for (const Integrator integrator : all_integrators) {
-    checks.push_back({fmt::format("contact/viscous/{}", name_of(integrator)),
-                      "course friction slows a slide by R(−hμg) a step, 1,000 steps",
-                      at_most_text(4000 * epsilon_double), true, false,
-                      [=](const Subject& s) { return viscous(s, integrator); }});
-  }
-  for (const Integrator integrator : all_integrators) {
-    checks.push_back({fmt::format("contact/stick/{}", name_of(integrator)),
-                      "Coulomb: tan θ = 0.99 μ holds a particle for 3 s", at_most_text(1e-12, "m"), true,
-                      false, [=](const Subject& s) { return sticks(s, integrator); }});
-  }
-  for (const Integrator integrator : all_integrators) {
-    checks.push_back({fmt::format("contact/slide/{}", name_of(integrator)),
-                      "Coulomb: tan θ = 1.01 μ slides with g(sin θ − μ cos θ) for 3 s", at_most_text(1e-3),
-                      true, false, [=](const Subject& s) { return slides(s, integrator); }});
-  }
+  add_for_each_integrator(checks, "contact/viscous",
+                          "course friction slows a slide by R(−hμg) a step, 1,000 steps",
+                          at_most_text(4000 * epsilon_double), true, viscous);
+  add_for_each_integrator(checks, "contact/stick", "Coulomb: tan θ = 0.99 μ holds a particle for 3 s",
+                          at_most_text(1e-12, "m"), true, sticks);
+  add_for_each_integrator(checks, "contact/slide",
+                          "Coulomb: tan θ = 1.01 μ slides with g(sin θ − μ cos θ) for 3 s",
+                          at_most_text(1e-3), true, slides);
 }
 
 }  // namespace aspic::verify

@@ -159,13 +159,11 @@ void add_coulomb_checks(std::vector<Check>& checks) {
                       at_most_text(0.5 * g * usual_step(integrator) * usual_step(integrator), "m = ½gh²"),
                       true, false, [=](const Subject& subject) { return restitution(subject, integrator); }});
   }
-  for (const Integrator integrator : all_integrators) {
-    checks.push_back({fmt::format("contact/cone/{}", name_of(integrator)),
-                      "5³ cube on 15° and 25°, μ = 0.2: acceleration over g(sin θ − μ cos θ), less 1; μ = "
-                      "0.3 on 15° holds: creep from 10 to 12 s",
-                      "≤ 1e-05, 1e-06 m/s", false, false,
-                      [=](const Subject& subject) { return cone(subject, integrator); }});
-  }
+  add_for_each_integrator(
+      checks, "contact/cone",
+      "5³ cube on 15° and 25°, μ = 0.2: acceleration over g(sin θ − μ cos θ), less 1; μ = "
+      "0.3 on 15° holds: creep from 10 to 12 s",
+      "≤ 1e-05, 1e-06 m/s", false, cone);
   checks.push_back({"contact/pull",
                     "a hand with 1.01 of its weight lifts a particle off the ground as off nothing, with "
                     "0.99 not at all; every integrator",

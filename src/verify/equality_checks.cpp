@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "analysis/compare.h"
 #include "io/child_process.h"
 #include "model/terrain.h"
 #include "scene/load.h"
@@ -17,59 +16,18 @@ namespace {
 
 constexpr std::uint64_t explicit_steps = 2000, implicit_steps = 60, repeat_steps = 500;
 
-struct Worst {
-  std::uint64_t ulp = 0;
-  double absolute = 0.0;
-  int runs = 0;
-  std::string arithmetic;  ///< the canary's sentences
-  bool arithmetic_exact = true;
-};
-
-/// A solver of any backend but the reference.
-Result<std::unique_ptr<Solver>> make_solver(const Subject& subject, const BackendRow& row, const Model& model,
-                                            ForcePath path) {
-  if (!row.needs_context) return subject.other(model, {&row});
-  GpuOptions options;
-  options.force_path = path;
-  ASPIC_TRY(auto solver, subject.gpu(model, options));
-  return std::unique_ptr<Solver>(std::move(solver));
-}
-
 /// The force paths of a backend that have bits of their own to show with an integrator.
-std::vector<ForcePath> paths_of(const BackendRow& row, Integrator integrator) {
-  if (row.force_paths().empty()) return {ForcePath::automatic};
-  std::vector<ForcePath> paths;
+std::vector<GpuOptions> paths_of(const BackendRow& row, Integrator integrator) {
+  std::vector<GpuOptions> paths;
   for (const ForcePathRow& path : row.force_paths())
-    if (works_with(path.path, integrator)) paths.push_back(path.path);
+    if (works_with(path.path, integrator)) paths.emplace_back().force_path = path.path;
+  if (paths.empty()) paths.emplace_back();
   return paths;
-}
-
-/// What the canary found on the device of a solver; null: the solver runs on none.
-const gl::Arithmetic* arithmetic_of(const Solver& solver) {
-  const auto* const gpu = dynamic_cast<const GpuSolver*>(&solver);
-  return gpu ? &gpu->arithmetic() : nullptr;
-}
-
-Status compare_run(const Subject& subject, const BackendRow& row, const Model& model, ForcePath path,
-                   std::uint64_t steps, const State& expected, Worst& worst) {
-  ASPIC_TRY(auto solver, make_solver(subject, row, model, path));
-  ASPIC_TRY(const auto end, run(*solver, steps));
-  ASPIC_TRY(const auto difference, compare_states(end, expected));
-  worst.ulp = std::max(worst.ulp, difference.largest_ulp());
-  worst.absolute = std::max(worst.absolute, difference.largest_absolute());
-  ++worst.runs;
-  worst.arithmetic.clear();
-  if (const gl::Arithmetic* const arithmetic = arithmetic_of(*solver)) {
-    worst.arithmetic_exact = arithmetic->exact();
-    for (const std::string& sentence : arithmetic->sentences()) worst.arithmetic += " " + sentence;
-  }
-  return {};
 }
 
 Result<Finding> same_bits(const Subject& subject, const BackendRow& row, Integrator integrator) {
   const bool solved = row_of(integrator).solved();
-  const std::uint64_t steps = solved ? implicit_steps : explicit_steps;
-  Worst worst;
+  BitComparison comparison(subject, row);
   // The last round is on ground that moves.
   for (std::size_t round = 0; round <= std::size(terrain_shapes); ++round) {
     const bool moves = round == std::size(terrain_shapes);
@@ -77,19 +35,14 @@ Result<Finding> same_bits(const Subject& subject, const BackendRow& row, Integra
       const TerrainShape shape = terrain_shapes[moves ? 0 : round].value;
       ModelSettings settings = cube_on_terrain(solved ? 4 : 5, shape, integrator, contact);
       if (moves) settings.terrain[0].motion = TerrainMotion{{0.3, 1.0, 0.2}, 0.2, 1.1, 0.2};
-      if (solved) settings.simulation.timestep = 0.01;
       ASPIC_TRY(auto model, build_model(settings));
-      ASPIC_TRY(auto expected, run_reference(subject, model, Precision::single, steps));
-      for (const ForcePath path : paths_of(row, integrator)) {
-        ASPIC_CHECK(compare_run(subject, row, model, path, steps, expected, worst));
-      }
+      const auto steps = [&](Solver& solver) {
+        return run(solver, solved ? implicit_steps : explicit_steps);
+      };
+      ASPIC_CHECK(comparison.add(model, steps, paths_of(row, integrator)));
     }
   }
-  const std::string text = fmt::format("{} ULP in {} runs", worst.ulp, worst.runs);
-  if (worst.ulp == 0) return Finding{true, text};
-  // Hardware that the canary found to compute otherwise is excused by that finding, and by nothing else.
-  return Finding{!subject.software_device && !worst.arithmetic_exact,
-                 fmt::format("{}, {:.3g} in metres and m/s.{}", text, worst.absolute, worst.arithmetic)};
+  return comparison.finding();
 }
 
 /// A hand that takes a corner, moves, changes to a particle inside and lets go, each for a quarter of the
@@ -107,30 +60,16 @@ Result<State> run_with_hand(Solver& solver, std::uint64_t steps) {
 }
 
 Result<Finding> same_bits_with_hand(const Subject& subject, const BackendRow& row) {
-  std::uint64_t worst = 0;
-  int runs = 0;
-  bool exact = true;
+  BitComparison comparison(subject, row);
   for (const Integrator integrator : all_integrators) {
-    const bool solved = row_of(integrator).solved();
+    const std::uint64_t steps = row_of(integrator).solved() ? implicit_steps : repeat_steps;
     for (const ContactModel contact : both_contact_models) {
-      ModelSettings settings = cube_on_terrain(4, TerrainShape::plane, integrator, contact);
-      if (solved) settings.simulation.timestep = 0.01;
-      const std::uint64_t steps = solved ? implicit_steps : repeat_steps;
-      ASPIC_TRY(auto model, build_model(settings));
-      ASPIC_TRY(auto reference, subject.reference(model, Precision::single));
-      ASPIC_TRY(auto expected, run_with_hand(*reference, steps));
-      for (const ForcePath path : paths_of(row, integrator)) {
-        ASPIC_TRY(auto solver, make_solver(subject, row, model, path));
-        ASPIC_TRY(auto end, run_with_hand(*solver, steps));
-        ASPIC_TRY(auto difference, compare_states(end, expected));
-        worst = std::max(worst, difference.largest_ulp());
-        if (const gl::Arithmetic* const a = arithmetic_of(*solver)) exact = exact && a->exact();
-        ++runs;
-      }
+      ASPIC_TRY(auto model, build_model(cube_on_terrain(4, TerrainShape::plane, integrator, contact)));
+      const auto pulled = [&](Solver& solver) { return run_with_hand(solver, steps); };
+      ASPIC_CHECK(comparison.add(model, pulled, paths_of(row, integrator)));
     }
   }
-  return Finding{worst == 0 || (!subject.software_device && !exact),
-                 fmt::format("{} ULP in {} runs", worst, runs)};
+  return comparison.finding();
 }
 
 /// Two particles, one spring: after one step of explicit Euler from known velocities the force is (v' −
@@ -138,11 +77,8 @@ Result<Finding> same_bits_with_hand(const Subject& subject, const BackendRow& ro
 Result<Finding> spring_force(const Subject& subject) {
   Noise noise(77);
   constexpr int pairs = 1000;
-  Model model;
-  model.simulation.gravity = {0, 0, 0};
-  model.simulation.timestep = 0x1p-20;
-  model.spring_classes.push_back({SpringType::structural, 2000.0, 60.0, 0.5, false});
   std::vector<Vec3> x, v;
+  std::vector<Spring> springs;
   for (int i = 0; i < pairs; ++i) {
     // Close to the origin, so that positions lose nothing; only one end moves.
     const Vec3 e = noise.vector();
@@ -150,17 +86,16 @@ Result<Finding> spring_force(const Subject& subject) {
     x.push_back(Vec3{});
     v.push_back(4.0 * noise.vector());
     v.push_back(Vec3{});
-    model.listed_springs.push_back(
-        {static_cast<std::uint32_t>(2 * i), static_cast<std::uint32_t>(2 * i + 1), 0});
+    springs.push_back({static_cast<std::uint32_t>(2 * i), static_cast<std::uint32_t>(2 * i + 1), 0});
   }
-  model.initial_position = x;
-  model.initial_velocity = v;
-  model.mass.assign(x.size(), 1.0);
-  model.inverse_mass.assign(x.size(), 1.0);
+  Model model = loose_particles(x, v);
+  model.simulation.gravity = {0, 0, 0};
+  model.simulation.timestep = 0x1p-20;
+  model.spring_classes.push_back({SpringType::structural, 2000.0, 60.0, 0.5, false});
+  model.listed_springs = springs;
   const State start = initial_state(model, Precision::single);
   const auto f = force(model, motion_of<double>(start));
-  GpuOptions options;
-  ASPIC_TRY(auto solver, subject.gpu(model, options));
+  ASPIC_TRY(auto solver, subject.gpu(model, {}));
   ASPIC_TRY(const auto end, run(*solver, 1, &start));
   double worst = 0.0;
   for (int i = 0; i < pairs; ++i) {
@@ -177,9 +112,7 @@ Result<Finding> spring_force(const Subject& subject) {
 }
 
 Result<Model> repeat_model(Integrator integrator) {
-  ModelSettings settings = cube_on_terrain(5, TerrainShape::plane, integrator, ContactModel::coulomb);
-  if (row_of(integrator).solved()) settings.simulation.timestep = 0.01;
-  return build_model(settings);
+  return build_model(cube_on_terrain(5, TerrainShape::plane, integrator, ContactModel::coulomb));
 }
 
 Finding one_hash(const std::set<std::string>& hashes, std::size_t runs, const std::string& expected) {
@@ -247,14 +180,14 @@ void add_equality_checks(std::vector<Check>& checks) {
   for (const BackendRow& row : backends().first(backends().size() - 1)) {
     const char* const bound = row.needs_context ? "0 ULP, or the canary's finding on hardware" : "0 ULP";
     for (const Integrator integrator : all_integrators) {
-      const std::vector<ForcePath> paths = paths_of(row, integrator);
+      const std::vector<GpuOptions> paths = paths_of(row, integrator);
       checks.push_back(
           {fmt::format("equality/{}/{}", name_of(integrator), row.name),
            fmt::format("{} and reference after {} steps through contact: {} terrains, 2 contact models{}",
                        row.name, row_of(integrator).solved() ? implicit_steps : explicit_steps,
                        std::size(terrain_shapes) + 1,
                        row.force_paths().empty() ? ""
-                       : paths.size() == 1       ? fmt::format(", {}", name_of(paths.front()))
+                       : paths.size() == 1       ? fmt::format(", {}", name_of(paths.front().force_path))
                                                  : fmt::format(", {} force paths", paths.size())),
            bound, integrator == Integrator::explicit_euler, row.needs_context,
            [&row, integrator](const Subject& subject) { return same_bits(subject, row, integrator); }});

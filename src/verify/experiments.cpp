@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/compare.h"
 #include "model/terrain.h"
 
 namespace aspic::verify {
@@ -27,6 +28,7 @@ ModelSettings cube_on_terrain(int particles_per_edge, TerrainShape shape, Integr
   settings.cubes[0].velocity = {1.0, -1.0, 0.5};
   settings.simulation.integrator = integrator;
   settings.contact.model = contact;
+  if (row_of(integrator).solved()) settings.simulation.timestep = 0.01;
   settings.terrain.push_back({.shape = shape});
   return settings;
 }
@@ -90,6 +92,36 @@ Result<State> run_reference(const Subject& subject, const Model& model, Precisio
                             std::uint64_t steps, const State* start) {
   ASPIC_TRY(auto solver, subject.reference(model, precision));
   return run(*solver, steps, start);
+}
+
+Status BitComparison::add(const Model& model, const std::function<Result<State>(Solver&)>& run,
+                          std::span<const GpuOptions> variants) {
+  ASPIC_TRY(auto reference, subject_.reference(model, Precision::single));
+  ASPIC_TRY(const auto expected, run(*reference));
+  for (const GpuOptions& options : row_.needs_context ? variants : variants.first(1)) {
+    std::unique_ptr<Solver> solver;
+    if (row_.needs_context) {
+      ASPIC_TRY(auto gpu, subject_.gpu(model, options));
+      exact_ = exact_ && gpu->arithmetic().exact();
+      arithmetic_ = fmt::format("{}", fmt::join(gpu->arithmetic().sentences(), " "));
+      solver = std::move(gpu);
+    } else {
+      ASPIC_TRY(solver, subject_.other(model, {&row_}));
+    }
+    ASPIC_TRY(const auto end, run(*solver));
+    ASPIC_TRY(const auto difference, compare_states(end, expected));
+    ulp_ = std::max(ulp_, difference.largest_ulp());
+    absolute_ = std::max(absolute_, difference.largest_absolute());
+    ++runs_;
+  }
+  return {};
+}
+
+Finding BitComparison::finding() const {
+  const std::string text = fmt::format("{} ULP in {} runs", ulp_, runs_);
+  if (same()) return {true, text};
+  return {!subject_.software_device && !exact_,
+          fmt::format("{}, {:.3g} in metres and m/s. {}", text, absolute_, arithmetic_)};
 }
 
 }  // namespace aspic::verify

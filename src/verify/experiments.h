@@ -2,6 +2,8 @@
 // Models and runs that several checks share.
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <span>
 
 #include "base/split_mix.h"
 #include "model/integrator.h"
@@ -12,12 +14,12 @@ namespace aspic::verify {
 inline constexpr std::array both_contact_models = {ContactModel::coulomb, ContactModel::course};
 
 inline constexpr double epsilon_double = 2.220446049250313e-16;
-inline constexpr double epsilon_single = 1.1920929e-7;
 
 /// Settings of one cube of edge 4 m with the default springs, its centre at `centre`; no terrain.
 ModelSettings cube_settings(int particles_per_edge, const Vec3& centre = {0.0, 9.0, 0.0});
 
-/// A tilted cube that reaches the terrain of this shape within the first tenth of 2,000 steps.
+/// A tilted cube that reaches the terrain of this shape within the first tenth of 2,000 steps, or of 60 steps
+/// of 0.01 s where the method is solved.
 ModelSettings cube_on_terrain(int particles_per_edge, TerrainShape shape, Integrator integrator,
                               ContactModel contact);
 
@@ -61,6 +63,40 @@ Result<State> run(Solver& solver, std::uint64_t steps, const State* start = null
 /// The same on a new reference solver.
 Result<State> run_reference(const Subject& subject, const Model& model, Precision precision,
                             std::uint64_t steps, const State* start = nullptr);
+
+/// Runs of a backend beside the same runs of the reference in single precision.
+class BitComparison {
+ public:
+  BitComparison(const Subject& subject, const BackendRow& row) : subject_(subject), row_(row) {}
+
+  /// One more run, on a backend of a device once with each of `variants`. Errors: the solvers' and the run's.
+  Status add(const Model& model, const std::function<Result<State>(Solver&)>& run,
+             std::span<const GpuOptions> variants);
+
+  bool same() const { return ulp_ == 0; }
+  /// Largest difference and number of runs. Hardware that the canary found to compute otherwise is excused by
+  /// that finding, and by nothing else.
+  Finding finding() const;
+
+ private:
+  const Subject& subject_;
+  const BackendRow& row_;
+  std::uint64_t ulp_ = 0;
+  double absolute_ = 0.0;
+  int runs_ = 0;
+  bool exact_ = true;
+  std::string arithmetic_;  // the canary's sentences
+};
+
+/// Adds a check NAME/INTEGRATOR for each integrator; `run` takes the subject and the integrator.
+template <class Run>
+void add_for_each_integrator(std::vector<Check>& checks, const std::string& name, const std::string& claim,
+                             const std::string& bound, bool quick, Run run) {
+  for (const Integrator integrator : all_integrators) {
+    checks.push_back({name + "/" + std::string(name_of(integrator)), claim, bound, quick, false,
+                      [=](const Subject& subject) { return run(subject, integrator); }});
+  }
+}
 
 /// Error (check_failed) unless `advanced` is success without divergence.
 Status require_good(const Result<std::optional<Divergence>>& advanced);

@@ -197,12 +197,10 @@ void add_rest_checks(std::vector<Check>& checks) {
                       integrator == Integrator::symplectic_euler, false,
                       [=](const Subject& subject) { return comes_to_rest(subject, integrator); }});
   }
-  for (const Integrator integrator : all_integrators) {
-    checks.push_back({fmt::format("rest/turned/{}", name_of(integrator)),
-                      "the cube turned by 30° and dropped, 12 s later, double precision: fastest particle",
-                      at_most_text(bound_single, "m/s"), false, false,
-                      [=](const Subject& subject) { return rocks_to_rest(subject, integrator); }});
-  }
+  add_for_each_integrator(
+      checks, "rest/turned",
+      "the cube turned by 30° and dropped, 12 s later, double precision: fastest particle",
+      at_most_text(bound_single, "m/s"), false, rocks_to_rest);
   checks.push_back(
       {"rest/bottom",
        "bottom layer of a 5³ cube at rest: distance from the ground; every integrator, both precisions",
@@ -211,12 +209,11 @@ void add_rest_checks(std::vector<Check>& checks) {
        {std::tuple{"groove", "a turned 4³ cube, dropped into a groove, 30 s later: fastest particle, depth",
                    &groove},
         std::tuple{"corner", "the same on a slippery slope down into the corner of two walls", &corner}}) {
-    for (const Integrator integrator : all_integrators) {
-      checks.push_back(
-          {fmt::format("rest/{}/{}", name, name_of(integrator)), claim,
-           fmt::format("≤ {:.0g} m/s, {:.0g} m", bound_double, bottom_bound), false, false,
-           [=, in = planes](const Subject& subject) { return rests_between(subject, integrator, *in); }});
-    }
+    add_for_each_integrator(checks, fmt::format("rest/{}", name), claim,
+                            fmt::format("≤ {:.0g} m/s, {:.0g} m", bound_double, bottom_bound), false,
+                            [in = planes](const Subject& subject, Integrator integrator) {
+                              return rests_between(subject, integrator, *in);
+                            });
   }
   for (const TerrainShapeRow& shape : terrain_shapes) {
     checks.push_back(

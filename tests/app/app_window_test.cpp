@@ -9,6 +9,7 @@
 #include "io/atomic_file.h"
 #include "render/camera.h"
 #include "scene/load.h"
+#include "support/projection.h"
 
 namespace aspic::test {
 namespace {
@@ -200,7 +201,7 @@ TEST_F(AppWindow, MouseOverAParticleTellsOfIt) {
                       static_cast<int>(view.bottom - view.top));
   // The corner nearest to the eye has nothing before it.
   const std::uint32_t corner = 999;
-  const auto seen = camera.project(simulation().snapshot().position[corner]);
+  const auto seen = test::project(camera, simulation().snapshot().position[corner]);
   ASSERT_TRUE(seen.has_value());
   app().cursor(view.left + seen->x, view.top + seen->y);
   frames(2);

@@ -6,6 +6,7 @@
 #include "app/stage.h"
 #include "io/film_format.h"
 #include "render/camera.h"
+#include "support/projection.h"
 
 namespace aspic::test {
 namespace {
@@ -26,7 +27,7 @@ class Gallery : public Stage {
     const app::Box& view = app().view.box;
     const Camera camera(app().view.camera.shown(), static_cast<int>(view.right - view.left),
                         static_cast<int>(view.bottom - view.top));
-    const auto seen = camera.project(point);
+    const auto seen = test::project(camera, point);
     ASSERT_TRUE(seen.has_value());
     app().cursor(view.left + seen->x, view.top + seen->y);
   }

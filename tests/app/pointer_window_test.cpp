@@ -6,6 +6,7 @@
 #include "app/stage.h"
 #include "model/terrain.h"
 #include "render/camera.h"
+#include "support/projection.h"
 
 namespace aspic::test {
 namespace {
@@ -19,15 +20,15 @@ class Pointer : public Stage {
             static_cast<int>(view.bottom - view.top)};
   }
   /// Where a point is seen in the window.
-  Projected place(const Vec3& point) {
-    auto seen = camera().project(point);
+  test::Projected place(const Vec3& point) {
+    auto seen = test::project(camera(), point);
     EXPECT_TRUE(seen.has_value());
     seen->x += app().view.box.left;
     seen->y += app().view.box.top;
     return *seen;
   }
   void point_at(const Vec3& point) {
-    const Projected p = place(point);
+    const test::Projected p = place(point);
     app().cursor(p.x, p.y);
     frames(3);
   }
@@ -120,7 +121,7 @@ TEST_F(Pointer, RingFollowsTheMouseWithoutANewPicture) {
   frames(60);
   const auto before = pixels();
   const Vec3 corner = simulation().snapshot().position[999];
-  const Projected p = place(corner);
+  const test::Projected p = place(corner);
   point_at(corner);
   const auto with = pixels();
   ASSERT_TRUE(app().pointer.hovered().has_value());
@@ -138,7 +139,7 @@ TEST_F(Pointer, RingFollowsTheMouseWithoutANewPicture) {
 TEST_F(Pointer, PullsAndPinsAreMarked) {
   open("cube-plane", {"simulation.gravity=[0,0,0]", "cube[0].position=[0,3,0]"}, "reference");
   const Vec3 corner = simulation().snapshot().position[999];
-  const Projected p = place(corner);
+  const test::Projected p = place(corner);
   point_at(corner);
   ASSERT_TRUE(app().pointer.hovered().has_value());
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
@@ -173,11 +174,11 @@ TEST_F(Pointer, DoubleClickCentresWhatIsThere) {
   const auto distance = [](const CameraSettings& c) { return length(c.position - c.target); };
   const CameraSettings home = app().view.camera.goal();
   const Vec3 corner = simulation().snapshot().position[999];
-  Projected p = place(corner);
+  test::Projected p = place(corner);
   double_click(p.x, p.y);
   EXPECT_NEAR(length(app().view.camera.shown().target - corner), 0.0, 1e-12);
   EXPECT_NEAR(distance(app().view.camera.shown()), distance(home), 1e-9) << "as far away as before";
-  const Projected now = place(corner);
+  const test::Projected now = place(corner);
   EXPECT_NEAR(now.x, middle_x(), 1.0);
   EXPECT_NEAR(now.y, middle_y(), 1.0);
 
@@ -207,7 +208,7 @@ TEST_F(Pointer, DoubleClickCentresWhatIsThere) {
 TEST_F(Pointer, OnlyTwoQuickPressesOnOnePlaceAreADoubleClick) {
   open("cube-plane", {"cube[0].position=[0,3,0]"});
   const CameraSettings home = app().view.camera.goal();
-  const Projected p = place(simulation().snapshot().position[999]);
+  const test::Projected p = place(simulation().snapshot().position[999]);
   double_click(p.x, p.y, 0.41);
   EXPECT_EQ(app().view.camera.goal(), home) << "too slow";
   double time = 1000.0;
@@ -236,7 +237,7 @@ TEST_F(Pointer, ShadowsCanBeSwitchedOff) {
   open("cube-plane", {"cube[0].position=[0,1.2,0]"});
   frames(60);
   const auto shadowed = pixels();
-  const Projected beside = place({3.0, -1.0, 0.5});
+  const test::Projected beside = place({3.0, -1.0, 0.5});
   const auto far_off = place({-5.0, -1.0, 5.0});
   click("view/shadows");
   EXPECT_FALSE(app().picture.shadows);

@@ -106,6 +106,7 @@ class Stage : public ::testing::Test {
   std::unique_ptr<TemporaryDirectory> temporary_;
   std::filesystem::path home_;
   std::unique_ptr<app::Window> window_;
+  std::vector<std::string> severe_;  // messages of the driver
   WidgetLog log_;
   std::unique_ptr<app::App> app_;
 };

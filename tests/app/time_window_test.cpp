@@ -5,6 +5,7 @@
 
 #include "app/stage.h"
 #include "cpu_reference/reference_solver.h"
+#include "support/projection.h"
 
 namespace aspic::test {
 namespace {
@@ -282,7 +283,7 @@ TEST_F(Time, CtrlDragPullsAndCtrlRightClickPins) {
   const Camera camera(app().view.camera.shown(), static_cast<int>(view.right - view.left),
                       static_cast<int>(view.bottom - view.top));
   const Vec3 corner = simulation().snapshot().position[999];
-  const auto seen = camera.project(corner);
+  const auto seen = test::project(camera, corner);
   ASSERT_TRUE(seen.has_value());
   const double x = view.left + seen->x, y = view.top + seen->y;
   app().cursor(x, y);
@@ -294,7 +295,7 @@ TEST_F(Time, CtrlDragPullsAndCtrlRightClickPins) {
   app().cursor(x + 80.0, y - 40.0);
   ASSERT_TRUE(simulation().hand().has_value());
   EXPECT_EQ(simulation().hand()->particle, 999u);
-  const auto anchor = camera.project(simulation().hand()->anchor);
+  const auto anchor = test::project(camera, simulation().hand()->anchor);
   ASSERT_TRUE(anchor.has_value());
   EXPECT_NEAR(anchor->x, seen->x + 80.0, 0.5) << "the anchor is under the mouse";
   EXPECT_NEAR(anchor->y, seen->y - 40.0, 0.5);

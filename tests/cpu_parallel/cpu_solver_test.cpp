@@ -45,16 +45,6 @@ void expect_equal(const Model& model, std::uint64_t steps, unsigned threads = 0)
   EXPECT_EQ(state_hash_text(*expected->state()), state_hash_text(*solver->state()));
 }
 
-/// A tilted cube that touches the plane within the first tenth of the run.
-ModelSettings low_cube(int n, Integrator integrator, ContactModel contact) {
-  ModelSettings settings = test::cube_on_plane(n, 1.9);
-  settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
-  settings.cubes[0].velocity = {1.0, -1.0, 0.5};
-  settings.simulation.integrator = integrator;
-  settings.contact.model = contact;
-  return settings;
-}
-
 /// Calls `test` with every instruction set of the machine.
 template <class Test>
 void with_every_instruction_set(const Test& test) {
@@ -88,7 +78,7 @@ TEST(CpuSolver, HasTheReferencesBitsOnTerrainThatMovesSideways) {
   for (const Integrator integrator : all_integrators) {
     for (const ContactModel contact : both_models) {
       SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
-      ModelSettings settings = low_cube(5, integrator, contact);
+      ModelSettings settings = test::low_cube(5, integrator, contact);
       settings.terrain[0].motion = TerrainMotion{{1.0, 0.0, 0.4}, 0.3, 1.1, 0.2};
       const std::uint64_t steps = row_of(integrator).solved() ? 60 : 400;
       expect_equal(test::build(settings), steps, 2);
@@ -103,7 +93,7 @@ TEST(CpuSolver, SeesTerrainThatComesFromFar) {
   for (const Integrator integrator : all_integrators) {
     for (const ContactModel contact : both_models) {
       SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
-      ModelSettings settings = low_cube(5, integrator, contact);
+      ModelSettings settings = test::low_cube(5, integrator, contact);
       settings.cubes[0].position.y = 50.0;
       settings.cubes[0].velocity.x = -1.0;
       settings.terrain.push_back(
@@ -123,7 +113,7 @@ TEST(CpuSolver, SeesTerrainThatComesFromFar) {
 TEST(CpuSolver, HasTheReferencesBitsWithAnyNumberOfThreads) {
   for (const Integrator integrator : all_integrators) {
     for (const ContactModel contact : both_models) {
-      const Model model = test::build(low_cube(9, integrator, contact));
+      const Model model = test::build(test::low_cube(9, integrator, contact));
       for (const unsigned threads : {1u, 2u, 5u}) {
         SCOPED_TRACE(fmt::format("{}, {}, {} threads", name_of(integrator), name_of(contact), threads));
         expect_equal(model, row_of(integrator).solved() ? 40 : 400, threads);
@@ -134,7 +124,7 @@ TEST(CpuSolver, HasTheReferencesBitsWithAnyNumberOfThreads) {
 
 /// A cube and a goal net of cords, several bodies with lists and lattices.
 ModelSettings cube_and_cords(Integrator integrator, ContactModel contact) {
-  ModelSettings settings = low_cube(7, integrator, contact);
+  ModelSettings settings = test::low_cube(7, integrator, contact);
   settings.goal_nets.emplace_back();
   settings.goal_nets[0].cord = true;
   settings.goal_nets[0].shear.stiffness = settings.goal_nets[0].bending.stiffness = 300.0;
@@ -152,9 +142,10 @@ TEST(CpuSolver, HasTheReferencesBitsWithEveryInstructionSet) {
 TEST(CpuSolver, HasTheReferencesBitsForEverySizeOfCube) {
   for (const int n : {2, 3, 4, 5, 6, 8, 16, 17, 33}) {
     SCOPED_TRACE(n);
-    expect_equal(test::build(low_cube(n, Integrator::symplectic_euler, ContactModel::coulomb)), 30);
+    expect_equal(test::build(test::low_cube(n, Integrator::symplectic_euler, ContactModel::coulomb)), 30);
     // The Jacobians of 33 per edge are not kept.
-    expect_equal(test::build(low_cube(n, Integrator::implicit_euler, ContactModel::coulomb)), n < 16 ? 8 : 2);
+    expect_equal(test::build(test::low_cube(n, Integrator::implicit_euler, ContactModel::coulomb)),
+                 n < 16 ? 8 : 2);
   }
 }
 
@@ -202,7 +193,7 @@ TEST(CpuSolver, PullsAsTheReferenceDoes) {
                                             {Integrator::implicit_euler, ContactModel::course},
                                             {Integrator::implicit_euler, ContactModel::coulomb}}) {
     SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
-    const Model model = test::build(low_cube(6, integrator, contact));
+    const Model model = test::build(test::low_cube(6, integrator, contact));
     const auto expected = reference(model), solver = cpu(model, 2);
     for (const std::uint32_t particle : {0u, 215u, 100u}) {
       const Pull pull = {particle, {0.3, 4.0, 0.1}, 800.0, 20.0};
@@ -217,7 +208,7 @@ TEST(CpuSolver, PullsAsTheReferenceDoes) {
 }
 
 TEST(CpuSolver, NamesTheSameDivergence) {
-  ModelSettings settings = low_cube(6, Integrator::explicit_euler, ContactModel::coulomb);
+  ModelSettings settings = test::low_cube(6, Integrator::explicit_euler, ContactModel::coulomb);
   settings.simulation.timestep = 0.02;
   const Model model = test::build(settings);
   const auto solver = cpu(model, 2);
@@ -232,7 +223,7 @@ TEST(CpuSolver, NamesTheSameDivergence) {
 }
 
 TEST(CpuSolver, NamesTheSameDivergenceOfASolve) {
-  ModelSettings settings = low_cube(4, Integrator::implicit_euler, ContactModel::coulomb);
+  ModelSettings settings = test::low_cube(4, Integrator::implicit_euler, ContactModel::coulomb);
   settings.cubes[0].velocity.x = 2000.0;
   expect_equal(test::build(settings), 3, 2);
   // Rounding alone makes forces that no acceleration in single precision can hold.
@@ -264,7 +255,7 @@ double distance(const State& a, const State& b) {
 
 /// A cube with a corner pinned, a net of cords and a ball, all near the ground.
 ModelSettings everything(Integrator integrator, ContactModel contact) {
-  ModelSettings settings = low_cube(6, integrator, contact);
+  ModelSettings settings = test::low_cube(6, integrator, contact);
   settings.cubes[0].pinned.names = {"left-top-front"};
   settings.goal_nets.emplace_back().cord = true;
   settings.goal_nets[0].position = {6.0, 1.4, 0.0};
@@ -338,13 +329,13 @@ TEST(FastArithmetic, LeavesSlackCordsSlack) {
 }
 
 TEST(FastArithmetic, IsSaidInTheDescription) {
-  const Model model = test::build(low_cube(3, Integrator::explicit_euler, ContactModel::coulomb));
+  const Model model = test::build(test::low_cube(3, Integrator::explicit_euler, ContactModel::coulomb));
   EXPECT_NE(cpu(model, 1, Arithmetic::fast)->description().find("fast arithmetic"), std::string::npos);
   EXPECT_EQ(cpu(model, 1)->description().find("fast"), std::string::npos);
 }
 
 TEST(CpuSolver, TakesOverAStateInMidRun) {
-  const Model model = test::build(low_cube(6, Integrator::runge_kutta_4, ContactModel::coulomb));
+  const Model model = test::build(test::low_cube(6, Integrator::runge_kutta_4, ContactModel::coulomb));
   const auto first = reference(model), second = cpu(model, 2), complete = reference(model);
   ASSERT_TRUE(first->advance(123).ok());
   ASSERT_TRUE(second->load(*first->state()).ok());

@@ -17,12 +17,12 @@ class BufferGl : public testing::GlTest {};
 TEST_F(BufferGl, GivesBackWhatItWasGiven) {
   std::vector<std::uint32_t> numbers(100);
   std::iota(numbers.begin(), numbers.end(), 7u);
-  auto buffer = Buffer::of<std::uint32_t>(context(), "numbers", numbers);
+  auto buffer = Buffer::of(context(), "numbers", numbers);
   ASSERT_TRUE(buffer.ok()) << buffer.error().message;
   EXPECT_EQ(buffer->bytes(), 400u);
   EXPECT_EQ(buffer->download_items<std::uint32_t>(100), numbers);
   const std::uint32_t pair[] = {1, 2};
-  buffer->upload_items<std::uint32_t>(pair, 98);
+  buffer->upload_items(pair, 98);
   numbers[98] = 1, numbers[99] = 2;
   EXPECT_EQ(buffer->download_items<std::uint32_t>(3, 97),
             std::vector<std::uint32_t>(numbers.begin() + 97, numbers.end()));

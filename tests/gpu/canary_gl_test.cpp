@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "gpu/canary.h"
-#include "gpu/canary_operands.h"
 #include "gpu/pass.h"
 #include "support/gl_fixture.h"
 
@@ -125,7 +124,7 @@ TEST_F(CanaryGl, CorrectedFormsKeepTheMeaningOfSpecialValues) {
   const auto program =
       Program::compute(context(), ShaderLibrary(ASPIC_TEST_SHADERS), "exact_pairs.comp", defines);
   ASSERT_TRUE(program.ok()) << program.error().message;
-  const auto input = Buffer::of(context(), "pairs", std::span<const std::array<float, 2>>(pairs));
+  const auto input = Buffer::of(context(), "pairs", pairs);
   const auto output = Buffer::create(context(), "results", count * 8);
   ASSERT_TRUE(input.ok() && output.ok());
   program->set(0, count);

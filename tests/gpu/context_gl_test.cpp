@@ -161,21 +161,20 @@ TEST_F(ContextGl, AdoptsTheCurrentContext) {
   EXPECT_EQ(none.error().code, ErrorCode::no_device);
 }
 
-TEST_F(ContextGl, CollectsMessagesAndPassesThemOn) {
-  std::vector<Severity> seen;
-  context().set_message_sink([&](const DebugMessage& m) { seen.push_back(m.severity); });
-  for (int i = 0; i < 300; ++i)
-    glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, GL_DEBUG_TYPE_OTHER, 7,
-                         i == 5 ? GL_DEBUG_SEVERITY_HIGH : GL_DEBUG_SEVERITY_MEDIUM, -1,
-                         i == 5 ? "grave" : "slight");
+TEST_F(ContextGl, PassesMessagesOn) {
+  std::vector<DebugMessage> seen;
+  context().set_message_sink([&](const DebugMessage& m) { seen.push_back(m); });
+  for (const GLenum severity : {GL_DEBUG_SEVERITY_MEDIUM, GL_DEBUG_SEVERITY_HIGH})
+    glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, GL_DEBUG_TYPE_OTHER, 7, severity, -1,
+                         "grave or slight");
   context().set_message_sink({});
-  EXPECT_EQ(seen.size(), 300u);
-  EXPECT_EQ(context().high_severity_count(), 1u);
-  EXPECT_EQ(context().messages().size(), 256u);
-  EXPECT_TRUE(std::ranges::any_of(context().messages(),
-                                  [](const auto& m) { return m.text == "grave" && m.id == 7; }));
-  EXPECT_EQ(forgive_errors(), 1);
-  EXPECT_TRUE(context().messages().empty());
+  glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, GL_DEBUG_TYPE_OTHER, 7, GL_DEBUG_SEVERITY_HIGH, -1,
+                       "unseen");
+  ASSERT_EQ(seen.size(), 2u);
+  EXPECT_FALSE(seen[0].severe);
+  EXPECT_TRUE(seen[1].severe);
+  EXPECT_EQ(seen[1].id, 7u);
+  EXPECT_EQ(seen[1].text, "grave or slight");
 }
 
 TEST_F(ContextGl, TheFixtureFailsOnGlErrorsAndOnValuesThatAreNotFinite) {

@@ -52,7 +52,7 @@ TEST_F(PassGl, NextPassAndIndirectDispatchSeeWhatWasWritten) {
   std::iota(numbers.begin(), numbers.end(), 1u);
   Buffer a = buffer(count * 4);
   Buffer b = buffer(count * 4);
-  a.upload_items<std::uint32_t>(numbers);
+  a.upload_items(numbers);
   const Program twice = compile("double_items.comp", {{"ASPIC_GROUP_SIZE", "64"}});
   twice.set(0, count);
   // The two buffers take turns: bindings come with each dispatch.

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "gpu/pass.h"
-#include "gpu/program_cache.h"
+#include "gpu/program.h"
 #include "support/gl_fixture.h"
 #include "support/program_reflection.h"
 #include "support/temporary_directory.h"
@@ -79,7 +79,7 @@ TEST_F(ProgramGl, SetsUniformsOfEachKind) {
   const Program program = std::move(made).value();
   auto items = Buffer::create(context(), "items", 32 + 2 * 32);
   const float factors[] = {0, 0, 0, 0, 1, 0, 0, 0, 7, 0, 0, 0, 3, 0, 0, 0};
-  auto classes = Buffer::of<float>(context(), "classes", factors, BufferKind::uniform);
+  auto classes = Buffer::of(context(), "classes", factors, BufferKind::uniform);
   ASSERT_TRUE(items.ok() && classes.ok());
   items->clear();
   const float weight = 2.5f;

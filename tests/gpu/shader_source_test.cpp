@@ -147,7 +147,7 @@ TEST(ShaderLibrary, RefusesWhatIsNoShaderFile) {
   std::filesystem::create_directories(dir.file("compute/gather.comp"));
   const auto directory = library.flatten("compute/gather.comp");
   ASSERT_FALSE(directory.ok());
-  EXPECT_THAT(directory.error().message, HasSubstr("is a directory, a device or a pipe"));
+  EXPECT_THAT(directory.error().message, HasSubstr("Is a directory"));
   std::filesystem::create_symlink("/dev/zero", dir.file("compute/endless.comp"));
   EXPECT_FALSE(library.flatten("compute/endless.comp").ok());
   std::ofstream(dir.file("compute/large.comp")) << std::string((4 << 20) + 1, '\n');

@@ -48,16 +48,6 @@ class EqualBits : public aspic::testing::GlTest {
       }
     }
   }
-
-  /// A tilted cube that touches the plane within the first tenth of the run.
-  static ModelSettings low_cube(int n, Integrator integrator, ContactModel contact) {
-    ModelSettings settings = test::cube_on_plane(n, 1.9);
-    settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
-    settings.cubes[0].velocity = {1.0, -1.0, 0.5};
-    settings.simulation.integrator = integrator;
-    settings.contact.model = contact;
-    return settings;
-  }
 };
 
 constexpr Integrator both_integrators[] = {Integrator::explicit_euler, Integrator::runge_kutta_4};
@@ -66,7 +56,7 @@ constexpr ContactModel both_models[] = {ContactModel::coulomb, ContactModel::cou
 TEST_F(EqualBits, Five) {
   for (const Integrator integrator : both_integrators) {
     for (const ContactModel contact : both_models)
-      expect_equal(low_cube(5, integrator, contact), 2000, {32, 128});
+      expect_equal(test::low_cube(5, integrator, contact), 2000, {32, 128});
   }
 }
 
@@ -74,7 +64,7 @@ TEST_F(EqualBits, FiveOverEveryIntegratorAndTerrain) {
   for (const Integrator integrator : explicit_integrators) {
     for (const TerrainShapeRow& shape : terrain_shapes) {
       for (const ContactModel contact : both_models) {
-        ModelSettings settings = low_cube(5, integrator, contact);
+        ModelSettings settings = test::low_cube(5, integrator, contact);
         settings.terrain[0].shape = shape.value;
         settings.cubes[0].position = shape.drop;
         expect_equal(settings, 1000, {64});
@@ -85,7 +75,7 @@ TEST_F(EqualBits, FiveOverEveryIntegratorAndTerrain) {
 
 TEST_F(EqualBits, FiveWithSeveralTerrainsMaterialAndPinnedCorner) {
   for (const ContactModel contact : both_models) {
-    ModelSettings settings = low_cube(5, Integrator::symplectic_euler, contact);
+    ModelSettings settings = test::low_cube(5, Integrator::symplectic_euler, contact);
     settings.cubes.push_back(settings.cubes[0]);
     settings.cubes[1].position = {9.0, 2.0, 0.0};
     settings.cubes[1].material = MaterialSettings{};
@@ -107,7 +97,7 @@ TEST_F(EqualBits, FiveWithSeveralTerrainsMaterialAndPinnedCorner) {
 TEST_F(EqualBits, FourAtRestUnderEveryIntegratorOnEveryTerrain) {
   for (const Integrator integrator : explicit_integrators) {
     for (const TerrainShapeRow& shape : terrain_shapes) {
-      ModelSettings settings = low_cube(4, integrator, ContactModel::coulomb);
+      ModelSettings settings = test::low_cube(4, integrator, ContactModel::coulomb);
       settings.cubes[0].velocity = {0.0, -1.0, 0.1};
       settings.terrain[0].shape = shape.value;
       settings.terrain[0].restitution = 0.1;
@@ -123,7 +113,7 @@ TEST_F(EqualBits, FourAtRestUnderEveryIntegratorOnEveryTerrain) {
 TEST_F(EqualBits, FourInACornerOfThreeTerrains) {
   for (const Integrator integrator : explicit_integrators) {
     for (const bool pinned : {false, true}) {
-      ModelSettings settings = low_cube(4, integrator, ContactModel::coulomb);
+      ModelSettings settings = test::low_cube(4, integrator, ContactModel::coulomb);
       settings.cubes[0].position = {0.3, 4.5, 2.9};
       settings.cubes[0].velocity = {0.2, -1.0, -1.5};
       if (pinned) settings.cubes[0].pinned.names = {"left-top-front"};
@@ -151,14 +141,14 @@ ModelSettings implicit(ModelSettings settings) {
 
 TEST_F(EqualBits, FiveImplicit) {
   for (const ContactModel contact : both_models) {
-    expect_equal(implicit(low_cube(5, Integrator::implicit_euler, contact)), 30, {64});
+    expect_equal(implicit(test::low_cube(5, Integrator::implicit_euler, contact)), 30, {64});
   }
 }
 
 // Ground in the equation: flat, inclined, curved both ways; until it rests or nearly so.
 TEST_F(EqualBits, FourImplicitOnEveryTerrain) {
   for (const TerrainShapeRow& shape : terrain_shapes) {
-    ModelSettings settings = implicit(low_cube(4, Integrator::implicit_euler, ContactModel::coulomb));
+    ModelSettings settings = implicit(test::low_cube(4, Integrator::implicit_euler, ContactModel::coulomb));
     settings.terrain[0].shape = shape.value;
     settings.terrain[0].friction = 0.6;
     settings.terrain[0].mass = 20.0;
@@ -171,7 +161,7 @@ TEST_F(EqualBits, FourImplicitOnEveryTerrain) {
 // corner.
 TEST_F(EqualBits, FourImplicitInACornerOfThreeTerrains) {
   for (const bool pinned : {false, true}) {
-    ModelSettings settings = implicit(low_cube(4, Integrator::implicit_euler, ContactModel::coulomb));
+    ModelSettings settings = implicit(test::low_cube(4, Integrator::implicit_euler, ContactModel::coulomb));
     settings.cubes[0].position = {0.3, 4.5, 2.9};
     settings.cubes[0].velocity = {0.2, -1.0, -1.5};
     if (pinned) settings.cubes[0].pinned.names = {"left-top-front"};
@@ -189,22 +179,22 @@ TEST_F(EqualBits, FourImplicitInACornerOfThreeTerrains) {
 
 // 1,000 particles are four blocks of a reduction, 74,088 are 290: their results make two more blocks.
 TEST_F(EqualBits, TenPerEdgeImplicit) {
-  expect_equal(implicit(low_cube(10, Integrator::implicit_euler, ContactModel::coulomb)), 20, {64});
+  expect_equal(implicit(test::low_cube(10, Integrator::implicit_euler, ContactModel::coulomb)), 20, {64});
 }
 
 TEST_F(EqualBits, FortyTwoPerEdgeImplicit) {
-  ModelSettings settings = implicit(low_cube(42, Integrator::implicit_euler, ContactModel::course));
+  ModelSettings settings = implicit(test::low_cube(42, Integrator::implicit_euler, ContactModel::course));
   settings.cubes[0].material = MaterialSettings{};
   settings.cubes[0].velocity = {1.0, -12.0, 0.5};
   expect_equal(settings, 1, {64});
 }
 
 TEST_F(EqualBits, TenPerEdge) {
-  expect_equal(low_cube(10, Integrator::runge_kutta_4, ContactModel::coulomb), 2000, {64});
+  expect_equal(test::low_cube(10, Integrator::runge_kutta_4, ContactModel::coulomb), 2000, {64});
 }
 
 TEST_F(EqualBits, TwentyPerEdge) {
-  expect_equal(low_cube(20, Integrator::explicit_euler, ContactModel::course), 2000, {64});
+  expect_equal(test::low_cube(20, Integrator::explicit_euler, ContactModel::course), 2000, {64});
 }
 
 }  // namespace

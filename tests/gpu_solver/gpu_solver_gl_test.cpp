@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "cpu_reference/reference_solver.h"
-#include "gpu/program_cache.h"
+#include "gpu/program.h"
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/layout.h"
 #include "model/springs.h"

@@ -18,18 +18,18 @@ class Layout : public aspic::testing::GlTest {
     EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
     return std::move(made).value();
   }
+  static int bytes(std::size_t count) { return static_cast<int>(count); }
 };
 
 #define EXPECT_UNIFORM_AT(member) \
-  EXPECT_EQ(Reflection(p).uniform_offset(#member), static_cast<int>(offsetof(layout::Simulation, member)))
+  EXPECT_EQ(Reflection(p).uniform_offset(#member), bytes(offsetof(layout::Simulation, member)))
 
 // Members a kernel does not use may be inactive; sum_springs uses all but the spring classes, gather has
 // those.
 TEST_F(Layout, UniformBlockMatchesTheDriver) {
   const gl::Program p = program("compute/gather.comp");
   EXPECT_EQ(Reflection(p).uniform_block_binding("Simulation"), BINDING_SIMULATION);
-  EXPECT_EQ(Reflection(p).uniform_block_data_size("Simulation"),
-            static_cast<int>(sizeof(layout::Simulation)));
+  EXPECT_EQ(Reflection(p).uniform_block_data_size("Simulation"), bytes(sizeof(layout::Simulation)));
   EXPECT_UNIFORM_AT(gravity);
   EXPECT_UNIFORM_AT(epsilon);
   EXPECT_UNIFORM_AT(resting_speed);
@@ -63,17 +63,12 @@ TEST_F(Layout, PullBlockMatchesTheDriver) {
                            "compute/implicit_evaluate.comp", "compute/implicit_apply.comp"}) {
     const gl::Program p = program(path);
     EXPECT_EQ(Reflection(p).uniform_block_binding("PullBlock"), BINDING_PULL) << path;
-    EXPECT_EQ(Reflection(p).uniform_block_data_size("PullBlock"), static_cast<int>(sizeof(layout::Pull)))
-        << path;
+    EXPECT_EQ(Reflection(p).uniform_block_data_size("PullBlock"), bytes(sizeof(layout::Pull))) << path;
     EXPECT_EQ(Reflection(p).uniform_offset("pull.anchor"), 0) << path;
-    EXPECT_EQ(Reflection(p).uniform_offset("pull.stiffness"),
-              static_cast<int>(offsetof(layout::Pull, stiffness)))
+    EXPECT_EQ(Reflection(p).uniform_offset("pull.stiffness"), bytes(offsetof(layout::Pull, stiffness)))
         << path;
-    EXPECT_EQ(Reflection(p).uniform_offset("pull.damping"), static_cast<int>(offsetof(layout::Pull, damping)))
-        << path;
-    EXPECT_EQ(Reflection(p).uniform_offset("pull.particle"),
-              static_cast<int>(offsetof(layout::Pull, particle)))
-        << path;
+    EXPECT_EQ(Reflection(p).uniform_offset("pull.damping"), bytes(offsetof(layout::Pull, damping))) << path;
+    EXPECT_EQ(Reflection(p).uniform_offset("pull.particle"), bytes(offsetof(layout::Pull, particle))) << path;
   }
 }
 
@@ -86,29 +81,26 @@ TEST_F(Layout, StorageBlocksMatchTheDriver) {
   EXPECT_EQ(Reflection(gather).storage_block_binding("IncidentStart"), BINDING_INCIDENT_START);
   EXPECT_EQ(Reflection(gather).storage_block_binding("Incident"), BINDING_INCIDENT);
   EXPECT_EQ(Reflection(gather).storage_block_binding("ControlBlock"), BINDING_CONTROL);
-  EXPECT_EQ(Reflection(gather).storage_block_data_size("ControlBlock"),
-            static_cast<int>(sizeof(layout::Control)));
+  EXPECT_EQ(Reflection(gather).storage_block_data_size("ControlBlock"), bytes(sizeof(layout::Control)));
   EXPECT_EQ(Reflection(gather).buffer_variable_offset("control.bad_step"),
-            static_cast<int>(offsetof(layout::Control, bad_step)));
+            bytes(offsetof(layout::Control, bad_step)));
   EXPECT_EQ(Reflection(gather).buffer_variable_offset("control.bad_particle"),
-            static_cast<int>(offsetof(layout::Control, bad_particle)));
+            bytes(offsetof(layout::Control, bad_particle)));
   for (const char* block : {"start_state", "stage_state", "out_state", "stage_sums"}) {
     const std::string name(block);
     EXPECT_EQ(Reflection(gather).buffer_variable_offset(name + "[0].position"), 0) << name;
     EXPECT_EQ(Reflection(gather).buffer_variable_offset(name + "[0].velocity"),
-              static_cast<int>(offsetof(layout::Particle, velocity)))
+              bytes(offsetof(layout::Particle, velocity)))
         << name;
     EXPECT_EQ(Reflection(gather).buffer_variable_top_level_stride(name + "[0].velocity"),
-              static_cast<int>(sizeof(layout::Particle)))
+              bytes(sizeof(layout::Particle)))
         << name;
   }
   const gl::Program forces = program("compute/spring_forces.comp");
   EXPECT_EQ(Reflection(forces).storage_block_binding("Springs"), BINDING_SPRINGS);
-  EXPECT_EQ(Reflection(forces).buffer_variable_array_stride("springs[0]"),
-            static_cast<int>(sizeof(layout::uvec2)));
+  EXPECT_EQ(Reflection(forces).buffer_variable_array_stride("springs[0]"), bytes(sizeof(layout::uvec2)));
   EXPECT_EQ(Reflection(forces).storage_block_binding("SpringForces"), BINDING_SPRING_FORCES);
-  EXPECT_EQ(Reflection(forces).buffer_variable_array_stride("spring_forces[0]"),
-            static_cast<int>(sizeof(layout::vec4)));
+  EXPECT_EQ(Reflection(forces).buffer_variable_array_stride("spring_forces[0]"), bytes(sizeof(layout::vec4)));
 }
 
 TEST_F(Layout, BallBlocksMatchTheDriver) {
@@ -116,17 +108,15 @@ TEST_F(Layout, BallBlocksMatchTheDriver) {
   EXPECT_EQ(Reflection(fly).storage_block_binding("Balls"), BINDING_BALLS);
   EXPECT_EQ(Reflection(fly).storage_block_binding("BallBodies"), BINDING_BALL_BODIES);
   EXPECT_EQ(Reflection(fly).buffer_variable_offset("balls[0].velocity"),
-            static_cast<int>(offsetof(layout::Ball, velocity)));
-  EXPECT_EQ(Reflection(fly).buffer_variable_offset("balls[0].spin"),
-            static_cast<int>(offsetof(layout::Ball, spin)));
+            bytes(offsetof(layout::Ball, velocity)));
+  EXPECT_EQ(Reflection(fly).buffer_variable_offset("balls[0].spin"), bytes(offsetof(layout::Ball, spin)));
   EXPECT_EQ(Reflection(fly).buffer_variable_offset("balls[0].start_velocity"),
-            static_cast<int>(offsetof(layout::Ball, start_velocity)));
-  EXPECT_EQ(Reflection(fly).buffer_variable_top_level_stride("balls[0].spin"),
-            static_cast<int>(sizeof(layout::Ball)));
+            bytes(offsetof(layout::Ball, start_velocity)));
+  EXPECT_EQ(Reflection(fly).buffer_variable_top_level_stride("balls[0].spin"), bytes(sizeof(layout::Ball)));
   EXPECT_EQ(Reflection(fly).buffer_variable_offset("bodies[0].launch_step"),
-            static_cast<int>(offsetof(layout::BallBody, launch_step)));
+            bytes(offsetof(layout::BallBody, launch_step)));
   EXPECT_EQ(Reflection(fly).buffer_variable_top_level_stride("bodies[0].launch_step"),
-            static_cast<int>(sizeof(layout::BallBody)));
+            bytes(sizeof(layout::BallBody)));
   const gl::Program exchange = program("compute/ball_exchange.comp");
   EXPECT_EQ(Reflection(exchange).storage_block_binding("StateA"), BINDING_STATE_A);
   EXPECT_EQ(Reflection(exchange).storage_block_binding("StateB"), BINDING_STATE_B);
@@ -134,34 +124,32 @@ TEST_F(Layout, BallBlocksMatchTheDriver) {
   EXPECT_EQ(Reflection(exchange).storage_block_binding("ItemsBlock"), BINDING_BALL_ITEMS);
   EXPECT_EQ(Reflection(exchange).storage_block_binding("WorkBlock"), BINDING_BALL_WORK);
   EXPECT_EQ(Reflection(exchange).buffer_variable_offset("touches[0].items"),
-            static_cast<int>(offsetof(layout::BallTouches, items)));
+            bytes(offsetof(layout::BallTouches, items)));
   EXPECT_EQ(Reflection(exchange).buffer_variable_top_level_stride("touches[0].list"),
-            static_cast<int>(sizeof(layout::BallTouches)));
+            bytes(sizeof(layout::BallTouches)));
   EXPECT_EQ(Reflection(exchange).buffer_variable_offset("items[0].overlaps[0]"),
-            static_cast<int>(offsetof(layout::BallItem, overlaps)));
+            bytes(offsetof(layout::BallItem, overlaps)));
   EXPECT_EQ(Reflection(exchange).buffer_variable_offset("items[0].turning"),
-            static_cast<int>(offsetof(layout::BallItem, turning)));
+            bytes(offsetof(layout::BallItem, turning)));
   EXPECT_EQ(Reflection(exchange).buffer_variable_top_level_stride("items[0].turning"),
-            static_cast<int>(sizeof(layout::BallItem)));
-  EXPECT_EQ(Reflection(exchange).buffer_variable_offset("lists[0]"),
-            static_cast<int>(sizeof(layout::BallWork)));
+            bytes(sizeof(layout::BallItem)));
+  EXPECT_EQ(Reflection(exchange).buffer_variable_offset("lists[0]"), bytes(sizeof(layout::BallWork)));
   const gl::Program near = program("compute/ball_near.comp");
   EXPECT_EQ(Reflection(near).uniform_location("sought"), LOCATION_BALL_KIND);
   EXPECT_EQ(Reflection(exchange).uniform_location("ball_phase"), LOCATION_BALL_PHASE);
   EXPECT_EQ(Reflection(exchange).uniform_location("ball_parity"), LOCATION_BALL_PARITY);
   EXPECT_EQ(Reflection(exchange).uniform_offset("ball_restitution"),
-            static_cast<int>(offsetof(layout::Simulation, ball_restitution)));
+            bytes(offsetof(layout::Simulation, ball_restitution)));
   EXPECT_EQ(Reflection(exchange).uniform_offset("ball_friction"),
-            static_cast<int>(offsetof(layout::Simulation, ball_friction)));
+            bytes(offsetof(layout::Simulation, ball_friction)));
   const gl::Program insert = program("compute/ball_insert.comp");
   EXPECT_EQ(Reflection(insert).storage_block_binding("BallGrid"), BINDING_BALL_GRID);
   EXPECT_EQ(Reflection(insert).uniform_offset("bucket_mask"),
-            static_cast<int>(offsetof(layout::Simulation, bucket_mask)));
+            bytes(offsetof(layout::Simulation, bucket_mask)));
   const gl::Program clear = program("compute/ball_clear.comp");
-  EXPECT_EQ(Reflection(clear).uniform_offset("mark_shift"),
-            static_cast<int>(offsetof(layout::Simulation, mark_shift)));
+  EXPECT_EQ(Reflection(clear).uniform_offset("mark_shift"), bytes(offsetof(layout::Simulation, mark_shift)));
   EXPECT_EQ(Reflection(clear).buffer_variable_offset("work.item_groups[0]"),
-            static_cast<int>(offsetof(layout::BallWork, item_groups)));
+            bytes(offsetof(layout::BallWork, item_groups)));
 }
 
 TEST_F(Layout, UniformLocationsAndBlockCounts) {

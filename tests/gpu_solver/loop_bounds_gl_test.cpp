@@ -231,9 +231,7 @@ gl::Buffer frame_of(gl::Context& context, std::uint32_t particles, std::uint32_t
   frame.lights[LIGHT_SKY][1][0] = frame.lights[LIGHT_SKY][2][1] = frame.lights[LIGHT_SKY][0][2] = 1.0f;
   frame.particle_count = particles;
   frame.colour_mode = mode;
-  return std::move(gl::Buffer::of(context, "frame", std::span<const render_layout::Frame>(&frame, 1),
-                                  gl::BufferKind::uniform))
-      .value();
+  return std::move(gl::Buffer::of(context, "frame", std::span(&frame, 1), gl::BufferKind::uniform)).value();
 }
 
 // One group, whose invocations take as many particles for both lights as a kernel may take rounds. What lies
@@ -247,13 +245,11 @@ TEST_F(LoopBounds, OfTheBoxOfAllParticles) {
     items[particles - 1 - c][c] = lowest[c];
     items[particles - group + c][c] = highest[c];
   }
-  const auto state =
-      std::move(gl::Buffer::of(context(), "particles", std::span<const std::array<float, 8>>(items))).value();
+  const auto state = std::move(gl::Buffer::of(context(), "particles", items)).value();
   const gl::Buffer frame = frame_of(context(), particles, COLOUR_MATERIAL);
   std::array<render_layout::Bounds, LIGHTS> found;
   found.fill({glm::uvec4(0xffffffffu), glm::uvec4(0u)});
-  const auto bounds =
-      std::move(gl::Buffer::of(context(), "bounds", std::span<const render_layout::Bounds>(found))).value();
+  const auto bounds = std::move(gl::Buffer::of(context(), "bounds", found)).value();
   const auto programs = RenderPrograms::create(context(), gl::ShaderLibrary());
   ASSERT_TRUE(programs.ok()) << programs.error().message;
   ASSERT_EQ(programs->bounds.group_size()[0], group);
@@ -290,8 +286,7 @@ TEST_F(LoopBounds, OfTheForceThatIsDrawn) {
     if (p < gl::max_rounds) others += std::abs(L - 1.0);
   }
   const auto items = packed_particles(model, state);
-  const auto particles =
-      std::move(gl::Buffer::of(context(), "particles", std::span<const layout::Particle>(items))).value();
+  const auto particles = std::move(gl::Buffer::of(context(), "particles", items)).value();
   const DeviceState shown = {.particles = &particles};
   auto buffers = std::move(ModelBuffers::create(context(), model)).value();
   ASSERT_TRUE(buffers.prepare_incident(context(), model, shown).ok());

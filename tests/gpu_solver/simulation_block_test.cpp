@@ -1,7 +1,6 @@
-#include "gpu_solver/simulation_block.h"
-
 #include <gtest/gtest.h>
 
+#include "gpu_solver/kernels.h"
 #include "support/model_building.h"
 
 namespace aspic {

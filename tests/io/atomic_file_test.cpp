@@ -116,7 +116,7 @@ TEST(AtomicFile, SizeLimitLeavesNoFile) {
   const test::TemporaryDirectory dir;
   rlimit old = {};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
-  const InterruptGuard guard;  // ignores SIGXFSZ
+  const auto before = ::signal(SIGXFSZ, SIG_IGN);  // as run_program() does
   const rlimit small = {1 << 16, old.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
   Status written;
@@ -126,6 +126,7 @@ TEST(AtomicFile, SizeLimitLeavesNoFile) {
     EXPECT_FALSE(file->commit().ok());
   }
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old), 0);
+  ::signal(SIGXFSZ, before);
   ASSERT_FALSE(written.ok());
   EXPECT_THAT(written.error().message, HasSubstr("ulimit -f"));
   EXPECT_EQ(dir.entries(), 0u);

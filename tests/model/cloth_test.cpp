@@ -16,9 +16,7 @@ namespace aspic {
 namespace {
 
 Model model_of(const ClothSettings& cloth) {
-  ModelSettings settings;
-  settings.cloths.push_back(cloth);
-  return test::build(settings);
+  return test::build_alone<&ModelSettings::cloths>(cloth);
 }
 
 std::vector<std::uint32_t> pinned_in(const Model& model) {

@@ -16,9 +16,7 @@ namespace aspic {
 namespace {
 
 Model net_of(const GoalNetSettings& net) {
-  ModelSettings settings;
-  settings.goal_nets.push_back(net);
-  return test::build(settings);
+  return test::build_alone<&ModelSettings::goal_nets>(net);
 }
 
 TEST(GoalNet, TheAssignmentsNetHasThePublishedCounts) {

@@ -5,6 +5,7 @@
 
 #include "gpu_solver/gpu_solver.h"
 #include "render/studio.h"
+#include "support/projection.h"
 
 namespace aspic {
 namespace {
@@ -70,7 +71,7 @@ TEST_F(Balls, AreDiscsWhereTheStateSays) {
   const Vec3 touch = x - sine * towards;
   const Vec3 right = (outline / length(aside)) * aside;
   const auto seen = [&](const Vec3& at) {
-    const auto p = camera.project(at);
+    const auto p = test::project(camera, at);
     int sum = 0;
     for (int c = 0; c < 3; ++c)
       sum += std::abs(image.channel(static_cast<int>(p->x), static_cast<int>(p->y), c) -

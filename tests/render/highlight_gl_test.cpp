@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/studio.h"
+#include "support/projection.h"
 
 namespace aspic {
 namespace {
@@ -34,8 +35,8 @@ class Highlight : public test::Studio {
     with_ = draw(model, state_, options, width, height);
     camera_.emplace(options.view.camera, width, height);
   }
-  Projected place(const Vec3& point) const { return camera_->project(point).value(); }
-  Projected place(std::uint32_t particle) const { return place(state_.position[particle]); }
+  test::Projected place(const Vec3& point) const { return test::project(*camera_, point).value(); }
+  test::Projected place(std::uint32_t particle) const { return place(state_.position[particle]); }
   /// How far a pixel is from what it was without marks.
   int change(double x, double y) const {
     int sum = 0;
@@ -53,7 +54,7 @@ class Highlight : public test::Studio {
         if (change(x, y) > 0) ++count[expected(x + 0.5, y + 0.5) ? 1 : 0];
     return count;
   }
-  static double off(const Projected& p, double x, double y) { return std::hypot(p.x - x, p.y - y); }
+  static double off(const test::Projected& p, double x, double y) { return std::hypot(p.x - x, p.y - y); }
 
  private:
   State state_;
@@ -65,7 +66,7 @@ TEST_F(Highlight, RingLiesAroundTheHoveredParticle) {
   const Model model = lonely_cube();
   const std::uint32_t corner = 26;
   show(model, plain(), {.hovered = corner});
-  const Projected p = place(corner);
+  const test::Projected p = place(corner);
   const auto count = changed([&](double x, double y) { return off(p, x, y) < 11.0 && off(p, x, y) > 4.0; });
   EXPECT_GT(count[1], 100);
   EXPECT_EQ(count[0], 0) << "neither beyond the ring nor within it";
@@ -80,7 +81,7 @@ TEST_F(Highlight, PullIsABandToItsAnchor) {
   const std::uint32_t corner = 26;
   const Vec3 anchor = {3.5, 2.8, 3.0};
   show(model, plain(), {.pull = HighlightOptions::Pull{corner, anchor}});
-  const Projected a = place(corner), b = place(anchor);
+  const test::Projected a = place(corner), b = place(anchor);
   const double long_way = off(a, b.x, b.y);
   for (const double share : {0.1, 0.3, 0.5, 0.7})
     EXPECT_GT(change(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)), 60) << share;
@@ -98,7 +99,7 @@ TEST_F(Highlight, HiddenMarksAreFaint) {
   const Model model = lonely_cube();
   const std::uint32_t front = 26, back = 0;  // corners towards the eye and away from it
   show(model, plain(), {.marked = {front, back}});
-  const Projected f = place(front), b = place(back);
+  const test::Projected f = place(front), b = place(back);
   EXPECT_GT(change(f.x, f.y), 60);
   EXPECT_GT(change(b.x, b.y), 10);
   EXPECT_LT(change(b.x, b.y), change(f.x, f.y) / 2);
@@ -117,7 +118,7 @@ TEST_F(Highlight, PinnedParticlesAreMarkedWhereParticlesAreDrawn) {
   EXPECT_EQ(changed([](double, double) { return true; })[1], 0);
   show(model, options, {});
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
-    const Projected p = place(i);
+    const test::Projected p = place(i);
     if (model.inverse_mass[i] > 0.0) continue;
     EXPECT_GT(change(p.x, p.y), 60) << i;
   }
@@ -153,7 +154,8 @@ TEST_F(Highlight, GoesOverAPresentedPictureToo) {
   const auto before = look();
   ASSERT_TRUE(renderer().present_highlight({.hovered = 26}, framebuffer, wide, high, left, bottom).ok());
   const auto after = look();
-  const Projected p = Camera(plain().view.camera, wide, high).project(state.position[26]).value();
+  const test::Projected p =
+      test::project(Camera(plain().view.camera, wide, high), state.position[26]).value();
   int on_ring = 0, elsewhere = 0;
   for (int y = 0; y < high + 40; ++y) {
     for (int x = 0; x < wide + 40; ++x) {
@@ -206,7 +208,7 @@ TEST_F(Shadows, CanBeLeftOut) {
   const test::Image shadowed = draw(model, state, options, 320, 240);
   const Camera camera(options.view.camera, 320, 240);
   const auto green = [&](const test::Image& image, const Vec3& at) {
-    const auto p = camera.project(at);
+    const auto p = test::project(camera, at);
     return image.channel(static_cast<int>(p->x), static_cast<int>(p->y), 1);
   };
   const Vec3 beside = {2.9, -1.0, 0.5};

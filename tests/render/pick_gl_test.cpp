@@ -7,6 +7,7 @@
 #include "model/terrain.h"
 #include "render/light_maps.h"
 #include "render/studio.h"
+#include "support/projection.h"
 
 namespace aspic {
 namespace {
@@ -46,7 +47,7 @@ class Pick : public test::Studio {
     return answer.what;
   }
   std::optional<Picked> at(const Vec3& point, double right = 0.0, double down = 0.0) {
-    const auto seen = camera().project(point);
+    const auto seen = test::project(camera(), point);
     EXPECT_TRUE(seen.has_value());
     return at(seen->x + right, seen->y + down);
   }
@@ -72,7 +73,7 @@ TEST_F(Pick, SkinStandsForItsNearestParticle) {
                  j = static_cast<std::uint32_t>(std::lround(y + 2.0));
       EXPECT_EQ(picked->index, (i * n + j) * n + (n - 1)) << x << ", " << y;
       // Half a pixel to each side of where the sight line was asked for, and single precision.
-      const double pixel = 1.0 / camera().pixels_per_metre(12.0);
+      const double pixel = 1.0 / test::pixels_per_metre(camera(), 12.0);
       EXPECT_NEAR(length(picked->point - Vec3{x, y, 2.0}), 0.0, 0.75 * pixel);
       EXPECT_NEAR(picked->distance, 12.0, 1e-4);
     }
@@ -94,17 +95,17 @@ TEST_F(Pick, ParticlesAreMeantFromNearAndTheFrontOnesFirst) {
     const double drawn = draw.particles ? particle_radius(2.0) : 0.0;
     int checked = 0;
     for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
-      const auto place = camera().project(shown().position[i]);
+      const auto place = test::project(camera(), shown().position[i]);
       ASSERT_TRUE(place);
       // The foremost of the discs that cover this pixel, unless an outline passes through it.
       std::uint32_t expected = i;
       bool on_outline = false;
       for (std::uint32_t k = 0; k < model.particle_count(); ++k) {
-        const auto other = camera().project(shown().position[k]);
+        const auto other = test::project(camera(), shown().position[k]);
         const double off = std::hypot(other->x - place->x, other->y - place->y);
-        const double radius = std::max(3.0, drawn * camera().pixels_per_metre(other->distance));
+        const double radius = std::max(3.0, drawn * test::pixels_per_metre(camera(), other->distance));
         on_outline = on_outline || std::abs(off - radius) < 1.5;
-        if (off < radius && other->distance < camera().project(shown().position[expected])->distance)
+        if (off < radius && other->distance < test::project(camera(), shown().position[expected])->distance)
           expected = k;
       }
       if (on_outline) continue;
@@ -187,7 +188,7 @@ TEST_F(Pick, BallsAndTerrainAreMetWhereTheSightLineMeetsThem) {
   EXPECT_NEAR(signed_distance(model.terrain[0], of_ground->point), 0.0, 1e-4);
   // A pixel covers the more of the ground the lower the sight line.
   const double pixel =
-      1.0 / camera().pixels_per_metre(of_ground->distance) / (4.0 / length(place - Vec3{0, 3, 14}));
+      1.0 / test::pixels_per_metre(camera(), of_ground->distance) / (4.0 / length(place - Vec3{0, 3, 14}));
   EXPECT_NEAR(length(of_ground->point - place), 0.0, 0.75 * pixel);
   EXPECT_FALSE(at(160.0, 2.0)) << "the sky";
 }
@@ -237,10 +238,10 @@ TEST_F(Pick, NetsArePickedByTheirKnots) {
       ASSERT_TRUE(picked);
       own += picked->index == i;
       // Another only where it stands before this one.
-      const auto other = camera().project(shown().position[picked->index]);
-      EXPECT_LE(other->distance, camera().project(shown().position[i])->distance + 1e-6);
-      EXPECT_LE(std::hypot(other->x - camera().project(shown().position[i])->x,
-                           other->y - camera().project(shown().position[i])->y),
+      const auto other = test::project(camera(), shown().position[picked->index]);
+      EXPECT_LE(other->distance, test::project(camera(), shown().position[i])->distance + 1e-6);
+      EXPECT_LE(std::hypot(other->x - test::project(camera(), shown().position[i])->x,
+                           other->y - test::project(camera(), shown().position[i])->y),
                 5.0);
     }
     EXPECT_GE(own, 0.8 * model.particle_count());
@@ -251,13 +252,13 @@ TEST_F(Pick, ViewsOfOtherSizesShowTheSamePicture) {
   const Model model = test::build(lonely_cube(5));
   show(model, from({0.0, 0.0, 14.0}));
   const auto small = at(Vec3{-0.9, 1.1, 2.0});
-  const auto seen = camera().project({-0.9, 1.1, 2.0});
+  const auto seen = test::project(camera(), {-0.9, 1.1, 2.0});
   ASSERT_TRUE(renderer().request_pick({4.0 * seen->x, 4.0 * seen->y, 4.0 * width, 4.0 * height}).ok());
   glFinish();
   const auto large = renderer().picked().what;
   ASSERT_TRUE(small && large);
   EXPECT_EQ(large->index, small->index);
-  const double pixel = 0.25 / camera().pixels_per_metre(12.0);
+  const double pixel = 0.25 / test::pixels_per_metre(camera(), 12.0);
   EXPECT_NEAR(length(large->point - Vec3{-0.9, 1.1, 2.0}), 0.0, 0.75 * pixel);
 }
 

@@ -8,6 +8,7 @@
 #include "model/springs.h"
 #include "render/overlay_text.h"
 #include "render/studio.h"
+#include "support/projection.h"
 
 namespace aspic {
 namespace {
@@ -57,9 +58,9 @@ TEST_F(Picture, CubeIsWhereItsStateSays) {
     for (Vec3& x : state.position) x = x + offset;
     const test::Image image = draw(model, state, plain(), width, height);
     Box expected, seen;
-    const auto middle = camera.project(offset);
+    const auto middle = test::project(camera, offset);
     for (const Vec3& x : state.position) {
-      const auto p = camera.project(x);
+      const auto p = test::project(camera, x);
       ASSERT_TRUE(p && middle);
       expected.add(p->x, p->y, p->x, p->y);
       // A twentieth of the way inwards, every particle's pixel belongs to the cube.
@@ -89,12 +90,12 @@ TEST_F(Picture, ParticlesAreBallsAtTheirPlaces) {
   const test::Image without = draw(model, state, options, width, height);
   const Camera camera(options.view.camera, width, height);
   for (std::size_t i = 0; i < state.position.size(); ++i) {
-    const auto p = camera.project(state.position[i]);
+    const auto p = test::project(camera, state.position[i]);
     ASSERT_TRUE(p);
     EXPECT_TRUE(differs(with, without, static_cast<int>(p->x), static_cast<int>(p->y))) << "particle " << i;
   }
   // The middle of a lattice cell's face has none.
-  const auto gap = camera.project({4.0 / 3 + 2.0 / 3, 0.0, 2.0});
+  const auto gap = test::project(camera, {4.0 / 3 + 2.0 / 3, 0.0, 2.0});
   EXPECT_FALSE(differs(with, without, static_cast<int>(gap->x) + 6, static_cast<int>(gap->y)));
 }
 
@@ -177,9 +178,9 @@ TEST_F(Picture, ShadowLiesOnTheGround) {
   const test::Image shadowed = draw(model, initial_state(model, Precision::single), options, width, height);
   // Beside the cube, on the side away from the sun, the ground darkens; far from it nothing changes.
   const Camera camera(options.view.camera, width, height);
-  const auto near = camera.project({2.6, -1.0, 0.5});
-  const auto far = camera.project({-6.0, -1.0, 0.0});
-  const auto green = [](const test::Image& i, const Projected& p) {
+  const auto near = test::project(camera, {2.6, -1.0, 0.5});
+  const auto far = test::project(camera, {-6.0, -1.0, 0.0});
+  const auto green = [](const test::Image& i, const test::Projected& p) {
     return i.channel(static_cast<int>(p.x), static_cast<int>(p.y), 1);
   };
   EXPECT_LT(green(shadowed, *near), green(bare, *near) - 25);

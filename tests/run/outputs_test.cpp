@@ -1,5 +1,4 @@
 // The files of a run: when each wants a state, and what is left of them.
-#include "run/outputs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

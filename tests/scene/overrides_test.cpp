@@ -1,11 +1,10 @@
-#include "scene/overrides.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/printable.h"
 #include "model/bodies.h"
+#include "scene/reader.h"
 #include "scene/scene_support.h"
 #include "scene/write.h"
 

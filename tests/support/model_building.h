@@ -20,10 +20,28 @@ inline ModelSettings cube_on_plane(int particles_per_edge, double height = 9.0) 
   return settings;
 }
 
+/// A tilted cube that touches the default plane within 200 steps of 1 ms.
+inline ModelSettings low_cube(int particles_per_edge, Integrator integrator, ContactModel contact) {
+  ModelSettings settings = cube_on_plane(particles_per_edge, 1.9);
+  settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
+  settings.cubes[0].velocity = {1.0, -1.0, 0.5};
+  settings.simulation.integrator = integrator;
+  settings.contact.model = contact;
+  return settings;
+}
+
 inline Model build(const ModelSettings& settings) {
   auto model = build_model(settings);
   EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().message);
   return std::move(model).value();
+}
+
+/// A model of one body alone, in this list of the settings.
+template <auto List, class Body>
+Model build_alone(const Body& body) {
+  ModelSettings settings;
+  (settings.*List).push_back(body);
+  return build(settings);
 }
 
 /// A model of loose particles without springs or terrain, for hand-made cases.

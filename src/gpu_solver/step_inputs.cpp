@@ -1,4 +1,4 @@
-#include "gpu_solver/pose_buffer.h"
+#include "gpu_solver/step_inputs.h"
 
 #include <algorithm>
 #include <span>
@@ -8,6 +8,17 @@
 
 namespace aspic {
 namespace {
+
+layout::Pull block_of(const std::optional<Pull>& pull) {
+  layout::Pull block{};
+  block.particle = NO_BODY;
+  if (!pull) return block;
+  block.anchor = rounded(pull->anchor, 0.0);
+  block.stiffness = static_cast<float>(pull->stiffness);
+  block.damping = static_cast<float>(pull->damping);
+  block.particle = pull->particle;
+  return block;
+}
 
 /// PoseBlock of shaders/compute/motion.glsl.
 struct PoseTable {
@@ -19,6 +30,21 @@ static_assert(sizeof(PoseTable) == 16 + 32 * MAX_POSES && sizeof(PoseTable) <= 1
 static_assert(MAX_POSES >= 2 * MAX_TERRAINS);
 
 }  // namespace
+
+Status PullBuffer::build(gl::Context& context) {
+  const layout::Pull block = block_of(std::nullopt);
+  ASPIC_TRY(buffer_, gl::Buffer::of(context, "pull", std::span(&block, 1), gl::BufferKind::uniform));
+  return {};
+}
+
+Status PullBuffer::set(const Model& model, const std::optional<Pull>& pull) {
+  ASPIC_TRY(const std::optional<Pull> taken, rounded_pull(model, pull, Precision::single));
+  if (taken == pull_) return {};
+  pull_ = taken;
+  const layout::Pull block = block_of(pull_);
+  buffer_.upload_items(std::span(&block, 1));
+  return {};
+}
 
 Status PoseBuffer::build(gl::Context& context, const Model& model) {
   timestep_ = model.simulation.timestep;
@@ -53,7 +79,7 @@ std::uint32_t PoseBuffer::cover(std::uint32_t step, std::uint32_t wanted) {
         table.poses[row * count + m] = {rounded(pose.offset, 0.0), rounded(pose.velocity, 0.0)};
       }
     }
-    buffer_.upload_items(std::span<const PoseTable>(&table, 1));
+    buffer_.upload_items(std::span(&table, 1));
   }
   return std::min(wanted, covered());
 }

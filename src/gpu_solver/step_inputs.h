@@ -1,15 +1,32 @@
 #pragma once
-// Moving terrain on the device: a uniform block with the poses of the next steps, made here in double
-// precision and rounded once, so that many steps can be queued at a time.
+// What the host tells the kernels between steps, in small uniform blocks: a hand's pull and where terrain is.
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "gpu/pass.h"
 #include "gpu_solver/layout.h"
 #include "model/model.h"
+#include "model/pull.h"
 
 namespace aspic {
 
+/// The pull, which every force kernel reads.
+class PullBuffer {
+ public:
+  /// Nobody is pulled. Errors as Buffer::create.
+  Status build(gl::Context& context);
+  /// See Solver::set_pull. An upload of 32 bytes, queued after the steps before; nothing if nothing changed.
+  Status set(const Model& model, const std::optional<Pull>& pull);
+  gl::Binding binding() const { return {BINDING_PULL, &buffer_, gl::BufferKind::uniform}; }
+
+ private:
+  gl::Buffer buffer_;
+  std::optional<Pull> pull_;
+};
+
+/// Moving terrain: the poses of the next steps, made here in double precision and rounded once, so that many
+/// steps can be queued at a time.
 class PoseBuffer {
  public:
   /// For the terrains of the model that move; a token buffer if none does. Errors as Buffer::create.

@@ -1,4 +1,4 @@
-#include "device/spring_buffers.h"
+#include "device/device_state.h"
 
 #include <algorithm>
 
@@ -9,15 +9,13 @@ Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& co
   auto made = std::make_shared<SpringBuffers>();
   made->context = &context;
   made->kind = kind;
-  gl::BufferFiller fill(context);
   if (kind == IncidentWords::springs) {
     ASPIC_TRY(const auto springs, packed_springs(model));
-    fill(made->springs, "springs", springs);
+    ASPIC_TRY(made->springs, gl::Buffer::of(context, "springs", springs));
   }
   ASPIC_TRY(const IncidentSprings rows, incident_springs(model, kind));
-  fill(made->incident_start, "incident spring rows", rows.start);
-  fill(made->incident, "incident springs", rows.words);
-  ASPIC_CHECK(fill.status());
+  ASPIC_TRY(made->incident_start, gl::Buffer::of(context, "incident spring rows", rows.start));
+  ASPIC_TRY(made->incident, gl::Buffer::of(context, "incident springs", rows.words));
   return std::shared_ptr<const SpringBuffers>(std::move(made));
 }
 
