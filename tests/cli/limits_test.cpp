@@ -75,7 +75,7 @@ TEST(MemoryLimit, WantOfMemoryIsASentenceAndLeavesNothing) {
     options.address_space_limit = size * mebi;
     for (const Words& words :
          {Words{"run", "cube-plane", "--backend", "reference", "--steps", "1", "--state", dir.file("s.csv"),
-                "--series", dir.file("e.csv"), "--set", "cube[0].particles-per-edge=40"},
+                "--series", dir.file("e.csv"), "--set", "cube[0].particles-per-edge=100"},
           Words{"scene", "check", "cube-plane", "--set", "cube[0].particles-per-edge=24"}}) {
       const auto run = aspic(words, options);
       EXPECT_EQ(run.signal, 0) << size;

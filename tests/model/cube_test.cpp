@@ -167,10 +167,10 @@ TEST(CubePinned, RefusesUnknownNamesAndIndices) {
   EXPECT_FALSE(pinned_cube({{}, {125}}).ok());
 }
 
-TEST(Model, TooManySpringsAreRefusedBeforeAllocation) {
+TEST(Model, TooManyParticlesAreRefusedBeforeAllocation) {
   ModelSettings settings;
   CubeSettings cube;
-  cube.particles_per_edge = 1200;
+  cube.particles_per_edge = 1291;  // 1290³ is the last below 2³¹
   settings.cubes.push_back(cube);
   const auto model = build_model(settings);
   ASSERT_FALSE(model.ok());
