@@ -2,6 +2,8 @@
 
 #include <Eigen/IterativeLinearSolvers>
 
+#include "model/springs.h"
+
 namespace aspic::bench {
 
 using reference::Trial;
@@ -9,7 +11,7 @@ using reference::Vector;
 
 AssembledSystem::AssembledSystem(const Model& model)
     : model_(model),
-      springs_(model.springs),
+      springs_(all_springs(model)),
       dynamics_(model),
       limits_(model.simulation.implicit),
       h_(static_cast<float>(model.simulation.timestep)) {

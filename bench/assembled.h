@@ -20,6 +20,7 @@ class AssembledSystem {
   reference::Trial<float> start();
   reference::Trial<float> fall();
   reference::Trial<float> try_step(float lambda, bool onwards);
+  static bool interrupted() { return false; }
 
   /// A·δ = r to ‖r‖ ≤ η·‖r₀‖.
   void solve(float forcing, std::uint32_t most, std::uint32_t& iterations);

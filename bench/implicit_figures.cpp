@@ -46,11 +46,13 @@ Model landing(int n) {
 /// Sheared and twisted, without terrain.
 Model wobbling(int n) {
   Model model = taken(build_model(cube(n)));
-  for (std::size_t i = 0; i < model.initial_position.size(); ++i) {
-    Vec3& x = model.initial_position[i];
-    x = {x.x + 0.1 * std::sin(x.z), 0.95 * x.y, x.z};
-    model.initial_velocity[i] = {0.5 * x.z, 0.0, -0.5 * x.x};
+  std::vector<Vec3> places, velocities;
+  for (const Vec3 x : model.initial_position) {
+    places.push_back({x.x + 0.1 * std::sin(x.z), 0.95 * x.y, x.z});
+    velocities.push_back({0.5 * x.z, 0.0, -0.5 * places.back().x});
   }
+  model.initial_position = std::move(places);
+  model.initial_velocity = velocities;
   return model;
 }
 

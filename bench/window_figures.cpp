@@ -1,10 +1,13 @@
 // What the window manages on this machine: real-time factor, pictures a second, longest gap between handled
 // events; and the largest cube that keeps up with time. To be run on a display, or under xvfb-run.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +29,29 @@ struct Figures {
   double real_time_factor = 0.0, pictures_per_second = 0.0;
   double longest_gap = 0.0;  ///< between two looks at the events [s]
   double resolution = 0.0;   ///< share of the full one, at the end
+  double stepping = 0.0;     ///< processor time of the solver's threads by second of simulated time [s]
+  double drawing = 0.0;      ///< that of the window's thread and the software rasteriser's by picture [s]
 };
+
+/// Processor time of this process so far [s].
+struct ProcessorTime {
+  double stepping = 0.0, drawing = 0.0;
+};
+
+/// From Linux's list of this process's threads; elsewhere 0. Mesa names its threads, and the first one is the
+/// window's.
+ProcessorTime processor_time() {
+  ProcessorTime time;
+  std::error_code none;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", none)) {
+    std::string name, nanoseconds;
+    std::ifstream(task.path() / "comm") >> name;
+    std::ifstream(task.path() / "schedstat") >> nanoseconds;
+    const bool draws = name.starts_with("llvmpipe") || task.path().filename() == std::to_string(getpid());
+    (draws ? time.drawing : time.stepping) += 1e-9 * std::strtod(nanoseconds.c_str(), nullptr);
+  }
+  return time;
+}
 
 struct Case {
   std::string scene;
@@ -58,13 +83,21 @@ Figures measure(const Case& c, double seconds) {
   // The first second compiles shaders and finds the resolution.
   const double warm_up = 1.0;
   const auto start = Clock::now();
-  auto last = start, measured_from = start, edited = start;
+  auto last = start, polled = start, measured_from = start, edited = start;
   double time_from = 0.0;
+  ProcessorTime used_from;
   bool warm = false;
   int pictures = 0;
   double pull = 9.8;  // of gravity [m/s²]
   for (;;) {
-    (*window)->poll(0.0);
+    double wait = 0.0;
+    do {
+      (*window)->poll(wait);
+      const auto looked = Clock::now();
+      if (warm) figures.longest_gap = std::max(figures.longest_gap, seconds_between(polled, looked));
+      polled = looked;
+      wait = (*app)->wait(seconds_between(last, looked));
+    } while (wait > 0.0);
     const auto now = Clock::now();
     const double dt = seconds_between(last, now);
     last = now;
@@ -72,9 +105,9 @@ Figures measure(const Case& c, double seconds) {
       warm = true;
       measured_from = now;
       time_from = simulation.time();
+      used_from = processor_time();
     } else if (warm) {
       ++pictures;
-      figures.longest_gap = std::max(figures.longest_gap, dt);
       if (seconds_between(measured_from, now) > seconds) break;
     }
     if (c.edits && seconds_between(edited, now) > 0.1) {
@@ -91,6 +124,9 @@ Figures measure(const Case& c, double seconds) {
   const double wall = seconds_between(measured_from, last);
   figures.real_time_factor = (simulation.time() - time_from) / wall;
   figures.pictures_per_second = pictures / wall;
+  const ProcessorTime used = processor_time();
+  figures.stepping = (used.stepping - used_from.stepping) / (simulation.time() - time_from);
+  figures.drawing = (used.drawing - used_from.drawing) / pictures;
   figures.resolution = (*app)->picture.resolution();
   (*window)->set_receiver(nullptr);
   return figures;
@@ -103,9 +139,10 @@ void report(std::string_view what, const Case& c, const Figures& f) {
   fmt::print(
       "{{\"case\": \"{}\", \"scene\": \"{}\", \"overrides\": [{}], \"backend\": \"{}\", "
       "\"real_time_factor\": {:.3f}, \"pictures_per_second\": {:.1f}, \"longest_gap_seconds\": {:.3f}, "
-      "\"resolution\": {}}}\n",
+      "\"resolution\": {}, \"stepping_seconds_a_simulated_second\": {:.3f}, \"drawing_seconds_a_picture\": "
+      "{:.4f}}}\n",
       what, c.scene, overrides, c.backend, f.real_time_factor, f.pictures_per_second, f.longest_gap,
-      f.resolution);
+      f.resolution, f.stepping, f.drawing);
   std::fflush(stdout);
 }
 
@@ -143,6 +180,15 @@ void largest(std::string_view backend, Integrator integrator, double timestep) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 4) {
+    const Case c = {
+        "cube-plane",
+        {fmt::format("cube[0].particles-per-edge={}", argv[3]),
+         fmt::format("simulation.integrator={}", argv[2]), fmt::format("simulation.timestep={}", argv[4])},
+        argv[1]};
+    for (int i = 0; i < 3; ++i) report("one", c, measure(c, 4.0));
+    return 0;
+  }
   const std::string_view what = argc > 1 ? argv[1] : "", only = argc > 2 ? argv[2] : "";
   const bool all = what == "all";
   if (!all && what != "default" && what != "large" && what != "sizes")

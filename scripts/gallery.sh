@@ -28,6 +28,12 @@ draw strain 1.42 cube-plane --view colour=strain
 draw springs 1.42 cube-plane --view 'draw=["structural","shear","bending"]'
 draw penalty 1.4 penalty
 draw cube-and-balls 0.7 cube-and-balls
+draw cube-torus 0.95 cube-torus
+draw cube-hole 1.3 cube-hole
+draw elevator 2 elevator
+draw ball-pit 2.2 ball-pit
+draw curtain 1.25 curtain
+draw flag 2.25 flag
 
 ASPIC_WINDOW_PICTURES=$work xvfb-run -a -s "-screen 0 1920x1080x24 -noreset" \
   "$aspic_build_dir/tests/app/app_window_tests" --gtest_filter='Gallery.*' >&2

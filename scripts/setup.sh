@@ -1,5 +1,5 @@
 # Sourced by run.sh and test.sh: installs what is missing and builds Release. Everything it says goes to stderr.
-# Usage: source scripts/setup.sh; aspic_install run|all; aspic_build ON|OFF [ninja target …]
+# Usage: source scripts/setup.sh; aspic_install run|all; aspic_install_packages name …; aspic_build ON|OFF [ninja target …]
 
 aspic_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 aspic_build_dir=$aspic_root/build/release
@@ -10,8 +10,14 @@ aspic_packages() {
 }
 
 aspic_install() {
-  local wanted missing package
+  local wanted
   mapfile -t wanted < <(aspic_packages "$1")
+  aspic_install_packages "${wanted[@]}"
+}
+
+# aspic_install_packages name …: those that are missing.
+aspic_install_packages() {
+  local wanted=("$@") missing package
   # dpkg-query prints nothing for a package it has never heard of: what is not listed as installed is missing.
   missing=$(comm -23 <(printf '%s\n' "${wanted[@]}" | sort -u) \
     <(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' "${wanted[@]}" 2>/dev/null | awk '$1 == "ii" { print $2 }' | sort -u))

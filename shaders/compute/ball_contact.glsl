@@ -34,7 +34,8 @@ Impulse impact(vec3 n, vec3 dv, vec3 dv_0, vec3 rolling, float weight, float sli
   precise float u = dot3(dv, n);
   precise float approach = -dot3(dv_0, n);
   precise float e = approach < resting_speed ? 0.0 : ball_restitution;
-  precise float J = exact_div((1.0 + e) * -u, weight);
+  precise float lost = (1.0 + e) * -u;
+  precise float J = exact_div(lost, weight);
   precise vec3 linear = J * n;
   precise vec3 turning = vec3(0.0);
   if (ball_spin != 0u) {

@@ -29,7 +29,8 @@ void consider(Seeker seeker, uint b) {
 void search(Seeker seeker) {
   // A particle reaches no further than half a cell, a ball no further than a whole one.
   bool ball = seeker.kind == KIND_BALL;
-  ivec3 home = ivec3(floor(in_cells(seeker.x) - (ball ? 1.0 : 0.5)));
+  precise vec3 lowest = in_cells(seeker.x) - (ball ? 1.0 : 0.5);
+  ivec3 home = ivec3(floor(lowest));
   int span = ball ? 3 : 2;
   int next_cell = 0;
   ivec3 cell = home;

@@ -12,8 +12,9 @@ vec4 ball_gap(uint t, uint end, float radius, vec3 x) {
 void rub_ball(uint t, Ball start, BallBody body, float gain, vec3 n, inout precise vec3 v_t,
               inout precise vec3 omega) {
   precise vec3 s = v_t - start.position.w * cross3(omega, n);
-  precise vec4 rub = friction_impulse(s, body.ball_mass * gain, terrains[t].friction,
-                                      body.ball_inverse_mass + start.start_velocity.w);
+  precise float push = body.ball_mass * gain;
+  precise float weight = body.ball_inverse_mass + start.start_velocity.w;
+  precise vec4 rub = friction_impulse(s, push, terrains[t].friction, weight);
   v_t = v_t - (body.ball_inverse_mass * rub.w) * rub.xyz;
   omega = omega + (start.spin.w * rub.w) * cross3(n, rub.xyz);
 }
@@ -25,7 +26,8 @@ void respond_ball_course(uint t, Ball start, BallBody body, vec3 x, inout precis
   if (!(g.w < epsilon && u < 0.0)) return;
   precise float u_after = bounce_speed(t, body.ball_mass, u);
   precise vec3 v_t = v_r - u * g.xyz;
-  if (ball_spin != 0u) rub_ball(t, start, body, u_after - u, g.xyz, v_t, omega);
+  precise float gain = u_after - u;
+  if (ball_spin != 0u) rub_ball(t, start, body, gain, g.xyz, v_t, omega);
   precise vec3 left = v_t + u_after * g.xyz;
   v = absolute_velocity(t, left);
 }
@@ -51,7 +53,8 @@ void respond_ball_coulomb(uint t, Ball start, BallBody body, inout precise vec3 
   if (ball_spin != 0u) {
     precise vec3 before = f;
     f = with_ball_reaction(t, start, body, before);
-    given = (time_step * body.ball_inverse_mass) * dot3(f - before, g_0.xyz);
+    precise vec3 reaction = f - before;
+    given = (time_step * body.ball_inverse_mass) * dot3(reaction, g_0.xyz);
   }
   precise vec4 g = ball_gap(t, AT_END, R, x);
   precise vec3 v_r = relative_velocity(t, AT_END, v);
@@ -64,7 +67,8 @@ void respond_ball_coulomb(uint t, Ball start, BallBody body, inout precise vec3 
     if (ball_spin != 0u) {
       rub_ball(t, start, body, gain, g.xyz, v_t, omega);
     } else {
-      v_t = rubbed(v_t, terrains[t].friction * gain);
+      precise float loss = terrains[t].friction * gain;
+      v_t = rubbed(v_t, loss);
     }
     precise vec3 left = v_t + u_after * g.xyz;
     v = absolute_velocity(t, left);

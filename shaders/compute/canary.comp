@@ -11,7 +11,7 @@ struct Outcome {
   uint sum;
   uint product_sum;
   uint fused;
-  uint unused;
+  uint vector_sum;
 };
 
 layout(std430, binding = 0) readonly buffer Operands {
@@ -35,5 +35,5 @@ void main() {
   outcomes[i].sum = floatBitsToUint(device_add(a, c));
   outcomes[i].product_sum = floatBitsToUint(device_mul_add(a, b, c));
   outcomes[i].fused = floatBitsToUint(device_fma(a, b, c));
-  outcomes[i].unused = 0u;
+  outcomes[i].vector_sum = floatBitsToUint(device_mul_add(a, vec3(c, b, a), vec3(b, c, a)).y);
 }

@@ -43,7 +43,8 @@ vec3 projected(float friction, vec3 n, float c, vec3 v_1) {
   precise float u = dot3(v_1, n);
   if (!(u < c)) return v_1;
   precise vec3 v_t = v_1 - u * n;
-  precise vec3 left = rubbed(v_t, friction * (c - u)) + c * n;
+  precise float loss = friction * (c - u);
+  precise vec3 left = rubbed(v_t, loss) + c * n;
   return left;
 }
 
@@ -80,7 +81,10 @@ float speed_after_contact(uint t, float m, float d_0, float u_0, float d, float 
   if (!(u < c)) return u;
   if (down) return c;
   if (!(-u_0 > resting_speed)) return 0.0;
-  precise float u_after = bounced_speed(t, m, d_0, d_0 - d, u_0, u - u_0, exact_div(d - d_0, time_step));
+  precise float drop = d_0 - d;
+  precise float rise = d - d_0;
+  precise float du = u - u_0;
+  precise float u_after = bounced_speed(t, m, d_0, drop, u_0, du, exact_div(rise, time_step));
   return u_after;
 }
 
@@ -102,7 +106,8 @@ void respond_coulomb(uint t, float m, vec3 x_0, vec3 v_0, inout precise vec3 x, 
   precise float u_after = speed_after_contact(t, m, g_0.w, u_0, g.w, u);
   if (u_after > u) {
     precise vec3 v_t = v_r - u * g.xyz;
-    precise vec3 left = rubbed(v_t, terrains[t].friction * (u_after - u)) + u_after * g.xyz;
+    precise float loss = terrains[t].friction * (u_after - u);
+    precise vec3 left = rubbed(v_t, loss) + u_after * g.xyz;
     v = absolute_velocity(t, left);
   }
   precise float rise = undue_rise(g_0.w, u_0, g.w, u_after);

@@ -28,6 +28,12 @@ float device_mul_add(float a, float b, float c) {
   return total;
 }
 
+// The same by component, in one expression, as kernels write it.
+vec3 device_mul_add(float a, vec3 b, vec3 c) {
+  precise vec3 total = a * b + c;
+  return total;
+}
+
 // One rounding on hardware with a fused unit, two elsewhere (llvmpipe): the canary finds out which.
 float device_fma(float a, float b, float c) {
   precise float total = fma(a, b, c);

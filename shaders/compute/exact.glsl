@@ -102,7 +102,8 @@ float exact_sqrt(float x) {
   if ((exponent & 1) != 0) m = m * 2.0;
   precise float c = device_sqrt(m);
   precise float r = residual(m, c, c);
-  c = c + device_div(r, c * 2.0);
+  precise float twice = c * 2.0;
+  c = c + device_div(r, twice);
   precise float low = below(c);
   precise float high = above(c);
   r = residual(m, c, c);

@@ -107,7 +107,8 @@ void respond_solved(uint t, float m, bool held, vec3 x_0, vec3 v_0, inout precis
       precise float u_after = bounced_speed(t, m, g_0.w, fall, u_0, du, mean);
       if (u_after > u) {
         precise vec3 v_t = v_r - u * g.xyz;
-        precise vec3 left = rubbed(v_t, terrains[t].friction * (u_after - u)) + u_after * g.xyz;
+        precise float loss = terrains[t].friction * (u_after - u);
+        precise vec3 left = rubbed(v_t, loss) + u_after * g.xyz;
         v = absolute_velocity(t, left);
       }
     }

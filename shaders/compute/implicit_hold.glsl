@@ -9,7 +9,8 @@ bool on_one(vec3 x, float m, vec3 v, inout Reaction r) {
   precise float c = least_speed(g);
   precise vec3 v_t = v_r - u * g.xyz;
   precise float slip = norm3(v_t);
-  precise float keep = slip_kept(slip, terrains[t].friction * (c - u));
+  precise float loss = terrains[t].friction * (c - u);
+  precise float keep = slip_kept(slip, loss);
   precise vec3 left = c * g.xyz;
   r.freedom = FREE_NONE;
   if (keep > 0.0) {
@@ -42,8 +43,10 @@ bool between_two(vec3 x, vec3 v, bool last, inout Reaction r) {
   precise float c_b = least_speed_of(j, b);
   precise float short_a = c_a - dot3(v, a.xyz);
   precise float short_b = c_b - dot3(v, b.xyz);
-  precise float push_a = exact_div(short_a - cosine * short_b, sine2);
-  precise float push_b = exact_div(short_b - cosine * short_a, sine2);
+  precise float lack_a = short_a - cosine * short_b;
+  precise float lack_b = short_b - cosine * short_a;
+  precise float push_a = exact_div(lack_a, sine2);
+  precise float push_b = exact_div(lack_b, sine2);
   if (!last && (push_a < 0.0 || push_b < 0.0)) return false;
   precise float loss_a = terrains[i].friction * (push_a > 0.0 ? push_a : 0.0);
   precise float loss_b = terrains[j].friction * (push_b > 0.0 ? push_b : 0.0);
@@ -60,7 +63,9 @@ bool between_two(vec3 x, vec3 v, bool last, inout Reaction r) {
   }
   if (moving) slip = slip - still;
   precise float keep = slip_kept(abs(slip), loss);
-  precise vec3 left = exact_div(c_a - cosine * c_b, sine2) * a.xyz + exact_div(c_b - cosine * c_a, sine2) * b.xyz;
+  precise float off_a = c_a - cosine * c_b;
+  precise float off_b = c_b - cosine * c_a;
+  precise vec3 left = exact_div(off_a, sine2) * a.xyz + exact_div(off_b, sine2) * b.xyz;
   r.freedom = FREE_NONE;
   if (keep > 0.0) {
     left = (keep * slip) * axis + left;

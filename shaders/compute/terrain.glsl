@@ -7,7 +7,9 @@ float bounce_speed(uint t, float m, float u) {
   precise float factor = -terrains[t].restitution;
   if (terrains[t].movable != 0u) {
     precise float M = terrains[t].mass;
-    factor = exact_div(m - terrains[t].restitution * M, m + M);
+    precise float kept = m - terrains[t].restitution * M;
+    precise float sum = m + M;
+    factor = exact_div(kept, sum);
   }
   precise float bounced = factor * u;
   return bounced > 0.0 ? bounced : 0.0;

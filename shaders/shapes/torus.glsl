@@ -25,6 +25,7 @@ vec4 torus_gap(uint t, vec3 x) {
   if (away == 0.0) return vec4(axis.xyz, d);
   if (L == 0.0) return vec4(along < 0.0 ? -axis.xyz : axis.xyz, d);
   precise float q = exact_div(1.0, away);
-  precise vec3 n = exact_div(off * q, L) * across + (along * q) * axis.xyz;
+  precise float outward = off * q;
+  precise vec3 n = exact_div(outward, L) * across + (along * q) * axis.xyz;
   return vec4(n, d);
 }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "model/springs.h"
+
 namespace aspic {
 
 Measures measure(const Model& model, const State& state) {
@@ -34,7 +36,7 @@ Measures measure(const Model& model, const State& state) {
   }
   m.max_speed = std::sqrt(fastest_squared);
   if (std::isfinite(lowest)) m.min_height = lowest;
-  for (const Spring& spring : model.springs) {
+  for (const Spring& spring : springs_of(model)) {
     const SpringClass& c = model.spring_classes[spring.spring_class];
     const double stretch = length(state.position[spring.a] - state.position[spring.b]) - c.rest_length;
     if (c.cord && stretch < 0.0) continue;

@@ -1,9 +1,12 @@
 #include "analysis/particle_force.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <ranges>
 
+#include "model/springs.h"
 #include "model/terrain.h"
 
 namespace aspic {
@@ -29,19 +32,39 @@ Vec3 after_contact(const Terrain& terrain, double epsilon, const Vec3& x, const 
   return (f - along * n) + (terrain.friction * along) * slip;
 }
 
+std::vector<Spring> of_lattice(const Body& body, std::uint32_t particle) {
+  const auto n = static_cast<int>(body.lattice_edge);
+  const auto local = static_cast<int>(particle - body.first_particle);
+  const std::array<int, 3> own = {local / (n * n), local / n % n, local % n};
+  std::vector<Spring> found;
+  const auto add = [&](const LatticeDirection& o, int sign) {
+    const std::array<int, 3> other = {own[0] + sign * o.di, own[1] + sign * o.dj, own[2] + sign * o.dk};
+    if (std::ranges::any_of(other, [&](int at) { return at < 0 || at >= n; })) return;
+    const auto index =
+        body.first_particle + static_cast<std::uint32_t>((other[0] * n + other[1]) * n + other[2]);
+    found.push_back(
+        {std::min(particle, index), std::max(particle, index), body.first_class + o.spring_class});
+  };
+  for (const LatticeDirection& o : std::views::reverse(lattice_directions())) add(o, -1);
+  for (const LatticeDirection& o : lattice_directions()) add(o, 1);
+  return found;
+}
+
 }  // namespace
 
 SpringFinder::SpringFinder(const Model& model) {
-  for (const Spring& spring : model.springs) widest_ = std::max(widest_, spring.b - spring.a);
+  for (const Spring& spring : model.listed_springs) widest_ = std::max(widest_, spring.b - spring.a);
 }
 
-std::vector<std::uint32_t> SpringFinder::of(const Model& model, std::uint32_t particle) const {
+std::vector<Spring> SpringFinder::of(const Model& model, std::uint32_t particle) const {
+  const auto body = std::ranges::find_if(
+      model.bodies, [&](const Body& b) { return particle - b.first_particle < b.particle_count; });
+  if (body != model.bodies.end() && body->lattice_edge > 0) return of_lattice(*body, particle);
+  std::vector<Spring> found;
   const std::uint32_t first_end = particle - std::min(particle, widest_);
-  const auto first = std::ranges::lower_bound(model.springs, first_end, {}, &Spring::a);
-  std::vector<std::uint32_t> found;
-  for (auto s = first; s != model.springs.end() && s->a <= particle; ++s)
-    if (s->a == particle || s->b == particle)
-      found.push_back(static_cast<std::uint32_t>(s - model.springs.begin()));
+  const auto first = std::ranges::lower_bound(model.listed_springs, first_end, {}, &Spring::a);
+  for (auto s = first; s != model.listed_springs.end() && s->a <= particle; ++s)
+    if (s->a == particle || s->b == particle) found.push_back(*s);
   return found;
 }
 
@@ -51,8 +74,7 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
   const Vec3 &x = state.position[particle], &v = state.velocity[particle];
   ParticleForce force;
   force.gravity = force.net = model.mass[particle] * model.simulation.gravity;
-  for (const std::uint32_t index : springs.of(model, particle)) {
-    const Spring& spring = model.springs[index];
+  for (const Spring& spring : springs.of(model, particle)) {
     const std::uint32_t other = spring.a == particle ? spring.b : spring.a;
     const Vec3 f = spring_force(model.spring_classes[spring.spring_class], x, v, state.position[other],
                                 state.velocity[other]);

@@ -10,15 +10,14 @@
 
 namespace aspic {
 
-/// Finds the springs of a particle without a list of them: springs are sorted by (a, b), and no spring of a
-/// lattice joins particles farther apart than a few of its layers. Costs one look at each spring when made,
-/// and 8 bytes.
+/// Finds the springs of a particle: those of a lattice follow from its place, and listed ones are sorted by
+/// (a, b) and join particles not far apart. Costs one look at each listed spring when made, and 8 bytes.
 class SpringFinder {
  public:
   explicit SpringFinder(const Model& model);
-  /// Indices into Model::springs of those that end at `particle`, ascending, which is also the order of
-  /// their other ends. `model` is that of the constructor.
-  std::vector<std::uint32_t> of(const Model& model, std::uint32_t particle) const;
+  /// Those that end at `particle`, in ascending order of their other ends. `model` is that of the
+  /// constructor.
+  std::vector<Spring> of(const Model& model, std::uint32_t particle) const;
 
  private:
   std::uint32_t widest_ = 0;  // largest b − a

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/split_mix.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace {
@@ -69,20 +70,16 @@ LinearisedBody::LinearisedBody(const Model& model, std::uint32_t first_particle,
   for (std::uint32_t i = 0; i < particle_count; ++i) {
     root_inverse_mass_.push_back(std::sqrt(model.inverse_mass[first_particle + i]));
   }
-  const auto begin = std::lower_bound(model.springs.begin(), model.springs.end(), first_particle,
-                                      [](const Spring& s, std::uint32_t particle) { return s.a < particle; });
-  const auto end = std::lower_bound(begin, model.springs.end(), first_particle + particle_count,
-                                    [](const Spring& s, std::uint32_t particle) { return s.a < particle; });
-  if (springs) springs_.reserve(static_cast<std::size_t>(end - begin));
+  const std::vector<Vec3> position = model.initial_position.list(first_particle, particle_count);
   std::vector<double> stiffness_disc(particle_count, 0.0), damping_disc(particle_count, 0.0);
   smallest_ratio_ = std::numeric_limits<double>::infinity();
-  for (auto spring = begin; spring != end; ++spring) {
-    const SpringClass& c = model.spring_classes[spring->spring_class];
-    const Vec3 e = model.initial_position[spring->a] - model.initial_position[spring->b];
+  for (const Spring& spring : springs_of(model, first_particle, particle_count)) {
+    const SpringClass& c = model.spring_classes[spring.spring_class];
+    const std::uint32_t a = spring.a - first_particle, b = spring.b - first_particle;
+    const Vec3 e = position[a] - position[b];
     const double l = length(e);
-    const bool moves = model.inverse_mass[spring->a] > 0.0 || model.inverse_mass[spring->b] > 0.0;
+    const bool moves = root_inverse_mass_[a] > 0.0 || root_inverse_mass_[b] > 0.0;
     if (l == 0.0 || !moves || (c.stiffness == 0.0 && c.damping == 0.0)) continue;
-    const std::uint32_t a = spring->a - first_particle, b = spring->b - first_particle;
     if (springs) springs_.push_back({a, b, e / l, c.stiffness, c.damping});
     ++spring_count_;
     for (const auto& [own, other] : {std::pair(a, b), std::pair(b, a)}) {

@@ -11,6 +11,7 @@
 
 #include "analysis/amplification.h"
 #include "analysis/spectrum.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace {
@@ -271,7 +272,7 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
       known_ratio = ratio;
     }
     const StabilityLimit& least = *known;
-    if (!body.cubic || !least.step || timestep > *least.step) return false;
+    if (body.lattice_edge == 0 || !least.step || timestep > *least.step) return false;
   }
   return covered == model.particle_count();
 }

@@ -150,13 +150,27 @@ std::string App::title() const {
 
 bool App::idle() const {
   return !simulation.running() && std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
-         !screenshot_wanted_ && !scene.pending() && !simulation.changing();
+         !screenshot_wanted_ && !scene.pending() && !simulation.changing() && !simulation.busy();
+}
+
+double App::wait(double since) const {
+  constexpr double shortest = 1.0 / 60.0, longest = 0.1, nap = 0.004;  // s
+  if (idle()) return std::max(0.25 - since, 0.0);
+  // Displays set the pace of hardware. A software rasteriser draws on the processors that simulate: it draws
+  // at no more than that pace, only what is new, and where steps are late for a third of the time at most.
+  if (!picture.context().info().is_software) return 0.0;
+  const bool nothing_new = simulation.busy() && !simulation.has_news() && !touched_ && !camera_moves_;
+  const bool late = simulation.running() && simulation.pacer().late();
+  const double interval = nothing_new ? longest
+                          : late      ? std::clamp(3.0 * frame_seconds_, shortest, longest)
+                                      : shortest;
+  return std::clamp(interval - since, 0.0, nap);
 }
 
 // ---- events ----
 
 void App::key(int key, int action, int modifiers) {
-  still_for_ = 0.0;
+  touch();
   gui_->key(key, action, modifiers);
   if (action == GLFW_RELEASE || gui_->takes_keyboard()) return;
   if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS) {
@@ -168,7 +182,7 @@ void App::key(int key, int action, int modifiers) {
 }
 
 void App::character(unsigned int code_point) {
-  still_for_ = 0.0;
+  touch();
   if (gui_->takes_keyboard())
     gui_->character(code_point);
   else
@@ -176,7 +190,7 @@ void App::character(unsigned int code_point) {
 }
 
 void App::mouse_button(int button, int action, int modifiers) {
-  still_for_ = 0.0;
+  touch();
   gui_->mouse_button(button, action);
   if (action != GLFW_RELEASE) return pointer.press(button, modifiers, gui_->takes_mouse());
   pointer.release(button);
@@ -185,6 +199,7 @@ void App::mouse_button(int button, int action, int modifiers) {
 
 void App::cursor(double x, double y) {
   mouse_still_for_ = 0.0;
+  touched_ = true;
   // A mouse that only passes over leaves the picture as it is, in full resolution.
   if (pointer.drags()) still_for_ = 0.0;
   gui_->cursor(x, y);
@@ -192,12 +207,12 @@ void App::cursor(double x, double y) {
 }
 
 void App::scroll(double dx, double dy) {
-  still_for_ = 0.0;
+  touch();
   if (!pointer.scroll(dy, gui_->takes_mouse())) gui_->scroll(dx, dy);
 }
 
 void App::drop(const std::vector<std::string>& paths) {
-  still_for_ = 0.0;
+  touch();
   if (!paths.empty()) scene.open(paths.front());
 }
 
@@ -208,7 +223,8 @@ Status App::frame(const WindowSize& size, double dt) {
   if (context.lost()) return context.lost_error();
   if (size.pixel_width < 1 || size.pixel_height < 1 || size.width < 1 || size.height < 1) return {};
   messages.update(dt);
-  const bool camera_moves = view.camera.update(dt);
+  touched_ = false;
+  camera_moves_ = view.camera.update(dt);
   scene.update(dt);
   // A picture of a software rasteriser takes longer anyway, so steps may too.
   const double budget = context.info().is_software ? 0.030 : 0.012;
@@ -218,10 +234,13 @@ Status App::frame(const WindowSize& size, double dt) {
   if (const auto message = simulation.take_message()) messages.error(*message);
   film.update();
   run.watch_divergence();
-  still_for_ = camera_moves || simulation.running() || simulation.seeking() ? 0.0 : still_for_ + dt;
+  still_for_ = camera_moves_ || simulation.running() || simulation.seeking() ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
   picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25);
-  return make_picture(size, dt);
+  const auto start = std::chrono::steady_clock::now();
+  const Status made = make_picture(size, dt);
+  frame_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return made;
 }
 
 Status App::make_picture(const WindowSize& size, double dt) {

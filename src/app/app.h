@@ -57,6 +57,8 @@ class App final : public EventReceiver {
   Status adopt_context(gl::Context& context, double scale, WindowServices services);
   /// Nothing moves: the next picture would be the same but for events.
   bool idle() const;
+  /// How long to wait for events before the next picture, `since` the last one [s]; 0: none, it is due.
+  double wait(double since) const;
   std::string title() const;
   /// What to remember for the next time; the window's own place is not known here.
   KeptState kept_state() const;
@@ -86,11 +88,17 @@ class App final : public EventReceiver {
   Status attach(gl::Context& context, double scale, WindowServices services);
   std::vector<Command> make_commands();
   Status make_picture(const WindowSize& size, double dt);
+  void touch() {
+    still_for_ = 0.0;
+    touched_ = true;
+  }
   void restore(const KeptState& kept, const std::vector<std::string>& overrides);
 
-  bool screenshot_wanted_ = false;
+  bool screenshot_wanted_ = false, camera_moves_ = false;
   /// Since something moved, and since the mouse did [s].
   double still_for_ = 0.0, mouse_still_for_ = 0.0;
+  double frame_seconds_ = 0.0;  // the last picture with its panels
+  bool touched_ = false;        // by an event since then
 };
 
 }  // namespace aspic::app

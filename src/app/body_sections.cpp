@@ -11,7 +11,7 @@
 #include "base/printable.h"
 #include "gpu/device_info.h"
 #include "model/bodies.h"
-#include "run/backends.h"
+#include "model/springs.h"
 #include "scene/load.h"
 
 namespace aspic::app {
@@ -20,19 +20,15 @@ namespace {
 constexpr std::string_view spring_types[] = {"structural", "shear", "bending"};
 
 /// What the scene takes, and what a cube of another size would have to fit into.
-std::string memory_note(const ModelSettings& settings) {
-  const ModelCounts counts = predict_counts(settings);
+std::string memory_note(const Solver& solver) {
+  const Model& model = solver.model();
   std::string note = fmt::format(
-      "This scene: {} particles and {} springs. The model takes {}, and a backend more:", counts.particles,
-      counts.springs(), human_bytes(model_bytes(counts)));
-  for (const BackendRow& row : backends()) {
-    note += fmt::format(" {} {}{}", row.title,
-                        human_bytes(row.bytes(counts, settings.simulation.integrator, {&row})),
-                        &row == &backends().back() ? "." : ",");
-  }
+      "This scene: {} particles and {} springs. The model takes {}, its state {} and the {} backend {}.",
+      model.particle_count(), spring_count(model), human_bytes(model_bytes(model)),
+      human_bytes(state_bytes(count(model))), solver.backend(), human_bytes(solver.bytes()));
   if (const auto free = available_memory())
     note += fmt::format(" {} of memory are free; a scene that does not fit is refused.", human_bytes(*free));
-  return note + " Springs grow with the third power of the particles per edge.";
+  return note + " Particles grow with the third power of the particles per edge.";
 }
 
 /// A line that names an element of a list, with a button that removes it. True if it was pressed.
@@ -117,7 +113,7 @@ void add_cube(Gui& gui, SceneControl& scene) {
 }  // namespace
 
 void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
-  const std::string note = memory_note(scene.scene().model);
+  const std::string note = memory_note(scene.solver());
   edit(gui, scene, "cube[].particles-per-edge", cube, {{}, note});
   edit(gui, scene, "cube[].position", cube, {"Offset"});
   edit(gui, scene, "cube[].rotation.axis", cube, {"Rotation axis"});

@@ -8,6 +8,8 @@
 namespace aspic::app {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 Status advance(const Backend& engine, std::uint64_t steps, Advanced& into) {
   ASPIC_TRY(const auto advanced, engine.solver->advance(steps));
   ASPIC_TRY(auto state, engine.solver->state());
@@ -40,34 +42,55 @@ Status Engines::set_pull(const std::optional<Pull>& pull) {
   return shadowed() ? shadow_.solver->set_pull(pull) : Status();
 }
 
-Outcome Engines::advance_outside(std::uint64_t steps, double budget, bool alone,
-                                 const std::atomic<bool>& hurry) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(budget);
+/// The energies of a state, unless that would take more than a tenth of the time.
+std::optional<Measures> Engines::measured(const State& state) {
+  const auto start = Clock::now();
+  if (start < next_measured_) return std::nullopt;
+  const Measures measures = measure(*model_, state);
+  const auto end = Clock::now();
+  next_measured_ = end + 9 * (end - start);
+  return measures;
+}
+
+Outcome Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry) {
   Outcome outcome;
-  const Backend& first = shadow_paces() ? shadow_ : leader_;
-  Advanced& paced = shadow_paces() ? outcome.shadow : outcome.leader;
-  while (outcome.steps < steps && !hurry && Clock::now() < end) {
-    const auto advanced = first.solver->advance(1);
-    if (!advanced) {
-      outcome.error = advanced.error();
-      return outcome;
-    }
-    paced.divergence = *advanced;
-    if (paced.divergence) break;
-    ++outcome.steps;
-  }
-  auto state = first.solver->state();
-  if (!state) {
-    outcome.error = state.error();
-    return outcome;
-  }
-  paced.state = std::move(*state);
-  outcome.measures = measure(*model_, paced.state);
-  if (alone || &first == &shadow_ || !shadowed() || in_context(shadow_)) return outcome;
-  if (const Status followed = advance(shadow_, tried_steps(outcome, paced), outcome.shadow); !followed)
-    outcome.error = followed.error();
+  if (const Status done = try_outside(limits, hurry, outcome); !done) outcome.error = done.error();
   return outcome;
+}
+
+Status Engines::try_outside(const JobLimits& limits, const std::atomic<bool>& hurry, Outcome& outcome) {
+  const auto end = Clock::now() + std::chrono::duration<double>(limits.seconds);
+  const bool shadow_first = shadow_paces();
+  const bool both = !shadow_first && !limits.alone && shadowed() && !in_context(shadow_);
+  Solver& first = *(shadow_first ? shadow_ : leader_).solver;
+  Advanced& paced = shadow_first ? outcome.shadow : outcome.leader;
+  State start, other_start;
+  if (both) {
+    ASPIC_TRY(start, first.state());
+    ASPIC_TRY(other_start, shadow_.solver->state());
+  }
+  first.heed(&hurry);
+  for (std::uint64_t at = limits.from; at < limits.to && !hurry && !paced.divergence && Clock::now() < end;
+       ++at) {
+    ASPIC_TRY(paced.divergence, first.advance(1));
+  }
+  ASPIC_TRY(paced.state, first.state());
+  outcome.steps = paced.state.step - limits.from;
+  if (both) {
+    shadow_.solver->heed(&hurry);
+    ASPIC_CHECK(advance(shadow_, tried_steps(outcome, paced), outcome.shadow));
+    // A hurry that the shadow heeds takes back the steps of both: they stay together.
+    if (hurry && !outcome.shadow.divergence &&
+        outcome.shadow.state.step - limits.from < tried_steps(outcome, paced)) {
+      ASPIC_CHECK(first.load(start));
+      ASPIC_CHECK(shadow_.solver->load(other_start));
+      outcome.steps = 0;
+      outcome.leader = {std::move(start), std::nullopt};
+      outcome.shadow = {std::move(other_start), std::nullopt};
+    }
+  }
+  outcome.measures = measured(paced.state);
+  return {};
 }
 
 Status Engines::follow(Outcome& outcome) {

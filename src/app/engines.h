@@ -1,6 +1,7 @@
 #pragma once
 // The model of a run with the solvers that advance it.
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -28,8 +29,16 @@ struct Advanced {
 struct Outcome {
   std::optional<Error> error;
   std::uint64_t steps = 0;
-  Advanced leader, shadow;  ///< each where it took part
-  Measures measures;        ///< of the one that set the pace
+  Advanced leader, shadow;           ///< each where it took part
+  std::optional<Measures> measures;  ///< of the one that set the pace; taken now and then
+  std::optional<Pull> pull;          ///< in these steps
+};
+
+/// How far a job of steps goes.
+struct JobLimits {
+  std::uint64_t from = 0, to = 0;  ///< steps of the run; `from` is where the solvers are
+  double seconds = 0.0;            ///< no step begins later than this after the first
+  bool alone = false;              ///< the leader goes without its shadow
 };
 
 /// A model, the solver whose state is shown, and in shadow mode a second one that does the same steps.
@@ -64,18 +73,21 @@ class Engines {
   Status load(const State& state);
   Status set_pull(const std::optional<Pull>& pull);
 
-  /// For a worker: advances the solvers that do without the context by at most so many steps, for about
-  /// `budget` seconds or until `hurry`. The first of them sets the pace. `alone`: the leader without its
-  /// shadow.
-  Outcome advance_outside(std::uint64_t steps, double budget, bool alone, const std::atomic<bool>& hurry);
+  /// For a worker: advances the solvers that do without the context, until `hurry` at most, which drops the
+  /// step in progress. The first of them sets the pace.
+  Outcome advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry);
   /// With the context: the solver that needs it does the steps of a job in shadow mode.
   Status follow(Outcome& outcome);
   /// The shadow alone does so many steps, tried ones included.
   Result<State> advance_shadow(std::uint64_t steps);
 
  private:
+  std::optional<Measures> measured(const State& state);
+  Status try_outside(const JobLimits& limits, const std::atomic<bool>& hurry, Outcome& outcome);
+
   std::unique_ptr<Model> model_;
   Backend leader_, shadow_;
+  std::chrono::steady_clock::time_point next_measured_ = {};  // not before
 };
 
 /// Makes solvers in the window's context.

@@ -83,7 +83,7 @@ void Film::update() {
   if (simulation_.seeking()) return;
   const double speed = simulation_.pacer().speed;
   // A job in progress goes to the step that the old speed asked for.
-  if (speed != pace_->speed()) messages_.check(simulation_.settle());
+  if (speed != pace_->speed()) messages_.check(simulation_.halt());
   if (scene_ != editor_.source()) pace_->restart();
   scene_ = editor_.source();
   const std::uint64_t copies =

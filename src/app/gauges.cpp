@@ -1,4 +1,4 @@
-// The sections that show: performance and energy.
+// The sections that show: performance, energy, and shadow mode.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -11,12 +11,14 @@
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "base/printable.h"
+#include "model/springs.h"
 
 namespace aspic::app {
 namespace {
 
-void figure(const char* label, const std::string& value, std::string_view help) {
-  ImGui::TextDisabled("%s", label);
+void figure(const char* label, const std::string& value, std::string_view help,
+            const ImVec4& colour = ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)) {
+  ImGui::TextColored(colour, "%s", label);
   tooltip(help);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
   ImGui::TextUnformatted(value.c_str());
@@ -48,17 +50,39 @@ constexpr std::array<Curve, 4> momentum_curves = {
      {"p, along z", IM_COL32(110, 165, 240, 255), [](const Measures& m) { return m.momentum.z; }},
      {"|p|", IM_COL32(230, 232, 236, 255), [](const Measures& m) { return length(m.momentum); }}}};
 
+/// The ground of a plot over the time of some samples.
+template <class Sample>
+struct Plot {
+  ImVec2 size, corner = ImGui::GetCursorScreenPos();
+  double scale, start = 0.0, span = 0.0;  // of time [s]; a span of 0: there is nothing to draw
+  float pad;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+
+  Plot(const Gui& gui, const char* name, double height, const std::deque<Sample>& samples,
+       std::string_view help)
+      : size(ImGui::GetContentRegionAvail().x, static_cast<float>(height * gui.scale())),
+        scale(gui.scale()),
+        pad(static_cast<float>(6.0 * scale)) {
+    ImGui::Dummy(size);
+    gui.mark("{}", name);
+    tooltip(help);
+    draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 21, 23, 255), 4.0f);
+    if (samples.size() < 2) return;
+    start = samples.front().time;
+    span = std::max(samples.back().time - start, 0.0);
+  }
+  /// A time and a height, 0 … 1 of what `above` and `below` leave [window units].
+  ImVec2 place(double time, double height, float above = 0.0f, float below = 0.0f) const {
+    return {
+        corner.x + pad + static_cast<float>((time - start) / span) * (size.x - 2.0f * pad),
+        corner.y + size.y - pad - static_cast<float>(height) * (size.y - 2.0f * pad - above - below) - below};
+  }
+};
+
 void plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples, std::span<const Curve> curves,
           const char* unit, std::string_view help) {
-  const double scale = gui.scale();
-  const ImVec2 size = {ImGui::GetContentRegionAvail().x, static_cast<float>(130.0 * scale)};
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  ImGui::Dummy(size);
-  gui.mark("{}", name);
-  tooltip(help);
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 21, 23, 255), 4.0f);
-  if (samples.size() < 2) return;
+  const Plot plot(gui, name, 130.0, samples, help);
+  if (!(plot.span > 0.0)) return;
   double low = 0.0, high = 0.0;
   for (const EnergySample& s : samples) {
     for (const Curve& c : curves) {
@@ -67,14 +91,9 @@ void plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples, s
     }
   }
   if (!(high > low) || !std::isfinite(high - low)) return;
-  const double start = samples.front().time, span = samples.back().time - start;
-  if (!(span > 0.0)) return;
-  const float pad = static_cast<float>(6.0 * scale), line = ImGui::GetTextLineHeight();
-  const auto place = [&](double t, double e) {
-    return ImVec2(corner.x + pad + static_cast<float>((t - start) / span) * (size.x - 2.0f * pad),
-                  corner.y + size.y - pad -
-                      static_cast<float>((e - low) / (high - low)) * (size.y - 2.0f * (pad + line)) - line);
-  };
+  const auto& [size, corner, scale, start, span, pad, draw] = plot;
+  const float line = ImGui::GetTextLineHeight();
+  const auto place = [&](double t, double e) { return plot.place(t, (e - low) / (high - low), line, line); };
   draw.AddLine(place(start, 0.0), place(start + span, 0.0), IM_COL32(80, 84, 90, 255));
   // One point for each column is all that can be seen.
   const std::size_t stride =
@@ -90,6 +109,36 @@ void plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples, s
   const ImVec2 text = ImGui::CalcTextSize(end.c_str());
   draw.AddText({corner.x + size.x - pad - text.x, corner.y + size.y - text.y - 2.0f},
                IM_COL32(140, 145, 152, 255), end.c_str());
+}
+
+constexpr ImU32 same = IM_COL32(120, 205, 140, 255), other = IM_COL32(240, 120, 95, 255);
+
+/// Places 0 at the bottom and powers of ten above, from 1 ULP on.
+double height_of(const DifferenceSample& sample) {
+  if (!std::isfinite(sample.metres)) return 1.0;
+  return std::min(std::log10(1.0 + static_cast<double>(sample.ulp)) / 10.0, 1.0);
+}
+
+void plot_differences(const Gui& gui, const std::deque<DifferenceSample>& samples) {
+  const Plot plot(
+      gui, "shadow/plot", 70.0, samples,
+      "Largest difference of any component of the state over time, in units in the last place: the bottom is "
+      "0, the top ten thousand million, each tenth of the height ten times as much. Green where every bit is "
+      "the same.");
+  for (std::size_t i = 1; i < samples.size() && plot.span > 0.0; ++i) {
+    const auto place = [&](const DifferenceSample& s) { return plot.place(s.time, height_of(s)); };
+    plot.draw.AddLine(place(samples[i - 1]), place(samples[i]), samples[i].identical ? same : other,
+                      static_cast<float>(2.0 * plot.scale));
+  }
+}
+
+/// What the run can be compared with: the reference first.
+std::vector<const BackendRow*> others_than(const BackendRow& leader) {
+  std::vector<const BackendRow*> rows;
+  for (const BackendRow& row : backends()) {
+    if (&row != &leader) rows.insert(rows.begin(), &row);
+  }
+  return rows;
 }
 
 /// Device time by pass.
@@ -148,7 +197,7 @@ void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
   if (s.gpu()) pass_times(gui, *s.gpu());
   const Model& model = s.model();
   figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
-  figure("Springs", fmt::format("{}", model.springs.size()), "Springs of all types.");
+  figure("Springs", fmt::format("{}", spring_count(model)), "Springs of all types.");
   if (model.ball_count() > 0)
     figure("Balls", fmt::format("{}", model.ball_count()), "Balls, launched or waiting.");
   figure("Solver", fmt::format("{}, {}", s.solver().backend(), human_bytes(s.solver().bytes())),
@@ -163,16 +212,50 @@ void energy_section(Gui& gui, const std::deque<EnergySample>& samples) {
     plot(gui, name, samples, curves, unit, help);
     if (samples.empty()) return;
     for (const Curve& c : curves) {
-      ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(c.colour), "%s", c.name);
-      tooltip(help);
-      ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
-      ImGui::Text("%.5g %s", c.value(samples.back().measures), unit);
+      figure(c.name, fmt::format("{:.5g} {}", c.value(samples.back().measures), unit), help,
+             ImGui::ColorConvertU32ToFloat4(c.colour));
     }
   };
   show("energy/plot", energy_curves, "J",
        "Energies of the run over time [J]. The gravitational one is zero at the origin.");
   show("energy/momentum", momentum_curves, "N·s",
        "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude.");
+}
+
+void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
+  const std::vector<const BackendRow*> others = others_than(s.backend());
+  bool on = s.shadowed();
+  if (ImGui::Checkbox("second backend", &on)) run.set_shadow(on ? others.front() : nullptr);
+  gui.mark("shadow/on");
+  tooltip(
+      "Another backend does the same steps, and after each job of steps the two states are compared. The "
+      "picture shows the leading backend; speed is limited by the slower one.");
+  if (!s.shadowed()) return;
+  // A machine with two backends has no choice to offer.
+  for (std::size_t i = 0; others.size() > 1 && i < others.size(); ++i) {
+    const std::string label(others[i]->title);
+    if (ImGui::RadioButton(label.c_str(), others[i] == s.shadow_backend())) run.set_shadow(others[i]);
+    tooltip(others[i]->summary);
+  }
+  ImGui::TextDisabled("%s ∥ %s", std::string(s.solver().backend()).c_str(),
+                      std::string(s.shadow()->backend()).c_str());
+  tooltip(fmt::format("Leads: {}. Alongside: {}.", s.solver().description(), s.shadow()->description()));
+  plot_differences(gui, s.samples().differences());
+  if (s.samples().differences().empty()) {
+    ImGui::TextDisabled("not compared yet");
+    return;
+  }
+  const DifferenceSample& last = s.samples().differences().back();
+  const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(last.identical ? same : other);
+  if (!std::isfinite(last.metres))
+    ImGui::TextColored(colour, "one of the two diverged");
+  else if (last.identical)
+    ImGui::TextColored(colour, "0 ULP, 0 m: every bit is the same");
+  else
+    ImGui::TextColored(colour, "%llu ULP, %.3g m", static_cast<unsigned long long>(last.ulp), last.metres);
+  gui.mark("shadow/difference");
+  if (last.identical && s.samples().ever_differed())
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(other), "there were differences before");
 }
 
 }  // namespace aspic::app

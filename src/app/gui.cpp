@@ -29,7 +29,7 @@ constexpr ImWchar characters[] = {0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027
                                   0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0};
 
 /// Keys of ImGui, each followed by its name in GLFW.
-constexpr int keys[] = {
+constexpr int key_map[] = {
     ImGuiKey_Tab,         GLFW_KEY_TAB,      ImGuiKey_LeftArrow, GLFW_KEY_LEFT,      ImGuiKey_RightArrow,
     GLFW_KEY_RIGHT,       ImGuiKey_UpArrow,  GLFW_KEY_UP,        ImGuiKey_DownArrow, GLFW_KEY_DOWN,
     ImGuiKey_PageUp,      GLFW_KEY_PAGE_UP,  ImGuiKey_PageDown,  GLFW_KEY_PAGE_DOWN, ImGuiKey_Home,
@@ -90,7 +90,7 @@ Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services, 
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
-  for (std::size_t i = 0; i < std::size(keys); i += 2) io.KeyMap[keys[i]] = keys[i + 1];
+  for (std::size_t i = 0; i < std::size(key_map); i += 2) io.KeyMap[key_map[i]] = key_map[i + 1];
   io.ClipboardUserData = gui.get();
   io.GetClipboardTextFn = [](void* user) {
     Gui& self = *static_cast<Gui*>(user);

@@ -52,7 +52,12 @@ int show(const ViewOptions& view) {
   const InterruptGuard guard;
   std::optional<Error> error;
   while (!error && !(*window)->should_close() && !guard.interrupted()) {
-    (*window)->poll((*app)->idle() ? 0.25 : 0.0);
+    const auto since_last = [&] { return std::chrono::duration<double>(Clock::now() - last).count(); };
+    double wait = 0.0;
+    do {
+      (*window)->poll(wait);
+      wait = (*app)->wait(since_last());
+    } while (wait > 0.0 && !(*window)->should_close() && !guard.interrupted());
     const auto now = Clock::now();
     // After a pause of the program itself time goes on; it does not catch up.
     const double dt = std::min(std::chrono::duration<double>(now - last).count(), 0.25);

@@ -7,6 +7,7 @@ namespace aspic::app {
 void Pacer::restart() {
   due_ = 0.0;
   behind_ = false;
+  since_behind_ = std::numeric_limits<double>::infinity();
   rate_start_ = Clock::now();
   rate_steps_ = 0;
   steps_per_second_ = 0.0;
@@ -17,9 +18,12 @@ std::uint64_t Pacer::steps_due(double dt, const SimulationSettings& settings, st
   const double asked =
       pace == Pace::real_time ? speed * dt / settings.timestep : speed * settings.steps_per_frame;
   due_ += asked;
-  // What was not done within two pictures is dropped: the motion slows down, and does not jump.
-  const double most = std::max(2.0 * asked, 1.0);
+  // What was not done within two pictures or a tenth of a second is dropped: the motion slows down, and does
+  // not jump.
+  const double tenth = pace == Pace::real_time ? speed * 0.1 / settings.timestep : 0.0;
+  const double most = std::max({2.0 * asked, tenth, 1.0});
   behind_ = due_ > most;
+  since_behind_ = behind_ ? 0.0 : since_behind_ + dt;
   due_ = std::min(due_, most);
   if (const double window = std::chrono::duration<double>(Clock::now() - rate_start_).count();
       window > rate_window) {

@@ -2,6 +2,7 @@
 // How fast simulated time passes, and how fast it really does.
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "model/settings.h"
@@ -30,13 +31,16 @@ class Pacer {
   void did(std::uint64_t steps);
   /// Fewer steps were done than the pace asks for.
   bool behind() const { return behind_; }
+  /// So it was lately.
+  bool late() const { return since_behind_ < 3.0; }
   /// Measured while running; 0 before there is a measurement.
   double steps_per_second() const { return steps_per_second_; }
 
  private:
   using Clock = std::chrono::steady_clock;
   bool behind_ = false;
-  double due_ = 0.0;  // steps asked for and not done
+  double since_behind_ = std::numeric_limits<double>::infinity();  // [s]
+  double due_ = 0.0;                                               // steps asked for and not done
   Clock::time_point rate_start_ = Clock::now();
   std::uint64_t rate_steps_ = 0;
   double steps_per_second_ = 0.0;

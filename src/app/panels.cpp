@@ -49,7 +49,7 @@ constexpr Heading right_sections[] = {
      [](Parts p) {
        recording_section(p.gui, p.scene.editor().source(), p.film);
        ImGui::Separator();
-       state_files(p.gui, {p.scene.editor(), p.simulation, p.messages});
+       state_files(p.gui, p.scene.editor(), p.simulation, p.messages);
      },
      false, "Films of the scene; its states, energies and checkpoints as files."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); }, true,
@@ -99,6 +99,9 @@ void status_line(double scale, const Simulation& s, const Recording* film, bool 
                                                           : "";
     facts.push_back(fmt::format("{:.3g} × real time{}", s.real_time_factor(), why));
   }
+  if (s.working())
+    facts.insert(facts.begin(), s.changing() ? "working: rebuilds the scene"
+                                             : fmt::format("working on step {}", s.step() + 1));
   facts.push_back(fmt::format("step {}", s.step()));
   facts.emplace_back("F1 all keys");
   const float gap = 22.0f * static_cast<float>(scale);

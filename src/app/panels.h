@@ -14,7 +14,6 @@
 #include "app/scene_control.h"
 #include "app/scene_picture.h"
 #include "app/simulation.h"
-#include "app/state_files.h"
 #include "app/view.h"
 
 namespace aspic::app {
@@ -51,7 +50,7 @@ void balls_section(Gui& gui, const Simulation& simulation, Hands& hands);
 void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout);
 void recording_section(Gui& gui, const std::string& source, Film& film);
 /// A button for each format of states; part of the recording section.
-void state_files(Gui& gui, const StateFiles& files);
+void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages);
 void performance_section(Gui& gui, Simulation& simulation, const ScenePicture& picture);
 void energy_section(Gui& gui, const std::deque<EnergySample>& energies);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);

@@ -1,4 +1,4 @@
-// The section that films.
+// The section that films and writes states.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -7,7 +7,10 @@
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "io/series_csv.h"
+#include "io/state_sink.h"
 #include "run/outputs.h"
+#include "scene/write.h"
 
 namespace aspic::app {
 namespace {
@@ -58,6 +61,45 @@ void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
                   hint));
 }
 
+/// The energies of the plot as a table.
+Status write_series(const std::string& path, const std::deque<EnergySample>& samples) {
+  ASPIC_TRY(auto series, SeriesWriter::create(path, Overwrite::refuse));
+  for (const EnergySample& sample : samples) {
+    ASPIC_CHECK(series.add(sample.step, sample.time, sample.measures));
+  }
+  return series.finish();
+}
+
+Status write_state(const StateFormat& format, const std::string& path, Scene scene,
+                   const Simulation& simulation) {
+  scene.model = simulation.setup().settings;
+  const RunFacts facts = {to_toml(scene), scene.model.simulation.integrator};
+  ASPIC_TRY(auto sink, format.open(path, 0, Overwrite::refuse, facts));
+  return sink->finish({simulation.model(), simulation.snapshot()});
+}
+
+/// Writes the state now, or with a format over time the energies of the plot, to a new file (empty: a free
+/// name). A message says what became of it.
+void save(const StateFormat& format, std::string path, const SceneEditor& editor, Simulation& simulation,
+          Messages& messages) {
+  if (path.empty()) path = free_name(editor.source(), format.ending);
+  if (!messages.check(simulation.settle())) return;
+  const Setup& setup = simulation.setup();
+  if (format.holds_scene && !(setup.thrown.empty() && setup.pinned.empty())) {
+    return messages.error(
+        fmt::format("A {} holds the scene and the state, and balls thrown or particles pinned by hand are "
+                    "not part of the scene. Remove them first (Balls, or Reset), or save the state alone.",
+                    format.option));
+  }
+  const auto& energies = simulation.samples().energies();
+  if (!messages.check(format.over_time ? write_series(path, energies)
+                                       : write_state(format, path, editor.scene(), simulation)))
+    return;
+  messages.info(format.over_time ? fmt::format("{} holds {} rows.", path, energies.size())
+                                 : fmt::format("{} holds the {} at step {}.", path, format.option,
+                                               simulation.snapshot().step));
+}
+
 }  // namespace
 
 void recording_section(Gui& gui, const std::string& source, Film& film) {
@@ -90,7 +132,7 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
   if (film.completing() > 0) ImGui::TextDisabled("Completing the last film …");
 }
 
-void state_files(Gui& gui, const StateFiles& files) {
+void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages) {
   static std::array<char, 1024> path = {};
   for (const StateFormat& format : state_formats()) {
     const std::string name = fmt::format("save/{}{}", format.option, format.ending);
@@ -103,7 +145,7 @@ void state_files(Gui& gui, const StateFiles& files) {
       ImGui::OpenPopup(name.c_str());
     }
     if (!ImGui::BeginPopup(name.c_str())) continue;
-    const std::string hint = free_name(files.editor.source(), format.ending);
+    const std::string hint = free_name(editor.source(), format.ending);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16.0f);
     const bool entered = ImGui::InputTextWithHint("##path", hint.c_str(), path.data(), path.size(),
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
@@ -111,7 +153,7 @@ void state_files(Gui& gui, const StateFiles& files) {
     tooltip(fmt::format("The file to write; if left empty, {}. Existing files are not overwritten.", hint));
     ImGui::SameLine();
     if (button(gui, (name + "/write").c_str(), "Write", "Writes the file.") || entered) {
-      files.save(format, path.data());
+      save(format, path.data(), editor, simulation, messages);
       ImGui::CloseCurrentPopup();
     }
     ImGui::EndPopup();

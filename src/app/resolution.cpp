@@ -18,7 +18,7 @@ double pixels(std::size_t i) {
 
 }  // namespace
 
-void Resolution::took(double share, double seconds) {
+void Resolution::took(double share, double seconds, double moving) {
   const auto found = std::ranges::find(shares, share);
   assert(found != shares.end());
   const auto at = static_cast<std::size_t>(found - shares.begin());
@@ -36,7 +36,7 @@ void Resolution::took(double share, double seconds) {
   } else {
     known = seconds;
   }
-  moving_ = choose(in_motion, moving_);
+  moving_ = choose(moving, moving_);
   still_ = std::min(choose(at_rest, still_), moving_);
 }
 

@@ -13,6 +13,8 @@ class Resolution {
  public:
   /// Times that a picture may take in motion, and at rest [s].
   static constexpr double in_motion = 0.045, at_rest = 0.085;
+  /// In motion while steps are late: the solver needs the processors.
+  static constexpr double hurried = 0.015;
   /// Few shares, so that pictures do not swim; each has about half the pixels of the one before.
   static constexpr std::array shares = {1.0, 0.75, 0.55, 0.4, 0.3};
   static constexpr double coarsest = shares.back();
@@ -20,8 +22,8 @@ class Resolution {
   /// The share for the next picture, one of `shares`.
   double share(bool still) const { return shares[still ? still_ : moving_]; }
   /// A picture at this share, one of `shares`, took so long [s], > 0. The first after a change of what is
-  /// drawn does not count.
-  void took(double share, double seconds);
+  /// drawn does not count. In motion the next may take `moving` [s].
+  void took(double share, double seconds, double moving = in_motion);
   /// Other things are drawn: begins coarsely again, where pictures may take long.
   void reset(bool large);
 

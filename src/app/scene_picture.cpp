@@ -100,7 +100,10 @@ Status ScenePicture::draw() {
   drawn_ = content;
   ++number_;
   draw_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (adapts && !new_model) resolution_.took(share, draw_seconds_);
+  if (adapts && !new_model) {
+    const bool late = simulation_.running() && simulation_.pacer().late();
+    resolution_.took(share, draw_seconds_, late ? Resolution::hurried : Resolution::in_motion);
+  }
   return {};
 }
 

@@ -9,7 +9,7 @@ Result<Model> build_model(const Setup& setup) {
   if (!model) return model;
   for (const auto& [particle, pinned] : setup.pinned) {
     if (particle < model->particle_count())
-      model->inverse_mass[particle] = pinned ? 0.0 : 1.0 / model->mass[particle];
+      model->inverse_mass.set(particle, pinned ? 0.0 : 1.0 / model->mass[particle]);
   }
   model->balls.insert(model->balls.end(), setup.thrown.begin(), setup.thrown.end());
   return model;

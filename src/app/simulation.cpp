@@ -80,14 +80,16 @@ void Simulation::start_change() {
   requested_.reset();
   const std::uint64_t particles =
       std::max<std::uint64_t>(model().particle_count(), predict_counts(setup.settings).particles);
-  if (particles < many_particles || engines_.use_context() || seek_) {
+  if (particles < many_particles || engines_.use_context()) {
     change_result_ = change_setup(std::move(setup), keep_state);
     return;
   }
   change_ = begin_change(std::move(setup), keep_state);
-  has_outcome_ = true;
-  outcome_ = Outcome{};
-  worker_.start([this](const std::atomic<bool>&) { build(*change_); });
+  progress_ = Clock::now();
+  worker_.start([this](const std::atomic<bool>&) {
+    build(*change_);
+    outcomes_.put({});
+  });
 }
 
 void Simulation::build(Change& change) {
@@ -95,7 +97,9 @@ void Simulation::build(Change& change) {
 }
 
 Status Simulation::change_setup(Setup setup, bool keep_state) {
-  ASPIC_CHECK(settle());
+  // Another start has no use for the end of a way through history.
+  if (!keep_state) seek_.reset();
+  ASPIC_CHECK(halt(true));
   Change change = begin_change(std::move(setup), keep_state);
   build(change);
   return finish_change(std::move(change));
@@ -143,10 +147,11 @@ Status Simulation::begin_history(const State& state) {
 Status Simulation::reset() {
   worker_.finish();
   if (change_) {
-    ASPIC_CHECK(take_outcome());
+    ASPIC_CHECK(collect());
   }
-  has_outcome_ = false;
+  outcomes_.clear();
   seek_.reset();
+  single_steps_ = 0;
   if (!setup_.thrown.empty() || !setup_.pinned.empty()) {
     ASPIC_CHECK(rebuild({setup_.settings, {}, {}}));
   }
@@ -163,7 +168,7 @@ Status Simulation::reset() {
 
 Status Simulation::set_backend(const BackendRow& row) {
   if (&row == &backend()) return {};
-  ASPIC_CHECK(settle());
+  ASPIC_CHECK(halt());
   const auto divergence = divergence_;
   if (shadow_backend() == &row) {
     engines_.swap();  // both are at the same step
@@ -179,7 +184,7 @@ Status Simulation::set_backend(const BackendRow& row) {
 
 Status Simulation::set_shadow(const BackendRow* row) {
   if (row == shadow_backend()) return {};
-  ASPIC_CHECK(settle());
+  ASPIC_CHECK(halt());
   samples_.clear_differences();
   engines_.set_shadow({});
   if (!row) return {};
@@ -193,7 +198,7 @@ Status Simulation::set_shadow(const BackendRow* row) {
 Status Simulation::fall_back(const Error& error) {
   if (!engines_.use_context()) return error;
   worker_.finish();
-  has_outcome_ = false;
+  outcomes_.clear();
   if (!Engines::in_context(engines_.leader())) {
     engines_.set_shadow({});
     seek_.reset();
@@ -223,7 +228,7 @@ std::optional<DeviceState> Simulation::device_state() const {
 // ---- hands ----
 
 Status Simulation::toggle_pin(std::uint32_t particle) {
-  ASPIC_CHECK(settle());
+  ASPIC_CHECK(halt(true));
   if (particle >= model().particle_count()) return {};
   Setup setup = setup_;
   setup.pinned[particle] = model().inverse_mass[particle] != 0.0;
@@ -231,7 +236,7 @@ Status Simulation::toggle_pin(std::uint32_t particle) {
 }
 
 Status Simulation::throw_balls(const std::vector<BallSettings>& balls) {
-  ASPIC_CHECK(settle());
+  ASPIC_CHECK(halt(true));
   Setup setup = setup_;
   for (const BallSettings& b : balls)
     setup.thrown.push_back({b.radius, b.mass, step_, b.position, b.velocity, b.angular_velocity});
@@ -239,7 +244,7 @@ Status Simulation::throw_balls(const std::vector<BallSettings>& balls) {
 }
 
 Status Simulation::clear_balls() {
-  ASPIC_CHECK(settle());
+  ASPIC_CHECK(halt(true));
   if (setup_.thrown.empty()) return {};
   Setup setup = setup_;
   setup.thrown.clear();

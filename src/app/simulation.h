@@ -25,7 +25,8 @@
 namespace aspic::app {
 
 /// All calls from the window's thread, with its context current. A backend that needs the context advances in
-/// batches that keep within a frame, every other in a thread of its own.
+/// batches that keep within a frame; every other in a thread of its own, beside the drawing of the state that
+/// it finished last. No call but settle() waits for a step that takes long: it is dropped and begun again.
 class Simulation {
  public:
   /// `context` must outlive it. Errors: those of the scene and of make_backend().
@@ -44,6 +45,12 @@ class Simulation {
   void request_change(const Scene& scene, bool keep_state);
   std::optional<Status> take_change() { return std::exchange(change_result_, std::nullopt); }
   bool changing() const { return requested_.has_value() || change_.has_value(); }
+  /// A thread is at work on a step or a change for longer than a picture should take.
+  bool working() const;
+  /// Steps or a change are under way, or done and not taken up by update() yet.
+  bool busy() const { return !idle() || single_steps_ > 0; }
+  /// update() has something new to take up.
+  bool has_news() const { return !outcomes_.empty(); }
   /// Carries the state over to another backend, to the bit. On an error nothing changes.
   Status set_backend(const BackendRow& backend);
   /// Back to the scene's start, which also forgets a divergence and all that hands did. Paused or running
@@ -67,14 +74,17 @@ class Simulation {
   const Pacer& pacer() const { return pacer_; }
   void set_running(bool running);
   bool running() const { return running_; }
-  /// One step while paused; does nothing while running or diverged. In the past it follows the history.
+  /// One step while paused, of a large model in the thread while update() is called; does nothing while
+  /// running or diverged. In the past it follows the history.
   Status single_step();
   /// Once for each picture: takes what the solver finished and sets it to work again for at most about
   /// `budget` seconds. `dt` is the time since the last call [s]. A backend that fails in the context is
   /// replaced by the reference, see take_message().
   Status update(double dt, double budget);
-  /// Waits for the work in progress, a way through history included, so that snapshot() is the state to the
-  /// step.
+  /// Ends the work in progress, so that snapshot() is the state to the step; waits for a way through history
+  /// only to `arrive`.
+  Status halt(bool arrive = false);
+  /// Waits for all that was asked for, single steps included.
   Status settle();
   std::uint64_t step() const { return step_; }
   double time() const { return static_cast<double>(step_) * model().simulation.timestep; }
@@ -159,13 +169,21 @@ class Simulation {
   Status advance_run(double dt, double budget);
   Status advance_here(std::uint64_t steps, double budget);
   Status compare_shadow(std::uint64_t steps);
-  void start_job(std::uint64_t steps, double budget);
-  Status take_outcome();
+  bool idle() const { return !worker_.busy() && outcomes_.empty(); }
+  bool steps_quickly() const;
+  Status step_now();
+  Status step_singly();
+  Status show_figures();
+  Status start_steps(std::uint64_t to, double budget);
+  void start_job(std::uint64_t to, double budget, bool alone, std::optional<Pull> pull);
+  void start_measuring();
+  Status collect();
+  Status take(Outcome outcome);
   Status follow(Outcome outcome);
   Status seek_on(double budget);
   void note(std::uint64_t steps, const std::optional<Divergence>& divergence);
   void take_snapshot(State state);
-  void add_sample(const State& state, const Measures& measures);
+  void add_sample(const State& state, const std::optional<Measures>& measures);
   void forget_future(double now);
 
   Setup setup_;
@@ -190,8 +208,11 @@ class Simulation {
       requested_;                 // a change that has not begun; true: keeps the state
   std::optional<Change> change_;  // the worker builds for it
   std::optional<Status> change_result_;
-  bool has_outcome_ = false;
-  Outcome outcome_;
+  std::uint64_t single_steps_ = 0;   // asked for and not done
+  Clock::time_point progress_ = {};  // the worker began, or had an outcome
+  std::uint64_t job_to_ = 0;         // of the newest job
+  std::uint64_t job_step_ = 0;       // where the solvers are; the jobs' own
+  Mailbox<Outcome> outcomes_;
   Worker worker_;  // last: its job uses all of the above
 };
 

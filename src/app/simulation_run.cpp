@@ -4,6 +4,7 @@
 
 #include "app/simulation.h"
 #include "model/integrator.h"
+#include "model/springs.h"
 
 namespace aspic::app {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr double keyframe_interval = 0.1, history_seconds = 30.0;  // s
 constexpr auto sample_every = std::chrono::milliseconds(100);
 /// The window does not wait for a job, so it may take longer than a picture [s].
-constexpr double shortest_job = 0.030;
+constexpr double shortest_job = 0.030, longest_job = 0.1;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -22,6 +23,10 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 void Simulation::set_running(bool running) {
   running_ = running && !divergence_;
+  if (running_)
+    single_steps_ = 0;
+  else if (!change_ && !seek_)
+    worker_.hurry();
   pacer_.restart();
 }
 
@@ -35,30 +40,43 @@ void Simulation::forget_future(double now) {
   samples_.truncate(now);
 }
 
-/// Before steps that are not history yet. The solvers must be idle.
+/// Before steps that are not history yet. The solvers in the context must be idle.
 Status Simulation::prepare_to_advance() {
   if (!at_end()) forget_future(time());
+  if (!engines_.use_context()) return {};  // else the job takes the pull along
   if (history_.pull_at(here()) != hand_) history_.set_pull(step_, hand_);
   return engines_.set_pull(hand_);
 }
 
+/// A step takes so little time that the window can wait for it.
+bool Simulation::steps_quickly() const {
+  // Of springs by force evaluations, about 50 ms on the slowest backend.
+  constexpr double quick = 4e6, solve = 100.0;
+  const Integrator method = model().simulation.integrator;
+  const double evaluations = row_of(method).solved() ? solve : force_evaluations_per_step(method);
+  return Engines::in_context(engines_.leader()) ||
+         evaluations * static_cast<double>(spring_count(model())) < quick;
+}
+
 Status Simulation::single_step() {
   if (running_ || divergence_) return {};
+  if (!steps_quickly()) {
+    ++single_steps_;
+    return {};
+  }
   ASPIC_CHECK(settle());
+  return step_now();
+}
+
+Status Simulation::step_now() {
   if (const auto next = history_.after(here())) {
     ASPIC_CHECK(seek(*next));
-    return settle();
+    return halt(true);
   }
-  ASPIC_CHECK(prepare_to_advance());
-  const auto advanced = engines_.leader().solver->advance(1);
-  if (!advanced) return fall_back(advanced.error());
-  note(*advanced ? 0 : 1, *advanced);
-  ASPIC_CHECK(refresh_snapshot());
-  if (shadowed()) {
-    if (const Status followed = compare_shadow(1); !followed) return fall_back(followed.error());
-  }
-  add_sample(snapshot_, measure(model(), snapshot_));
-  return {};
+  ASPIC_CHECK(start_steps(step_ + 1, std::numeric_limits<double>::infinity()));
+  worker_.wait();
+  const Status moved = collect();
+  return moved ? refresh_snapshot() : fall_back(moved.error());
 }
 
 /// The shadow does so many steps, tried ones included, on this thread and is compared with the snapshot.
@@ -81,33 +99,62 @@ void Simulation::note(std::uint64_t steps, const std::optional<Divergence>& dive
 }
 
 Status Simulation::update(double dt, double budget) {
-  Status moved;
-  if (!worker_.busy()) moved = take_outcome();
-  if (moved && requested_ && !worker_.busy() && !has_outcome_) start_change();
+  if (!worker_.busy()) worker_.wait();  // for an exception
+  Status moved = collect();
+  const bool waits = requested_ && !seek_;
+  if (moved && waits && idle()) start_change();
   if (moved && change_) return {};
   if (moved && seek_)
     moved = seek_on(budget);
-  else if (moved && running_)
+  else if (moved && running_ && !(waits && !engines_.only_context()))
     moved = advance_run(dt, budget);
-  // While paused, all figures are of the state that is shown.
-  else if (moved && Engines::in_context(engines_.leader()) && snapshot_.step != step_)
-    moved = refresh_snapshot();
+  else if (moved && single_steps_ > 0)
+    moved = step_singly();
+  else if (moved && !running_)
+    moved = show_figures();
   return moved ? Status() : fall_back(moved.error());
+}
+
+/// While paused, all figures are of the state that is shown.
+Status Simulation::show_figures() {
+  if (Engines::in_context(engines_.leader()) && snapshot_.step != step_) return refresh_snapshot();
+  const auto& energies = samples_.energies();
+  if (idle() && !divergence_ && at_end() && (energies.empty() || energies.back().step < step_))
+    start_measuring();
+  return {};
+}
+
+/// The next of the single steps that a model takes long for.
+Status Simulation::step_singly() {
+  if (!idle()) return {};
+  if (const auto next = history_.after(here())) {
+    --single_steps_;
+    return seek(*next);
+  }
+  return start_steps(step_ + 1, std::numeric_limits<double>::infinity());
 }
 
 Status Simulation::advance_run(double dt, double budget) {
   const std::uint64_t steps = pacer_.steps_due(dt, model().simulation, step_);
   if (steps == 0) return {};
+  // Where all solvers go on by themselves one job waits for the end of another, so that they never stand
+  // still while a picture is drawn.
+  const bool queues = !engines_.use_context() && worker_.jobs() < 2 && step_ + steps > job_to_;
+  if (!engines_.only_context() && !idle() && !queues) return {};
+  return start_steps(step_ + steps, engines_.only_context()
+                                        ? budget
+                                        : std::max({budget, shortest_job, std::min(dt, longest_job)}));
+}
+
+/// Up to that step at most; in the context at once, else in a job.
+Status Simulation::start_steps(std::uint64_t to, double budget) {
+  ASPIC_CHECK(prepare_to_advance());
   if (!engines_.only_context()) {
-    // A job that came to its end since the last look still has its outcome.
-    if (worker_.busy() || has_outcome_) return {};
-    ASPIC_CHECK(prepare_to_advance());
-    start_job(steps, std::max(budget, shortest_job));
+    start_job(to, budget, false, hand_);
     return {};
   }
-  ASPIC_CHECK(prepare_to_advance());
   const std::uint64_t before = step_;
-  ASPIC_CHECK(advance_here(steps, budget));
+  ASPIC_CHECK(advance_here(to - step_, budget));
   if (!shadowed()) return {};
   ASPIC_CHECK(refresh_snapshot());
   return compare_shadow(step_ - before + (divergence_ ? 1 : 0));
@@ -125,50 +172,78 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
     done += count;
     const double took = seconds_since(before);
     // A batch is about a quarter of the budget, so that its end is not far beyond.
-    if (count == batch_ && took < 0.125 * budget) batch_ = std::min<std::uint64_t>(2 * batch_, 256);
+    if (count == batch_ && took < 0.125 * std::min(budget, shortest_job))
+      batch_ = std::min<std::uint64_t>(2 * batch_, 256);
     if (took > 0.5 * budget) batch_ = std::max<std::uint64_t>(batch_ / 2, 1);
     if (seconds_since(start) > 0.75 * budget) break;
   }
   if (seek_ || (!divergence_ && Clock::now() - last_sampled_ <= sample_every)) return {};
   ASPIC_CHECK(refresh_snapshot());
-  if (worker_.busy() || has_outcome_) return {};
+  if (!idle()) return {};
   last_sampled_ = Clock::now();
-  has_outcome_ = true;
-  outcome_ = Outcome{};
-  outcome_.leader.state = snapshot_;
-  worker_.start(
-      [this](const std::atomic<bool>&) { outcome_.measures = measure(model(), outcome_.leader.state); });
+  start_measuring();
   return {};
 }
 
-/// On the way through history the leader goes alone.
-void Simulation::start_job(std::uint64_t steps, double budget) {
-  has_outcome_ = true;
-  worker_.start([this, steps, budget, alone = seek_.has_value()](const std::atomic<bool>& hurry) {
-    outcome_ = engines_.advance_outside(steps, budget, alone, hurry);
+/// The energies of the snapshot.
+void Simulation::start_measuring() {
+  worker_.start([this, state = snapshot_](const std::atomic<bool>&) {
+    Outcome outcome;
+    outcome.measures = measure(model(), state);
+    outcome.leader.state = state;
+    outcomes_.put(std::move(outcome));
   });
 }
 
-Status Simulation::take_outcome() {
-  if (!has_outcome_) return {};
-  has_outcome_ = false;
+/// Steps of the solvers without the context; those within it have this pull already.
+void Simulation::start_job(std::uint64_t to, double budget, bool alone, std::optional<Pull> pull) {
+  if (!worker_.busy()) {
+    job_step_ = step_;
+    progress_ = Clock::now();
+  }
+  job_to_ = to;
+  worker_.start([=, this](const std::atomic<bool>& hurry) {
+    Outcome outcome;
+    const Status pulled = engines_.use_context() ? Status() : engines_.set_pull(pull);
+    if (pulled)
+      outcome = engines_.advance_outside({job_step_, std::max(to, job_step_), budget, alone}, hurry);
+    else
+      outcome.error = pulled.error();
+    outcome.pull = pull;
+    job_step_ += outcome.steps;
+    outcomes_.put(std::move(outcome));
+  });
+}
+
+Status Simulation::collect() {
+  while (auto outcome = outcomes_.take()) {
+    ASPIC_CHECK(take(std::move(*outcome)));
+  }
+  return {};
+}
+
+Status Simulation::take(Outcome outcome) {
+  progress_ = Clock::now();
   if (change_) {
     Change change = std::move(*change_);
     change_.reset();
     change_result_ = finish_change(std::move(change));
     return {};
   }
-  Outcome outcome = std::move(outcome_);
   if (outcome.error) return *outcome.error;
   const bool stepped = outcome.steps > 0 || outcome.leader.divergence || outcome.shadow.divergence;
+  if (stepped && !seek_) {
+    single_steps_ -= std::min(single_steps_, std::max<std::uint64_t>(outcome.steps, 1));
+    if (history_.pull_at(here()) != outcome.pull) history_.set_pull(step_, outcome.pull);
+  }
   if (shadowed() && stepped && !seek_) return follow(std::move(outcome));
   const bool in_context = Engines::in_context(engines_.leader());
   const State& paced = engines_.shadow_paces() ? outcome.shadow.state : outcome.leader.state;
-  if (!in_context) {
+  if (!in_context && stepped) {
     take_snapshot(std::move(outcome.leader.state));
     note(outcome.steps, outcome.leader.divergence);
   }
-  if (!seek_) add_sample(in_context ? paced : snapshot_, outcome.measures);
+  if (!seek_) add_sample(in_context || !stepped ? paced : snapshot_, outcome.measures);
   return {};
 }
 
@@ -187,15 +262,29 @@ Status Simulation::follow(Outcome outcome) {
   return {};
 }
 
-Status Simulation::settle() {
+Status Simulation::halt(bool arrive) {
   worker_.finish();
-  Status moved = take_outcome();
-  while (moved && seek_) {
+  Status moved = collect();
+  while (arrive && moved && seek_) {
     moved = seek_on(std::numeric_limits<double>::infinity());
     worker_.wait();
-    if (moved) moved = take_outcome();
+    if (moved) moved = collect();
   }
   return moved ? refresh_snapshot() : fall_back(moved.error());
+}
+
+Status Simulation::settle() {
+  ASPIC_CHECK(halt(true));
+  while (single_steps_ > 0 && !divergence_) {
+    --single_steps_;
+    ASPIC_CHECK(step_now());
+  }
+  return {};
+}
+
+bool Simulation::working() const {
+  constexpr double noticeable = 0.5;  // s
+  return worker_.busy() && !has_news() && seconds_since(progress_) > noticeable;
 }
 
 Status Simulation::refresh_snapshot() {
@@ -213,9 +302,9 @@ Status Simulation::seek(const Moment& moment) {
   set_running(false);
   requested_.reset();
   worker_.finish();
-  if (const Status taken = take_outcome(); !taken) return fall_back(taken.error());
+  if (const Status taken = collect(); !taken) return fall_back(taken.error());
   const std::optional<std::uint64_t> underway = std::exchange(seek_, std::nullopt);
-  if (moment == here() && !underway) return settle();
+  if (moment == here() && !underway) return halt(true);
   const Keyframe& keyframe = history_.keyframe(moment);
   const bool on_the_way = moment.stretch == stretch_ && step_ <= moment.step && step_ >= keyframe.step;
   if (moment.stretch != stretch_) {
@@ -234,11 +323,12 @@ Status Simulation::seek(const Moment& moment) {
 Status Simulation::seek_on(double budget) {
   const auto start = Clock::now();
   while (seek_ && step_ < *seek_) {
-    if (worker_.busy() || has_outcome_) return {};
-    ASPIC_CHECK(engines_.set_pull(history_.pull_at(here())));
+    if (!idle()) return {};
+    const auto pull = history_.pull_at(here());
+    ASPIC_CHECK(engines_.set_pull(pull));
     const std::uint64_t stop = std::min(*seek_, history_.next_pull_change(here()).value_or(*seek_));
     if (!Engines::in_context(engines_.leader())) {
-      start_job(stop - step_, std::max(budget, shortest_job));
+      start_job(stop, std::max(budget, shortest_job), true, pull);
       return {};
     }
     ASPIC_CHECK(advance_here(stop - step_, budget - seconds_since(start)));
@@ -254,7 +344,7 @@ Status Simulation::step_back() {
   return earlier ? seek(*earlier) : Status();
 }
 
-void Simulation::add_sample(const State& state, const Measures& measures) {
+void Simulation::add_sample(const State& state, const std::optional<Measures>& measures) {
   if (!divergence_ && at_end()) {
     const double bytes = 24.0 * static_cast<double>(state.position.size());
     const double interval =
@@ -264,13 +354,14 @@ void Simulation::add_sample(const State& state, const Measures& measures) {
       history_.add_keyframe(state);
     }
   }
-  samples_.add({static_cast<double>(state.step) * model().simulation.timestep, measures, state.step});
+  if (measures)
+    samples_.add({static_cast<double>(state.step) * model().simulation.timestep, *measures, state.step});
 }
 
 std::optional<double> Simulation::spring_evaluations_per_second() const {
   const Integrator integrator = model().simulation.integrator;
   if (row_of(integrator).solved()) return std::nullopt;
-  return pacer_.steps_per_second() * static_cast<double>(model().springs.size()) *
+  return pacer_.steps_per_second() * static_cast<double>(spring_count(model())) *
          force_evaluations_per_step(integrator);
 }
 

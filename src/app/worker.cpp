@@ -4,41 +4,76 @@
 #include <sys/resource.h>
 #endif
 
-#include <cassert>
-#include <chrono>
-#include <utility>
-
 namespace aspic::app {
 
-void Worker::start(Job job) {
-  assert(!busy());
-  wait();
-  hurry_ = false;
-  job_ = std::async(std::launch::async, [this, run = std::move(job)] {
-  // Pictures and events go first. Where there is no such call all threads are equal, as they are by default.
-#ifdef __linux__
-    setpriority(PRIO_PROCESS, 0, 5);  // of this thread: POSIX says process, Linux means thread
-#endif
-    run(hurry_);
-  });
+Worker::~Worker() {
+  abandon();
+  const std::scoped_lock lock(mutex_);
+  ending_ = true;
+  changed_.notify_all();
 }
 
-bool Worker::busy() const {
-  return job_.valid() && job_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+void Worker::start(Job job) {
+  const std::scoped_lock lock(mutex_);
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+  if (!thread_.joinable()) thread_ = std::jthread([this] { work(); });
+  jobs_.push_back(std::move(job));
+  changed_.notify_all();
+}
+
+void Worker::work() {
+  // Pictures and events go first. Where there is no such call all threads are equal, as they are by default.
+#ifdef __linux__
+  // Of this thread: POSIX says process, Linux means thread.
+  setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + 5);
+#endif
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return ending_ || !jobs_.empty(); });
+    if (ending_) return;
+    const Job job = std::move(jobs_.front());
+    lock.unlock();
+    std::exception_ptr thrown;
+    try {
+      job(hurry_);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    lock.lock();
+    if (thrown) thrown_ = thrown;
+    hurry_ = false;
+    jobs_.pop_front();
+    changed_.notify_all();
+  }
+}
+
+std::size_t Worker::jobs() const {
+  const std::scoped_lock lock(mutex_);
+  return jobs_.size();
+}
+
+void Worker::hurry() {
+  const std::scoped_lock lock(mutex_);
+  if (jobs_.empty()) return;
+  hurry_ = true;
+  jobs_.resize(1);
 }
 
 void Worker::wait() {
-  if (job_.valid()) job_.get();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return jobs_.empty(); });
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 
 void Worker::finish() {
-  hurry_ = true;
+  hurry();
   wait();
 }
 
 void Worker::abandon() noexcept {
-  hurry_ = true;
-  if (job_.valid()) job_.wait();
+  hurry();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return jobs_.empty(); });
 }
 
 }  // namespace aspic::app

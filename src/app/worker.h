@@ -1,13 +1,19 @@
 #pragma once
-// One job at a time that must not hold up the picture, in a thread of its own.
+// Work that must not hold up the picture, in a thread of its own.
 #include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <exception>
 #include <functional>
-#include <future>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
 
 namespace aspic::app {
 
-/// All calls from one thread, the window's. An exception that leaves a job, such as running out of memory,
-/// comes out of the next start(), finish() or wait() there.
+/// Jobs one after the other. All calls from one thread, the window's. An exception that leaves a job, such as
+/// running out of memory, comes out of the next start(), finish() or wait() there.
 class Worker {
  public:
   /// A job looks at the flag now and then and comes to an early end once it is true.
@@ -15,23 +21,63 @@ class Worker {
 
   Worker() = default;
   /// Hurries the job in progress and waits for it.
-  ~Worker() { abandon(); }
+  ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// Legal while not busy().
+  /// Begins a job once those before it have ended.
   void start(Job job);
-  bool busy() const;
-  /// Hurries the job in progress, if any, and waits for its end: its results may be read then.
+  /// Jobs that have not ended.
+  std::size_t jobs() const;
+  bool busy() const { return jobs() > 0; }
+  /// Hurries the job in progress, if any, without waiting for it, and forgets those that have not begun.
+  void hurry();
+  /// The same, and waits for its end: its results may be read then.
   void finish();
   /// The same for destructors: a job's exception is kept.
   void abandon() noexcept;
-  /// Waits without hurrying it.
+  /// Waits for all jobs without hurrying them.
   void wait();
 
  private:
-  std::atomic<bool> hurry_ = false;
-  std::future<void> job_;
+  void work();
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> jobs_;  // the first one is in progress
+  std::exception_ptr thrown_;
+  bool ending_ = false;
+  std::atomic<bool> hurry_ = false;  // the job in progress alone
+  std::jthread thread_;              // from the first job on
+};
+
+/// Results on their way from one thread to another, in order.
+template <class T>
+class Mailbox {
+ public:
+  void put(T item) {
+    const std::scoped_lock lock(mutex_);
+    items_.push_back(std::move(item));
+  }
+  std::optional<T> take() {
+    const std::scoped_lock lock(mutex_);
+    if (items_.empty()) return std::nullopt;
+    std::optional<T> item = std::move(items_.front());
+    items_.pop_front();
+    return item;
+  }
+  bool empty() const {
+    const std::scoped_lock lock(mutex_);
+    return items_.empty();
+  }
+  void clear() {
+    const std::scoped_lock lock(mutex_);
+    items_.clear();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::deque<T> items_;
 };
 
 }  // namespace aspic::app

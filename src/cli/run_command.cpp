@@ -11,6 +11,7 @@
 #include "cli/json.h"
 #include "io/checkpoint.h"
 #include "io/program.h"
+#include "model/springs.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
 #include "scene/load.h"
@@ -128,19 +129,23 @@ class BatchSize {
 };
 
 /// `recorder` is null where no pictures are wanted.
-Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, std::uint64_t last_step,
-                         const InterruptGuard& interrupt) {
+Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, std::uint64_t first_step,
+                         std::uint64_t last_step, const InterruptGuard& interrupt) {
   const Model& model = solver.model();
-  ASPIC_TRY(auto state, solver.state());
   Outcome outcome;
-  outcome.first_step = state.step;
+  outcome.first_step = first_step;
   outcome.last_step = last_step;
-  const auto solves = [&] { return solver.solve_statistics().value_or(SolveStatistics{}); };
-  ASPIC_CHECK(files.take({model, state, solves()}));
+  // A State takes as much memory as all of a solver's: one is held where it is looked at, and none while
+  // steps are made.
+  const auto sample = [&]() -> Status {
+    ASPIC_TRY(const auto state, solver.state());
+    return files.take({model, state, solver.solve_statistics().value_or(SolveStatistics{})});
+  };
+  ASPIC_CHECK(sample());
 
   ProgressBar bar(last_step);
   BatchSize batch;
-  std::uint64_t step = state.step;
+  std::uint64_t step = first_step;
   const auto started = Clock::now();
   if (recorder) ASPIC_CHECK(recorder->reach(solver, step));
   while (step < last_step && !outcome.divergence && !(outcome.interrupted = interrupt.interrupted())) {
@@ -152,10 +157,7 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, st
     ASPIC_TRY(outcome.divergence, solver.advance(count));
     if (outcome.divergence) break;
     step += count;
-    if (step == wanted) {
-      ASPIC_TRY(state, solver.state());
-      ASPIC_CHECK(files.take({model, state, solves()}));
-    }
+    if (step == wanted) ASPIC_CHECK(sample());
     if (recorder) {
       recorder->add_simulation(std::chrono::duration<double>(Clock::now() - before).count());
       ASPIC_CHECK(recorder->reach(solver, step));
@@ -163,7 +165,7 @@ Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, st
     batch.took(count, std::chrono::duration<double>(Clock::now() - before).count());
     bar.update(step);
   }
-  ASPIC_TRY(state, solver.state());  // waits for the device: the time below is that of finished work
+  ASPIC_TRY(auto state, solver.state());  // waits for the device: the time below is that of finished work
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started).count(); };
   outcome.wall_seconds = seconds();
   if (const auto bad = first_not_finite(measure(model, state))) {
@@ -234,7 +236,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
         {"integrator", name_of(model.simulation.integrator)},
         {"timestep", model.simulation.timestep},
         {"particles", model.particle_count()},
-        {"springs", model.springs.size()},
+        {"springs", spring_count(model)},
         {"balls", model.ball_count()},
         {"first_step", outcome.first_step},
         {"steps", state.step},
@@ -257,7 +259,7 @@ Status print_summary(const RunOptions& options, const Scene& scene, const Model&
     }));
   }
   std::string text = fmt::format("scene        {} ({} particles, {} springs{})\n", scene.name,
-                                 model.particle_count(), model.springs.size(),
+                                 model.particle_count(), spring_count(model),
                                  model.ball_count() > 0 ? fmt::format(", {} balls", model.ball_count()) : "");
   text += fmt::format("backend      {}{}, {} precision{}\n", backend.row->name,
                       backend.force_path.empty() ? "" : ", force path " + backend.force_path,
@@ -341,12 +343,14 @@ Status execute(const RunOptions& options) {
   if (start.state) ASPIC_CHECK(backend.solver->load(*start.state));
   warn_if_unstable(model, interrupt);
 
+  const std::uint64_t first_step = start.state ? start.state->step : 0;
+  start.state.reset();
   std::unique_ptr<Recorder> recorder;
   if (options.pictures.any()) {
     ASPIC_TRY(recorder, Recorder::create(options.pictures, start.scene, backend, files.take_frame_sinks(),
-                                         start.state ? start.state->step : 0, steps));
+                                         first_step, steps));
   }
-  ASPIC_TRY(auto outcome, simulate(*backend.solver, files, recorder.get(), steps, interrupt));
+  ASPIC_TRY(auto outcome, simulate(*backend.solver, files, recorder.get(), first_step, steps, interrupt));
   const Status finished = files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
   std::vector<std::string> written = recorder ? recorder->written() : std::vector<std::string>{};
   written.insert(written.end(), files.written().begin(), files.written().end());

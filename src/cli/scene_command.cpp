@@ -60,7 +60,8 @@ Status execute(const SceneCheckOptions& options) {
 
   if (options.json) {
     Json bytes, steps;
-    for (const BackendBytes& backend : bytes_by_backend(model)) bytes[backend.backend] = backend.bytes;
+    for (const BackendBytes& backend : bytes_by_backend(model))
+      bytes[backend.backend] = backend.bytes ? Json(*backend.bytes) : Json();
     for (std::size_t i = 0; i < limits.size(); ++i) {
       steps[std::string(name_of(explicit_integrators[i]))] = {{"step", limits[i].step.value_or(0.0)},
                                                               {"exact", limits[i].exact}};
@@ -73,6 +74,8 @@ Status execute(const SceneCheckOptions& options) {
                                                      {"bending", counts.bending},
                                                      {"total", counts.springs()}}},
                                     {"balls", counts.balls},
+                                    {"model_bytes", model_bytes(model)},
+                                    {"state_bytes", state_bytes(counts)},
                                     {"bytes", bytes},
                                     {"integrator", name_of(own)},
                                     {"timestep", timestep},
@@ -83,8 +86,13 @@ Status execute(const SceneCheckOptions& options) {
     text += fmt::format("springs      {} ({} structural, {} shear, {} bending)\n", counts.springs(),
                         counts.structural, counts.shear, counts.bending);
     text += fmt::format("balls        {}\n", counts.balls);
-    for (const BackendBytes& backend : bytes_by_backend(model)) {
-      text += fmt::format("memory       {:<24} {:>10}\n", backend.backend, human_bytes(backend.bytes));
+    const std::uint64_t shared = model_bytes(model) + state_bytes(counts);
+    text += fmt::format("memory       {:<24} {:>10}\n", "model", human_bytes(model_bytes(model)));
+    text += fmt::format("memory       {:<24} {:>10}\n", "state", human_bytes(state_bytes(counts)));
+    for (const auto& [backend, bytes] : bytes_by_backend(model)) {
+      text += bytes ? fmt::format("memory       {:<24} {:>10}, a run {}\n", backend, human_bytes(*bytes),
+                                  human_bytes(shared + *bytes))
+                    : fmt::format("memory       {:<24} more than is free\n", backend);
     }
     for (std::size_t i = 0; i < limits.size(); ++i) {
       text += fmt::format("stable step  {:<24} {:>10}\n", name_of(explicit_integrators[i]),

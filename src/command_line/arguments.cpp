@@ -52,12 +52,14 @@ constexpr const char* compare_examples = R"(Examples:
   aspic compare cube-plane --backends reference,reference:double --steps 100 --tolerance 1e-4)";
 
 constexpr const char* bench_examples = R"(Examples:
-  aspic bench --backend reference --backend gpu:gather --backend gpu:per-spring --size 10 --size 20
+  aspic bench --backend cpu,reference,gpu:gather,gpu:per-spring --size 10,20
   aspic bench large-cube --seconds 10 --json
+  aspic bench --backend cpu --size 20 --peers
   aspic bench --integrator explicit-euler --integrator implicit-euler --timestep largest --duration 1
 
-Each case runs --repeats times over the same steps from the scene's start; the median counts, the spread is
-(slowest - fastest) / median. Spring evaluations are springs x force evaluations x steps; with implicit-euler
+--backend, --force-path, --size, --integrator and --peer take lists and can be repeated; every combination is
+measured. Each case runs --repeats times over the same steps from the scene's start, all of a size in turn; the median
+counts, the spread is (slowest - fastest) / median. Spring evaluations are springs x force evaluations x steps; with implicit-euler
 an application of the Jacobian counts as one. A software rasteriser's figures are no GPU's: the renderer is named.)";
 
 constexpr const char* verify_examples = R"(Examples:
@@ -283,17 +285,22 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
                             bench_examples);
   add(c, "scene", "SCENE", bench.scene, "scene file or built-in name");
   add(c, "--backend", "NAME", raw.bench_backends,
-      "auto, gpu, gpu:per-spring, cpu, cpu:fast, reference, reference:double; repeatable");
-  add(c, "--force-path", "NAME", raw.bench_force_paths, "of gpu backends without their own; repeatable");
+      "auto, gpu, gpu:per-spring, cpu, cpu:fast, reference, reference:double")
+      ->delimiter(',');
+  add(c, "--force-path", "NAME", raw.bench_force_paths, "of gpu backends without their own")->delimiter(',');
   add_arithmetic(c, raw);
-  add(c, "--size", "N", bench.sizes, "particles per edge of the scene's cubes; repeatable", most_of_int);
-  add(c, "--integrator", "NAME", raw.bench_integrators, "instead of the scene's; repeatable");
+  add(c, "--size", "N", bench.sizes, "particles per edge of the scene's cubes", most_of_int)->delimiter(',');
+  add(c, "--integrator", "NAME", raw.bench_integrators, "instead of the scene's, or all")->delimiter(',');
   add(c, "--timestep", "WORD", raw.bench_timestep,
       "scene, or largest: 0.99 of the largest stable step, 1/60 s with implicit-euler");
   auto* seconds = add(c, "--seconds", "S", bench.seconds, "time to spend on each case");
   add(c, "--duration", "S", bench.duration, "simulated seconds of each repeat, however long they take")
       ->excludes(seconds);
   add(c, "--repeats", "N", bench.repeats, "runs of each case", most_of_int);
+  add(c, "--warm-up", "N", bench.warm_up, "runs of each case before them, not counted", most_of_int);
+  c->add_flag("--peers", bench.with_peers,
+              "beside other programs with the same cube, from a source checkout");
+  add(c, "--peer", "NAME", bench.peers, "beside this one alone, e.g. textbook")->delimiter(',');
   add_overrides(c, bench.overrides);
   add_json(c, bench.json);
   return c;

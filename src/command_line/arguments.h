@@ -61,6 +61,9 @@ struct BenchOptions {
   double seconds = 2.0;            ///< per measurement, all repeats together, > 0
   std::optional<double> duration;  ///< simulated time of each repeat [s], instead of `seconds`
   int repeats = 5;                 ///< ≥ 1
+  int warm_up = 1;                 ///< runs of each case before them, ≥ 0
+  bool with_peers = false;         ///< beside other programs with the same lattice
+  std::vector<std::string> peers;  ///< their names; empty: all
   bool json = false;
 };
 

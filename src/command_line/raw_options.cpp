@@ -153,12 +153,16 @@ Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
 Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
   ASPIC_TRY(bench.backends, bench_backends(raw));
   for (const std::string& word : raw.bench_integrators) {
+    if (word == "all") {
+      bench.integrators.assign(std::begin(all_integrators), std::end(all_integrators));
+      break;
+    }
     const auto known = std::find_if(std::begin(all_integrators), std::end(all_integrators),
                                     [&](Integrator i) { return name_of(i) == word; });
     if (known == std::end(all_integrators)) {
       std::vector<std::string_view> names;
       for (const Integrator i : all_integrators) names.push_back(name_of(i));
-      return usage("--integrator does not know \"{}\"; allowed: {}.", printable_line(word),
+      return usage("--integrator does not know \"{}\"; allowed: all, {}.", printable_line(word),
                    fmt::join(names, ", "));
     }
     bench.integrators.push_back(*known);
@@ -174,6 +178,7 @@ Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
     return usage("--duration must be a number above 0.");
   }
   if (bench.repeats < 1) return usage("--repeats must be 1 or more.");
+  bench.with_peers = bench.with_peers || !bench.peers.empty();
   return Command(std::move(bench));
 }
 

@@ -38,12 +38,19 @@ inline double sway_of(const Terrain& terrain) {
 /// all.
 inline bool near_terrain(const Model& model, const Box& box) {
   const Vec3 min = {box.min[0], box.min[1], box.min[2]}, max = {box.max[0], box.max[1], box.max[2]};
-  const Vec3 centre = 0.5 * (min + max);
-  const double radius = 0.5 * length(max - min);
+  const Vec3 centre = 0.5 * (min + max), half = 0.5 * (max - min);
+  const double radius = length(half);
   return std::ranges::any_of(model.terrain, [&](const Terrain& terrain) {
     const double sway = sway_of(terrain);
     const double margin = 1e-5 * (length(centre) + radius + reach_of(terrain) + sway);
-    return !(signed_distance(terrain, centre) > model.contact.epsilon + radius + sway + margin);
+    const double near = model.contact.epsilon + sway + margin;
+    // All of a terrain with a flat part lies behind it; a box in front, however large, is told by its corner.
+    if (const auto flat = terrain_row(terrain.shape).flat) {
+      const auto [point, n] = flat(terrain.geometry);
+      const double corner = std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
+      if (dot(centre - point, n) > corner + near) return false;
+    }
+    return !(signed_distance(terrain, centre) > radius + near);
   });
 }
 

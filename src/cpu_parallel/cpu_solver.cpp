@@ -15,6 +15,7 @@
 #include "cpu_parallel/workers.h"
 #include "cpu_reference/balls.h"
 #include "cpu_reference/divergence.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace parallel {
@@ -34,7 +35,7 @@ class CpuSolver final : public Solver {
         arithmetic_(arithmetic) {
     std::size_t margin = slice;
     for (const Body& body : model.bodies) {
-      if (edge_of_lattice(model, body) > 0) {
+      if (body.lattice_edge > 0) {
         springs_.emplace_back(std::in_place_type<Lattice>, model, body);
         margin = std::max(margin, std::get<Lattice>(springs_.back()).reach() + slice);
       } else {
@@ -56,6 +57,7 @@ class CpuSolver final : public Solver {
     else
       explicit_ = std::make_unique<ExplicitSteps>(model, dynamics_, springs_, mass_, inverse_mass_, margin,
                                                   arithmetic, workers_);
+    bytes_ = sizeof(*this) + heap_bytes();
     set(initial_state(model, Precision::single));
   }
 
@@ -67,7 +69,7 @@ class CpuSolver final : public Solver {
   }
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return model_; }
-  std::uint64_t bytes() const override { return cpu_bytes(count(model_), model_.simulation.integrator); }
+  std::uint64_t bytes() const override { return bytes_; }
 
   Status load(const State& state) override {
     ASPIC_CHECK(check_sizes(model_, state));
@@ -81,8 +83,13 @@ class CpuSolver final : public Solver {
     return {};
   }
 
+  void heed(const std::atomic<bool>* flag) override {
+    Solver::heed(flag);
+    dynamics_.heed(flag);
+  }
+
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
-    for (std::uint64_t n = 0; n < steps && !divergence_; ++n) step();
+    for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) step();
     return divergence_;
   }
 
@@ -94,6 +101,7 @@ class CpuSolver final : public Solver {
   Result<State> state() override;
 
  private:
+  std::uint64_t heap_bytes() const;
   void set(const State& state);
   void step();
   void move_balls();
@@ -112,8 +120,19 @@ class CpuSolver final : public Solver {
   Particles state_, next_;
   reference::BallPhase<float> ball_phase_, next_balls_;
   std::uint64_t step_ = 0;
+  std::uint64_t bytes_;  ///< without contacts, which come and go
   std::optional<Divergence> divergence_;
 };
+
+std::uint64_t CpuSolver::heap_bytes() const {
+  std::uint64_t sum = bytes_of(state_) + bytes_of(next_) + bytes_of(mass_) + bytes_of(inverse_mass_) +
+                      bytes_of(springs_) + dynamics_.bytes() +
+                      model_.ball_count() * (18 * sizeof(float) + sizeof(reference::BallBody<float>));
+  for (const Springs& springs : springs_)
+    sum += std::visit([](const auto& each) { return each.bytes(); }, springs);
+  return sum + (implicit_ ? sizeof(ImplicitEuler) + implicit_->bytes()
+                          : sizeof(ExplicitSteps) + explicit_->bytes());
+}
 
 void CpuSolver::set(const State& state) {
   const auto take = [](const std::vector<Vec3>& from, VectorArray& to) {
@@ -150,6 +169,10 @@ void CpuSolver::step() {
   dynamics_.begin_step(step_);
   SolveReport report;
   bool sound = implicit_ ? implicit_->step(state_, next_, report) : explicit_->step(state_, next_);
+  if (interrupted()) {  // the step is dropped
+    if (explicit_) explicit_->forget();
+    return;
+  }
   if (model_.ball_count() > 0) {
     move_balls();
     sound =
@@ -188,7 +211,7 @@ void CpuSolver::move_balls() {
 Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOptions& options) {
   ASPIC_TRY(const unsigned available, parallel::available_threads());
   try {
-    const std::size_t worth = model.springs.size() / parallel::springs_per_thread;
+    const std::size_t worth = spring_count(model) / parallel::springs_per_thread;
     const unsigned threads = options.threads > 0
                                  ? options.threads
                                  : static_cast<unsigned>(std::clamp<std::size_t>(worth, 1, available));
@@ -198,16 +221,6 @@ Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOpt
                 "no memory left for the cpu solver of {} particles: use fewer particles-per-edge",
                 model.particle_count());
   }
-}
-
-std::uint64_t cpu_bytes(const ModelCounts& counts, Integrator integrator) {
-  const IntegratorRow& method = row_of(integrator);
-  // Start and end of a step, for several stages also the one between and the sums; mass and inverse mass.
-  // Lists of springs are counted as those of a net, six places a particle; cubes have none.
-  const std::uint64_t sets = method.stages.size() > 1 ? 4 : 2;
-  const std::uint64_t solve = method.solved() ? parallel::ImplicitEuler::bytes(counts) : 0;
-  return counts.particles * sizeof(float) * (6 * sets + 2) + counts.balls * sizeof(float) * (3 * 17 + 7) +
-         solve;
 }
 
 }  // namespace aspic

@@ -21,7 +21,4 @@ struct CpuOptions {
 /// for its fields.
 Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOptions& options = {});
 
-/// Bytes a parallel solver would hold for a model of these counts.
-std::uint64_t cpu_bytes(const ModelCounts& counts, Integrator integrator);
-
 }  // namespace aspic

@@ -47,6 +47,13 @@ ExplicitSteps::ExplicitSteps(const Model& model, const reference::Dynamics<float
   between_ = Particles(model.particle_count(), margin);
 }
 
+std::uint64_t ExplicitSteps::bytes() const {
+  std::uint64_t sum = bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) + bytes_of(sweeps_);
+  for (const Task& task : tasks_) sum += bytes_of(task.near) + bytes_of(task.resting);
+  for (const Sweep& sweep : sweeps_) sum += sweep.bytes();
+  return sum;
+}
+
 void ExplicitSteps::cut(std::size_t body) {
   const auto add = [&](Range range) { tasks_.push_back({body, range, {}, true, {}, {}}); };
   if (const auto* const lists = std::get_if<SpringLists>(&springs_[body]))
@@ -94,7 +101,9 @@ bool ExplicitSteps::step(Particles& start, Particles& end) {
                             accumulate,
                             s + 1 == stages,
                             method_.drift};
-    workers_.run(tasks_.size(), [&](std::size_t n) { run(tasks_[n], move); });
+    workers_.run(tasks_.size(), [&](std::size_t n) {
+      if (!dynamics_.interrupted()) run(tasks_[n], move);
+    });
     accumulate = accumulate || stage.weight != 0.0;
     at = to;
   }

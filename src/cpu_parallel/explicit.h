@@ -25,6 +25,8 @@ class ExplicitSteps {
   bool look_at(const Particles& start);
   /// The same without a look: the next step will.
   void forget() { known_ = false; }
+  /// Bytes it holds on the heap.
+  std::uint64_t bytes() const;
 
  private:
   /// Consecutive particles of one body that one thread moves: whole planes of a cube, or a piece of any other

@@ -70,9 +70,12 @@ ImplicitEuler::ImplicitEuler(const Model& model, const reference::Dynamics<float
   if (ahead_.acts()) clearance_ = FloatArray(count, slice);
 }
 
-std::uint64_t ImplicitEuler::bytes(const ModelCounts& counts) {
-  const std::uint64_t kept = counts.particles <= most_kept_particles ? counts.springs() : 0;
-  return sizeof(float) * (counts.particles * (5 * 3 + 6 + 3) + 4 * kept);
+std::uint64_t ImplicitEuler::bytes() const {
+  std::uint64_t sum = system_.bytes() + bytes_of(held_force_) + bytes_of(clearance_) + bytes_of(blocks_) +
+                      bytes_of(sums_) + bytes_of(largest_) + bytes_of(falling_) + bytes_of(jacobians_);
+  for (const Block& block : blocks_) sum += bytes_of(block.segments) + bytes_of(block.held);
+  for (const Jacobians& each : jacobians_) sum += each.bytes();
+  return sum;
 }
 
 void ImplicitEuler::cut_into_blocks() {

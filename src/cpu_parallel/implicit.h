@@ -27,9 +27,8 @@ class ImplicitEuler {
   /// slower than the speed that counts as diverged. The residual in `report` may still not be finite.
   bool step(const Particles& start, Particles& end, SolveReport& report);
 
-  /// What it holds for a scene: the linear system, Jacobians of every spring where they are kept, and a force
-  /// or a distance for each particle.
-  static std::uint64_t bytes(const ModelCounts& counts);
+  /// Bytes it holds on the heap.
+  std::uint64_t bytes() const;
 
   // What solve_step() asks of a system (cpu_reference/implicit_newton.h).
   reference::Trial<float> start();
@@ -37,6 +36,7 @@ class ImplicitEuler {
   reference::Trial<float> try_step(float lambda, bool onwards);
   float start_solve();
   bool prescribes() const { return prescribes_; }
+  bool interrupted() const { return dynamics_.interrupted(); }
   float apply();
   float advance(float alpha, bool first);
   void turn(float beta);

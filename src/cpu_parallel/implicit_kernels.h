@@ -48,6 +48,7 @@ class Jacobians {
   float* slot(std::size_t n) { return at(n * 4 * slice); }
   const float* slot(std::size_t n) const { return const_cast<Jacobians*>(this)->slot(n); }
   bool kept() const { return kept_; }
+  std::uint64_t bytes() const { return bytes_of(along_) + bytes_of(values_); }
 
  private:
   float* at(std::size_t n) { return kept_ ? values_.data() + n : nullptr; }
@@ -95,6 +96,9 @@ struct LinearSystem {
 
   LinearSystem() = default;
   LinearSystem(std::size_t count, std::size_t margin);
+  std::uint64_t bytes() const {
+    return bytes_of(base) + bytes_of(delta) + bytes_of(r) + bytes_of(z) + bytes_of(p) + bytes_of(inverse);
+  }
 };
 
 /// A block at a trial velocity. All ranges from here on are blocks: they begin at a multiple of block_size.

@@ -26,8 +26,11 @@ struct Vector {
   Float x, y, z;
 };
 
+/// Places count modulo 2⁶⁴: a neighbour's may lie in the margin before the first particle.
 HWY_INLINE Vector load(const VectorArray& a, std::size_t i) {
-  return {hn::LoadU(tag, a[0].data() + i), hn::LoadU(tag, a[1].data() + i), hn::LoadU(tag, a[2].data() + i)};
+  const auto at = static_cast<std::ptrdiff_t>(i);
+  return {hn::LoadU(tag, a[0].data() + at), hn::LoadU(tag, a[1].data() + at),
+          hn::LoadU(tag, a[2].data() + at)};
 }
 HWY_INLINE void store(const Vector& v, VectorArray& a, std::size_t i) {
   hn::StoreU(v.x, tag, a[0].data() + i);

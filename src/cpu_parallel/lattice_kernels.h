@@ -26,6 +26,7 @@ class Sweep {
     VectorArray& of = planes_[n % planes_.size()];
     return {{of[0].data(), of[1].data(), of[2].data()}};
   }
+  std::uint64_t bytes() const { return bytes_of(planes_); }
 
  private:
   std::array<VectorArray, 3> planes_;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <span>
+#include <vector>
 
 namespace aspic::parallel {
 
@@ -16,11 +18,12 @@ class FloatArray {
  public:
   FloatArray() = default;
   FloatArray(std::size_t size, std::size_t margin) : margin_(rounded_up(margin)) {
-    const std::size_t all = margin_ + rounded_up(size) + margin_;
-    data_.reset(new (std::align_val_t(alignment)) float[all]);
-    std::fill_n(data_.get(), all, 0.0f);
+    all_ = margin_ + rounded_up(size) + margin_;
+    data_.reset(new (std::align_val_t(alignment)) float[all_]);
+    std::fill_n(data_.get(), all_, 0.0f);
   }
 
+  std::uint64_t bytes() const { return all_ * sizeof(float); }
   float* data() { return data_.get() + margin_; }
   const float* data() const { return data_.get() + margin_; }
   float& operator[](std::size_t i) { return data()[i]; }
@@ -33,7 +36,7 @@ class FloatArray {
     void operator()(float* p) const { operator delete[](p, std::align_val_t(alignment)); }
   };
   std::unique_ptr<float[], Free> data_;
-  std::size_t margin_ = 0;
+  std::size_t margin_ = 0, all_ = 0;
 };
 
 /// A vector for each particle.
@@ -51,6 +54,24 @@ struct Particles {
   Particles(std::size_t size, std::size_t margin)
       : x(vector_array(size, margin)), v(vector_array(size, margin)) {}
 };
+
+/// Bytes that arrays hold.
+inline std::uint64_t bytes_of(const FloatArray& array) {
+  return array.bytes();
+}
+template <class T, std::size_t N>
+std::uint64_t bytes_of(const std::array<T, N>& arrays) {
+  std::uint64_t sum = 0;
+  for (const T& each : arrays) sum += bytes_of(each);
+  return sum;
+}
+inline std::uint64_t bytes_of(const Particles& particles) {
+  return bytes_of(particles.x) + bytes_of(particles.v);
+}
+template <class T>
+std::uint64_t bytes_of(const std::vector<T>& list) {
+  return list.capacity() * sizeof(T);
+}
 
 /// Consecutive particles.
 struct Range {

@@ -73,11 +73,14 @@ HWY_INLINE Vector weight_of(const ForceInput& input, std::size_t i) {
           hn::Mul(m, hn::Set(tag, input.gravity[2]))};
 }
 
-HWY_INLINE Vector load(const Forces& forces, std::size_t at) {
+/// Places as in load() of particles.
+HWY_INLINE Vector load(const Forces& forces, std::size_t i) {
+  const auto at = static_cast<std::ptrdiff_t>(i);
   return {hn::LoadU(tag, forces.component[0] + at), hn::LoadU(tag, forces.component[1] + at),
           hn::LoadU(tag, forces.component[2] + at)};
 }
-HWY_INLINE void store(const Vector& f, const Forces& forces, std::size_t at) {
+HWY_INLINE void store(const Vector& f, const Forces& forces, std::size_t i) {
+  const auto at = static_cast<std::ptrdiff_t>(i);
   hn::StoreU(f.x, tag, forces.component[0] + at);
   hn::StoreU(f.y, tag, forces.component[1] + at);
   hn::StoreU(f.z, tag, forces.component[2] + at);

@@ -1,10 +1,10 @@
 #include "cpu_parallel/springs.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
+#include <cstdlib>
+#include <ranges>
 
-#include "model/cube.h"
+#include "model/springs.h"
 
 namespace aspic::parallel {
 
@@ -14,53 +14,21 @@ Constants::Constants(const SpringClass& spring)
       rest_length(static_cast<float>(spring.rest_length)),
       slack(spring.cord ? static_cast<float>(spring.rest_length) : -1.0f) {}
 
-namespace {
-
-/// Springs whose lower end is in the body.
-std::span<const Spring> springs_of(const Model& model, const Body& body) {
-  const auto from = std::ranges::lower_bound(model.springs, body.first_particle, {}, &Spring::a);
-  const auto to =
-      std::ranges::lower_bound(model.springs, body.first_particle + body.particle_count, {}, &Spring::a);
-  return {from, to};
-}
-
-}  // namespace
-
-std::size_t edge_of_lattice(const Model& model, const Body& body) {
-  const auto classes = std::span(model.spring_classes).subspan(body.first_class, body.class_count);
-  if (!body.cubic || std::ranges::any_of(classes, &SpringClass::cord)) return 0;
-  const auto edge = static_cast<int>(std::lround(std::cbrt(body.particle_count)));
-  const ModelCounts complete = cube_counts(edge);
-  if (complete.particles != body.particle_count) return 0;
-  return springs_of(model, body).size() == complete.springs() ? static_cast<std::size_t>(edge) : 0;
-}
-
-Lattice::Lattice(const Model& model, const Body& body)
-    : first_(body.first_particle), n_(edge_of_lattice(model, body)) {
-  // The springs say themselves which directions there are: each is seen from its lower end and from its upper
-  // one.
+Lattice::Lattice(const Model& model, const Body& body) : first_(body.first_particle), n_(body.lattice_edge) {
   const auto n = static_cast<int>(n_);
-  struct Place {
-    int i, j, k;
-  };
-  const auto place = [&](std::uint32_t particle) {
-    const int local = static_cast<int>(particle - body.first_particle);
-    return Place{local / (n * n), local / n % n, local % n};
-  };
-  std::map<std::array<int, 3>, std::uint32_t> classes;  // in lexicographic order: ascending neighbour index
-  for (const Spring& s : springs_of(model, body)) {
-    const Place a = place(s.a), b = place(s.b);
-    const std::array<int, 3> up = {b.i - a.i, b.j - a.j, b.k - a.k};
-    classes.emplace(up, s.spring_class);
-    classes.emplace(std::array{-up[0], -up[1], -up[2]}, s.spring_class);
-  }
   std::vector<std::array<int, 3>> offsets;
-  for (const auto& [offset, spring_class] : classes) {
+  const auto add = [&](const LatticeDirection& o, int sign) {
+    const std::array<int, 3> offset = {sign * o.di, sign * o.dj, sign * o.dk};
+    if (std::ranges::any_of(offset, [&](int steps) { return std::abs(steps) >= n; })) return;
     offsets.push_back(offset);
     const std::ptrdiff_t step = (std::ptrdiff_t{offset[0]} * n + offset[1]) * n + offset[2];
-    directions_.push_back(
-        {step, offset[0], Constants(model.spring_classes[spring_class]), step > 0 ? -0.0f : 0.0f});
-  }
+    directions_.push_back({step, offset[0],
+                           Constants(model.spring_classes[body.first_class + o.spring_class]),
+                           step > 0 ? -0.0f : 0.0f});
+  };
+  // Each is seen from its upper end and from its lower one: together in ascending neighbour index.
+  for (const LatticeDirection& o : std::views::reverse(lattice_directions())) add(o, -1);
+  for (const LatticeDirection& o : lattice_directions()) add(o, 1);
   const std::size_t slices = (plane_size() + slice - 1) / slice;
   bits_.assign(slices * offsets.size(), 0);
   for (std::size_t m = 0; m < plane_size(); ++m) {
@@ -85,7 +53,7 @@ SpringLists::SpringLists(const Model& model, const Body& body)
   }
   const std::size_t slices = (count_ + slice - 1) / slice;
   std::vector<std::uint32_t> degree(count_, 0);
-  const std::span<const Spring> of_body = springs_of(model, body);
+  SpringRange of_body = springs_of(model, body.first_particle, body.particle_count);
   for (const Spring& s : of_body) {
     ++degree[s.a - first_];
     ++degree[s.b - first_];

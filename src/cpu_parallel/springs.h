@@ -35,7 +35,7 @@ struct Direction {
 /// A cube. Plane i holds the particles i·n² … (i+1)·n² − 1 of the body.
 class Lattice {
  public:
-  /// The cube that `body` is: the model must have been made by build_model.
+  /// The cube that `body` is: its lattice_edge must not be 0.
   Lattice(const Model& model, const Body& body);
 
   std::size_t first() const { return first_; }
@@ -48,6 +48,7 @@ class Lattice {
   /// For each direction one word for `slice` particles of any plane, from the plane's particle `at` on, a
   /// multiple of `slice`: which of them have the neighbour, provided that its plane exists.
   const std::uint16_t* neighbours(std::size_t at) const { return &bits_[at / slice * directions_.size()]; }
+  std::uint64_t bytes() const { return bytes_of(directions_) + bytes_of(bits_); }
 
  private:
   std::size_t first_, n_;
@@ -77,6 +78,10 @@ class SpringLists {
   const std::vector<float>& damping() const { return damping_; }
   const std::vector<float>& rest_length() const { return rest_length_; }
   const std::vector<float>& slack() const { return slack_; }
+  std::uint64_t bytes() const {
+    return bytes_of(slots_) + bytes_of(start_) + bytes_of(stiffness_) + bytes_of(damping_) +
+           bytes_of(rest_length_) + bytes_of(slack_);
+  }
 
  private:
   std::size_t first_, count_;
@@ -84,9 +89,5 @@ class SpringLists {
   std::vector<std::size_t> start_;  // of each slice's slots
   std::vector<float> stiffness_, damping_, rest_length_, slack_;
 };
-
-/// Particles per edge of a body that is a cube with all its springs, so that a Lattice describes it; 0 of
-/// others.
-std::size_t edge_of_lattice(const Model& model, const Body& body);
 
 }  // namespace aspic::parallel

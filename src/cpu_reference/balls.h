@@ -34,14 +34,13 @@ class Balls {
       : model_(model),
         gravity_(rounded<T>(model.simulation.gravity)),
         rules_{ContactConstants<T>(model), static_cast<T>(model.contact.ball_restitution),
-               static_cast<T>(model.contact.ball_friction), model.contact.spin} {
+               static_cast<T>(model.contact.ball_friction), model.contact.spin},
+        particle_weight_(model.inverse_mass) {
     for (const Ball& ball : model.balls) {
       bodies_.emplace_back(ball);
       largest_radius_ = std::max(largest_radius_, static_cast<double>(bodies_.back().radius));
     }
     for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
-    for (std::uint32_t i = 0; i < model.particle_count(); ++i)
-      particle_weight_.push_back(static_cast<T>(model.inverse_mass[i]));
   }
 
   /// One step of all balls launched by step number `step`, from `start`; particles went from `particle_start`
@@ -167,7 +166,7 @@ class Balls {
   double largest_radius_ = 0.0;
   std::vector<BallBody<T>> bodies_;
   std::vector<Ground<T>> grounds_;
-  std::vector<T> particle_weight_;  // w of every particle
+  Runs<T> particle_weight_;  // w of every particle
   // Of the step under way.
   Contacts ball_ball_, ball_particle_, particle_ball_;
   std::vector<std::uint32_t> present_;   // balls that have been launched

@@ -1,12 +1,15 @@
 #pragma once
 // Force and acceleration of all particles: a(x, v) = w·f(x, v) with f = m·g + springs + pull + contact force.
+#include <atomic>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cpu_reference/coulomb.h"
 #include "cpu_reference/spring.h"
 #include "model/model.h"
 #include "model/pull.h"
+#include "model/springs.h"
 
 namespace aspic::reference {
 
@@ -47,20 +50,20 @@ class Dynamics {
       : model_(model),
         gravity_(rounded<T>(model.simulation.gravity)),
         contact_(model),
-        mass_(model.particle_count()),
-        inverse_mass_(model.particle_count()) {
+        mass_(model.mass),
+        inverse_mass_(model.inverse_mass) {
     for (const SpringClass& spring : model.spring_classes) classes_.emplace_back(spring);
     for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
-    for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
-      mass_[i] = static_cast<T>(model.mass[i]);
-      inverse_mass_[i] = static_cast<T>(model.inverse_mass[i]);
-    }
   }
 
   /// The step from the state of this number begins: moving ground takes its places at both ends of it.
   void begin_step(std::uint64_t step) {
     for (Ground<T>& ground : grounds_) ground.begin_step(model_.simulation.timestep, step);
   }
+
+  /// While `*flag` is true forces are left incomplete, for a step that is dropped; see Solver::heed.
+  void heed(const std::atomic<bool>* flag) { flag_ = flag; }
+  bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
 
   /// f(x, v) [N], one column per particle.
   Field<T> force(const Field<T>& x, const Field<T>& v) const {
@@ -85,33 +88,41 @@ class Dynamics {
     pull_.reset();
     if (pull) pull_.emplace(*pull);
   }
+  /// Bytes it holds on the heap.
+  std::uint64_t bytes() const {
+    return mass_.bytes() + inverse_mass_.bytes() + classes_.capacity() * sizeof(SpringConstants<T>) +
+           grounds_.capacity() * sizeof(Ground<T>);
+  }
   const std::optional<PullConstants<T>>& pull() const { return pull_; }
 
   /// Terrains in file order.
   const std::vector<Ground<T>>& grounds() const { return grounds_; }
   const ContactConstants<T>& contact() const { return contact_; }
   Vector<T> gravity() const { return gravity_; }
-  T mass(Eigen::Index i) const { return mass_[i]; }
-  T inverse_mass(Eigen::Index i) const { return inverse_mass_[i]; }
+  T mass(Eigen::Index i) const { return mass_[static_cast<std::size_t>(i)]; }
+  T inverse_mass(Eigen::Index i) const { return inverse_mass_[static_cast<std::size_t>(i)]; }
   const SpringConstants<T>& spring_class(const Spring& spring) const { return classes_[spring.spring_class]; }
 
   /// a(x, v) = w·f(x, v) [m/s²], without the ground's reaction in the Coulomb model, which belongs to a step.
   Field<T> acceleration(const Field<T>& x, const Field<T>& v) const { return weighed(force(x, v)); }
 
   /// w·f [m/s²]
-  Field<T> weighed(const Field<T>& f) const { return f * inverse_mass_.matrix().asDiagonal(); }
+  Field<T> weighed(Field<T> f) const {
+    for (Eigen::Index i = 0; i < f.cols(); ++i) f.col(i) *= inverse_mass(i);
+    return f;
+  }
 
   /// The Coulomb model: appends every contact of particle i with ground on which it rests at (x0, v0), in
   /// file order. None in the course model.
   void find_resting(Eigen::Index i, const Vector<T>& x0, const Vector<T>& v0,
                     std::vector<RestingContact<T>>& contacts) const {
-    if (model_.contact.model == ContactModel::course || inverse_mass_[i] == T(0)) return;
+    if (model_.contact.model == ContactModel::course || inverse_mass(i) == T(0)) return;
     for (const Ground<T>& ground : grounds_) {
       if (!(distance<T>(ground, ground.start, x0) < contact_.epsilon)) continue;
       const Gap<T> g = gap<T>(ground, ground.start, x0);
       if (!rests<T>(contact_, g.d, dot3<T>(ground.start.relative(v0), g.n))) continue;
       contacts.push_back({i, ground.friction, least_normal_speed<T>(contact_, g.d),
-                          contact_.step * inverse_mass_[i], g.n, ground.end.relative(v0)});
+                          contact_.step * inverse_mass(i), g.n, ground.end.relative(v0)});
     }
   }
 
@@ -123,12 +134,12 @@ class Dynamics {
 
   /// Terrain response on particle i at the end of a step from (x0, v0) to (x, v); terrains act in file order.
   void respond(Eigen::Index i, const Vector<T>& x0, const Vector<T>& v0, Vector<T>& x, Vector<T>& v) const {
-    if (inverse_mass_[i] == T(0)) return;
+    if (inverse_mass(i) == T(0)) return;
     for (const Ground<T>& ground : grounds_) {
       if (model_.contact.model == ContactModel::coulomb) {
-        respond_coulomb<T>(ground, contact_, mass_[i], x0, v0, x, v);
+        respond_coulomb<T>(ground, contact_, mass(i), x0, v0, x, v);
       } else {
-        respond_course<T>(ground, contact_.epsilon, mass_[i], x, v);
+        respond_course<T>(ground, contact_.epsilon, mass(i), x, v);
       }
     }
   }
@@ -148,8 +159,9 @@ class Dynamics {
   /// springs in ascending neighbour index.
   Field<T> force_without_contact(const Field<T>& x, const Field<T>& v) const {
     Field<T> f(3, x.cols());
-    for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass_[i] * gravity_;
-    for (const Spring& spring : model_.springs) {
+    for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass(i) * gravity_;
+    if (interrupted()) return f;
+    for (const Spring& spring : springs_of(model_)) {
       const Vector<T> on_a = spring_force<T>(classes_[spring.spring_class], x.col(spring.a), v.col(spring.a),
                                              x.col(spring.b), v.col(spring.b));
       f.col(spring.a) += on_a;
@@ -164,17 +176,18 @@ class Dynamics {
 
   void add_contact_force(const Field<T>& x, const Field<T>& v, Field<T>& f) const {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-      if (inverse_mass_[i] != T(0)) f.col(i) = with_contact(x.col(i), v.col(i), f.col(i));
+      if (inverse_mass(i) != T(0)) f.col(i) = with_contact(x.col(i), v.col(i), f.col(i));
     }
   }
 
   const Model& model_;
+  const std::atomic<bool>* flag_ = nullptr;
   Vector<T> gravity_;
   ContactConstants<T> contact_;
   std::vector<SpringConstants<T>> classes_;
   std::vector<Ground<T>> grounds_;
   std::optional<PullConstants<T>> pull_;
-  Eigen::Array<T, Eigen::Dynamic, 1> mass_, inverse_mass_;
+  Runs<T> mass_, inverse_mass_;
 };
 
 /// The forces of one step from (x0, v0): those of `dynamics`, then the ground's reaction on the particles
@@ -191,7 +204,7 @@ class StepDynamics {
     Field<T> f = dynamics_.force(x, v);
     for (const RestingContact<T>& at : resting_)
       f.col(at.particle) = with_reaction<T>(at, f.col(at.particle));
-    return dynamics_.weighed(f);
+    return dynamics_.weighed(std::move(f));
   }
 
  private:

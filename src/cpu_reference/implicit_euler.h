@@ -15,6 +15,7 @@
 #include "cpu_reference/implicit_newton.h"
 #include "cpu_reference/integrators.h"
 #include "cpu_reference/reductions.h"
+#include "model/springs.h"
 
 namespace aspic::reference {
 
@@ -98,10 +99,18 @@ class ImplicitEuler {
  public:
   ImplicitEuler(const Dynamics<T>& dynamics, const Model& model)
       : dynamics_(dynamics),
-        springs_(model.springs),
+        model_(model),
         ahead_(dynamics.grounds(), dynamics.contact().step, model.contact.model == ContactModel::coulomb),
         limits_(model.simulation.implicit),
         h_(static_cast<T>(model.simulation.timestep)) {}
+
+  /// Bytes that the solve holds at most: nine fields and those of two products, a force and two copies of the
+  /// diagonal blocks, what the ground does to each particle, a Jacobian for each spring, three sums.
+  static std::uint64_t bytes(const Model& model) {
+    return model.particle_count() *
+               (sizeof(T) * (3 * 12 + 3) + 2 * sizeof(DiagonalBlock<T>) + sizeof(GroundReaction<T>)) +
+           spring_count(model) * sizeof(SpringJacobian<T>);
+  }
 
   /// The equation's solution from `s`, before the terrain's response.
   Phase<T> step(const Phase<T>& s, SolveReport& report);
@@ -115,6 +124,7 @@ class ImplicitEuler {
   Trial<T> try_step(T lambda, bool onwards);
   T start_solve();
   bool prescribes() const { return prescribes_; }
+  bool interrupted() const { return dynamics_.interrupted(); }
   T apply();
   T advance(T alpha, bool first);
   void turn(T beta) { p_ = z_ + beta * p_; }
@@ -126,7 +136,7 @@ class ImplicitEuler {
   T dot(const Field<T>& a, const Field<T>& b) const;
 
   const Dynamics<T>& dynamics_;
-  const std::vector<Spring>& springs_;
+  const Model& model_;
   GroundAhead<T> ahead_;
   SolveLimits<T> limits_;
   T h_;
@@ -173,13 +183,14 @@ Trial<T> ImplicitEuler<T>::evaluate() {
   const Eigen::Index count = s.x.cols();
   Field<T> f(3, count);
   std::vector<DiagonalBlock<T>> blocks;
+  blocks.reserve(static_cast<std::size_t>(count));
   for (Eigen::Index i = 0; i < count; ++i) {
     f.col(i) = dynamics_.mass(i) * dynamics_.gravity();
     blocks.emplace_back(dynamics_.mass(i));
   }
   jacobian_.clear();
-  jacobian_.reserve(springs_.size());
-  for (const Spring& spring : springs_) {
+  jacobian_.reserve(spring_count(model_));
+  for (const Spring& spring : springs_of(model_)) {
     // Not from a rounded x': the difference of the positions is exact where they are close.
     const Vector<T> v = trial_.col(spring.a) - trial_.col(spring.b);
     const Vector<T> e = (s.x.col(spring.a) - s.x.col(spring.b)) + h_ * v;
@@ -250,10 +261,11 @@ template <class T>
 Field<T> ImplicitEuler<T>::product(const Field<T>& p) const {
   Field<T> product(3, p.cols());
   for (Eigen::Index i = 0; i < p.cols(); ++i) product.col(i) = dynamics_.mass(i) * p.col(i);
-  for (std::size_t n = 0; n < springs_.size(); ++n) {
-    const Vector<T> on_a = jacobian_[n] * Vector<T>(p.col(springs_[n].a) - p.col(springs_[n].b));
-    product.col(springs_[n].a) += on_a;
-    product.col(springs_[n].b) -= on_a;
+  std::size_t n = 0;
+  for (const Spring& spring : springs_of(model_)) {
+    const Vector<T> on_a = jacobian_[n++] * Vector<T>(p.col(spring.a) - p.col(spring.b));
+    product.col(spring.a) += on_a;
+    product.col(spring.b) -= on_a;
   }
   if (const auto& pull = dynamics_.pull()) {
     product.col(pull->particle) += pull_jacobian_ * Vector<T>(p.col(pull->particle));

@@ -46,12 +46,13 @@ T next_forcing(T ratio) {
 ///   T advance(T α, bool first)  δ += α·p, or δ = α·p if it is the first part of δ; r −= α·q, z = B⁻¹·r;
 ///                     returns r·z
 ///   void turn(T β)    p = z + β·p
+///   bool interrupted()  whether the step is dropped (Solver::heed)
 template <class T, class System>
 void conjugate_gradients(System& system, T forcing, std::uint32_t most, std::uint32_t& iterations) {
   T rz = system.start_solve();
   if (system.prescribes() && !(rz > T(0))) return;
   const T enough = (forcing * forcing) * rz;
-  for (std::uint32_t n = 0; n < most; ++n) {
+  for (std::uint32_t n = 0; n < most && !system.interrupted(); ++n) {
     const T pq = system.apply();
     ++iterations;
     if (!(pq > T(0))) return;
@@ -90,7 +91,7 @@ bool solve_step(System& system, const SolveLimits<T>& limits, SolveReport& repor
       report.end = SolveEnd::stagnated;
       break;
     }
-    if (report.newton_iterations == limits.newton) break;
+    if (report.newton_iterations == limits.newton || system.interrupted()) break;
     conjugate_gradients(system, forcing, limits.cg, report.cg_iterations);
     ++report.newton_iterations;
     // The longest of the steps δ, δ/2, δ/4, … that brings the residuals down. R bends where a particle meets

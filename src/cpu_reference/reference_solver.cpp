@@ -14,14 +14,6 @@ namespace aspic {
 namespace reference {
 namespace {
 
-/// Particles and balls alone: counting springs by type takes a walk over all of them.
-ModelCounts bodies(const Model& model) {
-  ModelCounts counts;
-  counts.particles = model.particle_count();
-  counts.balls = model.ball_count();
-  return counts;
-}
-
 template <class T>
 class ReferenceSolver final : public Solver {
  public:
@@ -37,7 +29,7 @@ class ReferenceSolver final : public Solver {
   }
   Precision precision() const override { return sizeof(T) == 4 ? Precision::single : Precision::double_; }
   const Model& model() const override { return model_; }
-  std::uint64_t bytes() const override { return reference_bytes(bodies(model_), precision()); }
+  std::uint64_t bytes() const override { return reference_bytes(model_, precision()); }
 
   Status load(const State& state) override {
     if (const Status fits = check_sizes(model_, state); !fits) return fits;
@@ -51,10 +43,15 @@ class ReferenceSolver final : public Solver {
     return {};
   }
 
+  void heed(const std::atomic<bool>* flag) override {
+    Solver::heed(flag);
+    dynamics_.heed(flag);
+  }
+
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     const double h = model_.simulation.timestep;
     const bool solved = row_of(model_.simulation.integrator).solved();
-    for (std::uint64_t n = 0; n < steps && !divergence_; ++n) {
+    for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) {
       SolveReport report;
       dynamics_.begin_step(step_);
       Phase<T> next = solved ? implicit_.step(phase_, report)
@@ -65,6 +62,7 @@ class ReferenceSolver final : public Solver {
       } else {
         dynamics_.respond(phase_.x, phase_.v, next.x, next.v);
       }
+      if (interrupted()) break;
       BallPhase<T> next_balls;
       if (model_.ball_count() > 0) {
         next_balls = balls_.step(step_, ball_phase_, view_of(std::as_const(phase_)), view_of(next));
@@ -134,16 +132,23 @@ Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precis
     return fail(
         ErrorCode::scene_rejected,
         "no memory left for the reference solver of {} particles ({} bytes): use fewer particles-per-edge",
-        model.particle_count(), reference_bytes(reference::bodies(model), precision));
+        model.particle_count(), reference_bytes(model, precision));
   }
 }
 
-std::uint64_t reference_bytes(const ModelCounts& counts, Precision precision) {
-  // Start and end of a step, the four slopes of a Runge–Kutta method, one argument field and one force field:
-  // x and v.
+std::uint64_t reference_bytes(const Model& model, Precision precision) {
   const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
-  // Balls: the same, ω, constants and their order along x.
-  return counts.particles * real * (3 * 14 + 2) + counts.balls * real * (3 * 17 + 7);
+  const IntegratorRow& method = row_of(model.simulation.integrator);
+  // Balls: fields as below for x, v and ω, constants, and their order along x.
+  const std::uint64_t balls = model.ball_count() * real * (3 * 17 + 7);
+  if (!method.solved()) {
+    // Fields of a step at once: x and v at its start and its end, and for each stage a velocity and an
+    // acceleration.
+    return model.particle_count() * real * 3 * (4 + 2 * method.stages.size()) + balls;
+  }
+  const auto solve = precision == Precision::single ? reference::ImplicitEuler<float>::bytes(model)
+                                                    : reference::ImplicitEuler<double>::bytes(model);
+  return model.particle_count() * real * 3 * 4 + solve + balls;
 }
 
 }  // namespace aspic

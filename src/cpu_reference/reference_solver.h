@@ -11,7 +11,7 @@ namespace aspic {
 /// The model must outlive it. Error (scene_rejected): there is no memory left for its fields.
 Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precision precision);
 
-/// Bytes a reference solver would hold for a model of these counts.
-std::uint64_t reference_bytes(const ModelCounts& counts, Precision precision);
+/// Bytes a reference solver of the model holds at most during a step.
+std::uint64_t reference_bytes(const Model& model, Precision precision);
 
 }  // namespace aspic

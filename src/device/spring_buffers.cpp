@@ -1,5 +1,7 @@
 #include "device/spring_buffers.h"
 
+#include <algorithm>
+
 namespace aspic {
 
 Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& context, const Model& model,
@@ -20,7 +22,13 @@ Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& co
 }
 
 bool same_springs(const Model& a, const Model& b) {
-  return a.particle_count() == b.particle_count() && class_bits(a) == class_bits(b) && a.springs == b.springs;
+  const auto same_lattice = [](const Body& one, const Body& other) {
+    return one.lattice_edge == other.lattice_edge &&
+           (one.lattice_edge == 0 ||
+            (one.first_particle == other.first_particle && one.first_class == other.first_class));
+  };
+  return a.particle_count() == b.particle_count() && class_bits(a) == class_bits(b) &&
+         a.listed_springs == b.listed_springs && std::ranges::equal(a.bodies, b.bodies, same_lattice);
 }
 
 }  // namespace aspic

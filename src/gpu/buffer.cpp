@@ -96,9 +96,15 @@ void Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
     std::ranges::fill(data, std::byte{0xff});
     return;
   }
-  glBindBuffer(source_target, id_);
-  glGetBufferSubData(source_target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()),
-                     data.data());
+  // Some drivers move a buffer that is read to the host's memory, and later passes with it: what is read is a
+  // copy.
+  for (std::uint64_t at = 0; at < data.size(); at += read_part_bytes) {
+    const auto size = static_cast<GLsizeiptr>(std::min(data.size() - at, read_part_bytes));
+    glBindBuffer(target, context_->read_buffer());
+    glBindBuffer(source_target, id_);
+    glCopyBufferSubData(source_target, target, static_cast<GLintptr>(offset + at), 0, size);
+    glGetBufferSubData(target, 0, size, data.data() + at);
+  }
 }
 
 void Buffer::clear() {

@@ -14,7 +14,7 @@ namespace {
 
 /// As in shaders/compute/canary.comp.
 struct Outcome {
-  std::uint32_t quotient, reciprocal, root, product, sum, product_sum, fused, unused;
+  std::uint32_t quotient, reciprocal, root, product, sum, product_sum, fused, vector_sum;
 };
 static_assert(sizeof(Outcome) == 32);
 
@@ -49,6 +49,7 @@ ArithmeticReport compare(std::span<const CanaryOperands> operands, std::span<con
   report.product.name = "products a b";
   report.sum.name = "sums a + c";
   report.product_sum.name = "products with sums a b + c";
+  report.vector_sum.name = "products with sums of vectors";
   report.denormals.name = "operations with denormal numbers";
   report.fma_fused = true;
   for (std::size_t i = 0; i < operands.size(); ++i) {
@@ -68,6 +69,7 @@ ArithmeticReport compare(std::span<const CanaryOperands> operands, std::span<con
     file(report.product, outcomes[i].product, product, small_product);
     file(report.sum, outcomes[i].sum, o.a + o.c, small_a || small_c);
     file(report.product_sum, outcomes[i].product_sum, product + o.c, small_product || small_c);
+    file(report.vector_sum, outcomes[i].vector_sum, product + o.c, small_product || small_c);
     const float fused = std::fma(o.a, o.b, o.c);
     if (!small_product && !small_c && !denormal(fused) &&
         outcomes[i].fused != std::bit_cast<std::uint32_t>(fused))
@@ -130,6 +132,8 @@ std::vector<std::string> Arithmetic::sentences() const {
                   : " The corrected form is not exact either: results will differ from the reference.";
   };
   const std::string_view division = remedy(corrected && corrected->division_exact());
+  constexpr std::string_view contracts =
+      " The compiler contracts them despite `precise`: results will differ from the reference.";
   const std::string_view differs = " Nothing can be done about that: results will differ from the reference.";
   return {
       sentence(device.quotient, division),
@@ -137,9 +141,8 @@ std::vector<std::string> Arithmetic::sentences() const {
       sentence(device.root, remedy(corrected && corrected->sqrt_exact())),
       sentence(device.product, differs),
       sentence(device.sum, differs),
-      sentence(device.product_sum,
-               " The compiler contracts them despite `precise`: results will differ from the "
-               "reference."),
+      sentence(device.product_sum, contracts),
+      sentence(device.vector_sum, contracts),
       sentence(device.denormals, " Results can differ from the reference where such numbers occur."),
       fmt::format("The device's fma rounds {}.", device.fma_fused ? "once" : "twice"),
   };

@@ -37,12 +37,13 @@ struct ArithmeticReport {
   OperationCheck product;
   OperationCheck sum;
   OperationCheck product_sum;  ///< a·b + c in two roundings
+  OperationCheck vector_sum;   ///< the same by component
   OperationCheck denormals;    ///< any of the above
   bool fma_fused = false;      ///< fma() rounds once
 
   bool division_exact() const { return quotient.exact() && reciprocal.exact(); }
   bool sqrt_exact() const { return root.exact(); }
-  bool products_uncontracted() const { return product_sum.exact(); }
+  bool products_uncontracted() const { return product_sum.exact() && vector_sum.exact(); }
   bool basics_exact() const { return product.exact() && sum.exact(); }
   bool denormals_kept() const { return denormals.exact(); }
   /// Same bits as the reference wherever no denormal occurs.

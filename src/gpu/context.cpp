@@ -167,6 +167,19 @@ bool Context::begins_dispatch() {
   return !dead_;
 }
 
+unsigned int Context::read_buffer() {
+  if (read_buffer_ != 0) return read_buffer_;
+  glGenBuffers(1, &read_buffer_);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, read_buffer_);
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(read_part_bytes), nullptr, GL_STREAM_READ);
+  return read_buffer_;
+}
+
+void Context::release_objects() {
+  programs_.reset();
+  glDeleteBuffers(1, &read_buffer_);
+}
+
 bool Context::strikes(Fault fault) {
   std::optional<std::uint64_t>& left = faults_[static_cast<std::size_t>(fault)];
   if (!left) return false;

@@ -64,6 +64,9 @@ enum class Fault {
   lost_at_dispatch  ///< the same as lost_context, at a pass: it and all later ones do nothing
 };
 
+/// What Buffer::download reads at a time [bytes].
+inline constexpr std::uint64_t read_part_bytes = std::uint64_t{4} << 20;
+
 class ProgramCache;
 
 /// The address of a GL function, or null: eglGetProcAddress, glfwGetProcAddress.
@@ -144,6 +147,9 @@ class Context {
   void receive(DebugMessage message);
   /// Whether an injected fault's time has come; it has only one.
   bool strikes(Fault fault);
+  /// A buffer of read_part_bytes, for nothing but what is to be read; made when it is first asked for.
+  unsigned int read_buffer();
+  void release_objects();
   /// A pass is about to be dispatched: whether it may.
   bool begins_dispatch();
 
@@ -157,6 +163,7 @@ class Context {
   std::uint64_t dispatches_ = 0;
   std::unique_ptr<ProgramCache> programs_;
   std::uint64_t bytes_held_ = 0;
+  unsigned int read_buffer_ = 0;
   std::uint64_t high_severity_count_ = 0;
   std::vector<DebugMessage> messages_;
   std::function<void(const DebugMessage&)> sink_;

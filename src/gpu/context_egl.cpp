@@ -312,7 +312,7 @@ Status Context::make_current() {
 
 Context::~Context() {
   if (!context_) {
-    programs_.reset();
+    release_objects();
     if (info_.debug) glDebugMessageCallback(nullptr, nullptr);
     return;
   }
@@ -321,7 +321,7 @@ Context::~Context() {
   const EGLDisplay display = eglGetCurrentDisplay();
   const EGLSurface draw = eglGetCurrentSurface(EGL_DRAW), read = eglGetCurrentSurface(EGL_READ);
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
-  programs_.reset();
+  release_objects();
   if (current != EGL_NO_CONTEXT && current != context_)
     eglMakeCurrent(display, draw, read, current);
   else

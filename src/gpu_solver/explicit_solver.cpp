@@ -5,6 +5,7 @@
 
 #include "gpu_solver/device_solver.h"
 #include "model/integrator.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace {
@@ -60,7 +61,7 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                    {BINDING_INCIDENT, &springs_->incident}};
   if (!path_.spring_kernel.empty()) {
     ASPIC_TRY(forces_,
-              Buffer::create(context_, "spring forces", model_.springs.size() * sizeof(layout::vec4)));
+              Buffer::create(context_, "spring forces", spring_count(model_) * sizeof(layout::vec4)));
     bindings.push_back({BINDING_SPRING_FORCES, &forces_});
     ASPIC_TRY(spring_pass_, pass(kernels, path_.spring_kernel,
                                  {constants(),
@@ -93,7 +94,7 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
                                             {BINDING_START_STATE, &states_[current_]},
                                             {BINDING_OUT_STATE, &states_[out]}}};
     if (spring_pass_) {
-      spring_pass_->dispatch_for(static_cast<std::uint32_t>(model_.springs.size()),
+      spring_pass_->dispatch_for(static_cast<std::uint32_t>(spring_count(model_)),
                                  std::span(states).first(1));
       mark(springs_kind);
     }

@@ -59,6 +59,9 @@ class ImplicitSolver final : public DeviceSolver {
     mark(kernel);
   }
   void queue_rounds(std::uint32_t rounds) const;
+  /// More than a step can take.
+  std::uint64_t most_rounds() const;
+  Error idle_device() const;
   void write_solve();
   Status read_solve();
   void take_statistics(const layout::Solve& before);
@@ -99,6 +102,21 @@ void ImplicitSolver::restart() {
   solve_.bad_particle = NO_STEP;
   write_solve();
   statistics_ = {};
+}
+
+std::uint64_t ImplicitSolver::most_rounds() const {
+  const ImplicitSettings& implicit = model_.simulation.implicit;
+  const auto iterations = static_cast<std::uint64_t>(implicit.newton_iterations),
+             rounds = static_cast<std::uint64_t>(implicit.cg_iterations) + max_halvings + 3;
+  return (iterations + 1) * rounds;
+}
+
+Error ImplicitSolver::idle_device() const {
+  return fail(
+      ErrorCode::no_device,
+      "{} does not carry out the kernels of implicit-euler: after {} rounds step {} is not at its end. Use "
+      "another device, or --backend cpu.",
+      context_.info().renderer, most_rounds(), base_step_ + solve_.step + 1);
 }
 
 void ImplicitSolver::write_solve() {
@@ -154,7 +172,13 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
     // As many rounds as the last step took and a quarter more; what is missing is queued on, what is too much
     // does nothing. Neither changes a bit.
     std::uint32_t rounds = solve_.ticks == 0 ? first_rounds : solve_.ticks + solve_.ticks / 4 + 1;
+    std::uint32_t looked = solve_.step;
+    std::uint64_t queued = 0;  // rounds of this step
     while (solve_.phase != PHASE_IDLE && solve_.phase != PHASE_HALTED) {
+      if (solve_.step != looked) queued = 0;
+      looked = solve_.step;
+      if (queued > most_rounds()) return idle_device();
+      queued += rounds;
       if (solve_.phase != PHASE_BEGIN) queue_rounds(more_rounds);
       for (std::uint32_t n = solve_.step; n < solve_.target_step; ++n) {
         dispatch(begin);
@@ -165,6 +189,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
         // The balls' part of the step is repeated, from the state it began with, where nothing was written.
         ASPIC_CHECK(balls_.grow());
         solve_.full = 0;
+        queued = 0;
         write_solve();
       }
       rounds = std::max(more_rounds, solve_.ticks + solve_.ticks / 4 + 1);

@@ -9,6 +9,7 @@
 #include "model/incident_springs.h"
 #include "model/integrator.h"
 #include "model/solver.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace {
@@ -68,7 +69,7 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.resting_speed = static_cast<float>(resting_speed(model));
   block.divergence_speed_squared = static_cast<float>(divergence_speed * divergence_speed);
   block.particle_count = model.particle_count();
-  block.spring_count = static_cast<std::uint32_t>(model.springs.size());
+  block.spring_count = static_cast<std::uint32_t>(spring_count(model));
   block.terrain_count = static_cast<std::uint32_t>(model.terrain.size());
   block.contact_model = model.contact.model == ContactModel::coulomb ? CONTACT_COULOMB : CONTACT_COURSE;
   block.class_bits = class_bits(model);

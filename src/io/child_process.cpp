@@ -103,7 +103,7 @@ std::vector<std::string> environment_with(const std::vector<std::pair<std::strin
 
 }  // namespace
 
-Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments) {
+Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments, Output output) {
   ChildProcess child;
   // A socket, not a pipe: send() can be told not to raise SIGPIPE, without touching the process's signals.
   std::array<int, 2> ends = {-1, -1};
@@ -111,8 +111,8 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
     return start_error(arguments.front(), errno);
   child.input_ = ends[0];
   child.errors_ = ::memfd_create("messages", MFD_CLOEXEC);
-  const int failed =
-      child.errors_ < 0 ? errno : spawn(arguments, {ends[1], -1, child.errors_}, environ, true, child.pid_);
+  const Streams streams = {ends[1], output == Output::answers ? ends[1] : -1, child.errors_};
+  const int failed = child.errors_ < 0 ? errno : spawn(arguments, streams, environ, true, child.pid_);
   ::close(ends[1]);
   if (failed != 0) {
     child.pid_ = -1;
@@ -125,7 +125,8 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept
     : pid_(std::exchange(other.pid_, -1)),
       input_(std::exchange(other.input_, -1)),
-      errors_(std::exchange(other.errors_, -1)) {}
+      errors_(std::exchange(other.errors_, -1)),
+      answers_(std::move(other.answers_)) {}
 
 ChildProcess::~ChildProcess() {
   if (pid_ > 0) ::kill(pid_, SIGKILL);
@@ -142,6 +143,22 @@ bool ChildProcess::write(std::span<const std::byte> data) {
       return false;
   }
   return true;
+}
+
+std::optional<std::string> ChildProcess::line() {
+  std::array<char, 4096> block = {};
+  std::size_t end = answers_.find('\n');
+  while (end == std::string::npos) {
+    const ssize_t got = ::recv(input_, block.data(), block.size(), 0);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return std::nullopt;
+    const std::size_t before = answers_.size();
+    answers_.append(block.data(), static_cast<std::size_t>(got));
+    end = answers_.find('\n', before);
+  }
+  std::string result = answers_.substr(0, end);
+  answers_.erase(0, end + 1);
+  return result;
 }
 
 ChildProcess::End ChildProcess::finish() {

@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,12 +14,14 @@
 namespace aspic {
 
 /// A program that reads what we write, found on PATH, started without a shell. It has a process group of its
-/// own, so that Ctrl-C reaches us alone and its input ends in good order. Its standard output goes nowhere;
-/// its standard error is kept.
+/// own, so that Ctrl-C reaches us alone and its input ends in good order. Its standard output goes nowhere
+/// unless it answers; its standard error is kept.
 class ChildProcess {
  public:
+  enum class Output { dropped, answers };
   /// Error (io): `arguments[0]` is not on PATH or cannot be started; the message is the system's alone.
-  static Result<ChildProcess> start(const std::vector<std::string>& arguments);
+  static Result<ChildProcess> start(const std::vector<std::string>& arguments,
+                                    Output output = Output::dropped);
 
   /// Closes the input, ends the program if it runs on, and waits for it.
   ~ChildProcess();
@@ -27,6 +30,9 @@ class ChildProcess {
 
   /// Writes all of it; raises no SIGPIPE. False: the program has stopped reading.
   bool write(std::span<const std::byte> data);
+  /// The next line of a program that answers, without its end; waits for it. Nothing: it has closed its
+  /// output.
+  std::optional<std::string> line();
 
   /// How a program ended.
   struct End {
@@ -45,6 +51,7 @@ class ChildProcess {
   pid_t pid_ = -1;
   int input_ = -1;
   int errors_ = -1;
+  std::string answers_;  // read and not yet handed on
 };
 
 /// Ends the programs that run at present and waits for them: before their files are removed in a process that

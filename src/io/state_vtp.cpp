@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "io/state_csv.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace {
@@ -92,7 +93,7 @@ std::vector<T> flat(std::span<const Vec3> particles, std::span<const Vec3> balls
 template <class T>
 void write_points(Document& document, const Model& model, const State& state) {
   const std::vector<Vec3> no_turning(model.particle_count());
-  std::vector<double> mass = model.mass, radius(model.particle_count(), 0.0);
+  std::vector<double> mass(model.mass.begin(), model.mass.end()), radius(model.particle_count(), 0.0);
   std::vector<std::uint8_t> pinned;
   for (const double w : model.inverse_mass) pinned.push_back(w == 0.0 ? 1 : 0);
   for (const Ball& ball : model.balls) {
@@ -119,7 +120,7 @@ void write_cells(Document& document, const Model& model, const State& state) {
   std::vector<double> strain(model.ball_count(), 0.0);
   for (std::uint64_t b = 0; b < model.ball_count(); ++b) balls.add({model.particle_count() + b});
   std::size_t owner = 0;
-  for (const Spring& s : model.springs) {
+  for (const Spring& s : springs_of(model)) {
     while (owner < model.bodies.size() &&
            s.a >= model.bodies[owner].first_particle + model.bodies[owner].particle_count)
       ++owner;
@@ -176,7 +177,7 @@ Status write_state_vtp(AtomicFile& file, const Model& model, const State& state)
   document.add(fmt::format(
       "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"{}\">\n",
-      std::uint64_t{model.particle_count()} + model.ball_count(), model.ball_count(), model.springs.size(),
+      std::uint64_t{model.particle_count()} + model.ball_count(), model.ball_count(), spring_count(model),
       quads));
   if (state.precision == Precision::single)
     write_points<float>(document, model, state);

@@ -35,6 +35,7 @@ ModelCounts counts_of(const ClothSettings& cloth) {
   counts.structural = (w - 1) * h + w * (h - 1);
   counts.shear = 2 * (w - 1) * (h - 1);
   counts.bending = (w - 2) * h + w * (h - 2);
+  counts.listed = counts.springs();
   return counts;
 }
 
@@ -87,7 +88,7 @@ Status add_cloth(Model& model, const ClothSettings& cloth) {
       const std::uint32_t a = body.first_particle + static_cast<std::uint32_t>(local);
       for (const Direction& d : directions) {
         if (i + d.di >= w || j + d.dj < 0 || j + d.dj >= h) continue;
-        model.springs.push_back(
+        model.listed_springs.push_back(
             {a, a + static_cast<std::uint32_t>(d.di * h + d.dj), body.first_class + d.spring_class});
       }
     }

@@ -7,46 +7,10 @@
 #include <vector>
 
 #include "model/bodies.h"
+#include "model/springs.h"
 
 namespace aspic {
 namespace {
-
-/// A spring's direction on the lattice, seen from its lower particle, and the class it belongs to.
-struct Offset {
-  int di, dj, dk;
-  std::uint32_t spring_class;  // relative to the cube's first class
-};
-
-enum ClassOfCube : std::uint32_t {
-  structural_class,
-  face_diagonal_class,
-  body_diagonal_class,
-  bending_class,
-  class_count
-};
-
-/// All spring directions that lead to a higher index, in lexicographic order: this is also ascending index
-/// order, so springs come out sorted by (a, b).
-std::vector<Offset> upward_offsets() {
-  std::vector<Offset> offsets;
-  for (int di = 0; di <= 2; ++di) {
-    for (int dj = -2; dj <= 2; ++dj) {
-      for (int dk = -2; dk <= 2; ++dk) {
-        const std::array<int, 3> d = {di, dj, dk};
-        if (!(std::array{0, 0, 0} < d)) continue;
-        const int largest = std::max({std::abs(di), std::abs(dj), std::abs(dk)});
-        const auto nonzero =
-            static_cast<int>(std::count_if(d.begin(), d.end(), [](int c) { return c != 0; }));
-        if (largest == 2 && nonzero == 1) {
-          offsets.push_back({di, dj, dk, bending_class});
-        } else if (largest == 1) {
-          offsets.push_back({di, dj, dk, static_cast<std::uint32_t>(nonzero - 1)});
-        }
-      }
-    }
-  }
-  return offsets;
-}
 
 constexpr Side faces[] = {{"top", 1, true},   {"bottom", 1, false}, {"left", 0, false},
                           {"right", 0, true}, {"front", 2, true},   {"back", 2, false}};
@@ -112,11 +76,12 @@ Status add_cube(Model& model, const CubeSettings& cube) {
   body.first_particle = model.particle_count();
   body.particle_count = static_cast<std::uint32_t>(pinned.size());
   body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());
-  body.class_count = class_count;
-  body.cubic = true;
+  body.class_count = 4;
+  body.lattice_edge = static_cast<std::uint32_t>(n);
   body.surface = surface_of(body.first_particle, n);
   body.size = s * (n - 1);
 
+  // In the order that lattice_directions() names them by.
   model.spring_classes.push_back(
       {SpringType::structural, structural.stiffness, structural.damping, s, false});
   model.spring_classes.push_back(
@@ -125,27 +90,12 @@ Status add_cube(Model& model, const CubeSettings& cube) {
       {SpringType::shear, shear.stiffness, shear.damping, s * std::sqrt(3.0), false});
   model.spring_classes.push_back({SpringType::bending, bending.stiffness, bending.damping, 2.0 * s, false});
 
-  const std::vector<Offset> offsets = upward_offsets();
-  const double half = cube.edge_length / 2.0;
-  const Rotation turned(cube.rotation.axis, cube.rotation.angle);
-  std::size_t local = 0;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      for (int k = 0; k < n; ++k, ++local) {
-        const Vec3 from_centre = {i * s - half, j * s - half, k * s - half};
-        model.initial_position.push_back(cube.position + turned(from_centre));
-        model.initial_velocity.push_back((pinned)[local] ? Vec3{} : cube.velocity);
-        model.mass.push_back(mass);
-        model.inverse_mass.push_back((pinned)[local] ? 0.0 : 1.0 / mass);
-        const auto a = static_cast<std::uint32_t>(body.first_particle + local);
-        for (const Offset& o : offsets) {
-          if (i + o.di >= n || j + o.dj < 0 || j + o.dj >= n || k + o.dk < 0 || k + o.dk >= n) continue;
-          const int step = (o.di * n + o.dj) * n + o.dk;
-          model.springs.push_back(
-              {a, a + static_cast<std::uint32_t>(step), body.first_class + o.spring_class});
-        }
-      }
-    }
+  model.initial_position.append(
+      LatticePlaces{n, s, cube.edge_length / 2.0, cube.position, {cube.rotation.axis, cube.rotation.angle}});
+  model.mass.push_back(mass, pinned.size());
+  for (const bool held : pinned) {
+    model.initial_velocity.push_back(held ? Vec3{} : cube.velocity);
+    model.inverse_mass.push_back(held ? 0.0 : 1.0 / mass);
   }
   model.bodies.push_back(std::move(body));
   return {};

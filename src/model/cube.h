@@ -17,7 +17,7 @@ double material_particle_mass(const MaterialSettings& material, int particles_pe
 /// docs/physics.md).
 SpringSettings material_springs(const MaterialSettings& material, int particles_per_edge, double edge_length);
 
-/// Appends the cube's particles and springs to the model, springs sorted by (a, b).
+/// Appends the cube to the model.
 /// Error (scene_rejected): an unknown face or corner name, or an index ≥ n³, in `pinned`.
 Status add_cube(Model& model, const CubeSettings& cube);
 

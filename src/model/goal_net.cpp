@@ -88,6 +88,7 @@ ModelCounts goal_net_counts(const GoalNetSettings& net) {
   if (net.bending.stiffness > 0.0) {
     counts.bending = along_x * (nw - 2) + along_y * (nh - 2) + along_z * (nl - 2);
   }
+  counts.listed = counts.springs();
   return counts;
 }
 
@@ -149,8 +150,8 @@ Status add_goal_net(Model& model, const GoalNetSettings& net) {
         for (const Offset& o : offsets) {
           const auto other = net_index(net.particles, i + o.di, j + o.dj, k + o.dk);
           if (!other || !share_face(net.particles, i, j, k, o)) continue;
-          model.springs.push_back({body.first_particle + *local, body.first_particle + *other,
-                                   body.first_class + o.spring_class});
+          model.listed_springs.push_back({body.first_particle + *local, body.first_particle + *other,
+                                          body.first_class + o.spring_class});
         }
       }
     }

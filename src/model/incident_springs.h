@@ -24,7 +24,11 @@ struct IncidentSprings {
 /// Low bits of a word that hold the spring class: enough for all classes of the model.
 std::uint32_t class_bits(const Model& model);
 
-/// Error (scene_rejected): neighbours, and more particles than the bits left by the class can name.
+/// Error (scene_rejected): a word a spring end is more than 32 bits can count.
+Status check_spring_words(const Model& model);
+
+/// Errors (scene_rejected): as check_spring_words; neighbours, and more particles than the bits left by the
+/// class can name.
 Result<IncidentSprings> incident_springs(const Model& model, IncidentWords words);
 
 /// Each spring in two words: end a; end b << class_bits | class. Errors as incident_springs of neighbours.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "model/bodies.h"
+#include "model/springs.h"
 #include "model/terrain.h"
 
 namespace aspic {
@@ -34,12 +35,11 @@ Vec3 rounded_to(const Vec3& v, Precision precision) {
 
 Result<Model> build_model(const ModelSettings& settings) {
   const ModelCounts predicted = predict_counts(settings);
-  // CSR words hold a spring's two ends: 2·springs and all particles must be addressable by 32 bits.
-  if (2 * predicted.springs() > 0xffffffffull || predicted.particles + predicted.balls > 0x7fffffffull) {
+  if (predicted.particles + predicted.balls > most_indices) {
     return fail(ErrorCode::scene_rejected,
-                "the scene has {} particles, {} springs and {} balls: more than 32-bit indices can name; use "
-                "fewer particles-per-edge",
-                predicted.particles, predicted.springs(), predicted.balls);
+                "the scene has {} particles and {} balls: more than 32-bit indices can name; use fewer "
+                "particles-per-edge",
+                predicted.particles, predicted.balls);
   }
   Model model;
   model.simulation = settings.simulation;
@@ -51,11 +51,7 @@ Result<Model> build_model(const ModelSettings& settings) {
     if (made.motion) made.motion->direction = without_negative_zero(made.motion->direction);
     model.terrain.push_back(made);
   }
-  model.mass.reserve(predicted.particles);
-  model.inverse_mass.reserve(predicted.particles);
-  model.initial_position.reserve(predicted.particles);
-  model.initial_velocity.reserve(predicted.particles);
-  model.springs.reserve(predicted.springs());
+  model.listed_springs.reserve(predicted.listed);
   model.balls.reserve(predicted.balls);
   for (const BodyRow& body : body_rows()) {
     for (std::size_t i = 0; i < body.list.size(settings); ++i) {
@@ -69,8 +65,8 @@ Result<Model> build_model(const ModelSettings& settings) {
 State initial_state(const Model& model, Precision precision) {
   State state;
   state.precision = precision;
-  state.position = model.initial_position;
-  state.velocity = model.initial_velocity;
+  state.position = model.initial_position.list(0, model.initial_position.size());
+  state.velocity.assign(model.initial_velocity.begin(), model.initial_velocity.end());
   for (const Ball& ball : model.balls) {
     state.ball_position.push_back(ball.initial_position);
     state.ball_velocity.push_back(ball.initial_velocity);
@@ -105,11 +101,16 @@ ModelCounts count(const Model& model) {
   ModelCounts counts;
   counts.particles = model.particle_count();
   counts.balls = model.ball_count();
-  counts.pinned =
-      static_cast<std::uint64_t>(std::count(model.inverse_mass.begin(), model.inverse_mass.end(), 0.0));
+  std::size_t first = 0;
+  for (const auto& [end, weight] : model.inverse_mass.runs()) {
+    if (weight == 0.0) counts.pinned += end - first;
+    first = end;
+  }
+  counts.listed = model.listed_springs.size();
   std::uint64_t* const of_type[] = {&counts.structural, &counts.shear, &counts.bending};
-  for (const Spring& spring : model.springs)
-    ++*of_type[static_cast<std::size_t>(model.spring_classes[spring.spring_class].type)];
+  const std::vector<std::uint64_t> springs = springs_by_class(model);
+  for (std::size_t c = 0; c < springs.size(); ++c)
+    *of_type[static_cast<std::size_t>(model.spring_classes[c].type)] += springs[c];
   return counts;
 }
 
@@ -120,6 +121,7 @@ ModelCounts& ModelCounts::operator+=(const ModelCounts& other) {
   shear += other.shear;
   bending += other.bending;
   balls += other.balls;
+  listed += other.listed;
   return *this;
 }
 
@@ -132,14 +134,25 @@ ModelCounts predict_counts(const ModelSettings& settings) {
   return sum;
 }
 
-std::uint64_t model_bytes(const ModelCounts& counts) {
-  return counts.particles * (2 * sizeof(double) + 2 * sizeof(Vec3)) + counts.springs() * sizeof(Spring) +
-         counts.balls * sizeof(Ball);
+std::uint64_t model_bytes(const Model& model) {
+  const auto heap = [](const auto& vector) {
+    return vector.capacity() * sizeof(typename std::decay_t<decltype(vector)>::value_type);
+  };
+  std::uint64_t bytes = sizeof(Model) + heap(model.terrain) + model.mass.bytes() +
+                        model.inverse_mass.bytes() + heap(model.spring_classes) + heap(model.listed_springs) +
+                        heap(model.bodies) + model.initial_position.bytes() + model.initial_velocity.bytes() +
+                        heap(model.balls);
+  for (const Body& body : model.bodies) bytes += heap(body.surface) + heap(body.rods);
+  return bytes;
+}
+
+std::uint64_t state_bytes(const ModelCounts& counts) {
+  return (2 * counts.particles + 3 * counts.balls) * sizeof(Vec3);
 }
 
 std::uint64_t run_bytes(const ModelCounts& counts) {
-  const std::uint64_t state = counts.particles * 2 * sizeof(Vec3) + counts.balls * 3 * sizeof(Vec3);
-  return model_bytes(counts) + 2 * state + state / 2;
+  // Half a State in the solver's floats is one end of a step.
+  return counts.listed * sizeof(Spring) + counts.balls * sizeof(Ball) + 2 * state_bytes(counts);
 }
 
 std::string_view name_of(ContactModel model) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "model/particle_data.h"
 #include "model/settings.h"
 #include "model/state.h"
 #include "model/vec3.h"
@@ -70,8 +71,10 @@ struct Rod {
 struct Body {
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
-  bool cubic =
-      false;  ///< its springs are those of the infinite cube lattice (analysis/stability.h), or fewer
+  /// n of a whole cube: its n³ particles have the springs of lattice_directions() (model/springs.h), of the
+  /// classes from first_class on, none of them cords, and none in Model::listed_springs. 0: all its springs
+  /// are listed.
+  std::uint32_t lattice_edge = 0;
 
   SurfaceStyle style = SurfaceStyle::flesh;
   std::vector<Patch> surface;  ///< none for cords
@@ -94,23 +97,27 @@ struct Ball {
   bool launched(std::uint64_t step) const { return step >= launch_step; }
 };
 
-/// The model. Springs are sorted by (a, b), so that adding spring forces in this order adds to every
-/// particle in ascending neighbour index.
+/// The model. Its springs are walked by springs_of (model/springs.h) in the order of (a, b), so that adding
+/// their forces in this order adds to every particle in ascending neighbour index.
 struct Model {
   SimulationSettings simulation;
   ContactSettings contact;
-  std::vector<Terrain> terrain;      ///< in file order: each acts on what the one before left
-  std::vector<double> mass;          ///< m [kg] of each particle, > 0, finite for pinned particles too
-  std::vector<double> inverse_mass;  ///< w [1/kg], 0 = pinned
+  std::vector<Terrain> terrain;  ///< in file order: each acts on what the one before left
+  Runs<double> mass;             ///< m [kg] of each particle, > 0, finite for pinned particles too
+  Runs<double> inverse_mass;     ///< w [1/kg], 0 = pinned
   std::vector<SpringClass> spring_classes;
-  std::vector<Spring> springs;
+  std::vector<Spring> listed_springs;  ///< sorted by (a, b); without those of lattices
   std::vector<Body> bodies;
-  std::vector<Vec3> initial_position, initial_velocity;
+  Places initial_position;
+  Runs<Vec3> initial_velocity;  ///< [m/s]
   std::vector<Ball> balls;
 
   std::uint32_t particle_count() const { return static_cast<std::uint32_t>(mass.size()); }
   std::uint32_t ball_count() const { return static_cast<std::uint32_t>(balls.size()); }
 };
+
+/// Particles and balls of a model together at most: what signed 32-bit indices name.
+inline constexpr std::uint64_t most_indices = 0x7fffffff;
 
 /// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
 /// particles than 32-bit indices or free memory hold. The settings' ranges are the caller's business
@@ -132,6 +139,7 @@ Status check_sizes(const Model& model, const State& state);
 /// Springs, pinned particles and balls of a model, for reports.
 struct ModelCounts {
   std::uint64_t particles = 0, pinned = 0, structural = 0, shear = 0, bending = 0, balls = 0;
+  std::uint64_t listed = 0;  ///< of the springs: those in Model::listed_springs
   std::uint64_t springs() const { return structural + shear + bending; }
   ModelCounts& operator+=(const ModelCounts& other);
 };
@@ -140,11 +148,14 @@ ModelCounts count(const Model& model);
 /// Counts without building: for memory checks before anything is allocated. Pinned particles are not counted.
 ModelCounts predict_counts(const ModelSettings& settings);
 
-/// Bytes a Model with these counts holds.
-std::uint64_t model_bytes(const ModelCounts& counts);
+/// Bytes the model holds.
+std::uint64_t model_bytes(const Model& model);
 
-/// Bytes that a run with these counts takes at least: the model, the state at hand and the one measured, and
-/// a solver in single precision. For memory checks before anything is allocated.
+/// Bytes that a State of the model holds.
+std::uint64_t state_bytes(const ModelCounts& counts);
+
+/// Bytes that a run with these counts takes at least: listed springs and balls, a state, and in a solver of
+/// single precision the start and the end of a step. For memory checks before anything is allocated.
 std::uint64_t run_bytes(const ModelCounts& counts);
 
 /// Names in scene files and reports.

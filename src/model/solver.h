@@ -1,5 +1,6 @@
 #pragma once
 // What every backend can do: advance a State of a Model by steps.
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -60,13 +61,23 @@ class Solver {
   /// nobody; load() leaves the pull as it is. Cheap enough for every picture, and ordered after the steps
   /// that advance() did. Errors as rounded_pull (usage): then the pull stays what it was.
   virtual Status set_pull(const std::optional<Pull>& pull) = 0;
-  /// Advances by `steps`, fewer only after a divergence, which is returned. Error
+  /// Advances by `steps`, fewer only after a divergence, which is returned, and where heed() says so. Error
   /// (no_device): the device was lost or ran out of memory; the solver is of no use from then on.
   virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;
+  /// While `*flag` is true advance() ends early, and the state is that at the start of the step it was in.
+  /// Null: never. The flag may be set on any thread; it must outlive the calls. A solver on a device, which
+  /// queues its work, pays no heed.
+  virtual void heed(const std::atomic<bool>* flag) { flag_ = flag; }
   /// What implicit Euler's solves came to since the last load(); nothing with other integrators.
   virtual std::optional<SolveStatistics> solve_statistics() { return std::nullopt; }
   /// A copy of the current state. Error (no_device): as advance().
   virtual Result<State> state() = 0;
+
+ protected:
+  bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
+
+ private:
+  const std::atomic<bool>* flag_ = nullptr;
 };
 
 }  // namespace aspic

@@ -7,6 +7,7 @@
 
 #include "model/terrain.h"
 #include "render/colour_map.h"
+#include "render/light_maps.h"
 
 namespace aspic {
 namespace {
@@ -37,10 +38,6 @@ glm::mat4 light_rotation(const glm::vec3& towards_light) {
   const glm::vec3 x = glm::normalize(glm::cross(up, z));
   const glm::vec3 y = glm::cross(z, x);
   return glm::transpose(glm::mat4(glm::mat3(x, y, z)));
-}
-
-bool shows_springs(const DrawSettings& draw) {
-  return draw.structural || draw.shear || draw.bending;
 }
 
 }  // namespace
@@ -97,7 +94,7 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
       break;
   }
   block.particle_count = model.particle_count();
-  block.see_through = content.view.draw.particles || shows_springs(content.view.draw) ? 1.0f : 0.0f;
+  block.see_through = content.view.draw.particles || draws_springs(content.view.draw) ? 1.0f : 0.0f;
   return block;
 }
 

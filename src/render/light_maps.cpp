@@ -42,11 +42,10 @@ Result<LightMaps> LightMaps::create(gl::Context& context) {
   LightMaps result;
   for (int light = 0; light < LIGHTS; ++light) {
     const int size = light == LIGHT_SUN ? sun_size : sky_size;
-    auto map = DrawableImage::create(
-        context, light == LIGHT_SUN ? "sun map" : "sky map",
-        {.format = gl::TexelFormat::rg16f, .width = size, .height = size, .mipmaps = true}, true);
-    if (!map) return map.error();
-    result.maps_[static_cast<std::size_t>(light)] = std::move(*map);
+    ASPIC_TRY(result.maps_[static_cast<std::size_t>(light)],
+              DrawableImage::create(
+                  context, light == LIGHT_SUN ? "sun map" : "sky map",
+                  {.format = gl::TexelFormat::rg16f, .width = size, .height = size, .mipmaps = true}, true));
   }
   ASPIC_TRY(result.empty_,
             DrawableImage::create(context, "empty light map", {.format = gl::TexelFormat::rg16f}, false));
@@ -83,9 +82,7 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
       programs.light_surface.set(LOCATION_LIGHT, light);
       glUseProgram(programs.light_surface.id());
       skin.bind();
-      for (const Surface::Part& part : model.parts())
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{part.first_index}));
+      for (const Surface::Part& part : model.parts()) draw_triangles(part);
     }
     if (draw.solid) model.rods().draw_into_light(programs, light);
     if (draws_balls(draw)) model.balls().draw_into_light(programs, state, light);
@@ -103,8 +100,7 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
                                  static_cast<float>(spring_radius(model.spacing(), run.constants.type)));
       glUseProgram(programs.light_springs.id());
       lines.bind();
-      glDrawElements(GL_LINES, static_cast<GLsizei>(run.index_count), GL_UNSIGNED_INT,
-                     reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{run.first_index}));
+      draw_lines(run);
     }
     map.colour.generate_mipmaps();
     map.colour.bind(light == LIGHT_SUN ? UNIT_SUN_MAP : UNIT_SKY_MAP);

@@ -14,6 +14,10 @@ double particle_radius(double spacing);
 double spring_radius(double spacing, SpringType type);
 /// Whether springs of the type are drawn in their type's manner.
 bool draws(const DrawSettings& draw, SpringType type);
+/// Whether springs of any type are.
+inline bool draws_springs(const DrawSettings& draw) {
+  return draw.structural || draw.shear || draw.bending;
+}
 /// Whether the run is drawn as the cords of a net, which take the place of a surface: structural
 /// springs, unless they are drawn as such.
 bool draws_as_cord(const DrawSettings& draw, const SpringRun& run);

@@ -1,11 +1,14 @@
 #include "render/model_buffers.h"
 
+#include <glad/gl.h>
+
 #include <algorithm>
 #include <array>
 
 #include "device/particles.h"
 #include "gpu/loop_bound.h"
 #include "gpu/pass.h"
+#include "model/springs.h"
 #include "render/software_rasteriser.h"
 
 namespace aspic {
@@ -27,12 +30,11 @@ std::uint64_t longest(const std::vector<std::uint32_t>& start) {
 
 /// Index pairs sorted by class, and where each class's run lies.
 std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRun>& runs) {
-  std::vector<std::uint32_t> count(model.spring_classes.size(), 0);
-  for (const Spring& s : model.springs) count[s.spring_class] += 2;
   std::uint32_t first = 0;
-  for (std::size_t c = 0; c < count.size(); ++c) {
-    runs.push_back({model.spring_classes[c], false, first, count[c]});
-    first += count[c];
+  for (const std::uint64_t springs : springs_by_class(model)) {
+    const auto indices = static_cast<std::uint32_t>(2 * springs);
+    runs.push_back({model.spring_classes[runs.size()], false, first, indices});
+    first += indices;
   }
   for (const Body& body : model.bodies)
     for (std::uint32_t c = 0; c < body.class_count; ++c)
@@ -40,7 +42,7 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
   std::vector<std::uint32_t> next;
   for (const SpringRun& run : runs) next.push_back(run.first_index);
   std::vector<std::uint32_t> pairs(first);
-  for (const Spring& s : model.springs) {
+  for (const Spring& s : springs_of(model)) {
     pairs[next[s.spring_class]++] = s.a;
     pairs[next[s.spring_class]++] = s.b;
   }
@@ -80,7 +82,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   fill(b.quantity_, "coloured quantity", std::vector<float>(b.particle_count_, 0.0f));
   fill(b.bounds_, "light bounds", std::vector<render_layout::Bounds>(LIGHTS));
   fill(b.light_boxes_, "light boxes", std::vector<render_layout::LightBox>(LIGHTS));
-  if (!fill.status()) return fill.status().error();
+  ASPIC_CHECK(fill.status());
   ASPIC_TRY(b.balls_, BallBuffers::create(context, model));
   ASPIC_TRY(b.rods_, Rods::create(context, model));
   return b;
@@ -88,6 +90,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
 
 Status ModelBuffers::prepare_lines(gl::Context& context, const Model& model) {
   if (lines_ready_) return {};
+  ASPIC_CHECK(check_spring_words(model));
   gl::BufferFiller fill(context);
   std::vector<SpringRun> runs;
   fill(spring_indices_, "spring indices", spring_pairs(model, runs));
@@ -146,6 +149,23 @@ void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const Dev
   gl::Pass(programs.light_boxes, {{BINDING_BOUNDS, &bounds_}, {BINDING_LIGHT_BOXES_OUT, &light_boxes_}},
            ReadBy::uniform)
       .dispatch_for(LIGHTS);
+}
+
+namespace {
+
+void draw_elements(GLenum mode, std::uint32_t first, std::uint32_t count) {
+  glDrawElements(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{first}));
+}
+
+}  // namespace
+
+void draw_triangles(const Surface::Part& part) {
+  draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
+}
+
+void draw_lines(const SpringRun& run) {
+  draw_elements(GL_LINES, run.first_index, run.index_count);
 }
 
 gl::VertexArray ModelBuffers::array(const gl::Buffer& particles, const gl::Buffer* indices) const {

@@ -24,6 +24,10 @@ struct SpringRun {
   std::uint32_t first_index = 0, index_count = 0;
 };
 
+/// Draws one body's skin, or one run of springs, from the array that is bound.
+void draw_triangles(const Surface::Part& part);
+void draw_lines(const SpringRun& run);
+
 /// Buffers of one model. Their context must outlive them and be current.
 class ModelBuffers {
  public:

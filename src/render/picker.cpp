@@ -19,10 +19,6 @@ struct Word {
   std::uint32_t identity = 0, distance = 0;
 };
 
-bool shows_particles(const DrawSettings& draw) {
-  return draw.solid || draw.particles || draw.structural || draw.shear || draw.bending;
-}
-
 /// The point at a distance along the axis, seen in the middle of a pixel of the image [pixels from left and
 /// bottom].
 Vec3 point_at(const render_layout::Frame& frame, int column, int row, int side, double distance) {
@@ -79,7 +75,7 @@ void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const D
                         const DrawSettings& draw) const {
   draw_terrain(model, state.step);
   if (draws_balls(draw)) buffers.balls().draw_with(balls_, state);
-  if (!shows_particles(draw)) return;
+  if (!draw.solid && !draw.particles && !draws_springs(draw)) return;
   const float radius =
       static_cast<float>(draw.particles ? particle_radius(buffers.spacing())
                                         : spring_radius(buffers.spacing(), SpringType::structural));
@@ -92,8 +88,7 @@ void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const D
     if (draw.solid && part.index_count > 0) {
       glUseProgram(surface_.id());
       skin.bind();
-      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
-                     reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{part.first_index}));
+      draw_triangles(part);
     } else {
       particles_.set(LOCATION_FIRST, body.first_particle);
       glUseProgram(particles_.id());

@@ -47,11 +47,6 @@ Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const 
   return {};
 }
 
-void draw_elements(GLenum mode, std::uint32_t first, std::uint32_t count) {
-  glDrawElements(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(sizeof(GLuint) * std::uintptr_t{first}));
-}
-
 }  // namespace
 
 struct Renderer::Parts {
@@ -88,7 +83,6 @@ struct Renderer::Parts {
   Status prepare_highlight();
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
-  bool needs_lines(const ViewSettings& view) const;
   void draw_thickness(const gl::Buffer& particles) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
   void draw_springs(const gl::Buffer& particles, const DrawSettings& draw, ViewColour mode) const;
@@ -96,6 +90,23 @@ struct Renderer::Parts {
   void draw_jelly(const gl::Buffer& particles, const ViewSettings& view, JellySide side) const;
   void draw_parts(const gl::Program& program, const gl::Buffer& particles, const ViewSettings& view,
                   SurfaceStyle style) const;
+  /// The skins of bodies of a style, each after prepare(body).
+  template <class Prepare>
+  void draw_skins(const gl::Buffer& particles, SurfaceStyle style, const Prepare& prepare) const {
+    const gl::VertexArray skin = buffers->skin_array(particles);
+    skin.bind();
+    for (std::size_t i = 0; i < buffers->parts().size(); ++i) {
+      if (buffers->parts()[i].index_count == 0 || model->bodies[i].style != style) continue;
+      prepare(i);
+      draw_triangles(buffers->parts()[i]);
+    }
+  }
+  /// The whole picture by one program.
+  void fill(const gl::Program& program) const {
+    nothing.bind();
+    glUseProgram(program.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
   bool has(SurfaceStyle style) const {
     return std::ranges::any_of(model->bodies, [=](const Body& b) { return b.style == style; });
   }
@@ -105,21 +116,15 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Renderer::~Renderer() = default;
 
 Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const RendererOptions& options) {
-  auto programs = RenderPrograms::create(context, options.shaders);
-  if (!programs) return programs.error();
-  auto overlay = OverlayPainter::create(context, options.shaders);
-  if (!overlay) return overlay.error();
-  auto terrain = TerrainPainter::create(context);
-  if (!terrain) return terrain.error();
-  auto lights = LightMaps::create(context);
-  if (!lights) return lights.error();
-  auto parts = std::make_unique<Parts>(context, std::move(*programs), std::move(*overlay),
-                                       std::move(*terrain), std::move(*lights));
+  ASPIC_TRY(auto programs, RenderPrograms::create(context, options.shaders));
+  ASPIC_TRY(auto overlay, OverlayPainter::create(context, options.shaders));
+  ASPIC_TRY(auto terrain, TerrainPainter::create(context));
+  ASPIC_TRY(auto lights, LightMaps::create(context));
+  auto parts = std::make_unique<Parts>(context, std::move(programs), std::move(overlay), std::move(terrain),
+                                       std::move(lights));
   parts->shaders = options.shaders;
-  auto map = gl::Texture::create(context, "colour map", {.width = 256, .height = 1});
-  if (!map) return map.error();
-  map->upload(colour_map_texels());
-  parts->colour_map = std::move(*map);
+  ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
+  parts->colour_map.upload(colour_map_texels());
   ASPIC_TRY(parts->frame,
             gl::Buffer::create(context, "frame", sizeof(render_layout::Frame), gl::BufferKind::uniform));
   parts->nothing = gl::VertexArray::create({});
@@ -130,11 +135,10 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
 }
 
 Status Renderer::set_model(const Model& model) {
-  auto buffers = ModelBuffers::create(*parts_->context, model);
-  if (!buffers) return buffers.error();
+  ASPIC_TRY(auto buffers, ModelBuffers::create(*parts_->context, model));
   ASPIC_CHECK(parts_->terrain.set_terrain(*parts_->context, model.terrain));
   parts_->buffers.reset();
-  parts_->buffers.emplace(std::move(*buffers));
+  parts_->buffers.emplace(std::move(buffers));
   parts_->model = &model;
   parts_->drawn_state.reset();
   if (parts_->picker) parts_->picker->forget();
@@ -153,9 +157,7 @@ Status Renderer::Parts::prepare_targets(int width, int height) {
   if (targets && targets->picture.colour.width() == width && targets->picture.colour.height() == height)
     return {};
   targets.reset();
-  auto made = PictureTargets::create(*context, width, height, samples);
-  if (!made) return made.error();
-  targets.emplace(std::move(*made));
+  ASPIC_TRY(targets, PictureTargets::create(*context, width, height, samples));
   return {};
 }
 
@@ -168,10 +170,6 @@ Status Renderer::Parts::prepare_highlight() {
 void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   frame.upload_items(std::span<const render_layout::Frame>(&block, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
-}
-
-bool Renderer::Parts::needs_lines(const ViewSettings& view) const {
-  return has(SurfaceStyle::cords) || view.draw.structural || view.draw.shear || view.draw.bending;
 }
 
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
@@ -194,13 +192,7 @@ void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE);
   glUseProgram(programs.thickness.id());
-  const gl::VertexArray skin = buffers->skin_array(particles);
-  skin.bind();
-  for (std::size_t i = 0; i < buffers->parts().size(); ++i) {
-    if (model->bodies[i].style != SurfaceStyle::flesh) continue;
-    const Surface::Part& part = buffers->parts()[i];
-    draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
-  }
+  draw_skins(particles, SurfaceStyle::flesh, [](std::size_t) {});
   glDisable(GL_BLEND);
   targets->thickness.colour.bind(UNIT_THICKNESS);
 }
@@ -232,7 +224,7 @@ void Renderer::Parts::draw_springs(const gl::Buffer& particles, const DrawSettin
                          std::array{static_cast<float>(c.stiffness), static_cast<float>(c.damping),
                                     static_cast<float>(c.rest_length), c.cord ? 1.0f : 0.0f});
     programs.springs.set(LOCATION_RADIUS, static_cast<float>(spring_radius(buffers->spacing(), c.type)));
-    draw_elements(GL_LINES, run.first_index, run.index_count);
+    draw_lines(run);
   }
 }
 
@@ -271,16 +263,10 @@ void Renderer::Parts::draw_sheets(const gl::Buffer& particles, const ViewSetting
 void Renderer::Parts::draw_parts(const gl::Program& program, const gl::Buffer& particles,
                                  const ViewSettings& view, SurfaceStyle style) const {
   glUseProgram(program.id());
-  const gl::VertexArray skin = buffers->skin_array(particles);
-  skin.bind();
-  for (std::size_t i = 0; i < buffers->parts().size(); ++i) {
-    const Surface::Part& part = buffers->parts()[i];
-    const Body& body = model->bodies[i];
-    if (part.index_count == 0 || body.style != style) continue;
-    const Colour colour = view.colour == ViewColour::material ? body_colour(i) : neutral_body_colour();
-    program.set(LOCATION_BASE_COLOUR, with(colour, reach_share * body.size));
-    draw_elements(GL_TRIANGLES, part.first_index, part.index_count);
-  }
+  draw_skins(particles, style, [&](std::size_t body) {
+    const Colour colour = view.colour == ViewColour::material ? body_colour(body) : neutral_body_colour();
+    program.set(LOCATION_BASE_COLOUR, with(colour, reach_share * model->bodies[body].size));
+  });
 }
 
 Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
@@ -291,7 +277,8 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   Status ready = p.prepare_targets(width, height);
   if (ready && options.highlight) ready = p.prepare_highlight();
   const ViewSettings& view = options.view;
-  if (ready && p.needs_lines(view)) ready = p.buffers->prepare_lines(*p.context, *p.model);
+  if (ready && (p.has(SurfaceStyle::cords) || draws_springs(view.draw)))
+    ready = p.buffers->prepare_lines(*p.context, *p.model);
   if (ready && shows_springs(view.colour)) ready = p.buffers->prepare_incident(*p.context, *p.model, state);
   if (!ready) return ready;
   p.buffers->use_coarse_skin(options.coarse_skin);
@@ -324,9 +311,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
   // The last opaque part: only where there is nothing else.
-  p.nothing.bind();
-  glUseProgram(p.programs.sky.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  p.fill(p.programs.sky);
   if (view.draw.solid && p.has(SurfaceStyle::sheet)) p.draw_sheets(particles, view);
   p.terrain.draw_far_glass(p.programs, terrain);
   if (solid) {
@@ -377,9 +362,7 @@ void Renderer::present(std::uint32_t framebuffer, int width, int height, int lef
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(left, bottom, width, height);
   parts_->targets->picture.colour.bind(UNIT_FRAME);
-  parts_->nothing.bind();
-  glUseProgram(parts_->programs.present.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  parts_->fill(parts_->programs.present);
   glUseProgram(0);
   glBindVertexArray(0);
 }

@@ -67,7 +67,7 @@ Result<Rods> Rods::create(gl::Context& context, const Model& model) {
   fill(rods.vertices_, "rods", mesh.vertices);
   fill(rods.normals_, "rods' normals", mesh.normals);
   fill(rods.indices_, "rods' indices", mesh.indices);
-  if (!fill.status()) return fill.status().error();
+  ASPIC_CHECK(fill.status());
   rods.index_count_ = static_cast<int>(mesh.indices.size());
   const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &rods.vertices_},
                                       {ATTRIBUTE_NORMAL, &rods.normals_}};

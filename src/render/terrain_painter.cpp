@@ -30,19 +30,18 @@ void set_terrain(const gl::Program& program, const Terrain& terrain) {
 
 Result<TerrainPainter> TerrainPainter::create(gl::Context& context) {
   TerrainPainter painter;
-  auto ground = gl::Texture::create(
-      context, "ground",
-      {.width = ground_size, .height = ground_size, .mipmaps = true, .wrap = gl::Wrap::repeat});
-  if (!ground) return ground.error();
-  ground->upload(ground_texels(ground_size));
-  ground->generate_mipmaps();
-  painter.ground_ = std::move(*ground);
+  ASPIC_TRY(painter.ground_,
+            gl::Texture::create(
+                context, "ground",
+                {.width = ground_size, .height = ground_size, .mipmaps = true, .wrap = gl::Wrap::repeat}));
+  painter.ground_.upload(ground_texels(ground_size));
+  painter.ground_.generate_mipmaps();
 
   gl::BufferFiller fill(context);
   const Mesh square = square_mesh();
   fill(painter.square_vertices_, "square", square.vertices);
   fill(painter.square_indices_, "square indices", square.indices);
-  if (!fill.status()) return fill.status().error();
+  ASPIC_CHECK(fill.status());
   const gl::Attribute of_square[] = {{ATTRIBUTE_POSITION, &painter.square_vertices_}};
   painter.square_ = gl::VertexArray::create(of_square, &painter.square_indices_);
   return painter;

@@ -68,17 +68,19 @@ Result<Backend> make_cpu(const Model& model, const BackendChoice& choice, const 
   return backend;
 }
 
+/// A solver counts what it holds: threads and the kinds of bodies decide it.
+std::optional<std::uint64_t> cpu_bytes(const Model& model) {
+  const std::optional<std::uint64_t> memory = available_memory();
+  if (memory && run_bytes(count(model)) > *memory) return std::nullopt;
+  const auto solver = make_cpu_solver(model);
+  if (!solver) return std::nullopt;
+  return (*solver)->bytes();
+}
+
 // ---- reference ----
 
-/// What it holds at work; under implicit Euler also every spring's Jacobian, of the trial and of the iterate
-/// before.
 Status check_reference_memory(const Model& model, Precision precision) {
-  ModelCounts bodies;
-  bodies.particles = model.particle_count();
-  bodies.balls = model.ball_count();
-  const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
-  std::uint64_t bytes = reference_bytes(bodies, precision);
-  if (model.simulation.integrator == Integrator::implicit_euler) bytes += 10 * real * model.springs.size();
+  const std::uint64_t bytes = reference_bytes(model, precision);
   const std::optional<std::uint64_t> memory = available_memory();
   if (!memory || bytes <= *memory) return {};
   return fail(ErrorCode::scene_rejected,
@@ -103,22 +105,20 @@ constexpr Precision both_precisions[] = {Precision::single, Precision::double_};
 
 constexpr BackendRow table[] = {
     {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, built_force_paths, true, make_gpu,
-     [](const ModelCounts& counts, Integrator integrator, const BackendChoice& choice) {
-       return gpu_bytes(counts, integrator, choice.force_path);
+     [](const Model& model, const BackendChoice& choice) -> std::optional<std::uint64_t> {
+       return gpu_bytes(count(model), model.simulation.integrator, choice.force_path);
      },
      gpu_suitability},
     {"cpu", "CPU", "threads and vector instructions", single_alone, nullptr, false, make_cpu,
-     [](const ModelCounts& counts, Integrator integrator, const BackendChoice&) {
-       return cpu_bytes(counts, integrator);
-     },
+     [](const Model& model, const BackendChoice&) { return cpu_bytes(model); },
      [](const gl::Context*) {
        return Suitability{true, "", "", nullptr};
      },
      true, true},
     {"reference", "reference", "one thread, Eigen, written to be read", both_precisions, nullptr, false,
      make_reference,
-     [](const ModelCounts& counts, Integrator, const BackendChoice& choice) {
-       return reference_bytes(counts, choice.precision);
+     [](const Model& model, const BackendChoice& choice) -> std::optional<std::uint64_t> {
+       return reference_bytes(model, choice.precision);
      },
      [](const gl::Context*) {
        return Suitability{true, "", "", nullptr};
@@ -201,7 +201,8 @@ const BackendRow* find_backend(std::string_view name) {
 }
 
 const BackendRow& next_backend(const BackendRow& row) {
-  return &row == &backends().back() ? backends().front() : *(&row + 1);
+  const auto* const found = std::ranges::find(table, row.name, &BackendRow::name);
+  return std::end(table) - found > 1 ? found[1] : *std::begin(table);
 }
 
 std::string backend_words() {
@@ -347,15 +348,13 @@ Result<Backend> make_backend(const BackendChoice& choice, const Model& model, co
 }
 
 std::vector<BackendBytes> bytes_by_backend(const Model& model) {
-  const ModelCounts counts = count(model);
-  const Integrator integrator = model.simulation.integrator;
   std::vector<BackendBytes> result;
   for (const BackendRow& row : table) {
     for (const Precision precision : row.precisions) {
       const auto add = [&](const ForcePathRow* path) {
         const BackendChoice choice = {&row, precision, path ? path->path : ForcePath::automatic};
         result.push_back({variant_of(row, path ? path->name : "", precision, Arithmetic::exact),
-                          row.bytes(counts, integrator, choice)});
+                          row.bytes(model, choice)});
       };
       if (row.force_paths().empty()) add(nullptr);
       for (const ForcePathRow& path : row.force_paths()) add(&path);

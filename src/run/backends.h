@@ -72,9 +72,9 @@ struct BackendRow {
   /// Makes the solver at the model's initial state; the model must outlive it. The choice has passed
   /// check_choice(). Errors: no_device, scene_rejected, io.
   Result<Backend> (*make)(const Model& model, const BackendChoice& choice, const SolverHost& host) = nullptr;
-  /// Bytes that its solver holds for a model of these counts.
-  std::uint64_t (*bytes)(const ModelCounts& counts, Integrator integrator,
-                         const BackendChoice& choice) = nullptr;
+  /// Bytes that its solver holds for a model; nothing if there is no such memory. May make the solver to
+  /// know.
+  std::optional<std::uint64_t> (*bytes)(const Model& model, const BackendChoice& choice) = nullptr;
   /// Whether `auto` takes it: in the window's context, or, if that is null, wherever it finds a device.
   Suitability (*suitability)(const gl::Context* window) = nullptr;
   bool fast = false;      ///< it has fast arithmetic
@@ -93,7 +93,7 @@ inline const BackendRow& reference_backend() {
 }
 /// The row of that name; null if there is none.
 const BackendRow* find_backend(std::string_view name);
-/// The row after it in the table, the first after the last.
+/// The row after it in the table, the first after the last or a row of no table.
 const BackendRow& next_backend(const BackendRow& row);
 /// Every word of --backend: "auto, gpu, reference".
 std::string backend_words();
@@ -135,10 +135,10 @@ Result<std::filesystem::path> shader_directory();
 /// Errors: as check_choice and BackendRow::make.
 Result<Backend> make_backend(const BackendChoice& choice, const Model& model, const SolverHost& host = {});
 
-/// Bytes that a backend in one of its variants needs for a model.
+/// Bytes that a backend in one of its variants holds for a model.
 struct BackendBytes {
-  std::string backend;  ///< "gpu:gather"
-  std::uint64_t bytes = 0;
+  std::string backend;                 ///< "gpu:gather"
+  std::optional<std::uint64_t> bytes;  ///< its solver; absent: there is no such memory
 };
 std::vector<BackendBytes> bytes_by_backend(const Model& model);
 

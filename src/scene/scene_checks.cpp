@@ -123,8 +123,7 @@ void check_size(const Scene& scene, std::optional<std::uint64_t> memory_bytes, C
           : fmt::format("the scene has {} particles, {} springs and {} balls", counts.particles,
                         counts.springs(), counts.balls);
   Complaint too_large;
-  // Both ends of every spring are counted by 32 bits (build_model).
-  if (2 * counts.springs() > 0xffffffffull || counts.particles + counts.balls > 0x7fffffffull) {
+  if (counts.particles + counts.balls > most_indices) {
     too_large.message = size + ": more than 32-bit indices can name; use fewer particles or balls";
   } else if (memory_bytes && bytes > *memory_bytes) {
     too_large.message =

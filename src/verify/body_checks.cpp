@@ -7,6 +7,7 @@
 
 #include "analysis/compare.h"
 #include "model/bodies.h"
+#include "model/springs.h"
 #include "verify/experiments.h"
 
 namespace aspic::verify {
@@ -41,7 +42,7 @@ Result<Finding> made_as_said(const BodyRow& body) {
                        said.shear == made.shear && said.bending == made.bending;
   double extent = 0.0, worst = 0.0;
   for (const Vec3& x : model.initial_position) extent = std::max(extent, length(x));
-  for (const Spring& s : model.springs) {
+  for (const Spring& s : springs_of(model)) {
     const double now = length(model.initial_position[s.a] - model.initial_position[s.b]);
     worst = std::max(worst, std::abs(now - model.spring_classes[s.spring_class].rest_length));
   }

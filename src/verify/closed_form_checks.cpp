@@ -37,7 +37,7 @@ Result<Finding> follows_matrix(const Subject& subject, Integrator integrator, do
   model.simulation.integrator = integrator;
   model.simulation.implicit = {50, 500, 1e-16};
   model.spring_classes.push_back({SpringType::structural, stiffness, damping, rest_length, false});
-  model.springs.push_back({0, 1, 0});
+  model.listed_springs.push_back({0, 1, 0});
   ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
 
   // Equal masses m on a spring: the distance obeys q̈ = −(2/m)(kq + cq̇).

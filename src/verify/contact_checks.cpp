@@ -29,7 +29,7 @@ Model particle_on_plane(Integrator integrator, ContactModel contact, double slop
 Result<double> bounce_error(const Subject& subject, Integrator integrator, ContactModel contact, double mass,
                             double restitution, double factor) {
   Model model = particle_on_plane(integrator, contact, 0.0, {0, -5, 0});
-  model.initial_position[0].y = 0.1;
+  model.initial_position = {{0.0, 0.1, 0.0}};
   model.simulation.gravity = {0, 0, 0};
   model.terrain[0].mass = mass;
   model.terrain[0].restitution = restitution;
@@ -118,7 +118,7 @@ Result<Finding> projection(const Subject& subject) {
       const Terrain terrain = make_terrain({.shape = shape.value}, model.contact);
       model.terrain = {terrain};
       const auto [d, n] = terrain_gap(terrain, shape.drop);
-      model.initial_position[0] = shape.drop - (d + 0.5) * n;
+      model.initial_position.set(0, shape.drop - (d + 0.5) * n);
       ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, 1));
       worst = std::max(worst, std::abs(signed_distance(terrain, end.position[0])));
       largest = std::max(largest, extent(terrain));
@@ -160,7 +160,7 @@ Result<Finding> elevator(const Subject& subject) {
     const TerrainMotion motion = {{0, 1, 0}, 1.0, 0.25, 0.25};
     model.terrain[0].motion = motion;
     const double h = model.simulation.timestep, turn = 2 * std::numbers::pi * motion.frequency;
-    model.initial_position[0] = pose_at(motion, h, 0).offset;
+    model.initial_position.set(0, pose_at(motion, h, 0).offset);
     ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
     for (std::uint64_t step = 1; step <= 8000; ++step) {
       ASPIC_TRY(auto now, run(*solver, 1));

@@ -150,7 +150,8 @@ Result<Finding> spring_force(const Subject& subject) {
     x.push_back(Vec3{});
     v.push_back(4.0 * noise.vector());
     v.push_back(Vec3{});
-    model.springs.push_back({static_cast<std::uint32_t>(2 * i), static_cast<std::uint32_t>(2 * i + 1), 0});
+    model.listed_springs.push_back(
+        {static_cast<std::uint32_t>(2 * i), static_cast<std::uint32_t>(2 * i + 1), 0});
   }
   model.initial_position = x;
   model.initial_velocity = v;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "model/springs.h"
 #include "verify/experiments.h"
 
 namespace aspic::verify {
@@ -47,7 +48,7 @@ std::vector<double> scales(const Model& model, const State& at) {
   std::vector<double> scale(model.particle_count());
   for (std::size_t i = 0; i < scale.size(); ++i)
     scale[i] = length(at.velocity[i]) / model.simulation.timestep + length(model.simulation.gravity);
-  for (const Spring& s : model.springs) {
+  for (const Spring& s : springs_of(model)) {
     const SpringClass& of = model.spring_classes[s.spring_class];
     const double most = of.stiffness * (length(at.position[s.a] - at.position[s.b]) + of.rest_length) +
                         of.damping * length(at.velocity[s.a] - at.velocity[s.b]);

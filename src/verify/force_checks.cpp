@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "model/springs.h"
 #include "verify/experiments.h"
 #include "verify/textbook.h"
 
@@ -46,7 +47,7 @@ Result<Finding> gradient(const Subject& subject) {
     // The third derivative of ½k(L − r)² along any line is at most 3k(r/L)/L; central differences leave δ²/6
     // of it and ε·E/δ of rounding (the energy is summed in extended precision and rounded once).
     double third = 0.0;
-    for (const Spring& spring : model.springs) {
+    for (const Spring& spring : springs_of(model)) {
       if (spring.a != i && spring.b != i) continue;
       const SpringClass& s = model.spring_classes[spring.spring_class];
       const double L = length(state.position[spring.a] - state.position[spring.b]) - 2 * delta;
@@ -91,7 +92,7 @@ Result<Finding> invariance(const Subject& subject) {
   for (std::size_t i = 0; i < f.size(); ++i) {
     bound[i] = 4 * epsilon_double * (length(state.velocity[i]) / probe_step + length(f[i]));
   }
-  for (const Spring& spring : model.springs) {
+  for (const Spring& spring : springs_of(model)) {
     const SpringClass& s = model.spring_classes[spring.spring_class];
     const double L = length(state.position[spring.a] - state.position[spring.b]);
     const double rate = length(state.velocity[spring.a] - state.velocity[spring.b]);

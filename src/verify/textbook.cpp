@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "model/springs.h"
+
 namespace aspic::verify {
 namespace {
 
@@ -35,7 +37,7 @@ Column<T> force(const Model& model, const Motion<T>& motion) {
       f[at(i) + axis] = static_cast<T>(model.mass[i]) * static_cast<T>(model.simulation.gravity[axis]);
     }
   }
-  for (const Spring& spring : model.springs) {
+  for (const Spring& spring : springs_of(model)) {
     const SpringClass& constants = model.spring_classes[spring.spring_class];
     const Eigen::Matrix<T, 3, 1> stretch =
         motion.x.template segment<3>(at(spring.a)) - motion.x.template segment<3>(at(spring.b));
@@ -59,7 +61,7 @@ template Column<long double> force<long double>(const Model&, const Motion<long 
 
 double elastic_energy(const Model& model, const State& state, std::int64_t particle) {
   long double sum = 0;
-  for (const Spring& spring : model.springs) {
+  for (const Spring& spring : springs_of(model)) {
     if (particle >= 0 && spring.a != particle && spring.b != particle) continue;
     const SpringClass& constants = model.spring_classes[spring.spring_class];
     const Vec3 e = state.position[spring.a] - state.position[spring.b];
@@ -107,7 +109,7 @@ Eigen::VectorXd dense_backward_euler(const Model& model, const State& start) {
   Eigen::VectorXd v = from.v, F = defect(v);
   for (int iteration = 0; iteration < 100 && F.lpNorm<Eigen::Infinity>() > 1e-13; ++iteration) {
     Eigen::MatrixXd J = mass.asDiagonal();
-    for (const Spring& spring : model.springs) {
+    for (const Spring& spring : springs_of(model)) {
       const SpringClass& s = model.spring_classes[spring.spring_class];
       const Eigen::Vector3d rate = v.segment<3>(at(spring.a)) - v.segment<3>(at(spring.b));
       const Eigen::Vector3d e = from.x.segment<3>(at(spring.a)) - from.x.segment<3>(at(spring.b)) + h * rate;
@@ -143,13 +145,13 @@ Eigen::VectorXd dense_backward_euler(const Model& model, const State& start) {
 
 WorstMode power_iteration(const Model& model, int iterations) {
   const auto n = 3 * static_cast<Eigen::Index>(model.particle_count());
-  Eigen::VectorXd shape(n);
+  Eigen::VectorXd shape = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) shape[i] = std::sin(1.0 + 1.7 * static_cast<double>(i * i));
   shape.normalize();
   WorstMode worst;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     Eigen::VectorXd image = Eigen::VectorXd::Zero(n);
-    for (const Spring& spring : model.springs) {
+    for (const Spring& spring : springs_of(model)) {
       const Vec3 e = model.initial_position[spring.a] - model.initial_position[spring.b];
       const Eigen::Vector3d u = Eigen::Vector3d(e.x, e.y, e.z).normalized();
       const double wa = std::sqrt(model.inverse_mass[spring.a]), wb = std::sqrt(model.inverse_mass[spring.b]);

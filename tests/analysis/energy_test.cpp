@@ -12,7 +12,7 @@ Model pair(bool cord) {
   model.mass = {2.0, 4.0};
   model.inverse_mass = {0.5, 0.25};
   model.spring_classes = {{SpringType::structural, 8.0, 1.0, 2.0, cord}};
-  model.springs = {{0, 1, 0}};
+  model.listed_springs = {{0, 1, 0}};
   return model;
 }
 
@@ -42,7 +42,7 @@ TEST(Energy, SlackCordHoldsNone) {
 
 TEST(Energy, PinnedParticleHasPotentialButNoMotion) {
   Model model = pair(false);
-  model.inverse_mass[0] = 0.0;
+  model.inverse_mass.set(0, 0.0);
   const Measures m = measure(model, state_at(5.0));
   EXPECT_EQ(m.kinetic, 2.0);
   EXPECT_EQ(m.momentum, (Vec3{0.0, -4.0, 0.0}));

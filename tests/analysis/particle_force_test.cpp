@@ -5,6 +5,7 @@
 #include <random>
 
 #include "cpu_reference/dynamics.h"
+#include "model/springs.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -97,7 +98,7 @@ TEST(ParticleForceTest, PartsByHand) {
   model.simulation.gravity = {0.0, -10.0, 0.0};
   model.spring_classes = {{SpringType::structural, 8.0, 2.0, 2.0, false},
                           {SpringType::bending, 8.0, 2.0, 5.0, true}};
-  model.springs = {{0, 1, 0}, {1, 2, 1}};
+  model.listed_springs = {{0, 1, 0}, {1, 2, 1}};
   const State state = initial_state(model, Precision::double_);
   const SpringFinder incident(model);
   const ParticleForce force = particle_force(model, incident, state, 1);
@@ -111,10 +112,10 @@ TEST(ParticleForceTest, PartsByHand) {
 TEST(SpringFinderTest, AreAllThatEndAtAParticle) {
   const Model model = test::build(cube_and_net());
   const SpringFinder incident(model);
-  std::vector<std::vector<std::uint32_t>> expected(model.particle_count());
-  for (std::uint32_t s = 0; s < model.springs.size(); ++s) {
-    expected[model.springs[s].a].push_back(s);
-    expected[model.springs[s].b].push_back(s);
+  std::vector<std::vector<Spring>> expected(model.particle_count());
+  for (const Spring& s : springs_of(model)) {
+    expected[s.a].push_back(s);
+    expected[s.b].push_back(s);
   }
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) EXPECT_EQ(incident.of(model, i), expected[i]);
   const Model loose = test::particles({{0, 0, 0}}, {{0, 0, 0}});

@@ -10,6 +10,7 @@
 
 #include "analysis/amplification.h"
 #include "analysis/spectrum.h"
+#include "model/springs.h"
 #include "support/integrator_names.h"
 
 namespace aspic {
@@ -34,7 +35,7 @@ Model model_of(const CubeSettings& cube) {
 double spectral_radius(const Model& model, Integrator integrator, double h) {
   const auto dof = static_cast<Eigen::Index>(3 * model.particle_count());
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(dof, dof), c = k;
-  for (const Spring& spring : model.springs) {
+  for (const Spring& spring : springs_of(model)) {
     const SpringClass& s = model.spring_classes[spring.spring_class];
     const Vec3 e = model.initial_position[spring.a] - model.initial_position[spring.b];
     const Eigen::Vector3d n = Eigen::Vector3d(e.x, e.y, e.z).normalized();
@@ -269,7 +270,7 @@ TEST(Stability, GershgorinBoundIsAboveTheEigenvalue) {
 
 TEST(Stability, OverflowHasAnAnswer) {
   Model model = model_of(cube_settings(2));
-  for (double& w : model.inverse_mass) w = 1e308;
+  model.inverse_mass.assign(model.particle_count(), 1e308);
   for (const Integrator integrator : explicit_integrators) {
     const StabilityLimit limit = stability_limit(model, integrator);
     EXPECT_EQ(limit.step.value_or(-1.0), 0.0);

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <string>
+#include <thread>
 #include <vector>
 
-#include "cpu_reference/reference_solver.h"
+#include "app/endless.h"
 #include "scene/load.h"
 
 namespace aspic::test {
@@ -54,7 +56,7 @@ TEST(Engines, AJobAndTheContextAdvanceAnyTwoByTheSameSteps) {
        {std::pair{&outside, &outside}, std::pair{&outside, &in_context}, std::pair{&in_context, &outside}}) {
     Engines engines = engines_of(*leader, shadow);
     EXPECT_FALSE(engines.only_context());
-    app::Outcome outcome = engines.advance_outside(7, 1e9, false, false);
+    app::Outcome outcome = engines.advance_outside({0, 7, 1e9}, false);
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     ASSERT_TRUE(engines.follow(outcome).ok());
     EXPECT_EQ(outcome.steps, 7u);
@@ -73,15 +75,46 @@ TEST(Engines, TheShadowOfALeaderInTheContextMayBeThereToo) {
 
 TEST(Engines, AloneTheLeaderLeavesItsShadowBehind) {
   Engines engines = engines_of(outside, &outside);
-  EXPECT_EQ(engines.advance_outside(7, 1e9, true, false).steps, 7u);
+  EXPECT_EQ(engines.advance_outside({0, 7, 1e9, true}, false).steps, 7u);
   EXPECT_EQ(engines.leader().solver->state()->step, 7u);
   EXPECT_EQ(engines.shadow().solver->state()->step, 0u);
 }
 
 TEST(Engines, AHurryOrASpentBudgetEndsAJobEarly) {
   Engines engines = engines_of(outside, nullptr);
-  EXPECT_EQ(engines.advance_outside(1000, 1e9, false, true).steps, 0u);
-  EXPECT_EQ(engines.advance_outside(1000, 0.0, false, false).steps, 0u);
+  EXPECT_EQ(engines.advance_outside({0, 1000, 1e9}, true).steps, 0u);
+  EXPECT_EQ(engines.advance_outside({0, 1000, 0.0}, false).steps, 0u);
+}
+
+/// Its steps never end but by a hurry, which comes when the first has begun.
+class Hurrying final : public Endless {
+ public:
+  Hurrying(std::unique_ptr<Solver> inner, std::atomic<bool>& hurry)
+      : Endless(std::move(inner)), hurry_(hurry) {}
+  Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
+    hurry_ = true;
+    return Endless::advance(steps);
+  }
+
+ private:
+  std::atomic<bool>& hurry_;
+};
+
+TEST(Engines, AHurryDropsTheStepInProgressOfBoth) {
+  Engines engines = engines_of(outside, &outside);
+  std::atomic<bool> hurry = false;
+  Backend endless;
+  endless.row = &outside;
+  endless.solver = std::make_unique<Hurrying>(
+      std::move(*make_reference_solver(engines.model(), Precision::single)), hurry);
+  engines.set_shadow(std::move(endless));
+  const std::string start = hash_after(0);
+  const app::Outcome outcome = engines.advance_outside({0, 3, 1e9}, hurry);
+  ASSERT_FALSE(outcome.error) << outcome.error->message;
+  EXPECT_EQ(outcome.steps, 0u) << "the leader takes its steps back: the shadow has none";
+  EXPECT_EQ(state_hash_text(outcome.leader.state), start);
+  EXPECT_EQ(state_hash_text(*engines.leader().solver->state()), start);
+  EXPECT_EQ(state_hash_text(*engines.shadow().solver->state()), start);
 }
 
 }  // namespace

@@ -257,19 +257,16 @@ TEST_F(Panels, ACubeBeyondMemoryIsRefusedWithTheFigures) {
               testing::HasSubstr("1000 particles and 12876 springs"));
   EXPECT_THAT(explanations().at("cube[0].particles-per-edge"), testing::HasSubstr("are free"));
   for (int i = 0; i < 3; ++i) type(U'.');
-  // The largest cube there is; where that fits, two of them, more than 32 bits can name.
+  // As many of the largest cubes as do not fit.
   Scene large = app().scene.editor().scene();
   large.model.cubes[0].particles_per_edge = 512;
-  const bool fits = available_memory().value_or(0) > model_bytes(predict_counts(large.model));
-  if (fits) {
+  while (run_bytes(predict_counts(large.model)) <= available_memory().value_or(0))
     large.model.cubes.push_back(large.model.cubes[0]);
-    app().scene.apply(large, "two large cubes", "");
-  } else {
-    set("cube[].particles-per-edge", std::int64_t{512});
-  }
+  const bool too_many = predict_counts(large.model).particles > most_indices;
+  app().scene.apply(large, "large cubes", "");
   ASSERT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("particles and"));
-  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(fits ? "32-bit" : "of memory and"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(too_many ? "32-bit" : "of memory and"));
   EXPECT_EQ(settings().cubes.size(), 1u);
   EXPECT_EQ(settings().cubes[0].particles_per_edge, 10);
   EXPECT_EQ(simulation().model().particle_count(), 1000u);
@@ -339,10 +336,7 @@ TEST_F(Files, BrokenAndMendedWhileItRuns) {
   press(GLFW_KEY_SPACE);
   frames_to_step(20);
   write("mine.toml", scene_text(4) + "[contact]\nfriction = much\n");
-  for (int i = 0; !(app().messages.notice() && app().messages.notice()->is_error); ++i) {
-    ASSERT_LT(i, 1000);
-    frames(1);
-  }
+  frames_until([&] { return app().messages.notice() && app().messages.notice()->is_error; });
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("mine.toml:5"));
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("friction = much"));
   EXPECT_TRUE(simulation().running()) << "the old scene keeps running";
@@ -351,25 +345,16 @@ TEST_F(Files, BrokenAndMendedWhileItRuns) {
       << "the message stays as long as the file is broken";
   const std::uint64_t before = simulation().step();
   write("mine.toml", scene_text(4) + "[contact]\nfriction = 0.9\n");
-  for (int i = 0; simulation().model().contact.friction != 0.9; ++i) {
-    ASSERT_LT(i, 1000);
-    frames(1);
-  }
+  frames_until([&] { return simulation().model().contact.friction == 0.9; });
   EXPECT_FALSE(app().messages.notice() && app().messages.notice()->is_error) << "mended";
   EXPECT_TRUE(simulation().running());
   EXPECT_GE(simulation().step(), before) << "constants alone: the motion goes on";
   frames_to_step(before + 20);
   // Broken and mended to the very same content: the message goes too.
   write("mine.toml", "[");
-  for (int i = 0; !(app().messages.notice() && app().messages.notice()->is_error); ++i) {
-    ASSERT_LT(i, 1000);
-    frames(1);
-  }
+  frames_until([&] { return app().messages.notice() && app().messages.notice()->is_error; });
   write("mine.toml", scene_text(4) + "[contact]\nfriction = 0.9\n");
-  for (int i = 0; app().messages.notice() && app().messages.notice()->is_error; ++i) {
-    ASSERT_LT(i, 1000);
-    frames(1);
-  }
+  frames_until([&] { return !(app().messages.notice() && app().messages.notice()->is_error); });
   EXPECT_TRUE(simulation().running());
 }
 

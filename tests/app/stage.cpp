@@ -52,9 +52,14 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
   services.clipboard = [this] { return clipboard; };
   services.set_clipboard = [this](const std::string& text) { clipboard = text; };
   services.toggle_full_screen = [this] { ++full_screen_toggles; };
-  auto made = app::App::create(
-      window_->context(), {scene, std::move(overrides), find_backend(backend), kept, full_quality(), &log_},
-      1.0, services);
+  auto made = app::App::create(window_->context(),
+                               {.scene = scene,
+                                .overrides = std::move(overrides),
+                                .backend = find_backend(backend),
+                                .kept = kept,
+                                .full_quality = full_quality(),
+                                .watcher = &log_},
+                               1.0, services);
   ASSERT_TRUE(made.ok()) << made.error().message;
   app_ = std::move(*made);
   window_->set_receiver(app_.get());
@@ -80,13 +85,6 @@ void Stage::lose_device(std::uint64_t chance) {
     ASSERT_TRUE(other.ok()) << other.error().message;
     window_ = std::move(*other);
     return;
-  }
-}
-
-void Stage::frames_to_step(std::uint64_t step) {
-  for (int i = 0; simulation().step() < step; ++i) {
-    ASSERT_LT(i, 10000) << "stuck at step " << simulation().step();
-    frames(1);
   }
 }
 

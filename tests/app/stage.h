@@ -59,7 +59,17 @@ class Stage : public ::testing::Test {
   /// Pictures, a sixtieth of a second apart.
   void frames(int count);
   /// Pictures until the run is at that step or beyond; a failure after ten thousand.
-  void frames_to_step(std::uint64_t step);
+  void frames_to_step(std::uint64_t step) {
+    frames_until([&] { return simulation().step() >= step; });
+  }
+  /// Pictures until a condition holds; a failure after ten thousand.
+  template <class Condition>
+  void frames_until(Condition condition) {
+    for (int i = 0; !condition(); ++i) {
+      ASSERT_LT(i, 10000) << "stuck at step " << simulation().step();
+      frames(1);
+    }
+  }
   /// Pictures until the camera stands still.
   void frames_to_rest();
 

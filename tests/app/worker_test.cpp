@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <new>
+#include <string>
+#include <thread>
 
 namespace aspic::app {
 namespace {
@@ -33,6 +35,24 @@ TEST(Worker, FinishHurriesAJobThatWouldNeverEnd) {
   worker.start([&hurried](const std::atomic<bool>& hurry) { hurried = hurry; });
   worker.wait();
   EXPECT_FALSE(hurried);
+}
+
+TEST(Worker, JobsWaitForOneAnotherAndAHurryForgetsThoseThatWait) {
+  Worker worker;
+  std::string order;
+  std::atomic<bool> begun = false;
+  worker.start([&](const std::atomic<bool>& hurry) {
+    begun = true;
+    while (!hurry) std::this_thread::yield();
+    order += "a";
+  });
+  worker.start([&](const std::atomic<bool>&) { order += "b"; });
+  EXPECT_EQ(worker.jobs(), 2u);
+  while (!begun) std::this_thread::yield();
+  worker.hurry();
+  worker.start([&](const std::atomic<bool>& hurry) { order += hurry ? "hurried" : "c"; });
+  worker.wait();
+  EXPECT_EQ(order, "ac");
 }
 
 TEST(Worker, HandsOnWhatAJobThrows) {

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "cli/process.h"
+#include "model/integrator.h"
 
 namespace aspic {
 namespace {
 
 using test::aspic;
-using test::json_member;
 
 TEST(Bench, ReportsWhatItMeasured) {
   const auto run = aspic(
@@ -21,6 +24,72 @@ TEST(Bench, ReportsWhatItMeasured) {
   EXPECT_NE(run.out.find("\"steps\": 50"), std::string::npos) << run.out;
 }
 
+TEST(Bench, SaysWhereAndWith) {
+  const auto run = aspic({"bench", "--backend", "reference", "--size", "3", "--duration", "0.01", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto report = nlohmann::json::parse(run.out);
+  EXPECT_GE(report["machine"]["cores"], 1);
+  EXPECT_GT(report["machine"]["memory_bytes"], 0);
+  EXPECT_TRUE(report["machine"].contains("processor"));
+  for (const char* key : {"version", "date", "compiler", "flags"}) EXPECT_NE(report[key], "") << key;
+  EXPECT_EQ(report["interrupted"], false);
+  EXPECT_EQ(report["warm_up"], 1);
+}
+
+TEST(Bench, OrdersItsSamplesStatistics) {
+  const auto run = aspic({"bench", "--backend", "reference,cpu", "--size", "3,5", "--duration", "0.05",
+                          "--repeats", "4", "--warm-up", "0", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto rows = nlohmann::json::parse(run.out)["measurements"];
+  ASSERT_EQ(rows.size(), 4u);
+  for (const auto& row : rows) {
+    auto seconds = row["seconds"].get<std::vector<double>>();
+    ASSERT_EQ(seconds.size(), 4u);
+    std::ranges::sort(seconds);
+    EXPECT_EQ(row["fastest_seconds"], seconds[0]);
+    EXPECT_DOUBLE_EQ(row["lower_quartile_seconds"], 0.25 * seconds[0] + 0.75 * seconds[1]);
+    EXPECT_DOUBLE_EQ(row["median_seconds"], 0.5 * (seconds[1] + seconds[2]));
+    EXPECT_DOUBLE_EQ(row["upper_quartile_seconds"], 0.75 * seconds[2] + 0.25 * seconds[3]);
+    EXPECT_EQ(row["slowest_seconds"], seconds[3]);
+    EXPECT_EQ(row["processor_seconds"].size(), 4u);
+    EXPECT_GT(row["processors"], 0.0);
+    EXPECT_TRUE(row["passes"].is_null());
+  }
+  const auto throughput = [&](std::size_t i) {
+    return rows[i]["spring_evaluations_per_second"].get<double>();
+  };
+  const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(rows[i]["name"], i % 2 == 0 ? "reference" : "cpu");
+    EXPECT_EQ(rows[i]["size"], i < 2 ? 3 : 5);
+    EXPECT_TRUE(near(rows[i]["growth"], throughput(i % 2) / throughput(i))) << i;
+    EXPECT_GT(rows[i]["processor_ratio"], 0.0);
+    EXPECT_TRUE(near(rows[i]["ratio"], throughput(i / 2 * 2) / throughput(i))) << i;
+  }
+}
+
+TEST(Bench, MeasuresEveryIntegratorInOneTable) {
+  const auto run = aspic({"bench", "--backend", "reference", "--size", "3", "--duration", "0.02", "--repeats",
+                          "1", "--integrator", "all", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto rows = nlohmann::json::parse(run.out)["measurements"];
+  ASSERT_EQ(rows.size(), std::size(all_integrators));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    EXPECT_EQ(rows[i]["integrator"], std::string(name_of(all_integrators[i])));
+  const auto some = aspic({"bench", "--backend", "reference", "--size", "3", "--duration", "0.02",
+                           "--repeats", "1", "--integrator", "midpoint,runge-kutta-4"});
+  EXPECT_NE(some.out.find("midpoint "), std::string::npos) << some.out;
+  EXPECT_NE(some.out.find("runge-kutta-4 "), std::string::npos) << some.out;
+}
+
+TEST(Bench, KeepsWhatItMeasuredBeforeAnError) {
+  const auto run =
+      aspic({"bench", "--backend", "reference", "--size", "3,1", "--duration", "0.02", "--json"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("particles-per-edge"), std::string::npos) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out)["measurements"].size(), 1u);
+}
+
 TEST(Bench, LargestStepIsTheIntegratorsOwn) {
   const auto run = aspic({"bench", "--backend", "reference", "--size", "3", "--duration", "0.05", "--repeats",
                           "1", "--timestep", "largest", "--integrator", "explicit-euler", "--integrator",
@@ -33,6 +102,8 @@ TEST(Bench, RefusesWhatItCannotMeasure) {
   EXPECT_EQ(aspic({"bench", "--size", "1"}).exit_code, 3);
   EXPECT_EQ(aspic({"bench", "--integrator", "leapfrog"}).exit_code, 2);
   EXPECT_EQ(aspic({"bench", "--timestep", "0.1"}).exit_code, 2);
+  EXPECT_EQ(aspic({"bench", "--integrator", "midpoint,leapfrog"}).exit_code, 2);
+  EXPECT_EQ(aspic({"bench", "--warm-up", "-1"}).exit_code, 2);
   EXPECT_EQ(aspic({"bench", "--seconds", "0"}).exit_code, 2);
   EXPECT_EQ(aspic({"bench", "--seconds", "1", "--duration", "1"}).exit_code, 2);
   EXPECT_EQ(aspic({"bench", "--backend", "reference:gather"}).exit_code, 2);

@@ -118,12 +118,13 @@ class HostileCheckpoint : public testing::Test {
   }
   const test::TemporaryDirectory dir;
 };
+using MemoryLimitOnCheckpoint = HostileCheckpoint;
 
 TEST_F(HostileCheckpoint, AsItIsItGoesOn) {
   EXPECT_EQ(resume(checkpoint()).exit_code, 0);
 }
 
-TEST_F(HostileCheckpoint, FilesWithoutAnEndAreNotRead) {
+TEST_F(MemoryLimitOnCheckpoint, FilesWithoutAnEndAreNotRead) {
   for (const char* path : {"/dev/zero", "/dev/full", "/dev/urandom", "/dev/null", "/proc/self"}) {
     test::ProcessOptions small;
     small.address_space_limit = std::uint64_t{1} << 30;
@@ -160,7 +161,7 @@ TEST_F(HostileCheckpoint, TheVersionTextIsShortAndPlain) {
   }
 }
 
-TEST_F(HostileCheckpoint, ItsSceneIsHeldAgainstItsStateBeforeItIsBuilt) {
+TEST_F(MemoryLimitOnCheckpoint, ItsSceneIsHeldAgainstItsStateBeforeItIsBuilt) {
   test::ProcessOptions small;
   small.address_space_limit = std::uint64_t{1} << 30;
   Checkpoint spoilt = checkpoint();
@@ -185,7 +186,7 @@ TEST_F(HostileCheckpoint, StepsBeyondCountingAreRefused) {
 }
 
 // 10⁷ balls need 2.4 GiB: with one GiB to have they are refused before any is made.
-TEST(Hostile, ScenesThatNeedMoreMemoryThanThereIsAreRefusedBeforeTheyAreBuilt) {
+TEST(MemoryLimit, ScenesThatNeedMoreMemoryThanThereIsAreRefusedBeforeTheyAreBuilt) {
   const test::TemporaryDirectory dir;
   test::ProcessOptions small;
   small.address_space_limit = std::uint64_t{1} << 30;

@@ -67,7 +67,7 @@ TEST(Limits, AFileSizeLimitIsAFailedWriteInEveryCommand) {
 
 // From too little for the first array to just enough: the places where memory runs out are many, some
 // foreseen (3) and some not (6).
-TEST(Limits, WantOfMemoryIsASentenceAndLeavesNothing) {
+TEST(MemoryLimit, WantOfMemoryIsASentenceAndLeavesNothing) {
   int foreseen = 0, not_foreseen = 0;
   for (std::uint64_t size = 24; size <= 56; size += 4) {
     const test::TemporaryDirectory dir;
@@ -94,11 +94,11 @@ TEST(Limits, WantOfMemoryIsASentenceAndLeavesNothing) {
   EXPECT_GT(not_foreseen, 0);
 }
 
-TEST(Limits, FilmsThatLackMemoryOrStackLeaveNothing) {
+TEST(MemoryLimit, FilmsThatLackMemoryOrStackLeaveNothing) {
   std::vector<test::ProcessOptions> limits;
   for (std::uint64_t size = 200; size <= 700; size += 100)
     limits.emplace_back().address_space_limit = size * mebi;
-  for (const std::uint64_t size : {64, 256, 512}) limits.emplace_back().stack_limit = size << 10;
+  for (const std::uint64_t size : {64u, 256u, 512u}) limits.emplace_back().stack_limit = size << 10;
   for (test::ProcessOptions& options : limits) {
     const test::TemporaryDirectory dir;
     options.environment = {{"ASPIC_EGL_DEVICE", "software"}};

@@ -85,7 +85,7 @@ class JsonScanner {
 Process::Process(const std::vector<std::string>& arguments, const ProcessOptions& options) {
   const std::string out = options.stdout_file.empty() ? captured_.file("out") : options.stdout_file;
   const std::string err = captured_.file("err");
-  std::vector<std::string> words = {ASPIC_PROGRAM};
+  std::vector<std::string> words = {options.program.empty() ? ASPIC_PROGRAM : options.program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

@@ -27,6 +27,7 @@ struct ProcessOptions {
   std::optional<std::uint64_t> stack_limit = {};          ///< RLIMIT_STACK [bytes]
   std::vector<int> closed = {};                           ///< descriptors that are closed when it starts
   bool stdout_to_closed_pipe = false;                     ///< stdout is a pipe that nobody reads
+  std::string program = {};                               ///< empty: the aspic that was built
 };
 
 /// A running aspic. Killed if it is still there at the end of its life.

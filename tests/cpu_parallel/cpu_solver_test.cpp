@@ -191,7 +191,7 @@ TEST(CpuSolver, GivesSpringsWithoutLengthNoForce) {
   ModelSettings settings = test::cube_on_plane(4);
   settings.cubes[0].pinned.names = {"left-top-front"};
   Model model = test::build(settings);
-  for (Vec3& x : model.initial_position) x = {0.0, 2.0, 0.0};
+  model.initial_position = std::vector<Vec3>(model.particle_count(), {0.0, 2.0, 0.0});
   expect_equal(model, 50, 2);
   model.simulation.integrator = Integrator::implicit_euler;
   expect_equal(model, 50, 2);
@@ -316,7 +316,7 @@ TEST(FastArithmetic, GivesSpringsWithoutLengthNoForce) {
         settings.goal_nets.emplace_back();
       }
       Model model = test::build(settings);
-      for (Vec3& x : model.initial_position) x = {0.0, 2.0, 0.0};
+      model.initial_position = std::vector<Vec3>(model.particle_count(), {0.0, 2.0, 0.0});
       const State start = initial_state(model, Precision::single);
       EXPECT_EQ(after(*cpu(model, 2, Arithmetic::fast), 20).position, start.position);
     }
@@ -330,7 +330,8 @@ TEST(FastArithmetic, LeavesSlackCordsSlack) {
     settings.simulation.gravity = {0.0, 0.0, 0.0};
     Model model = test::build(settings);
     // Everything within half its size: every cord is shorter than it rests.
-    for (Vec3& x : model.initial_position) x = 0.5 * x;
+    for (std::size_t i = 0; i < model.particle_count(); ++i)
+      model.initial_position.set(i, 0.5 * model.initial_position[i]);
     const State start = initial_state(model, Precision::single);
     EXPECT_EQ(after(*cpu(model, 2, Arithmetic::fast), 20).position, start.position);
   });

@@ -137,7 +137,8 @@ TEST(Balls, CrowdsKeepMomentumAndNeverRaiseTheEnergy) {
       ball.initial_position = 1e-3 * ball.initial_position + Vec3{1e-6 * b, 0.0, 0.0};
       model.balls.push_back(ball);
     }
-    for (Vec3& x : model.initial_position) x = 1e-3 * x;
+    for (std::size_t i = 0; i < model.initial_position.size(); ++i)
+      model.initial_position.set(i, 1e-3 * model.initial_position[i]);
     auto solver = solver_for(model);
     const double momentum_scale = (balls + 200.0) * 55.0 * 5.0;  // bodies · kg · m/s, at most
     Measures before = measure(model, *solver->state());

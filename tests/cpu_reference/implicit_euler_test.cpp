@@ -20,9 +20,10 @@ Model deformed_cube() {
   settings.simulation.implicit.newton_iterations = 100;
   Model model = test::build(settings);
   for (std::size_t i = 0; i < model.initial_position.size(); ++i) {
-    Vec3& x = model.initial_position[i];
-    x = {1.1 * x.x + 0.2 * x.y, 0.7 * x.y, 1.05 * x.z};
-    model.initial_velocity[i] = {-3.0 * x.z + 0.2 * x.y, -5.0, 3.0 * x.x};
+    const Vec3 start = model.initial_position[i];
+    const Vec3 x = {1.1 * start.x + 0.2 * start.y, 0.7 * start.y, 1.05 * start.z};
+    model.initial_position.set(i, x);
+    model.initial_velocity.set(i, {-3.0 * x.z + 0.2 * x.y, -5.0, 3.0 * x.x});
   }
   return model;
 }
@@ -73,7 +74,7 @@ TEST(ImplicitEuler, NeedsNoIterationInFreeFlight) {
   EXPECT_TRUE((next.v.row(1).array() == -9.8 * h).all());
   // Not where a pinned particle holds the body: then v is nearer to the solution than the fall, or is not,
   // but either way the equation decides.
-  model.inverse_mass[0] = 0.0;
+  model.inverse_mass.set(0, 0.0);
   const Dynamics<double> pinned(model);
   ImplicitEuler<double> again(pinned, model);
   const Phase<double> held = again.step(start_of(model), report);
@@ -139,7 +140,7 @@ TEST(ImplicitEuler, OneSpringFollowsTheResolvent) {
   model.simulation.gravity = {0, 0, 0};
   model.simulation.implicit.tolerance = 1e-15;
   model.spring_classes.push_back({SpringType::structural, k, c, 1.0, false});
-  model.springs.push_back({0, 1, 0});
+  model.listed_springs.push_back({0, 1, 0});
   const Dynamics<double> dynamics(model);
   ImplicitEuler<double> method(dynamics, model);
   Phase<double> s = start_of(model);

@@ -185,10 +185,10 @@ Model cube_in_a_corner(double mu) {
   settings.terrain[2].geometry["normal"] = Vec3{0, 0, -1};
   Model model = test::build(settings);
   for (std::size_t i = 0; i < model.initial_position.size(); ++i) {
-    Vec3& x = model.initial_position[i];
-    x = {1.1 * x.x + 0.1 * (x.y - 2.8), 0.9 * x.y + 0.28, x.z};
-    model.initial_velocity[i] = {3.0, -6.0, 2.0};
+    const Vec3 x = model.initial_position[i];
+    model.initial_position.set(i, {1.1 * x.x + 0.1 * (x.y - 2.8), 0.9 * x.y + 0.28, x.z});
   }
+  model.initial_velocity.assign(model.particle_count(), {3.0, -6.0, 2.0});
   return model;
 }
 

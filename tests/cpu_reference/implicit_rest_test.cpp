@@ -258,7 +258,7 @@ TEST(ImplicitRest, APulledParticleLeavesWithoutAdhesion) {
 
 TEST(ImplicitRest, PinnedParticlesTakeNoPart) {
   Model model = loose({{0, 0.005, 0}, {1, -0.5, 0}, {2, 0, 0}}, {{1, -2, 0}, {}, {}}, {plane({}, {0, 1, 0})});
-  model.inverse_mass[1] = model.inverse_mass[2] = 0.0;
+  model.inverse_mass = {1.0, 0.0, 0.0};
   const State start = initial_state(model, Precision::double_), end = advanced(*solver_for(model), 30);
   for (const std::size_t i : {1u, 2u}) {
     EXPECT_EQ(end.position[i], start.position[i]);

@@ -147,7 +147,7 @@ TEST_P(IntegratorTable, KeepsAngularMomentumExactlyWhereItsRowSaysSo) {
   model.simulation.integrator = GetParam();
   model.simulation.implicit.tolerance = 1e-15;
   model.spring_classes.push_back({SpringType::structural, 50.0, 0.5, 1.0, false});
-  model.springs.push_back({0, 1, 0});
+  model.listed_springs.push_back({0, 1, 0});
   auto solver = solver_for(model);
   ASSERT_FALSE((*solver->advance(200)).has_value());
   const State end = *solver->state();

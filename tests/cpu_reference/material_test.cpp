@@ -37,8 +37,9 @@ Model bar(int length, int width, const SpringSettings& springs, double s) {
       const Vec3 d = (positions[b] - positions[a]) / s;
       const double largest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
       const double sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-      if (largest < 1.5) model.springs.push_back({a, b, static_cast<std::uint32_t>(std::lround(sum)) - 1});
-      if (largest > 1.5 && largest < 2.5 && sum < 2.5) model.springs.push_back({a, b, 3});
+      if (largest < 1.5)
+        model.listed_springs.push_back({a, b, static_cast<std::uint32_t>(std::lround(sum)) - 1});
+      if (largest > 1.5 && largest < 2.5 && sum < 2.5) model.listed_springs.push_back({a, b, 3});
     }
   }
   return model;

@@ -56,8 +56,8 @@ class Moving : public ::testing::TestWithParam<Integrator> {
     TerrainSettings ground = {.geometry = {{"point", Vec3{0, 0, 0}}}, .friction = friction, .motion = motion};
     model.terrain.push_back(make_terrain(ground, model.contact));
     const Pose start = pose_at(model.terrain[0].motion.value(), h, 0);
-    model.initial_position[0] = start.offset;
-    model.initial_velocity[0] = start.velocity;
+    model.initial_position.set(0, start.offset);
+    model.initial_velocity.set(0, start.velocity);
     return model;
   }
   std::uint64_t steps(double seconds) const { return static_cast<std::uint64_t>(std::lround(seconds / h)); }
@@ -129,8 +129,8 @@ TEST_P(Moving, ARacketAddsTwiceItsSpeed) {
   Model model = particle_on({{0, 1, 0}, 1.0, 0.25, 0.0});
   model.simulation.gravity = {0, 0, 0};
   model.terrain[0].restitution = 1.0;
-  model.initial_position[0] = {0, 0.05, 0};
-  model.initial_velocity[0] = {0, -3.0, 0};
+  model.initial_position.set(0, {0, 0.05, 0});
+  model.initial_velocity.set(0, {0, -3.0, 0});
   const auto solver = std::move(make_reference_solver(model, Precision::double_)).value();
   ASSERT_FALSE((*solver->advance(steps(0.1))).has_value());
   // V = 2π·0.25·cos(…) changes by less than A·ω²·0.1 s · ½ until the impact, and by the step's length.

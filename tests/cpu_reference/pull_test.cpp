@@ -10,6 +10,7 @@
 #include "cpu_reference/phase.h"
 #include "cpu_reference/reference_solver.h"
 #include "model/integrator.h"
+#include "model/springs.h"
 #include "support/integrator_names.h"
 #include "support/model_building.h"
 
@@ -103,9 +104,10 @@ Model with_spring_instead(Model model, const Pull& pull) {
   const auto spring_class = static_cast<std::uint32_t>(model.spring_classes.size());
   model.spring_classes.push_back({SpringType::structural, pull.stiffness, pull.damping, 0.0, false});
   // Springs stay sorted; the partner's index is the highest, so its spring is the last of the particle's sum.
-  const auto after = std::find_if(model.springs.begin(), model.springs.end(),
-                                  [&](const Spring& s) { return s.a > pull.particle; });
-  model.springs.insert(after, Spring{pull.particle, last, spring_class});
+  list_springs(model);
+  std::vector<Spring>& springs = model.listed_springs;
+  const auto after = std::ranges::find_if(springs, [&](const Spring& s) { return s.a > pull.particle; });
+  springs.insert(after, Spring{pull.particle, last, spring_class});
   return model;
 }
 

@@ -261,7 +261,7 @@ TEST_P(Rest, APulledParticleLeavesWithoutAdhesion) {
 TEST_P(Rest, PinnedParticlesTakeNoPart) {
   Model model = loose({{0, 0.005, 0}, {1, -0.5, 0}, {2, 0, 0}}, {{1, -2, 0}, {0, 0, 0}, {0, 0, 0}},
                       {plane({}, {0, 1, 0}, 0.8, 0.3)});
-  model.inverse_mass[1] = model.inverse_mass[2] = 0.0;
+  model.inverse_mass = {1.0, 0.0, 0.0};
   const State start = initial_state(model, Precision::double_), end = after(model, 100);
   for (const std::size_t i : {1u, 2u}) {
     EXPECT_EQ(end.position[i], start.position[i]);

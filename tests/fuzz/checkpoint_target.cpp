@@ -14,7 +14,7 @@ namespace {
 
 constexpr LoadLimits small = {.memory_bytes = std::uint64_t{1} << 20};
 // Places in the header, docs/files.md.
-constexpr std::size_t width_at = 14, hash_at = 34, version_text_at = 42;
+constexpr std::size_t hash_at = 34, version_text_at = 42;
 
 std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
   std::uint64_t value = 0;

@@ -51,7 +51,7 @@ TEST_F(CanaryGl, FindsTheSoftwareDeviceExact) {
   EXPECT_FALSE(choice->corrected.has_value());
   for (const OperationCheck* check :
        {&choice->device.quotient, &choice->device.reciprocal, &choice->device.root, &choice->device.product,
-        &choice->device.sum, &choice->device.product_sum})
+        &choice->device.sum, &choice->device.product_sum, &choice->device.vector_sum})
     EXPECT_GE(check->checked, 10000u) << check->name;
   EXPECT_GE(choice->device.denormals.checked, 1000u);
   for (const std::string& sentence : choice->sentences()) EXPECT_TRUE(sentence.ends_with('.')) << sentence;
@@ -78,6 +78,9 @@ TEST_F(CanaryGl, FindsContractionFlushingAndWrongSums) {
   const ArithmeticReport contracted = measure({{"FAULT_CONTRACTION", "1"}});
   EXPECT_FALSE(contracted.products_uncontracted());
   EXPECT_TRUE(contracted.division_exact() && contracted.sqrt_exact() && contracted.basics_exact());
+  const ArithmeticReport vectors = measure({{"FAULT_VECTOR", "1"}});
+  EXPECT_FALSE(vectors.products_uncontracted());
+  EXPECT_TRUE(vectors.product_sum.exact());
   const ArithmeticReport flushed = measure({{"FAULT_FLUSH", "1"}});
   EXPECT_FALSE(flushed.denormals_kept());
   EXPECT_TRUE(flushed.all_exact());

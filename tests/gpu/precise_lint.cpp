@@ -43,9 +43,13 @@ bool is_forbidden(const std::string& t) {
   return names.contains(t);
 }
 
-bool is_zero(const std::string& t) {
+bool is_float_literal(const std::string& t) {
   if (t.empty() || !(std::isdigit(static_cast<unsigned char>(t.front())) || t.front() == '.')) return false;
-  if (t.find_first_of(".eEf") == std::string::npos || t.starts_with("0x")) return false;
+  return t != "." && t.find_first_of(".eEf") != std::string::npos && !t.starts_with("0x");
+}
+
+bool is_zero(const std::string& t) {
+  if (!is_float_literal(t)) return false;
   return std::ranges::none_of(t.substr(0, t.find_first_of("eE")),
                               [](char c) { return c >= '1' && c <= '9'; });
 }
@@ -171,6 +175,39 @@ class Linter {
     if (text(1) != "(" || text(-1) == ".") return;
     if (is_forbidden(text())) offend("forbidden", at_);
     if (text() == "fma" && path_ != "compute/device_arithmetic.glsl") offend("fma", at_);
+    if (in_code()) check_arguments();
+  }
+
+  /// `precise` need not reach what is computed within the arguments of a call. Constructors are no calls, and
+  /// bit casts take integers; a call within an argument is looked at by itself.
+  void check_arguments() {
+    static const std::set<std::string> no_calls = {"if",     "for",  "while",           "switch",
+                                                   "return", "else", "uintBitsToFloat", "intBitsToFloat"};
+    if (!is_name(text()) || no_calls.contains(text()) || is_float_type(text()) || is_other_type(text()))
+      return;
+    bool is_float = false;
+    std::size_t operation = 0;  // the argument's first; 0: none yet
+    std::vector<bool> passed;   // for each open bracket: an index or another call
+    for (std::size_t i = at_ + 1; i < tokens_.size(); ++i) {
+      const std::string& t = tokens_[i].text;
+      const bool within = std::ranges::find(passed, true) != passed.end();
+      if (t == "(" || t == "[") {
+        passed.push_back(!passed.empty() &&
+                         (t == "[" || (is_name(tokens_[i - 1].text) && !is_float_type(tokens_[i - 1].text))));
+      } else if (t == ")" || t == "]") {
+        passed.pop_back();
+      } else if (!within) {
+        const auto variable = variables_.find(t);
+        is_float =
+            is_float || is_float_literal(t) || (variable != variables_.end() && variable->second.is_float);
+        const bool sum = (t == "+" || t == "-") && is_operand(tokens_[i - 1].text);
+        if (operation == 0 && (t == "*" || t == "/" || sum)) operation = i;
+      }
+      if (!passed.empty() && (t != "," || passed.size() > 1)) continue;
+      if (is_float && operation > 0) offend("inexact-argument", operation);
+      if (passed.empty()) return;
+      is_float = false, operation = 0;
+    }
   }
 
   void check_zero() {

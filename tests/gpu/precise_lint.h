@@ -1,6 +1,6 @@
 #pragma once
 // Reads GLSL for what would change bits between devices. Equality on a software rasteriser proves nothing
-// about `precise`, so the text itself is checked (docs: architecture, rule 4).
+// about `precise`, so the text itself is checked.
 #include <compare>
 #include <string>
 #include <string_view>
@@ -9,12 +9,14 @@
 namespace aspic::testing {
 
 /// One offence. Rules:
-///   missing-precise   a float local that is not `precise`
-///   inexact-store     arithmetic assigned to a float that is not `precise` (a buffer, shared memory, a
-///   parameter) inexact-return    arithmetic in the return of a float function: Mesa takes no `precise` on
-///   function types forbidden         a built-in function whose rounding differs between devices fma fma()
-///   outside compute/device_arithmetic.glsl adds-zero         a literal zero added or subtracted: compilers
-///   fold it, although −0 + 0 is +0
+/// - missing-precise: a float local that is not `precise`
+/// - inexact-store: arithmetic assigned to a float that is not `precise` (a buffer, shared memory, a
+/// parameter)
+/// - inexact-return: arithmetic in the return of a float function: Mesa takes no `precise` on function types
+/// - inexact-argument: float arithmetic within the argument of a call, where `precise` need not reach
+/// - forbidden: a built-in function whose rounding differs between devices
+/// - fma: fma() outside compute/device_arithmetic.glsl
+/// - adds-zero: a literal zero added or subtracted: compilers fold it, although −0 + 0 is +0
 struct Offence {
   int line = 0;  ///< from 1
   std::string rule;

@@ -95,9 +95,8 @@ TEST_F(ProgramGl, SetsUniformsOfEachKind) {
   const auto got = items->download_items<float>(24);
   testing::expect_finite(got);
   EXPECT_EQ(got[4], 7.0f);
-  for (const std::size_t item : {8, 16}) {
-    EXPECT_EQ(std::vector<float>(got.begin() + static_cast<std::ptrdiff_t>(item),
-                                 got.begin() + static_cast<std::ptrdiff_t>(item) + 5),
+  for (const std::ptrdiff_t item : {8, 16}) {
+    EXPECT_EQ(std::vector<float>(got.begin() + item, got.begin() + item + 5),
               (std::vector<float>{1, 2, 3, 0.5f, 2.5f}));
   }
   const auto words = items->download_items<std::uint32_t>(24);

@@ -7,6 +7,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
+#include "support/temporary_directory.h"
 
 namespace aspic {
 namespace {
@@ -126,6 +127,30 @@ TEST_F(FaultySolverGl, RunningOutOfMemoryRefusesTheSceneAndLeaksNothing) {
     EXPECT_GE(chance, 10u) << "each buffer is a chance";
     EXPECT_EQ(device.bytes_held(), 0u);
     EXPECT_EQ(live_buffers(), buffers);
+  }
+}
+
+// A driver that compiles a kernel to nothing, or drops what it is given, must not keep the host waiting.
+TEST_F(FaultySolverGl, ADeviceThatDoesNothingEndsTheRun) {
+  for (const char* const kernel : {"begin", "evaluate", "apply", "update", "finish"}) {
+    const test::TemporaryDirectory shaders;
+    std::filesystem::create_directory(shaders.path() / "compute");
+    shaders.write(std::string("compute/implicit_") + kernel + ".comp",
+                  "layout(local_size_x = 256) in;\nvoid main() {}\n");
+    ModelSettings settings =
+        test::cube_on_plane(4, 0.99);  // on the ground, so that there is something to solve
+    settings.simulation.integrator = Integrator::implicit_euler;
+    settings.simulation.implicit.newton_iterations = 3;
+    settings.simulation.implicit.cg_iterations = 10;
+    const Model model = test::build(settings);
+    GpuOptions options;
+    options.shader_directory = shaders.path();
+    auto solver = make_gpu_solver(own(), model, options);
+    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    const auto done = (*solver)->advance(50);
+    ASSERT_FALSE(done.ok()) << kernel;
+    EXPECT_EQ(done.error().code, ErrorCode::no_device) << kernel;
+    EXPECT_THAT(done.error().message, HasSubstr("does not carry out")) << kernel;
   }
 }
 

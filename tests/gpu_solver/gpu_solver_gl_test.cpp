@@ -4,6 +4,7 @@
 #include "gpu/program_cache.h"
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/layout.h"
+#include "model/springs.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 
@@ -186,7 +187,9 @@ TEST_F(GpuSolverTest, SharesSpringsWithOneLikeIt) {
   auto other_path = std::move(make_gpu_solver(context(), model, options)).value();
   EXPECT_NE(other_path->spring_buffers(), old->spring_buffers());
   options.force_path = ForcePath::gather;
-  stiffer.springs[5].spring_class = 1 - stiffer.springs[5].spring_class;
+  list_springs(stiffer);
+  Spring& changed = stiffer.listed_springs[5];
+  changed.spring_class = 1 - changed.spring_class;
   auto other_springs = std::move(make_gpu_solver(context(), stiffer, options)).value();
   EXPECT_NE(other_springs->spring_buffers(), old->spring_buffers());
 }

@@ -46,7 +46,7 @@ class LoopBounds : public aspic::testing::GlTest {
     spring.damping = 0.1;
     spring.rest_length = 1.0;
     model.spring_classes.push_back(spring);
-    for (std::uint32_t p = 1; p <= degree; ++p) model.springs.push_back({0, p, 0});
+    for (std::uint32_t p = 1; p <= degree; ++p) model.listed_springs.push_back({0, p, 0});
     return model;
   }
 

@@ -20,6 +20,17 @@ TEST(ChildProcess, FeedsAndKeepsTheLastLines) {
   EXPECT_EQ(child->last_lines(9), "one\ntwo\nthree\n");
 }
 
+TEST(ChildProcess, AnswersLineByLine) {
+  auto child = ChildProcess::start({"sh", "-c", "echo ready; read word; echo \"$word\"; printf 'no end'"},
+                                   ChildProcess::Output::answers);
+  ASSERT_TRUE(child.ok()) << child.error().message;
+  EXPECT_EQ(child->line(), "ready");
+  ASSERT_TRUE(child->write(bytes("hello\n")));
+  EXPECT_EQ(child->line(), "hello");
+  EXPECT_EQ(child->line(), std::nullopt);
+  EXPECT_EQ(child->finish().exit_code, 0);
+}
+
 TEST(ChildProcess, ArgumentsPassNoShell) {
   auto child = ChildProcess::start({"sh", "-c", "printf %s \"$1\" >&2", "sh", "a b; $(exit 1) 'c'"});
   ASSERT_TRUE(child.ok());

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/state_sink.h"
+#include "model/springs.h"
 #include "support/model_building.h"
 #include "support/random_state.h"
 #include "support/temporary_directory.h"
@@ -139,11 +140,11 @@ TEST(StateVtp, HasSpringsAsLinesSurfacesAsQuadsAndBallsAsVertices) {
   State state = initial_state(model, Precision::double_);
   for (Vec3& x : state.position) x = 1.25 * x;
   const VtpFile file(written(model, state));
-  const std::uint32_t particles = model.particle_count(),
-                      springs = static_cast<std::uint32_t>(model.springs.size());
+  const std::uint32_t particles = model.particle_count();
+  const std::vector<Spring> springs = all_springs(model);
   EXPECT_EQ(file.attribute("<Piece", "NumberOfPoints"), std::to_string(particles + 2));
   EXPECT_EQ(file.attribute("<Piece", "NumberOfVerts"), "2");
-  EXPECT_EQ(file.attribute("<Piece", "NumberOfLines"), std::to_string(springs));
+  EXPECT_EQ(file.attribute("<Piece", "NumberOfLines"), std::to_string(springs.size()));
   EXPECT_EQ(file.attribute("<Piece", "NumberOfPolys"), "6")
       << "3 × 2 cells of the cloth; a net has no surface";
 
@@ -151,21 +152,21 @@ TEST(StateVtp, HasSpringsAsLinesSurfacesAsQuadsAndBallsAsVertices) {
               ElementsAre(particles, particles + 1));
   const auto lines = file.array<std::int64_t>("Lines", "connectivity", "Int64");
   const auto ends = file.array<std::int64_t>("Lines", "offsets", "Int64");
-  ASSERT_EQ(lines.size(), 2 * model.springs.size());
+  ASSERT_EQ(lines.size(), 2 * springs.size());
   const auto types = file.array<std::uint8_t>("CellData", "spring-type", "UInt8");
   const auto strain = file.array<double>("CellData", "strain", "Float64");
   const auto bodies = file.array<std::int32_t>("CellData", "body", "Int32");
-  ASSERT_EQ(types.size(), 2 + springs + 6);
+  ASSERT_EQ(types.size(), 2 + springs.size() + 6);
   ASSERT_EQ(strain.size(), types.size());
   ASSERT_EQ(bodies.size(), types.size());
-  for (std::size_t s = 0; s < springs; ++s) {
-    EXPECT_EQ(lines[2 * s], model.springs[s].a);
-    EXPECT_EQ(lines[2 * s + 1], model.springs[s].b);
+  for (std::size_t s = 0; s < springs.size(); ++s) {
+    EXPECT_EQ(lines[2 * s], springs[s].a);
+    EXPECT_EQ(lines[2 * s + 1], springs[s].b);
     EXPECT_EQ(ends[s], static_cast<std::int64_t>(2 * s + 2));
-    EXPECT_EQ(types[2 + s], static_cast<int>(model.spring_classes[model.springs[s].spring_class].type));
+    EXPECT_EQ(types[2 + s], static_cast<int>(model.spring_classes[springs[s].spring_class].type));
     // Lengths of a tenth of a metre at positions of up to 10 m, rounded in double precision.
     EXPECT_NEAR(strain[2 + s], 0.25, 8 * 2.3e-16 * 10.0 / 0.1);
-    EXPECT_EQ(bodies[2 + s], model.springs[s].a < model.bodies[1].first_particle ? 0 : 1);
+    EXPECT_EQ(bodies[2 + s], springs[s].a < model.bodies[1].first_particle ? 0 : 1);
   }
   EXPECT_THAT(std::vector<int>(types.begin(), types.begin() + 2), ElementsAre(255, 255));
   EXPECT_THAT(std::vector<int>(bodies.begin(), bodies.begin() + 2), ElementsAre(-1, -1));

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "model/springs.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -79,7 +80,7 @@ TEST_P(NetLattice, IsWhatTheFacesSay) {
     }
   }
   Pair last = {0, 0};
-  for (const Spring& spring : model.springs) {
+  for (const Spring& spring : springs_of(model)) {
     const SpringClass& c = model.spring_classes[spring.spring_class];
     const Pair pair = {spring.a, spring.b};
     EXPECT_LT(last, pair) << "springs must be sorted";
@@ -139,9 +140,10 @@ TEST(GoalNet, StandsBehindTheCubesInTheGlobalIndex) {
   EXPECT_EQ(model.bodies[1].first_particle, 27u);
   EXPECT_EQ(model.bodies[2].first_particle, 27u + model.bodies[1].particle_count);
   EXPECT_EQ(model.particle_count(), 27u + model.bodies[1].particle_count + 1357u);
-  EXPECT_TRUE(std::is_sorted(
-      model.springs.begin(), model.springs.end(),
-      [](const Spring& a, const Spring& b) { return std::tie(a.a, a.b) < std::tie(b.a, b.b); }));
+  const std::vector<Spring> springs = all_springs(model);
+  EXPECT_TRUE(std::is_sorted(springs.begin(), springs.end(), [](const Spring& a, const Spring& b) {
+    return std::tie(a.a, a.b) < std::tie(b.a, b.b);
+  }));
 }
 
 TEST(GoalNet, HasNoParticleInItsFrontAndBottom) {

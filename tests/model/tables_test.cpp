@@ -8,6 +8,7 @@
 #include <string>
 
 #include "model/bodies.h"
+#include "model/springs.h"
 #include "model/terrain.h"
 
 namespace aspic {
@@ -191,7 +192,7 @@ TEST(Bodies, HaveSurfacesOfTheirOwnParticlesAndClassesOfTheirOwnSprings) {
     }
     EXPECT_EQ(next_particle, model->particle_count()) << row.list.key;
     EXPECT_EQ(next_class, model->spring_classes.size()) << row.list.key;
-    for (const Spring& s : model->springs) {
+    for (const Spring& s : springs_of(*model)) {
       const auto owner = std::ranges::find_if(model->bodies, [&](const Body& b) {
         return s.a >= b.first_particle && s.a < b.first_particle + b.particle_count;
       });

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gpu_solver/gpu_solver.h"
+#include "model/springs.h"
 #include "render/overlay_text.h"
 #include "render/studio.h"
 
@@ -157,7 +158,7 @@ TEST_F(Picture, QuantitiesOfTheSolversBuffersAreThoseOfItsState) {
       ASSERT_TRUE(renderer().draw(width, height, (*solver)->device_state(), options).ok());
       const auto own = read();
       const bool shared = path.words == IncidentWords::neighbours || colour == ViewColour::speed;
-      const std::uint64_t words = 8 * model.springs.size();
+      const std::uint64_t words = 8 * spring_count(model);
       EXPECT_EQ(context().bytes_held() - held < words, shared) << path.name;
       EXPECT_EQ(draw(model, *state, options, width, height).rgb, own) << path.name;
       for (const auto& other : seen) EXPECT_NE(own, other);

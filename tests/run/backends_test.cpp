@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <set>
+#include <thread>
 
 #include "scene/load.h"
 
@@ -95,7 +97,7 @@ TEST(Backends, EveryVariantTellsItsBytes) {
   ASSERT_TRUE(model.ok());
   std::set<std::string> names;
   for (const BackendBytes& bytes : bytes_by_backend(*model)) {
-    EXPECT_GT(bytes.bytes, 24 * model->particle_count()) << bytes.backend;
+    EXPECT_GT(bytes.bytes.value(), 24 * model->particle_count()) << bytes.backend;
     EXPECT_TRUE(names.insert(bytes.backend).second) << bytes.backend;
     EXPECT_TRUE(parse_backend(bytes.backend).ok()) << bytes.backend;
   }
@@ -114,6 +116,41 @@ TEST(Backends, ASolverSaysWhatItIs) {
   const auto fast = make_backend({.row = find_backend("cpu"), .arithmetic = Arithmetic::fast}, *model);
   ASSERT_TRUE(fast.ok()) << fast.error().message;
   EXPECT_EQ(fast->variant(), "cpu:fast");
+}
+
+TEST(Backends, AnInterruptedStepIsDroppedAndTheRunGoesOnWithItsBits) {
+  for (const char* integrator : {"explicit-euler", "runge-kutta-4", "implicit-euler"}) {
+    const std::vector<std::string> set = {fmt::format("simulation.integrator={}", integrator)};
+    const auto model = build_model(load_scene("cube-plane", set)->model);
+    ASSERT_TRUE(model.ok());
+    for (const BackendRow& row : backends()) {
+      if (row.needs_context) continue;
+      const auto backend = make_backend({&row}, *model);
+      ASSERT_TRUE(backend.ok()) << backend.error().message;
+      Solver& solver = *backend->solver;
+      std::atomic<bool> flag = false;
+      std::atomic<int> begun = 0;
+      solver.heed(&flag);
+      {
+        const std::jthread hand([&] {
+          while (begun < 1) std::this_thread::yield();
+          flag = true;
+        });
+        begun = 1;
+        const auto advanced = solver.advance(1'000'000'000);
+        ASSERT_TRUE(advanced.ok());
+        EXPECT_FALSE(advanced->has_value()) << "an interruption is no divergence";
+      }
+      ASSERT_TRUE(solver.advance(5).ok());
+      const std::uint64_t step = solver.state()->step;
+      flag = false;
+      ASSERT_TRUE(solver.advance(3).ok());
+      const auto other = make_backend({&reference_backend()}, *model);
+      ASSERT_TRUE(other->solver->advance(step + 3).ok());
+      EXPECT_EQ(state_hash_text(*solver.state()), state_hash_text(*other->solver->state()))
+          << row.name << ", " << integrator << ", interrupted after " << step;
+    }
+  }
 }
 
 }  // namespace

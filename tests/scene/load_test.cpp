@@ -140,8 +140,8 @@ TEST(Parse, RefusesWhatMemoryCannotHold) {
 }
 
 TEST(Parse, RefusesMoreThanIndicesName) {
-  const std::string text =
-      "schema = 1\n[[cube]]\nparticles-per-edge = 512\n[[cube]]\nparticles-per-edge = 200\n";
+  std::string text = "schema = 1\n";
+  for (int i = 0; i < 16; ++i) text += "[[cube]]\nparticles-per-edge = 512\n";
   EXPECT_THAT(test::rejection(text), HasSubstr("more than 32-bit indices can name"));
 }
 

@@ -1,8 +1,10 @@
 #include "support/gl_fixture.h"
 
 #include <glad/gl.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 
 namespace aspic::testing {
@@ -28,6 +30,10 @@ void GlTest::SetUpTestSuite() {
   if (process_context()) return;
   auto made = gl::Context::create_headless({.debug = true, .device = gl::DeviceChoice::software});
   ASSERT_TRUE(made.ok()) << made.error().message;
+  // A run that is meant for one driver must not pass on another that EGL took instead.
+  if (const char* const renderer = std::getenv("ASPIC_TEST_RENDERER")) {
+    ASSERT_THAT((*made)->info().renderer, ::testing::HasSubstr(renderer));
+  }
   process_context() = std::move(made).value();
 }
 

@@ -14,7 +14,7 @@ Model stretched_pair(double damping) {
   Model model = loose_particles({{0.55, 0, 0}, {-0.55, 0, 0}}, {{0, 0, 0}, {0, 0, 0}});
   model.simulation.gravity = {0, 0, 0};
   model.spring_classes.push_back({SpringType::structural, 50.0, damping, 1.0, false});
-  model.springs.push_back({0, 1, 0});
+  model.listed_springs.push_back({0, 1, 0});
   return model;
 }
 

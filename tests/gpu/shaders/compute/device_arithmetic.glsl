@@ -1,6 +1,7 @@
 // A device with faults, chosen by defines; without any it is the real one.
 //   FAULT_DIV, FAULT_SQRT   units in the last place that are added to every quotient, every root
 //   FAULT_CONTRACTION       a·b + c is rounded once
+//   FAULT_VECTOR            the same, of vectors alone
 //   FAULT_FLUSH             denormal products become zero
 //   FAULT_SUM               units in the last place that are added to every sum
 float nudged(float x, int ulps) {
@@ -65,6 +66,16 @@ float device_mul_add(float a, float b, float c) {
 #else
   precise float product = a * b;
   precise float total = product + c;
+  return total;
+#endif
+}
+
+vec3 device_mul_add(float a, vec3 b, vec3 c) {
+#ifdef FAULT_VECTOR
+  precise vec3 total = vec3(double(a) * dvec3(b) + dvec3(c));
+  return total;
+#else
+  precise vec3 total = a * b + c;
   return total;
 #endif
 }

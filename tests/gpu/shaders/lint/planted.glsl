@@ -76,6 +76,10 @@ void main() {
   a = a + 0.25;
   a = max(a, 0.0);
   i = i + 0u;
+  a = exact_div(a * good, good);               // offence: inexact-argument
+  a = exact_div(exact_sqrt(a + 1.0), -good);   // offence: inexact-argument
+  a = exact_div(items[i + 1u].mass, good);
+  take(i + 1u, vec3(a * good));                // offence: inexact-argument
   items[i + 1u].mass = a;
   items[i].position.xyz = tight;
   items[i].position = vec4(tight * a, 1.0);    // offence: inexact-store

@@ -1,0 +1,137 @@
+#pragma once
+// What `aspic bench` is made of: who is measured, what was measured, how it is shown.
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/json.h"
+#include "command_line/arguments.h"
+#include "gpu/pass_profiler.h"
+#include "io/program.h"
+#include "scene/scene.h"
+
+namespace aspic::cli {
+
+using Clock = std::chrono::steady_clock;
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What a run took [s]: by the clock, and of all processors together.
+struct Took {
+  double seconds = 0.0, processor_seconds = 0.0;
+};
+
+/// Whether a peer moves as it should (docs/performance.md, "The peers").
+struct PeerCheck {
+  bool passed = false;
+  std::uint64_t steps = 0;
+  double deviation = 0.0;               ///< largest, from the reference in double precision [m]
+  double bound = 0.0;                   ///< largest allowed [m]
+  double fall = 0.0, fall_bound = 0.0;  ///< what the centre's fall is off by, and may be [m]
+};
+
+/// A row of the table: a backend or a peer with a scene of one size and integrator, run several times.
+struct Measurement {
+  std::string name;  ///< "gpu:gather", "taichi"
+  std::string backend, force_path, device;
+  Arithmetic arithmetic = Arithmetic::exact;
+  std::optional<PeerCheck> peer;
+  Integrator integrator = Integrator::explicit_euler;
+  int size = 0;  ///< particles per edge of the first cube; 0 without cubes
+  std::uint64_t particles = 0, springs = 0;
+  std::optional<std::uint64_t> bytes;  ///< that the solver holds; nothing of peers
+  double timestep = 0.0;
+  std::uint64_t steps = 0;          ///< of each repeat
+  double evaluations_per_step = 1;  ///< of all spring forces, Jacobians counted as such
+  std::vector<Took> repeats;        ///< in the order of measuring
+  std::vector<gl::PassTime> passes;
+  std::optional<Divergence> divergence;
+  std::optional<double> growth;  ///< cost of a spring evaluation, relative to the first size's
+  std::optional<double> ratio;   ///< the first row's throughput with this size and integrator over this one's
+  std::optional<double> processor_ratio;  ///< the same by a second of processor time
+
+  /// Whether it has figures: at least one repeat, of what moves as it should.
+  bool counts() const { return !repeats.empty() && !divergence && (!peer || peer->passed); }
+  /// Seconds below which a share q of the repeats lies, from 0 (fastest) to 1, linear between two of them;
+  /// counts() first.
+  double quantile(double q) const;
+  double median() const { return quantile(0.5); }
+  /// Median of the repeats' processor time [s]; counts() first.
+  double processor_median() const;
+  /// Processors that it kept busy: below its number of threads where others had them meanwhile.
+  double processors() const { return processor_median() / median(); }
+  double spread() const { return (quantile(1.0) - quantile(0.0)) / median(); }
+  double steps_per_second() const { return static_cast<double>(steps) / median(); }
+  double spring_evaluations_per_second() const {
+    return static_cast<double>(springs) * evaluations_per_step * steps_per_second();
+  }
+  double spring_evaluations_per_processor_second() const {
+    return spring_evaluations_per_second() / processors();
+  }
+  double seconds_per_simulated_second() const { return 1.0 / (steps_per_second() * timestep); }
+};
+
+/// Sets growth and ratio of every row.
+void compare_rows(std::vector<Measurement>& rows);
+
+/// Who is measured. Its runs may alternate with those of others.
+class Contestant {
+ public:
+  explicit Contestant(Measurement measurement) : m(std::move(measurement)) {}
+  virtual ~Contestant() = default;
+  Contestant(const Contestant&) = delete;
+  Contestant& operator=(const Contestant&) = delete;
+
+  /// From the start over `steps` steps, the wait for the device included; notes a divergence. Errors:
+  /// interrupted, and those of the backend.
+  virtual Result<Took> run(std::uint64_t steps) = 0;
+  /// After the last run: what is not measured within runs.
+  virtual Status finish() { return {}; }
+
+  Measurement m;
+};
+
+/// A backend with a model, which must outlive it. Errors: as make_backend.
+Result<std::unique_ptr<Contestant>> make_backend_contestant(const BackendChoice& choice, const Model& model,
+                                                            const InterruptGuard& interrupt);
+
+/// A program of bench/peers/peers.txt.
+struct PeerProgram {
+  std::string name;
+  int largest = 0;  ///< particles per edge
+  std::vector<std::string> words;
+};
+
+/// The peers of those names, all for none. Error (usage): there is no such peer, or this aspic was not built
+/// in a checkout.
+Result<std::vector<PeerProgram>> find_peers(const std::vector<std::string>& names);
+
+/// The lattice that peers simulate too. Error (usage): the scene is something else than a cube of equal
+/// springs in free fall with explicit Euler; the sentence says what.
+struct PeerLattice {
+  double edge = 0.0, height = 0.0;  ///< of the cube and of its centre [m]
+  double mass = 0.0, stiffness = 0.0, damping = 0.0, timestep = 0.0, gravity = 0.0;
+  std::uint64_t most_steps = 0;  ///< before anything touches the ground
+};
+Result<PeerLattice> peer_lattice(const ModelSettings& settings, const Model& model);
+
+/// Starts a peer, has it checked against the reference, and makes it ready with `size` particles per edge.
+/// One that fails its check never runs. Error (io): it cannot be started or does not answer.
+Result<std::unique_ptr<Contestant>> make_peer_contestant(const PeerProgram& program,
+                                                         const ModelSettings& settings,
+                                                         const PeerLattice& lattice, const Measurement& like);
+
+/// What was measured, as a table and as JSON.
+struct BenchReport {
+  std::string scene;
+  int repeats = 0, warm_up = 0;
+  bool interrupted = false;
+  std::vector<Measurement> rows;
+};
+std::string table_of(const BenchReport& report);
+Json json_of(const BenchReport& report);
+
+}  // namespace aspic::cli

@@ -1,0 +1,52 @@
+#pragma once
+// A backend whose steps never end by themselves: for what the window must do while a step takes long.
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "cpu_reference/reference_solver.h"
+#include "run/backends.h"
+
+namespace aspic::test {
+
+/// The reference with steps that last until they are interrupted, and are dropped then.
+class Endless : public Solver {
+ public:
+  explicit Endless(std::unique_ptr<Solver> inner) : inner_(std::move(inner)) {}
+  std::string_view backend() const override { return "endless"; }
+  std::string description() const override { return "endless"; }
+  Precision precision() const override { return inner_->precision(); }
+  const Model& model() const override { return inner_->model(); }
+  std::uint64_t bytes() const override { return inner_->bytes(); }
+  Status load(const State& state) override { return inner_->load(state); }
+  Status set_pull(const std::optional<Pull>& pull) override { return inner_->set_pull(pull); }
+  Result<std::optional<Divergence>> advance(std::uint64_t) override {
+    while (!interrupted()) std::this_thread::yield();
+    return std::optional<Divergence>();
+  }
+  Result<State> state() override { return inner_->state(); }
+
+ private:
+  std::unique_ptr<Solver> inner_;
+};
+
+/// Its row, which is in no table.
+inline const BackendRow& endless_backend() {
+  static constexpr Precision single[] = {Precision::single};
+  static const BackendRow row = [] {
+    BackendRow made;
+    made.name = made.title = "endless";
+    made.precisions = single;
+    made.make = [](const Model& model, const BackendChoice&, const SolverHost&) -> Result<Backend> {
+      ASPIC_TRY(auto reference, make_reference_solver(model, Precision::single));
+      Backend backend;
+      backend.solver = std::make_unique<Endless>(std::move(reference));
+      return backend;
+    };
+    return made;
+  }();
+  return row;
+}
+
+}  // namespace aspic::test

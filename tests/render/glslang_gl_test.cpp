@@ -1,0 +1,174 @@
+// Khronos' reference compiler accepts every shader of the project with every set of defines that solvers and
+// pictures compile it with: a driver that reads the language more strictly than Mesa does finds nothing to
+// refuse.
+#include <fmt/format.h>
+#include <glad/gl.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "gpu/canary.h"
+#include "gpu_solver/gpu_solver.h"
+#include "model/terrain.h"
+#include "render/studio.h"
+#include "support/temporary_directory.h"
+
+namespace aspic {
+namespace {
+
+/// The sources that went to the driver, by stage.
+std::map<GLenum, std::set<std::string>> seen;
+PFNGLSHADERSOURCEPROC driver_shader_source = nullptr;
+
+void GLAD_API_PTR record(GLuint shader, GLsizei count, const GLchar* const* texts, const GLint* lengths) {
+  GLint kind = 0;
+  glGetShaderiv(shader, GL_SHADER_TYPE, &kind);
+  std::string source;
+  for (GLsizei i = 0; i < count; ++i) source.append(texts[i], static_cast<std::size_t>(lengths[i]));
+  seen[static_cast<GLenum>(kind)].insert(std::move(source));
+  driver_shader_source(shader, count, texts, lengths);
+}
+
+std::string_view word_of(GLenum kind) {
+  switch (kind) {
+    case GL_COMPUTE_SHADER:
+      return "comp";
+    case GL_VERTEX_SHADER:
+      return "vert";
+    case GL_GEOMETRY_SHADER:
+      return "geom";
+    default:
+      return "frag";
+  }
+}
+
+class Glslang : public aspic::testing::GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    driver_shader_source = std::exchange(glad_glShaderSource, record);
+  }
+  void TearDown() override {
+    glad_glShaderSource = driver_shader_source;
+    GlTest::TearDown();
+  }
+
+  /// Compiles what a solver of these settings needs.
+  static void solve(const ModelSettings& settings, GpuOptions options) {
+    const Model model = test::build(settings);
+    for (const ForcePathRow& path : built_force_paths()) {
+      if (!works_with(path.path, settings.simulation.integrator)) continue;
+      options.force_path = path.path;
+      const auto solver = make_gpu_solver(context(), model, options);
+      ASSERT_TRUE(solver.ok()) << solver.error().message;
+    }
+  }
+
+  static void compile_solvers() {
+    ModelSettings settings = test::cube_on_plane(3);
+    settings.balls = {BallSettings{}, BallSettings{}};
+    settings.balls[1].position = {4.0, 0.0, 0.0};
+    GpuOptions options;
+    options.arithmetic.emplace();
+    for (const Integrator integrator : all_integrators) {
+      settings.simulation.integrator = integrator;
+      for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
+        settings.contact.model = contact;
+        for (const TerrainShapeRow& shape : terrain_shapes) {
+          settings.terrain[0].shape = shape.value;
+          solve(settings, options);
+        }
+      }
+    }
+    // More bodies than a block of partners, which want a kernel of their own.
+    settings.cubes[0].particles_per_edge = 7;
+    for (const BallSearch search : {BallSearch::all_pairs, BallSearch::grid}) {
+      options.ball_search = search;
+      solve(settings, options);
+    }
+    // A device that divides and takes roots inexactly, with and without an fma() that rounds once.
+    options.arithmetic->defines = {{"ASPIC_CORRECT_DIV", "1"}, {"ASPIC_CORRECT_SQRT", "1"}};
+    for (const bool fused : {false, true}) {
+      if (fused) options.arithmetic->defines.push_back({"ASPIC_FUSED_FMA", "1"});
+      for (const Integrator integrator : {Integrator::explicit_euler, Integrator::implicit_euler}) {
+        settings.simulation.integrator = integrator;
+        solve(settings, options);
+      }
+      ASSERT_TRUE(gl::measure_arithmetic(context(), gl::ShaderLibrary{}, options.arithmetic->defines).ok());
+    }
+  }
+
+  static void compile_pictures() {
+    ModelSettings settings = test::cube_on_plane(3);
+    settings.balls.emplace_back();
+    settings.goal_nets.emplace_back();
+    settings.terrain.clear();
+    for (const TerrainShapeRow& shape : terrain_shapes) settings.terrain.emplace_back().shape = shape.value;
+    const Model model = test::build(settings);
+    auto renderer = Renderer::create(context());
+    ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+    ASSERT_TRUE((*renderer)->set_model(model).ok());
+    const auto state = (*renderer)->upload(initial_state(model, Precision::single));
+    ASSERT_TRUE(state.ok());
+    PictureOptions options;
+    options.view.draw = {
+        .solid = true, .particles = true, .structural = true, .shear = true, .bending = true};
+    options.view.colour = ViewColour::strain;
+    options.highlight.emplace().hovered = 0;
+    options.text = {{"label", "value"}};
+    ASSERT_TRUE((*renderer)->draw(64, 48, *state, options).ok());
+    ASSERT_TRUE((*renderer)->request_pick({1.0, 1.0, 64.0, 48.0}).ok());
+  }
+
+  /// What the compiler says of the files, by name; empty if it accepts them all.
+  static std::string complaints(const test::TemporaryDirectory& directory) {
+    const std::string command =
+        fmt::format("cd '{}' && for file in *; do glslangValidator $file || echo refused: $file; done 2>&1",
+                    directory.path().string());
+    std::FILE* const pipe = ::popen(command.c_str(), "r");
+    if (!pipe) return "no shell";
+    std::string text;
+    char part[4096];
+    for (std::size_t n = 0; (n = std::fread(part, 1, sizeof part, pipe)) > 0;) text.append(part, n);
+    ::pclose(pipe);
+    return text.find("refused: ") == std::string::npos ? "" : text;
+  }
+};
+
+TEST_F(Glslang, AcceptsEveryShaderWithEverySetOfDefines) {
+  compile_solvers();
+  compile_pictures();
+  const test::TemporaryDirectory directory;
+  int number = 0;
+  for (const auto& [kind, sources] : seen) {
+    for (const std::string& source : sources)
+      directory.write(fmt::format("{}.{}", number++, word_of(kind)), source);
+  }
+  EXPECT_GT(number, 60);
+  EXPECT_EQ(complaints(directory), "");
+  // Nothing was left out: what follows the includes of every file with a main() has been seen.
+  for (const EmbeddedFile& file : embedded_shaders()) {
+    const std::string_view text = file.text;
+    const std::size_t main = text.find("void main()");
+    if (main == std::string_view::npos) continue;
+    bool found = false;
+    for (const auto& [kind, sources] : seen) {
+      for (const std::string& source : sources)
+        found = found || source.find(text.substr(main)) != std::string::npos;
+    }
+    EXPECT_TRUE(found) << file.name << " is compiled by no solver and no picture of this test";
+  }
+}
+
+// The test above means nothing if the compiler accepts everything.
+TEST_F(Glslang, RefusesWhatTheLanguageDoesNotHave) {
+  const test::TemporaryDirectory directory;
+  directory.write("wrong.comp",
+                  "#version 430 core\nlayout(local_size_x = 1) in;\nvoid main() { float x = missing; }\n");
+  EXPECT_NE(complaints(directory), "");
+}
+
+}  // namespace
+}  // namespace aspic
