@@ -16,9 +16,9 @@ struct CpuOptions {
   Arithmetic arithmetic = Arithmetic::exact;
 };
 
-/// A parallel solver at the model's initial state, in single precision. Implicit Euler runs on one thread,
-/// the reference's. The model must outlive the solver. Errors: usage where ASPIC_THREADS is no number of
-/// threads; scene_rejected where there is no memory left for its fields.
+/// A parallel solver at the model's initial state, in single precision. The model must outlive the solver.
+/// Errors: usage where ASPIC_THREADS is no number of threads; scene_rejected where there is no memory left
+/// for its fields.
 Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOptions& options = {});
 
 }  // namespace aspic

@@ -56,7 +56,11 @@ HWY_INLINE void move_lanes(const StageMove& stage, std::size_t p, std::size_t co
     return whole ? hn::LoadU(tag, from) : hn::MaskedLoad(own, tag, from);
   };
   const auto put = [&](Float v, float* to) {
-    whole ? hn::StoreU(v, tag, to) : hn::BlendedStore(v, own, tag, to);
+    if constexpr (whole) return hn::StoreU(v, tag, to);
+    // A masked store may write the other lanes too, with what was there before.
+    alignas(64) float all[slice];
+    hn::Store(v, tag, all);
+    std::copy_n(all, count, to);
   };
   const Float weight = hn::Set(tag, stage.weight), w = loaded(stage.inverse_mass + p);
   Mask sound = hn::FirstN(tag, 0);

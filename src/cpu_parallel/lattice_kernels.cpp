@@ -90,15 +90,18 @@ HWY_INLINE void evaluate(const Chunk& chunk, std::span<const Direction> directio
   for (; n + together * lanes <= own.count; n += together * lanes)
     evaluate_at<arithmetic, size, together>(own, n, step, d, of, pulls, kept);
   for (; n < own.count; n += lanes) evaluate_at<arithmetic, size, 1>(own, n, step, d, of, pulls, kept);
-  // Around the chunk no spring pulls. The ends of a slice lie in one slice and some lanes of the next.
+  // Around the chunk no spring pulls. The ends of a vector of particles lie in one vector and some lanes of
+  // the next, or of the next two where a vector is a single lane.
+  constexpr std::size_t beyond = size == 1 ? 0 : std::max(lanes, size - 1);
   const Float none = no_force<arithmetic>();
   for (std::size_t g = 0; g < size; ++g) {
-    Forces of_g = pulls.at(kept + g);
-    store({none, none, none}, of_g, n);
-    for (float*& component : of_g.component) component -= lanes;
-    store({none, none, none}, of_g, 0);
+    const Forces of_g = pulls.at(kept + g);
+    for (std::size_t m = 0; m < beyond; m += lanes) {
+      store({none, none, none}, of_g, n + m);
+      for (float* const component : of_g.component) hn::StoreU(none, tag, component - beyond + m);
+    }
   }
-  const std::size_t ends = n + (size > 1 ? lanes : 0);
+  const std::size_t ends = n + beyond;
   const Forces to = upper;
   for (std::size_t m = 0; m < ends; m += lanes) {
     Vector f = load(to, m);
