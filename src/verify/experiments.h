@@ -14,6 +14,7 @@ namespace aspic::verify {
 inline constexpr std::array both_contact_models = {ContactModel::coulomb, ContactModel::course};
 
 inline constexpr double epsilon_double = 2.220446049250313e-16;
+inline constexpr double epsilon_single = 1.1920929e-7;
 
 /// Settings of one cube of edge 4 m with the default springs, its centre at `centre`; no terrain.
 ModelSettings cube_settings(int particles_per_edge, const Vec3& centre = {0.0, 9.0, 0.0});
