@@ -12,7 +12,7 @@ namespace aspic::verify {
 namespace {
 
 /// Unit roundoff of single precision.
-constexpr double u = 0x1p-24;
+constexpr double u = epsilon_single / 2;
 
 /// Springs at a particle of a cube, at most.
 constexpr int most_springs = 32;
