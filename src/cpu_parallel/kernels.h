@@ -72,7 +72,7 @@ inline constexpr auto speed_limit = static_cast<float>(divergence_speed * diverg
 /// Whether all positions are finite and no speed is above the square root of `limit` [m²/s²].
 bool all_sound(const Particles& particles, Range range, float limit);
 
-/// Name of the instruction set in use: "AVX3", "AVX2", "SSE2", …
+/// Name of the instruction set in use: "AVX3", "AVX2", "SSE4", "SCALAR", …
 std::string_view instruction_set();
 
 }  // namespace aspic::parallel

@@ -145,7 +145,7 @@ TEST_F(FaultySolverGl, ADeviceThatDoesNothingEndsTheRun) {
     const Model model = test::build(settings);
     GpuOptions options;
     options.shader_directory = shaders.path();
-    auto solver = make_gpu_solver(own(), model, options);
+    auto solver = make_gpu_solver(context(), model, options);
     ASSERT_TRUE(solver.ok()) << solver.error().message;
     const auto done = (*solver)->advance(50);
     ASSERT_FALSE(done.ok()) << kernel;
