@@ -53,7 +53,7 @@ HWY_INLINE void move_lanes(const StageMove& stage, std::size_t p, std::size_t co
                            std::size_t n, Moved& moved) {
   const Mask own = hn::FirstN(tag, count);
   const auto loaded = [&](const float* from) {
-    return whole ? hn::LoadU(tag, from) : hn::MaskedLoad(own, tag, from);
+    return whole ? hn::LoadU(tag, from) : load_first(from, count);
   };
   const auto put = [&](Float v, float* to) {
     if constexpr (whole) return hn::StoreU(v, tag, to);
@@ -143,11 +143,11 @@ Box BoxOf(const VectorArray& x, Range range) {
 bool AllSound(const Particles& particles, Range range, float limit) {
   const Float most = hn::Set(tag, limit), largest = hn::Set(tag, hwy::HighestValue<float>());
   for (std::size_t n = 0; n < range.count; n += lanes) {
-    const Mask own = hn::FirstN(tag, std::min(lanes, range.count - n));
     const auto at = [&](const VectorArray& a) {
       const std::size_t p = range.first + n;
-      return Vector{hn::MaskedLoad(own, tag, a[0].data() + p), hn::MaskedLoad(own, tag, a[1].data() + p),
-                    hn::MaskedLoad(own, tag, a[2].data() + p)};
+      return Vector{load_first(a[0].data() + p, range.count - n),
+                    load_first(a[1].data() + p, range.count - n),
+                    load_first(a[2].data() + p, range.count - n)};
     };
     const Vector x = at(particles.x), v = at(particles.v);
     const Mask finite = hn::And(hn::Le(hn::Abs(x.x), largest),

@@ -32,6 +32,15 @@ HWY_INLINE Vector load(const VectorArray& a, std::size_t i) {
   return {hn::LoadU(tag, a[0].data() + at), hn::LoadU(tag, a[1].data() + at),
           hn::LoadU(tag, a[2].data() + at)};
 }
+/// The first `count` lanes, zero in the others; reads nothing behind them.
+HWY_INLINE Float load_first(const float* from, std::size_t count) {
+  if (count >= lanes) return hn::LoadU(tag, from);
+  // Below AVX2 a masked load reads all lanes, from aligned addresses alone.
+  if constexpr (lanes >= 8) return hn::MaskedLoad(hn::FirstN(tag, count), tag, from);
+  float some[lanes] = {};
+  for (std::size_t i = 0; i < count; ++i) some[i] = from[i];
+  return hn::LoadU(tag, some);
+}
 HWY_INLINE void store(const Vector& v, VectorArray& a, std::size_t i) {
   hn::StoreU(v.x, tag, a[0].data() + i);
   hn::StoreU(v.y, tag, a[1].data() + i);
