@@ -46,7 +46,9 @@ INSTANTIATE_TEST_SUITE_P(Views, Views,
                                            View{"cube-sphere", 1000}, View{"cube-bowl", 1300},
                                            View{"large-cube", 2}, View{"goal-net", 300},
                                            View{"penalty", 1080}, View{"cube-and-balls", 700},
-                                           View{"ball-pit", 1500}),
+                                           View{"ball-pit", 1500}, View{"cube-torus", 1300},
+                                           View{"cube-hole", 1500}, View{"elevator", 1500}, View{"flag", 500},
+                                           View{"curtain", 500}),
                          [](const ::testing::TestParamInfo<View>& view) {
                            std::string name = view.param.scene;
                            std::erase(name, '-');
