@@ -1,0 +1,59 @@
+#pragma once
+// What --help prints below the options of the program and of each command.
+
+namespace aspic {
+
+inline constexpr const char* main_examples = R"(Examples:
+  aspic run cube-plane                              simulate a built-in scene, print a summary
+  aspic run my-scene.toml --duration 2 --state end.csv --series energy.csv --every 10
+  aspic run cube-plane --set simulation.timestep=0.002 --set "cube[0].shear.stiffness=10"
+  aspic view cube-bowl                              the window; F1 there shows all keys
+  aspic compare cube-plane --backends gpu,reference --steps 1000
+  aspic verify --quick                              check this build on this machine
+  aspic scene check my-scene.toml                   counts, memory and stable time steps
+  aspic info                                        devices and limits
+
+SCENE is a TOML file or the name of a built-in scene (aspic scene list).
+Exit codes: 0 ok, 1 comparison or verification failed, 2 usage, 3 scene rejected, 4 no usable
+GL device, 5 diverged, 6 input/output failed, 130 interrupted.)";
+
+inline constexpr const char* run_examples = R"(Examples:
+  aspic run cube-plane --steps 1000 --json
+  aspic run cube-sphere --backend reference --precision double --state end.csv
+  aspic run cube-bowl --video bowl.mp4 --speed 0.5 --view colour=strain
+  aspic run cube-plane --frames out --fps 30 --size 640x360 --no-text
+  aspic run cube-plane --duration 2 --checkpoint half.aspic
+  aspic run --resume half.aspic --duration 4 --state end.csv)";
+
+inline constexpr const char* view_examples = R"(Examples:
+  aspic view                                        the first built-in scene; F1 shows all keys
+  aspic view cube-sphere --backend gpu
+  aspic view my-scene.toml --set simulation.timestep=0.002 --size 1600x900
+
+Left drag turns the camera, right or Shift drag moves it, the wheel zooms; Space starts and pauses, G switches to
+the next backend in mid-motion, Tab hides the panels.)";
+
+inline constexpr const char* compare_examples = R"(Examples:
+  aspic compare cube-plane --steps 1000
+  aspic compare cube-bowl --backends gpu:gather,gpu:per-spring --steps 500
+  aspic compare cube-plane --backends reference,reference:double --steps 100 --tolerance 1e-4)";
+
+inline constexpr const char* bench_examples = R"(Examples:
+  aspic bench --backend cpu,reference,gpu:gather,gpu:per-spring --size 10,20
+  aspic bench large-cube --seconds 10 --json
+  aspic bench --backend cpu --size 20 --peers
+  aspic bench --integrator explicit-euler --integrator implicit-euler --timestep largest --duration 1
+
+--backend, --force-path, --size, --integrator and --peer take lists and can be repeated; every combination is
+measured. Each case runs --repeats times over the same steps from the scene's start, all of a size in turn; the median
+counts, the spread is (slowest - fastest) / median. Spring evaluations are springs x force evaluations x steps; with
+implicit-euler an application of the Jacobian counts as one. A software rasteriser's figures are no GPU's: the renderer is named.)";
+
+inline constexpr const char* verify_examples = R"(Examples:
+  aspic verify                                      everything, a few minutes
+  aspic verify --quick
+  aspic verify --only equality --only repeat --require-gpu
+
+Exit code 1 if a check fails. Without a GL device the checks that need one are reported as not run.)";
+
+}  // namespace aspic
