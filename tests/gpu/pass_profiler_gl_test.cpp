@@ -39,24 +39,29 @@ class PassProfilerGl : public testing::GlTest {
 };
 
 TEST_F(PassProfilerGl, GivesEachDispatchItsTime) {
-  PassProfiler profiler(context(), {"small", "never", "large"});
-  EXPECT_TRUE(profiler.times().empty());
   dispatch(most);  // the driver finishes compiling
-  ASSERT_TRUE(profiler.begin());
-  dispatch(64);
-  profiler.mark(0);
-  dispatch(most);
-  profiler.mark(2);
-  dispatch(64);
-  profiler.mark(0);
-  profiler.end();
-  const auto times = wait(profiler);
-  ASSERT_EQ(times.size(), 2u);
-  EXPECT_EQ(times[0].name, "small");
-  EXPECT_EQ(times[0].dispatches, 2.0);
-  EXPECT_EQ(times[1].name, "large");
-  EXPECT_EQ(times[1].dispatches, 1.0);
-  EXPECT_GT(times[1].milliseconds, times[0].milliseconds);
+  // Whatever else the machine does meets any dispatch: the large one takes longer as a rule, not each time.
+  int longer = 0;
+  for (int attempt = 0; attempt < 15; ++attempt) {
+    PassProfiler profiler(context(), {"small", "never", "large"});
+    EXPECT_TRUE(profiler.times().empty());
+    ASSERT_TRUE(profiler.begin());
+    dispatch(64);
+    profiler.mark(0);
+    dispatch(most);
+    profiler.mark(2);
+    dispatch(64);
+    profiler.mark(0);
+    profiler.end();
+    const auto times = wait(profiler);
+    ASSERT_EQ(times.size(), 2u);
+    EXPECT_EQ(times[0].name, "small");
+    EXPECT_EQ(times[0].dispatches, 2.0);
+    EXPECT_EQ(times[1].name, "large");
+    EXPECT_EQ(times[1].dispatches, 1.0);
+    longer += times[1].milliseconds > times[0].milliseconds ? 1 : 0;
+  }
+  EXPECT_GT(longer, 7);
 }
 
 TEST_F(PassProfilerGl, TakesMeansOverTheLastSteps) {
