@@ -65,8 +65,8 @@ class Solver {
   /// (no_device): the device was lost or ran out of memory; the solver is of no use from then on.
   virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;
   /// While `*flag` is true advance() ends early, and the state is that at the start of the step it was in.
-  /// Null: never. The flag may be set on any thread; it must outlive the calls. A solver on a device, which
-  /// queues its work, pays no heed.
+  /// Null: never. Any thread may set the flag; it stays true until advance() has returned, and must outlive
+  /// the calls. A solver on a device, which queues its work, pays no heed.
   virtual void heed(const std::atomic<bool>* flag) { flag_ = flag; }
   /// What implicit Euler's solves came to since the last load(); nothing with other integrators.
   virtual std::optional<SolveStatistics> solve_statistics() { return std::nullopt; }
