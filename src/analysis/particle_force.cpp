@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <ranges>
 
 #include "cpu_reference/contact.h"
 #include "cpu_reference/spring.h"
@@ -17,16 +16,14 @@ std::vector<Spring> of_lattice(const Body& body, std::uint32_t particle) {
   const auto local = static_cast<int>(particle - body.first_particle);
   const std::array<int, 3> own = {local / (n * n), local / n % n, local % n};
   std::vector<Spring> found;
-  const auto add = [&](const LatticeDirection& o, int sign) {
-    const std::array<int, 3> other = {own[0] + sign * o.di, own[1] + sign * o.dj, own[2] + sign * o.dk};
-    if (std::ranges::any_of(other, [&](int at) { return at < 0 || at >= n; })) return;
+  for (const LatticeDirection& o : lattice_directions()) {
+    const std::array<int, 3> other = {own[0] + o.di, own[1] + o.dj, own[2] + o.dk};
+    if (std::ranges::any_of(other, [&](int at) { return at < 0 || at >= n; })) continue;
     const auto index =
         body.first_particle + static_cast<std::uint32_t>((other[0] * n + other[1]) * n + other[2]);
     found.push_back(
         {std::min(particle, index), std::max(particle, index), body.first_class + o.spring_class});
-  };
-  for (const LatticeDirection& o : std::views::reverse(lattice_directions())) add(o, -1);
-  for (const LatticeDirection& o : lattice_directions()) add(o, 1);
+  }
   return found;
 }
 

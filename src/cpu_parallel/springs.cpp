@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ranges>
 
 #include "model/springs.h"
 
@@ -17,18 +16,15 @@ Constants::Constants(const SpringClass& spring)
 Lattice::Lattice(const Model& model, const Body& body) : first_(body.first_particle), n_(body.lattice_edge) {
   const auto n = static_cast<int>(n_);
   std::vector<std::array<int, 3>> offsets;
-  const auto add = [&](const LatticeDirection& o, int sign) {
-    const std::array<int, 3> offset = {sign * o.di, sign * o.dj, sign * o.dk};
-    if (std::ranges::any_of(offset, [&](int steps) { return std::abs(steps) >= n; })) return;
+  for (const LatticeDirection& o : lattice_directions()) {
+    const std::array<int, 3> offset = {o.di, o.dj, o.dk};
+    if (std::ranges::any_of(offset, [&](int steps) { return std::abs(steps) >= n; })) continue;
     offsets.push_back(offset);
     const std::ptrdiff_t step = (std::ptrdiff_t{offset[0]} * n + offset[1]) * n + offset[2];
     directions_.push_back({step, offset[0],
                            Constants(model.spring_classes[body.first_class + o.spring_class]),
                            step > 0 ? -0.0f : 0.0f});
-  };
-  // Each is seen from its upper end and from its lower one: together in ascending neighbour index.
-  for (const LatticeDirection& o : std::views::reverse(lattice_directions())) add(o, -1);
-  for (const LatticeDirection& o : lattice_directions()) add(o, 1);
+  }
   const std::size_t slices = (plane_size() + slice - 1) / slice;
   bits_.assign(slices * offsets.size(), 0);
   for (std::size_t m = 0; m < plane_size(); ++m) {

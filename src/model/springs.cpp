@@ -6,24 +6,24 @@
 namespace aspic {
 namespace {
 
-constexpr auto directions = [] {
-  std::array<LatticeDirection, 16> all = {};
+constexpr auto all_directions = [] {
+  std::array<LatticeDirection, 32> all = {};
   std::size_t n = 0;
-  for (int di = 0; di <= 2; ++di) {
+  for (int di = -2; di <= 2; ++di) {
     for (int dj = -2; dj <= 2; ++dj) {
       for (int dk = -2; dk <= 2; ++dk) {
-        const std::array<int, 3> d = {di, dj, dk};
-        if (!(std::array{0, 0, 0} < d)) continue;
-        int squared = 0;
-        for (const int c : d) squared += c * c;
+        const int squared = di * di + dj * dj + dk * dk;
         // Structural, shear across a face, shear across a cell, bending: add_cube makes its classes so.
-        if (squared <= 4) all[n++] = {di, dj, dk, static_cast<std::uint32_t>(squared - 1)};
+        if (squared > 0 && squared <= 4) all[n++] = {di, dj, dk, static_cast<std::uint32_t>(squared - 1)};
       }
     }
   }
   return all;
 }();
-static_assert(directions.back().di == 2, "the table is full");
+static_assert(all_directions.back().di == 2, "the table is full");
+
+/// Those to upper ends.
+constexpr auto directions = std::span(all_directions).subspan<16>();
 
 /// Lower ends in a lattice whose neighbour in this direction exists.
 std::uint64_t springs_along(const LatticeDirection& o, std::uint32_t edge) {
@@ -41,7 +41,7 @@ bool before(const Spring& spring, std::uint32_t particle) {
 }  // namespace
 
 std::span<const LatticeDirection> lattice_directions() {
-  return directions;
+  return all_directions;
 }
 
 SpringRange::SpringRange(const Model& model, std::uint32_t first_particle, std::uint32_t end_particle)

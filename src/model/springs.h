@@ -11,13 +11,14 @@
 
 namespace aspic {
 
-/// A direction in which the particles of a cube have a spring, seen from its lower end.
+/// A direction in which the particles of a cube have a spring.
 struct LatticeDirection {
-  int di, dj, dk;              ///< steps to the upper end
+  int di, dj, dk;              ///< steps to the other end
   std::uint32_t spring_class;  ///< relative to the body's first
 };
 
-/// The directions of a cube's springs in lexicographic order, which is ascending index of the upper end.
+/// The directions of all springs of a cube's inner particle in lexicographic order, which is ascending index
+/// of the other end: 16 to lower ends, then the same to upper ones.
 std::span<const LatticeDirection> lattice_directions();
 
 /// Springs of a model in ascending order of (a, b), made as they are needed; for one loop at a time:
