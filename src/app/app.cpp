@@ -150,7 +150,8 @@ std::string App::title() const {
 
 bool App::idle() const {
   return !simulation.running() && std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
-         !screenshot_wanted_ && !scene.pending() && !simulation.changing() && !simulation.busy();
+         !screenshot_wanted_ && keys_.empty() && !scene.pending() && !simulation.changing() &&
+         !simulation.busy();
 }
 
 double App::wait(double since) const {
@@ -171,22 +172,35 @@ double App::wait(double since) const {
 
 void App::key(int key, int action, int modifiers) {
   touch();
-  gui_->key(key, action, modifiers);
-  if (action == GLFW_RELEASE || gui_->takes_keyboard()) return;
-  if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS) {
-    help_visible = false;
-    messages.dismiss();
-  } else {
-    commands_.on_key(key, modifiers, action == GLFW_REPEAT);
-  }
+  keys_.push_back({key, action, modifiers});
+  deliver_keys();
 }
 
 void App::character(unsigned int code_point) {
   touch();
-  if (gui_->takes_keyboard())
-    gui_->character(code_point);
-  else
-    commands_.on_character(static_cast<char32_t>(code_point));
+  keys_.push_back({.character = code_point});
+  deliver_keys();
+}
+
+/// To the text field that has the keyboard, else to the command they stand for; some wait for the next
+/// picture.
+void App::deliver_keys() {
+  while (!keys_.empty() && gui_->ready_for(keys_.front())) {
+    const KeyEvent event = keys_.front();
+    keys_.pop_front();
+    // F1 and those after it are in no text.
+    const bool typing = gui_->takes_keyboard() && !(event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F25);
+    if (event.character == 0 || typing) gui_->key(event);
+    if (typing || event.action == GLFW_RELEASE) continue;
+    if (event.character != 0) {
+      commands_.on_character(static_cast<char32_t>(event.character));
+    } else if (event.key == GLFW_KEY_ESCAPE && event.action == GLFW_PRESS) {
+      help_visible = false;
+      messages.dismiss();
+    } else {
+      commands_.on_key(event.key, event.modifiers, event.action == GLFW_REPEAT);
+    }
+  }
 }
 
 void App::mouse_button(int button, int action, int modifiers) {
@@ -247,7 +261,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
   pointer.find_hovered();
   view.pixels_per_unit = static_cast<double>(size.pixel_width) / size.width;
   picture.count(dt);
-  gui_->begin(size.width, size.height, view.pixels_per_unit, dt);
+  gui_->begin(dt);
   view.text_scale = gui_->scale();
   view.box = draw_panels(
       {*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, help_visible},
@@ -255,6 +269,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
   ASPIC_CHECK(picture.show(size));
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();
+  deliver_keys();
   if (!std::exchange(screenshot_wanted_, false)) return {};
   const std::string path = free_name(scene.editor().source(), ".png");
   if (messages.check(save_screenshot(size, path)))

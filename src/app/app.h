@@ -1,6 +1,7 @@
 #pragma once
 // The window's inside: puts its parts together, hands events to them and makes the pictures. Knows no window:
 // events come through EventReceiver, pictures go to the current context's framebuffer 0.
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -87,6 +88,7 @@ class App final : public EventReceiver {
   App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Simulation> simulation);
   Status attach(gl::Context& context, double scale, WindowServices services);
   std::vector<Command> make_commands();
+  void deliver_keys();
   Status make_picture(const WindowSize& size, double dt);
   void touch() {
     still_for_ = 0.0;
@@ -94,6 +96,7 @@ class App final : public EventReceiver {
   }
   void restore(const KeptState& kept, const std::vector<std::string>& overrides);
 
+  std::deque<KeyEvent> keys_;  // that came and were not delivered
   bool screenshot_wanted_ = false, camera_moves_ = false;
   /// Since something moved, and since the mouse did [s].
   double still_for_ = 0.0, mouse_still_for_ = 0.0;

@@ -111,6 +111,7 @@ void Window::connect() {
 
 WindowServices Window::services() {
   WindowServices services;
+  services.window = window_;
   services.clipboard = [this] {
     const char* text = glfwGetClipboardString(window_);
     return std::string(text ? text : "");

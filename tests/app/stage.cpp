@@ -52,7 +52,7 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
 
 void Stage::open(const std::string& scene, std::vector<std::string> overrides, std::string_view backend,
                  const app::KeptState& kept) {
-  app::WindowServices services;
+  app::WindowServices services = window_->services();
   services.clipboard = [this] { return clipboard; };
   services.set_clipboard = [this](const std::string& text) { clipboard = text; };
   services.toggle_full_screen = [this] { ++full_screen_toggles; };
