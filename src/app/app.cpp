@@ -90,7 +90,8 @@ std::vector<Command> App::make_commands() {
       {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { help_visible = !help_visible; }},
       {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
       {"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
-      {"F12", "save a screenshot", GLFW_KEY_F12, 0, 0, [this] { screenshot_wanted_ = true; }},
+      {"F12", "save the picture", GLFW_KEY_F12, 0, 0, [this] { shot_wanted_ = Shot::picture; }},
+      {"Shift+F12", "save the whole window", GLFW_KEY_F12, shift, 0, [this] { shot_wanted_ = Shot::window; }},
   };
 }
 
@@ -150,7 +151,7 @@ std::string App::title() const {
 
 bool App::idle() const {
   return !simulation.running() && std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
-         !screenshot_wanted_ && keys_.empty() && !scene.pending() && !simulation.changing() &&
+         shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() && !simulation.changing() &&
          !simulation.busy();
 }
 
@@ -250,7 +251,7 @@ Status App::frame(const WindowSize& size, double dt) {
   run.watch_divergence();
   still_for_ = camera_moves_ || simulation.running() || simulation.seeking() ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
-  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25);
+  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25 || shot_wanted_ == Shot::window);
   const auto start = std::chrono::steady_clock::now();
   const Status made = make_picture(size, dt);
   frame_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -270,10 +271,12 @@ Status App::make_picture(const WindowSize& size, double dt) {
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();
   deliver_keys();
-  if (!std::exchange(screenshot_wanted_, false)) return {};
+  const Shot wanted = std::exchange(shot_wanted_, Shot::none);
+  if (wanted == Shot::none) return {};
   const std::string path = free_name(scene.editor().source(), ".png");
-  if (messages.check(save_screenshot(size, path)))
-    messages.info(fmt::format("Screenshot saved as {}.", path));
+  if (messages.check(wanted == Shot::picture ? picture.save(path)
+                                             : save_pixels(0, {size.pixel_width, size.pixel_height}, path)))
+    messages.info(fmt::format("Saved as {}.", path));
   return {};
 }
 

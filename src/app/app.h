@@ -97,7 +97,8 @@ class App final : public EventReceiver {
   void restore(const KeptState& kept, const std::vector<std::string>& overrides);
 
   std::deque<KeyEvent> keys_;  // that came and were not delivered
-  bool screenshot_wanted_ = false, camera_moves_ = false;
+  enum class Shot { none, picture, window } shot_wanted_ = Shot::none;
+  bool camera_moves_ = false;
   /// Since something moved, and since the mouse did [s].
   double still_for_ = 0.0, mouse_still_for_ = 0.0;
   double frame_seconds_ = 0.0;  // the last picture with its panels

@@ -42,14 +42,8 @@ Status Engines::set_pull(const std::optional<Pull>& pull) {
   return shadowed() ? shadow_.solver->set_pull(pull) : Status();
 }
 
-/// The energies of a state, unless that would take more than a tenth of the time.
-std::optional<Measures> Engines::measured(const State& state) {
-  const auto start = Clock::now();
-  if (start < next_measured_) return std::nullopt;
-  const Measures measures = measure(*model_, state);
-  const auto end = Clock::now();
-  next_measured_ = end + 9 * (end - start);
-  return measures;
+EnergySample Engines::measured(const State& state) const {
+  return {static_cast<double>(state.step) * model_->simulation.timestep, measure(*model_, state), state.step};
 }
 
 Outcome Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry) {
@@ -69,10 +63,15 @@ Status Engines::try_outside(const JobLimits& limits, const std::atomic<bool>& hu
     ASPIC_TRY(start, first.state());
     ASPIC_TRY(other_start, shadow_.solver->state());
   }
+  const std::uint64_t interval = sample_interval(model_->simulation.timestep);
   first.heed(&hurry);
   for (std::uint64_t at = limits.from; at < limits.to && !hurry && !paced.divergence && Clock::now() < end;
        ++at) {
     ASPIC_TRY(paced.divergence, first.advance(1));
+    if ((at + 1) % interval != 0 || paced.divergence || limits.alone) continue;
+    ASPIC_TRY(const auto state, first.state());
+    // A step that was dropped in a hurry is none.
+    if (state.step == at + 1) outcome.energies.push_back(measured(state));
   }
   ASPIC_TRY(paced.state, first.state());
   outcome.steps = paced.state.step - limits.from;
@@ -85,11 +84,11 @@ Status Engines::try_outside(const JobLimits& limits, const std::atomic<bool>& hu
       ASPIC_CHECK(first.load(start));
       ASPIC_CHECK(shadow_.solver->load(other_start));
       outcome.steps = 0;
+      outcome.energies.clear();
       outcome.leader = {std::move(start), std::nullopt};
       outcome.shadow = {std::move(other_start), std::nullopt};
     }
   }
-  outcome.measures = measured(paced.state);
   return {};
 }
 

@@ -189,9 +189,20 @@ Box Gui::last_item() {
           static_cast<double>(b.y)};
 }
 
-void Gui::explain(std::string_view text, std::string_view keys) const {
+bool Gui::explain(std::string_view text, std::string_view keys) {
+  constexpr double rest = 0.6;  // s
   if (watcher_)
     watcher_->tooltip(last_item(), fmt::format("{}{}{}", text, keys.empty() ? "" : "\nKey: ", keys));
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
+  const double now = ImGui::GetTime();
+  // Gone for a picture, or on another widget: it begins again.
+  const bool stays =
+      rested_on_ == last_item() && rested_seen_ >= now - 1.5 * static_cast<double>(io.DeltaTime);
+  rested_on_ = last_item();
+  rested_seen_ = now;
+  if (!stays || ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown()) rested_since_ = now;
+  return now - rested_since_ >= rest;
 }
 
 Gui& Gui::current() {

@@ -94,8 +94,9 @@ class Gui {
   void mark(fmt::format_string<Arguments...> name, Arguments&&... arguments) const {
     if (watcher_) watcher_->widget(fmt::format(name, std::forward<Arguments>(arguments)...), last_item());
   }
-  /// Tells the watcher what the tooltip of the widget just made says.
-  void explain(std::string_view text, std::string_view keys) const;
+  /// Tells the watcher what the tooltip of the widget just made says. True if it is time to show it: the
+  /// mouse has rested on the widget and nothing is held or typed.
+  bool explain(std::string_view text, std::string_view keys);
   /// The one whose panels are being made, between begin() and end().
   static Gui& current();
 
@@ -110,8 +111,10 @@ class Gui {
   WidgetWatcher* watcher_;
   double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool pressed_[5] = {}, held_[5] = {};
-  std::vector<int> changed_;  // keys that went down or came up since the last picture
-  bool edited_ = false;       // one that went down edits text
+  std::vector<int> changed_;                       // keys that went down or came up since the last picture
+  bool edited_ = false;                            // one that went down edits text
+  Box rested_on_;                                  // the widget under the mouse
+  double rested_since_ = 0.0, rested_seen_ = 0.0;  // ImGui's time
 };
 
 }  // namespace aspic::app

@@ -54,7 +54,7 @@ constexpr Heading right_sections[] = {
      false, "Films of the scene; its states, energies and checkpoints as files."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); }, true,
      "Speed of simulation and drawing, and the devices used."},
-    {"Energy", [](Parts p) { energy_section(p.gui, p.simulation.samples().energies()); }, true,
+    {"Energy", [](Parts p) { energy_section(p.gui, p.simulation, p.run); }, true,
      "Energies and momentum over time."},
     {"Shadow", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); }, false,
      "A second backend on the same run, and how far the two differ."}};
@@ -137,7 +137,8 @@ void divergence_buttons(Gui& gui, const Simulation& simulation, RunControl& run,
   const auto& stable = run.stable_step();
   if (stable && stable->step && std::isfinite(*stable->step)) {
     if (button(gui, "diverged/stable", "Use a stable step",
-               "Steps back and sets the time step to 0.95 of the estimate."))
+               "Goes on from shortly before the divergence with all values as they are now, and a time step "
+               "of 0.95 of the estimate."))
       run.take_stable_step();
     ImGui::SameLine();
   }
@@ -256,9 +257,11 @@ Box draw_panels(const PanelParts& p, double width, double height) {
     drag_edge(p.gui, "layout/left", left, bottom, 1.0, layout.left_width);
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
+  const double legend = draw_legend(p.gui, p.picture.legend(), view);
   notice_panel(p.gui, p.messages, p.simulation, p.run, view);
   help_panel(p.gui, p.help_visible, width, height);
-  if (const auto& hovered = p.pointer.hovered()) hover_tooltip(scale, p.simulation, *hovered, p.view.box);
+  if (const auto& hovered = p.pointer.hovered())
+    particle_readout(p.gui, p.simulation, *hovered, view, legend);
   return view;
 }
 

@@ -183,12 +183,34 @@ void wrapped_text(std::string_view text, float width) {
   }
 }
 
+namespace {
+
+/// Beside the panel of the widget just made, so that it covers none of its neighbours; else below or above.
+void place_tooltip(float text_width) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize, pad = ImGui::GetStyle().WindowPadding;
+  const ImVec2 corner = ImGui::GetWindowPos(), low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float end = corner.x + ImGui::GetWindowSize().x, width = text_width + 2.0f * pad.x, gap = 6.0f;
+  const bool lower_half = low.y > 0.5f * display.y;
+  const float pivot = lower_half ? 1.0f : 0.0f;
+  if (end + gap + width < display.x)
+    ImGui::SetNextWindowPos({end + gap, lower_half ? high.y : low.y}, ImGuiCond_Always, {0.0f, pivot});
+  else if (corner.x - gap - width > 0.0f)
+    ImGui::SetNextWindowPos({corner.x - gap, lower_half ? high.y : low.y}, ImGuiCond_Always, {1.0f, pivot});
+  else
+    ImGui::SetNextWindowPos(
+        {std::min(low.x, std::max(display.x - width, 0.0f)), lower_half ? low.y - gap : high.y + gap},
+        ImGuiCond_Always, {0.0f, pivot});
+}
+
+}  // namespace
+
 void tooltip(std::string_view text, std::string_view command) {
   const std::string keys(Gui::current().commands().keys_of(command));
-  Gui::current().explain(text, keys);
-  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (!Gui::current().explain(text, keys)) return;
+  const float width = ImGui::GetFontSize() * 26.0f;
+  place_tooltip(width);
   ImGui::BeginTooltip();
-  wrapped_text(text, ImGui::GetFontSize() * 26.0f);
+  wrapped_text(text, width);
   if (!keys.empty()) ImGui::TextDisabled("Key: %s", keys.c_str());
   ImGui::EndTooltip();
 }

@@ -1,5 +1,6 @@
 #pragma once
 // The scene that is open, kept in step with its simulation: opening, changing, undo, and the file on disk.
+#include <algorithm>
 #include <chrono>
 #include <string>
 
@@ -39,6 +40,9 @@ class SceneControl {
   /// Goes back or forth in time with the simulation: the physics of the scene is part of the run. A change
   /// that can be undone.
   void follow_history();
+
+  /// The simulation gets the constants of the scene as it is, whatever it has now.
+  void hand_over() { pending_ = std::max(pending_, Effect::constants); }
 
   /// Once for each picture, `dt` after the last [s]: looks at the file and hands changes to the simulation.
   void update(double dt);

@@ -133,7 +133,9 @@ Status Simulation::finish_change(Change change) {
     return reset();
   if (!at_end()) forget_future(now);
   samples_.clear_differed();
-  return begin_history(grown_state(model(), std::move(change.state)));
+  ASPIC_CHECK(begin_history(grown_state(model(), std::move(change.state))));
+  samples_.truncate(std::nextafter(time(), -1.0));  // with other constants this state has another energy
+  return {};
 }
 
 /// The run goes on with this state and setup.
@@ -162,7 +164,7 @@ Status Simulation::reset() {
   last_remembered_ = {};
   const State start = initial_state(model(), Precision::single);
   ASPIC_CHECK(begin_history(start));
-  add_sample(start, measure(model(), start));
+  remember(start, {engines_.measured(start)});
   return {};
 }
 

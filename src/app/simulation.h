@@ -183,7 +183,7 @@ class Simulation {
   Status seek_on(double budget);
   void note(std::uint64_t steps, const std::optional<Divergence>& divergence);
   void take_snapshot(State state);
-  void add_sample(const State& state, const std::optional<Measures>& measures);
+  void remember(const State& state, const std::vector<EnergySample>& energies);
   void forget_future(double now);
 
   Setup setup_;

@@ -119,9 +119,8 @@ Status Simulation::update(double dt, double budget) {
 /// While paused, all figures are of the state that is shown.
 Status Simulation::show_figures() {
   if (Engines::in_context(engines_.leader()) && snapshot_.step != step_) return refresh_snapshot();
-  const auto& energies = samples_.energies();
-  if (idle() && !divergence_ && at_end() && (energies.empty() || energies.back().step < step_))
-    start_measuring();
+  const EnergySample* const known = samples_.nearest(time());
+  if (idle() && !divergence_ && (!known || known->time != time())) start_measuring();
   return {};
 }
 
@@ -190,7 +189,7 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
 void Simulation::start_measuring() {
   worker_.start([this, state = snapshot_](const std::atomic<bool>&) {
     Outcome outcome;
-    outcome.measures = measure(model(), state);
+    outcome.energies = {engines_.measured(state)};
     outcome.leader.state = state;
     outcomes_.put(std::move(outcome));
   });
@@ -244,7 +243,7 @@ Status Simulation::take(Outcome outcome) {
     take_snapshot(std::move(outcome.leader.state));
     note(outcome.steps, outcome.leader.divergence);
   }
-  if (!seek_) add_sample(in_context || !stepped ? paced : snapshot_, outcome.measures);
+  if (!seek_) remember(in_context || !stepped ? paced : snapshot_, outcome.energies);
   return {};
 }
 
@@ -259,7 +258,7 @@ Status Simulation::follow(Outcome outcome) {
     samples_.one_diverged();
     set_running(false);
   }
-  add_sample(engines_.shadow_paces() ? outcome.shadow.state : snapshot_, outcome.measures);
+  remember(engines_.shadow_paces() ? outcome.shadow.state : snapshot_, outcome.energies);
   return {};
 }
 
@@ -344,7 +343,8 @@ Status Simulation::step_back() {
   return earlier ? seek(*earlier) : Status();
 }
 
-void Simulation::add_sample(const State& state, const std::optional<Measures>& measures) {
+/// Keeps a state that was come to, now and then, and points of the plot.
+void Simulation::remember(const State& state, const std::vector<EnergySample>& energies) {
   if (!divergence_ && at_end()) {
     const double bytes = 24.0 * static_cast<double>(state.position.size());
     const double interval =
@@ -354,8 +354,7 @@ void Simulation::add_sample(const State& state, const std::optional<Measures>& m
       history_.add_keyframe(state);
     }
   }
-  if (measures)
-    samples_.add({static_cast<double>(state.step) * model().simulation.timestep, *measures, state.step});
+  for (const EnergySample& sample : energies) samples_.add(sample);
 }
 
 std::optional<double> Simulation::spring_evaluations_per_second() const {

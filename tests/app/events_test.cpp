@@ -128,7 +128,7 @@ class Events : public Stage {
   /// All events so far are dealt with, and a picture was drawn after them.
   void catch_up() {
     const std::string name = fmt::format("aspic-cube-plane-{:04}.png", ++screenshots_);
-    key("F12");
+    key("shift+F12");
     require([&] { return exists(name); }, name);
     newest_ = name;
   }
