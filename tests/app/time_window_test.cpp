@@ -212,7 +212,7 @@ TEST_F(Time, AChangeOfTheTimeStepKeepsTheTime) {
 }
 
 TEST_P(TimeOnBackend, AStableStepKeepsTheSceneAndThePlot) {
-  open("cube-plane", {"cube[0].position=[0,1.2,0]", "simulation.integrator=rk4"}, GetParam());
+  open("cube-plane", {"cube[0].position=[0,1.2,0]", "simulation.integrator=runge-kutta-4"}, GetParam());
   run_to(300);
   const double t = simulation().time();
   for (const char* type : {"structural", "shear", "bending"})
