@@ -283,9 +283,9 @@ TEST_F(Events, SizeAndLayoutAreKeptAndABrokenFileIsToldOfOnce) {
   ask_to_close();
   EXPECT_EQ(exit_code(), 0) << log();
   const std::string said = log();
-  const std::size_t first = said.find("window.toml");
+  const std::size_t first = said.find("window.json");
   EXPECT_NE(first, std::string::npos) << said;
-  EXPECT_EQ(said.find("window.toml", first + 1), std::string::npos) << said;
+  EXPECT_EQ(said.find("window.json", first + 1), std::string::npos) << said;
   const auto left = app::load_kept_state(app::kept_state_path());
   ASSERT_TRUE(left.ok()) << left.error().message;
   EXPECT_FALSE(left->layout.panels);
