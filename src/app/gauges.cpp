@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "app/panels.h"
@@ -58,14 +57,12 @@ struct Plot {
   float pad;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
 
-  Plot(const Gui& gui, const char* name, double height, const std::deque<Sample>& samples,
-       std::string_view help)
+  Plot(Gui& gui, const char* name, double height, const std::deque<Sample>& samples, std::string_view help)
       : size(ImGui::GetContentRegionAvail().x, static_cast<float>(height * gui.scale())),
         scale(gui.scale()),
         pad(static_cast<float>(6.0 * scale)) {
     ImGui::Dummy(size);
-    gui.mark("{}", name);
-    tooltip(help);
+    named(gui, name, help);
     draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 21, 23, 255), 4.0f);
     if (samples.size() < 2) return;
     start = samples.front().time;
@@ -119,7 +116,7 @@ double height_of(const DifferenceSample& sample) {
   return std::min(std::log10(1.0 + static_cast<double>(sample.ulp)) / 10.0, 1.0);
 }
 
-void plot_differences(const Gui& gui, const std::deque<DifferenceSample>& samples) {
+void plot_differences(Gui& gui, const std::deque<DifferenceSample>& samples) {
   const Plot plot(
       gui, "shadow/plot", 70.0, samples,
       "Largest difference of any component of the state over time, in units in the last place: the bottom is "
@@ -146,10 +143,9 @@ void pass_times(Gui& gui, GpuSolver& solver) {
   // Measured only while it is shown: a measured step takes a little longer.
   solver.set_profiling(true);
   ImGui::TextDisabled("Passes of a step");
-  gui.mark("performance/passes");
-  tooltip(
-      "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
-      "last steps measured, from time stamps.");
+  named(gui, "performance/passes",
+        "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
+        "last steps measured, from time stamps.");
   const std::vector<gl::PassTime> passes = solver.pass_times();
   if (passes.empty()) {
     ImGui::TextDisabled("   not measured yet");
@@ -225,11 +221,10 @@ void energy_section(Gui& gui, const std::deque<EnergySample>& samples) {
 void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
   const std::vector<const BackendRow*> others = others_than(s.backend());
   bool on = s.shadowed();
-  if (ImGui::Checkbox("second backend", &on)) run.set_shadow(on ? others.front() : nullptr);
-  gui.mark("shadow/on");
-  tooltip(
-      "Another backend does the same steps, and after each job of steps the two states are compared. The "
-      "picture shows the leading backend; speed is limited by the slower one.");
+  if (check_box(gui, "second backend", "shadow/on", on,
+                "Another backend does the same steps, and after each job of steps the two states are "
+                "compared. The picture shows the leading backend; speed is limited by the slower one."))
+    run.set_shadow(on ? others.front() : nullptr);
   if (!s.shadowed()) return;
   // A machine with two backends has no choice to offer.
   for (std::size_t i = 0; others.size() > 1 && i < others.size(); ++i) {

@@ -19,19 +19,17 @@ constexpr const char* start_or_end = "start or end a film";
 
 void format_widget(Gui& gui, FilmSettings& film) {
   label_column("Format");
-  const bool open = ImGui::BeginCombo("##format", film.format->label.data());
-  gui.mark("record/format");
-  const char* const help =
-      "Output of the film: a file (mp4, webm and GIF need the program ffmpeg), or a directory of numbered "
-      "pictures.";
-  tooltip(help);
-  if (!open) return;
+  std::vector<std::string_view> names, labels;
   for (const FilmFormat& format : film_formats()) {
-    if (ImGui::Selectable(format.label.data(), &format == film.format)) film.format = &format;
-    gui.mark("record/format/{}", format.name);
-    tooltip(help);
+    names.push_back(format.name);
+    labels.push_back(format.label);
   }
-  ImGui::EndCombo();
+  auto index = static_cast<std::size_t>(film.format - film_formats().data());
+  if (!choice(gui, "record/format", names, labels, index,
+              "Output of the film: a file (mp4, webm and GIF need the program ffmpeg), or a directory of "
+              "numbered pictures."))
+    return;
+  film.format = &film_formats()[index];
   film.fps = std::min(film.fps, film.format->most_fps);
 }
 
@@ -40,11 +38,10 @@ void rate_widget(Gui& gui, FilmSettings& film) {
   const double least = 1.0, most = film.format->most_fps;
   ImGui::DragScalar("##fps", ImGuiDataType_Double, &film.fps, 0.2f, &least, &most, "%.4g a second",
                     ImGuiSliderFlags_AlwaysClamp);
-  gui.mark("record/fps");
-  tooltip(
+  named(
+      gui, "record/fps",
       fmt::format("Pictures per second of the film, 1 … {:g} in this format. Each shows the state speed/rate "
-                  "seconds of simulated time after the previous one.\nDrag to change, Ctrl+click "
-                  "to type.",
+                  "seconds of simulated time after the previous one.\nDrag to change, Ctrl+click to type.",
                   most));
 }
 
@@ -54,8 +51,8 @@ void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
   film.path.copy(text.data(), text.size() - 1);
   const std::string hint = free_name(source, film_ending(*film.format));
   if (ImGui::InputTextWithHint("##film", hint.c_str(), text.data(), text.size())) film.path = text.data();
-  gui.mark("record/path");
-  tooltip(
+  named(
+      gui, "record/path",
       fmt::format("Name of the film; if left empty, {}. The format determines the extension. Existing files "
                   "are never overwritten.",
                   hint));
@@ -124,11 +121,9 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
   rate_widget(gui, film.settings);
   name_widget(gui, source, film.settings);
   label_column("Parameters");
-  ImGui::Checkbox("shown", &film.settings.text);
-  gui.mark("record/text");
-  tooltip(
-      "Terrain, integrator, time step, springs and time are written on the picture, as in aspic run --video, "
-      "with the legend of the colours.");
+  check_box(gui, "shown", "record/text", film.settings.text,
+            "Terrain, integrator, time step, springs and time are written on the picture, as in aspic run "
+            "--video, with the legend of the colours.");
   if (film.completing() > 0) ImGui::TextDisabled("Completing the last film …");
 }
 

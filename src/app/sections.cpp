@@ -70,17 +70,15 @@ void scene_section(Gui& gui, SceneControl& scene) {
   static ImGuiTextFilter filter;
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::InputTextWithHint("##search", "search scenes", filter.InputBuf, sizeof filter.InputBuf);
-  gui.mark("scene/search");
-  tooltip(
-      "Shows scenes whose name or description contains this. A scene file is opened by dropping it on the "
-      "window.");
+  named(gui, "scene/search",
+        "Shows scenes whose name or description contains this. A scene file is opened by dropping it on the "
+        "window.");
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
     const std::string_view word = filter.InputBuf;
     if (!holds(builtin.name, word) && !holds(builtin.description, word)) continue;
     const std::string name(builtin.name);
     if (ImGui::Selectable(name.c_str(), name == scene.editor().source())) scene.open(name);
-    gui.mark("scene/{}", name);
-    tooltip(builtin.description);
+    named(gui, "scene/" + name, builtin.description);
   }
   if (scene.editor().is_file()) {
     ImGui::Selectable(scene.editor().source().c_str(), true);
@@ -123,21 +121,16 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
   edit(gui, scene, "simulation.integrator");
   edit(gui, scene, "simulation.timestep", 0, {"Time step"});
   label_column("Pace");
-  static constexpr const char* paces[] = {"steps per frame", "real time"};
+  static constexpr std::string_view paces[] = {"steps per frame", "real time"};
   Pacer& pacer = s.pacer();
-  int pace = static_cast<int>(pacer.pace);
-  if (ImGui::Combo("##pace", &pace, paces, 2)) pacer.pace = static_cast<Pace>(pace);
-  gui.mark("simulation/pace");
-  tooltip(
-      "How fast simulated time passes: a fixed number of steps for each picture, or real time. "
-      "Where "
-      "the solver cannot keep up, the factor in the status line says so.");
+  auto pace = static_cast<std::size_t>(pacer.pace);
+  if (choice(gui, "simulation/pace", paces, paces, pace,
+             "How fast simulated time passes: a fixed number of steps for each picture, or real time. Where "
+             "the solver cannot keep up, the factor in the status line says so."))
+    pacer.pace = static_cast<Pace>(pace);
   if (pacer.pace == Pace::steps_per_frame) edit(gui, scene, "simulation.steps-per-frame");
-  label_column("Speed");
-  ImGui::SliderScalar("##speed", ImGuiDataType_Double, &pacer.speed, &slowest_speed, &fastest_speed, "×%.4g",
-                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  gui.mark("simulation/speed");
-  tooltip("Factor on the pace, from 1/1024 to 1024. Keys + and - double and halve it.");
+  slider(gui, "Speed", "simulation/speed", pacer.speed, slowest_speed, fastest_speed, "×%.4g",
+         "Factor on the pace, from 1/1024 to 1024. Keys + and - double and halve it.");
   edit(gui, scene, "simulation.gravity");
   // The cube that the assignments speak of; the rest of it, and other bodies, are under Bodies.
   if (!scene.scene().model.cubes.empty()) placed_cube(gui, scene, 0);
