@@ -57,7 +57,5 @@ void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
 
 /// What is known of a particle, next to the mouse, or in a corner of the view while it is pulled.
 void hover_tooltip(double scale, const Simulation& simulation, const Hovered& hovered, const Box& view);
-/// The bar of the history, into that box.
-void draw_timeline(Gui& gui, const Simulation& simulation, RunControl& run, const Box& box);
 
 }  // namespace aspic::app

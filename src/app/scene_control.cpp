@@ -61,16 +61,14 @@ void SceneControl::save_as(const std::string& path) {
 
 void SceneControl::undo() {
   if (!editor_.can_undo()) return;
-  const std::string name = editor_.undo_name();
   take_effect(editor_.undo());
-  messages_.info(fmt::format("Undone: {}.", name));
+  messages_.info(fmt::format("Undone: {}.", editor_.redo_name()));
 }
 
 void SceneControl::redo() {
   if (!editor_.can_redo()) return;
-  const std::string name = editor_.redo_name();
   take_effect(editor_.redo());
-  messages_.info(fmt::format("Redone: {}.", name));
+  messages_.info(fmt::format("Redone: {}.", editor_.undo_name()));
 }
 
 void SceneControl::set_value(const Parameter& parameter, std::size_t index, const Value& value,
