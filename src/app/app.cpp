@@ -73,6 +73,8 @@ std::vector<Command> App::make_commands() {
       {"[", "previous scene", -1, 0, U'[', [this] { scene.open_neighbour(-1); }},
       {"]", "next scene", -1, 0, U']', [this] { scene.open_neighbour(1); }},
       {"Ctrl+L", "reload the scene", GLFW_KEY_L, ctrl, 0, [this] { scene.reload(); }},
+      {"Ctrl+O", "open a scene file", GLFW_KEY_O, ctrl, 0, [this] { ask_for_scene(); }},
+      {"Ctrl+S", "save the scene", GLFW_KEY_S, ctrl, 0, [this] { ask_where_to_save(); }},
       {"F5", "reload the scene", GLFW_KEY_F5, 0, 0, [this] { scene.reload(); }},
       {"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, [this] { scene.undo(); }, true},
       {"Ctrl+Shift+Z", "redo", GLFW_KEY_Z, ctrl | shift, 0, [this] { scene.redo(); }, true},
@@ -93,6 +95,17 @@ std::vector<Command> App::make_commands() {
       {"F12", "save the picture", GLFW_KEY_F12, 0, 0, [this] { shot_wanted_ = Shot::picture; }},
       {"Shift+F12", "save the whole window", GLFW_KEY_F12, shift, 0, [this] { shot_wanted_ = Shot::window; }},
   };
+}
+
+void App::ask_for_scene() {
+  files.ask({"Open", {".toml"}, false, [this](const std::string& path, Overwrite) { scene.open(path); }},
+            scene.editor().is_file() ? scene.editor().source() : "");
+}
+
+void App::ask_where_to_save() {
+  const auto save = [this](const std::string& path, Overwrite overwrite) { scene.save_as(path, overwrite); };
+  files.ask({"Save", {".toml"}, true, save},
+            scene.editor().is_file() ? scene.editor().source() : scene.editor().source() + ".toml");
 }
 
 // ---- the context ----
@@ -131,6 +144,7 @@ void App::restore(const KeptState& kept, const std::vector<std::string>& overrid
   view.kept = kept.cameras;
   const auto sets_camera = [](const std::string& set) { return set.starts_with("view.camera"); };
   if (std::ranges::none_of(overrides, sets_camera)) view.recall_camera(scene.editor().source());
+  if (!layout.panels) messages.info("Tab shows the panels, F1 all keys.");
 }
 
 KeptState App::kept_state() const {
@@ -143,6 +157,15 @@ KeptState App::kept_state() const {
   kept.film_text = film.settings.text;
   kept.cameras = view.kept_with(scene.editor().source());
   return kept;
+}
+
+bool App::may_close() {
+  if (closing == Closing::no && scene.editor().changed()) {
+    closing = Closing::asked;
+    touch();
+    return false;
+  }
+  return true;
 }
 
 std::string App::title() const {
@@ -192,11 +215,13 @@ void App::deliver_keys() {
     // F1 and those after it are in no text.
     const bool typing = gui_->takes_keyboard() && !(event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F25);
     if (event.character == 0 || typing) gui_->key(event);
-    if (typing || event.action == GLFW_RELEASE) continue;
+    if (typing || (event.character == 0 && event.action == GLFW_RELEASE)) continue;
     if (event.character != 0) {
       commands_.on_character(static_cast<char32_t>(event.character));
     } else if (event.key == GLFW_KEY_ESCAPE && event.action == GLFW_PRESS) {
       help_visible = false;
+      closing = Closing::no;
+      files.close();
       messages.dismiss();
     } else {
       commands_.on_key(event.key, event.modifiers, event.action == GLFW_REPEAT);
@@ -264,9 +289,11 @@ Status App::make_picture(const WindowSize& size, double dt) {
   picture.count(dt);
   gui_->begin(dt);
   view.text_scale = gui_->scale();
-  view.box = draw_panels(
-      {*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, help_visible},
-      size.width, size.height);
+  view.box = draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer,
+                          layout, files, closing, help_visible},
+                         size.width, size.height);
+  if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
+    view.frame_bodies(simulation.model(), simulation.snapshot());
   ASPIC_CHECK(picture.show(size));
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();

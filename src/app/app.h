@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/file_dialog.h"
 #include "app/film.h"
 #include "app/gui.h"
 #include "app/hands.h"
 #include "app/kept_state.h"
 #include "app/messages.h"
+#include "app/panels.h"
 #include "app/pointer.h"
 #include "app/run_control.h"
 #include "app/scene_control.h"
@@ -61,6 +63,11 @@ class App final : public EventReceiver {
   /// How long to wait for events before the next picture, `since` the last one [s]; 0: none, it is due.
   double wait(double since) const;
   std::string title() const;
+  /// The window was asked to close. False if there are changes that would be lost: a page asks then, and a
+  /// second request is an answer.
+  bool may_close();
+  /// That page was answered: the window closes.
+  bool closes() const { return closing == Closing::decided; }
   /// What to remember for the next time; the window's own place is not known here.
   KeptState kept_state() const;
   Gui& gui() { return *gui_; }
@@ -82,6 +89,8 @@ class App final : public EventReceiver {
   Film film;
   Pointer pointer;
   Layout layout;
+  FileDialog files;
+  Closing closing = Closing::no;
   bool help_visible = false;
 
  private:
@@ -89,6 +98,8 @@ class App final : public EventReceiver {
   Status attach(gl::Context& context, double scale, WindowServices services);
   std::vector<Command> make_commands();
   void deliver_keys();
+  void ask_for_scene();
+  void ask_where_to_save();
   Status make_picture(const WindowSize& size, double dt);
   void touch() {
     still_for_ = 0.0;

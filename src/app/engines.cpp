@@ -46,13 +46,8 @@ EnergySample Engines::measured(const State& state) const {
   return {static_cast<double>(state.step) * model_->simulation.timestep, measure(*model_, state), state.step};
 }
 
-Outcome Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry) {
+Result<Outcome> Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry) {
   Outcome outcome;
-  if (const Status done = try_outside(limits, hurry, outcome); !done) outcome.error = done.error();
-  return outcome;
-}
-
-Status Engines::try_outside(const JobLimits& limits, const std::atomic<bool>& hurry, Outcome& outcome) {
   const auto end = Clock::now() + std::chrono::duration<double>(limits.seconds);
   const bool shadow_first = shadow_paces();
   const bool both = !shadow_first && !limits.alone && shadowed() && !in_context(shadow_);
@@ -89,19 +84,13 @@ Status Engines::try_outside(const JobLimits& limits, const std::atomic<bool>& hu
       outcome.shadow = {std::move(other_start), std::nullopt};
     }
   }
-  return {};
+  return outcome;
 }
 
 Status Engines::follow(Outcome& outcome) {
   if (shadow_paces()) return advance(leader_, tried_steps(outcome, outcome.shadow), outcome.leader);
   if (!in_context(shadow_)) return {};
   return advance(shadow_, tried_steps(outcome, outcome.leader), outcome.shadow);
-}
-
-Result<State> Engines::advance_shadow(std::uint64_t steps) {
-  Advanced other;
-  ASPIC_CHECK(advance(shadow_, steps, other));
-  return std::move(other.state);
 }
 
 void EngineFactory::set_context(gl::Context& context) {

@@ -27,7 +27,6 @@ struct Advanced {
 
 /// What a worker's job leaves: steps done, or the energies of a state.
 struct Outcome {
-  std::optional<Error> error;
   std::uint64_t steps = 0;
   Advanced leader, shadow;             ///< each where it took part
   std::vector<EnergySample> energies;  ///< of the one that set the pace, at each sample_interval()
@@ -77,15 +76,12 @@ class Engines {
 
   /// For a worker: advances the solvers that do without the context, until `hurry` at most, which drops the
   /// step in progress. The first of them sets the pace.
-  Outcome advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry);
-  /// With the context: the solver that needs it does the steps of a job in shadow mode.
+  Result<Outcome> advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry);
+  /// With the context: the solver of shadow mode that did not takes the steps of an outcome too, if it needs
+  /// the context.
   Status follow(Outcome& outcome);
-  /// The shadow alone does so many steps, tried ones included.
-  Result<State> advance_shadow(std::uint64_t steps);
 
  private:
-  Status try_outside(const JobLimits& limits, const std::atomic<bool>& hurry, Outcome& outcome);
-
   std::unique_ptr<Model> model_;
   Backend leader_, shadow_;
 };

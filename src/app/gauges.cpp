@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -30,7 +29,7 @@ void figure(const char* label, const std::string& value, std::string_view help,
 std::string short_number(double value) {
   if (value >= 1e9) return fmt::format("{:.3g} G", value / 1e9);
   if (value >= 1e6) return fmt::format("{:.3g} M", value / 1e6);
-  if (value >= 1e4) return fmt::format("{:.3g} k", value / 1e3);
+  if (value >= 1e3) return fmt::format("{:.3g} k", value / 1e3);
   return fmt::format("{:.3g}", value);
 }
 
@@ -60,8 +59,7 @@ struct Plot {
   bool pressed = false, held = false, hovered = false;  // by the mouse
   ImDrawList& draw = *ImGui::GetWindowDrawList();
 
-  Plot(const Gui& gui, const char* name, double height, const std::deque<Sample>& samples,
-       std::string_view help)
+  Plot(Gui& gui, const char* name, double height, const std::deque<Sample>& samples, std::string_view help)
       : size(ImGui::GetContentRegionAvail().x, static_cast<float>(height * gui.scale())),
         scale(gui.scale()),
         pad(static_cast<float>(6.0 * scale)) {
@@ -69,8 +67,7 @@ struct Plot {
     pressed = ImGui::IsItemActivated();
     held = ImGui::IsItemActive();
     hovered = ImGui::IsItemHovered();
-    gui.mark("{}", name);
-    tooltip(help);
+    named(gui, name, help);
     draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 21, 23, 255), 4.0f);
     if (samples.size() < 2) return;
     start = samples.front().time;
@@ -159,7 +156,7 @@ double height_of(const DifferenceSample& sample) {
   return std::min(std::log10(1.0 + static_cast<double>(sample.ulp)) / 10.0, 1.0);
 }
 
-void plot_differences(const Gui& gui, const std::deque<DifferenceSample>& samples) {
+void plot_differences(Gui& gui, const std::deque<DifferenceSample>& samples) {
   const Plot plot(
       gui, "shadow/plot", 70.0, samples,
       "Largest difference of any component of the state over time, in units in the last place: the bottom is "
@@ -186,10 +183,9 @@ void pass_times(Gui& gui, GpuSolver& solver) {
   // Measured only while it is shown: a measured step takes a little longer.
   solver.set_profiling(true);
   ImGui::TextDisabled("Passes of a step");
-  gui.mark("performance/passes");
-  tooltip(
-      "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
-      "last steps measured, from time stamps.");
+  named(gui, "performance/passes",
+        "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
+        "last steps measured, from time stamps.");
   const std::vector<gl::PassTime> passes = solver.pass_times();
   if (passes.empty()) {
     ImGui::TextDisabled("   not measured yet");
@@ -229,12 +225,18 @@ void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
          "Simulated seconds per second.");
   figure("Pictures",
          fmt::format("{:.0f}/s, {:.1f} ms each", picture.pictures_per_second(), 1e3 * picture.draw_seconds()),
-         "Pictures per second, and the time for the last one.");
+         "Pictures of the window per second, and how long the last one of the scene took.");
   if (device.is_software) {
     figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * picture.resolution()),
-           "A software rasteriser draws: pictures are coarser while something moves.");
+           "A software rasteriser draws: pictures are coarser while something moves. At rest and when saved "
+           "they "
+           "are of full size.");
   }
-  if (s.gpu()) pass_times(gui, *s.gpu());
+  if (s.gpu() && device.is_software)
+    figure("Passes of a step", "not timed",
+           "A software device's time stamps do not say when its passes ran.");
+  else if (s.gpu())
+    pass_times(gui, *s.gpu());
   const Model& model = s.model();
   figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
   figure("Springs", fmt::format("{}", spring_count(model)), "Springs of all types.");
@@ -274,11 +276,10 @@ void energy_section(Gui& gui, const Simulation& s, RunControl& run) {
 void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
   const std::vector<const BackendRow*> others = others_than(s.backend());
   bool on = s.shadowed();
-  if (ImGui::Checkbox("second backend", &on)) run.set_shadow(on ? others.front() : nullptr);
-  gui.mark("shadow/on");
-  tooltip(
-      "Another backend does the same steps, and after each job of steps the two states are compared. The "
-      "picture shows the leading backend; speed is limited by the slower one.");
+  if (check_box(gui, "compare with a second backend", "shadow/on", on,
+                "Another backend does the same steps, and after each job of steps the two states are "
+                "compared. The picture shows the leading backend; speed is limited by the slower one."))
+    run.set_shadow(on ? others.front() : nullptr);
   if (!s.shadowed()) return;
   // A machine with two backends has no choice to offer.
   for (std::size_t i = 0; others.size() > 1 && i < others.size(); ++i) {

@@ -2,6 +2,7 @@
 // The panels around the scene. Widgets of scene values are made from the parameter table.
 #include <cstddef>
 
+#include "app/file_dialog.h"
 #include "app/film.h"
 #include "app/gui.h"
 #include "app/hands.h"
@@ -16,6 +17,9 @@
 
 namespace aspic::app {
 
+/// Whether the window may go with changes that were not saved.
+enum class Closing { no, asked, decided };
+
 /// What the panels show and change; a section gets of it what it uses.
 struct PanelParts {
   Gui& gui;
@@ -29,6 +33,8 @@ struct PanelParts {
   Film& film;
   const Pointer& pointer;
   Layout& layout;
+  FileDialog& files;
+  Closing& closing;
   bool& help_visible;
 };
 
@@ -47,8 +53,9 @@ void contact_section(Gui& gui, SceneControl& scene);
 void balls_section(Gui& gui, const Simulation& simulation, Hands& hands);
 void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout);
 void recording_section(Gui& gui, const std::string& source, Film& film);
-/// A button for each format of states; part of the recording section.
-void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages);
+/// A button for each format of states; part of the recording section. The references must outlive `files`.
+void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
+                 FileDialog& files);
 void performance_section(Gui& gui, Simulation& simulation, const ScenePicture& picture);
 void energy_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
@@ -59,7 +66,5 @@ void particle_readout(const Gui& gui, const Simulation& simulation, const Hovere
                       double above);
 /// What the colours mean, in the lower right corner of the view. Returns how much of its height is taken.
 double draw_legend(const Gui& gui, const Legend& legend, const Box& view);
-/// The bar of the history, into that box.
-void draw_timeline(Gui& gui, const Simulation& simulation, RunControl& run, const Box& box);
 
 }  // namespace aspic::app

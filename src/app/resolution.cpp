@@ -12,7 +12,7 @@ constexpr double room = 0.85;
 /// machine was busy, is tried again where the others leave hope.
 constexpr int oldest = 60;
 /// Pictures before a finer share is taken up again.
-constexpr int patience = 90;
+constexpr int patience = 200;
 
 double pixels(std::size_t i) {
   return Resolution::shares[i] * Resolution::shares[i];

@@ -27,7 +27,8 @@ class SceneControl {
   /// Opens the built-in scene that comes so many places later in the list, which goes round.
   void open_neighbour(int offset);
   void reload();
-  void save_as(const std::string& path);
+  /// The file is the one that is open from then on.
+  void save_as(const std::string& path, Overwrite overwrite = Overwrite::refuse);
   void undo();
   void redo();
 

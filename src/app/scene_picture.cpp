@@ -53,7 +53,7 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
   c.model = simulation_.model_number();
   c.state = simulation_.picture_number();
   c.view = scene_.view;
-  c.view.camera = view_.camera.shown();
+  c.view.camera = view_.seen();
   c.shadows = shadows;
   c.film = film;
   c.fine = in_full() || (fine && !film);

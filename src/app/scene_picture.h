@@ -1,6 +1,5 @@
 #pragma once
 // The picture of the scene in the window: drawn where something changed, kept where nothing did.
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>

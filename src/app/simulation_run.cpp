@@ -80,13 +80,6 @@ Status Simulation::step_now() {
   return moved ? refresh_snapshot() : fall_back(moved.error());
 }
 
-/// The shadow does so many steps, tried ones included, on this thread and is compared with the snapshot.
-Status Simulation::compare_shadow(std::uint64_t steps) {
-  ASPIC_TRY(const auto other, engines_.advance_shadow(steps));
-  samples_.compare(time(), snapshot_, other);
-  return {};
-}
-
 void Simulation::note(std::uint64_t steps, const std::optional<Divergence>& divergence) {
   step_ += steps;
   pacer_.did(steps);
@@ -157,7 +150,10 @@ Status Simulation::start_steps(std::uint64_t to, double budget) {
   ASPIC_CHECK(advance_here(to - step_, budget));
   if (!shadowed()) return {};
   ASPIC_CHECK(refresh_snapshot());
-  return compare_shadow(step_ - before + (divergence_ ? 1 : 0));
+  Outcome outcome;
+  outcome.steps = step_ - before;
+  outcome.leader = {snapshot_, divergence_};
+  return follow(std::move(outcome));
 }
 
 /// Steps of the leader, in the context, in batches.
@@ -202,22 +198,21 @@ void Simulation::start_job(std::uint64_t to, double budget, bool alone, std::opt
     progress_ = Clock::now();
   }
   job_to_ = to;
-  worker_.start([=, this](const std::atomic<bool>& hurry) {
-    Outcome outcome;
-    const Status pulled = engines_.use_context() ? Status() : engines_.set_pull(pull);
-    if (pulled)
-      outcome = engines_.advance_outside({job_step_, std::max(to, job_step_), budget, alone}, hurry);
-    else
-      outcome.error = pulled.error();
+  const auto job = [=, this](const std::atomic<bool>& hurry) -> Result<Outcome> {
+    ASPIC_CHECK(engines_.use_context() ? Status() : engines_.set_pull(pull));
+    const JobLimits limits = {job_step_, std::max(to, job_step_), budget, alone};
+    ASPIC_TRY(Outcome outcome, engines_.advance_outside(limits, hurry));
     outcome.pull = pull;
     job_step_ += outcome.steps;
-    outcomes_.put(std::move(outcome));
-  });
+    return outcome;
+  };
+  worker_.start([this, job](const std::atomic<bool>& hurry) { outcomes_.put(job(hurry)); });
 }
 
 Status Simulation::collect() {
   while (auto outcome = outcomes_.take()) {
-    ASPIC_CHECK(take(std::move(*outcome)));
+    ASPIC_TRY(Outcome done, std::move(*outcome));
+    ASPIC_CHECK(take(std::move(done)));
   }
   return {};
 }
@@ -230,7 +225,6 @@ Status Simulation::take(Outcome outcome) {
     change_result_ = finish_change(std::move(change));
     return {};
   }
-  if (outcome.error) return *outcome.error;
   const bool stepped = outcome.steps > 0 || outcome.leader.divergence || outcome.shadow.divergence;
   if (stepped && !seek_) {
     single_steps_ -= std::min(single_steps_, std::max<std::uint64_t>(outcome.steps, 1));

@@ -149,6 +149,10 @@ bool Window::should_close() const {
   return glfwWindowShouldClose(window_) == GLFW_TRUE;
 }
 
+void Window::set_should_close(bool close) {
+  glfwSetWindowShouldClose(window_, close ? GLFW_TRUE : GLFW_FALSE);
+}
+
 void Window::set_title(const std::string& title) {
   glfwSetWindowTitle(window_, title.c_str());
 }

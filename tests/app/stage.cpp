@@ -46,7 +46,8 @@ void Stage::TearDown() {
 }
 
 void Stage::open(const std::string& scene, std::vector<std::string> overrides, std::string_view backend) {
-  static const app::KeptState never_closed;
+  app::KeptState never_closed;
+  never_closed.pace = app::Pace::steps_per_frame;  // as many steps a picture, however long it takes
   open(scene, std::move(overrides), backend, never_closed);
 }
 

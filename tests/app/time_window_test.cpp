@@ -134,7 +134,7 @@ TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
   run_to(10);
   click("section/View");  // which, with the plot of energies, leaves the others no room
   click("section/Energy");
-  click("section/Shadow");
+  click("section/Compare backends");
   click("shadow/on");
   ASSERT_TRUE(simulation().shadowed());
   run_to(120);
@@ -363,8 +363,7 @@ TEST_F(Time, CtrlDragPullsAndCtrlRightClickPins) {
        "reference");
   frames(3);
   const auto& view = app().view.box;
-  const Camera camera(app().view.camera.shown(), static_cast<int>(view.right - view.left),
-                      static_cast<int>(view.bottom - view.top));
+  const Camera camera = app().view.lens();
   const Vec3 corner = simulation().snapshot().position[999];
   const auto seen = test::project(camera, corner);
   ASSERT_TRUE(seen.has_value());
