@@ -213,7 +213,9 @@ void App::deliver_keys() {
     const KeyEvent event = keys_.front();
     keys_.pop_front();
     // F1 and those after it are in no text.
-    const bool typing = gui_->takes_keyboard() && !(event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F25);
+    const bool escapes = event.key == GLFW_KEY_ESCAPE && files.is_open();
+    const bool typing =
+        gui_->takes_keyboard() && !escapes && !(event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F25);
     if (event.character == 0 || typing) gui_->key(event);
     if (typing || (event.character == 0 && event.action == GLFW_RELEASE)) continue;
     if (event.character != 0) {

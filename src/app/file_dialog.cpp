@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <tuple>
+#include <utility>
 
 #include "app/parameter_widget.h"
 #include "base/printable.h"
@@ -83,9 +84,8 @@ void FileDialog::list(Gui& gui, double height) {
     if (!entry(e.name, printable(e.name) + (e.is_directory ? "/" : ""), e.name == name_)) continue;
     if (e.is_directory)
       next = (fs::path(directory_) / e.name).string();
-    else
-      name_ = e.name;
-    if (!e.is_directory && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) accept();
+    else if (std::exchange(name_, e.name) == e.name && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+      accept();
   }
   if (entries_.empty()) ImGui::TextDisabled("%s", problem_.empty() ? "no such files here" : problem_.c_str());
   ImGui::EndChild();

@@ -168,10 +168,12 @@ Legend ScenePicture::legend() const {
 }
 
 Status ScenePicture::save(const std::string& path) {
-  ASPIC_CHECK(draw(wanted(true), true));
-  drawn_->size = {};  // the window's own has no legend: it is drawn again
-  return save_pixels(renderer_->picture().id(), {renderer_->picture().width(), renderer_->picture().height()},
-                     path);
+  const Content content = wanted(true);
+  ASPIC_CHECK(draw(content, true));
+  const gl::Framebuffer& picture = renderer_->picture();
+  ASPIC_CHECK(save_pixels(picture.id(), {picture.width(), picture.height()}, path));
+  // The window's own has no legend.
+  return legend().empty() ? Status() : draw(content, false);
 }
 
 Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path) {

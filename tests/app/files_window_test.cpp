@@ -118,13 +118,13 @@ TEST_F(Files, SavedSceneHoldsChangesAndCamera) {
 
 TEST_F(Files, ASceneIsSavedAgainAndIsTheOneThatIsOpen) {
   open("cube-plane", {}, "reference");
-  set("contact.friction", 0.3);
+  set("contact.friction", 0.35);
   EXPECT_THAT(app().title(), testing::HasSubstr("(changed)"));
   press(GLFW_KEY_S, GLFW_MOD_CONTROL);
   frames(3);
   press(GLFW_KEY_ENTER);  // the name is there and has the keyboard
   frames(3);
-  EXPECT_EQ(load_scene((directory() / "cube-plane.toml").string())->model.contact.friction, 0.3);
+  EXPECT_EQ(load_scene((directory() / "cube-plane.toml").string())->model.contact.friction, 0.35);
   EXPECT_THAT(app().title(), testing::Not(testing::HasSubstr("(changed)")));
   EXPECT_TRUE(app().scene.editor().is_file());
   set("contact.friction", 0.4);
@@ -163,16 +163,16 @@ TEST_F(Files, ABrowserFindsAndOpensAFile) {
 
 TEST_F(Files, AFileThatWasWrittenIsAChangeThatCanBeUndone) {
   open(write("mine.toml", scene_text(4)), {}, "reference");
-  set("contact.friction", 0.3);
+  set("contact.friction", 0.35);
   write("mine.toml", scene_text(4) + "[contact]\nrestitution = 0.2\n");
   frames(40);
   EXPECT_EQ(simulation().model().contact.restitution, 0.2);
-  EXPECT_NE(simulation().model().contact.friction, 0.3);
+  EXPECT_NE(simulation().model().contact.friction, 0.35);
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("Undo brings back"));
   EXPECT_FALSE(app().scene.editor().changed());
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   frames(3);
-  EXPECT_EQ(simulation().model().contact.friction, 0.3) << "what was changed here";
+  EXPECT_EQ(simulation().model().contact.friction, 0.35) << "what was changed here";
   EXPECT_TRUE(app().scene.editor().changed());
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
   frames(3);

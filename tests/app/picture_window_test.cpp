@@ -26,7 +26,8 @@ class Picture : public Stage {
     const app::Box& box = app().view.box;
     Image view{static_cast<int>(box.right - box.left), static_cast<int>(box.bottom - box.top), {}};
     for (int y = 0; y < view.height; ++y) {
-      const auto row = window.rgb.begin() + 3 * (static_cast<int>(box.left) + (static_cast<int>(box.top) + y) * window.width);
+      const auto row = window.rgb.begin() +
+                       3 * (static_cast<int>(box.left) + (static_cast<int>(box.top) + y) * window.width);
       view.rgb.insert(view.rgb.end(), row, row + 3 * view.width);
     }
     return view;
@@ -92,7 +93,13 @@ TEST_F(Picture, ASavedPictureIsFineAndWithoutPanels) {
   frames(2);
   app().messages.dismiss();
   frames(2);
-  EXPECT_EQ(still.rgb, view().rgb);
+  const Image shown = view();
+  ASSERT_EQ(still.rgb.size(), shown.rgb.size());
+  int largest = 0;
+  for (std::size_t i = 0; i < shown.rgb.size(); ++i)
+    largest =
+        std::max(largest, std::abs(std::to_integer<int>(still.rgb[i]) - std::to_integer<int>(shown.rgb[i])));
+  EXPECT_LE(largest, 1) << "encoded anew on its way into the window";
 }
 
 TEST_F(Picture, TheLegendIsOfTheWindowsPixels) {
