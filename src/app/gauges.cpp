@@ -242,12 +242,10 @@ void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
   }
   const DifferenceSample& last = s.samples().differences().back();
   const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(last.identical ? same : other);
-  if (!std::isfinite(last.metres))
-    ImGui::TextColored(colour, "one of the two diverged");
-  else if (last.identical)
-    ImGui::TextColored(colour, "0 ULP, 0 m: every bit is the same");
-  else
-    ImGui::TextColored(colour, "%llu ULP, %.3g m", static_cast<unsigned long long>(last.ulp), last.metres);
+  const std::string text = !std::isfinite(last.metres) ? "one of the two diverged"
+                           : last.identical            ? "0 ULP, 0 m: every bit is the same"
+                                            : fmt::format("{} ULP, {:.3g} m", last.ulp, last.metres);
+  ImGui::TextColored(colour, "%s", text.c_str());
   gui.mark("shadow/difference");
   if (last.identical && s.samples().ever_differed())
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(other), "there were differences before");

@@ -153,6 +153,23 @@ std::string tooltip_of(const Parameter& p, std::size_t index) {
   return text;
 }
 
+/// Where a value would stand: what its absence means, if there is room for that.
+void absent_text(std::string_view meaning) {
+  const float width = ImGui::CalcTextSize(meaning.data(), meaning.data() + meaning.size()).x;
+  if (width > ImGui::GetContentRegionAvail().x) meaning = "unset";
+  ImGui::TextDisabled("%.*s", static_cast<int>(meaning.size()), meaning.data());
+}
+
+/// The box before a key that may be absent; true if it was toggled.
+bool presence_box(const Field& f, bool& present) {
+  const bool toggled = ImGui::Checkbox("##set", &present);
+  named(f.gui, f.key + "/set",
+        fmt::format("Checked: use this value. Unchecked: {}.\n\n{}", f.parameter.when_absent, f.help));
+  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::SetNextItemWidth(-1.0f);
+  return toggled;
+}
+
 }  // namespace
 
 std::string spaced(std::string_view key) {
@@ -256,6 +273,20 @@ void label_column(std::string_view label) {
   ImGui::SetNextItemWidth(-1.0f);
 }
 
+bool path_popup(Gui& gui, const std::string& name, PathText& path, const std::string& hint,
+                std::string_view help) {
+  if (!ImGui::BeginPopup(name.c_str())) return false;
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16.0f);
+  bool entered = ImGui::InputTextWithHint("##path", hint.c_str(), path.data(), path.size(),
+                                          ImGuiInputTextFlags_EnterReturnsTrue);
+  named(gui, name + "/path", help);
+  ImGui::SameLine();
+  entered = button(gui, (name + "/write").c_str(), "Write", "Writes the file.") || entered;
+  if (entered) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  return entered;
+}
+
 bool button(Gui& gui, const char* name, const char* label, std::string_view help, bool enabled, float width,
             std::string_view command) {
   ImGui::PushID(name);
@@ -273,27 +304,6 @@ bool command_button(Gui& gui, const char* name, const char* label, std::string_v
   if (pressed) gui.commands().run(command);
   return pressed;
 }
-
-namespace {
-
-/// Where a value would stand: what its absence means, if there is room for that.
-void absent_text(std::string_view meaning) {
-  const float width = ImGui::CalcTextSize(meaning.data(), meaning.data() + meaning.size()).x;
-  if (width > ImGui::GetContentRegionAvail().x) meaning = "unset";
-  ImGui::TextDisabled("%.*s", static_cast<int>(meaning.size()), meaning.data());
-}
-
-/// The box before a key that may be absent; true if it was toggled.
-bool presence_box(const Field& f, bool& present) {
-  const bool toggled = ImGui::Checkbox("##set", &present);
-  named(f.gui, f.key + "/set",
-        fmt::format("Checked: use this value. Unchecked: {}.\n\n{}", f.parameter.when_absent, f.help));
-  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
-  ImGui::SetNextItemWidth(-1.0f);
-  return toggled;
-}
-
-}  // namespace
 
 std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const Scene& scene,
                                              std::size_t index, const WidgetWords& words) {
@@ -338,9 +348,7 @@ void edit(Gui& gui, SceneControl& scene, std::string_view path, std::size_t inde
   const auto change = parameter_widget(gui, p, scene.scene(), index, words);
   if (!change) return;
   if (change->value) return scene.set_value(p, index, *change->value, change->gesture);
-  Scene changed = scene.scene();
-  p.clear(changed, index);
-  scene.apply(std::move(changed), key_text(p));
+  scene.change(key_text(p), [&](Scene& changed) { p.clear(changed, index); });
 }
 
 }  // namespace aspic::app

@@ -1,5 +1,6 @@
 #pragma once
 // A widget for any row of the parameter table: range, words, unit and tooltip come from there.
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,6 +58,11 @@ bool slider(Gui& gui, std::string_view label, std::string_view name, double& val
 float share_of_line(int count);
 /// A label on the left; the next widget fills the rest of the line.
 void label_column(std::string_view label);
+/// The popup of that name, which asks for a file to write; `hint` shows what an empty path means. True once a
+/// path was entered.
+using PathText = std::array<char, 1024>;
+bool path_popup(Gui& gui, const std::string& name, PathText& path, const std::string& hint,
+                std::string_view help);
 /// A button with a name for the watcher and a tooltip. True if it was pressed.
 bool button(Gui& gui, const char* name, const char* label, std::string_view help, bool enabled = true,
             float width = 0.0f, std::string_view command = "");

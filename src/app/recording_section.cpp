@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
@@ -47,7 +46,7 @@ void rate_widget(Gui& gui, FilmSettings& film) {
 
 void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
   label_column("Name");
-  std::array<char, 1024> text = {};
+  PathText text = {};
   film.path.copy(text.data(), text.size() - 1);
   const std::string hint = free_name(source, film_ending(*film.format));
   if (ImGui::InputTextWithHint("##film", hint.c_str(), text.data(), text.size())) film.path = text.data();
@@ -128,7 +127,7 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
 }
 
 void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages) {
-  static std::array<char, 1024> path = {};
+  static PathText path = {};
   for (const StateFormat& format : state_formats()) {
     const std::string name = fmt::format("save/{}{}", format.option, format.ending);
     const std::string label = fmt::format("Save {}… ({})", format.option, format.ending);
@@ -139,19 +138,12 @@ void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Me
       path = {};
       ImGui::OpenPopup(name.c_str());
     }
-    if (!ImGui::BeginPopup(name.c_str())) continue;
+    if (!ImGui::IsPopupOpen(name.c_str())) continue;
     const std::string hint = free_name(editor.source(), format.ending);
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16.0f);
-    const bool entered = ImGui::InputTextWithHint("##path", hint.c_str(), path.data(), path.size(),
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
-    gui.mark("{}/path", name);
-    tooltip(fmt::format("The file to write; if left empty, {}. Existing files are not overwritten.", hint));
-    ImGui::SameLine();
-    if (button(gui, (name + "/write").c_str(), "Write", "Writes the file.") || entered) {
+    if (path_popup(
+            gui, name, path, hint,
+            fmt::format("The file to write; if left empty, {}. Existing files are not overwritten.", hint)))
       save(format, path.data(), editor, simulation, messages);
-      ImGui::CloseCurrentPopup();
-    }
-    ImGui::EndPopup();
   }
 }
 

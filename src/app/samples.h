@@ -35,10 +35,8 @@ class Samples {
   bool ever_differed() const { return ever_differed_; }
 
   void add(const EnergySample& sample);
-  /// Compares the states of two backends at a time of the run [s].
-  void compare(double time, const State& leader, const State& shadow);
-  /// The states last compared differ in that one run diverged.
-  void one_diverged();
+  /// Compares the states of two backends at a time of the run [s], of which one alone may have diverged.
+  void compare(double time, const State& leader, const State& shadow, bool one_diverged);
   /// Forgets what came after a time [s].
   void truncate(double time);
   void clear_differences();

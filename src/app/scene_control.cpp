@@ -80,6 +80,13 @@ void SceneControl::apply(Scene scene, const std::string& name, const std::string
   take_effect(editor_.apply(std::move(scene), name, gesture));
 }
 
+void SceneControl::change(const std::string& name, const std::function<void(Scene&)>& make,
+                          const std::string& gesture) {
+  Scene changed = scene();
+  make(changed);
+  apply(std::move(changed), name, gesture);
+}
+
 void SceneControl::take_effect(Result<Effect> effect) {
   if (!effect) return messages_.error(effect.error().message);
   unchanged_for_ = 0.0;

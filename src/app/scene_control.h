@@ -1,6 +1,7 @@
 #pragma once
 // The scene that is open, kept in step with its simulation: opening, changing, undo, and the file on disk.
 #include <chrono>
+#include <functional>
 #include <string>
 
 #include "app/messages.h"
@@ -34,6 +35,8 @@ class SceneControl {
   void set_value(const Parameter& parameter, std::size_t index, const Value& value,
                  const std::string& gesture = "");
   void apply(Scene scene, const std::string& name, const std::string& gesture = "");
+  void change(const std::string& name, const std::function<void(Scene&)>& make,
+              const std::string& gesture = "");
   /// The next change is another entry for undo.
   void end_gesture() { editor_.end_gesture(); }
   /// Goes back or forth in time with the simulation: the physics of the scene is part of the run. A change

@@ -1,4 +1,4 @@
-// The sections that change the scene.
+// The sections that change the scene, or throw balls into it.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -27,20 +27,19 @@ void terrain_button(Gui& gui, SceneControl& scenes, const TerrainShapeRow& row, 
   const std::string help =
       fmt::format("Turns the first terrain into a {} at its default place. The motion continues.", label);
   if (!button(gui, name.c_str(), label.c_str(), help, true, width)) return;
-  Scene scene = scenes.scene();
-  if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
-  TerrainSettings& terrain = scene.model.terrain.front();
-  TerrainSettings other;
-  other.shape = row.value;
-  other.mass = terrain.mass;
-  other.restitution = terrain.restitution;
-  other.friction = terrain.friction;
-  terrain = other;
-  scenes.apply(std::move(scene), "terrain shape");
+  scenes.change("terrain shape", [&](Scene& scene) {
+    if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
+    TerrainSettings& terrain = scene.model.terrain.front();
+    TerrainSettings other;
+    other.shape = row.value;
+    other.mass = terrain.mass;
+    other.restitution = terrain.restitution;
+    other.friction = terrain.friction;
+    terrain = other;
+  });
 }
 
 void scene_buttons(Gui& gui, SceneControl& scene) {
-  static constexpr const char* popup = "Save scene as";
   const float third = share_of_line(3);
   command_button(gui, "scene/reload", "Reload", "Reloads the file; changes made here are discarded.",
                  "reload the scene", true, third);
@@ -49,19 +48,10 @@ void scene_buttons(Gui& gui, SceneControl& scene) {
                  third);
   ImGui::SameLine();
   if (button(gui, "scene/save", "Save as…", "Writes the scene as it is now, with this camera.", true, third))
-    ImGui::OpenPopup(popup);
-  if (!ImGui::BeginPopup(popup)) return;
-  static std::array<char, 512> path = {"my-scene.toml"};
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16.0f);
-  const bool entered =
-      ImGui::InputText("##path", path.data(), path.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-  tooltip("The file to write. Existing files are not overwritten.");
-  ImGui::SameLine();
-  if (button(gui, "scene/save/write", "Write", "Writes the file.") || entered) {
+    ImGui::OpenPopup("scene/save");
+  static PathText path = {"my-scene.toml"};
+  if (path_popup(gui, "scene/save", path, "", "The file to write. Existing files are not overwritten."))
     scene.save_as(path.data());
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
 }
 
 }  // namespace
@@ -139,6 +129,35 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
     edit(gui, scene, "simulation.implicit.cg-iterations");
     edit(gui, scene, "simulation.implicit.tolerance");
   }
+}
+
+void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
+  const float third = share_of_line(3);
+  command_button(gui, "balls/throw", "Throw",
+                 "Throws a ball from the camera into the middle of the picture; the key throws it at what is "
+                 "under the mouse.",
+                 "throw a ball", true, third);
+  ImGui::SameLine();
+  if (button(gui, "balls/many", "Throw many", "Throws a dozen balls, side by side.", true, third))
+    hands.throw_many();
+  ImGui::SameLine();
+  const std::size_t thrown = simulation.setup().thrown.size();
+  if (button(gui, "balls/clear", "Clear",
+             thrown > 0 ? fmt::format("Remove the {} thrown balls; the scene's own stay.", thrown)
+                        : std::string("There are no thrown balls; the scene's own stay."),
+             thrown > 0, third))
+    hands.clear_balls();
+  slider(gui, "Radius", "balls/radius", hands.radius, 0.02, 2.0, "%.3g m",
+         "Radius of the next ball to be thrown [m], 0.02 to 2.");
+  slider(gui, "Mass", "balls/mass", hands.mass, 0.01, 1000.0, "%.3g kg",
+         "Mass of the next ball to be thrown [kg], 0.01 to 1000.");
+  slider(gui, "Speed", "balls/speed", hands.speed, 0.5, 200.0, "%.3g m/s",
+         "Speed of the next ball to be thrown [m/s], 0.5 to 200.");
+  slider(gui, "Pull", "balls/strength", hands.strength, 0.01, 100.0, "×%.3g",
+         "How hard Ctrl+drag pulls a particle: a factor on twice the stiffness of the stiffest spring, "
+         "0.01 to 100, limited by the time step.");
+  ImGui::TextDisabled("%zu of the scene, %zu thrown",
+                      static_cast<std::size_t>(simulation.model().ball_count()) - thrown, thrown);
 }
 
 }  // namespace aspic::app

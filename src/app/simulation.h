@@ -150,14 +150,11 @@ class Simulation {
     State state;
     std::size_t scene_balls = 0;
     std::optional<Result<Engines>> engines = {};
-    std::optional<std::string> message = {};
   };
   Simulation(gl::Context& context, Setup setup, const BackendChoice& asked);
 
-  Status install(Setup setup, Result<Engines> engines, std::optional<std::string> message);
-  Status rebuild(Setup setup);
+  Status install(Setup setup, Result<Engines> engines);
   Change begin_change(Setup setup, bool keep_state) const;
-  void build(Change& change);
   Status finish_change(Change change);
   void start_change();
   Status change_setup(Setup setup, bool keep_state);

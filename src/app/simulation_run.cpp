@@ -187,7 +187,7 @@ void Simulation::start_measuring() {
   worker_.start([this, state = snapshot_](const std::atomic<bool>&) {
     Outcome outcome;
     outcome.measures = measure(model(), state);
-    outcome.leader.state = state;
+    (engines_.shadow_paces() ? outcome.shadow : outcome.leader).state = state;
     outcomes_.put(std::move(outcome));
   });
 }
@@ -248,11 +248,9 @@ Status Simulation::follow(Outcome outcome) {
   ASPIC_CHECK(engines_.follow(outcome));
   take_snapshot(std::move(outcome.leader.state));
   note(snapshot_.step - step_, outcome.leader.divergence);
-  samples_.compare(time(), snapshot_, outcome.shadow.state);
-  if (outcome.leader.divergence.has_value() != outcome.shadow.divergence.has_value()) {
-    samples_.one_diverged();
-    set_running(false);
-  }
+  const bool one_diverged = outcome.leader.divergence.has_value() != outcome.shadow.divergence.has_value();
+  samples_.compare(time(), snapshot_, outcome.shadow.state, one_diverged);
+  if (one_diverged) set_running(false);
   add_sample(engines_.shadow_paces() ? outcome.shadow.state : snapshot_, outcome.measures);
   return {};
 }
@@ -302,7 +300,8 @@ Status Simulation::seek(const Moment& moment) {
   const Keyframe& keyframe = history_.keyframe(moment);
   const bool on_the_way = moment.stretch == stretch_ && step_ <= moment.step && step_ >= keyframe.step;
   if (moment.stretch != stretch_) {
-    ASPIC_CHECK(rebuild(history_.stretch(moment.stretch).setup));
+    const Setup setup = history_.stretch(moment.stretch).setup;
+    ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
     stretch_ = moment.stretch;
   }
   if (!on_the_way) {

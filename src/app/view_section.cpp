@@ -19,20 +19,21 @@ void edit_camera(Gui& gui, CameraControl& camera, std::string_view path, std::st
 }
 
 struct Preset {
-  const char *name, *label, *help;
+  const char *name, *label;
   Vec3 from;
+  const char* help;
 };
 const Preset presets[] = {
     {"camera/front",
      "Front",
-     "Looks along −z, at the target from the front, at the same distance.",
-     {0, 0, 1}},
-    {"camera/side", "Side", "Looks along −x, at the target from the right, at the same distance.", {1, 0, 0}},
-    {"camera/top", "Top", "Looks down on the target, at the same distance.", {0, 1, 0}},
+     {0, 0, 1},
+     "Looks along −z, at the target from the front, at the same distance."},
+    {"camera/side", "Side", {1, 0, 0}, "Looks along −x, at the target from the right, at the same distance."},
+    {"camera/top", "Top", {0, 1, 0}, "Looks down on the target, at the same distance."},
     {"camera/isometric",
      "Isometric",
-     "Looks at the target along (−1, −1, −1), at the same distance.",
-     {1, 1, 1}},
+     {1, 1, 1},
+     "Looks at the target along (−1, −1, −1), at the same distance."},
 };
 
 void camera_buttons(Gui& gui, CameraControl& camera) {
