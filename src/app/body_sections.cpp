@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
-
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "base/memory.h"

@@ -71,7 +71,6 @@ class Engines {
   void set_leader(Backend engine) { leader_ = std::move(engine); }
   void set_shadow(Backend engine) { shadow_ = std::move(engine); }
   void swap() { std::swap(leader_, shadow_); }
-  /// To all solvers.
   Status load(const State& state);
   Status set_pull(const std::optional<Pull>& pull);
 
@@ -90,7 +89,6 @@ class Engines {
   std::chrono::steady_clock::time_point next_measured_ = {};  // not before
 };
 
-/// Makes solvers in the window's context.
 class EngineFactory {
  public:
   /// `asked`: what solvers that have it are asked for, beside their row.

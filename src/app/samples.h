@@ -29,7 +29,6 @@ class Samples {
  public:
   /// The whole run stays in the plot: long runs become less dense.
   const std::deque<EnergySample>& energies() const { return energies_; }
-  /// The newest ones.
   const std::deque<DifferenceSample>& differences() const { return differences_; }
   /// Since shadow mode began, or the last change of setup.
   bool ever_differed() const { return ever_differed_; }

@@ -19,7 +19,6 @@ class SceneControl {
 
   const SceneEditor& editor() const { return editor_; }
   const Scene& scene() const { return editor_.scene(); }
-  /// That of the simulation.
   const Solver& solver() const { return simulation_.solver(); }
 
   /// Opens a file or built-in scene; on an error the old one stays and a message says why.

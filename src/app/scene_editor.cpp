@@ -49,12 +49,8 @@ Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std
   editor.scene_ = std::move(scene);
   editor.source_ = source;
   editor.overrides_ = std::move(overrides);
-  editor.look_at_file();
+  if (!builtin_scene_text(source)) editor.modified_ = time_of(source);
   return editor;
-}
-
-void SceneEditor::look_at_file() {
-  modified_ = builtin_scene_text(source_) ? std::nullopt : time_of(source_);
 }
 
 Result<SceneEditor> SceneEditor::other(const std::string& source) const {

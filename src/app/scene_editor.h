@@ -66,7 +66,6 @@ class SceneEditor {
     Scene scene;
     std::string name;
   };
-  void look_at_file();
   Effect swap_with(std::vector<Entry>& from, std::vector<Entry>& to);
 
   Scene scene_;

@@ -51,7 +51,6 @@ class ScenePicture {
 
   /// Where the last picture is in the window [window units]; a film of another shape has margins.
   const Box& shown() const { return shown_; }
-  /// Counts pictures drawn.
   std::uint64_t number() const { return number_; }
   /// Whether indices in the last picture are those of the simulation's model.
   bool is_of_model() const { return drawn_ && drawn_->model == simulation_.model_number(); }

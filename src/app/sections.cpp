@@ -2,10 +2,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "model/terrain.h"
@@ -13,13 +9,6 @@
 
 namespace aspic::app {
 namespace {
-
-bool holds(std::string_view text, std::string_view word) {
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-  };
-  return word.empty() || std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
-}
 
 /// A terrain of another shape with the same surface.
 void terrain_button(Gui& gui, SceneControl& scenes, const TerrainShapeRow& row, float width) {
@@ -59,16 +48,16 @@ void scene_buttons(Gui& gui, SceneControl& scene) {
 void scene_section(Gui& gui, SceneControl& scene) {
   static ImGuiTextFilter filter;
   ImGui::SetNextItemWidth(-1.0f);
-  ImGui::InputTextWithHint("##search", "search scenes", filter.InputBuf, sizeof filter.InputBuf);
+  if (ImGui::InputTextWithHint("##search", "search scenes", filter.InputBuf, sizeof filter.InputBuf))
+    filter.Build();
   named(gui, "scene/search",
         "Shows scenes whose name or description contains this. A scene file is opened by dropping it on the "
         "window.");
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
-    const std::string_view word = filter.InputBuf;
-    if (!holds(builtin.name, word) && !holds(builtin.description, word)) continue;
-    const std::string name(builtin.name);
+    const std::string name(builtin.name), description(builtin.description);
+    if (!filter.PassFilter(name.c_str()) && !filter.PassFilter(description.c_str())) continue;
     if (ImGui::Selectable(name.c_str(), name == scene.editor().source())) scene.open(name);
-    named(gui, "scene/" + name, builtin.description);
+    named(gui, "scene/" + name, description);
   }
   if (scene.editor().is_file()) {
     ImGui::Selectable(scene.editor().source().c_str(), true);

@@ -30,10 +30,6 @@ Result<std::unique_ptr<Simulation>> Simulation::create(gl::Context& context, con
 Simulation::Simulation(gl::Context& context, Setup setup, const BackendChoice& asked)
     : setup_(std::move(setup)), factory_(context, asked), history_(most_history_bytes) {}
 
-Simulation::~Simulation() {
-  worker_.abandon();
-}
-
 /// On an error nothing changes.
 Status Simulation::install(Setup setup, Result<Engines> engines) {
   if (!engines) return engines.error();

@@ -33,7 +33,6 @@ class Simulation {
   static Result<std::unique_ptr<Simulation>> create(gl::Context& context, const Scene& scene,
                                                     const BackendRow& backend,
                                                     const BackendChoice& asked = {});
-  ~Simulation();
 
   // ---- what is simulated, and by whom ----
   /// Runs a changed scene from now on. With `keep_state` the motion goes on with other constants, where the
@@ -167,7 +166,6 @@ class Simulation {
   Status advance_here(std::uint64_t steps, double budget);
   bool idle() const { return !worker_.busy() && outcomes_.empty(); }
   bool steps_quickly() const;
-  Status step_now();
   Status step_singly();
   Status show_figures();
   Status start_steps(std::uint64_t to, double budget);

@@ -61,32 +61,21 @@ bool Simulation::steps_quickly() const {
 
 Status Simulation::single_step() {
   if (running_ || divergence_) return {};
-  if (!steps_quickly()) {
-    ++single_steps_;
-    return {};
-  }
-  ASPIC_CHECK(settle());
-  return step_now();
-}
-
-Status Simulation::step_now() {
-  if (const auto next = history_.after(here())) {
-    ASPIC_CHECK(seek(*next));
-    return halt(true);
-  }
-  ASPIC_CHECK(start_steps(step_ + 1, std::numeric_limits<double>::infinity()));
-  worker_.wait();
-  const Status moved = collect();
-  return moved ? refresh_snapshot() : fall_back(moved.error());
+  ++single_steps_;
+  return steps_quickly() ? settle() : Status();
 }
 
 void Simulation::note(std::uint64_t steps, const std::optional<Divergence>& divergence) {
   step_ += steps;
   pacer_.did(steps);
   if (steps > 0) ++picture_number_;
-  if (!seek_) history_.reach(step_);
+  if (!seek_) {
+    history_.reach(step_);
+    single_steps_ -= std::min(single_steps_, steps);
+  }
   if (divergence) {
     set_running(false);
+    single_steps_ = 0;
     seek_.reset();
     divergence_ = divergence;
   }
@@ -118,7 +107,7 @@ Status Simulation::show_figures() {
   return {};
 }
 
-/// The next of the single steps that a model takes long for.
+/// The next of the single steps that were asked for.
 Status Simulation::step_singly() {
   if (!idle()) return {};
   if (const auto next = history_.after(here())) {
@@ -227,10 +216,7 @@ Status Simulation::take(Outcome outcome) {
     return {};
   }
   const bool stepped = outcome.steps > 0 || outcome.leader.divergence || outcome.shadow.divergence;
-  if (stepped && !seek_) {
-    single_steps_ -= std::min(single_steps_, std::max<std::uint64_t>(outcome.steps, 1));
-    if (history_.pull_at(here()) != outcome.pull) history_.set_pull(step_, outcome.pull);
-  }
+  if (stepped && !seek_ && history_.pull_at(here()) != outcome.pull) history_.set_pull(step_, outcome.pull);
   if (shadowed() && stepped && !seek_) return follow(std::move(outcome));
   const bool in_context = Engines::in_context(engines_.leader());
   const State& paced = engines_.shadow_paces() ? outcome.shadow.state : outcome.leader.state;
@@ -268,8 +254,10 @@ Status Simulation::halt(bool arrive) {
 
 Status Simulation::settle() {
   ASPIC_CHECK(halt(true));
-  for (std::uint64_t n = std::exchange(single_steps_, 0); n > 0 && !divergence_; --n) {
-    ASPIC_CHECK(step_now());
+  while (single_steps_ > 0 && !divergence_) {
+    ASPIC_CHECK(step_singly());
+    worker_.wait();
+    ASPIC_CHECK(halt(true));
   }
   return {};
 }
