@@ -276,13 +276,12 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   assert(p.model && state.particles);
   const gl::Buffer& particles = *state.particles;
   assert(particles.bytes() >= sizeof(layout::Particle) * p.model->particle_count());
-  Status ready = p.prepare_targets(width, height, options.samples);
-  if (ready && options.highlight) ready = p.prepare_highlight();
   const ViewSettings& view = options.view;
-  if (ready && (p.has(SurfaceStyle::cords) || draws_springs(view.draw)))
-    ready = p.buffers->prepare_lines(*p.context, *p.model);
-  if (ready && shows_springs(view.colour)) ready = p.buffers->prepare_incident(*p.context, *p.model, state);
-  if (!ready) return ready;
+  ASPIC_CHECK(p.prepare_targets(width, height, options.samples));
+  if (options.highlight) ASPIC_CHECK(p.prepare_highlight());
+  if (p.has(SurfaceStyle::cords) || draws_springs(view.draw))
+    ASPIC_CHECK(p.buffers->prepare_lines(*p.context, *p.model));
+  if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
   p.buffers->use_coarse_skin(options.coarse_skin);
   const Camera camera(view.camera, width, height);
   const QuantityRange range = options.range.value_or(default_range(*p.model, view.colour));
@@ -294,7 +293,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
       frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows, state.step});
   std::vector<Terrain> terrain;
   for (const Terrain& t : p.model->terrain)
-    terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
+    if (!options.background) terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
   p.drawn_state = state;
   p.drawn_settings = view.draw;
   p.bind_frame(p.drawn_frame);
@@ -306,14 +305,16 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.colour_map.bind(UNIT_COLOUR_MAP);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  if (const auto& c = options.background) glClearColor((*c)[0], (*c)[1], (*c)[2], 1.0f);
+  glClear(GL_DEPTH_BUFFER_BIT | (options.background ? GL_COLOR_BUFFER_BIT : 0u));
+  glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
   p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
   if (view.draw.solid) p.buffers->rods().draw(p.programs);
   if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
   p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
   // The last opaque part: only where there is nothing else.
-  p.fill(p.programs.sky);
+  if (!options.background) p.fill(p.programs.sky);
   if (view.draw.solid && p.has(SurfaceStyle::sheet)) p.draw_sheets(particles, view);
   p.terrain.draw_far_glass(p.programs, terrain);
   if (solid) {
