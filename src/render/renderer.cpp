@@ -84,6 +84,7 @@ struct Renderer::Parts {
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
   void draw_thickness(const gl::Buffer& particles) const;
+  void draw_rods_and_balls(const DeviceState& state, const DrawSettings& draw) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
   void draw_springs(const gl::Buffer& particles, const DrawSettings& draw, ViewColour mode) const;
   void draw_sheets(const gl::Buffer& particles, const ViewSettings& view) const;
@@ -197,6 +198,16 @@ void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
   targets->thickness.colour.bind(UNIT_THICKNESS);
 }
 
+void Renderer::Parts::draw_rods_and_balls(const DeviceState& state, const DrawSettings& draw) const {
+  programs.rods.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
+  glUseProgram(programs.rods.id());
+  if (draw.solid) buffers->rods().draw();
+  if (!draws_balls(draw)) return;
+  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  buffers->balls().draw(programs.balls, state);
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+}
+
 void Renderer::Parts::draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const {
   if (!draw.particles) return;
   programs.particles.set(LOCATION_RADIUS, static_cast<float>(particle_radius(buffers->spacing())));
@@ -306,8 +317,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
   p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
-  if (view.draw.solid) p.buffers->rods().draw(p.programs);
-  if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
+  p.draw_rods_and_balls(state, view.draw);
   p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
   // The last opaque part: only where there is nothing else.
