@@ -19,15 +19,8 @@ double spring_radius(double spacing, SpringType type) {
 }
 
 bool draws(const DrawSettings& draw, SpringType type) {
-  switch (type) {
-    case SpringType::structural:
-      return draw.structural;
-    case SpringType::shear:
-      return draw.shear;
-    case SpringType::bending:
-      return draw.bending;
-  }
-  return false;
+  const bool by_type[] = {draw.structural, draw.shear, draw.bending};
+  return by_type[static_cast<std::size_t>(type)];
 }
 
 bool draws_as_cord(const DrawSettings& draw, const SpringRun& run) {

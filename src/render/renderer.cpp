@@ -50,16 +50,9 @@ Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const 
 }  // namespace
 
 struct Renderer::Parts {
-  Parts(gl::Context& c, RenderPrograms p, OverlayPainter o, TerrainPainter t, LightMaps l)
-      : context(&c),
-        programs(std::move(p)),
-        overlay(std::move(o)),
-        terrain(std::move(t)),
-        lights(std::move(l)) {}
-
-  gl::Context* context;
+  gl::Context* context = nullptr;
   RenderPrograms programs;
-  OverlayPainter overlay;
+  std::optional<OverlayPainter> overlay;
   TerrainPainter terrain;
   LightMaps lights;
   gl::Texture colour_map;
@@ -117,13 +110,13 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Renderer::~Renderer() = default;
 
 Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const RendererOptions& options) {
-  ASPIC_TRY(auto programs, RenderPrograms::create(context, options.shaders));
-  ASPIC_TRY(auto overlay, OverlayPainter::create(context, options.shaders));
-  ASPIC_TRY(auto terrain, TerrainPainter::create(context));
-  ASPIC_TRY(auto lights, LightMaps::create(context));
-  auto parts = std::make_unique<Parts>(context, std::move(programs), std::move(overlay), std::move(terrain),
-                                       std::move(lights));
+  auto parts = std::make_unique<Parts>();
+  parts->context = &context;
   parts->shaders = options.shaders;
+  ASPIC_TRY(parts->programs, RenderPrograms::create(context, options.shaders));
+  ASPIC_TRY(parts->overlay, OverlayPainter::create(context, options.shaders));
+  ASPIC_TRY(parts->terrain, TerrainPainter::create(context));
+  ASPIC_TRY(parts->lights, LightMaps::create(context));
   ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
   parts->colour_map.upload(colour_map_texels());
   ASPIC_TRY(parts->frame,
@@ -285,13 +278,12 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   assert(p.model && state.particles);
   const gl::Buffer& particles = *state.particles;
   assert(particles.bytes() >= sizeof(layout::Particle) * p.model->particle_count());
-  Status ready = p.prepare_targets(width, height);
-  if (ready && options.highlight) ready = p.prepare_highlight();
   const ViewSettings& view = options.view;
-  if (ready && (p.has(SurfaceStyle::cords) || draws_springs(view.draw)))
-    ready = p.buffers->prepare_lines(*p.context, *p.model);
-  if (ready && shows_springs(view.colour)) ready = p.buffers->prepare_incident(*p.context, *p.model, state);
-  if (!ready) return ready;
+  ASPIC_CHECK(p.prepare_targets(width, height));
+  if (options.highlight) ASPIC_CHECK(p.prepare_highlight());
+  if (p.has(SurfaceStyle::cords) || draws_springs(view.draw))
+    ASPIC_CHECK(p.buffers->prepare_lines(*p.context, *p.model));
+  if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
   p.buffers->use_coarse_skin(options.coarse_skin);
   const Camera camera(view.camera, width, height);
   const QuantityRange range = options.range.value_or(default_range(*p.model, view.colour));
@@ -337,8 +329,8 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
     written = p.highlight->draw_within(*p.buffers, particles, view.draw, *options.highlight);
   p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
   if (written)
-    written = p.overlay.draw(p.targets->picture.framebuffer, options.text,
-                             options.legend ? legend_for(view, range) : Legend{});
+    written = p.overlay->draw(p.targets->picture.framebuffer, options.text,
+                              options.legend ? legend_for(view, range) : Legend{});
   glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_FRAMEBUFFER_SRGB);

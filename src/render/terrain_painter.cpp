@@ -79,8 +79,7 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
     const auto above = [&](const Vec3& x) { return dot(flat.normal, x - flat.point); };
     if ((above(camera.position) < 0.0) != from_behind) continue;
     const bool cut = row.surface != nullptr;
-    const gl::Program& plain = cut ? programs.cut_plane : programs.plane;
-    const gl::Program& shadowed = cut ? programs.shadowed_cut_plane : programs.shadowed_plane;
+    const auto& [plain, shadowed] = cut ? programs.cut_plane : programs.plane;
     if (from_behind) {
       glEnable(GL_BLEND);
       glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
