@@ -1,7 +1,5 @@
 #include "analysis/compare.h"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <cmath>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "gpu/buffer.h"
 
-#include <fmt/format.h>
 #include <glad/gl.h>
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 // Pictures on their way back from the device, several at once, so that nobody waits for the newest.
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <vector>
 

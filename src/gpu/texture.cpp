@@ -1,6 +1,5 @@
 #include "gpu/texture.h"
 
-#include <fmt/format.h>
 #include <glad/gl.h>
 
 #include <algorithm>

@@ -1,8 +1,6 @@
 #include "model/goal_net.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 

@@ -12,7 +12,6 @@
 // whose stages each need only the one before (Kutta's third-order method, which needs two, does not fit).
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <span>
 #include <string_view>
 

@@ -1,7 +1,5 @@
 #include "model/model.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "model/bodies.h"

@@ -1,7 +1,6 @@
 #pragma once
 // THE parameter table: every key of a scene file, once. Parser, validator, --set, `scene show`, the window's
 // widgets and docs/scene-reference.md are all driven by it.
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
