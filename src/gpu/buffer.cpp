@@ -34,10 +34,11 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
 
   // An error from before would be taken for this allocation's; on debug contexts the message was kept.
   context.forget_errors();
+  std::uint32_t id = 0;
+  glGenBuffers(1, &id);
   Buffer buffer;
-  buffer.context_ = &context;
-  glGenBuffers(1, &buffer.id_);
-  glBindBuffer(target, buffer.id_);
+  buffer.held_ = {&context, {id, 0}};
+  glBindBuffer(target, id);
   glBufferData(target, static_cast<GLsizeiptr>(std::max(bytes, token_bytes)), nullptr,
                storage ? GL_DYNAMIC_COPY : GL_DYNAMIC_DRAW);
   const GLenum error = context.strikes(Fault::out_of_memory) ? GL_OUT_OF_MEMORY : glGetError();
@@ -49,48 +50,28 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
                 context.info().renderer, storage ? "storage" : "uniform", name, human_bytes(bytes), bytes,
                 human_bytes(context.bytes_held()), error);
   if (context.info().debug && !name.empty())
-    glObjectLabel(GL_BUFFER, buffer.id_, static_cast<GLsizei>(name.size()), name.data());
-  buffer.bytes_ = bytes;
+    glObjectLabel(GL_BUFFER, id, static_cast<GLsizei>(name.size()), name.data());
+  buffer.held_.get_deleter().bytes = bytes;
   context.bytes_held_ += bytes;
   return buffer;
 }
 
-Buffer::~Buffer() {
-  release();
-}
-
-Buffer::Buffer(Buffer&& other) noexcept
-    : context_(std::exchange(other.context_, nullptr)),
-      id_(std::exchange(other.id_, 0)),
-      bytes_(std::exchange(other.bytes_, 0)) {}
-
-Buffer& Buffer::operator=(Buffer&& other) noexcept {
-  if (this == &other) return *this;
-  release();
-  context_ = std::exchange(other.context_, nullptr);
-  id_ = std::exchange(other.id_, 0);
-  bytes_ = std::exchange(other.bytes_, 0);
-  return *this;
-}
-
-void Buffer::release() {
-  if (!id_) return;
-  glDeleteBuffers(1, &id_);
-  context_->bytes_held_ -= bytes_;
-  id_ = 0;
+void Buffer::Release::operator()(Context* context) const {
+  glDeleteBuffers(1, &id);
+  context->bytes_held_ -= bytes;
 }
 
 void Buffer::upload(std::span<const std::byte> data, std::uint64_t offset) {
-  assert(offset <= bytes_ && data.size() <= bytes_ - offset);
+  assert(offset <= bytes() && data.size() <= bytes() - offset);
   if (data.empty()) return;
-  glBindBuffer(target, id_);
+  glBindBuffer(target, id());
   glBufferSubData(target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
 }
 
 void Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
-  assert(offset <= bytes_ && data.size() <= bytes_ - offset);
+  assert(offset <= bytes() && data.size() <= bytes() - offset);
   if (data.empty()) return;
-  if (context_->dead_) {
+  if (held_->dead_) {
     // What a lost device answers is anything; this is the least likely to pass for a result.
     std::ranges::fill(data, std::byte{0xff});
     return;
@@ -99,16 +80,16 @@ void Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
   // copy.
   for (std::uint64_t at = 0; at < data.size(); at += read_part_bytes) {
     const auto size = static_cast<GLsizeiptr>(std::min(data.size() - at, read_part_bytes));
-    glBindBuffer(target, context_->read_buffer());
-    glBindBuffer(source_target, id_);
+    glBindBuffer(target, held_->read_buffer());
+    glBindBuffer(source_target, id());
     glCopyBufferSubData(source_target, target, static_cast<GLintptr>(offset + at), 0, size);
     glGetBufferSubData(target, 0, size, data.data() + at);
   }
 }
 
 void Buffer::clear() {
-  if (bytes_ == 0) return;
-  glBindBuffer(target, id_);
+  if (bytes() == 0) return;
+  glBindBuffer(target, id());
   glClearBufferData(target, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
 }
 
