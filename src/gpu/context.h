@@ -65,6 +65,7 @@ enum class Fault {
 inline constexpr std::uint64_t read_part_bytes = std::uint64_t{4} << 20;
 
 class ProgramCache;
+struct EglCandidate;
 
 /// The address of a GL function, or null: eglGetProcAddress, glfwGetProcAddress.
 using Loader = void (*(*)(const char* name))();
@@ -133,8 +134,10 @@ class Context {
   friend class Buffer;
   friend class Texture;
   friend class Pass;
-  friend class EglContextMaker;
   Context();
+  /// The context on a candidate. The error says why it does not do.
+  static Result<std::unique_ptr<Context>> create_on(const EglCandidate& candidate,
+                                                    const ContextOptions& options);
   void start(std::string platform, Loader loader);
   /// Whether an injected fault's time has come; it has only one.
   bool strikes(Fault fault);
