@@ -26,6 +26,9 @@ Status execute(const BenchOptions& options);
 /// Runs a grid of runs and writes a row for each. Errors: those of run_sweep().
 Status execute(const SweepOptions& options);
 
+/// Compares a scene's integrators and parameters, as pages with plots. Errors: those of write_report().
+Status execute(const ReportOptions& options);
+
 /// Runs the verification battery and prints its table. Errors: usage, an unknown name; check_failed.
 Status execute(const VerifyOptions& options);
 

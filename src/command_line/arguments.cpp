@@ -20,13 +20,6 @@ namespace {
 /// Largest number of repeats and of particles per edge that is read at all.
 constexpr std::uint64_t most_of_int = 1000000;
 
-struct NotBuilt {
-  std::string_view command, what;
-};
-constexpr std::array<NotBuilt, 1> not_built_commands = {{
-    {"report", "the report with plots"},
-}};
-
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -279,6 +272,22 @@ CLI::App* add_sweep(CLI::App& app, SweepOptions& sweep, RawOptions& raw) {
   return c;
 }
 
+CLI::App* add_report(CLI::App& app, ReportOptions& report) {
+  CLI::App* c =
+      add_command(app, "report", "Compare integrators and parameters, as a page with plots", report_examples);
+  add(c, "scene", "SCENE", report.scene, "scene file or built-in name");
+  add(c, "--out", "DIR", report.out, "directory for report.html, report.md, report.pdf, data and figures")
+      ->required();
+  add(c, "--only", "NAME", report.only,
+      "one section: integrators, parameters, stability, contact or backends; repeatable");
+  c->add_flag("--thorough", report.thorough, "finer maps, longer runs, larger sizes");
+  add(c, "--jobs", "N", report.jobs, "threads; default: the processors", 1024);
+  add_overrides(c, report.overrides);
+  c->add_flag("--force", report.force, "overwrite a report");
+  add_json(c, report.json, "names of the files on stdout as JSON");
+  return c;
+}
+
 CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
   CLI::App* c = add_command(
       app, "verify", "Check physics and equivalence on this machine, as a table of figures", verify_examples);
@@ -322,6 +331,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   CompareOptions compare;
   BenchOptions bench;
   SweepOptions sweep;
+  ReportOptions report;
   VerifyOptions verify;
   SceneListOptions list;
   SceneShowOptions show;
@@ -343,6 +353,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
     sweep.words.assign(argv + 2, argv + argc);
     return finish_sweep(sweep, raw);
   });
+  on(add_report(app, report), [&] { return Command(report); });
   on(add_verify(app, verify), [&] { return Command(verify); });
   const auto scenes = add_scene(app, list, show, check, import);
   on(scenes[0], [&] { return Command(list); });
@@ -354,12 +365,6 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   on(info_command, [&] { return Command(info); });
 
   if (argc < 2) return usage("no command given.\n\n{}", app.help());
-  const std::string first = argv[1];
-  for (const NotBuilt& entry : not_built_commands) {
-    if (first == entry.command) {
-      return usage("aspic {} ({}) is not built yet in version {}.", entry.command, entry.what, ASPIC_VERSION);
-    }
-  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

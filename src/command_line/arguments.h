@@ -73,6 +73,17 @@ struct SweepOptions {
   std::vector<std::string> words;  ///< the arguments after `sweep` as they were given
 };
 
+struct ReportOptions {
+  std::string scene = "cube-plane";
+  std::vector<std::string> overrides;
+  std::string out;                ///< directory
+  std::vector<std::string> only;  ///< names of sections; empty: all
+  bool thorough = false;
+  bool force = false;
+  unsigned jobs = 0;  ///< threads; 0: as many as there are processors
+  bool json = false;
+};
+
 struct VerifyOptions {
   bool quick = false;
   std::vector<std::string> only;  ///< names of checks or groups; empty: all
@@ -112,9 +123,9 @@ struct ShowText {
   std::string text;
 };
 
-using Command =
-    std::variant<ShowText, RunOptions, ViewOptions, CompareOptions, BenchOptions, SweepOptions, VerifyOptions,
-                 SceneListOptions, SceneShowOptions, SceneCheckOptions, SceneImportOptions, InfoOptions>;
+using Command = std::variant<ShowText, RunOptions, ViewOptions, CompareOptions, BenchOptions, SweepOptions,
+                             ReportOptions, VerifyOptions, SceneListOptions, SceneShowOptions,
+                             SceneCheckOptions, SceneImportOptions, InfoOptions>;
 
 /// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built
 /// yet.

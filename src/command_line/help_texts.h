@@ -11,6 +11,7 @@ inline constexpr const char* main_examples = R"(Examples:
   aspic compare cube-plane --backends gpu,reference --steps 1000
   aspic verify --quick                              check this build on this machine
   aspic sweep cube-plane --vary k=500:8000:9:log --out k.csv   a run for each stiffness, a row each
+  aspic report cube-plane --out report              integrators and parameters compared, as a page
   aspic scene check my-scene.toml                   counts, memory and stable time steps
   aspic info                                        devices and limits
 
@@ -61,6 +62,14 @@ springs (the first gets the value, the others keep their ratios to it), n the pa
 restitution and friction of all terrain. A run that diverges or that the scene rejects is a row with its reason. After a kill
 or Ctrl-C the same command continues. All columns but the last, seconds, are the same each time, whatever --jobs is;
 parts follow one another: awk 'FNR > 1 || NR == 1' k-*.csv joins them. docs/report.md explains the columns.)";
+
+inline constexpr const char* report_examples = R"(Examples:
+  aspic report cube-plane --out report              about a minute on two processors
+  aspic report my-scene.toml --out report --thorough
+  aspic report cube-plane --only stability --only contact --out part
+
+report.html is one file, light or dark as the reader's system is; report.md has its pictures beside it; report.pdf
+is made where chromium, weasyprint or wkhtmltopdf is installed. The numbers behind each figure are in data/.)";
 
 inline constexpr const char* verify_examples = R"(Examples:
   aspic verify                                      everything, a few minutes
