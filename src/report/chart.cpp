@@ -295,7 +295,14 @@ std::string xml(std::string_view text) {
 }
 
 std::string rounded(double value, int digits) {
-  return value == 0.0 ? "0" : fmt::format("{:.{}g}", value, digits);
+  if (value == 0.0) return "0";
+  std::string text = fmt::format("{:.{}g}", value, digits);
+  if (const std::size_t e = text.find('e'); e != std::string::npos) {
+    const std::string power = power_of_ten(std::stoi(text.substr(e + 1)));
+    text.resize(e);
+    text = text == "1" ? power : fmt::format("{}·{}", text, power);
+  }
+  return text;
 }
 
 std::string svg_of(const Chart& chart, const std::string& id, bool alone) {

@@ -53,7 +53,7 @@ struct Panel {
 struct Chart {
   std::vector<Panel> panels;
   std::size_t columns = 1;
-  double panel_width = 620.0, panel_height = 300.0;  ///< of the area with the data [px]
+  double panel_width = 560.0, panel_height = 300.0;  ///< of the area with the data [px]
   bool legend = true;
 };
 
@@ -70,7 +70,9 @@ extern const char* const chart_styles;
 /// Text with &, <, > and " escaped for XML.
 std::string xml(std::string_view text);
 
-/// A number for people: four digits at most, powers of ten where they are shorter.
+/// A number for people, with so many digits: 0.002048, 9.15·10⁻⁵.
 std::string rounded(double value, int digits = 4);
+/// 10⁻³
+std::string power_of_ten(int exponent);
 
 }  // namespace aspic::report

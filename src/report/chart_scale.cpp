@@ -7,17 +7,12 @@
 #include <limits>
 
 namespace aspic::report {
-namespace {
-
-/// 10⁻³
 std::string power_of_ten(int exponent) {
   constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text = exponent < 0 ? "10⁻" : "10";
   for (const char c : fmt::format("{}", std::abs(exponent))) text += digits[c - '0'];
   return text;
 }
-
-}  // namespace
 
 AxisScale::AxisScale(const ChartAxis& axis, const std::vector<double>& values)
     : log_(axis.scale == Scale::log) {
@@ -41,7 +36,7 @@ AxisScale::AxisScale(const ChartAxis& axis, const std::vector<double>& values)
     const double span = high > low ? high - low : std::max(1.0, std::abs(high));
     // An axis that begins at 0 anyway begins there exactly.
     from_ = axis.from.value_or(low >= 0.0 && low < 0.2 * span ? 0.0 : low - 0.05 * span);
-    to_ = axis.to.value_or(high + 0.05 * span);
+    to_ = axis.to.value_or(high + 0.06 * std::max(high - from_, 0.5 * span));
     if (!(to_ > from_)) to_ = from_ + 1.0;
     make_linear_ticks(6.0);
   }
@@ -68,6 +63,7 @@ void AxisScale::make_log_ticks() {
   const double decades = std::log10(to_ / from_);
   const int first = static_cast<int>(std::floor(std::log10(from_))),
             last = static_cast<int>(std::ceil(std::log10(to_)));
+  const bool plain = from_ > 0.9e-4 && to_ < 2e5;
   const int every = std::max(1, static_cast<int>(std::ceil(decades / 6.0)));
   for (int exponent = first; exponent <= last; ++exponent) {
     for (int digit = 1; digit < 10; ++digit) {
@@ -76,7 +72,6 @@ void AxisScale::make_log_ticks() {
       const bool labelled =
           digit == 1 ? exponent % every == 0 : (decades < 2.0 && (digit == 2 || digit == 5));
       if (digit > 1 && decades > 4.0) continue;
-      const bool plain = exponent >= -3 && exponent <= 4;
       Tick tick = {value, ""};
       if (labelled)
         tick.label = plain        ? fmt::format("{:.6g}", value)

@@ -29,24 +29,23 @@ Model particle(Integrator integrator, ContactModel contact, const Vec3& position
   return model;
 }
 
-/// Square root of the first apex over the height fallen from.
+/// Speed after the first impact over that before it.
 Result<double> measured_restitution(const Study& study, ContactModel contact, double e) {
-  constexpr double height = 1.0;
-  Model model = particle(study.scene.model.simulation.integrator, contact, {0, height, 0}, {});
+  Model model = particle(study.scene.model.simulation.integrator, contact, {0, 1, 0}, {});
   model.terrain[0].restitution = e;
   ASPIC_TRY(const auto solver, study.subject.reference(model, Precision::double_));
   double before = 0.0;
   for (int step = 0; step < 1000; ++step) {
     ASPIC_TRY(const auto state, verify::run(*solver, 1));
     const double v = state.velocity[0].y;
-    if (before < -0.1 && v >= 0.0)
-      return std::sqrt(std::max(0.0, state.position[0].y + v * v / (2 * g)) / height);
+    // The step of the impact gains speed first, as any other.
+    if (before < -0.1 && v >= 0.0) return v / (g * model.simulation.timestep - before);
     before = v;
   }
   return Error{ErrorCode::check_failed, "the particle never bounced"};
 }
 
-/// The same of the scene's first bodies: the rise of the centre of mass after the impact over its fall.
+/// Of the scene's bodies: square root of the rise of the centre of mass after the impact over its fall.
 Result<std::optional<double>> rebound_of_body(const Study& study, double e) {
   Scene scene = study.scene;
   scene.model.contact.restitution = e;
@@ -109,10 +108,9 @@ Result<Figure> restitution_figure(const Study& study) {
   }
   if (!soft.points.empty()) curves.push_back(std::move(soft));
   figure.caption =
-      "Restitution as set and as measured: the square root of the height regained over the height fallen. A "
-      "particle regains e² of its height under both models. The scene's body loses "
-      "most of its energy in its dampers, whatever e is, and sets its particles on the ground again and "
-      "again.";
+      "Restitution as set and as measured. A particle: its speed after the first impact over that before it; "
+      "both models give e. The scene's body: the square root of the height that its centre of mass "
+      "regains over the height fallen. It loses most of its energy in its dampers, whatever e is.";
   figure.command = "aspic verify --only contact/restitution";
   return figure;
 }
@@ -154,7 +152,8 @@ Result<Figure> friction_figure(const Study& study) {
       "Friction as set and as measured: the mean acceleration, between 1 s and 3 s after it was let go, of a "
       "5³ cube on a slope of 25°. Coulomb's friction is μN whatever the speed, and holds the cube where μ > "
       "tan θ = 0.466. "
-      "The course's grows with the speed, −μN·v, and holds nothing.";
+      "The course's formula, −μN·v, acts on particles within ε of the surface that move across it at less "
+      "than ε; those of a cube hop more than that, and it slides as on ice.";
   figure.command = "aspic verify --only contact/cone";
   return figure;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report/csv.h"
 
 namespace aspic::report {
@@ -53,7 +55,11 @@ std::string inline_html(const std::string& text) {
 
 std::string html_of(const Table& table) {
   std::string out = "<div class=\"scroll\"><table><thead><tr>";
-  for (const Column& column : table.columns) out += fmt::format("<th>{}</th>", xml(column.title));
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const bool numbers =
+        std::ranges::any_of(table.rows, [c](const auto& row) { return row[c].number.has_value(); });
+    out += fmt::format("<th{}>{}</th>", numbers ? " class=\"n\"" : "", xml(table.columns[c].title));
+  }
   out += "</tr></thead><tbody>";
   for (const std::vector<Cell>& row : table.rows) {
     out += "<tr>";
@@ -61,7 +67,7 @@ std::string html_of(const Table& table) {
       const std::string text = xml(shown(row[c], table.columns[c]));
       out += row[c].number
                  ? fmt::format("<td class=\"n\"><data value=\"{}\">{}</data></td>", raw(row[c]), text)
-                 : fmt::format("<td>{}</td>", text);
+                 : fmt::format("<td{}>{}</td>", text == "–" ? " class=\"n\"" : "", text);
     }
     out += "</tr>";
   }
@@ -88,8 +94,10 @@ std::string html_of(const Strip& strip) {
 
 std::string html_of(const Figure& figure, std::size_t number) {
   std::string out = fmt::format("<figure id=\"{}\">", figure.id);
+  out += "<div class=\"pair\">";
   if (figure.chart) out += svg_of(*figure.chart, figure.id, false);
   if (figure.table) out += html_of(*figure.table);
+  out += "</div>";
   if (figure.strip) out += html_of(*figure.strip);
   out += fmt::format("<figcaption><p><b>Figure {}.</b> {}</p>", number, inline_html(figure.caption));
   out += fmt::format("<p class=\"how\"><code>{}</code>", xml(figure.command));
@@ -114,9 +122,9 @@ figcaption{max-width:52em;font-size:15px;color:var(--ink)}figcaption p{margin:8p
 .how{font-size:12.5px;color:var(--soft);overflow-wrap:anywhere}
 code{font:.92em ui-monospace,"SF Mono","DejaVu Sans Mono",monospace;background:var(--wash);border-radius:3px;padding:1px 4px}
 .scroll{overflow-x:auto}table{border-collapse:collapse;font-size:14px;font-variant-numeric:tabular-nums;margin:4px 0}
-th,td{padding:5px 14px 5px 0;text-align:left;vertical-align:bottom;border-bottom:1px solid var(--rule)}
-th{font-weight:600;color:var(--soft);font-size:12.5px;border-bottom:1.5px solid var(--ink)}td.n{text-align:right}
-.strip{display:grid;grid-template-columns:150px repeat(var(--columns),minmax(110px,1fr));gap:5px;font-size:13px;align-items:center;min-width:760px}
+th,td{padding:5px 0 5px 14px;text-align:left;vertical-align:bottom;border-bottom:1px solid var(--rule)}
+th{font-weight:600;color:var(--soft);font-size:12.5px;border-bottom:1.5px solid var(--ink)}th:first-child,td:first-child{padding-left:0}th{max-width:9em}.n{text-align:right!important}.pair{display:flex;flex-wrap:wrap;gap:14px 34px;align-items:flex-start}.pair>svg{flex:1 1 auto}.pair>.scroll{flex:0 1 auto;margin-top:20px}
+.strip{margin-top:18px;display:grid;grid-template-columns:150px repeat(var(--columns),minmax(110px,1fr));gap:5px;font-size:13px;align-items:center;min-width:760px}
 .strip img{width:100%;display:block;border-radius:3px}.strip .head{color:var(--soft);text-align:center}
 .strip .name{line-height:1.3}.strip .name b{display:block}.strip .none{color:var(--soft);text-align:center}
 pre{background:var(--wash);padding:14px 16px;overflow-x:auto;font-size:13px;line-height:1.45;border-radius:4px}

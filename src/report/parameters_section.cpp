@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 #include "analysis/stability.h"
 #include "report/csv.h"
@@ -14,7 +15,7 @@
 namespace aspic::report {
 namespace {
 
-constexpr double sideways = 2.0;  ///< [m/s], given to bodies that have no speed of their own
+constexpr double sideways = 5.0;  ///< [m/s], given to bodies that have no speed of their own
 
 /// A parameter and what its values are from the scene's.
 struct Varied {
@@ -48,10 +49,14 @@ constexpr Varied varied[] = {
      "finer cube is heavier and softer: another body, not a better picture of the same one."},
 };
 
-/// Values as they are written: four digits.
+/// The number with so few digits.
+double short_number(double value, int digits) {
+  return std::stod(fmt::format("{:.{}g}", value, digits));
+}
+
 std::vector<std::string> words_of(const std::vector<double>& values) {
   std::vector<std::string> words;
-  for (const double value : values) words.push_back(csv_number(std::stod(rounded(value))));
+  for (const double value : values) words.push_back(csv_number(short_number(value, 3)));
   return words;
 }
 
@@ -62,7 +67,7 @@ struct Thrown {
 };
 Thrown thrown(const Study& study) {
   Thrown result;
-  result.duration = std::max(study.scene.model.simulation.duration, study.thorough ? 12.0 : 8.0);
+  result.duration = std::max(study.scene.model.simulation.duration, study.thorough ? 20.0 : 12.0);
   const auto& cubes = study.scene.model.cubes;
   for (std::size_t c = 0; c < cubes.size(); ++c) {
     if (length(cubes[c].velocity) == 0.0)
@@ -83,7 +88,7 @@ Result<double> common_step(const Study& study, const Thrown& base, std::string_v
     ASPIC_TRY(const auto model, build_model(scene->model));
     if (const auto own = study.step_for(model, model.simulation.integrator)) step = std::min(step, *own);
   }
-  return std::stod(rounded(step, 2));
+  return short_number(step, 2);
 }
 
 /// A panel of one measure over the values.
@@ -97,6 +102,10 @@ Panel measure_panel(const ShortKey& key, std::string title, std::string measure,
   const double first = std::stod(words.front()), last = std::stod(words.back());
   if (first > 0.0 && last / first > 6.0) panel.x.scale = Scale::log;
   panel.y.from = 0.0;
+  // The same for all measures, whether a value has one or not.
+  const bool log = panel.x.scale == Scale::log;
+  panel.x.from = log ? first / 1.3 : first - 0.06 * (last - first);
+  panel.x.to = log ? last * 1.3 : last + 0.06 * (last - first);
   Curve line{"", {}, Palette::category, 6, true, false};
   std::vector<Curve> marks;
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -108,6 +117,32 @@ Panel measure_panel(const ShortKey& key, std::string title, std::string measure,
   panel.curves.push_back(std::move(line));
   for (Curve& mark : marks) panel.curves.push_back(std::move(mark));
   return panel;
+}
+
+/// When the centre of mass is highest after the deepest squash [s].
+double apex(const TrialResult& result) {
+  double time = result.summary->squash_time, highest = -std::numeric_limits<double>::infinity();
+  for (const CourseSample& sample : result.samples) {
+    if (sample.time < result.summary->squash_time || sample.height <= highest) continue;
+    highest = sample.height;
+    time = sample.time;
+  }
+  return time;
+}
+
+/// A view that shows the states of all runs that ended well, each moved sideways to where it began.
+ViewSettings following_view(const ViewSettings& view, const std::vector<TrialResult>& results) {
+  std::vector<State> shown;
+  for (const TrialResult& result : results) {
+    if (result.outcome != Outcome::ok) continue;
+    for (State state : result.pictures) {
+      const Vec3 way = way_of(state);
+      for (Vec3& x : state.position) x = x - way;
+      for (Vec3& x : state.ball_position) x = x - way;
+      shown.push_back(std::move(state));
+    }
+  }
+  return framed(view, shown);
 }
 
 Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown& base, const Varied& row) {
@@ -145,10 +180,8 @@ Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown&
   // The middle value says when there is something to see.
   const std::size_t middle = words.size() / 2;
   ASPIC_CHECK(run(middle, {}));
-  if (const auto& summary = results[middle].summary) {
-    times = {summary->squash_time, 0.5 * (summary->squash_time + base.duration), base.duration};
-    std::ranges::sort(times);
-  }
+  if (const auto& summary = results[middle].summary)
+    times = {summary->squash_time, apex(results[middle]), base.duration};
   ASPIC_CHECK(study.each(words.size(), [&](std::size_t i) { return run(i, times); }));
 
   Figure figure;
@@ -188,18 +221,14 @@ Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown&
   for (std::size_t t = 0; t < times.size(); ++t)
     strip.rows[t] = {fmt::format("t = {} s", rounded(times[t], 3)), "",
                      std::vector<std::string>(words.size())};
-  std::vector<State> shown;
-  for (const TrialResult& result : results)
-    if (result.outcome == Outcome::ok)
-      shown.insert(shown.end(), result.pictures.begin(), result.pictures.end());
-  const ViewSettings view = framed(study.scene.view, shown);
+  const ViewSettings view = following_view(study.scene.view, results);
   for (std::size_t i = 0; i < words.size(); ++i) {
     const TrialResult& result = results[i];
     std::vector<Cell> cells = {std::stod(words[i]), std::string(name_of(result.outcome))};
     if (const auto& s = result.summary; s && result.outcome == Outcome::ok) {
       cells.insert(cells.end(),
                    {s->squash, s->squash_time, Cell(s->rest_time), s->end.slide, s->end.measures.total()});
-      ASPIC_TRY(auto jpegs, study.pictures(models[i], result.pictures, view));
+      ASPIC_TRY(auto jpegs, study.pictures(models[i], result.pictures, view, true));
       for (std::size_t t = 0; t < jpegs.size() && t < times.size(); ++t)
         strip.rows[t].jpegs[i] = std::move(jpegs[t]);
     } else {
@@ -210,9 +239,10 @@ Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown&
   if (study.studio) figure.strip = std::move(strip);
   std::string title(key.title);
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-  figure.caption =
-      fmt::format("{} ({}). {} Where the time to rest has no mark, something still moved after {} s.", title,
-                  key.meaning, row.says, base.duration);
+  figure.caption = fmt::format(
+      "{} ({}). {} Where the time to rest has no mark, something still moved after {} s. Pictures follow the "
+      "body sideways.",
+      title, key.meaning, row.says, base.duration);
   std::string command = fmt::format("aspic sweep {}", study.scene_words);
   for (const std::string& assignment : fixed) command += fmt::format(" --set {}", assignment);
   figure.command = fmt::format("{} --duration {} --vary {}={} --out {}.csv", command, base.duration, key.name,

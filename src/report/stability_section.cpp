@@ -66,7 +66,7 @@ Result<Figure> map_figure(const Study& study, const Model& model, const ProbeSta
   const double base = present.value_or(1.0);
   const std::string axis =
       present ? fmt::format("{} [{}]", key.title, key.unit) : fmt::format("{}, over the scene's", key.title);
-  const std::size_t rows = study.thorough ? 21 : 11, columns = study.thorough ? 31 : 16;
+  const std::size_t rows = study.thorough ? 25 : 13, columns = study.thorough ? 41 : 24;
   ASPIC_TRY(const auto limits, theory(study, model, constant, 4 * (rows - 1) + 1));
   const bool bounded = limits.largest > 0.0;
   const double h = model.simulation.timestep;

@@ -89,15 +89,28 @@ std::string Study::command(std::string_view section) const {
 }
 
 Result<std::vector<std::string>> Study::pictures(const Model& model, std::span<const State> states,
-                                                 const ViewSettings& view) const {
+                                                 const ViewSettings& view, bool follow) const {
   std::vector<std::string> jpegs;
   if (!studio) return jpegs;
   ASPIC_CHECK(studio->set_model(model));
   for (const State& state : states) {
-    ASPIC_TRY(auto jpeg, studio->jpeg(state, view, picture_size));
+    ViewSettings moved = view;
+    const Vec3 way = follow ? way_of(state) : Vec3{};
+    moved.camera.position = moved.camera.position + way;
+    moved.camera.target = moved.camera.target + way;
+    ASPIC_TRY(auto jpeg, studio->jpeg(state, moved, picture_size));
     jpegs.push_back(std::move(jpeg));
   }
   return jpegs;
+}
+
+Vec3 way_of(const State& state) {
+  Vec3 sum;
+  for (const Vec3& x : state.position) sum = sum + x;
+  for (const Vec3& x : state.ball_position) sum = sum + x;
+  const std::size_t count = state.position.size() + state.ball_position.size();
+  if (count > 0) sum = sum / static_cast<double>(count);
+  return {sum.x, 0.0, sum.z};
 }
 
 ViewSettings framed(ViewSettings view, std::span<const State> states) {

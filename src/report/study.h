@@ -51,14 +51,18 @@ class Study {
   /// `aspic report SCENE --only SECTION --out DIR`
   std::string command(std::string_view section) const;
 
-  /// A row of pictures, empty without a studio. The model outlives the call. A view that shows all states.
+  /// A row of pictures, empty without a studio; with `follow` the camera moves sideways with what is shown.
+  /// The model outlives the call.
   Result<std::vector<std::string>> pictures(const Model& model, std::span<const State> states,
-                                            const ViewSettings& view) const;
+                                            const ViewSettings& view, bool follow = false) const;
 
  private:
   unsigned jobs_;
   std::function<bool()> stop_;
 };
+
+/// Where the centre of all particles and balls is, without its height [m].
+Vec3 way_of(const State& state);
 
 /// The scene's view turned to where the states' particles are, and as near as shows them all.
 ViewSettings framed(ViewSettings view, std::span<const State> states);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 namespace aspic::report {
 
@@ -18,6 +19,12 @@ TrialResult trial_error(const Error& error) {
   result.outcome = refused ? Outcome::rejected : Outcome::failed;
   result.reason = error.message.substr(0, error.message.find('\n'));
   return result;
+}
+
+double thread_time() {
+  timespec now = {};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 Result<TrialResult> run_trial(const Model& model, const TrialOptions& options) {
@@ -53,8 +60,10 @@ Result<TrialResult> run_trial(const Model& model, const TrialOptions& options) {
         next = std::min(next, static_cast<std::uint64_t>(wanted + 0.5));
     }
     const auto before = std::chrono::steady_clock::now();
+    const double thread_before = thread_time();
     auto advanced = solver.advance(next - step);
     result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+    result.thread_seconds += thread_time() - thread_before;
     if (!advanced) return trial_error(advanced.error());
     divergence = *advanced;
     step = next;

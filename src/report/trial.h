@@ -34,6 +34,7 @@ struct TrialResult {
   std::vector<State> pictures;  ///< of `picture_times`
   std::string hash;             ///< of the last good state
   double seconds = 0.0;         ///< that its steps took, samples not counted
+  double thread_seconds = 0.0;  ///< processor time that the calling thread spent on them
 };
 
 struct TrialOptions {
@@ -43,6 +44,9 @@ struct TrialOptions {
   std::span<const double> picture_times = {};  ///< ascending [s]: states near them are kept
   std::function<bool()> stop = {};             ///< asked at each sample; true ends the run early
 };
+
+/// Processor time of the calling thread so far [s]: unlike the clock's it does not count what others do.
+double thread_time();
 
 /// Runs a model, which must outlive the call. A model that a backend rejects, a lost device and a divergence
 /// are outcomes. Error (interrupted): `stop` said so.

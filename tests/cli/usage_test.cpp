@@ -85,7 +85,9 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"view", "--size", "huge"}, 2, "--size must be"},
         Failure{{"view", "--backend", "tpu"}, 2, "auto, gpu"},
         Failure{{"verify", "--only", "odrer"}, 2, "order/midpoint"},
-        Failure{{"bench", "--repeats", "0"}, 2, "--repeats"},
+        Failure{{"bench", "--repeats", "0"}, 2, "--repeats"}, Failure{{"report"}, 2, "--out is required"},
+        Failure{{"report", "--out", "x", "--only", "integators"}, 2, "integrators, parameters"},
+        Failure{{"report", "--out", "/nonexistent/x"}, 6, "/nonexistent"},
         Failure{{"sweep", "cube-plane", "--out", "x.csv"}, 2, "--vary is required"},
         Failure{
             {"sweep", "cube-plane", "--vary", "h=1", "--out", "x.csv", "--part", "3/2"}, 2, "1 <= i <= n"},
