@@ -29,20 +29,24 @@ Model particle(Integrator integrator, ContactModel contact, const Vec3& position
   return model;
 }
 
-/// Speed after the first impact over that before it.
+/// Square root of the height regained over the height fallen, both from the lowest point.
 Result<double> measured_restitution(const Study& study, ContactModel contact, double e) {
-  Model model = particle(study.scene.model.simulation.integrator, contact, {0, 1, 0}, {});
+  constexpr double start = 1.0;  // [m]
+  Model model = particle(study.scene.model.simulation.integrator, contact, {0, start, 0}, {});
   model.terrain[0].restitution = e;
   ASPIC_TRY(const auto solver, study.subject.reference(model, Precision::double_));
-  double before = 0.0;
+  double lowest = start, apex = 0.0;
+  bool bounced = false;
   for (int step = 0; step < 1000; ++step) {
     ASPIC_TRY(const auto state, verify::run(*solver, 1));
-    const double v = state.velocity[0].y;
-    // The step of the impact gains speed first, as any other.
-    if (before < -0.1 && v >= 0.0) return v / (g * model.simulation.timestep - before);
-    before = v;
+    const double y = state.position[0].y, v = state.velocity[0].y;
+    if (bounced && v < 0.0) break;
+    bounced = bounced || (y < 0.5 * start && v >= 0.0);
+    lowest = std::min(lowest, y);
+    if (bounced) apex = std::max(apex, y);
   }
-  return Error{ErrorCode::check_failed, "the particle never bounced"};
+  if (!bounced) return Error{ErrorCode::check_failed, "the particle never bounced"};
+  return std::sqrt((apex - lowest) / (start - lowest));
 }
 
 /// Of the scene's bodies: square root of the rise of the centre of mass after the impact over its fall.
@@ -108,9 +112,10 @@ Result<Figure> restitution_figure(const Study& study) {
   }
   if (!soft.points.empty()) curves.push_back(std::move(soft));
   figure.caption =
-      "Restitution as set and as measured. A particle: its speed after the first impact over that before it; "
-      "both models give e. The scene's body: the square root of the height that its centre of mass "
-      "regains over the height fallen. It loses most of its energy in its dampers, whatever e is.";
+      "Restitution as set and as measured: the square root of the height regained over the height fallen. A "
+      "particle regains e² of the height under both models. The centre of mass of the scene's body regains "
+      "much less or more: its "
+      "dampers take most of the energy, and its springs give some of it back, whatever e is.";
   figure.command = "aspic verify --only contact/restitution";
   return figure;
 }

@@ -94,7 +94,7 @@ std::string html_of(const Strip& strip) {
 
 std::string html_of(const Figure& figure, std::size_t number) {
   std::string out = fmt::format("<figure id=\"{}\">", figure.id);
-  out += "<div class=\"pair\">";
+  out += figure.chart && figure.chart->columns == 1 ? "<div class=\"pair\">" : "<div>";
   if (figure.chart) out += svg_of(*figure.chart, figure.id, false);
   if (figure.table) out += html_of(*figure.table);
   out += "</div>";
@@ -123,7 +123,7 @@ figcaption{max-width:52em;font-size:15px;color:var(--ink)}figcaption p{margin:8p
 code{font:.92em ui-monospace,"SF Mono","DejaVu Sans Mono",monospace;background:var(--wash);border-radius:3px;padding:1px 4px}
 .scroll{overflow-x:auto}table{border-collapse:collapse;font-size:14px;font-variant-numeric:tabular-nums;margin:4px 0}
 th,td{padding:5px 0 5px 14px;text-align:left;vertical-align:bottom;border-bottom:1px solid var(--rule)}
-th{font-weight:600;color:var(--soft);font-size:12.5px;border-bottom:1.5px solid var(--ink)}th:first-child,td:first-child{padding-left:0}th{max-width:9em}.n{text-align:right!important}.pair{display:flex;flex-wrap:wrap;gap:14px 34px;align-items:flex-start}.pair>svg{flex:1 1 auto}.pair>.scroll{flex:0 1 auto;margin-top:20px}
+th{font-weight:600;color:var(--soft);font-size:12.5px;border-bottom:1.5px solid var(--ink)}th:first-child,td:first-child{padding-left:0}th{max-width:9em}.n{text-align:right!important}.pair{display:flex;flex-wrap:wrap;gap:14px 34px;align-items:flex-start}.pair>svg.chart{flex:1 1 500px;width:auto;min-width:0}.scroll{margin-top:20px}
 .strip{margin-top:18px;display:grid;grid-template-columns:150px repeat(var(--columns),minmax(110px,1fr));gap:5px;font-size:13px;align-items:center;min-width:760px}
 .strip img{width:100%;display:block;border-radius:3px}.strip .head{color:var(--soft);text-align:center}
 .strip .name{line-height:1.3}.strip .name b{display:block}.strip .none{color:var(--soft);text-align:center}
