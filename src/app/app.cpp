@@ -73,6 +73,8 @@ std::vector<Command> App::make_commands() {
       {"[", "previous scene", -1, 0, U'[', [this] { scene.open_neighbour(-1); }},
       {"]", "next scene", -1, 0, U']', [this] { scene.open_neighbour(1); }},
       {"Ctrl+L", "reload the scene", GLFW_KEY_L, ctrl, 0, [this] { scene.reload(); }},
+      {"Ctrl+O", "open a scene file", GLFW_KEY_O, ctrl, 0, [this] { ask_for_scene(); }},
+      {"Ctrl+S", "save the scene", GLFW_KEY_S, ctrl, 0, [this] { ask_where_to_save(); }},
       {"F5", "reload the scene", GLFW_KEY_F5, 0, 0, [this] { scene.reload(); }},
       {"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, [this] { scene.undo(); }, true},
       {"Ctrl+Shift+Z", "redo", GLFW_KEY_Z, ctrl | shift, 0, [this] { scene.redo(); }, true},
@@ -90,8 +92,20 @@ std::vector<Command> App::make_commands() {
       {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { help_visible = !help_visible; }},
       {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
       {"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
-      {"F12", "save a screenshot", GLFW_KEY_F12, 0, 0, [this] { screenshot_wanted_ = true; }},
+      {"F12", "save the picture", GLFW_KEY_F12, 0, 0, [this] { shot_wanted_ = Shot::picture; }},
+      {"Shift+F12", "save the whole window", GLFW_KEY_F12, shift, 0, [this] { shot_wanted_ = Shot::window; }},
   };
+}
+
+void App::ask_for_scene() {
+  files.ask({"Open", {".toml"}, false, [this](const std::string& path, Overwrite) { scene.open(path); }},
+            scene.editor().is_file() ? scene.editor().source() : "");
+}
+
+void App::ask_where_to_save() {
+  const auto save = [this](const std::string& path, Overwrite overwrite) { scene.save_as(path, overwrite); };
+  files.ask({"Save", {".toml"}, true, save},
+            scene.editor().is_file() ? scene.editor().source() : scene.editor().source() + ".toml");
 }
 
 // ---- the context ----
@@ -130,6 +144,7 @@ void App::restore(const KeptState& kept, const std::vector<std::string>& overrid
   view.kept = kept.cameras;
   const auto sets_camera = [](const std::string& set) { return set.starts_with("view.camera"); };
   if (std::ranges::none_of(overrides, sets_camera)) view.recall_camera(scene.editor().source());
+  if (!layout.panels) messages.info("Tab shows the panels, F1 all keys.");
 }
 
 KeptState App::kept_state() const {
@@ -144,13 +159,23 @@ KeptState App::kept_state() const {
   return kept;
 }
 
+bool App::may_close() {
+  if (closing == Closing::no && scene.editor().changed()) {
+    closing = Closing::asked;
+    touch();
+    return false;
+  }
+  return true;
+}
+
 std::string App::title() const {
   return fmt::format("{}{} - Aspic", scene.scene().name, scene.editor().changed() ? " (changed)" : "");
 }
 
 bool App::idle() const {
   return !simulation.running() && std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
-         !screenshot_wanted_ && !scene.pending() && !simulation.changing() && !simulation.busy();
+         shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() && !simulation.changing() &&
+         !simulation.busy();
 }
 
 double App::wait(double since) const {
@@ -171,22 +196,39 @@ double App::wait(double since) const {
 
 void App::key(int key, int action, int modifiers) {
   touch();
-  gui_->key(key, action, modifiers);
-  if (action == GLFW_RELEASE || gui_->takes_keyboard()) return;
-  if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS) {
-    help_visible = false;
-    messages.dismiss();
-  } else {
-    commands_.on_key(key, modifiers, action == GLFW_REPEAT);
-  }
+  keys_.push_back({key, action, modifiers});
+  deliver_keys();
 }
 
 void App::character(unsigned int code_point) {
   touch();
-  if (gui_->takes_keyboard())
-    gui_->character(code_point);
-  else
-    commands_.on_character(static_cast<char32_t>(code_point));
+  keys_.push_back({.character = code_point});
+  deliver_keys();
+}
+
+/// To the text field that has the keyboard, else to the command they stand for; some wait for the next
+/// picture.
+void App::deliver_keys() {
+  while (!keys_.empty() && gui_->ready_for(keys_.front())) {
+    const KeyEvent event = keys_.front();
+    keys_.pop_front();
+    // F1 and those after it are in no text.
+    const bool escapes = event.key == GLFW_KEY_ESCAPE && files.is_open();
+    const bool typing =
+        gui_->takes_keyboard() && !escapes && !(event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F25);
+    if (event.character == 0 || typing) gui_->key(event);
+    if (typing || (event.character == 0 && event.action == GLFW_RELEASE)) continue;
+    if (event.character != 0) {
+      commands_.on_character(static_cast<char32_t>(event.character));
+    } else if (event.key == GLFW_KEY_ESCAPE && event.action == GLFW_PRESS) {
+      help_visible = false;
+      closing = Closing::no;
+      files.close();
+      messages.dismiss();
+    } else {
+      commands_.on_key(event.key, event.modifiers, event.action == GLFW_REPEAT);
+    }
+  }
 }
 
 void App::mouse_button(int button, int action, int modifiers) {
@@ -236,7 +278,7 @@ Status App::frame(const WindowSize& size, double dt) {
   run.watch_divergence();
   still_for_ = camera_moves_ || simulation.running() || simulation.seeking() ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
-  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25);
+  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25 || shot_wanted_ == Shot::window);
   const auto start = std::chrono::steady_clock::now();
   const Status made = make_picture(size, dt);
   frame_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -247,18 +289,23 @@ Status App::make_picture(const WindowSize& size, double dt) {
   pointer.find_hovered();
   view.pixels_per_unit = static_cast<double>(size.pixel_width) / size.width;
   picture.count(dt);
-  gui_->begin(size.width, size.height, view.pixels_per_unit, dt);
+  gui_->begin(dt);
   view.text_scale = gui_->scale();
-  view.box = draw_panels(
-      {*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, help_visible},
-      size.width, size.height);
+  view.box = draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer,
+                          layout, files, closing, help_visible},
+                         size.width, size.height);
+  if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
+    view.frame_bodies(simulation.model(), simulation.snapshot());
   ASPIC_CHECK(picture.show(size));
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();
-  if (!std::exchange(screenshot_wanted_, false)) return {};
+  deliver_keys();
+  const Shot wanted = std::exchange(shot_wanted_, Shot::none);
+  if (wanted == Shot::none) return {};
   const std::string path = free_name(scene.editor().source(), ".png");
-  if (messages.check(save_screenshot(size, path)))
-    messages.info(fmt::format("Screenshot saved as {}.", path));
+  if (messages.check(wanted == Shot::picture ? picture.save(path)
+                                             : save_pixels(0, {size.pixel_width, size.pixel_height}, path)))
+    messages.info(fmt::format("Saved as {}.", path));
   return {};
 }
 

@@ -2,26 +2,10 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
-
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 
 namespace aspic::app {
-namespace {
-
-void hand_slider(Gui& gui, const char* label, const char* name, double& value, double low, double high,
-                 const char* format, std::string_view help) {
-  label_column(label);
-  const std::string id = fmt::format("##{}", name);
-  ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &low, &high, format,
-                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  gui.mark("balls/{}", name);
-  tooltip(help);
-}
-
-}  // namespace
-
 void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
   const float third = share_of_line(3);
   command_button(gui, "balls/throw", "Throw",
@@ -38,15 +22,15 @@ void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
                         : std::string("There are no thrown balls; the scene's own stay."),
              thrown > 0, third))
     hands.clear_balls();
-  hand_slider(gui, "Radius", "radius", hands.radius, 0.02, 2.0, "%.3g m",
-              "Radius of the next ball to be thrown [m], 0.02 to 2.");
-  hand_slider(gui, "Mass", "mass", hands.mass, 0.01, 1000.0, "%.3g kg",
-              "Mass of the next ball to be thrown [kg], 0.01 to 1000.");
-  hand_slider(gui, "Speed", "speed", hands.speed, 0.5, 200.0, "%.3g m/s",
-              "Speed of the next ball to be thrown [m/s], 0.5 to 200.");
-  hand_slider(gui, "Pull", "strength", hands.strength, 0.01, 100.0, "×%.3g",
-              "How hard Ctrl+drag pulls a particle: a factor on twice the stiffness of the stiffest spring, "
-              "0.01 to 100, limited by the time step.");
+  slider(gui, "Radius", "balls/radius", hands.radius, 0.02, 2.0, "%.3g m",
+         "Radius of the next ball to be thrown [m], 0.02 to 2.");
+  slider(gui, "Mass", "balls/mass", hands.mass, 0.01, 1000.0, "%.3g kg",
+         "Mass of the next ball to be thrown [kg], 0.01 to 1000.");
+  slider(gui, "Speed", "balls/speed", hands.speed, 0.5, 200.0, "%.3g m/s",
+         "Speed of the next ball to be thrown [m/s], 0.5 to 200.");
+  slider(gui, "Pull", "balls/strength", hands.strength, 0.01, 100.0, "×%.3g",
+         "How hard Ctrl+drag pulls a particle: a factor on twice the stiffness of the stiffest spring, "
+         "0.01 to 100, limited by the time step.");
   ImGui::TextDisabled("%zu of the scene, %zu thrown",
                       static_cast<std::size_t>(simulation.model().ball_count()) - thrown, thrown);
 }

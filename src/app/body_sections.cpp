@@ -3,16 +3,13 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "base/memory.h"
 #include "base/printable.h"
-#include "gpu/device_info.h"
 #include "model/bodies.h"
 #include "model/springs.h"
-#include "scene/load.h"
 
 namespace aspic::app {
 namespace {
@@ -48,17 +45,10 @@ std::size_t body_count(const ModelSettings& settings) {
   return count;
 }
 
-/// "goal net", as people write the key goal-net.
-std::string name_of(const SettingsList& list) {
-  std::string name(list.key);
-  std::ranges::replace(name, '-', ' ');
-  return name;
-}
-
 /// The line of one body, with a button that removes it. True if it was removed.
 bool body_line(Gui& gui, SceneControl& scene, const SettingsList& list, std::size_t i) {
   const bool last_body = body_count(scene.scene().model) == 1;
-  const std::string name = name_of(list);
+  const std::string name = spaced(list.key);
   const std::string help =
       last_body
           ? "The last body cannot be removed: without one, nothing would move."
@@ -79,13 +69,10 @@ void bodies_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
     if (body_line(gui, scene, list, i)) return;
     for (const Parameter& p : parameters()) {
       if (!p.path.starts_with(prefix) || !applies(p, scene.scene(), i)) continue;
-      std::string label(p.path.substr(prefix.size()));
-      std::ranges::replace(label, '.', ' ');
-      std::ranges::replace(label, '-', ' ');
-      edit(gui, scene, p.path, i, {label});
+      edit(gui, scene, p.path, i, {spaced(p.path.substr(prefix.size()))});
     }
   }
-  const std::string name = name_of(list), mark = fmt::format("{}/add", list.key);
+  const std::string name = spaced(list.key), mark = fmt::format("{}/add", list.key);
   if (!button(gui, mark.c_str(), fmt::format("Add a {}", name).c_str(),
               fmt::format("Adds a {} with default values. Restarts the simulation.\n\nScene key: [[{}]]",
                           name, list.key),
@@ -99,13 +86,14 @@ void bodies_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
 void add_cube(Gui& gui, SceneControl& scene) {
   const bool any = !scene.scene().model.cubes.empty();
   if (!button(gui, "cube/add", "Add a cube",
-              any ? "Adds a cube like the last one, above it. Restarts the simulation.\n\nScene key: [[cube]]"
+              any ? "Adds a cube like the last one, beside it: bodies do not touch one another. Restarts the "
+                    "simulation.\n\nScene key: [[cube]]"
                   : "Adds a cube with default values. Restarts the simulation.\n\nScene key: [[cube]]",
               true, -1.0f))
     return;
   Scene changed = scene.scene();
   CubeSettings cube = any ? changed.model.cubes.back() : CubeSettings();
-  if (any) cube.position.y += 1.5 * cube.edge_length;
+  if (any) cube.position.x += 1.5 * cube.edge_length;
   changed.model.cubes.push_back(cube);
   scene.apply(std::move(changed), "add cube");
 }
@@ -132,6 +120,7 @@ void bodies_section(Gui& gui, SceneControl& scene) {
     edit(gui, scene, "cube[].pinned", i);
   }
   add_cube(gui, scene);
+  if (body_count(scene.scene().model) > 1) ImGui::TextDisabled("Bodies do not touch one another.");
   for (const BodyRow& row : body_rows().subspan(1)) bodies_of(gui, scene, row.list);
 }
 
@@ -153,7 +142,7 @@ void shown_springs(Gui& gui, SceneControl& scene) {
     const std::string help = fmt::format(
         "Whether {} springs are in the picture. Their colours are chosen under View.\n\nScene key: view.draw",
         type);
-    if (check_box(gui, type, words, fmt::format("springs/show/{}", type), help))
+    if (check_box(gui, type, fmt::format("springs/show/{}", type), words, help))
       scene.set_value(p, 0, Value(words));
   }
 }
@@ -161,15 +150,13 @@ void shown_springs(Gui& gui, SceneControl& scene) {
 /// Springs as they are described: by type, or as a material.
 void kind_of_springs(Gui& gui, SceneControl& scene, std::size_t cube) {
   const CubeSettings& settings = scene.scene().model.cubes[cube];
-  static constexpr const char* kinds[] = {"stiffness, damping", "material"};
-  int kind = settings.material ? 1 : 0;
+  static constexpr std::string_view kinds[] = {"stiffness, damping", "material"};
+  std::size_t kind = settings.material ? 1 : 0;
   label_column("Given by");
-  const bool chosen = ImGui::Combo("##kind", &kind, kinds, 2);
-  gui.mark("springs/{}/kind", cube);
-  tooltip(
-      "Stiffness and damping of each type of spring and the mass of a particle; or a material, which means "
-      "the same jelly at every resolution.\n\nScene key: cube[].material");
-  if (!chosen || (kind == 1) == settings.material.has_value()) return;
+  if (!choice(gui, fmt::format("springs/{}/kind", cube), kinds, kinds, kind,
+              "Stiffness and damping of each type of spring and the mass of a particle; or a material, which "
+              "means the same jelly at every resolution.\n\nScene key: cube[].material"))
+    return;
   Scene changed = scene.scene();
   CubeSettings& c = changed.model.cubes[cube];
   if (kind == 1)
@@ -205,16 +192,14 @@ void springs_section(Gui& gui, SceneControl& scene) {
       edit(gui, scene, "cube[].material.youngs-modulus", i, {"Young's modulus"});
       edit(gui, scene, "cube[].material.damping-ratio", i);
     } else {
-      ImGui::Checkbox("all types together", &together);
-      gui.mark("springs/together");
-      tooltip("One stiffness and one damping for structural, shear and bending springs.");
+      check_box(gui, "all types together", "springs/together", together,
+                "One stiffness and one damping for structural, shear and bending springs.");
       if (together) {
         same_for_all(gui, scene, i, "stiffness");
         same_for_all(gui, scene, i, "damping");
       } else {
         for (const std::string_view type : spring_types) {
-          std::string label(type);
-          label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+          const std::string label = capitalized(std::string(type));
           edit(gui, scene, fmt::format("cube[].{}.stiffness", type), i, {label + " k"});
           edit(gui, scene, fmt::format("cube[].{}.damping", type), i, {label + " c"});
         }

@@ -39,6 +39,9 @@ void Film::start() {
                                        : film_path(settings.path, format);
   options.size = {pixels(view_.box.right - view_.box.left), pixels(view_.box.bottom - view_.box.top)};
   std::error_code unknown;
+  if (!format.is_directory() && std::filesystem::exists(options.path, unknown))
+    return messages_.error(
+        fmt::format("{} already exists. Choose another name for the film, or none.", options.path));
   if (format.is_directory() && std::filesystem::exists(options.path, unknown) &&
       !std::filesystem::is_empty(options.path, unknown)) {
     return messages_.error(

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/parameter_widget.h"
+#include "base/printable.h"
 
 namespace aspic::app {
 namespace {
@@ -18,9 +19,11 @@ constexpr double status_height = 30.0, timeline_height = 34.0;
 /// Where both sides would leave the scene less, one takes all sections; and the most that one takes.
 constexpr double least_view = 376.0, most_of_width = 0.5;
 constexpr double edge = 6.0;  // width of the strip by which a panel is dragged
-constexpr ImGuiWindowFlags fixed_panel =
-    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
-    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
+                                   ImGuiWindowFlags_NoSavedSettings;
+constexpr ImGuiWindowFlags behind = ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags bar = behind | ImGuiWindowFlags_NoScrollbar;
 
 struct Heading {
   const char* name;
@@ -49,14 +52,14 @@ constexpr Heading right_sections[] = {
      [](Parts p) {
        recording_section(p.gui, p.scene.editor().source(), p.film);
        ImGui::Separator();
-       state_files(p.gui, p.scene.editor(), p.simulation, p.messages);
+       state_files(p.gui, p.scene.editor(), p.simulation, p.messages, p.files);
      },
      false, "Films of the scene; its states, energies and checkpoints as files."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); }, true,
      "Speed of simulation and drawing, and the devices used."},
-    {"Energy", [](Parts p) { energy_section(p.gui, p.simulation.samples().energies()); }, true,
+    {"Energy", [](Parts p) { energy_section(p.gui, p.simulation, p.run); }, true,
      "Energies and momentum over time."},
-    {"Shadow", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); }, false,
+    {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); }, false,
      "A second backend on the same run, and how far the two differ."}};
 
 ImVec2 at(double x, double y) {
@@ -71,8 +74,7 @@ void sections(Parts parts, std::span<const Heading> headings) {
     ImGui::SetNextItemOpen(was_open);
     const bool open = ImGui::CollapsingHeader(heading.name);
     if (open != was_open) kept[heading.name] = open;
-    parts.gui.mark("section/{}", heading.name);
-    tooltip(heading.help);
+    named(parts.gui, fmt::format("section/{}", heading.name), heading.help);
     if (!open) continue;
     ImGui::PushID(heading.name);
     heading.section(parts);
@@ -81,12 +83,51 @@ void sections(Parts parts, std::span<const Heading> headings) {
   }
 }
 
+/// A window of ImGui's, between Begin and End.
+class Panel {
+ public:
+  /// Stays at a place.
+  Panel(const char* name, const Box& box, const ImVec2& padding, ImGuiWindowFlags flags) {
+    ImGui::SetNextWindowPos(at(box.left, box.top));
+    ImGui::SetNextWindowSize(at(box.right - box.left, box.bottom - box.top));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+    ImGui::Begin(name, nullptr, fixed | flags);
+  }
+  /// Floats over the picture with round corners, where SetNextWindowPos says.
+  Panel(const char* name, double rounding, const ImVec4& colour, ImGuiWindowFlags flags = 0) : colours_(1) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, static_cast<float>(rounding));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, colour);
+    ImGui::Begin(name, nullptr, fixed | flags);
+  }
+  ~Panel() {
+    ImGui::End();
+    ImGui::PopStyleColor(colours_);
+    ImGui::PopStyleVar();
+  }
+  Panel(const Panel&) = delete;
+  Panel& operator=(const Panel&) = delete;
+
+ private:
+  int colours_ = 0;
+};
+
+int longest_edge(const Simulation& s) {
+  int particles = 0;
+  for (const CubeSettings& cube : s.setup().settings.cubes)
+    particles = std::max(particles, cube.particles_per_edge);
+  return particles;
+}
+
 /// The facts of the run, as many as there is room for: the first are never left out.
-void status_line(double scale, const Simulation& s, const Recording* film, bool software_device) {
+void status_line(Parts parts, const Box& box) {
+  const double scale = parts.gui.scale();
+  const Simulation& s = parts.simulation;
+  const Recording* const film = parts.film.recording();
+  const Panel panel("##status", box, at(12.0 * scale, 6.0 * scale), bar);
   const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
   const char* const motion = s.divergence() ? "Diverged" : s.running() ? "Running" : "Paused";
   ImGui::TextColored(s.divergence() ? ImVec4(0.95f, 0.55f, 0.40f, 1.0f) : bright, "%s", motion);
-  const bool software = software_device && s.backend().needs_context;
+  const bool software = parts.picture.context().info().is_software && s.backend().needs_context;
   std::vector<std::string> facts = {
       fmt::format("t = {:.3f} s", s.time()),
       fmt::format("{}{}", s.solver().backend(), software ? " (software)" : ""),
@@ -94,9 +135,10 @@ void status_line(double scale, const Simulation& s, const Recording* film, bool 
   };
   if (film) facts.insert(facts.begin() + 1, fmt::format("● filming, {:.2f} s", film->seconds()));
   if (s.running()) {
-    const char* const why = film && !film->ready()        ? " (waits for the encoder)"
-                            : s.pacer().behind() && !film ? " (the solver does not keep up)"
-                                                          : "";
+    const std::string why = film && !film->ready() ? " (waits for the encoder)"
+                            : s.pacer().late() && !film
+                                ? " (" + slowness(s.real_time_factor(), longest_edge(s)) + ")"
+                                : "";
     facts.push_back(fmt::format("{:.3g} × real time{}", s.real_time_factor(), why));
   }
   if (s.working())
@@ -115,29 +157,13 @@ void status_line(double scale, const Simulation& s, const Recording* film, bool 
   }
 }
 
-/// A panel that floats over the picture, with round corners.
-class FloatingPanel {
- public:
-  FloatingPanel(const char* name, double rounding, const ImVec4& colour, ImGuiWindowFlags flags = 0) {
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, static_cast<float>(rounding));
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, colour);
-    ImGui::Begin(name, nullptr, (fixed_panel & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | flags);
-  }
-  ~FloatingPanel() {
-    ImGui::End();
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar();
-  }
-  FloatingPanel(const FloatingPanel&) = delete;
-  FloatingPanel& operator=(const FloatingPanel&) = delete;
-};
-
 /// Ways on after a divergence.
 void divergence_buttons(Gui& gui, const Simulation& simulation, RunControl& run, Messages& messages) {
   const auto& stable = run.stable_step();
   if (stable && stable->step && std::isfinite(*stable->step)) {
     if (button(gui, "diverged/stable", "Use a stable step",
-               "Steps back and sets the time step to 0.95 of the estimate."))
+               "Goes on from shortly before the divergence with all values as they are now, and a time step "
+               "of 0.95 of the estimate."))
       run.take_stable_step();
     ImGui::SameLine();
   }
@@ -163,7 +189,7 @@ void notice_panel(Gui& gui, Messages& messages, const Simulation& simulation, Ru
   if (width < 80.0 * scale) return;
   ImGui::SetNextWindowPos(at(view.left + 16.0 * scale, view.top + 16.0 * scale));
   ImGui::SetNextWindowSize(at(width, 0.0));
-  const FloatingPanel panel(
+  const Panel panel(
       "##notice", 6.0 * scale,
       notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f));
   // Scene errors come with their line and a caret, whose columns must stay.
@@ -175,8 +201,8 @@ void notice_panel(Gui& gui, Messages& messages, const Simulation& simulation, Ru
 void help_panel(Gui& gui, bool& visible, double width, double height) {
   if (!visible) return;
   ImGui::SetNextWindowPos(at(0.5 * width, 0.5 * height), ImGuiCond_Always, {0.5f, 0.5f});
-  const FloatingPanel panel("##help", 8.0 * gui.scale(), ImVec4(0.09f, 0.095f, 0.10f, 0.97f),
-                            ImGuiWindowFlags_AlwaysAutoResize);
+  const Panel panel("##help", 8.0 * gui.scale(), ImVec4(0.09f, 0.095f, 0.10f, 0.97f),
+                    ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::Separator();
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
@@ -194,28 +220,60 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
   if (button(gui, "help/close", "Close", "Close this page (F1 or Escape).")) visible = false;
 }
 
-void side(Parts parts, const char* name, double left, double width, double height,
-          std::span<const Heading> first, std::span<const Heading> second) {
-  ImGui::SetNextWindowPos(at(left, 0.0));
-  ImGui::SetNextWindowSize(at(width, height));
-  ImGui::Begin(name, nullptr, fixed_panel);
-  sections(parts, first);
-  sections(parts, second);
-  ImGui::End();
+/// Asks before changes are lost.
+void closing_panel(Gui& gui, Closing& closing, double width, double height) {
+  if (closing != Closing::asked) return;
+  ImGui::SetNextWindowPos(at(0.5 * width, 0.5 * height), ImGuiCond_Always, {0.5f, 0.5f});
+  const Panel panel("##closing", 8.0 * gui.scale(), ImVec4(0.23f, 0.11f, 0.09f, 0.97f),
+                    ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::TextUnformatted("The scene was changed and not saved.");
+  if (button(gui, "closing/close", "Close without saving", "Closing the window once more does the same."))
+    closing = Closing::decided;
+  ImGui::SameLine();
+  if (command_button(gui, "closing/save", "Save…", "Writes the scene to a file.", "save the scene"))
+    closing = Closing::no;
+  ImGui::SameLine();
+  if (button(gui, "closing/stay", "Stay", "Closes this page (Escape).")) closing = Closing::no;
+}
+
+/// The bar of the history, under the picture: any step since the start.
+void timeline(Gui& gui, const Simulation& s, RunControl& run, const Box& box) {
+  const History& history = s.history();
+  const double scale = gui.scale();
+  const Panel panel("##timeline", box, at(12.0 * scale, 4.0 * scale), bar);
+  const double first = history.time(history.begin_moment()), last = history.time(history.end_moment());
+  double now = std::clamp(s.time(), first, last);
+  const std::string text = fmt::format("{:.3f} / {:.3f} s{}", s.time(), last, s.seeking() ? "  …" : "");
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool moved = ImGui::SliderScalar("##history", ImGuiDataType_Double, &now, &first, &last, text.c_str(),
+                                         ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp);
+  gui.mark("timeline");
+  const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
+  tooltip(fmt::format("The run so far, {} of at most 512 MiB. Drag to go to any step; this pauses the run. "
+                      "Steps between the {} stored states are simulated again and give the same bits, pulls "
+                      "and pins included. Marks are changes of the scene, which are reverted and restored as "
+                      "well. Continuing from the past discards what came after.",
+                      human_bytes(history.bytes()), history.keyframe_count()),
+          "step back");
+  if (last > first) {
+    for (const double t : history.changes()) {
+      const float x = corner.x + static_cast<float>((t - first) / (last - first)) * (end.x - corner.x);
+      ImGui::GetWindowDrawList()->AddLine({x, end.y - static_cast<float>(5.0 * scale)}, {x, end.y},
+                                          IM_COL32(242, 176, 92, 255), static_cast<float>(1.5 * scale));
+    }
+  }
+  if (moved && last > first) run.go_to(now);
 }
 
 /// The edge of a side, which can be dragged. `inwards` is 1 where the panel lies on the left.
 void drag_edge(Gui& gui, const char* name, double place, double height, double inwards, double& width) {
   const double scale = gui.scale(), grip = edge * scale;
-  ImGui::SetNextWindowPos(at(place - 0.5 * grip, 0.0));
-  ImGui::SetNextWindowSize(at(grip, height));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, at(0.0, 0.0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, at(1.0, 1.0));
-  ImGui::Begin(name, nullptr,
-               (fixed_panel & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoBackground);
+  const Panel panel(name, {place - 0.5 * grip, 0.0, place + 0.5 * grip, height}, at(0.0, 0.0),
+                    ImGuiWindowFlags_NoBackground);
+  ImGui::PopStyleVar();
   ImGui::InvisibleButton("##edge", at(grip, height));
-  gui.mark("{}", name);
-  tooltip("Drag to make the panels wider or narrower; double-click for their default width.");
+  named(gui, name, "Drag to make the panels wider or narrower; double-click for their default width.");
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   if (ImGui::IsItemHovered() || ImGui::IsItemActive())
     ImGui::GetWindowDrawList()->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_ButtonHovered));
@@ -226,8 +284,6 @@ void drag_edge(Gui& gui, const char* name, double place, double height, double i
   }
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
     width = Layout::side_width;
-  ImGui::End();
-  ImGui::PopStyleVar(2);
 }
 
 }  // namespace
@@ -241,24 +297,29 @@ Box draw_panels(const PanelParts& p, double width, double height) {
     const double left = std::min(layout.left_width * scale, most_of_width * width);
     const bool two = width - (layout.left_width + layout.right_width) * scale >= least_view * scale;
     const double right = two ? layout.right_width * scale : 0.0;
-    side(p, "##left", 0.0, left, bottom, left_sections,
-         two ? std::span<const Heading>() : std::span<const Heading>(right_sections));
-    if (two) side(p, "##right", width - right, right, bottom, {}, right_sections);
-    ImGui::SetNextWindowPos(at(0.0, bottom));
-    ImGui::SetNextWindowSize(at(width, status_height * scale));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, at(12.0 * scale, 6.0 * scale));
-    ImGui::Begin("##status", nullptr, fixed_panel | ImGuiWindowFlags_NoScrollbar);
-    status_line(scale, p.simulation, p.film.recording(), p.picture.context().info().is_software);
-    ImGui::End();
-    ImGui::PopStyleVar();
+    const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+    {
+      const Panel panel("##left", {0.0, 0.0, left, bottom}, padding, behind);
+      sections(p, left_sections);
+      if (!two) sections(p, right_sections);
+    }
+    if (two) {
+      const Panel panel("##right", {width - right, 0.0, width, bottom}, padding, behind);
+      sections(p, right_sections);
+    }
+    status_line(p, {0.0, bottom, width, height});
     view = {left, 0.0, width - right, bottom - timeline_height * scale};
-    draw_timeline(p.gui, p.simulation, p.run, {view.left, view.bottom, view.right, bottom});
+    timeline(p.gui, p.simulation, p.run, {view.left, view.bottom, view.right, bottom});
     drag_edge(p.gui, "layout/left", left, bottom, 1.0, layout.left_width);
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
+  const double legend = draw_legend(p.gui, p.picture.legend(), view);
   notice_panel(p.gui, p.messages, p.simulation, p.run, view);
   help_panel(p.gui, p.help_visible, width, height);
-  if (const auto& hovered = p.pointer.hovered()) hover_tooltip(scale, p.simulation, *hovered, p.view.box);
+  closing_panel(p.gui, p.closing, width, height);
+  p.files.draw(p.gui, width, height);
+  if (const auto& hovered = p.pointer.hovered())
+    particle_readout(p.gui, p.simulation, *hovered, view, legend);
   return view;
 }
 

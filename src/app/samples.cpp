@@ -1,6 +1,7 @@
 #include "app/samples.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -13,9 +14,24 @@ constexpr std::size_t most_samples = 2000;
 
 }  // namespace
 
+std::uint64_t sample_interval(double timestep) {
+  constexpr double interval = 0.02;  // s
+  return static_cast<std::uint64_t>(std::max(std::round(interval / timestep), 1.0));
+}
+
+const EnergySample* Samples::nearest(double time) const {
+  const auto after = std::ranges::lower_bound(energies_, time, {}, &EnergySample::time);
+  if (after == energies_.begin()) return energies_.empty() ? nullptr : &*after;
+  const auto before = after - 1;
+  return after == energies_.end() || time - before->time < after->time - time ? &*before : &*after;
+}
+
 void Samples::add(const EnergySample& sample) {
-  while (!energies_.empty() && energies_.back().time >= sample.time) energies_.pop_back();
-  energies_.push_back(sample);
+  const auto after = std::ranges::lower_bound(energies_, sample.time, {}, &EnergySample::time);
+  if (after != energies_.end() && after->time == sample.time)
+    *after = sample;
+  else
+    energies_.insert(after, sample);
   if (energies_.size() <= most_samples) return;
   std::deque<EnergySample> thinner;
   for (std::size_t i = 0; i < energies_.size(); i += 2) thinner.push_back(energies_[i]);

@@ -1,5 +1,6 @@
 #pragma once
 // The scene that is open, kept in step with its simulation: opening, changing, undo, and the file on disk.
+#include <algorithm>
 #include <chrono>
 #include <string>
 
@@ -26,7 +27,8 @@ class SceneControl {
   /// Opens the built-in scene that comes so many places later in the list, which goes round.
   void open_neighbour(int offset);
   void reload();
-  void save_as(const std::string& path);
+  /// The file is the one that is open from then on.
+  void save_as(const std::string& path, Overwrite overwrite = Overwrite::refuse);
   void undo();
   void redo();
 
@@ -39,6 +41,9 @@ class SceneControl {
   /// Goes back or forth in time with the simulation: the physics of the scene is part of the run. A change
   /// that can be undone.
   void follow_history();
+
+  /// The simulation gets the constants of the scene as it is, whatever it has now.
+  void hand_over() { pending_ = std::max(pending_, Effect::constants); }
 
   /// Once for each picture, `dt` after the last [s]: looks at the file and hands changes to the simulation.
   void update(double dt);

@@ -1,6 +1,7 @@
 #include "app/scene_editor.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "io/atomic_file.h"
@@ -88,7 +89,12 @@ Result<Effect> SceneEditor::apply(Scene changed, const std::string& name, const 
     return Error{ErrorCode::scene_rejected, message};
   }
   if (gesture.empty() || gesture != gesture_ || undo_.empty()) {
-    if (undo_.size() == longest_past) undo_.erase(undo_.begin());
+    constexpr auto never = std::numeric_limits<std::size_t>::max();
+    if (saved_ > undo_.size()) saved_ = never;
+    if (undo_.size() == longest_past) {
+      undo_.erase(undo_.begin());
+      saved_ = saved_ == 0 ? never : saved_ - (saved_ == never ? 0 : 1);
+    }
     undo_.push_back({std::move(scene_), name});
   }
   gesture_ = gesture;
@@ -115,12 +121,18 @@ Effect SceneEditor::redo() {
   return swap_with(redo_, undo_);
 }
 
-Status SceneEditor::save_as(const std::string& path, const CameraSettings& camera) const {
+Status SceneEditor::save_as(const std::string& path, const CameraSettings& camera, Overwrite overwrite) {
   Scene saved = scene_;
   saved.view.camera = camera;
-  ASPIC_TRY(auto file, AtomicFile::create(path, Overwrite::refuse));
+  ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
   ASPIC_CHECK(file.write(to_toml(saved)));
-  return file.commit();
+  ASPIC_CHECK(file.commit());
+  scene_ = std::move(saved);
+  source_ = path;
+  overrides_.clear();
+  look_at_file();
+  mark_saved();
+  return {};
 }
 
 }  // namespace aspic::app

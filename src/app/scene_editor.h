@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/result.h"
+#include "io/atomic_file.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 
@@ -32,7 +32,8 @@ class SceneEditor {
   /// File or built-in name.
   const std::string& source() const { return source_; }
   bool is_file() const { return modified_.has_value(); }
-  bool changed() const { return !undo_.empty(); }
+  /// Since it was opened, saved or read again.
+  bool changed() const { return undo_.size() != saved_; }
 
   /// An editor of another source, or of the same one again, whose overrides (--set) stay with it. Errors:
   /// those of load_scene.
@@ -58,9 +59,14 @@ class SceneEditor {
   Effect undo();
   Effect redo();
 
-  /// Writes the scene as it is now, complete, with this camera. Error (io): the file exists or cannot be
-  /// written.
-  Status save_as(const std::string& path, const CameraSettings& camera) const;
+  /// Writes the scene as it is now, complete, with this camera; the file is the one that is open from then
+  /// on. Error (io): it exists and may not be overwritten, or cannot be written.
+  Status save_as(const std::string& path, const CameraSettings& camera, Overwrite overwrite);
+  /// The scene is what the file holds.
+  void mark_saved() {
+    saved_ = undo_.size();
+    end_gesture();
+  }
 
  private:
   struct Entry {
@@ -75,6 +81,8 @@ class SceneEditor {
   std::vector<std::string> overrides_;
   std::optional<std::filesystem::file_time_type> modified_;
   std::vector<Entry> undo_, redo_;
+  std::size_t saved_ =
+      0;  // length of undo_ when the scene was that of the file; never again: the largest number
 };
 
 }  // namespace aspic::app

@@ -27,7 +27,6 @@ Status ScenePicture::attach(gl::Context& context) {
   ASPIC_TRY(const auto directory, shader_directory());
   context_ = &context;
   RendererOptions look;
-  look.samples = in_full() ? 4 : 1;
   look.shaders = gl::ShaderLibrary(directory);
   ASPIC_TRY(renderer_, Renderer::create(context, look));
   drawn_.reset();
@@ -49,15 +48,16 @@ ScenePicture::Pixels ScenePicture::view_pixels(int window_height) const {
   return p;
 }
 
-ScenePicture::Content ScenePicture::wanted() const {
+ScenePicture::Content ScenePicture::wanted(bool fine) const {
   Content c;
   c.model = simulation_.model_number();
   c.state = simulation_.picture_number();
   c.view = scene_.view;
-  c.view.camera = view_.camera.shown();
+  c.view.camera = view_.seen();
   c.shadows = shadows;
   c.film = film;
-  const double scale = in_full() ? 1.0 : resolution_.share(at_rest_);
+  c.fine = in_full() || (fine && !film);
+  const double scale = c.fine ? 1.0 : resolution_.share();
   const Pixels full = view_pixels(0);
   c.size =
       film ? film->size
@@ -70,17 +70,20 @@ ScenePicture::Content ScenePicture::wanted() const {
 }
 
 Status ScenePicture::draw() {
-  const Content content = wanted();
-  if (drawn_ == content) return {};
+  const Content content = wanted(at_rest_);
+  if (drawn_ == content || (drawn_ && drawn_->fine && drawn_ == wanted(true))) return {};
+  return draw(content, film && film->text);
+}
+
+Status ScenePicture::draw(const Content& content, bool legend) {
   const auto start = std::chrono::steady_clock::now();
-  const bool new_model = !is_of_model(), adapts = !in_full() && !film;
-  const double share = resolution_.share(at_rest_);
+  const bool new_model = !is_of_model(), adapts = !content.fine && !film;
+  const double share = resolution_.share();
   PictureOptions options;
+  options.legend = legend;
+  options.samples = content.fine ? 0 : 1;
   options.view = content.view;
-  if (film) {
-    options.legend = film->text;
-    if (film->text) options.text = overlay_lines(scene_.model, simulation_.time());
-  }
+  if (film && film->text) options.text = overlay_lines(scene_.model, simulation_.time());
   options.shadows = shadows;
   options.highlight = content.marks;
   options.coarse_skin = adapts && share < 1.0;
@@ -159,18 +162,32 @@ void ScenePicture::count(double dt) {
   rate_pictures_ = 0;
 }
 
-Status save_screenshot(const WindowSize& size, const std::string& path) {
-  const auto row = 3 * static_cast<std::size_t>(size.pixel_width),
-             height = static_cast<std::size_t>(size.pixel_height);
+Legend ScenePicture::legend() const {
+  if (film && film->text) return {};
+  return legend_for(scene_.view, default_range(simulation_.model(), scene_.view.colour));
+}
+
+Status ScenePicture::save(const std::string& path) {
+  const Content content = wanted(true);
+  ASPIC_CHECK(draw(content, true));
+  const gl::Framebuffer& picture = renderer_->picture();
+  ASPIC_CHECK(save_pixels(picture.id(), {picture.width(), picture.height()}, path));
+  // The window's own has no legend.
+  return legend().empty() ? Status() : draw(content, false);
+}
+
+Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path) {
+  const auto row = 3 * static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
   std::vector<std::byte> below(row * height), rgb(below.size());
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size.pixel_width, size.pixel_height, GL_RGB, GL_UNSIGNED_BYTE, below.data());
+  glReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, below.data());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
   for (std::size_t i = 0; i < height; ++i)
     std::copy_n(below.begin() + static_cast<std::ptrdiff_t>((height - 1 - i) * row), row,
                 rgb.begin() + static_cast<std::ptrdiff_t>(i * row));
-  ASPIC_TRY(const auto png, encode_png({size.pixel_width, size.pixel_height}, rgb));
+  ASPIC_TRY(const auto png, encode_png(size, rgb));
   ASPIC_TRY(auto file, AtomicFile::create(path, Overwrite::refuse));
   ASPIC_CHECK(file.write(png));
   return file.commit();

@@ -88,7 +88,7 @@ void Simulation::start_change() {
   progress_ = Clock::now();
   worker_.start([this](const std::atomic<bool>&) {
     build(*change_);
-    outcomes_.put({});
+    outcomes_.put(Outcome());
   });
 }
 
@@ -133,7 +133,9 @@ Status Simulation::finish_change(Change change) {
     return reset();
   if (!at_end()) forget_future(now);
   samples_.clear_differed();
-  return begin_history(grown_state(model(), std::move(change.state)));
+  ASPIC_CHECK(begin_history(grown_state(model(), std::move(change.state))));
+  samples_.truncate(std::nextafter(time(), -1.0));  // with other constants this state has another energy
+  return {};
 }
 
 /// The run goes on with this state and setup.
@@ -162,7 +164,7 @@ Status Simulation::reset() {
   last_remembered_ = {};
   const State start = initial_state(model(), Precision::single);
   ASPIC_CHECK(begin_history(start));
-  add_sample(start, measure(model(), start));
+  remember(start, {engines_.measured(start)});
   return {};
 }
 
@@ -199,16 +201,14 @@ Status Simulation::fall_back(const Error& error) {
   if (!engines_.use_context()) return error;
   worker_.finish();
   outcomes_.clear();
+  engines_.set_shadow({});
+  seek_.reset();
   if (!Engines::in_context(engines_.leader())) {
-    engines_.set_shadow({});
-    seek_.reset();
     message_ = fmt::format("{} Shadow mode has ended.", error.message);
     return load(State(snapshot_));  // the leader may be steps ahead of what was taken from it
   }
   ASPIC_TRY(auto engine, factory_.make(model(), reference_backend(), nullptr));
   engines_.set_leader(std::move(engine));
-  engines_.set_shadow({});
-  seek_.reset();
   const double age = std::chrono::duration<double>(Clock::now() - snapshot_time_).count();
   const std::uint64_t lost = step_ > snapshot_.step ? step_ - snapshot_.step : 0;
   if (snapshot_.step >= history_.stretch(stretch_).first && snapshot_.step < step_)

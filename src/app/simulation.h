@@ -168,7 +168,6 @@ class Simulation {
   Status prepare_to_advance();
   Status advance_run(double dt, double budget);
   Status advance_here(std::uint64_t steps, double budget);
-  Status compare_shadow(std::uint64_t steps);
   bool idle() const { return !worker_.busy() && outcomes_.empty(); }
   bool steps_quickly() const;
   Status step_now();
@@ -183,7 +182,7 @@ class Simulation {
   Status seek_on(double budget);
   void note(std::uint64_t steps, const std::optional<Divergence>& divergence);
   void take_snapshot(State state);
-  void add_sample(const State& state, const std::optional<Measures>& measures);
+  void remember(const State& state, const std::vector<EnergySample>& energies);
   void forget_future(double now);
 
   Setup setup_;
@@ -212,7 +211,7 @@ class Simulation {
   Clock::time_point progress_ = {};  // the worker began, or had an outcome
   std::uint64_t job_to_ = 0;         // of the newest job
   std::uint64_t job_step_ = 0;       // where the solvers are; the jobs' own
-  Mailbox<Outcome> outcomes_;
+  Mailbox<Result<Outcome>> outcomes_;
   Worker worker_;  // last: its job uses all of the above
 };
 

@@ -72,7 +72,7 @@ struct Renderer::Parts {
   std::unique_ptr<HighlightPainter> highlight;
   std::uint64_t picks = 0;
 
-  Status prepare_targets(int width, int height);
+  Status prepare_targets(int width, int height, int wanted_samples);
   Status prepare_highlight();
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
@@ -147,11 +147,13 @@ Result<DeviceState> Renderer::upload(const State& state) {
   return DeviceState{&p.uploaded, &p.uploaded_balls, 0, state.step, nullptr};
 }
 
-Status Renderer::Parts::prepare_targets(int width, int height) {
-  if (targets && targets->picture.colour.width() == width && targets->picture.colour.height() == height)
+Status Renderer::Parts::prepare_targets(int width, int height, int wanted_samples) {
+  const int count = wanted_samples > 0 ? std::min(wanted_samples, samples) : samples;
+  if (targets && targets->picture.colour.width() == width && targets->picture.colour.height() == height &&
+      targets->samples.colour.settings().samples == count)
     return {};
   targets.reset();
-  ASPIC_TRY(targets, PictureTargets::create(*context, width, height, samples));
+  ASPIC_TRY(targets, PictureTargets::create(*context, width, height, count));
   return {};
 }
 
@@ -279,7 +281,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   const gl::Buffer& particles = *state.particles;
   assert(particles.bytes() >= sizeof(layout::Particle) * p.model->particle_count());
   const ViewSettings& view = options.view;
-  ASPIC_CHECK(p.prepare_targets(width, height));
+  ASPIC_CHECK(p.prepare_targets(width, height, options.samples));
   if (options.highlight) ASPIC_CHECK(p.prepare_highlight());
   if (p.has(SurfaceStyle::cords) || draws_springs(view.draw))
     ASPIC_CHECK(p.buffers->prepare_lines(*p.context, *p.model));

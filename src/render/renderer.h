@@ -33,6 +33,7 @@ struct PictureOptions {
   std::vector<OverlayLine> text;       ///< empty: no panel
   bool legend = true;                  ///< of colours, where they mean something
   bool shadows = true;                 ///< on terrain; without them light maps are left out
+  int samples = 0;                     ///< per pixel, at most the renderer's; 0: those
   bool coarse_skin = false;            ///< fewer triangles for large bodies: for software rasterisers
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
 };

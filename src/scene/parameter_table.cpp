@@ -108,6 +108,7 @@ Parameter geometry_row(const GeometryKey& key) {
 Rows terrain_rows() {
   Rows rows = {word<terrain_shapes>("terrain[].shape", FIELD(model.terrain[i].shape),
                                     "Shape of the resting surface; a bowl is the inside of a sphere.")};
+  rows.front().live = false;  // another one would begin somewhere inside the bodies
   for (const TerrainShapeRow& shape : terrain_shapes) {
     for (const GeometryKey& key : shape.keys) {
       Parameter geometry = geometry_row(key);

@@ -30,7 +30,7 @@ class Output : public Stage {
   }
   void save(const std::string& widget) {
     click("save/" + widget);
-    click("save/" + widget + "/write");
+    click("files/accept");
     ASSERT_TRUE(app().messages.notice());
   }
   std::string path(const std::string& name) const { return (directory() / name).string(); }
@@ -87,13 +87,17 @@ TEST_F(Output, WhatExistsIsKeptAndTheNextNameIsFree) {
   EXPECT_EQ(*read_file(path("aspic-cube-plane-0001.csv")), "precious");
   EXPECT_TRUE(test::read_state_csv(path("aspic-cube-plane-0002.csv"), Precision::single).ok());
   click("save/state.csv");
-  click("save/state.csv/path");
-  for (const char32_t c : U"aspic-cube-plane-0001.csv") {
-    if (c != 0) type(c);
-  }
-  click("save/state.csv/write");
-  EXPECT_TRUE(app().messages.notice()->is_error);
+  click("files/entry/aspic-cube-plane-0001.csv");
+  click("files/name");
+  press(GLFW_KEY_ENTER);
+  frames(3);
+  EXPECT_EQ(*read_file(path("aspic-cube-plane-0001.csv")), "precious") << "Enter alone asks";
+  click("files/cancel");
   EXPECT_EQ(*read_file(path("aspic-cube-plane-0001.csv")), "precious");
+  click("save/state.csv");
+  click("files/entry/aspic-cube-plane-0001.csv");
+  click("files/accept");
+  EXPECT_NE(*read_file(path("aspic-cube-plane-0001.csv")), "precious") << "the button said Replace";
 }
 
 TEST_F(Output, ACheckpointIsRefusedWhereHandsAddedBodies) {
