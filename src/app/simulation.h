@@ -182,6 +182,7 @@ class Simulation {
   Status follow(Outcome outcome);
   Status seek_on(double budget);
   void note(std::uint64_t steps, const std::optional<Divergence>& divergence);
+  void reach(std::uint64_t step, const std::optional<Divergence>& divergence);
   void take_snapshot(State state);
   void add_sample(const State& state, const std::optional<Measures>& measures);
   void forget_future(double now);

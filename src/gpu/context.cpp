@@ -7,7 +7,9 @@
 #include <string_view>
 
 #include "base/printable.h"
+#include "gpu/fence.h"
 #include "gpu/program.h"
+#include "gpu/read_ring.h"
 
 namespace aspic::gl {
 namespace {
@@ -82,7 +84,8 @@ void Context::start(std::string platform, Loader loader) {
 
 bool Context::lost() {
   if (lost_) return true;
-  lost_ = dead_ || strikes(Fault::lost_context) || (info_.robust && reset_status_() != GL_NO_ERROR);
+  lost_ =
+      dead_ || silent_ || strikes(Fault::lost_context) || (info_.robust && reset_status_() != GL_NO_ERROR);
   return lost_;
 }
 
@@ -106,6 +109,12 @@ void Context::forget_errors() {
 }
 
 Error Context::lost_error() const {
+  if (silent_)
+    return fail(
+        ErrorCode::no_device,
+        "The device {} has not answered for {} s. Resume from the last checkpoint on another device, or "
+        "choose --backend cpu.",
+        info_.renderer, longest_wait);
   return fail(ErrorCode::no_device,
               "The device {} was reset or lost, with everything it held. Resume from the last "
               "checkpoint, or choose --backend reference.",
@@ -128,7 +137,7 @@ void Context::inject_fault(Fault fault, std::uint64_t after) {
 
 void Context::take_back_faults() {
   faults_ = {};
-  dead_ = lost_ = false;
+  dead_ = lost_ = silent_ = false;
 }
 
 bool Context::begins_dispatch() {
@@ -137,17 +146,14 @@ bool Context::begins_dispatch() {
   return !dead_;
 }
 
-unsigned int Context::read_buffer() {
-  if (read_buffer_ != 0) return read_buffer_;
-  glGenBuffers(1, &read_buffer_);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, read_buffer_);
-  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(read_part_bytes), nullptr, GL_STREAM_READ);
-  return read_buffer_;
+ReadRing& Context::reads() {
+  if (!reads_) reads_ = std::make_unique<ReadRing>(*this, read_part_bytes);
+  return *reads_;
 }
 
 void Context::release_objects() {
   programs_.reset();
-  glDeleteBuffers(1, &read_buffer_);
+  reads_.reset();
 }
 
 bool Context::strikes(Fault fault) {

@@ -57,15 +57,19 @@ struct DebugMessage {
 
 /// What a driver does on a bad day; see Context::inject_fault.
 enum class Fault {
-  lost_context,     ///< the device was reset, and all that this context held is gone
-  out_of_memory,    ///< an allocation failed
-  lost_at_dispatch  ///< the same as lost_context, at a pass: it and all later ones do nothing
+  lost_context,      ///< the device was reset, and all that this context held is gone
+  out_of_memory,     ///< an allocation failed
+  lost_at_dispatch,  ///< the same as lost_context, at a pass: it and all later ones do nothing
+  no_answer,         ///< a wait for the device never ends
+  late               ///< the device has not got as far as a poll asks
 };
 
 /// What Buffer::download reads at a time [bytes].
 inline constexpr std::uint64_t read_part_bytes = std::uint64_t{4} << 20;
 
+struct DeleteFence;
 class ProgramCache;
+class ReadRing;
 
 /// The address of a GL function, or null: eglGetProcAddress, glfwGetProcAddress.
 using Loader = void (*(*)(const char* name))();
@@ -112,8 +116,8 @@ class Context {
   /// For tests: the driver's fault strikes at its next chance, or after so many chances have passed. Chances
   /// of lost_context are calls of lost(); those of out_of_memory are the making of a buffer or a texture and
   /// calls of ran_out_of_memory(); those of lost_at_dispatch are the dispatches of passes, and what is
-  /// downloaded once it has struck has all bits set. No GL call is made for it, so that the context itself
-  /// goes on working.
+  /// downloaded once it has struck has all bits set; those of no_answer and late are calls of wait_for() and
+  /// passed(). No GL call is made for it, so that the context itself goes on working.
   void inject_fault(Fault fault, std::uint64_t after = 0);
   /// For tests: faults that have not struck yet never will, and an injected loss is taken back.
   void take_back_faults();
@@ -134,13 +138,22 @@ class Context {
   friend class Buffer;
   friend class Texture;
   friend class Pass;
+  friend class ReadRing;
+  friend bool passed(Context& context, const std::unique_ptr<void, DeleteFence>& fence);
+  friend Status wait_for(Context& context, const std::unique_ptr<void, DeleteFence>& fence);
   friend class EglContextMaker;
   Context();
   void start(std::string platform, Loader loader);
   /// Whether an injected fault's time has come; it has only one.
   bool strikes(Fault fault);
-  /// A buffer of read_part_bytes, for nothing but what is to be read; made when it is first asked for.
-  unsigned int read_buffer();
+  /// What an indexed binding point holds.
+  struct Bound {
+    unsigned int id = 0;
+    std::uint64_t offset = 0, bytes = 0;
+    friend bool operator==(const Bound&, const Bound&) = default;
+  };
+  /// Copies of read_part_bytes on their way back; made when it is first asked for.
+  ReadRing& reads();
   void release_objects();
   /// A pass is about to be dispatched: whether it may.
   bool begins_dispatch();
@@ -151,11 +164,14 @@ class Context {
   bool lost_ = false;
   unsigned int (*reset_status_)() = nullptr;            // glGetGraphicsResetStatus of a robust context
   bool dead_ = false;                                   // by an injected loss at a dispatch
-  std::array<std::optional<std::uint64_t>, 3> faults_;  // by Fault: chances left to let pass
+  bool silent_ = false;                                 // a wait for the device did not end
+  std::array<std::optional<std::uint64_t>, 5> faults_;  // by Fault: chances left to let pass
   std::uint64_t dispatches_ = 0;
   std::unique_ptr<ProgramCache> programs_;
   std::uint64_t bytes_held_ = 0;
-  unsigned int read_buffer_ = 0;
+  std::unique_ptr<ReadRing> reads_;
+  // Storage and uniform binding points, so that nothing is bound where it is already.
+  std::array<std::array<Bound, 16>, 2> bound_ = {};
   std::function<void(const DebugMessage&)> sink_;
 };
 

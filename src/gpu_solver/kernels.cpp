@@ -85,6 +85,14 @@ std::vector<std::string> titles_of(std::span<const KernelRow> rows) {
   return titles;
 }
 
+Error idle_device(const gl::Context& context, const Model& model, std::uint64_t count) {
+  return fail(
+      ErrorCode::no_device,
+      "{} is no usable device: it does not carry out the kernels of {}, of which {} or more were queued. Use "
+      "another device, or --backend cpu.",
+      context.info().renderer, name_of(model.simulation.integrator), count);
+}
+
 Status check_overrun(std::uint32_t overrun) {
   // By KERNEL_… of layout.glsl: the kernel, and what its loop goes over.
   constexpr std::array<std::array<std::string_view, 2>, KERNEL_COUNT> kernels = {

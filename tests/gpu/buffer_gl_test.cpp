@@ -99,7 +99,7 @@ TEST_F(BufferGl, TakesNoBytesAtAll) {
   empty->clear();
   empty->upload({});
   EXPECT_TRUE(empty->download_items<float>(0).empty());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, empty->id());
+  empty->bind(BufferKind::storage, 0);
 }
 
 }  // namespace
