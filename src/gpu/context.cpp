@@ -22,6 +22,10 @@ constexpr GLenum reset_notification_strategy = 0x8256;
 constexpr GLint lose_context_on_reset = 0x8252;
 constexpr GLenum context_lost = 0x0507;
 
+// In KiB; of ATI's four numbers the first.
+constexpr GLenum nvx_free_memory = 0x9049;
+constexpr GLenum ati_vertex_free_memory = 0x87fb;
+
 bool has_extension(std::string_view name) {
   GLint count = 0;
   glGetIntegerv(GL_NUM_EXTENSIONS, &count);
@@ -67,6 +71,10 @@ void Context::start(std::string platform, Loader loader) {
     glGetIntegerv(reset_notification_strategy, &strategy);
     info_.robust = reset_status_ && strategy == lose_context_on_reset;
   }
+  if (has_extension("GL_NVX_gpu_memory_info"))
+    memory_query_ = nvx_free_memory;
+  else if (has_extension("GL_ATI_meminfo"))
+    memory_query_ = ati_vertex_free_memory;
   if (!info_.debug) return;
 
   // Synchronous, so that a message arrives within the call that caused it and on its thread.
@@ -101,6 +109,25 @@ bool Context::ran_out_of_memory() {
     }
   }
   return found;
+}
+
+std::optional<std::uint64_t> Context::free_memory() const {
+  if (assumed_free_ || memory_query_ == 0) return assumed_free_;
+  std::array<GLint, 4> kibibytes = {};
+  glGetIntegerv(memory_query_, kibibytes.data());
+  // A number beyond 2 TiB has no place in it.
+  if (kibibytes[0] <= 0) return std::nullopt;
+  return std::uint64_t{1024} * static_cast<std::uint64_t>(kibibytes[0]);
+}
+
+Status Context::check_memory(std::uint64_t bytes) const {
+  const auto free = free_memory();
+  if (!free || bytes <= *free) return {};
+  return fail(ErrorCode::scene_rejected,
+              "the scene needs {} ({} bytes) of memory on {}, and {} ({} bytes) are free; make it smaller, "
+              "close other "
+              "programs that use the device, or use --backend cpu",
+              human_bytes(bytes), bytes, info_.renderer, human_bytes(*free), *free);
 }
 
 void Context::forget_errors() {

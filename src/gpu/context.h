@@ -131,6 +131,15 @@ class Context {
   /// Compute programs that were linked in this context, to be used again.
   ProgramCache& programs() { return *programs_; }
 
+  /// Bytes of device memory that are free, where the driver tells (GL_NVX_gpu_memory_info, GL_ATI_meminfo),
+  /// or as assumed.
+  std::optional<std::uint64_t> free_memory() const;
+  /// For tests: what free_memory() answers from now on; nothing: what the driver tells.
+  void assume_free_memory(std::optional<std::uint64_t> bytes) { assumed_free_ = bytes; }
+  /// Error (scene_rejected): `bytes` more are needed than are free, as far as the driver tells; the sentence
+  /// gives the figures.
+  Status check_memory(std::uint64_t bytes) const;
+
   /// Bytes that this context's buffers hold at present.
   std::uint64_t bytes_held() const { return bytes_held_; }
 
@@ -162,7 +171,9 @@ class Context {
   void* context_ = nullptr;
   DeviceInfo info_;
   bool lost_ = false;
-  unsigned int (*reset_status_)() = nullptr;            // glGetGraphicsResetStatus of a robust context
+  unsigned int (*reset_status_)() = nullptr;  // glGetGraphicsResetStatus of a robust context
+  std::uint32_t memory_query_ = 0;            // what tells of free memory, or 0
+  std::optional<std::uint64_t> assumed_free_;
   bool dead_ = false;                                   // by an injected loss at a dispatch
   bool silent_ = false;                                 // a wait for the device did not end
   std::array<std::optional<std::uint64_t>, 5> faults_;  // by Fault: chances left to let pass

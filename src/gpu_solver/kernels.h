@@ -27,7 +27,8 @@ struct KernelRow {
 std::vector<std::string> titles_of(std::span<const KernelRow> rows);
 
 /// Asks the canary unless the options know the arithmetic already. The kernels leave out the terrain shapes,
-/// and the motion, that the model does not have. Errors: those of choose_arithmetic.
+/// and the motion, that the model does not have. Errors: those of choose_arithmetic;
+/// no_device: the device takes no groups of this size.
 Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, const GpuOptions& options,
                                      std::uint32_t group_size);
 

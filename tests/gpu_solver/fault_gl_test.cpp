@@ -33,7 +33,7 @@ class FaultySolverGl : public aspic::testing::GlTest {
 
   /// A fresh context, in which no fault has struck yet.
   gl::Context& own() {
-    auto made = gl::Context::create_headless({.debug = true, .device = gl::DeviceChoice::software});
+    auto made = gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
     EXPECT_TRUE(made.ok());
     own_ = std::move(made).value();
     return *own_;
