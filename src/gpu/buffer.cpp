@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "gpu/read_ring.h"
 
 namespace aspic::gl {
 namespace {
 
 // The copy targets belong to no indexed binding point, so that working on a buffer disturbs no pass.
 constexpr GLenum target = GL_COPY_WRITE_BUFFER;
-constexpr GLenum source_target = GL_COPY_READ_BUFFER;
 constexpr std::uint64_t token_bytes = 16;
 
 }  // namespace
@@ -57,6 +57,10 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
 }
 
 void Buffer::Release::operator()(Context* context) const {
+  // Its number may soon be another buffer's.
+  for (auto& points : context->bound_)
+    for (Context::Bound& bound : points)
+      if (bound.id == id) bound = {};
   glDeleteBuffers(1, &id);
   context->bytes_held_ -= bytes;
 }
@@ -70,21 +74,30 @@ void Buffer::upload(std::span<const std::byte> data, std::uint64_t offset) {
 
 void Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
   assert(offset <= bytes() && data.size() <= bytes() - offset);
-  if (data.empty()) return;
-  if (held_->dead_) {
-    // What a lost device answers is anything; this is the least likely to pass for a result.
-    std::ranges::fill(data, std::byte{0xff});
-    return;
+  // One part is read while the next ones are copied.
+  ReadRing& ring = held_->reads();
+  const auto part = [&](std::uint64_t at) { return std::min(data.size() - at, read_part_bytes); };
+  for (std::uint64_t at = 0, asked = 0; at < data.size(); at += part(at)) {
+    for (; asked < data.size() && !ring.full(); asked += part(asked))
+      ring.submit(*this, offset + asked, part(asked));
+    ring.take(data.subspan(at, part(at)));
   }
-  // Some drivers move a buffer that is read to the host's memory, and later passes with it: what is read is a
-  // copy.
-  for (std::uint64_t at = 0; at < data.size(); at += read_part_bytes) {
-    const auto size = static_cast<GLsizeiptr>(std::min(data.size() - at, read_part_bytes));
-    glBindBuffer(target, held_->read_buffer());
-    glBindBuffer(source_target, id());
-    glCopyBufferSubData(source_target, target, static_cast<GLintptr>(offset + at), 0, size);
-    glGetBufferSubData(target, 0, size, data.data() + at);
+}
+
+void Buffer::bind(BufferKind kind, std::uint32_t binding, std::uint64_t offset, std::uint64_t bytes) const {
+  assert(bytes == 0 ? offset == 0 : offset <= this->bytes() && bytes <= this->bytes() - offset);
+  const bool storage = kind == BufferKind::storage;
+  auto& points = held_->bound_[storage ? 0 : 1];
+  const Context::Bound wanted = {id(), offset, bytes};
+  if (binding < points.size()) {
+    if (points[binding] == wanted) return;
+    points[binding] = wanted;
   }
+  const GLenum point = storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER;
+  if (bytes == 0)
+    glBindBufferBase(point, binding, id());
+  else
+    glBindBufferRange(point, binding, id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
 }
 
 void Buffer::clear() {

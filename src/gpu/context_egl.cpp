@@ -16,6 +16,7 @@
 #include "gpu/context.h"
 #include "gpu/device_info.h"
 #include "gpu/program.h"
+#include "gpu/read_ring.h"
 
 namespace aspic::gl {
 

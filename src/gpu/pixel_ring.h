@@ -2,23 +2,16 @@
 // Pictures on their way back from the device, several at once, so that nobody waits for the newest.
 #include <array>
 #include <cstddef>
-#include <memory>
+#include <cstdint>
 #include <vector>
 
 #include "base/result.h"
 #include "gpu/context.h"
+#include "gpu/fence.h"
 #include "gpu/name.h"
 #include "gpu/texture.h"
 
 namespace aspic::gl {
-
-/// Tells when the device has done all calls before it; owns a GLsync.
-struct DeleteFence {
-  void operator()(void* sync) const;
-};
-using Fence = std::unique_ptr<void, DeleteFence>;
-/// A fence after all calls so far, which go to the device.
-Fence fence();
 
 /// A buffer for pixels on their way back.
 Name pixel_buffer(std::size_t bytes);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
@@ -21,6 +23,10 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
   ASPIC_CHECK(check_built(options.force_path));
   if (context.lost()) return context.lost_error();
   const ForcePathRow& path = row_of(options.force_path);
+  const std::uint64_t shared =
+                          options.share_springs_of ? options.share_springs_of->spring_buffers()->bytes() : 0,
+                      needed = gpu_bytes(count(model), model.simulation.integrator, path.path);
+  ASPIC_CHECK(context.check_memory(needed - std::min(needed, shared)));
   if (!solves(model.simulation.integrator, model.particle_count()))
     return make_explicit_solver(context, model, options, path);
   if (path.implicit) return make_implicit_solver(context, model, options, path);

@@ -106,7 +106,7 @@ Status HighlightPainter::draw_over(const ModelBuffers& model, const gl::Buffer& 
                                    const render_layout::Frame& frame) {
   ASPIC_CHECK(list(options.marked));
   frame_.upload_items(std::span(&frame, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_.id());
+  frame_.bind(gl::BufferKind::uniform, BINDING_FRAME);
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

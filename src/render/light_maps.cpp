@@ -50,14 +50,14 @@ Result<LightMaps> LightMaps::create(gl::Context& context) {
 }
 
 void LightMaps::leave_out(const ModelBuffers& model) {
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_LIGHT_BOXES, model.light_boxes().id());
+  model.light_boxes().bind(gl::BufferKind::uniform, BINDING_LIGHT_BOXES);
   empty_.colour.bind(UNIT_SUN_MAP);
   empty_.colour.bind(UNIT_SKY_MAP);
 }
 
 void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model, const DeviceState& state,
                        const DrawSettings& draw) {
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_LIGHT_BOXES, model.light_boxes().id());
+  model.light_boxes().bind(gl::BufferKind::uniform, BINDING_LIGHT_BOXES);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);

@@ -108,7 +108,7 @@ void Picker::submit(std::uint64_t request, const Model& model, const ModelBuffer
   slot.request = request;
   slot.frame = frame_around(frame, place.x, place.y, place.width, place.height, side);
   frame_.upload_items(std::span(&slot.frame, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_.id());
+  frame_.bind(gl::BufferKind::uniform, BINDING_FRAME);
 
   image_.framebuffer.bind();
   const GLuint none[4] = {0, 0, 0, 0};

@@ -165,7 +165,7 @@ Status Renderer::Parts::prepare_highlight() {
 
 void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   frame.upload_items(std::span(&block, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
+  frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
 }
 
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {

@@ -100,9 +100,10 @@ Status BitComparison::add(const Model& model, const std::function<Result<State>(
   ASPIC_TRY(const auto expected, run(*reference));
   for (const GpuOptions& options : row_.needs_context ? variants : variants.first(1)) {
     std::unique_ptr<Solver> solver;
+    const GpuSolver* on_device = nullptr;
     if (row_.needs_context) {
       ASPIC_TRY(auto gpu, subject_.gpu(model, options));
-      exact_ = exact_ && gpu->arithmetic().exact();
+      on_device = gpu.get();
       arithmetic_ = fmt::format("{}", fmt::join(gpu->arithmetic().sentences(), " "));
       solver = std::move(gpu);
     } else {
@@ -113,15 +114,46 @@ Status BitComparison::add(const Model& model, const std::function<Result<State>(
     ulp_ = std::max(ulp_, difference.largest_ulp());
     absolute_ = std::max(absolute_, difference.largest_absolute());
     ++runs_;
+    if (difference.identical()) continue;
+    if (on_device) {
+      ASPIC_CHECK(bound(model, run, *on_device, expected, difference.largest_absolute()));
+    } else {
+      share_ = std::numeric_limits<double>::infinity();
+    }
   }
+  return {};
+}
+
+/// Of a run that differs, on a device.
+Status BitComparison::bound(const Model& model, const std::function<Result<State>(Solver&)>& run,
+                            const GpuSolver& gpu, const State& expected, double difference) {
+  const gl::Arithmetic& arithmetic = gpu.arithmetic();
+  if (arithmetic.exact() && arithmetic.device.denormals_kept()) {
+    share_ = std::numeric_limits<double>::infinity();
+    return {};
+  }
+  ASPIC_TRY(auto precise, subject_.reference(model, Precision::double_));
+  ASPIC_TRY(const auto end, run(*precise));
+  ASPIC_TRY(const auto rounding, compare_states(expected, end));
+  const double steps = std::max(1.0, static_cast<double>(expected.step));
+  const double allowed =
+      (1.0 + 2.0 * arithmetic.worst_ulps() * std::sqrt(steps)) * rounding.largest_absolute();
+  allowed_ = std::max(allowed_, allowed);
+  share_ = std::max(share_, difference / allowed);
   return {};
 }
 
 Finding BitComparison::finding() const {
   const std::string text = fmt::format("{} ULP in {} runs", ulp_, runs_);
   if (same()) return {true, text};
-  return {!subject_.software_device && !exact_,
-          fmt::format("{}, {:.3g} in metres and m/s. {}", text, absolute_, arithmetic_)};
+  if (!std::isfinite(share_))
+    return {false,
+            fmt::format("{}, {:.3g} in metres and m/s, for which the device's arithmetic is no reason. {}",
+                        text, absolute_, arithmetic_)};
+  return {share_ <= 1.0,
+          fmt::format("{}, {:.3g} in metres and m/s: {:.2g} of what the device's arithmetic explains, "
+                      "{:.3g} at most. {}",
+                      text, absolute_, share_, allowed_, arithmetic_)};
 }
 
 }  // namespace aspic::verify

@@ -75,17 +75,23 @@ class BitComparison {
              std::span<const GpuOptions> variants);
 
   bool same() const { return ulp_ == 0; }
-  /// Largest difference and number of runs. Hardware that the canary found to compute otherwise is excused by
-  /// that finding, and by nothing else.
+  /// Largest difference and number of runs. A device that the canary found to compute otherwise has a bound:
+  /// with p = Arithmetic::worst_ulps() and N steps, 1 + 2p·√N times the distance of single from double
+  /// precision in the same run. That distance grows from N roundings of half a unit each, which add up like
+  /// √N; a device that is always wrong by p units to the same side adds up like 2p·N of them.
   Finding finding() const;
 
  private:
+  Status bound(const Model& model, const std::function<Result<State>(Solver&)>& run, const GpuSolver& gpu,
+               const State& expected, double difference);
+
   const Subject& subject_;
   const BackendRow& row_;
   std::uint64_t ulp_ = 0;
   double absolute_ = 0.0;
   int runs_ = 0;
-  bool exact_ = true;
+  double share_ = 0.0;      // of the bound that the worst run takes; infinite: without one
+  double allowed_ = 0.0;    // largest bound [m, m/s]
   std::string arithmetic_;  // the canary's sentences
 };
 

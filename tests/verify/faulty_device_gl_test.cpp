@@ -1,6 +1,8 @@
 // The device's rows, given a device that computes another model than it was asked for.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <iostream>
 #include <memory>
 #include <vector>
 
@@ -46,6 +48,57 @@ TEST_F(FaultyDevice, AWorkGroupOrARunOfItsOwnIsNoticed) {
   EXPECT_EQ(row_of("repeat/group-sizes", subject).verdict, Verdict::failed);
   subject.program = "/nonexistent/aspic";
   EXPECT_EQ(row_of("repeat/driver-threads", subject).verdict, Verdict::failed);
+}
+
+// A device whose quotients and roots are off, and stay so: what it may differ by follows from how far they
+// are off.
+TEST_F(FaultyDevice, InexactArithmeticHasABound) {
+  struct Fault {
+    const char *quotient, *root;
+  };
+  for (const auto& [quotient, root] : {Fault{"1", "0"}, {"1", "-1"}, {"-3", "2"}}) {
+    const std::vector<gl::Define> faults = {{"FAULT_DIV", quotient}, {"FAULT_SQRT", root}};
+    const auto report = gl::measure_arithmetic(context(), gl::ShaderLibrary(ASPIC_TEST_SHADERS), faults);
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    const gl::Arithmetic inexact = {*report, std::nullopt, {}};
+    ASSERT_EQ(inexact.worst_ulps(), static_cast<std::uint32_t>(std::abs(std::atoi(quotient))));
+    Subject subject = product(&context(), ASPIC_PROGRAM);
+    bool told = true;
+    subject.gpu = [&, right = subject.gpu](const Model& model, GpuOptions options) {
+      options.shader_directory = ASPIC_TEST_SHADERS;
+      options.defines = faults;
+      if (told) options.arithmetic = inexact;
+      return right(model, options);
+    };
+    for (const char* const name : {"equality/runge-kutta-4/gpu", "equality/implicit-euler/gpu"}) {
+      const Row row = row_of(name, subject);
+      EXPECT_EQ(row.verdict, Verdict::passed) << row.measured;
+      EXPECT_NE(row.measured.find("of what the device's arithmetic explains"), std::string::npos)
+          << row.measured;
+      RecordProperty(std::string(name) + quotient + root, row.measured);
+      std::cout << quotient << " " << root << " " << row.measured.substr(0, 160) << "\n";
+    }
+    // The same from a device that the canary found exact is a fault.
+    told = false;
+    EXPECT_EQ(row_of("equality/runge-kutta-4/gpu", subject).verdict, Verdict::failed);
+  }
+}
+
+// A wrong constant is beyond what one unit in the last place explains.
+TEST_F(FaultyDevice, TheBoundIsNoFreePass) {
+  const std::vector<gl::Define> faults = {{"FAULT_DIV", "1"}};
+  const auto report = gl::measure_arithmetic(context(), gl::ShaderLibrary(ASPIC_TEST_SHADERS), faults);
+  ASSERT_TRUE(report.ok());
+  Subject subject = product(&context(), ASPIC_PROGRAM);
+  std::vector<std::unique_ptr<Model>> models;
+  subject.gpu = [&, right = subject.gpu](const Model& model, GpuOptions options) {
+    models.push_back(std::make_unique<Model>(model));
+    for (SpringClass& s : models.back()->spring_classes) s.stiffness *= 1.01;
+    options.arithmetic = gl::Arithmetic{*report, std::nullopt, {}};
+    return right(*models.back(), options);
+  };
+  const Row row = row_of("equality/runge-kutta-4/gpu", subject);
+  EXPECT_EQ(row.verdict, Verdict::failed) << row.measured;
 }
 
 }  // namespace
