@@ -22,6 +22,9 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   ASPIC_TRY(auto simulation, Simulation::create(context, editor.scene(), backend, options.asked));
   std::unique_ptr<App> app(new App(options, std::move(editor), std::move(simulation)));
   ASPIC_CHECK(app->attach(context, scale, std::move(services)));
+  if (const auto& state = app->scene.editor().state()) {
+    ASPIC_CHECK(app->simulation.start_from(*state));
+  }
   app->restore(options.kept, options.overrides);
   return app;
 }
@@ -59,26 +62,30 @@ std::vector<Command> App::make_commands() {
   };
   const auto paste = [this] { paste_camera(view, scene.scene(), gui_->services(), messages); };
   return {
+      {"", "Motion"},
       {"Space", "start or pause", GLFW_KEY_SPACE, 0, 0, [this] { run.toggle(); }},
-      {".", "single step", -1, 0, U'.', step},
+      {". (full stop)", "single step", -1, 0, U'.', step},
       {"R", "reset to the start", GLFW_KEY_R, 0, 0, [this] { run.reset(); }},
-      {",", "step back", -1, 0, U',', [this] { run.step_back(); }},
+      {", (comma)", "step back", -1, 0, U',', [this] { run.step_back(); }},
       {"Backspace", "half a second back", GLFW_KEY_BACKSPACE, 0, 0, [this] { run.jump_back(); }, true},
       {"+", "twice as fast", -1, 0, U'+', [this] { run.change_speed(2.0); }},
       {"-", "half as fast", -1, 0, U'-', [this] { run.change_speed(0.5); }},
       {"G", "other backend", GLFW_KEY_G, 0, 0, [this] { run.switch_backend(); }},
+      {"", "Hands"},
       {"B", "throw a ball", GLFW_KEY_B, 0, 0, throw_ball},
       {"Ctrl+drag", "pull the particle under the mouse"},
       {"Ctrl+right click", "pin or free the particle"},
+      {"", "Scenes"},
       {"[", "previous scene", -1, 0, U'[', [this] { scene.open_neighbour(-1); }},
       {"]", "next scene", -1, 0, U']', [this] { scene.open_neighbour(1); }},
       {"Ctrl+L", "reload the scene", GLFW_KEY_L, ctrl, 0, [this] { scene.reload(); }},
-      {"Ctrl+O", "open a scene file", GLFW_KEY_O, ctrl, 0, [this] { ask_for_scene(); }},
+      {"Ctrl+O", "open a scene or checkpoint", GLFW_KEY_O, ctrl, 0, [this] { ask_for_scene(); }},
       {"Ctrl+S", "save the scene", GLFW_KEY_S, ctrl, 0, [this] { ask_where_to_save(); }},
       {"F5", "reload the scene", GLFW_KEY_F5, 0, 0, [this] { scene.reload(); }},
       {"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, [this] { scene.undo(); }, true},
       {"Ctrl+Shift+Z", "redo", GLFW_KEY_Z, ctrl | shift, 0, [this] { scene.redo(); }, true},
       {"Ctrl+Y", "redo", GLFW_KEY_Y, ctrl, 0, [this] { scene.redo(); }, true},
+      {"", "Camera"},
       {"left drag", "turn the camera"},
       {"right or Shift drag", "move the camera"},
       {"wheel", "zoom"},
@@ -88,7 +95,9 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+C", "copy the camera as text", GLFW_KEY_C, ctrl, 0,
        [this] { copy_camera(view, gui_->services(), messages); }},
       {"Ctrl+V", "paste a camera", GLFW_KEY_V, ctrl, 0, paste},
+      {"", "Window and files"},
       {"Tab", "hide or show the panels", GLFW_KEY_TAB, 0, 0, [this] { layout.panels = !layout.panels; }},
+      {"Ctrl+P", "find an action, a scene or a value", GLFW_KEY_P, ctrl, 0, [this] { palette.open(); }},
       {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { help_visible = !help_visible; }},
       {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
       {"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
@@ -98,8 +107,9 @@ std::vector<Command> App::make_commands() {
 }
 
 void App::ask_for_scene() {
-  files.ask({"Open", {".toml"}, false, [this](const std::string& path, Overwrite) { scene.open(path); }},
-            scene.editor().is_file() ? scene.editor().source() : "");
+  files.ask(
+      {"Open", {".toml", ".aspic"}, false, [this](const std::string& path, Overwrite) { scene.open(path); }},
+      scene.editor().is_file() ? scene.editor().source() : "");
 }
 
 void App::ask_where_to_save() {
@@ -180,7 +190,7 @@ bool App::idle() const {
 
 double App::wait(double since) const {
   constexpr double shortest = 1.0 / 60.0, longest = 0.1, nap = 0.004;  // s
-  if (idle()) return std::max(0.25 - since, 0.0);
+  if (idle()) return std::max(0.5 - since, 0.0);
   // Displays set the pace of hardware. A software rasteriser draws on the processors that simulate: it draws
   // at no more than that pace, only what is new, and where steps are late for a third of the time at most.
   if (!picture.context().info().is_software) return 0.0;
@@ -213,7 +223,7 @@ void App::deliver_keys() {
     const KeyEvent event = keys_.front();
     keys_.pop_front();
     // F1 and those after it are in no text.
-    const bool escapes = event.key == GLFW_KEY_ESCAPE && files.is_open();
+    const bool escapes = event.key == GLFW_KEY_ESCAPE && (files.is_open() || palette.is_open());
     const bool typing =
         gui_->takes_keyboard() && !escapes && !(event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F25);
     if (event.character == 0 || typing) gui_->key(event);
@@ -224,6 +234,7 @@ void App::deliver_keys() {
       help_visible = false;
       closing = Closing::no;
       files.close();
+      palette.close();
       messages.dismiss();
     } else {
       commands_.on_key(event.key, event.modifiers, event.action == GLFW_REPEAT);
@@ -292,7 +303,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
   gui_->begin(dt);
   view.text_scale = gui_->scale();
   view.box = draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer,
-                          layout, files, closing, help_visible},
+                          layout, files, palette, closing, help_visible},
                          size.width, size.height);
   if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
     view.frame_bodies(simulation.model(), simulation.snapshot());

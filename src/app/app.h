@@ -90,6 +90,7 @@ class App final : public EventReceiver {
   Pointer pointer;
   Layout layout;
   FileDialog files;
+  Palette palette;
   Closing closing = Closing::no;
   bool help_visible = false;
 

@@ -18,7 +18,6 @@ class CameraControl {
   void pan(double dx, double dy);
   /// Comes nearer by a tenth for each notch, or goes away for negative ones.
   void zoom(double notches);
-  /// Goes back home.
   void reset();
   /// Turns to a sphere and backs off until it fits; direction and field of view stay. `aspect` is
   /// width/height of the view, > 0; a radius of 0 [m] is taken as a small one.
@@ -37,7 +36,6 @@ class CameraControl {
   bool update(double dt);
 
   const CameraSettings& home() const { return home_; }
-  /// What is shown now.
   CameraSettings shown() const { return settings_of(shown_); }
   /// Where the camera is going.
   CameraSettings goal() const { return settings_of(goal_); }

@@ -30,6 +30,7 @@ Engines& Engines::operator=(Engines&& other) noexcept {
   leader_ = std::move(other.leader_);
   shadow_ = std::move(other.shadow_);
   model_ = std::move(other.model_);
+  departure = std::move(other.departure);
   return *this;
 }
 
@@ -108,20 +109,23 @@ Result<Backend> EngineFactory::make(const Model& model, const BackendRow& row, c
   return engine;
 }
 
-Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup,
-                                         std::optional<std::string>& message) {
+Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup) {
   ASPIC_TRY(auto built, build_model(setup));
   auto model = std::make_unique<Model>(std::move(built));
   auto leader = make(*model, *like.leader().row, like.gpu());
-  if (!leader && Engines::in_context(like.leader())) {
-    message = fmt::format("{} The reference takes over.", leader.error().message);
-    leader = make(*model, reference_backend(), nullptr);
-  } else if (leader && like.shadowed()) {
+  if (leader && like.shadowed()) {
     ASPIC_TRY(auto shadow, make(*model, *like.shadow().row, like.gpu()));
     return Engines(std::move(model), std::move(*leader), std::move(shadow));
   }
+  std::optional<std::string> departure;
+  if (!leader && Engines::in_context(like.leader())) {
+    departure = fmt::format("{} The reference takes over.", leader.error().message);
+    leader = make(*model, reference_backend(), nullptr);
+  }
   if (!leader) return leader.error();
-  return Engines(std::move(model), std::move(*leader), {});
+  Engines engines(std::move(model), std::move(*leader), {});
+  engines.departure = std::move(departure);
+  return engines;
 }
 
 }  // namespace aspic::app

@@ -50,6 +50,9 @@ class Engines {
   /// Solvers go before the model that they refer to.
   Engines& operator=(Engines&& other) noexcept;
 
+  /// In what these engines are not like those they replace, in a sentence; nothing: in nothing.
+  std::optional<std::string> departure;
+
   const Model& model() const { return *model_; }
   const Backend& leader() const { return leader_; }
   const Backend& shadow() const { return shadow_; }
@@ -70,7 +73,6 @@ class Engines {
   void swap() { std::swap(leader_, shadow_); }
   /// The energies of a state of the model.
   EnergySample measured(const State& state) const;
-  /// To all solvers.
   Status load(const State& state);
   Status set_pull(const std::optional<Pull>& pull);
 
@@ -86,7 +88,6 @@ class Engines {
   Backend leader_, shadow_;
 };
 
-/// Makes solvers in the window's context.
 class EngineFactory {
  public:
   /// `asked`: what solvers that have it are asked for, beside their row.
@@ -96,9 +97,9 @@ class EngineFactory {
   /// Errors: of make_backend().
   Result<Backend> make(const Model& model, const BackendRow& row, const GpuSolver* like);
   /// A model with solvers on the same backends as `like`. Where a leader in the context refuses the model the
-  /// reference takes its place without a shadow, and `message` says so. Without solvers in the context it may
+  /// reference takes its place without a shadow, as `departure` says. Without solvers in the context it may
   /// run on another thread.
-  Result<Engines> make_like(const Engines& like, const Setup& setup, std::optional<std::string>& message);
+  Result<Engines> make_like(const Engines& like, const Setup& setup);
 
  private:
   gl::Context* context_;

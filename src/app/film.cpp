@@ -18,13 +18,14 @@ std::string result_text(Recording& film) {
                      film.seconds(), options.fps);
 }
 
-}  // namespace
-
+/// `path` with the ending that the format wants in place of another format's; directories have none.
 std::string film_path(const std::string& path, const FilmFormat& format) {
   std::filesystem::path named(path);
   if (find_film_format(named.extension().string())) named.replace_extension();
   return named.string() + std::string(film_ending(format));
 }
+
+}  // namespace
 
 void Film::start() {
   stop();

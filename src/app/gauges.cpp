@@ -224,7 +224,9 @@ void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
   figure("Real-time factor", s.running() ? fmt::format("{:.3g}", s.real_time_factor()) : "paused",
          "Simulated seconds per second.");
   figure("Pictures",
-         fmt::format("{:.0f}/s, {:.1f} ms each", picture.pictures_per_second(), 1e3 * picture.draw_seconds()),
+         picture.at_rest() ? fmt::format("at rest, {:.0f} ms", 1e3 * picture.draw_seconds())
+                           : fmt::format("{:.0f}/s, {:.1f} ms each", picture.pictures_per_second(),
+                                         1e3 * picture.draw_seconds()),
          "Pictures of the window per second, and how long the last one of the scene took.");
   if (device.is_software) {
     figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * picture.resolution()),
@@ -297,12 +299,10 @@ void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
   }
   const DifferenceSample& last = s.samples().differences().back();
   const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(last.identical ? same : other);
-  if (!std::isfinite(last.metres))
-    ImGui::TextColored(colour, "one of the two diverged");
-  else if (last.identical)
-    ImGui::TextColored(colour, "0 ULP, 0 m: every bit is the same");
-  else
-    ImGui::TextColored(colour, "%llu ULP, %.3g m", static_cast<unsigned long long>(last.ulp), last.metres);
+  const std::string text = !std::isfinite(last.metres) ? "one of the two diverged"
+                           : last.identical            ? "0 ULP, 0 m: every bit is the same"
+                                            : fmt::format("{} ULP, {:.3g} m", last.ulp, last.metres);
+  ImGui::TextColored(colour, "%s", text.c_str());
   gui.mark("shadow/difference");
   if (last.identical && s.samples().ever_differed())
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(other), "there were differences before");

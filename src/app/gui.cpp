@@ -69,7 +69,7 @@ void set_theme(float scale) {
   c[ImGuiCol_HeaderHovered] = tint(0.40f);
   c[ImGuiCol_HeaderActive] = tint(0.60f);
   c[ImGuiCol_CheckMark] = {0.45f, 0.82f, 0.87f, 1.0f};
-  c[ImGuiCol_SliderGrab] = tint(0.9f);
+  c[ImGuiCol_SliderGrab] = tint(0.5f);  // the value can be read through it
   c[ImGuiCol_SliderGrabActive] = accent;
   c[ImGuiCol_TextSelectedBg] = tint(0.5f);
   c[ImGuiCol_Separator] = grey(0.22f);

@@ -135,10 +135,8 @@ Moment History::nearest(double time) const {
     m.step = stretch(m.stretch).first;
   }
   const Stretch& s = stretch(m.stretch);
-  const double steps = std::round(time / s.timestep());
-  m.step = steps <= static_cast<double>(s.first)  ? s.first
-           : steps >= static_cast<double>(s.last) ? s.last
-                                                  : static_cast<std::uint64_t>(steps);
+  m.step = static_cast<std::uint64_t>(
+      std::clamp(std::round(time / s.timestep()), static_cast<double>(s.first), static_cast<double>(s.last)));
   return canonical(m);
 }
 

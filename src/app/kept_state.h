@@ -46,7 +46,7 @@ struct KeptState {
   double speed = 1.0;
   const FilmFormat* film_format = &film_formats().front();
   double film_fps = 60.0;
-  bool film_text = true;
+  bool film_text = false;
   std::vector<KeptCamera> cameras;  ///< the one last used at the end
   friend bool operator==(const KeptState&, const KeptState&) = default;
 };

@@ -52,6 +52,8 @@ constexpr Heading right_sections[] = {
      [](Parts p) {
        recording_section(p.gui, p.scene.editor().source(), p.film);
        ImGui::Separator();
+       picture_files(p.gui, p.picture.saved);
+       ImGui::Separator();
        state_files(p.gui, p.scene.editor(), p.simulation, p.messages, p.files);
      },
      false, "Films of the scene; its states, energies and checkpoints as files."},
@@ -180,22 +182,47 @@ void divergence_buttons(Gui& gui, const Simulation& simulation, RunControl& run,
   ImGui::SameLine();
 }
 
-void notice_panel(Gui& gui, Messages& messages, const Simulation& simulation, RunControl& run,
-                  const Box& view) {
+/// The text of a message. In a proportional font a caret would not stand below what it points at: it is put
+/// there.
+void notice_text(std::string_view text, float width) {
+  std::string_view before;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    const std::size_t caret = line.find('^');
+    if (caret != std::string_view::npos && line.find_first_not_of(" |^") == std::string_view::npos) {
+      const std::string_view above = before.substr(0, std::min(caret, before.size()));
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
+                           ImGui::CalcTextSize(above.data(), above.data() + above.size()).x);
+      ImGui::TextUnformatted("^");
+    } else {
+      wrapped_text(line, width);
+      if (line.empty()) ImGui::NewLine();
+    }
+    before = line;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+/// As wide as its text needs. A film that writes on its pictures has that on the left: then it stands on the
+/// right.
+void notice_panel(Parts parts, const Box& view) {
+  Messages& messages = parts.messages;
   if (!messages.notice()) return;
   const Notice notice = *messages.notice();
-  const double scale = gui.scale();
-  const double width = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
-  if (width < 80.0 * scale) return;
-  ImGui::SetNextWindowPos(at(view.left + 16.0 * scale, view.top + 16.0 * scale));
-  ImGui::SetNextWindowSize(at(width, 0.0));
-  const Panel panel(
-      "##notice", 6.0 * scale,
-      notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f));
-  // Scene errors come with their line and a caret, whose columns must stay.
-  wrapped_text(notice.text, ImGui::GetContentRegionAvail().x);
-  if (simulation.divergence()) divergence_buttons(gui, simulation, run, messages);
-  if (button(gui, "notice/close", "Close", "Dismiss this message (Escape).")) messages.dismiss();
+  const double scale = parts.gui.scale();
+  const double room = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
+  if (room < 80.0 * scale) return;
+  const bool right = parts.picture.film && parts.picture.film->text;
+  ImGui::SetNextWindowPos(
+      at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale, view.top + 16.0 * scale),
+      ImGuiCond_Always, {right ? 1.0f : 0.0f, 0.0f});
+  const Panel panel("##notice", 6.0 * scale,
+                    notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f),
+                    ImGuiWindowFlags_AlwaysAutoResize);
+  notice_text(notice.text, static_cast<float>(room) - 2.0f * ImGui::GetStyle().WindowPadding.x);
+  if (parts.simulation.divergence()) divergence_buttons(parts.gui, parts.simulation, parts.run, messages);
+  if (button(parts.gui, "notice/close", "Close", "Dismiss this message (Escape).")) messages.dismiss();
 }
 
 void help_panel(Gui& gui, bool& visible, double width, double height) {
@@ -205,17 +232,31 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
                     ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::Separator();
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const Command& c : gui.commands().rows()) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%.*s    ",
-                         static_cast<int>(c.keys.size()), c.keys.data());
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(c.name.data(), c.name.data() + c.name.size());
+  // Headings begin groups, in two columns of about the same length.
+  const auto& rows = gui.commands().rows();
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  ImGui::BeginGroup();
+  float taken = 0.0f, keys = 0.0f;
+  for (const Command& c : rows) keys = std::max(keys, ImGui::CalcTextSize(c.keys.data()).x);
+  for (const Command& c : rows) {
+    const bool heading = c.keys.empty();
+    if (heading && taken > 0.45f * static_cast<float>(rows.size()) * line) {
+      ImGui::EndGroup();
+      ImGui::SameLine(0.0f, 2.0f * line);
+      ImGui::BeginGroup();
+      taken = 0.0f;
     }
-    ImGui::EndTable();
+    taken += line;
+    if (heading) {
+      ImGui::TextDisabled("%s", c.name.data());
+      continue;
+    }
+    const float left = ImGui::GetCursorPosX();
+    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", c.keys.data());
+    ImGui::SameLine(left + keys + line);
+    ImGui::TextUnformatted(c.name.data());
   }
+  ImGui::EndGroup();
   ImGui::Separator();
   if (button(gui, "help/close", "Close", "Close this page (F1 or Escape).")) visible = false;
 }
@@ -314,10 +355,11 @@ Box draw_panels(const PanelParts& p, double width, double height) {
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
   const double legend = draw_legend(p.gui, p.picture.legend(), view);
-  notice_panel(p.gui, p.messages, p.simulation, p.run, view);
+  notice_panel(p, view);
   help_panel(p.gui, p.help_visible, width, height);
   closing_panel(p.gui, p.closing, width, height);
   p.files.draw(p.gui, width, height);
+  p.palette.draw(p, width, height);
   if (const auto& hovered = p.pointer.hovered())
     particle_readout(p.gui, p.simulation, *hovered, view, legend);
   return view;

@@ -8,6 +8,7 @@
 #include "app/hands.h"
 #include "app/kept_state.h"
 #include "app/messages.h"
+#include "app/palette.h"
 #include "app/pointer.h"
 #include "app/run_control.h"
 #include "app/scene_control.h"
@@ -34,6 +35,7 @@ struct PanelParts {
   const Pointer& pointer;
   Layout& layout;
   FileDialog& files;
+  Palette& palette;
   Closing& closing;
   bool& help_visible;
 };
@@ -53,6 +55,8 @@ void contact_section(Gui& gui, SceneControl& scene);
 void balls_section(Gui& gui, const Simulation& simulation, Hands& hands);
 void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout);
 void recording_section(Gui& gui, const std::string& source, Film& film);
+/// How pictures are saved; part of the recording section.
+void picture_files(Gui& gui, SavedLook& look);
 /// A button for each format of states; part of the recording section. The references must outlive `files`.
 void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
                  FileDialog& files);

@@ -156,6 +156,24 @@ std::string tooltip_of(const Parameter& p, std::size_t index) {
   return text;
 }
 
+/// Where a value would stand: what its absence means, if there is room for that.
+void absent_text(std::string_view meaning) {
+  if (meaning == "that of [contact]") meaning = "as above";
+  const float width = ImGui::CalcTextSize(meaning.data(), meaning.data() + meaning.size()).x;
+  if (width > ImGui::GetContentRegionAvail().x) meaning = "–";
+  ImGui::TextDisabled("%.*s", static_cast<int>(meaning.size()), meaning.data());
+}
+
+/// The box before a key that may be absent; true if it was toggled.
+bool presence_box(const Field& f, bool& present) {
+  const bool toggled = ImGui::Checkbox("##set", &present);
+  named(f.gui, f.key + "/set",
+        fmt::format("Checked: use this value. Unchecked: {}.\n\n{}", f.parameter.when_absent, f.help));
+  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::SetNextItemWidth(-1.0f);
+  return toggled;
+}
+
 }  // namespace
 
 std::string spaced(std::string_view key) {
@@ -276,8 +294,9 @@ void label_column(std::string_view label) {
   const float width = ImGui::GetWindowContentRegionMax().x;
   const float end =
       ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemInnerSpacing.x;
-  // A long label pushes its widget aside, one that leaves too little of the line goes above it.
-  if (end < longest_label * width) ImGui::SameLine(std::max(label_share * width, end));
+  // A long label has its widget in a second column, one that leaves too little of the line goes above it.
+  if (end < longest_label * width)
+    ImGui::SameLine((end < label_share * width ? label_share : longest_label) * width);
   ImGui::SetNextItemWidth(-1.0f);
 }
 
@@ -299,36 +318,19 @@ bool command_button(Gui& gui, const char* name, const char* label, std::string_v
   return pressed;
 }
 
-namespace {
-
-/// Where a value would stand: what its absence means, if there is room for that.
-void absent_text(std::string_view meaning) {
-  const float width = ImGui::CalcTextSize(meaning.data(), meaning.data() + meaning.size()).x;
-  if (width > ImGui::GetContentRegionAvail().x) meaning = "unset";
-  ImGui::TextDisabled("%.*s", static_cast<int>(meaning.size()), meaning.data());
-}
-
-/// The box before a key that may be absent; true if it was toggled.
-bool presence_box(const Field& f, bool& present) {
-  const bool toggled = ImGui::Checkbox("##set", &present);
-  named(f.gui, f.key + "/set",
-        fmt::format("Checked: use this value. Unchecked: {}.\n\n{}", f.parameter.when_absent, f.help));
-  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
-  ImGui::SetNextItemWidth(-1.0f);
-  return toggled;
-}
-
-}  // namespace
-
 std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const Scene& scene,
                                              std::size_t index, const WidgetWords& words) {
   // Geometry of terrain always has a value, if only its shape's.
   const bool optional = p.can_be_absent() && p.belonging == Belonging::always;
   const auto value = p.get(scene, index);
   if (!value && !optional) return std::nullopt;
-  const std::string label = words.label.empty() ? capitalized(spaced(p.path.substr(p.path.rfind('.') + 1)))
-                                                : std::string(words.label);
-  Field field = {gui, p, path_text(p.path, index), tooltip_of(p, index)};
+  std::string label = words.label.empty() ? capitalized(spaced(p.path.substr(p.path.rfind('.') + 1)))
+                                          : std::string(words.label);
+  // A number has its unit behind it; three have no room for it.
+  if (is_dragged(p) && p.type != ParameterType::number && !p.unit.empty())
+    label += fmt::format(" [{}]", p.unit);
+  Field field = {gui, p, path_text(p.path, index),
+                 words.help.empty() ? tooltip_of(p, index) : std::string(words.help)};
   if (!words.note.empty()) field.help += fmt::format("\n\n{}", words.note);
   ImGui::PushID(field.key.c_str());
   const bool many = p.type == ParameterType::words || p.type == ParameterType::pinned;
@@ -363,9 +365,7 @@ void edit(Gui& gui, SceneControl& scene, std::string_view path, std::size_t inde
   const auto change = parameter_widget(gui, p, scene.scene(), index, words);
   if (!change) return;
   if (change->value) return scene.set_value(p, index, *change->value, change->gesture);
-  Scene changed = scene.scene();
-  p.clear(changed, index);
-  scene.apply(std::move(changed), key_text(p));
+  scene.change(key_text(p), [&](Scene& changed) { p.clear(changed, index); });
 }
 
 }  // namespace aspic::app

@@ -1,5 +1,6 @@
 #pragma once
 // A widget for any row of the parameter table: range, words, unit and tooltip come from there.
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +23,7 @@ struct WidgetChange {
 struct WidgetWords {
   std::string_view label = {};  ///< empty: the key's own words
   std::string_view note = {};   ///< a paragraph more in the tooltip
+  std::string_view help = {};   ///< instead of the parameter's tooltip; empty: that
 };
 
 /// The widget of a parameter of a scene. One that may be absent has a box before it that sets and clears it.
@@ -57,6 +59,7 @@ bool slider(Gui& gui, std::string_view label, std::string_view name, double& val
 float share_of_line(int count);
 /// A label on the left; the next widget fills the rest of the line.
 void label_column(std::string_view label);
+/// The popup of that name, which asks for a file to write; `hint` shows what an empty path means. True once a
 /// A button with a name for the watcher and a tooltip. True if it was pressed.
 bool button(Gui& gui, const char* name, const char* label, std::string_view help, bool enabled = true,
             float width = 0.0f, std::string_view command = "");

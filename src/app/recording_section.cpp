@@ -126,6 +126,17 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
   if (film.completing() > 0) ImGui::TextDisabled("Completing the last film …");
 }
 
+void picture_files(Gui& gui, SavedLook& look) {
+  static constexpr std::string_view names[] = {"1", "2", "4"}, labels[] = {"as the view", "×2", "×4"};
+  command_button(gui, "picture/save", "Save the picture",
+                 "Saves the picture alone, as finely as it can be drawn.", "save the picture", true, -1.0f);
+  label_column("Size");
+  choice(gui, "picture/size", names, labels, look.scale, "Pixels of saved pictures for each of the view's.");
+  label_column("Background");
+  check_box(gui, "clear", "picture/clear", look.clear,
+            "Leaves sky and terrain out of saved pictures; what the bodies do not cover is transparent.");
+}
+
 void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
                  FileDialog& files) {
   for (const StateFormat& format : state_formats()) {

@@ -38,11 +38,11 @@ void Samples::add(const EnergySample& sample) {
   energies_ = std::move(thinner);
 }
 
-void Samples::compare(double time, const State& leader, const State& shadow) {
+void Samples::compare(double time, const State& leader, const State& shadow, bool one_diverged) {
   DifferenceSample sample;
   sample.time = time;
   const auto difference = compare_states(leader, shadow);
-  if (difference && leader.step == shadow.step) {
+  if (difference && leader.step == shadow.step && !one_diverged) {
     sample.metres = std::max(difference->position.absolute, difference->ball_position.absolute);
     sample.ulp = std::max({difference->position.ulp, difference->velocity.ulp, difference->ball_position.ulp,
                            difference->ball_velocity.ulp, difference->ball_angular_velocity.ulp});
@@ -54,12 +54,6 @@ void Samples::compare(double time, const State& leader, const State& shadow) {
   while (!differences_.empty() && differences_.back().time >= time) differences_.pop_back();
   differences_.push_back(sample);
   if (differences_.size() > most_samples) differences_.pop_front();
-}
-
-void Samples::one_diverged() {
-  differences_.back().metres = std::numeric_limits<double>::infinity();
-  differences_.back().identical = false;
-  ever_differed_ = true;
 }
 
 void Samples::truncate(double time) {

@@ -33,17 +33,14 @@ class Samples {
   const std::deque<EnergySample>& energies() const { return energies_; }
   /// The one that is nearest to a time of the run [s]; null if there is none.
   const EnergySample* nearest(double time) const;
-  /// The newest ones.
   const std::deque<DifferenceSample>& differences() const { return differences_; }
   /// Since shadow mode began, or the last change of setup.
   bool ever_differed() const { return ever_differed_; }
 
   /// Takes the place of one at the same time.
   void add(const EnergySample& sample);
-  /// Compares the states of two backends at a time of the run [s].
-  void compare(double time, const State& leader, const State& shadow);
-  /// The states last compared differ in that one run diverged.
-  void one_diverged();
+  /// Compares the states of two backends at a time of the run [s], of which one alone may have diverged.
+  void compare(double time, const State& leader, const State& shadow, bool one_diverged);
   /// Forgets what came after a time [s].
   void truncate(double time);
   void clear_differences();

@@ -23,6 +23,7 @@ void SceneControl::open(const std::string& source) {
   if (!replace(editor_.other(source), false)) return;
   messages_.dismiss();
   messages_.check(simulation_.reset());
+  if (editor_.state()) messages_.check(simulation_.start_from(*editor_.state()));
   view_.camera = CameraControl(editor_.scene().view.camera);
   view_.recall_camera(editor_.source());
 }
@@ -86,6 +87,13 @@ void SceneControl::set_value(const Parameter& parameter, std::size_t index, cons
 
 void SceneControl::apply(Scene scene, const std::string& name, const std::string& gesture) {
   take_effect(editor_.apply(std::move(scene), name, gesture));
+}
+
+void SceneControl::change(const std::string& name, const std::function<void(Scene&)>& make,
+                          const std::string& gesture) {
+  Scene changed = scene();
+  make(changed);
+  apply(std::move(changed), name, gesture);
 }
 
 void SceneControl::take_effect(Result<Effect> effect) {

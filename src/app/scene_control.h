@@ -2,6 +2,7 @@
 // The scene that is open, kept in step with its simulation: opening, changing, undo, and the file on disk.
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <string>
 
 #include "app/messages.h"
@@ -19,7 +20,6 @@ class SceneControl {
 
   const SceneEditor& editor() const { return editor_; }
   const Scene& scene() const { return editor_.scene(); }
-  /// That of the simulation.
   const Solver& solver() const { return simulation_.solver(); }
 
   /// Opens a file or built-in scene; on an error the old one stays and a message says why.
@@ -36,6 +36,8 @@ class SceneControl {
   void set_value(const Parameter& parameter, std::size_t index, const Value& value,
                  const std::string& gesture = "");
   void apply(Scene scene, const std::string& name, const std::string& gesture = "");
+  void change(const std::string& name, const std::function<void(Scene&)>& make,
+              const std::string& gesture = "");
   /// The next change is another entry for undo.
   void end_gesture() { editor_.end_gesture(); }
   /// Goes back or forth in time with the simulation: the physics of the scene is part of the run. A change

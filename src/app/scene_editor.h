@@ -7,6 +7,7 @@
 
 #include "base/result.h"
 #include "io/atomic_file.h"
+#include "model/state.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 
@@ -25,13 +26,16 @@ Effect effect_between(const Scene& before, const Scene& after);
 
 class SceneEditor {
  public:
-  /// Loads a scene as aspic run does. Errors: those of load_scene.
+  /// Loads a scene as aspic run does, or the scene of a checkpoint (.aspic). Errors: those of load_scene, and
+  /// of read_checkpoint.
   static Result<SceneEditor> open(const std::string& source, std::vector<std::string> overrides);
 
   const Scene& scene() const { return scene_; }
   /// File or built-in name.
   const std::string& source() const { return source_; }
   bool is_file() const { return modified_.has_value(); }
+  /// What a checkpoint holds beside its scene: where the run goes on.
+  const std::optional<State>& state() const { return state_; }
   /// Since it was opened, saved or read again.
   bool changed() const { return undo_.size() != saved_; }
 
@@ -73,12 +77,12 @@ class SceneEditor {
     Scene scene;
     std::string name;
   };
-  void look_at_file();
   Effect swap_with(std::vector<Entry>& from, std::vector<Entry>& to);
 
   Scene scene_;
   std::string source_, gesture_;
   std::vector<std::string> overrides_;
+  std::optional<State> state_;
   std::optional<std::filesystem::file_time_type> modified_;
   std::vector<Entry> undo_, redo_;
   std::size_t saved_ =

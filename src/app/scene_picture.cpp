@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 
 #include "io/atomic_file.h"
 #include "io/film_format.h"
+#include "render/colour_map.h"
 #include "render/overlay_text.h"
 #include "run/backends.h"
 
@@ -75,12 +77,13 @@ Status ScenePicture::draw() {
   return draw(content, film && film->text);
 }
 
-Status ScenePicture::draw(const Content& content, bool legend) {
+Status ScenePicture::draw(const Content& content, bool legend, const std::optional<Colour>& background) {
   const auto start = std::chrono::steady_clock::now();
   const bool new_model = !is_of_model(), adapts = !content.fine && !film;
   const double share = resolution_.share();
   PictureOptions options;
   options.legend = legend;
+  options.background = background;
   options.samples = content.fine ? 0 : 1;
   options.view = content.view;
   if (film && film->text) options.text = overlay_lines(scene_.model, simulation_.time());
@@ -167,16 +170,10 @@ Legend ScenePicture::legend() const {
   return legend_for(scene_.view, default_range(simulation_.model(), scene_.view.colour));
 }
 
-Status ScenePicture::save(const std::string& path) {
-  const Content content = wanted(true);
-  ASPIC_CHECK(draw(content, true));
-  const gl::Framebuffer& picture = renderer_->picture();
-  ASPIC_CHECK(save_pixels(picture.id(), {picture.width(), picture.height()}, path));
-  // The window's own has no legend.
-  return legend().empty() ? Status() : draw(content, false);
-}
+namespace {
 
-Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path) {
+/// RGB, rows from the top.
+std::vector<std::byte> pixels_of(std::uint32_t framebuffer, const PictureSize& size) {
   const auto row = 3 * static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
   std::vector<std::byte> below(row * height), rgb(below.size());
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
@@ -187,10 +184,66 @@ Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std
   for (std::size_t i = 0; i < height; ++i)
     std::copy_n(below.begin() + static_cast<std::ptrdiff_t>((height - 1 - i) * row), row,
                 rgb.begin() + static_cast<std::ptrdiff_t>(i * row));
-  ASPIC_TRY(const auto png, encode_png(size, rgb));
+  return rgb;
+}
+
+Status write_picture(const std::string& path, const Result<std::string>& png) {
+  if (!png) return png.error();
   ASPIC_TRY(auto file, AtomicFile::create(path, Overwrite::refuse));
-  ASPIC_CHECK(file.write(png));
+  ASPIC_CHECK(file.write(*png));
   return file.commit();
+}
+
+/// What bodies look like and how much they cover, from pictures of them before black and before white: light
+/// that comes through is what the two differ by.
+std::vector<std::byte> uncovered(std::span<const std::byte> on_black, std::span<const std::byte> on_white) {
+  const auto light = [](std::byte b) { return srgb_to_linear(std::to_integer<int>(b) / 255.0); };
+  const auto rounded_byte = [](double x) {
+    return static_cast<std::byte>(std::lround(255.0 * std::clamp(x, 0.0, 1.0)));
+  };
+  std::vector<std::byte> rgba;
+  rgba.reserve(on_black.size() / 3 * 4);
+  for (std::size_t i = 0; i < on_black.size(); i += 3) {
+    double through = 0.0;
+    for (std::size_t c = i; c < i + 3; ++c) through += (light(on_white[c]) - light(on_black[c])) / 3.0;
+    const double cover = std::clamp(1.0 - through, 0.0, 1.0);
+    for (std::size_t c = i; c < i + 3; ++c)
+      rgba.push_back(cover > 0.0 ? rounded_byte(linear_to_srgb(std::min(light(on_black[c]) / cover, 1.0)))
+                                 : std::byte{0});
+    rgba.push_back(rounded_byte(cover));
+  }
+  return rgba;
+}
+
+}  // namespace
+
+Status ScenePicture::save_clear(const Content& content, const std::string& path) {
+  ASPIC_CHECK(draw(content, false, Colour{0.0f, 0.0f, 0.0f}));
+  const std::vector<std::byte> on_black = pixels_of(renderer_->picture().id(), content.size);
+  ASPIC_CHECK(draw(content, false, Colour{1.0f, 1.0f, 1.0f}));
+  return write_picture(
+      path, encode_clear_png(content.size,
+                             uncovered(on_black, pixels_of(renderer_->picture().id(), content.size))));
+}
+
+Status ScenePicture::save(const std::string& path) {
+  const Content own = wanted(true);
+  Content content = own;
+  const double scale = film ? 1.0 : SavedLook::scales[saved.scale];
+  content.size = {rounded(scale * own.size.width), rounded(scale * own.size.height)};
+  content.marks.unit *= static_cast<decltype(content.marks.unit)>(scale);
+  Status written;
+  if (saved.clear)
+    written = save_clear(content, path);
+  else if (written = draw(content, true); written)
+    written = save_pixels(renderer_->picture().id(), content.size, path);
+  // The window's own has no legend, its own size and what is around the bodies.
+  if (content.size != own.size || saved.clear || !legend().empty()) ASPIC_CHECK(draw(own, false));
+  return written;
+}
+
+Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path) {
+  return write_picture(path, encode_png(size, pixels_of(framebuffer, size)));
 }
 
 }  // namespace aspic::app

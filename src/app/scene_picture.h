@@ -1,5 +1,6 @@
 #pragma once
 // The picture of the scene in the window: drawn where something changed, kept where nothing did.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +22,13 @@ struct FilmLook {
   friend bool operator==(const FilmLook&, const FilmLook&) = default;
 };
 
+/// How a picture is saved.
+struct SavedLook {
+  static constexpr std::array<double, 3> scales = {1.0, 2.0, 4.0};
+  std::size_t scale = 0;  ///< of `scales`: pixels for each of the view's, in each direction
+  bool clear = false;     ///< without sky and terrain; what the bodies do not cover is transparent
+};
+
 class ScenePicture {
  public:
   /// The references must outlive it. `in_full_quality`: a software rasteriser draws as hardware does.
@@ -30,6 +38,7 @@ class ScenePicture {
   bool full_quality;
   bool shadows = true;           ///< on terrain
   std::optional<FilmLook> film;  ///< while a film is made
+  SavedLook saved;               ///< of the next save()
 
   /// Everything of OpenGL, in a context that must outlive it or be detached. Errors: of Renderer::create.
   Status attach(gl::Context& context);
@@ -39,6 +48,7 @@ class ScenePicture {
   /// Nothing has moved for a while, or something does: at rest a software rasteriser draws one picture as
   /// finely as hardware does, which stays until something in it changes.
   void set_at_rest(bool at_rest) { at_rest_ = at_rest; }
+  bool at_rest() const { return at_rest_; }
   /// Draws the picture, if anything in it changed. Error: of Renderer.
   Status draw();
   /// Draws it and puts it into the window; after postpone() the last one once more, so that events come
@@ -55,7 +65,6 @@ class ScenePicture {
 
   /// Where the last picture is in the window [window units]; a film of another shape has margins.
   const Box& shown() const { return shown_; }
-  /// Counts pictures drawn.
   std::uint64_t number() const { return number_; }
   /// Whether indices in the last picture are those of the simulation's model.
   bool is_of_model() const { return drawn_ && drawn_->model == simulation_.model_number(); }
@@ -91,7 +100,8 @@ class ScenePicture {
   bool in_full() const { return full_quality || !context_->info().is_software; }
   Pixels view_pixels(int window_height) const;
   Content wanted(bool fine) const;
-  Status draw(const Content& content, bool legend);
+  Status draw(const Content& content, bool legend, const std::optional<Colour>& background = {});
+  Status save_clear(const Content& content, const std::string& path);
 
   const Simulation& simulation_;
   const Scene& scene_;

@@ -1,10 +1,6 @@
-// The sections that change the scene.
+// The sections that change the scene, or throw balls into it.
 #include <fmt/format.h>
 #include <imgui.h>
-
-#include <algorithm>
-#include <array>
-#include <cctype>
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
@@ -14,34 +10,28 @@
 namespace aspic::app {
 namespace {
 
-bool holds(std::string_view text, std::string_view word) {
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-  };
-  return word.empty() || std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
-}
-
 /// A terrain of another shape with the same surface.
 void terrain_button(Gui& gui, SceneControl& scenes, const TerrainShapeRow& row, float width) {
   const std::string name = fmt::format("terrain/{}", row.name), label(row.title);
   const std::string help =
       fmt::format("Turns the first terrain into a {} at its default place. Restarts the simulation.", label);
   if (!button(gui, name.c_str(), label.c_str(), help, true, width)) return;
-  Scene scene = scenes.scene();
-  if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
-  TerrainSettings& terrain = scene.model.terrain.front();
-  TerrainSettings other;
-  other.shape = row.value;
-  other.mass = terrain.mass;
-  other.restitution = terrain.restitution;
-  other.friction = terrain.friction;
-  terrain = other;
-  scenes.apply(std::move(scene), "terrain shape");
+  scenes.change("terrain shape", [&](Scene& scene) {
+    if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
+    TerrainSettings& terrain = scene.model.terrain.front();
+    TerrainSettings other;
+    other.shape = row.value;
+    other.mass = terrain.mass;
+    other.restitution = terrain.restitution;
+    other.friction = terrain.friction;
+    terrain = other;
+  });
 }
 
 void scene_buttons(Gui& gui, const SceneEditor& editor) {
   const float half = share_of_line(2), third = share_of_line(3);
-  command_button(gui, "scene/open", "Open…", "Opens a scene file.", "open a scene file", true, third);
+  command_button(gui, "scene/open", "Open…", "Opens a scene file, or a checkpoint where the run was then.",
+                 "open a scene or checkpoint", true, third);
   ImGui::SameLine();
   command_button(gui, "scene/save", "Save…", "Writes the scene as it is now, with this camera.",
                  "save the scene", true, third);
@@ -59,33 +49,33 @@ void scene_buttons(Gui& gui, const SceneEditor& editor) {
 }  // namespace
 
 void scene_section(Gui& gui, SceneControl& scene) {
-  static std::array<char, 64> search = {};
-  const std::string_view word = search.data();
-  const bool clears = !word.empty();
-  ImGui::SetNextItemWidth(clears ? -ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x : -1.0f);
-  const bool entered = ImGui::InputTextWithHint("##search", "search scenes", search.data(), search.size(),
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  static ImGuiTextFilter filter;
+  ImGui::SetNextItemWidth(filter.IsActive() ? -ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x
+                                            : -1.0f);
+  const bool entered = ImGui::InputTextWithHint("##search", "search scenes", filter.InputBuf,
+                                                sizeof filter.InputBuf, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::IsItemActive() || entered) filter.Build();
   named(gui, "scene/search",
         "Shows scenes whose name or description contains this. A scene file is opened by dropping it on the "
         "window. Enter opens the only scene that is left.");
-  if (clears) {
+  if (filter.IsActive()) {
     ImGui::SameLine();
     if (button(gui, "scene/search/clear", "×", "Shows all scenes.", true, ImGui::GetFrameHeight()))
-      search = {};
+      filter.Clear();
   }
   std::vector<std::string> hits;
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
-    const std::string name(builtin.name);
-    const bool hit = holds(builtin.name, word) || holds(builtin.description, word);
+    const std::string name(builtin.name), description(builtin.description);
+    const bool hit = filter.PassFilter(name.c_str()) || filter.PassFilter(description.c_str());
     if (hit) hits.push_back(name);
     const bool open = name == scene.editor().source();
     if (!hit && !open) continue;  // the one that is open stays in sight
     if (ImGui::Selectable(name.c_str(), open)) scene.open(name);
-    named(gui, "scene/" + name, builtin.description);
+    named(gui, "scene/" + name, description);
   }
   if (entered && hits.size() == 1) {
     scene.open(hits.front());
-    search = {};
+    filter.Clear();
   }
   if (scene.editor().is_file()) {
     ImGui::Selectable(scene.editor().source().c_str(), true);
@@ -136,9 +126,38 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
   if (!scene.scene().model.cubes.empty()) placed_cube(gui, scene, 0);
   if (row_of(scene.scene().model.simulation.integrator).solved()) {
     edit(gui, scene, "simulation.implicit.newton-iterations");
-    edit(gui, scene, "simulation.implicit.cg-iterations");
+    edit(gui, scene, "simulation.implicit.cg-iterations", 0, {"CG iterations"});
     edit(gui, scene, "simulation.implicit.tolerance");
   }
+}
+
+void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
+  const float third = share_of_line(3);
+  command_button(gui, "balls/throw", "Throw",
+                 "Throws a ball from the camera into the middle of the picture; the key throws it at what is "
+                 "under the mouse.",
+                 "throw a ball", true, third);
+  ImGui::SameLine();
+  if (button(gui, "balls/many", "Throw many", "Throws a dozen balls, side by side.", true, third))
+    hands.throw_many();
+  ImGui::SameLine();
+  const std::size_t thrown = simulation.setup().thrown.size();
+  if (button(gui, "balls/clear", "Clear",
+             thrown > 0 ? fmt::format("Remove the {} thrown balls; the scene's own stay.", thrown)
+                        : std::string("There are no thrown balls; the scene's own stay."),
+             thrown > 0, third))
+    hands.clear_balls();
+  slider(gui, "Radius", "balls/radius", hands.radius, 0.02, 2.0, "%.3g m",
+         "Radius of the next ball to be thrown [m], 0.02 to 2.");
+  slider(gui, "Mass", "balls/mass", hands.mass, 0.01, 1000.0, "%.3g kg",
+         "Mass of the next ball to be thrown [kg], 0.01 to 1000.");
+  slider(gui, "Speed", "balls/speed", hands.speed, 0.5, 200.0, "%.3g m/s",
+         "Speed of the next ball to be thrown [m/s], 0.5 to 200.");
+  slider(gui, "Pull", "balls/strength", hands.strength, 0.01, 100.0, "×%.3g",
+         "How hard Ctrl+drag pulls a particle: a factor on twice the stiffness of the stiffest spring, "
+         "0.01 to 100, limited by the time step.");
+  ImGui::TextDisabled("%zu of the scene, %zu thrown",
+                      static_cast<std::size_t>(simulation.model().ball_count()) - thrown, thrown);
 }
 
 }  // namespace aspic::app

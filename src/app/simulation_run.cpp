@@ -61,32 +61,21 @@ bool Simulation::steps_quickly() const {
 
 Status Simulation::single_step() {
   if (running_ || divergence_) return {};
-  if (!steps_quickly()) {
-    ++single_steps_;
-    return {};
-  }
-  ASPIC_CHECK(settle());
-  return step_now();
-}
-
-Status Simulation::step_now() {
-  if (const auto next = history_.after(here())) {
-    ASPIC_CHECK(seek(*next));
-    return halt(true);
-  }
-  ASPIC_CHECK(start_steps(step_ + 1, std::numeric_limits<double>::infinity()));
-  worker_.wait();
-  const Status moved = collect();
-  return moved ? refresh_snapshot() : fall_back(moved.error());
+  ++single_steps_;
+  return steps_quickly() ? settle() : Status();
 }
 
 void Simulation::note(std::uint64_t steps, const std::optional<Divergence>& divergence) {
   step_ += steps;
   pacer_.did(steps);
   if (steps > 0) ++picture_number_;
-  if (!seek_) history_.reach(step_);
+  if (!seek_) {
+    history_.reach(step_);
+    single_steps_ -= std::min(single_steps_, steps);
+  }
   if (divergence) {
     set_running(false);
+    single_steps_ = 0;
     seek_.reset();
     divergence_ = divergence;
   }
@@ -126,7 +115,7 @@ Status Simulation::show_figures() {
   return {};
 }
 
-/// The next of the single steps that a model takes long for.
+/// The next of the single steps that were asked for.
 Status Simulation::step_singly() {
   if (!idle()) return {};
   if (const auto next = history_.after(here())) {
@@ -195,7 +184,7 @@ void Simulation::start_measuring() {
   worker_.start([this, state = snapshot_](const std::atomic<bool>&) {
     Outcome outcome;
     outcome.energies = {engines_.measured(state)};
-    outcome.leader.state = state;
+    (engines_.shadow_paces() ? outcome.shadow : outcome.leader).state = state;
     outcomes_.put(std::move(outcome));
   });
 }
@@ -235,10 +224,7 @@ Status Simulation::take(Outcome outcome) {
     return {};
   }
   const bool stepped = outcome.steps > 0 || outcome.leader.divergence || outcome.shadow.divergence;
-  if (stepped && !seek_) {
-    single_steps_ -= std::min(single_steps_, std::max<std::uint64_t>(outcome.steps, 1));
-    if (history_.pull_at(here()) != outcome.pull) history_.set_pull(step_, outcome.pull);
-  }
+  if (stepped && !seek_ && history_.pull_at(here()) != outcome.pull) history_.set_pull(step_, outcome.pull);
   if (shadowed() && stepped && !seek_) return follow(std::move(outcome));
   const bool in_context = Engines::in_context(engines_.leader());
   const State& paced = engines_.shadow_paces() ? outcome.shadow.state : outcome.leader.state;
@@ -256,11 +242,9 @@ Status Simulation::follow(Outcome outcome) {
   ASPIC_CHECK(engines_.follow(outcome));
   take_snapshot(std::move(outcome.leader.state));
   note(snapshot_.step - step_, outcome.leader.divergence);
-  samples_.compare(time(), snapshot_, outcome.shadow.state);
-  if (outcome.leader.divergence.has_value() != outcome.shadow.divergence.has_value()) {
-    samples_.one_diverged();
-    set_running(false);
-  }
+  const bool one_diverged = outcome.leader.divergence.has_value() != outcome.shadow.divergence.has_value();
+  samples_.compare(time(), snapshot_, outcome.shadow.state, one_diverged);
+  if (one_diverged) set_running(false);
   remember(engines_.shadow_paces() ? outcome.shadow.state : snapshot_, outcome.energies);
   return {};
 }
@@ -278,8 +262,10 @@ Status Simulation::halt(bool arrive) {
 
 Status Simulation::settle() {
   ASPIC_CHECK(halt(true));
-  for (std::uint64_t n = std::exchange(single_steps_, 0); n > 0 && !divergence_; --n) {
-    ASPIC_CHECK(step_now());
+  while (single_steps_ > 0 && !divergence_) {
+    ASPIC_CHECK(step_singly());
+    worker_.wait();
+    ASPIC_CHECK(halt(true));
   }
   return {};
 }
@@ -314,7 +300,8 @@ Status Simulation::seek(const Moment& moment) {
   const Keyframe& keyframe = history_.keyframe(moment);
   const bool on_the_way = moment.stretch == stretch_ && step_ <= moment.step && step_ >= keyframe.step;
   if (moment.stretch != stretch_) {
-    ASPIC_CHECK(rebuild(history_.stretch(moment.stretch).setup));
+    const Setup setup = history_.stretch(moment.stretch).setup;
+    ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
     stretch_ = moment.stretch;
   }
   if (!on_the_way) {

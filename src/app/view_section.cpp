@@ -19,20 +19,21 @@ void edit_camera(Gui& gui, CameraControl& camera, std::string_view path, std::st
 }
 
 struct Preset {
-  const char *name, *label, *help;
+  const char *name, *label;
   Vec3 from;
+  const char* help;
 };
 const Preset presets[] = {
     {"camera/front",
      "Front",
-     "Looks along −z, at the target from the front, at the same distance.",
-     {0, 0, 1}},
-    {"camera/side", "Side", "Looks along −x, at the target from the right, at the same distance.", {1, 0, 0}},
-    {"camera/top", "Top", "Looks down on the target, at the same distance.", {0, 1, 0}},
+     {0, 0, 1},
+     "Looks along −z, at the target from the front, at the same distance."},
+    {"camera/side", "Side", {1, 0, 0}, "Looks along −x, at the target from the right, at the same distance."},
+    {"camera/top", "Top", {0, 1, 0}, "Looks down on the target, at the same distance."},
     {"camera/isometric",
      "Isometric",
-     "Looks at the target along (−1, −1, −1), at the same distance.",
-     {1, 1, 1}},
+     {1, 1, 1},
+     "Looks at the target along (−1, −1, −1), at the same distance."},
 };
 
 void camera_buttons(Gui& gui, CameraControl& camera) {
@@ -42,7 +43,7 @@ void camera_buttons(Gui& gui, CameraControl& camera) {
     const Preset& p = presets[i];
     if (button(gui, p.name, p.label, p.help, true, half)) camera.look_from(p.from);
   }
-  command_button(gui, "camera/home", "Scene's", "Returns to the scene's own camera.", "reset the camera",
+  command_button(gui, "camera/home", "Scene camera", "Returns to the scene's own camera.", "reset the camera",
                  true, half);
   ImGui::SameLine();
   command_button(gui, "camera/frame", "Frame bodies", "Moves the camera until all bodies are in the picture.",

@@ -297,7 +297,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
       frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows, state.step});
   std::vector<Terrain> terrain;
   for (const Terrain& t : p.model->terrain)
-    terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
+    if (!options.background) terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
   p.drawn_state = state;
   p.drawn_settings = view.draw;
   p.bind_frame(p.drawn_frame);
@@ -309,13 +309,15 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.colour_map.bind(UNIT_COLOUR_MAP);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  if (const auto& c = options.background) glClearColor((*c)[0], (*c)[1], (*c)[2], 1.0f);
+  glClear(GL_DEPTH_BUFFER_BIT | (options.background ? GL_COLOR_BUFFER_BIT : 0u));
+  glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
   p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
   p.draw_rods_and_balls(state, view.draw);
   p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
   // The last opaque part: only where there is nothing else.
-  p.fill(p.programs.sky);
+  if (!options.background) p.fill(p.programs.sky);
   if (view.draw.solid && p.has(SurfaceStyle::sheet)) p.draw_sheets(particles, view);
   p.terrain.draw_far_glass(p.programs, terrain);
   if (solid) {

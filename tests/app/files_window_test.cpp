@@ -198,6 +198,32 @@ TEST_F(Files, TheSearchOpensTheOnlySceneThatIsLeft) {
   EXPECT_TRUE(has("scene/flag"));
 }
 
+TEST_F(Files, ThePaletteFindsActionsScenesAndValues) {
+  open("cube-plane", {}, "reference");
+  const auto ask = [&](std::u32string_view query) {
+    press(GLFW_KEY_P, GLFW_MOD_CONTROL);
+    frames(3);
+    for (const char32_t c : query) type(c);
+    frames(2);
+  };
+  ask(U"start pause");
+  ASSERT_TRUE(has("palette/start or pause"));
+  press(GLFW_KEY_ENTER);
+  frames(3);
+  EXPECT_TRUE(simulation().running());
+  EXPECT_FALSE(has("palette/query"));
+  press(GLFW_KEY_SPACE);
+  ask(U"BOWL");
+  click("palette/open cube-bowl");
+  EXPECT_EQ(app().scene.editor().source(), "cube-bowl");
+  ask(U"friction");
+  EXPECT_TRUE(has("contact.friction")) << "a value is changed where it is found";
+  EXPECT_FALSE(has("palette/start or pause"));
+  press(GLFW_KEY_ESCAPE);
+  frames(2);
+  EXPECT_FALSE(has("palette/query"));
+}
+
 TEST_F(Files, OtherTerrainBeginsAnew) {
   open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "reference");
   for (int i = 0; i < 20; ++i) type(U'.');

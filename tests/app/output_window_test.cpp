@@ -66,6 +66,27 @@ TEST_P(OutputOn, ACheckpointGoesOnAsTheWindowDoes) {
   EXPECT_EQ(state_hash_text(*(*solver)->state()), state_hash_text(simulation().snapshot()));
 }
 
+TEST_P(OutputOn, ACheckpointIsOpenedWhereTheRunWas) {
+  open_falling(GetParam());
+  const std::uint64_t step = simulation().step();
+  const std::string hash = state_hash_text(simulation().snapshot());
+  save("checkpoint.aspic");
+  app().scene.open("cube-sphere");
+  app().scene.open(path("aspic-cube-plane-0001.aspic"));
+  EXPECT_FALSE(app().messages.notice()) << app().messages.notice()->text;
+  EXPECT_EQ(simulation().step(), step);
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), hash);
+  for (int i = 0; i < 10; ++i) type(U'.');
+  ASSERT_TRUE(simulation().settle().ok());
+  EXPECT_EQ(state_hash_text(simulation().snapshot()),
+            reference_hash(app().scene.editor().scene(), simulation().step()));
+  for (int i = 0; i < 20; ++i) type(U',');
+  ASSERT_TRUE(simulation().settle().ok());
+  EXPECT_EQ(simulation().step(), step) << "the history begins there";
+  press(GLFW_KEY_R);
+  EXPECT_EQ(simulation().step(), 0u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Output, OutputOn, testing::Values("reference", "gpu"),
                          [](const auto& backend) { return std::string(backend.param); });
 

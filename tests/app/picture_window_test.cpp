@@ -102,6 +102,39 @@ TEST_F(Picture, ASavedPictureIsFineAndWithoutPanels) {
   EXPECT_LE(largest, 1) << "encoded anew on its way into the window";
 }
 
+TEST_F(Picture, SavedPicturesHaveTheSizeAndBackgroundThatWereChosen) {
+  open("cube-plane", {"cube[0].position=[0,3,0]"}, "reference");
+  frames(30);
+  app().messages.dismiss();
+  const Image before = view();
+  app().picture.saved = {1, true};
+  press(GLFW_KEY_F12);
+  frames(1);
+  const auto content = read_file((directory() / "aspic-cube-plane-0001.png").string());
+  ASSERT_TRUE(content.ok());
+  int width = 0, height = 0, channels = 0;
+  unsigned char* const rgba =
+      stbi_load_from_memory(reinterpret_cast<const unsigned char*>(content->data()),
+                            static_cast<int>(content->size()), &width, &height, &channels, 4);
+  ASSERT_TRUE(rgba);
+  EXPECT_EQ(width, 2 * view_width());
+  EXPECT_EQ(channels, 4);
+  int clear = 0, covered = 0, red = 0;
+  for (int i = 0; i < width * height; ++i) {
+    const unsigned char* const p = rgba + 4 * i;
+    clear += p[3] == 0 ? 1 : 0;
+    covered += p[3] > 200 ? 1 : 0;
+    red += p[3] > 200 && p[0] > p[2] ? 1 : 0;
+  }
+  stbi_image_free(rgba);
+  EXPECT_GT(clear, width * height / 2);
+  EXPECT_GT(covered, width * height / 200);
+  EXPECT_GT(red, 9 * covered / 10) << "the jelly's own colour";
+  app().messages.dismiss();
+  frames(2);
+  EXPECT_EQ(view().rgb, before.rgb) << "the window shows what it showed";
+}
+
 TEST_F(Picture, TheLegendIsOfTheWindowsPixels) {
   open_busy({"view.colour=strain"});
   ASSERT_TRUE(has("legend"));

@@ -161,6 +161,20 @@ TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(Backends, TimeOnBackend, testing::Values("reference", "gpu"),
                          [](const auto& backend) { return backend.param; });
 
+TEST_F(Time, PausedWithAShadowTheEnergiesOfTheRunStay) {
+  open("cube-plane", {}, "gpu");
+  ASSERT_TRUE(simulation().set_shadow(&reference_backend()).ok());
+  for (int i = 0; i < 3; ++i) type(U'.');
+  const auto& energies = simulation().samples().energies();
+  EXPECT_GT(energies.size(), 1u);
+  // Twice as many steps: the plot has none of the last one, which is measured now.
+  Scene scene = app().scene.scene();
+  scene.model.simulation.timestep /= 2.0;
+  app().scene.apply(std::move(scene), "time step");
+  frames_until([&] { return simulation().step() == 6 && energies.back().step == 6; });
+  EXPECT_GT(energies.size(), 1u);
+}
+
 TEST_F(Time, ADifferenceIsShown) {
   open("cube-plane", {}, "reference");
   ASSERT_TRUE(simulation().set_shadow(&next_backend(simulation().backend())).ok());
