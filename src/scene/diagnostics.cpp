@@ -76,7 +76,7 @@ std::string rendered(const Source& source, const Problem& problem) {
 
 Error rejection(std::span<const Source> sources, std::vector<Problem> problems) {
   std::ranges::stable_sort(problems, {}, &Problem::at);
-  problems.erase(std::ranges::unique(problems).begin(), problems.end());
+  problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
   std::string message;
   for (const Problem& problem : problems) {
     if (!message.empty()) message += "\n\n";
