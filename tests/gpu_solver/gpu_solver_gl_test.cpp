@@ -180,6 +180,7 @@ TEST_F(GpuSolverTest, SharesSpringsWithOneLikeIt) {
   // Another method may share them, another path or other springs may not.
   auto old = solver_for(model);
   GpuOptions options;
+  options.force_path = ForcePath::gather;
   options.share_springs_of = old.get();
   Model implicit = model;
   implicit.simulation.integrator = Integrator::implicit_euler;
