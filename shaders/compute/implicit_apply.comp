@@ -15,8 +15,10 @@ vec4 apply(uint i) {
   precise vec3 p = direction(i);
   precise vec3 v = trial[i].xyz;
   precise vec3 product = particle.velocity.w * p;
-  for (Walk w = walk(i, bounded(degree(i), KERNEL_IMPLICIT_APPLY)); w.at < w.end; ++w.at) {
-    Link link = link_of(w);
+  Walk w = walk(i);
+  for (w.end = bounded(w.end, KERNEL_IMPLICIT_APPLY); w.at < w.end; ++w.at) {
+    Link link;
+    if (!link_at(w, link)) continue;
     precise vec3 dv = v - trial[link.other].xyz;
     precise vec3 e = (particle.position.xyz - state(link.other).position.xyz) + time_step * dv;
     SpringJacobian H;

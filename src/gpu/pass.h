@@ -11,6 +11,7 @@ namespace aspic::gl {
 
 /// Who reads a pass's output next: this picks the memory barrier. Combine with `|` where several may.
 enum class ReadBy : std::uint32_t {
+  nobody = 0,             ///< a pass queued right behind sets the barrier for both
   compute_pass = 1 << 0,  ///< storage blocks of a following pass or shader
   uniform = 1 << 1,       ///< a uniform block
   vertex_draw = 1 << 2,   ///< vertex attributes or indices of a draw

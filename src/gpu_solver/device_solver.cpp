@@ -12,7 +12,11 @@ using gl::Buffer;
 Status DeviceSolver::build(const GpuOptions& options) {
   const std::uint64_t held_before = context_.bytes_held();
   ASPIC_CHECK(build_shared(options));
-  ASPIC_TRY(const KernelOptions kernels, kernel_options(context_, model_, options, group_size(options)));
+  ASPIC_TRY(KernelOptions kernels, kernel_options(context_, model_, options, group_size(options)));
+  if (takes_lattices()) {
+    kernels.defines.push_back({"ASPIC_LATTICES", "1"});
+    if (lattice_particles(model_) < model_.particle_count()) kernels.defines.push_back({"ASPIC_LISTED", "1"});
+  }
   arithmetic_ = kernels.arithmetic;
   ASPIC_CHECK(build_passes(kernels, options));
   bytes_ = context_.bytes_held() - held_before;

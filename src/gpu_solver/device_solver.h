@@ -53,6 +53,9 @@ class DeviceSolver : public GpuSolver {
   /// The state was loaded: its own control words follow.
   virtual void restart() = 0;
 
+  /// Whether the path has cubes to itself here.
+  bool takes_lattices() const { return !path_.lattice_kernel.empty() && has_lattices(model_); }
+  gl::Binding lattices() const { return {BINDING_LATTICES, &springs_->lattices, gl::BufferKind::uniform}; }
   gl::Binding constants() const { return {BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform}; }
   /// A program and the pass that runs it.
   Result<gl::Pass> pass(const KernelOptions& kernels, std::string_view path,

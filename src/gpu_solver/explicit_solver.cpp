@@ -24,6 +24,9 @@ constexpr std::uint32_t most_steps = 1024;
 constexpr std::size_t most_queues = 2;
 static_assert(most_queues <= gl::ReadRing::capacity);
 
+/// See GpuOptions::lattice_run.
+constexpr std::uint32_t software_run = 4;
+
 /// Whether the method's sums outlive a stage, so that memory must hold them.
 bool keeps_sums(const IntegratorRow& method) {
   return std::any_of(method.stages.begin(), method.stages.end() - 1,
@@ -35,7 +38,8 @@ class ExplicitSolver final : public DeviceSolver {
   // The step's start, its end, and a place for stages in between; the roles rotate with every step.
   ExplicitSolver(gl::Context& context, const Model& model, const ForcePathRow& path)
       : DeviceSolver(context, model, path, 3,
-                     {std::string(path.spring_title), std::string(path.particle_title)}),
+                     {std::string(path.spring_title), std::string(path.lattice_title),
+                      std::string(path.particle_title)}),
         method_(free_flight_row(model.simulation.integrator)) {}
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
@@ -51,13 +55,16 @@ class ExplicitSolver final : public DeviceSolver {
     Clock::time_point begun;
   };
   /// Kinds of passes, for the profiler.
-  enum Kind : std::size_t { springs_kind, particles_kind };
+  enum Kind : std::size_t { springs_kind, lattices_kind, particles_kind };
   std::uint32_t group_size(const GpuOptions& options) const override { return options.group_size; }
   Status build_passes(const KernelOptions& kernels, const GpuOptions& options) override;
   void restart() override;
   Status settle() override { return carry_out(0, true); }
   Status carry_out(std::uint64_t steps, bool wait);
   std::uint32_t queue_steps(std::uint32_t count);
+  Status build_lattice_pass(KernelOptions kernels, std::uint32_t run, const std::vector<Binding>& bindings);
+  void dispatch(const std::optional<gl::Pass>& pass, Kind kind, std::uint32_t items,
+                std::span<const Binding> states, ReadBy readers) const;
   void queue_step(std::uint32_t step_index, bool last_of_queue);
   Result<std::uint64_t> take_look();
   void forget_queues();
@@ -65,14 +72,25 @@ class ExplicitSolver final : public DeviceSolver {
 
   const IntegratorRow& method_;
   Buffer sums_, control_, forces_;
-  std::optional<gl::Pass> spring_pass_, particle_pass_;  // of each stage
   std::deque<Queue> queues_;
   std::optional<gl::ReadRing> looks_;  // the control words after each queue
   QueueDepth depth_{most_steps};
   Clock::time_point last_look_ = {};
   std::uint32_t passes_before_ = 0;  // that must have been carried out before the oldest queue
   bool late_ = false;
+  std::optional<gl::Pass> spring_pass_, lattice_pass_, particle_pass_;  // of each stage
+  std::uint32_t lattice_runs_ = 0, listed_particles_ = 0;               // items of the last two
 };
+
+Status ExplicitSolver::build_lattice_pass(KernelOptions kernels, std::uint32_t run,
+                                          const std::vector<Binding>& bindings) {
+  for (const Body& body : model_.bodies)
+    if (body.lattice_edge > 0) lattice_runs_ += (body.particle_count - 1) / run + 1;
+  listed_particles_ -= lattice_particles(model_);
+  kernels.defines.push_back({"ASPIC_LATTICE_RUN", std::to_string(run)});
+  ASPIC_TRY(lattice_pass_, pass(kernels, path_.lattice_kernel, bindings));
+  return {};
+}
 
 Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptions& options) {
   const std::uint64_t state_bytes = states_[0].bytes();
@@ -86,7 +104,8 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                    poses_.binding(),
                                    {BINDING_STAGE_SUMS, &sums_},
                                    {BINDING_INCIDENT_START, &springs_->incident_start},
-                                   {BINDING_INCIDENT, &springs_->incident}};
+                                   {BINDING_INCIDENT, &springs_->incident},
+                                   lattices()};
   if (!path_.spring_kernel.empty()) {
     ASPIC_TRY(forces_,
               Buffer::create(context_, "spring forces", spring_count(model_) * sizeof(layout::vec4)));
@@ -97,7 +116,18 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                   {BINDING_SPRINGS, &springs_->springs},
                                   {BINDING_SPRING_FORCES, &forces_}}));
   }
-  ASPIC_TRY(particle_pass_, pass(kernels, path_.particle_kernel, std::move(bindings)));
+  KernelOptions stage_kernels = kernels;
+  if (method_.stages.size() == 1) stage_kernels.defines.push_back({"ASPIC_ONE_STAGE", "1"});
+  listed_particles_ = model_.particle_count();
+  if (takes_lattices()) {
+    const std::uint32_t run = options.lattice_run > 0       ? options.lattice_run
+                              : context_.info().is_software ? software_run
+                                                            : 1;
+    ASPIC_CHECK(build_lattice_pass(stage_kernels, run, bindings));
+  }
+  if (listed_particles_ > 0 || !lattice_pass_) {
+    ASPIC_TRY(particle_pass_, pass(stage_kernels, path_.particle_kernel, std::move(bindings)));
+  }
   return balls_.build(context_, model_, kernels, {&simulation_, &control_, false, poses_.binding()},
                       options.ball_search);
 }
@@ -110,28 +140,35 @@ void ExplicitSolver::restart() {
   passes_before_ = 0;
 }
 
+void ExplicitSolver::dispatch(const std::optional<gl::Pass>& pass, Kind kind, std::uint32_t items,
+                              std::span<const Binding> states, ReadBy readers) const {
+  if (!pass) return;
+  pass->dispatch_for(items, states, readers);
+  mark(kind);
+}
+
 void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
   poses_.cover(step_index, 1);
   const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
-  if (spring_pass_) spring_pass_->program().set(LOCATION_STEP, step_index);
-  particle_pass_->program().set(LOCATION_STEP, step_index);
+  for (const auto* pass : {&spring_pass_, &lattice_pass_, &particle_pass_})
+    if (*pass) (*pass)->program().set(LOCATION_STEP, step_index);
   std::size_t stage_state = current_;
   for (std::uint32_t s = 0; s < stages; ++s) {
     // Stages alternate between the two free buffers so that the last one lands in `end`.
     const std::size_t out = (stages - 1 - s) % 2 == 0 ? end : between;
-    particle_pass_->program().set(LOCATION_STAGE, s);
+    for (const auto* pass : {&lattice_pass_, &particle_pass_})
+      if (*pass) (*pass)->program().set(LOCATION_STAGE, s);
     const std::array<Binding, 3> states = {{{BINDING_STAGE_STATE, &states_[stage_state]},
                                             {BINDING_START_STATE, &states_[current_]},
                                             {BINDING_OUT_STATE, &states_[out]}}};
-    if (spring_pass_) {
-      spring_pass_->dispatch_for(static_cast<std::uint32_t>(spring_count(model_)),
-                                 std::span(states).first(1));
-      mark(springs_kind);
-    }
+    dispatch(spring_pass_, springs_kind, static_cast<std::uint32_t>(spring_count(model_)),
+             std::span(states).first(1), ReadBy::compute_pass);
     const bool leaves = last_of_queue && s + 1 == stages && !balls_.any();
-    particle_pass_->dispatch_for(model_.particle_count(), states, leaves ? anyone : ReadBy::compute_pass);
-    mark(particles_kind);
+    const ReadBy readers = leaves ? anyone : ReadBy::compute_pass;
+    // Cubes and all else write different particles.
+    dispatch(lattice_pass_, lattices_kind, lattice_runs_, states, particle_pass_ ? ReadBy::nobody : readers);
+    dispatch(particle_pass_, particles_kind, listed_particles_, states, readers);
     stage_state = out;
   }
   balls_.queue(states_[current_], states_[end], step_index, ball_slot_,

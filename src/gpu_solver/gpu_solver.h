@@ -27,6 +27,10 @@ class GpuSolver;
 struct GpuOptions {
   ForcePath force_path = ForcePath::automatic;
   std::uint32_t group_size = 64;  ///< invocations per work group, 1…1024; never affects the bits
+  /// Particles that an invocation of the path lattice takes, 1 or 4; 0: 4 on software rasterisers, which then
+  /// read a neighbour once for several, and 1 on hardware, whose lanes then read neighbouring particles.
+  /// Never affects the bits.
+  std::uint32_t lattice_run = 0;
   BallSearch ball_search = BallSearch::automatic;
   /// Files here go before the embedded shaders; empty: embedded alone.
   std::filesystem::path shader_directory;
@@ -72,7 +76,8 @@ class GpuSolver : public Solver {
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
                                                    const GpuOptions& options = {});
 
-/// Bytes of device memory a solver would hold for a model of these counts.
-std::uint64_t gpu_bytes(const ModelCounts& counts, Integrator integrator, ForcePath path);
+/// Bytes of device memory a solver of the model would hold; of a path that its integrator does not take, as
+/// automatic.
+std::uint64_t gpu_bytes(const Model& model, ForcePath path);
 
 }  // namespace aspic

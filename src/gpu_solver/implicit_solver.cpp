@@ -84,6 +84,7 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                          {BINDING_SEARCH, &search_},
                                          {BINDING_INCIDENT_START, &springs_->incident_start},
                                          {BINDING_INCIDENT, &springs_->incident},
+                                         lattices(),
                                          {BINDING_SOLVE, &solve_buffer_},
                                          {BINDING_OWN, &own_}};
   for (const KernelRow& row : kernel_rows) {

@@ -81,6 +81,7 @@ Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, c
   std::uint32_t shapes = 0;
   for (const Terrain& terrain : model.terrain) shapes |= 1u << static_cast<std::uint32_t>(terrain.shape);
   kernels.defines.push_back({"ASPIC_SHAPES", std::to_string(shapes)});
+  if (model.terrain.size() == 1) kernels.defines.push_back({"ASPIC_ONE_TERRAIN", "1"});
   if (std::ranges::any_of(model.terrain, [](const Terrain& t) { return t.motion.has_value(); }))
     kernels.defines.push_back({"ASPIC_MOTION", "1"});
   kernels.defines.insert(kernels.defines.end(), options.defines.begin(), options.defines.end());

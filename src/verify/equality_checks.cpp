@@ -137,7 +137,7 @@ Result<Finding> group_sizes(const Subject& subject) {
   ASPIC_TRY(auto model, repeat_model(Integrator::runge_kutta_4));
   std::set<std::string> hashes;
   std::size_t runs = 0;
-  for (const ForcePathRow& path : built_force_paths()) {
+  for (const ForcePathRow& path : force_paths()) {
     for (const std::uint32_t size : {32u, 64u, 128u, 256u}) {
       GpuOptions options;
       options.force_path = path.path;

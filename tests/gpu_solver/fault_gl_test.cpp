@@ -19,7 +19,8 @@ struct Case {
   Integrator integrator;
   ForcePath path;
 };
-constexpr Case cases[] = {{Integrator::runge_kutta_4, ForcePath::gather},
+constexpr Case cases[] = {{Integrator::runge_kutta_4, ForcePath::lattice},
+                          {Integrator::runge_kutta_4, ForcePath::gather},
                           {Integrator::runge_kutta_4, ForcePath::per_spring},
                           {Integrator::implicit_euler, ForcePath::gather}};
 

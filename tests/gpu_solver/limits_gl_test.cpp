@@ -39,7 +39,7 @@ TEST_F(LimitsGl, GroupsThatTheDeviceDoesNotTakeAreRefused) {
 
 TEST_F(LimitsGl, ASceneThatNeedsMoreThanIsFreeIsRefusedBeforeAnythingIsAllocated) {
   const Model model = test::build(test::cube_on_plane(8));
-  const std::uint64_t needed = gpu_bytes(count(model), Integrator::explicit_euler, ForcePath::automatic);
+  const std::uint64_t needed = gpu_bytes(model, ForcePath::automatic);
   context().assume_free_memory(needed - 1);
   EXPECT_EQ(context().free_memory(), needed - 1);
   const std::uint64_t held = context().bytes_held();

@@ -52,7 +52,7 @@ class LoopBounds : public aspic::testing::GlTest {
 
   /// What a run of one step says with this kernel compiled for loops of one round; empty without an error.
   static std::string complaint(Model model, Integrator integrator, const std::string& kernel,
-                               ForcePath path = ForcePath::automatic) {
+                               ForcePath path = ForcePath::gather) {
     model.simulation.integrator = integrator;
     const test::TemporaryDirectory directory;
     std::filesystem::create_directories(directory.path() / "compute");
