@@ -15,8 +15,8 @@ namespace {
 Result<double> chosen_timestep(const BenchOptions& options, const Model& model) {
   const double own = model.simulation.timestep;
   if (options.timestep == BenchTimestep::scene) return own;
-  // A frame: implicit Euler is stable at any step, so accuracy and not stability sets its largest.
-  if (model.simulation.integrator == Integrator::implicit_euler) return 1.0 / 60.0;
+  // A frame: a solved method is stable at any step, so accuracy and not stability sets its largest.
+  if (row_of(model.simulation.integrator).solved()) return 1.0 / 60.0;
   const StabilityLimit limit = stability_limit(model, model.simulation.integrator, StabilityEffort::quick);
   if (!limit.step) {
     return fail(ErrorCode::scene_rejected, "--timestep largest: {}.",

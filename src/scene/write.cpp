@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
+#include <concepts>
 #include <vector>
 
 #include "base/printable.h"
@@ -35,19 +35,17 @@ std::string string_text(std::string_view s) {
 }
 
 struct Writer {
-  std::string operator()(bool x) const { return x ? "true" : "false"; }
-  std::string operator()(std::int64_t x) const { return fmt::format("{}", x); }
+  std::string operator()(std::integral auto x) const { return fmt::format("{}", x); }
   std::string operator()(double x) const { return number_text(x); }
   std::string operator()(const std::string& x) const { return string_text(x); }
   std::string operator()(const Vec3& x) const {
     return fmt::format("[{}, {}, {}]", number_text(x.x), number_text(x.y), number_text(x.z));
   }
-  std::string operator()(const std::vector<int>& x) const { return fmt::format("[{}]", fmt::join(x, ", ")); }
-  std::string operator()(const std::vector<double>& x) const {
-    return fmt::format("[{}]", fmt::join(x | std::views::transform(number_text), ", "));
-  }
-  std::string operator()(const std::vector<std::string>& x) const {
-    return fmt::format("[{}]", fmt::join(x | std::views::transform(string_text), ", "));
+  template <class T>
+  std::string operator()(const std::vector<T>& x) const {
+    std::vector<std::string> all;
+    for (const T& element : x) all.push_back((*this)(element));
+    return fmt::format("[{}]", fmt::join(all, ", "));
   }
   std::string operator()(const PinnedSettings& x) const {
     std::vector<std::string> all;

@@ -164,7 +164,7 @@ TEST_F(ContextGl, AdoptsTheCurrentContext) {
 TEST_F(ContextGl, PassesMessagesOn) {
   std::vector<DebugMessage> seen;
   context().set_message_sink([&](const DebugMessage& m) { seen.push_back(m); });
-  for (const GLenum severity : {GL_DEBUG_SEVERITY_MEDIUM, GL_DEBUG_SEVERITY_HIGH})
+  for (const auto severity : {GLenum{GL_DEBUG_SEVERITY_MEDIUM}, GLenum{GL_DEBUG_SEVERITY_HIGH}})
     glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, GL_DEBUG_TYPE_OTHER, 7, severity, -1,
                          "grave or slight");
   context().set_message_sink({});
