@@ -54,6 +54,7 @@ void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Me
 void performance_section(Gui& gui, Simulation& simulation, const ScenePicture& picture);
 void energy_section(Gui& gui, const std::deque<EnergySample>& energies);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
+void stability_section(Gui& gui, SceneControl& scene);
 
 /// What is known of a particle, next to the mouse, or in a corner of the view while it is pulled.
 void hover_tooltip(double scale, const Simulation& simulation, const Hovered& hovered, const Box& view);
