@@ -11,7 +11,7 @@
 namespace aspic {
 
 /// A model's bodies without gravity, terrain and balls; cords, which theory takes as stretched, resist
-/// compression too.
+/// compression too, and implicit solves are as accurate as single precision allows.
 Model alone_in_space(Model model);
 
 /// The same model with all stiffnesses and dampings multiplied, and a time step [s].

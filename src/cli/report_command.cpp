@@ -7,25 +7,13 @@
 #include "scene/load.h"
 
 namespace aspic::cli {
-namespace {
-
-/// A word of a command as a shell takes it.
-std::string shell_word(const std::string& word) {
-  if (word.find_first_of(" \"'$&|;<>()[]{}*?!\\#") == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-}  // namespace
-
 Status execute(const ReportOptions& options) {
   const InterruptGuard interrupt;
   report::ReportPlan plan;
   ASPIC_TRY(plan.scene, load_scene(options.scene, options.overrides));
-  plan.scene_words = shell_word(options.scene);
+  plan.scene_words = report::shell_word(options.scene);
   for (const std::string& assignment : options.overrides)
-    plan.scene_words += fmt::format(" --set {}", shell_word(assignment));
+    plan.scene_words += fmt::format(" --set {}", report::shell_word(assignment));
   plan.out = options.out;
   plan.only = options.only;
   plan.thorough = options.thorough;

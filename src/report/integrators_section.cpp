@@ -99,10 +99,10 @@ struct Smooth {
 Result<Smooth> smooth_body(const Study& study) {
   Scene scene = study.scene;
   for (CubeSettings& cube : scene.model.cubes) cube.particles_per_edge = std::min(cube.particles_per_edge, 5);
-  scene.model.simulation.implicit = {50, 500, 1e-11};
   Smooth smooth;
   ASPIC_TRY(auto built, build_model(scene.model));
   smooth.model = alone_in_space(std::move(built));
+  smooth.model.simulation.implicit = {50, 500, 1e-11};  // the solve takes no part in errors
   smooth.start = initial_state(smooth.model, Precision::double_);
   Vec3 centre;
   for (const Vec3& x : smooth.start.position) centre = centre + x;

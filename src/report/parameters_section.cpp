@@ -244,7 +244,7 @@ Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown&
       "body sideways.",
       title, key.meaning, row.says, base.duration);
   std::string command = fmt::format("aspic sweep {}", study.scene_words);
-  for (const std::string& assignment : fixed) command += fmt::format(" --set {}", assignment);
+  for (const std::string& assignment : fixed) command += fmt::format(" --set {}", shell_word(assignment));
   figure.command = fmt::format("{} --duration {} --vary {}={} --out {}.csv", command, base.duration, key.name,
                                fmt::join(words, ","), key.name);
   return std::optional(std::move(figure));
