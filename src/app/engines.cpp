@@ -11,9 +11,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 Status advance(const Backend& engine, std::uint64_t steps, Advanced& into) {
-  ASPIC_TRY(const auto advanced, engine.solver->advance(steps));
+  ASPIC_TRY(into.divergence, engine.solver->advance(steps));
   ASPIC_TRY(auto state, engine.solver->state());
-  into.divergence = advanced;
+  // A device may tell of a divergence once it was waited for.
+  ASPIC_TRY(into.divergence, engine.solver->advance(0));
   into.state = std::move(state);
   return {};
 }
@@ -101,7 +102,10 @@ void EngineFactory::set_context(gl::Context& context) {
 
 Result<Backend> EngineFactory::make(const Model& model, const BackendRow& row, const GpuSolver* like) {
   auto engine = make_backend(choice_for(&row, asked_), model, {context_, like, arithmetic_});
-  if (engine && engine->gpu) arithmetic_ = engine->gpu->arithmetic();
+  if (engine && engine->gpu) {
+    arithmetic_ = engine->gpu->arithmetic();
+    engine->gpu->set_late(true);
+  }
   return engine;
 }
 

@@ -62,7 +62,9 @@ constexpr Heading right_sections[] = {
     {"Energy", [](Parts p) { energy_section(p.gui, p.simulation, p.run); }, true,
      "Energies and momentum over time."},
     {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); }, false,
-     "A second backend on the same run, and how far the two differ."}};
+     "A second backend on the same run, and how far the two differ."},
+    {"Stability", [](Parts p) { stability_section(p.gui, p.scene); }, false,
+     "Which time steps and stiffnesses are stable, and where the scene is among them."}};
 
 ImVec2 at(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};

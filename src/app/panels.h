@@ -63,6 +63,7 @@ void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Me
 void performance_section(Gui& gui, Simulation& simulation, const ScenePicture& picture);
 void energy_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
+void stability_section(Gui& gui, SceneControl& scene);
 
 /// What is known of a particle, in the lower left corner of the view; where that is narrow `above` what
 /// stands on the right [window units].

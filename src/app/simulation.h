@@ -179,6 +179,7 @@ class Simulation {
   Status follow(Outcome outcome);
   Status seek_on(double budget);
   void note(std::uint64_t steps, const std::optional<Divergence>& divergence);
+  void reach(std::uint64_t step, const std::optional<Divergence>& divergence);
   void take_snapshot(State state);
   void remember(const State& state, const std::vector<EnergySample>& energies);
   void forget_future(double now);

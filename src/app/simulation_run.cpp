@@ -81,6 +81,15 @@ void Simulation::note(std::uint64_t steps, const std::optional<Divergence>& dive
   }
 }
 
+/// The leader in the context is at this step, or will be: it tells of a divergence up to two queues late.
+void Simulation::reach(std::uint64_t step, const std::optional<Divergence>& divergence) {
+  const bool back = step < step_;
+  note(back ? 0 : step - step_, divergence);
+  if (!back) return;
+  step_ = step;
+  forget_future(time());
+}
+
 Status Simulation::update(double dt, double budget) {
   if (!worker_.busy()) worker_.wait();  // for an exception
   Status moved = collect();
@@ -153,7 +162,7 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
     const std::uint64_t count = std::min(batch_, steps - done);
     const auto before = Clock::now();
     ASPIC_TRY(const auto advanced, engines_.leader().solver->advance(count));
-    note(advanced ? advanced->step - 1 - step_ : count, advanced);
+    reach(advanced ? advanced->step - 1 : step_ + count, advanced);
     done += count;
     const double took = seconds_since(before);
     // A batch is about a quarter of the budget, so that its end is not far beyond.
@@ -271,6 +280,10 @@ Status Simulation::refresh_snapshot() {
   auto state = engines_.leader().solver->state();
   if (!state) return fall_back(state.error());
   take_snapshot(std::move(*state));
+  if (Engines::in_context(engines_.leader()) && !divergence_) {
+    ASPIC_TRY(const auto found, engines_.leader().solver->advance(0));
+    if (found) reach(snapshot_.step, found);
+  }
   step_ = snapshot_.step;
   return {};
 }

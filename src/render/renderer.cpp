@@ -50,16 +50,9 @@ Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const 
 }  // namespace
 
 struct Renderer::Parts {
-  Parts(gl::Context& c, RenderPrograms p, OverlayPainter o, TerrainPainter t, LightMaps l)
-      : context(&c),
-        programs(std::move(p)),
-        overlay(std::move(o)),
-        terrain(std::move(t)),
-        lights(std::move(l)) {}
-
-  gl::Context* context;
+  gl::Context* context = nullptr;
   RenderPrograms programs;
-  OverlayPainter overlay;
+  std::optional<OverlayPainter> overlay;
   TerrainPainter terrain;
   LightMaps lights;
   gl::Texture colour_map;
@@ -84,6 +77,7 @@ struct Renderer::Parts {
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
   void draw_thickness(const gl::Buffer& particles) const;
+  void draw_rods_and_balls(const DeviceState& state, const DrawSettings& draw) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
   void draw_springs(const gl::Buffer& particles, const DrawSettings& draw, ViewColour mode) const;
   void draw_sheets(const gl::Buffer& particles, const ViewSettings& view) const;
@@ -116,13 +110,13 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Renderer::~Renderer() = default;
 
 Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const RendererOptions& options) {
-  ASPIC_TRY(auto programs, RenderPrograms::create(context, options.shaders));
-  ASPIC_TRY(auto overlay, OverlayPainter::create(context, options.shaders));
-  ASPIC_TRY(auto terrain, TerrainPainter::create(context));
-  ASPIC_TRY(auto lights, LightMaps::create(context));
-  auto parts = std::make_unique<Parts>(context, std::move(programs), std::move(overlay), std::move(terrain),
-                                       std::move(lights));
+  auto parts = std::make_unique<Parts>();
+  parts->context = &context;
   parts->shaders = options.shaders;
+  ASPIC_TRY(parts->programs, RenderPrograms::create(context, options.shaders));
+  ASPIC_TRY(parts->overlay, OverlayPainter::create(context, options.shaders));
+  ASPIC_TRY(parts->terrain, TerrainPainter::create(context));
+  ASPIC_TRY(parts->lights, LightMaps::create(context));
   ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
   parts->colour_map.upload(colour_map_texels());
   ASPIC_TRY(parts->frame,
@@ -171,7 +165,7 @@ Status Renderer::Parts::prepare_highlight() {
 
 void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   frame.upload_items(std::span(&block, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
+  frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
 }
 
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
@@ -197,6 +191,16 @@ void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
   draw_skins(particles, SurfaceStyle::flesh, [](std::size_t) {});
   glDisable(GL_BLEND);
   targets->thickness.colour.bind(UNIT_THICKNESS);
+}
+
+void Renderer::Parts::draw_rods_and_balls(const DeviceState& state, const DrawSettings& draw) const {
+  programs.rods.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
+  glUseProgram(programs.rods.id());
+  if (draw.solid) buffers->rods().draw();
+  if (!draws_balls(draw)) return;
+  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  buffers->balls().draw(programs.balls, state);
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
 void Renderer::Parts::draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const {
@@ -307,8 +311,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   glClear(GL_DEPTH_BUFFER_BIT);
   if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with(*c, 1.0).data());
   p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
-  if (view.draw.solid) p.buffers->rods().draw(p.programs);
-  if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
+  p.draw_rods_and_balls(state, view.draw);
   p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
   // The last opaque part: only where there is nothing else.
@@ -328,8 +331,8 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
     written = p.highlight->draw_within(*p.buffers, particles, view.draw, *options.highlight);
   p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
   if (written)
-    written = p.overlay.draw(p.targets->picture.framebuffer, options.text,
-                             options.legend ? legend_for(view, range) : Legend{});
+    written = p.overlay->draw(p.targets->picture.framebuffer, options.text,
+                              options.legend ? legend_for(view, range) : Legend{});
   glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_FRAMEBUFFER_SRGB);
