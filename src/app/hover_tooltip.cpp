@@ -42,16 +42,17 @@ bool touches(const Simulation& simulation, const Vec3& x) {
 }  // namespace
 
 void particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& h, const Box& view,
-                      double above) {
+                      bool legend) {
   const ParticleForce& f = h.force;
   const auto gap = static_cast<float>(16.0 * gui.scale());
   const auto width = static_cast<float>(view.right - view.left);
   // In a corner, so that it is never in the way of what it tells of.
   const bool components = width > 34.0f * ImGui::GetFontSize();
-  const float lifted = width > 56.0f * ImGui::GetFontSize() ? 0.0f : static_cast<float>(above);
-  ImGui::SetNextWindowPos(
-      {static_cast<float>(view.left) + gap, static_cast<float>(view.bottom) - gap - lifted}, ImGuiCond_Always,
-      {0.0f, 1.0f});
+  const bool shares = legend && width < 56.0f * ImGui::GetFontSize();
+  const ImVec2 low = {static_cast<float>(view.left) + gap, static_cast<float>(view.bottom) - gap},
+               high = {static_cast<float>(view.right) - gap, static_cast<float>(view.top) + gap};
+  ImGui::SetNextWindowPos(shares ? high : low, ImGuiCond_Always,
+                          {shares ? 1.0f : 0.0f, shares ? 0.0f : 1.0f});
   ImGui::SetNextWindowBgAlpha(0.72f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);
   ImGui::Begin("##particle", nullptr,

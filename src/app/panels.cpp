@@ -253,9 +253,8 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
       ImGui::TextDisabled("%s", c.name.data());
       continue;
     }
-    const float left = ImGui::GetCursorPosX();
     ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", c.keys.data());
-    ImGui::SameLine(left + keys + line);
+    ImGui::SameLine(keys + line);
     ImGui::TextUnformatted(c.name.data());
   }
   ImGui::EndGroup();
@@ -363,7 +362,7 @@ Box draw_panels(const PanelParts& p, double width, double height) {
   p.files.draw(p.gui, width, height);
   p.palette.draw(p, width, height);
   if (const auto& hovered = p.pointer.hovered())
-    particle_readout(p.gui, p.simulation, *hovered, view, legend);
+    particle_readout(p.gui, p.simulation, *hovered, view, legend > 0.0);
   return view;
 }
 

@@ -65,10 +65,10 @@ void energy_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void stability_section(Gui& gui, SceneControl& scene);
 
-/// What is known of a particle, in the lower left corner of the view; where that is narrow `above` what
-/// stands on the right [window units].
+/// What is known of a particle, in the lower left corner of the view, or where that is narrow and has a
+/// legend in the upper right one.
 void particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& hovered, const Box& view,
-                      double above);
+                      bool legend);
 /// What the colours mean, in the lower right corner of the view. Returns how much of its height is taken.
 double draw_legend(const Gui& gui, const Legend& legend, const Box& view);
 
