@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "analysis/stability.h"
+#include "model/springs.h"
 #include "report/csv.h"
 #include "report/grid.h"
 #include "report/study.h"
@@ -40,7 +41,8 @@ constexpr Varied varied[] = {
      [](double, double stable) {
        return std::vector<double>{stable / 16, stable / 4, 0.7 * stable, 0.95 * stable, 1.15 * stable};
      },
-     "Below the limit the step hardly matters; the last value is above it."},
+     "The step hardly matters as long as it is small enough; where springs limit it, the last value is above "
+     "the largest stable one."},
     {"n",
      [](double, double) {
        return std::vector<double>{4, 6, 8, 10, 12};
@@ -65,9 +67,15 @@ struct Thrown {
   std::vector<std::string> assignments;
   double duration = 0.0;  ///< [s]
 };
-Thrown thrown(const Study& study) {
+Result<Thrown> thrown(const Study& study) {
   Thrown result;
-  result.duration = std::max(study.scene.model.simulation.duration, study.thorough ? 20.0 : 12.0);
+  const SimulationSettings& simulation = study.scene.model.simulation;
+  ASPIC_TRY(const auto model, build_model(study.scene.model));
+  // Long enough to come to rest, unless that takes long to compute; a ball counts as so many springs.
+  constexpr double ball = 200.0, most_work = 4e8;
+  const double work = static_cast<double>(spring_count(model)) + ball * model.ball_count() + 1.0;
+  const double affordable = std::floor(most_work / work * simulation.timestep);
+  result.duration = std::max(simulation.duration, std::min(study.thorough ? 20.0 : 12.0, affordable));
   const auto& cubes = study.scene.model.cubes;
   for (std::size_t c = 0; c < cubes.size(); ++c) {
     if (length(cubes[c].velocity) == 0.0)
@@ -253,7 +261,7 @@ Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown&
 }  // namespace
 
 Result<Section> parameters_section(const Study& study) {
-  const Thrown base = thrown(study);
+  ASPIC_TRY(const Thrown base, thrown(study));
   Section section{"parameters", "Parameters", {}, {}};
   section.paragraphs = {
       fmt::format("Each figure varies one parameter of {} and leaves the others alone{}. A run takes {} s; "
