@@ -1,5 +1,6 @@
 // Force path `gather`: one invocation per particle evaluates its own springs, in ascending neighbour index, and goes
-// on to the stage of the integrator and the terrain: no force is ever stored.
+// on to the stage of the integrator and the terrain: no force is ever stored. With ASPIC_LATTICES it does so for the
+// particles outside lattices alone.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
@@ -9,12 +10,20 @@
 #include "compute/stage.glsl"
 
 void main() {
-  uint i = item_index();
-  if (i >= particle_count || halted()) return;
+  uint place = item_index();
+#ifdef ASPIC_LATTICES
+  if (place >= listed_count || halted()) return;
+  uint i = listed_particle(place);
+#else
+  if (place >= particle_count || halted()) return;
+  uint i = place;
+#endif
   Particle p = stage_state[i];
   precise vec3 f = p.velocity.w * gravity.xyz;
-  for (Walk w = walk(i, bounded(degree(i), KERNEL_GATHER)); w.at < w.end; ++w.at) {
-    Link link = link_of(w);
+  Walk w = walk_words(place);
+  for (w.end = bounded(w.end, KERNEL_GATHER); w.at < w.end; ++w.at) {
+    Link link;
+    if (!listed_link_at(w, link)) continue;
     Particle other = stage_state[link.other];
     f += spring_force(link.spring, p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
   }

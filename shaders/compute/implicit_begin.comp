@@ -12,8 +12,10 @@
 vec3 held_contact_force(uint i, Particle p) {
   if (contact_model == CONTACT_COULOMB || p.position.w == 0.0) return vec3(0.0);
   precise vec3 f = p.velocity.w * gravity.xyz;
-  for (Walk w = walk(i, bounded(degree(i), KERNEL_IMPLICIT_BEGIN)); w.at < w.end; ++w.at) {
-    Link link = link_of(w);
+  Walk w = walk(i);
+  for (w.end = bounded(w.end, KERNEL_IMPLICIT_BEGIN); w.at < w.end; ++w.at) {
+    Link link;
+    if (!link_at(w, link)) continue;
     Particle other = state(link.other);
     f += spring_force(link.spring, p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
   }
@@ -23,7 +25,7 @@ vec3 held_contact_force(uint i, Particle p) {
 }
 
 void main() {
-  if (solve.phase != PHASE_BEGIN) return;
+  if (enter() != PHASE_BEGIN) return;
   uint i = item_index();
   if (i < particle_count) {
     Particle p = state(i);

@@ -43,8 +43,10 @@ vec4 evaluate(uint i) {
   precise vec3 v = trial[i].xyz;
   precise vec3 f = p.velocity.w * gravity.xyz;
   DiagonalBlock block = block_of_mass(p.velocity.w);
-  for (Walk w = walk(i, bounded(degree(i), KERNEL_IMPLICIT_EVALUATE)); w.at < w.end; ++w.at) {
-    Link link = link_of(w);
+  Walk w = walk(i);
+  for (w.end = bounded(w.end, KERNEL_IMPLICIT_EVALUATE); w.at < w.end; ++w.at) {
+    Link link;
+    if (!link_at(w, link)) continue;
     precise vec3 dv = v - trial[link.other].xyz;
     precise vec3 e = (p.position.xyz - state(link.other).position.xyz) + time_step * dv;
     SpringJacobian H;
@@ -84,7 +86,7 @@ vec4 evaluate(uint i) {
 }
 
 void main() {
-  uint phase = solve.phase;
+  uint phase = enter();
   uint i = item_index();
   if (i == 0u && (phase == PHASE_EVALUATE || phase == PHASE_CG)) ++solve.ticks;
   if (i == 0u && phase == PHASE_CG) solve.prescribing = 0u;  // it took the round before

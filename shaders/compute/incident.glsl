@@ -1,12 +1,24 @@
-// The springs of each particle in ascending neighbour index, one word a spring, and the walk over them:
-//   for (Walk w = walk(i, bounded(degree(i), KERNEL_…)); w.at < w.end; ++w.at) { Link link = link_of(w); … }
+// The springs of each particle in ascending neighbour index, and the walk over them:
+//   for (Walk w = walk(i); w.at < w.end; ++w.at) { Link link; if (!link_at(w, link)) continue; … }
 // A word is neighbour << class_bits | class; on the force path per-spring it is the spring's, see sum_springs.comp.
+// With ASPIC_LATTICES those of cubes follow from the indices; ASPIC_LISTED: there are particles beside cubes too.
 layout(std430, binding = BINDING_INCIDENT_START) restrict readonly buffer IncidentStart { uint incident_start[]; };
 layout(std430, binding = BINDING_INCIDENT) restrict readonly buffer Incident { uint incident[]; };
 
+#ifdef ASPIC_LATTICES
+#include "compute/lattices.glsl"
+#endif
+
 struct Walk {
-  uint at;   // in the incident words
-  uint end;  // one past the last
+  uint at;     // springs passed so far, some of which may be missing
+  uint end;    // where it ends
+  uint first;  // the first of its words
+#ifdef ASPIC_LATTICES
+  uint particle;
+  uint steps;  // of a particle in a lattice: those that stay inside
+  uint edge;   // of its lattice; 0: its springs are listed
+  uint first_class;
+#endif
 };
 
 // A spring as one of its ends sees it.
@@ -15,15 +27,53 @@ struct Link {
   SpringClass spring;
 };
 
-uint degree(uint i) { return incident_start[i + 1u] - incident_start[i]; }
-
-// The first `count` springs of particle i.
-Walk walk(uint i, uint count) {
-  uint first = incident_start[i];
-  return Walk(first, first + count);
+// The walk over the words of the particle at this place among those that have any.
+Walk walk_words(uint place) {
+  uint slice = place / SPRING_SLICE;
+  uint first = incident_start[slice];
+  uint count = (incident_start[slice + 1u] - first) / SPRING_SLICE;
+#ifdef ASPIC_LATTICES
+  return Walk(0u, count, first + place % SPRING_SLICE, 0u, 0u, 0u, 0u);
+#else
+  return Walk(0u, count, first + place % SPRING_SLICE);
+#endif
 }
 
-Link link_of(Walk w) {
-  uint word = incident[w.at];
-  return Link(word >> class_bits, spring_classes[word & ((1u << class_bits) - 1u)]);
+uint word_at(Walk w) { return incident[w.first + w.at * SPRING_SLICE]; }
+
+// False where a walk over words has no spring.
+bool listed_link_at(Walk w, out Link link) {
+  uint word = word_at(w);
+  link = Link(word >> class_bits, spring_classes[word & ((1u << class_bits) - 1u)]);
+  return word != NO_SPRING;
 }
+
+#ifdef ASPIC_LATTICES
+Walk walk(uint i) {
+  uint place = i, l = 0u;
+  for (; l < lattice_count && i >= lattices[l].first_particle + particles_of(lattices[l]); ++l) {
+    place -= particles_of(lattices[l]);
+  }
+#ifdef ASPIC_LISTED
+  if (l == lattice_count || i < lattices[l].first_particle) return walk_words(place);
+#endif
+  Lattice lattice = lattices[l];
+  uint steps = steps_from(place_in(lattice.edge, i - lattice.first_particle), lattice.edge);
+  return Walk(0u, LATTICE_DIRECTIONS, 0u, i, steps, lattice.edge, lattice.first_class);
+}
+
+bool link_at(Walk w, out Link link) {
+#ifdef ASPIC_LISTED
+  if (w.edge == 0u) return listed_link_at(w, link);
+#endif
+  uint word = directions[w.at].word;
+  ivec3 o = ivec3((uvec3(word) >> uvec3(0u, 3u, 6u)) & 7u) - 2;
+  int edge = int(w.edge);
+  uint bits = step_bits(o.x, o.y, o.z);
+  link = Link(w.particle + uint((o.x * edge + o.y) * edge + o.z), spring_classes[w.first_class + (word >> 9)]);
+  return (w.steps & bits) == bits;
+}
+#else
+Walk walk(uint i) { return walk_words(i); }
+bool link_at(Walk w, out Link link) { return listed_link_at(w, link); }
+#endif

@@ -1,6 +1,7 @@
 // What follows the springs, the same for every force path: pull, contact force or the ground's reaction, acceleration,
 // the stage of the explicit method (src/model/integrator.h has the formulas), and after the last stage the terrain's
-// response and the watch for divergence. Expects the state blocks below to be bound.
+// response and the watch for divergence. Expects the state blocks below to be bound. With ASPIC_ONE_STAGE the method has
+// one stage, which begins where the step does and leaves no sums.
 #include "compute/pull.glsl"
 #include "compute/terrain.glsl"
 
@@ -24,8 +25,13 @@ void finish_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
 
 // p: the particle in this stage; f_springs: gravity and springs [N].
 void finish_stage(uint i, Particle p, vec3 f_springs) {
+  if (i == 0u) count_pass();
   precise vec3 f = with_pull(i, p.position.xyz, p.velocity.xyz, f_springs);
+#ifdef ASPIC_ONE_STAGE
+  Particle start = p;
+#else
   Particle start = start_state[i];
+#endif
   if (p.position.w != 0.0) {
     if (contact_model == CONTACT_COURSE) {
       f = with_contact_force(p.position.xyz, p.velocity.xyz, f);
@@ -38,6 +44,9 @@ void finish_stage(uint i, Particle p, vec3 f_springs) {
   Stage stage = stages[stage_index];
   precise vec3 slope_x = stage.weight * p.velocity.xyz;
   precise vec3 slope_v = stage.weight * a;
+#ifdef ASPIC_ONE_STAGE
+  finish_step(i, start, slope_x, slope_v);
+#else
   if (stage.accumulate != 0u) {
     slope_x = stage_sums[i].position.xyz + slope_x;
     slope_v = stage_sums[i].velocity.xyz + slope_v;
@@ -51,4 +60,5 @@ void finish_stage(uint i, Particle p, vec3 f_springs) {
   precise vec3 moves = drift == DRIFT_MEAN_VELOCITY ? 0.5 * (p.velocity.xyz + next_v) : p.velocity.xyz;
   precise vec3 next_x = start.position.xyz + stage.advance * moves;
   out_state[i] = Particle(vec4(next_x, start.position.w), vec4(next_v, start.velocity.w));
+#endif
 }

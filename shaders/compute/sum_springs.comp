@@ -14,8 +14,10 @@ void main() {
   if (i >= particle_count || halted()) return;
   Particle p = stage_state[i];
   precise vec3 f = p.velocity.w * gravity.xyz;
-  for (Walk w = walk(i, bounded(degree(i), KERNEL_SUM_SPRINGS)); w.at < w.end; ++w.at) {
-    uint word = incident[w.at];  // spring << 1 | 1 at its end b
+  Walk w = walk_words(i);
+  for (w.end = bounded(w.end, KERNEL_SUM_SPRINGS); w.at < w.end; ++w.at) {
+    uint word = word_at(w);  // spring << 1 | 1 at its end b
+    if (word == NO_SPRING) continue;
     precise vec3 on_a = spring_forces[word >> 1u].xyz;
     f += (word & 1u) == 0u ? on_a : -on_a;
   }

@@ -2,6 +2,13 @@
 #include "shapes/all.glsl"
 #include "compute/motion.glsl"
 
+// A loop of one round, which compilers can see, costs software rasterisers a twentieth of a step less.
+#ifdef ASPIC_ONE_TERRAIN
+#define TERRAIN_COUNT 1u
+#else
+#define TERRAIN_COUNT terrain_count
+#endif
+
 // B(u) = max(0, (m − e·M)/(m + M)·u), −e·u for M = ∞
 float bounce_speed(uint t, float m, float u) {
   precise float factor = -terrains[t].restitution;
@@ -35,7 +42,7 @@ vec3 resisted(uint t, vec4 g, vec3 v_in, vec3 f_in) {
 // By every terrain, on a particle, after gravity and springs.
 vec3 with_contact_force(vec3 x, vec3 v, vec3 f_in) {
   precise vec3 f = f_in;
-  for (uint t = 0u; t < terrain_count; ++t) f = resisted(t, gap_at_start(t, x), v, f);
+  for (uint t = 0u; t < TERRAIN_COUNT; ++t) f = resisted(t, gap_at_start(t, x), v, f);
   return f;
 }
 
@@ -54,7 +61,7 @@ void respond_course(uint t, float m, vec3 x, inout precise vec3 v) {
 vec3 with_ground_reaction(Particle start, vec3 f_in) {
   precise vec3 f = f_in;
   precise float hw = time_step * start.position.w;
-  for (uint t = 0u; t < terrain_count; ++t) {
+  for (uint t = 0u; t < TERRAIN_COUNT; ++t) {
     if (!(distance_at_start(t, start.position.xyz) < epsilon)) continue;
     precise vec4 g_0 = gap_at_start(t, start.position.xyz);
     if (!rests(g_0.w, dot3(relative_velocity(t, AT_START, start.velocity.xyz), g_0.xyz))) continue;
@@ -67,7 +74,7 @@ vec3 with_ground_reaction(Particle start, vec3 f_in) {
 // The response of all terrains, in file order, at the end of a step from `start` to x, v.
 void respond(Particle start, inout precise vec3 x, inout precise vec3 v) {
   if (start.position.w == 0.0) return;
-  for (uint t = 0u; t < terrain_count; ++t) {
+  for (uint t = 0u; t < TERRAIN_COUNT; ++t) {
     if (contact_model == CONTACT_COULOMB) {
       respond_coulomb(t, start.velocity.w, start.position.xyz, start.velocity.xyz, x, v);
     } else {

@@ -1,4 +1,6 @@
 // What colours show of each particle: its speed, the mean strain of its springs, or the net force they exert on it.
+#define ASPIC_LATTICES  // a model without any has none in the table
+#define ASPIC_LISTED
 #include "render/layout.glsl"
 #include "compute/dispatch.glsl"
 
@@ -19,9 +21,12 @@ void main() {
   }
   vec3 force = vec3(0.0);
   float strain = 0.0;
-  uint springs = degree(i);  // the host has looked at how many
-  for (Walk w = walk(i, springs); w.at < w.end; ++w.at) {
-    Link link = link_of(w);
+  uint springs = 0u;
+  // The host has looked at how many there are.
+  for (Walk w = walk(i); w.at < w.end; ++w.at) {
+    Link link;
+    if (!link_at(w, link)) continue;
+    ++springs;
     Particle other = particles[link.other];
     vec3 e = p.position.xyz - other.position.xyz;
     float L = length(e);

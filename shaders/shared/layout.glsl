@@ -8,8 +8,8 @@
 #define BINDING_STAGE_STATE 1   // Particle[]: where this stage evaluates the force, read only
 #define BINDING_OUT_STATE 2     // Particle[]: the next stage's state, or the step's end
 #define BINDING_STAGE_SUMS 3    // Particle[]: weighted sums of the stages' slopes so far
-#define BINDING_INCIDENT_START 4  // uint[particles + 1]: where each particle's list begins in the incident words
-#define BINDING_INCIDENT 5      // uint[2 · springs]: gather: neighbour and class; per-spring: spring and side
+#define BINDING_INCIDENT_START 4  // uint[slices + 1]: where the words of each slice of particles begin
+#define BINDING_INCIDENT 5      // uint[]: per-spring: spring and side; else neighbour and class
 #define BINDING_CONTROL 6       // Control
 #define BINDING_SPRING_FORCES 7 // vec4[springs]: force on end a [N], signed spring strength s [N]
 #define BINDING_SPRINGS 4       // uvec2[springs], in the per-spring force pass only
@@ -43,6 +43,7 @@
 #define BINDING_SIMULATION 0
 #define BINDING_PULL 1
 #define BINDING_POSES 2
+#define BINDING_LATTICES 3
 #define BINDING_FRAME 1
 #define BINDING_LIGHT_BOXES 2
 
@@ -53,6 +54,15 @@
 #ifndef MAX_ROUNDS
 #define MAX_ROUNDS 20000u
 #endif
+
+// Particles whose words lie side by side: spring_slice in src/model/incident_springs.h.
+#define SPRING_SLICE 32u
+#define NO_SPRING 0xffffffffu  // the word where a particle has fewer springs than others of its slice
+
+// Springs of a particle inside a lattice; their classes; lattices of a model, each with classes of its own.
+#define LATTICE_DIRECTIONS 32
+#define LATTICE_CLASSES 4
+#define MAX_LATTICES 64
 
 struct Particle {
   vec4 position;  // x [m]; w: inverse mass [1/kg], 0 = pinned
@@ -72,5 +82,34 @@ struct SpringClass {
   float rest_length;  // r [m]
   uint cord;          // 1: resists stretch only
 };
+
+// A direction in which particles of a lattice have a spring (LatticeDirection in src/model/springs.h), in one word, since
+// software rasterisers read words one by one: di + 2, dj + 2 and dk + 2 in three bits each, then the class's number.
+struct Direction {
+  uint word;
+  uint direction_padding0, direction_padding1, direction_padding2;
+};
+
+// A whole cube: edge³ particles whose springs are not in memory.
+struct Lattice {
+  uint first_particle;
+  uint edge;
+  uint first_class;
+  uint lattice_padding;
+};
+
+#if defined(__cplusplus) || defined(ASPIC_LATTICES)
+#ifdef __cplusplus
+struct Lattices {
+#else
+layout(std140, binding = BINDING_LATTICES) uniform Lattices {
+#endif
+  uint lattice_count;
+  uint listed_count;  // particles outside lattices
+  uint lattices_padding0, lattices_padding1;
+  Direction directions[LATTICE_DIRECTIONS];
+  Lattice lattices[MAX_LATTICES];  // in ascending order of particles
+};
+#endif
 
 #endif

@@ -14,12 +14,22 @@ struct SpringBuffers {
   IncidentWords kind = IncidentWords::neighbours;  ///< what the incident words mean
   gl::Buffer incident_start;                       ///< BINDING_INCIDENT_START
   gl::Buffer incident;                             ///< BINDING_INCIDENT
-  gl::Buffer springs;  ///< BINDING_SPRINGS: packed_springs(), with words that name springs alone
+  gl::Buffer springs;   ///< BINDING_SPRINGS: packed_springs(), with words that name springs alone
+  gl::Buffer lattices;  ///< BINDING_LATTICES, with words beside lattices; else a table without any
 
-  std::uint64_t bytes() const { return incident_start.bytes() + incident.bytes() + springs.bytes(); }
+  std::uint64_t bytes() const {
+    return incident_start.bytes() + incident.bytes() + springs.bytes() + lattices.bytes();
+  }
 };
 
-/// Errors: as incident_springs and Buffer::create.
+/// Bytes of them, without making them.
+std::uint64_t spring_buffer_bytes(const Model& model, IncidentWords kind);
+
+/// Whether the model has lattices, and not too many for words beside them.
+bool has_lattices(const Model& model);
+
+/// Errors: as incident_springs and Buffer::create. Words beside lattices take a model for which
+/// has_lattices().
 Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& context, const Model& model,
                                                                  IncidentWords kind);
 

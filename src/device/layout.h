@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "gpu/loop_bound.h"
+#include "model/incident_springs.h"
 
 namespace aspic::layout {
 
@@ -17,6 +18,9 @@ struct uvec2 {
 
 #include "shared/layout.glsl"
 
+static_assert(SPRING_SLICE == spring_slice && NO_SPRING == no_spring);
+static_assert(sizeof(Direction) == 16 && sizeof(Lattice) == 16 && offsetof(Lattices, directions) == 16);
+static_assert(offsetof(Lattices, lattices) == 16 + sizeof(Direction) * LATTICE_DIRECTIONS);
 static_assert(MAX_ROUNDS == gl::max_rounds);
 static_assert(sizeof(Particle) == 32 && offsetof(Particle, velocity) == 16);
 static_assert(sizeof(Ball) == 64 && offsetof(Ball, velocity) == 16 && offsetof(Ball, spin) == 32);

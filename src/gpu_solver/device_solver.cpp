@@ -12,7 +12,11 @@ using gl::Buffer;
 Status DeviceSolver::build(const GpuOptions& options) {
   const std::uint64_t held_before = context_.bytes_held();
   ASPIC_CHECK(build_shared(options));
-  ASPIC_TRY(const KernelOptions kernels, kernel_options(context_, model_, options, group_size(options)));
+  ASPIC_TRY(KernelOptions kernels, kernel_options(context_, model_, options, group_size(options)));
+  if (takes_lattices()) {
+    kernels.defines.push_back({"ASPIC_LATTICES", "1"});
+    if (lattice_particles(model_) < model_.particle_count()) kernels.defines.push_back({"ASPIC_LISTED", "1"});
+  }
   arithmetic_ = kernels.arithmetic;
   ASPIC_CHECK(build_passes(kernels, options));
   bytes_ = context_.bytes_held() - held_before;
@@ -70,7 +74,14 @@ Status DeviceSolver::load(const State& state) {
   return context_.check();
 }
 
+Status DeviceSolver::set_pull(const std::optional<Pull>& pull) {
+  // Steps of balls that found no room are repeated, with the pull that they had.
+  if (balls_.any()) ASPIC_CHECK(settle());
+  return pull_.set(model_, pull);
+}
+
 Result<State> DeviceSolver::state() {
+  ASPIC_CHECK(settle());
   State state;
   state.precision = Precision::single;
   state.step = base_step_ + steps_since_;
@@ -88,7 +99,7 @@ Result<gl::Pass> DeviceSolver::pass(const KernelOptions& kernels, std::string_vi
 }
 
 void DeviceSolver::keep_counting() {
-  if (steps_since_ <= 0x7fffffffu) return;
+  if (!counts_far()) return;
   base_step_ += steps_since_;
   steps_since_ = 0;
   balls_.set_base_step(base_step_);

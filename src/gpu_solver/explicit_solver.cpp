@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <deque>
 
+#include "gpu/read_ring.h"
 #include "gpu_solver/device_solver.h"
+#include "gpu_solver/queue_depth.h"
 #include "model/integrator.h"
 #include "model/springs.h"
 
@@ -12,8 +16,16 @@ using gl::Binding;
 using gl::Buffer;
 using gl::ReadBy;
 
-/// Steps queued between two looks at the control words: enough to hide the wait, few enough to answer Ctrl-C.
-constexpr std::uint64_t steps_per_look = 256;
+using Clock = std::chrono::steady_clock;
+
+/// Steps queued between two looks at the control words, at most, and queues under way: one is carried out
+/// while the host hears of the one before.
+constexpr std::uint32_t most_steps = 1024;
+constexpr std::size_t most_queues = 2;
+static_assert(most_queues <= gl::ReadRing::capacity);
+
+/// See GpuOptions::lattice_run.
+constexpr std::uint32_t software_run = 4;
 
 /// Whether the method's sums outlive a stage, so that memory must hold them.
 bool keeps_sums(const IntegratorRow& method) {
@@ -26,29 +38,65 @@ class ExplicitSolver final : public DeviceSolver {
   // The step's start, its end, and a place for stages in between; the roles rotate with every step.
   ExplicitSolver(gl::Context& context, const Model& model, const ForcePathRow& path)
       : DeviceSolver(context, model, path, 3,
-                     {std::string(path.spring_title), std::string(path.particle_title)}),
+                     {std::string(path.spring_title), std::string(path.lattice_title),
+                      std::string(path.particle_title)}),
         method_(free_flight_row(model.simulation.integrator)) {}
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
+  void set_late(bool on) override { late_ = on; }
 
  private:
+  /// Steps that are queued, and not looked at yet.
+  struct Queue {
+    std::uint32_t count;
+    std::size_t first_state;   // where they begin
+    std::uint32_t first_slot;  // of the balls, likewise
+    std::uint32_t first_step;
+    Clock::time_point begun;
+  };
   /// Kinds of passes, for the profiler.
-  enum Kind : std::size_t { springs_kind, particles_kind };
+  enum Kind : std::size_t { springs_kind, lattices_kind, particles_kind };
   std::uint32_t group_size(const GpuOptions& options) const override { return options.group_size; }
   Status build_passes(const KernelOptions& kernels, const GpuOptions& options) override;
   void restart() override;
+  Status settle() override { return carry_out(0, true); }
+  Status carry_out(std::uint64_t steps, bool wait);
+  std::uint32_t queue_steps(std::uint32_t count);
+  Status build_lattice_pass(KernelOptions kernels, std::uint32_t run, const std::vector<Binding>& bindings);
+  void dispatch(const std::optional<gl::Pass>& pass, Kind kind, std::uint32_t items,
+                std::span<const Binding> states, ReadBy readers) const;
   void queue_step(std::uint32_t step_index, bool last_of_queue);
-  Result<layout::Control> read_control();
+  Result<std::uint64_t> take_look();
+  void forget_queues();
+  std::uint32_t passes_per_step() const;
 
   const IntegratorRow& method_;
   Buffer sums_, control_, forces_;
-  std::optional<gl::Pass> spring_pass_, particle_pass_;  // of each stage
+  std::deque<Queue> queues_;
+  std::optional<gl::ReadRing> looks_;  // the control words after each queue
+  QueueDepth depth_{most_steps};
+  Clock::time_point last_look_ = {};
+  std::uint32_t passes_before_ = 0;  // that must have been carried out before the oldest queue
+  bool late_ = false;
+  std::optional<gl::Pass> spring_pass_, lattice_pass_, particle_pass_;  // of each stage
+  std::uint32_t lattice_runs_ = 0, listed_particles_ = 0;               // items of the last two
 };
+
+Status ExplicitSolver::build_lattice_pass(KernelOptions kernels, std::uint32_t run,
+                                          const std::vector<Binding>& bindings) {
+  for (const Body& body : model_.bodies)
+    if (body.lattice_edge > 0) lattice_runs_ += (body.particle_count - 1) / run + 1;
+  listed_particles_ -= lattice_particles(model_);
+  kernels.defines.push_back({"ASPIC_LATTICE_RUN", std::to_string(run)});
+  ASPIC_TRY(lattice_pass_, pass(kernels, path_.lattice_kernel, bindings));
+  return {};
+}
 
 Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptions& options) {
   const std::uint64_t state_bytes = states_[0].bytes();
   ASPIC_TRY(sums_, Buffer::create(context_, "stage sums", keeps_sums(method_) ? state_bytes : 0));
   ASPIC_TRY(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
+  looks_.emplace(context_, sizeof(layout::Control));
   const Binding control = {BINDING_CONTROL, &control_};
   std::vector<Binding> bindings = {constants(),
                                    control,
@@ -56,7 +104,8 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                    poses_.binding(),
                                    {BINDING_STAGE_SUMS, &sums_},
                                    {BINDING_INCIDENT_START, &springs_->incident_start},
-                                   {BINDING_INCIDENT, &springs_->incident}};
+                                   {BINDING_INCIDENT, &springs_->incident},
+                                   lattices()};
   if (!path_.spring_kernel.empty()) {
     ASPIC_TRY(forces_,
               Buffer::create(context_, "spring forces", spring_count(model_) * sizeof(layout::vec4)));
@@ -67,38 +116,59 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                   {BINDING_SPRINGS, &springs_->springs},
                                   {BINDING_SPRING_FORCES, &forces_}}));
   }
-  ASPIC_TRY(particle_pass_, pass(kernels, path_.particle_kernel, std::move(bindings)));
+  KernelOptions stage_kernels = kernels;
+  if (method_.stages.size() == 1) stage_kernels.defines.push_back({"ASPIC_ONE_STAGE", "1"});
+  listed_particles_ = model_.particle_count();
+  if (takes_lattices()) {
+    const std::uint32_t run = options.lattice_run > 0       ? options.lattice_run
+                              : context_.info().is_software ? software_run
+                                                            : 1;
+    ASPIC_CHECK(build_lattice_pass(stage_kernels, run, bindings));
+  }
+  if (listed_particles_ > 0 || !lattice_pass_) {
+    ASPIC_TRY(particle_pass_, pass(stage_kernels, path_.particle_kernel, std::move(bindings)));
+  }
   return balls_.build(context_, model_, kernels, {&simulation_, &control_, false, poses_.binding()},
                       options.ball_search);
 }
 
 void ExplicitSolver::restart() {
-  const layout::Control control = {NO_STEP, NO_STEP, NO_STEP, 0};
+  layout::Control control{};
+  control.bad_step = control.bad_particle = control.full_step = NO_STEP;
   control_.upload_items(std::span(&control, 1));
+  forget_queues();
+  passes_before_ = 0;
+}
+
+void ExplicitSolver::dispatch(const std::optional<gl::Pass>& pass, Kind kind, std::uint32_t items,
+                              std::span<const Binding> states, ReadBy readers) const {
+  if (!pass) return;
+  pass->dispatch_for(items, states, readers);
+  mark(kind);
 }
 
 void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
   poses_.cover(step_index, 1);
   const std::size_t end = (current_ + 1) % 3, between = (current_ + 2) % 3;
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
-  if (spring_pass_) spring_pass_->program().set(LOCATION_STEP, step_index);
-  particle_pass_->program().set(LOCATION_STEP, step_index);
+  for (const auto* pass : {&spring_pass_, &lattice_pass_, &particle_pass_})
+    if (*pass) (*pass)->program().set(LOCATION_STEP, step_index);
   std::size_t stage_state = current_;
   for (std::uint32_t s = 0; s < stages; ++s) {
     // Stages alternate between the two free buffers so that the last one lands in `end`.
     const std::size_t out = (stages - 1 - s) % 2 == 0 ? end : between;
-    particle_pass_->program().set(LOCATION_STAGE, s);
+    for (const auto* pass : {&lattice_pass_, &particle_pass_})
+      if (*pass) (*pass)->program().set(LOCATION_STAGE, s);
     const std::array<Binding, 3> states = {{{BINDING_STAGE_STATE, &states_[stage_state]},
                                             {BINDING_START_STATE, &states_[current_]},
                                             {BINDING_OUT_STATE, &states_[out]}}};
-    if (spring_pass_) {
-      spring_pass_->dispatch_for(static_cast<std::uint32_t>(spring_count(model_)),
-                                 std::span(states).first(1));
-      mark(springs_kind);
-    }
+    dispatch(spring_pass_, springs_kind, static_cast<std::uint32_t>(spring_count(model_)),
+             std::span(states).first(1), ReadBy::compute_pass);
     const bool leaves = last_of_queue && s + 1 == stages && !balls_.any();
-    particle_pass_->dispatch_for(model_.particle_count(), states, leaves ? anyone : ReadBy::compute_pass);
-    mark(particles_kind);
+    const ReadBy readers = leaves ? anyone : ReadBy::compute_pass;
+    // Cubes and all else write different particles.
+    dispatch(lattice_pass_, lattices_kind, lattice_runs_, states, particle_pass_ ? ReadBy::nobody : readers);
+    dispatch(particle_pass_, particles_kind, listed_particles_, states, readers);
     stage_state = out;
   }
   balls_.queue(states_[current_], states_[end], step_index, ball_slot_,
@@ -108,40 +178,91 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
 }
 
 Result<std::optional<Divergence>> ExplicitSolver::advance(std::uint64_t steps) {
-  while (steps > 0 && !divergence_) {
-    keep_counting();
-    const auto queue = static_cast<std::uint32_t>(std::min(steps, steps_per_look));
-    const std::size_t first_state = current_;
-    const std::uint32_t first_slot = ball_slot_;
-    for (std::uint32_t n = 0; n < queue; ++n) {
-      if (profiler_ && n == 0) profiler_->begin();
-      queue_step(steps_since_ + n, n + 1 == queue);
-      if (profiler_ && n == 0) profiler_->end();
-    }
-    ASPIC_TRY(const layout::Control control, read_control());
-    std::uint32_t good = queue;
-    if (control.full_step != NO_STEP) {
-      // Steps before it have passed; it is repeated from the state it began with, where nothing was written.
-      good = control.full_step - steps_since_;
-      ASPIC_CHECK(balls_.grow());
-      restart();
-    } else if (control.bad_step != NO_STEP) {
-      good = control.bad_step - steps_since_;
-      divergence_ = divergence_from(control.bad_particle, control.bad_step);
-    }
-    current_ = (first_state + good) % 3;
-    ball_slot_ = (first_slot + good) % 2;
-    steps_since_ += good;
-    steps -= good;
-  }
+  ASPIC_CHECK(carry_out(steps, !late_));
   return divergence_;
 }
 
-Result<layout::Control> ExplicitSolver::read_control() {
-  const layout::Control control = control_.download_items<layout::Control>(1).front();
+Status ExplicitSolver::carry_out(std::uint64_t steps, bool wait) {
+  while (!divergence_) {
+    const bool must = queues_.size() == most_queues || (steps == 0 ? wait : counts_far());
+    if (!queues_.empty() && (must || looks_->ready())) {
+      const auto undone = take_look();
+      if (!undone) {
+        forget_queues();
+        return undone.error();
+      }
+      steps += *undone;
+    } else if (steps > 0) {
+      keep_counting();
+      steps -= queue_steps(static_cast<std::uint32_t>(std::min<std::uint64_t>(steps, depth_.next())));
+    } else {
+      break;
+    }
+  }
+  return {};
+}
+
+std::uint32_t ExplicitSolver::queue_steps(std::uint32_t count) {
+  queues_.push_back({count, current_, ball_slot_, steps_since_, Clock::now()});
+  for (std::uint32_t n = 0; n < count; ++n) {
+    if (profiler_ && n == 0) profiler_->begin();
+    queue_step(steps_since_ + n, n + 1 == count);
+    if (profiler_ && n == 0) profiler_->end();
+  }
+  steps_since_ += count;
+  looks_->submit(control_, 0, sizeof(layout::Control));
+  return count;
+}
+
+/// Waits for the oldest queue and takes in what came of it. Returns how many steps have to be queued again.
+Result<std::uint64_t> ExplicitSolver::take_look() {
+  layout::Control control;
+  looks_->take(std::as_writable_bytes(std::span(&control, 1)));
   ASPIC_CHECK(context_.check());
   ASPIC_CHECK(check_overrun(control.overrun));
-  return control;
+  const Queue queue = queues_.front();
+  queues_.pop_front();
+  const auto now = Clock::now();
+  depth_.took(queue.count, std::chrono::duration<double>(now - std::max(queue.begun, last_look_)).count());
+  last_look_ = now;
+  // What is queued behind a step that diverged or found no room has done nothing.
+  const bool full = control.full_step != NO_STEP, bad = !full && control.bad_step != NO_STEP;
+  const std::uint32_t good = full  ? control.full_step - queue.first_step
+                             : bad ? control.bad_step - queue.first_step
+                                   : queue.count;
+  // A step is found to fail after the last of its passes that count. Unsigned, so that a counter that wraps
+  // makes no difference.
+  const std::uint32_t least = passes_before_ + (good + (full || bad ? 1u : 0u)) * passes_per_step();
+  if (good > queue.count || control.passes - least > (1u << 31)) return idle_device(context_, model_, least);
+  passes_before_ = least;
+  if (!full && !bad) return std::uint64_t{0};
+  const std::uint64_t undone = std::uint64_t{steps_since_} - queue.first_step - good;
+  current_ = (queue.first_state + good) % 3;
+  ball_slot_ = (queue.first_slot + good) % 2;
+  steps_since_ = queue.first_step + good;
+  forget_queues();
+  if (full) {
+    // The step is repeated from the state it began with, where nothing was written.
+    ASPIC_CHECK(balls_.grow());
+    restart();
+  } else {
+    divergence_ = divergence_from(control.bad_particle, control.bad_step);
+  }
+  return undone;
+}
+
+void ExplicitSolver::forget_queues() {
+  queues_.clear();
+  looks_->forget();
+}
+
+/// Passes of a step that count themselves: of each stage those over springs and over particles, and the
+/// balls' flight.
+std::uint32_t ExplicitSolver::passes_per_step() const {
+  const auto stages = static_cast<std::uint32_t>(method_.stages.size());
+  const std::uint32_t particles = model_.particle_count() > 0 ? stages : 0u,
+                      springs = spring_pass_ && spring_count(model_) > 0 ? stages : 0u;
+  return particles + springs + (balls_.any() ? 1u : 0u);
 }
 
 }  // namespace

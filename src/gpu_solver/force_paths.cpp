@@ -5,20 +5,26 @@
 #include <algorithm>
 #include <vector>
 
+#include "device/device_state.h"
 #include "gpu_solver/layout.h"
 
 namespace aspic {
 namespace {
 
-constexpr std::uint64_t incident_bytes = 2 * sizeof(std::uint32_t);
-
 constexpr ForcePathRow table[] = {
+    {.path = ForcePath::lattice,
+     .name = "lattice",
+     .implicit = true,
+     .words = IncidentWords::beside_lattices,
+     .lattice_kernel = "compute/lattice.comp",
+     .lattice_title = "cubes: springs, integration, contact",
+     .particle_kernel = "compute/gather.comp",
+     .particle_title = "springs, integration, contact"},
     {.path = ForcePath::gather,
      .name = "gather",
      .implicit = true,
      .particle_kernel = "compute/gather.comp",
-     .particle_title = "springs, integration, contact",
-     .spring_bytes = incident_bytes},
+     .particle_title = "springs, integration, contact"},
     {.path = ForcePath::per_spring,
      .name = "per-spring",
      .words = IncidentWords::springs,
@@ -26,9 +32,12 @@ constexpr ForcePathRow table[] = {
      .spring_title = "spring forces",
      .particle_kernel = "compute/sum_springs.comp",
      .particle_title = "sums, integration, contact",
-     .spring_bytes = incident_bytes + sizeof(layout::uvec2) + sizeof(layout::vec4)},
-    {.path = ForcePath::lattice, .name = "lattice", .built = false},
+     .spring_bytes = sizeof(layout::vec4)},
 };
+
+const ForcePathRow& row_of(ForcePath path) {
+  return *std::ranges::find(table, path, &ForcePathRow::path);
+}
 
 }  // namespace
 
@@ -36,14 +45,9 @@ std::span<const ForcePathRow> force_paths() {
   return table;
 }
 
-std::span<const ForcePathRow> built_force_paths() {
-  const auto* const end = std::ranges::find(table, false, &ForcePathRow::built);
-  return {std::begin(table), end};
-}
-
-const ForcePathRow& row_of(ForcePath path) {
-  const auto* const found = std::ranges::find(table, path, &ForcePathRow::path);
-  return found == std::end(table) ? table[0] : *found;
+const ForcePathRow& row_of(ForcePath path, const Model& model) {
+  if (path != ForcePath::automatic) return row_of(path);
+  return row_of(has_lattices(model) ? ForcePath::lattice : ForcePath::gather);
 }
 
 std::string_view name_of(ForcePath path) {
@@ -56,21 +60,15 @@ std::string force_path_words() {
   return words;
 }
 
-std::string built_path_words(std::string_view between, bool implicit_alone) {
+std::string implicit_path_words(std::string_view between) {
   std::vector<std::string_view> names;
-  for (const ForcePathRow& row : built_force_paths())
-    if (row.implicit || !implicit_alone) names.push_back(row.name);
+  for (const ForcePathRow& row : table)
+    if (row.implicit) names.push_back(row.name);
   return fmt::format("{}", fmt::join(names, between));
 }
 
-Status check_built(ForcePath path) {
-  if (row_of(path).built) return {};
-  return fail(ErrorCode::scene_rejected, "the force path {} is not built yet; use {}.", name_of(path),
-              built_path_words(" or "));
-}
-
 bool works_with(ForcePath path, Integrator integrator) {
-  return !aspic::row_of(integrator).solved() || row_of(path).implicit;
+  return path == ForcePath::automatic || !aspic::row_of(integrator).solved() || row_of(path).implicit;
 }
 
 }  // namespace aspic

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
@@ -18,23 +20,29 @@ bool solves(Integrator integrator, std::uint64_t particles) {
 
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
                                                    const GpuOptions& options) {
-  ASPIC_CHECK(check_built(options.force_path));
   if (context.lost()) return context.lost_error();
-  const ForcePathRow& path = row_of(options.force_path);
+  const ForcePathRow& path = row_of(options.force_path, model);
+  const std::uint64_t needed = gpu_bytes(model, path.path),
+                      shared =
+                          options.share_springs_of ? options.share_springs_of->spring_buffers()->bytes() : 0;
+  ASPIC_CHECK(context.check_memory(needed - std::min(needed, shared)));
   if (!solves(model.simulation.integrator, model.particle_count()))
     return make_explicit_solver(context, model, options, path);
   if (path.implicit) return make_implicit_solver(context, model, options, path);
   return Error{ErrorCode::scene_rejected,
                fmt::format("implicit-euler does not take the force path {}: use auto or {}", path.name,
-                           built_path_words(" or ", true))};
+                           implicit_path_words(" or "))};
 }
 
-std::uint64_t gpu_bytes(const ModelCounts& counts, Integrator integrator, ForcePath path) {
+std::uint64_t gpu_bytes(const Model& model, ForcePath path) {
+  const ModelCounts counts = count(model);
+  const Integrator integrator = model.simulation.integrator;
   const bool implicit = solves(integrator, counts.particles);
-  const ForcePathRow& row = row_of(works_with(path, integrator) || !implicit ? path : ForcePath::automatic);
+  const ForcePathRow& row =
+      row_of(!implicit || works_with(path, integrator) ? path : ForcePath::automatic, model);
   return ball_bytes(counts) + sizeof(layout::Simulation) + sizeof(layout::Pull) +
          (implicit ? implicit_bytes(counts) : explicit_bytes(counts, integrator)) +
-         4 * (counts.particles + 1) + row.spring_bytes * counts.springs();
+         spring_buffer_bytes(model, row.words) + row.spring_bytes * counts.springs();
 }
 
 }  // namespace aspic

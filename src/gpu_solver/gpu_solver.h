@@ -27,6 +27,10 @@ class GpuSolver;
 struct GpuOptions {
   ForcePath force_path = ForcePath::automatic;
   std::uint32_t group_size = 64;  ///< invocations per work group, 1…1024; never affects the bits
+  /// Particles that an invocation of the path lattice takes, 1 or 4; 0: 4 on software rasterisers, which then
+  /// read a neighbour once for several, and 1 on hardware, whose lanes then read neighbouring particles.
+  /// Never affects the bits.
+  std::uint32_t lattice_run = 0;
   BallSearch ball_search = BallSearch::automatic;
   /// Files here go before the embedded shaders; empty: embedded alone.
   std::filesystem::path shader_directory;
@@ -49,8 +53,13 @@ class GpuSolver : public Solver {
   virtual ForcePath force_path() const = 0;
   /// What the canary found on this device, and how the kernels were compiled for it.
   virtual const gl::Arithmetic& arithmetic() const = 0;
+  /// From now on advance() may return before the device is done, for a window that must not wait: then a
+  /// divergence, a lost device and the end of the steps before it come out of the next advance(), at most two
+  /// queues late, and device_state() is what will be there. state() waits, and its step is that of a good
+  /// state. Off at first; implicit-euler always waits.
+  virtual void set_late(bool) {}
   /// Measures device time by pass from now on, or no longer. Off at first; never affects the bits. One step
-  /// in each advance() is measured, one in 256 of a long one; implicit-euler waits for the device once more
+  /// in each queue of an advance() is measured; implicit-euler waits for the device once more
   /// then.
   virtual void set_profiling(bool on) = 0;
   /// The passes of a step in their order, means over the last 64 steps that were measured: their sum is the
@@ -67,7 +76,8 @@ class GpuSolver : public Solver {
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
                                                    const GpuOptions& options = {});
 
-/// Bytes of device memory a solver would hold for a model of these counts.
-std::uint64_t gpu_bytes(const ModelCounts& counts, Integrator integrator, ForcePath path);
+/// Bytes of device memory a solver of the model would hold; of a path that its integrator does not take, as
+/// automatic.
+std::uint64_t gpu_bytes(const Model& model, ForcePath path);
 
 }  // namespace aspic

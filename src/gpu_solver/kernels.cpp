@@ -62,6 +62,14 @@ void fill_stages(layout::Simulation& block, const IntegratorRow& method, double 
 
 Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, const GpuOptions& options,
                                      std::uint32_t group_size) {
+  const gl::DeviceLimits& limits = context.info().limits;
+  const std::uint32_t most = std::min(limits.group_invocations, limits.group_size[0]);
+  if (group_size < 1 || group_size > most)
+    return fail(ErrorCode::no_device,
+                "{} takes work groups of 1 to {} invocations, and the kernels were asked to have {}. Use "
+                "another group "
+                "size or another device.",
+                context.info().renderer, most, group_size);
   KernelOptions kernels{gl::ShaderLibrary(options.shader_directory), {}, {}};
   if (options.arithmetic) {
     kernels.arithmetic = *options.arithmetic;
@@ -73,6 +81,7 @@ Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, c
   std::uint32_t shapes = 0;
   for (const Terrain& terrain : model.terrain) shapes |= 1u << static_cast<std::uint32_t>(terrain.shape);
   kernels.defines.push_back({"ASPIC_SHAPES", std::to_string(shapes)});
+  if (model.terrain.size() == 1) kernels.defines.push_back({"ASPIC_ONE_TERRAIN", "1"});
   if (std::ranges::any_of(model.terrain, [](const Terrain& t) { return t.motion.has_value(); }))
     kernels.defines.push_back({"ASPIC_MOTION", "1"});
   kernels.defines.insert(kernels.defines.end(), options.defines.begin(), options.defines.end());
@@ -83,6 +92,14 @@ std::vector<std::string> titles_of(std::span<const KernelRow> rows) {
   std::vector<std::string> titles;
   for (const KernelRow& row : rows) titles.emplace_back(row.title);
   return titles;
+}
+
+Error idle_device(const gl::Context& context, const Model& model, std::uint64_t count) {
+  return fail(
+      ErrorCode::no_device,
+      "{} is no usable device: it does not carry out the kernels of {}, of which {} or more were queued. Use "
+      "another device, or --backend cpu.",
+      context.info().renderer, name_of(model.simulation.integrator), count);
 }
 
 Status check_overrun(std::uint32_t overrun) {

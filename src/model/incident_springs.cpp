@@ -1,7 +1,5 @@
 #include "model/incident_springs.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 
@@ -10,9 +8,9 @@
 namespace aspic {
 namespace {
 
+/// Words that name neighbours, and no_spring beside them.
 Status check_words(const Model& model) {
-  ASPIC_CHECK(check_spring_words(model));
-  const std::uint64_t limit = std::uint64_t{1} << (32 - class_bits(model));
+  const std::uint64_t limit = (std::uint64_t{1} << (32 - class_bits(model))) - 1;
   if (model.particle_count() <= limit) return {};
   return fail(ErrorCode::scene_rejected,
               "{} particles with {} kinds of springs are more than one 32-bit word a spring can name "
@@ -20,24 +18,91 @@ Status check_words(const Model& model) {
               model.particle_count(), model.spring_classes.size(), limit);
 }
 
-/// Springs at each particle i, at i + 1.
-std::vector<std::uint32_t> degrees(const Model& model) {
-  std::vector<std::uint32_t> count(std::size_t{model.particle_count()} + 1, 0);
-  for (const Spring& spring : springs_of(model)) {
-    ++count[spring.a + 1];
-    ++count[spring.b + 1];
+/// Adds to the counts of a lattice's particles, of which `degree` is the first's.
+void count_lattice(std::uint32_t edge, std::uint32_t* degree) {
+  const int n = static_cast<int>(edge);
+  for (const LatticeDirection& o : lattice_directions()) {
+    for (int i = std::max(0, -o.di); i < n - std::max(0, o.di); ++i) {
+      for (int j = std::max(0, -o.dj); j < n - std::max(0, o.dj); ++j) {
+        std::uint32_t* const row =
+            degree +
+            (std::size_t{edge} * static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(j)) * edge;
+        for (int k = std::max(0, -o.dk); k < n - std::max(0, o.dk); ++k) ++row[k];
+      }
+    }
   }
+}
+
+/// Springs at each particle, those of lattices only if they are to be walked by words.
+std::vector<std::uint32_t> degrees(const Model& model, IncidentWords words) {
+  std::vector<std::uint32_t> count(model.particle_count(), 0);
+  for (const Spring& spring : model.listed_springs) {
+    ++count[spring.a];
+    ++count[spring.b];
+  }
+  if (words == IncidentWords::beside_lattices) return count;
+  for (const Body& body : model.bodies) count_lattice(body.lattice_edge, count.data() + body.first_particle);
   return count;
 }
 
-}  // namespace
+/// Consecutive particles that are walked by words.
+struct Run {
+  std::uint32_t first = 0, end = 0;
+  std::uint32_t place = 0;  ///< of the first among all of them
+};
 
-Status check_spring_words(const Model& model) {
-  if (2 * spring_count(model) <= 0xffffffffu) return {};
+std::vector<Run> runs_of(const Model& model, IncidentWords words) {
+  std::vector<Run> runs = {{}};
+  for (const Body& body : model.bodies) {
+    if (body.lattice_edge == 0 || words != IncidentWords::beside_lattices) continue;
+    runs.back().end = body.first_particle;
+    const std::uint32_t place = runs.back().place + runs.back().end - runs.back().first;
+    runs.push_back({body.first_particle + body.particle_count, 0, place});
+  }
+  runs.back().end = model.particle_count();
+  return runs;
+}
+
+/// Where the words of each slice begin, and one past the last.
+std::vector<std::uint64_t> slice_starts(const Model& model, IncidentWords words) {
+  const std::vector<Run> runs = runs_of(model, words);
+  const std::vector<std::uint32_t> degree = degrees(model, words);
+  const std::uint32_t walked = runs.back().place + runs.back().end - runs.back().first;
+  std::vector<std::uint64_t> start(std::size_t{walked} / spring_slice + (walked % spring_slice > 0) + 1, 0);
+  for (const Run& run : runs) {
+    for (std::uint32_t i = run.first; i < run.end; ++i) {
+      std::uint64_t& most = start[(run.place + i - run.first) / spring_slice + 1];
+      most = std::max<std::uint64_t>(most, degree[i]);
+    }
+  }
+  for (std::size_t s = 1; s < start.size(); ++s) start[s] = start[s - 1] + spring_slice * start[s];
+  return start;
+}
+
+Status check_count(const Model& model, std::uint64_t words) {
+  if (words <= 0xffffffffu) return {};
   return fail(ErrorCode::scene_rejected,
               "{} springs have more ends than a list with 32-bit indices can name: use fewer "
               "particles-per-edge or --backend cpu",
               spring_count(model));
+}
+
+}  // namespace
+
+std::uint32_t lattice_particles(const Model& model) {
+  std::uint32_t count = 0;
+  for (const Body& body : model.bodies)
+    if (body.lattice_edge > 0) count += body.particle_count;
+  return count;
+}
+
+IncidentCounts incident_counts(const Model& model, IncidentWords words) {
+  const std::vector<std::uint64_t> start = slice_starts(model, words);
+  return {start.size(), start.back()};
+}
+
+Status check_spring_words(const Model& model) {
+  return check_count(model, 2 * spring_count(model));
 }
 
 std::uint32_t class_bits(const Model& model) {
@@ -46,21 +111,40 @@ std::uint32_t class_bits(const Model& model) {
 }
 
 Result<IncidentSprings> incident_springs(const Model& model, IncidentWords words) {
-  const bool neighbours = words == IncidentWords::neighbours;
-  ASPIC_CHECK(neighbours ? check_words(model) : check_spring_words(model));
+  const bool neighbours = words != IncidentWords::springs;
+  const bool beside = words == IncidentWords::beside_lattices;
+  if (!neighbours) ASPIC_CHECK(check_spring_words(model));
+  if (neighbours && !(beside && model.listed_springs.empty())) ASPIC_CHECK(check_words(model));
+  const std::vector<std::uint64_t> start = slice_starts(model, words);
+  ASPIC_CHECK(check_count(model, start.back()));
   const std::uint32_t bits = class_bits(model);
   IncidentSprings rows;
-  rows.start = degrees(model);
-  for (std::size_t i = 1; i < rows.start.size(); ++i) rows.start[i] += rows.start[i - 1];
-  rows.words.resize(rows.start.back());
-  std::vector<std::uint32_t> next(rows.start.begin(), rows.start.end() - 1);
+  for (const std::uint64_t first : start) rows.start.push_back(static_cast<std::uint32_t>(first));
+  rows.words.assign(start.back(), no_spring);
+  // By particle: where its next word goes.
+  std::vector<std::uint32_t> next(model.particle_count(), 0);
+  for (const Run& run : runs_of(model, words)) {
+    for (std::uint32_t i = run.first; i < run.end; ++i) {
+      const std::uint32_t place = run.place + i - run.first;
+      next[i] = rows.start[place / spring_slice] + place % spring_slice;
+    }
+  }
+  const auto add = [&](std::uint32_t particle, std::uint32_t word) {
+    rows.words[next[particle]] = word;
+    next[particle] += spring_slice;
+  };
   // Springs are sorted by (a, b): this meets each particle's springs in ascending neighbour index, first
   // those in which it is b, then those in which it is a.
   std::uint32_t index = 0;
-  for (const Spring& spring : springs_of(model)) {
-    rows.words[next[spring.a]++] = neighbours ? (spring.b << bits) | spring.spring_class : index << 1;
-    rows.words[next[spring.b]++] = neighbours ? (spring.a << bits) | spring.spring_class : (index << 1) | 1u;
+  const auto add_spring = [&](const Spring& spring) {
+    add(spring.a, neighbours ? (spring.b << bits) | spring.spring_class : index << 1);
+    add(spring.b, neighbours ? (spring.a << bits) | spring.spring_class : (index << 1) | 1u);
     ++index;
+  };
+  if (beside) {
+    for (const Spring& spring : model.listed_springs) add_spring(spring);
+  } else {
+    for (const Spring& spring : springs_of(model)) add_spring(spring);
   }
   return rows;
 }
@@ -76,7 +160,7 @@ Result<std::vector<std::array<std::uint32_t, 2>>> packed_springs(const Model& mo
 }
 
 std::uint32_t highest_degree(const Model& model) {
-  return std::ranges::max(degrees(model));
+  return std::ranges::max(degrees(model, IncidentWords::neighbours));
 }
 
 }  // namespace aspic

@@ -1,5 +1,7 @@
 #pragma once
 // The springs of a model as kernels walk them: per particle, in ascending neighbour index, one word a spring.
+// Particles stand in slices of spring_slice, whose words lie side by side: the first spring of each, then the
+// second, and so on, so that neighbouring invocations read neighbouring words.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -11,15 +13,33 @@ namespace aspic {
 
 /// What a word says of a spring at one of its ends.
 enum class IncidentWords {
-  neighbours,  ///< neighbour << class_bits | class
-  springs      ///< index of the spring << 1 | (1 at its end b)
+  neighbours,       ///< neighbour << class_bits | class
+  beside_lattices,  ///< the same, of the particles outside lattices alone, which count as if there were no
+                    ///< others
+  springs           ///< index of the spring << 1 | (1 at its end b)
 };
 
-/// Compressed rows: particle i owns words[start[i]] … words[start[i + 1] − 1].
+/// Particles of a slice.
+inline constexpr std::uint32_t spring_slice = 32;
+/// A word where a particle has fewer springs than others of its slice.
+inline constexpr std::uint32_t no_spring = 0xffffffffu;
+
+/// Word n of particle i is words[start[s] + n·spring_slice + i % spring_slice], s = i / spring_slice, for n
+/// below (start[s + 1] − start[s]) / spring_slice.
 struct IncidentSprings {
-  std::vector<std::uint32_t> start;  ///< particles + 1
-  std::vector<std::uint32_t> words;  ///< 2 · springs
+  std::vector<std::uint32_t> start;  ///< slices + 1
+  std::vector<std::uint32_t> words;
 };
+
+/// What incident_springs() would hold.
+struct IncidentCounts {
+  std::uint64_t starts = 0, words = 0;
+  std::uint64_t bytes() const { return sizeof(std::uint32_t) * (starts + words); }
+};
+IncidentCounts incident_counts(const Model& model, IncidentWords words);
+
+/// Particles of the model's lattices.
+std::uint32_t lattice_particles(const Model& model);
 
 /// Low bits of a word that hold the spring class: enough for all classes of the model.
 std::uint32_t class_bits(const Model& model);
@@ -27,8 +47,8 @@ std::uint32_t class_bits(const Model& model);
 /// Error (scene_rejected): a word a spring end is more than 32 bits can count.
 Status check_spring_words(const Model& model);
 
-/// Errors (scene_rejected): as check_spring_words; neighbours, and more particles than the bits left by the
-/// class can name.
+/// Errors (scene_rejected): more words than 32 bits can count; words that name neighbours, and more particles
+/// than the bits left by the class can.
 Result<IncidentSprings> incident_springs(const Model& model, IncidentWords words);
 
 /// Each spring in two words: end a; end b << class_bits | class. Errors as incident_springs of neighbours.

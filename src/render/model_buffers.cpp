@@ -18,7 +18,7 @@ using gl::ReadBy;
 
 /// Whether a state brings the words that name neighbours.
 bool has_neighbours(const DeviceState& state) {
-  return state.springs && state.springs->kind == IncidentWords::neighbours;
+  return state.springs && state.springs->kind != IncidentWords::springs;
 }
 
 /// The longest of the lists that begin at `start`.
@@ -85,7 +85,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   ASPIC_TRY(b.light_boxes_,
             gl::Buffer::of(context, "light boxes", std::vector<render_layout::LightBox>(LIGHTS)));
   ASPIC_TRY(b.balls_, BallBuffers::create(context, model));
-  ASPIC_TRY(b.rods_, Rods::create(context, model));
+  ASPIC_TRY(b.rods_, DeviceMesh::create(context, "rods", rod_mesh(model)));
   return b;
 }
 
@@ -107,7 +107,9 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
     ASPIC_TRY(spring_classes_, gl::Buffer::of(context, "spring classes", classes));
   }
   if (has_neighbours(state) || own_springs_) return {};
-  ASPIC_TRY(own_springs_, make_spring_buffers(context, model, IncidentWords::neighbours));
+  ASPIC_TRY(own_springs_, make_spring_buffers(context, model,
+                                              has_lattices(model) ? IncidentWords::beside_lattices
+                                                                  : IncidentWords::neighbours));
   return {};
 }
 
@@ -129,6 +131,7 @@ void ModelBuffers::compute_quantity(const RenderPrograms& programs, const Device
   if (const SpringBuffers* springs = has_neighbours(state) ? state.springs : own_springs_.get()) {
     bindings.push_back({BINDING_INCIDENT_START, &springs->incident_start});
     bindings.push_back({BINDING_INCIDENT, &springs->incident});
+    bindings.push_back({BINDING_LATTICES, &springs->lattices, gl::BufferKind::uniform});
     bindings.push_back({BINDING_SPRING_CLASSES, &spring_classes_});
   }
   gl::Pass(programs.quantity, std::move(bindings), ReadBy::vertex_draw | ReadBy::read_back)

@@ -105,9 +105,9 @@ constexpr Precision single_alone[] = {Precision::single};
 constexpr Precision both_precisions[] = {Precision::single, Precision::double_};
 
 constexpr BackendRow table[] = {
-    {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, built_force_paths, true, make_gpu,
+    {"gpu", "GPU", "OpenGL 4.3 compute shaders", single_alone, force_paths, true, make_gpu,
      [](const Model& model, const BackendChoice& choice) -> std::optional<std::uint64_t> {
-       return gpu_bytes(count(model), model.simulation.integrator, choice.force_path);
+       return gpu_bytes(model, choice.force_path);
      },
      gpu_suitability},
     {"cpu", "CPU", "threads and vector instructions", single_alone, nullptr, false, make_cpu,
@@ -304,7 +304,6 @@ Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& 
 }
 
 Status check_choice(const BackendChoice& choice) {
-  ASPIC_CHECK(check_built(choice.force_path));
   if (choice.row) {
     if (const Ability* const lacks = lacking(*choice.row, choice)) {
       return fail(ErrorCode::usage, "the {} does not {} {}; use --backend {}.", choice.row->name, lacks->verb,

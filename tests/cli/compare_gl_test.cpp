@@ -29,7 +29,7 @@ TEST(CompareGl, RunOnTheGpuEndsWithTheReferencesHash) {
   const auto gpu = aspic({"run", "cube-plane", "--backend", "gpu", "--steps", "60", "--json"});
   ASSERT_EQ(gpu.exit_code, 0) << gpu.err;
   EXPECT_EQ(json_member(gpu.out, "backend"), "gpu");
-  EXPECT_EQ(json_member(gpu.out, "force_path"), "gather");
+  EXPECT_EQ(json_member(gpu.out, "force_path"), "lattice");
   const auto reference = aspic({"run", "cube-plane", "--backend", "reference", "--steps", "60", "--json"});
   EXPECT_EQ(json_member(gpu.out, "state_hash"), json_member(reference.out, "state_hash"));
 }

@@ -155,7 +155,6 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"run", "no-such-scene"}, 3, "no-such-scene"}, Failure{{"run", "cube-plan"}, 3, "cube-plane"},
         Failure{{"run", "cube-plane", "--set", "simulation.timestpe=0.002"}, 3, "timestep"},
         Failure{{"run", "cube-plane", "--set", "simulation.timestep=-1"}, 3, "timestep"},
-        Failure{{"run", "cube-plane", "--backend", "gpu", "--force-path", "lattice"}, 3, "not built yet"},
         Failure{{"scene", "check", "cube-plan"}, 3, "cube-plane"},
         Failure{{"compare", "cube-plane", "--backends", "reference,tpu"}, 2, "auto, gpu, "}));
 

@@ -29,8 +29,11 @@ TEST_F(GpuSolverTest, StartsAtTheModelsState) {
 
 TEST_F(GpuSolverTest, AutomaticPathIsNamed) {
   const Model model = test::build(test::cube_on_plane(3));
-  EXPECT_EQ(solver_for(model, ForcePath::automatic)->force_path(), ForcePath::gather);
+  EXPECT_EQ(solver_for(model, ForcePath::automatic)->force_path(), ForcePath::lattice);
   EXPECT_NE(solver_for(model)->description().find("gather"), std::string::npos);
+  Model listed = model;
+  list_springs(listed);
+  EXPECT_EQ(solver_for(listed, ForcePath::automatic)->force_path(), ForcePath::gather);
 }
 
 TEST_F(GpuSolverTest, SplittingARunChangesNoBit) {
@@ -62,7 +65,7 @@ TEST_F(GpuSolverTest, DivergenceIsFoundOnTheDeviceWhereTheReferenceFindsIt) {
     auto reference = std::move(make_reference_solver(model, Precision::single)).value();
     const auto expected = *reference->advance(100000);
     ASSERT_TRUE(expected.has_value());
-    for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+    for (const ForcePath path : {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring}) {
       auto solver = solver_for(model, path);
       const auto found = *solver->advance(100000);
       ASSERT_TRUE(found.has_value());
@@ -140,13 +143,12 @@ TEST_F(GpuSolverTest, NotANumberIsDivergenceAtTheLowestParticle) {
 
 TEST_F(GpuSolverTest, HoldsAsManyBytesAsItSaid) {
   const Model model = test::build(test::cube_on_plane(6));
-  for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
-    EXPECT_EQ(solver_for(model, path)->bytes(), gpu_bytes(count(model), Integrator::explicit_euler, path));
-  }
+  for (const ForcePathRow& row : force_paths())
+    EXPECT_EQ(solver_for(model, row.path)->bytes(), gpu_bytes(model, row.path)) << row.name;
   Model implicit = model;
   implicit.simulation.integrator = Integrator::implicit_euler;
-  EXPECT_EQ(solver_for(implicit)->bytes(),
-            gpu_bytes(count(model), Integrator::implicit_euler, ForcePath::gather));
+  for (const ForcePath path : {ForcePath::lattice, ForcePath::gather})
+    EXPECT_EQ(solver_for(implicit, path)->bytes(), gpu_bytes(implicit, path)) << name_of(path);
 }
 
 // As the window does it: each change of a constant is a new solver that shares the springs of the old one.
@@ -157,7 +159,7 @@ TEST_F(GpuSolverTest, SharesSpringsWithOneLikeIt) {
   settings.cubes[0].shear.stiffness = 900.0;
   settings.simulation.timestep = 0.0005;
   Model stiffer = test::build(settings);
-  for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+  for (const ForcePath path : {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring}) {
     auto old = solver_for(model, path);
     const std::uint64_t held = context().bytes_held();
     GpuOptions options;
@@ -178,6 +180,7 @@ TEST_F(GpuSolverTest, SharesSpringsWithOneLikeIt) {
   // Another method may share them, another path or other springs may not.
   auto old = solver_for(model);
   GpuOptions options;
+  options.force_path = ForcePath::gather;
   options.share_springs_of = old.get();
   Model implicit = model;
   implicit.simulation.integrator = Integrator::implicit_euler;
@@ -201,7 +204,7 @@ TEST_F(GpuSolverTest, SharedKernelsKeepSolversApart) {
   settings.balls.push_back({0.5, 2.0, {0.2, 6.0, 0.1}, {0.0, -9.0, 0.0}, {}});
   for (const Integrator integrator :
        {Integrator::runge_kutta_4, Integrator::symplectic_euler, Integrator::implicit_euler}) {
-    for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+    for (const ForcePath path : {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring}) {
       if (integrator == Integrator::implicit_euler && path == ForcePath::per_spring) continue;  // refused
       settings.simulation.integrator = integrator;
       const Model model = test::build(settings);
@@ -224,8 +227,6 @@ TEST_F(GpuSolverTest, SharedKernelsKeepSolversApart) {
 TEST_F(GpuSolverTest, RefusesWhatIsNotBuilt) {
   Model model = test::build(test::cube_on_plane(3));
   GpuOptions options;
-  options.force_path = ForcePath::lattice;
-  EXPECT_EQ(make_gpu_solver(context(), model, options).error().code, ErrorCode::scene_rejected);
   model.simulation.integrator = Integrator::implicit_euler;
   options.force_path = ForcePath::per_spring;
   EXPECT_EQ(make_gpu_solver(context(), model, options).error().code, ErrorCode::scene_rejected);

@@ -103,6 +103,22 @@ TEST_F(Layout, StorageBlocksMatchTheDriver) {
   EXPECT_EQ(Reflection(forces).buffer_variable_array_stride("spring_forces[0]"), bytes(sizeof(layout::vec4)));
 }
 
+TEST_F(Layout, LatticesMatchTheDriver) {
+  const std::vector<gl::Define> defines = {{"ASPIC_LATTICES", "1"}, {"ASPIC_LISTED", "1"}};
+  for (const char* path : {"compute/gather.comp", "compute/implicit_apply.comp", "render/quantity.comp"}) {
+    const bool render = std::string_view(path).starts_with("render");
+    const auto p = gl::Program::compute(context(), gl::ShaderLibrary(), path,
+                                        render ? std::span<const gl::Define>{} : std::span(defines));
+    ASSERT_TRUE(p.ok()) << p.error().message;
+    EXPECT_EQ(Reflection(*p).uniform_block_binding("Lattices"), BINDING_LATTICES) << path;
+    EXPECT_EQ(Reflection(*p).uniform_block_data_size("Lattices"), bytes(sizeof(layout::Lattices))) << path;
+    EXPECT_EQ(Reflection(*p).uniform_offset("lattice_count"), 0) << path;
+    EXPECT_EQ(Reflection(*p).uniform_offset("lattices[0].first_particle"),
+              bytes(offsetof(layout::Lattices, lattices)))
+        << path;
+  }
+}
+
 TEST_F(Layout, BallBlocksMatchTheDriver) {
   const gl::Program fly = program("compute/ball_fly.comp");
   EXPECT_EQ(Reflection(fly).storage_block_binding("Balls"), BINDING_BALLS);

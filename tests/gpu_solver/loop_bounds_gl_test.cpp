@@ -52,7 +52,7 @@ class LoopBounds : public aspic::testing::GlTest {
 
   /// What a run of one step says with this kernel compiled for loops of one round; empty without an error.
   static std::string complaint(Model model, Integrator integrator, const std::string& kernel,
-                               ForcePath path = ForcePath::automatic) {
+                               ForcePath path = ForcePath::gather) {
     model.simulation.integrator = integrator;
     const test::TemporaryDirectory directory;
     std::filesystem::create_directories(directory.path() / "compute");
@@ -293,7 +293,7 @@ TEST_F(LoopBounds, OfTheForceThatIsDrawn) {
   const auto programs = RenderPrograms::create(context(), gl::ShaderLibrary());
   ASSERT_TRUE(programs.ok()) << programs.error().message;
   const gl::Buffer frame = frame_of(context(), model.particle_count(), COLOUR_FORCE);
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
+  frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
   buffers.compute_quantity(*programs, shown);
   const auto force = static_cast<double>(buffers.quantity().download_items<float>(1).front());
   // Each addition rounds what the others have come to; the last spring's force and the result take a few

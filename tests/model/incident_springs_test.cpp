@@ -16,36 +16,81 @@ Model two_cubes() {
   return test::build(settings);
 }
 
+/// The words of the particle at this place, up to the first that is missing; none may follow.
+std::vector<std::uint32_t> words_at(const IncidentSprings& springs, std::uint32_t place) {
+  const std::uint32_t slice = place / spring_slice;
+  std::vector<std::uint32_t> words;
+  bool over = false;
+  for (std::uint32_t n = springs.start[slice]; n < springs.start[slice + 1]; n += spring_slice) {
+    const std::uint32_t word = springs.words[n + place % spring_slice];
+    if (word == no_spring) {
+      over = true;
+    } else {
+      EXPECT_FALSE(over) << place;
+      words.push_back(word);
+    }
+  }
+  return words;
+}
+
 TEST(IncidentSpringsOfAModel, ListEverySpringOnceAtEachEndInAscendingNeighbourOrder) {
   const Model model = two_cubes();
   const std::vector<Spring> springs = all_springs(model);
   const IncidentSprings by_neighbour = *incident_springs(model, IncidentWords::neighbours),
                         by_spring = *incident_springs(model, IncidentWords::springs);
-  ASSERT_EQ(by_neighbour.words.size(), 2 * springs.size());
   ASSERT_EQ(by_neighbour.start, by_spring.start);
   const std::uint32_t bits = class_bits(model);
   EXPECT_EQ(bits, 3u);  // eight classes
   std::vector<int> seen(springs.size(), 0);
+  std::size_t most = 0;
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
+    const auto neighbours = words_at(by_neighbour, i), ends = words_at(by_spring, i);
+    ASSERT_EQ(neighbours.size(), ends.size());
+    most = std::max(most, ends.size());
     std::int64_t last = -1;
-    for (std::uint32_t n = by_neighbour.start[i]; n < by_neighbour.start[i + 1]; ++n) {
-      const std::uint32_t neighbour = by_neighbour.words[n] >> bits,
-                          spring_class = by_neighbour.words[n] & ((1u << bits) - 1u);
+    for (std::size_t n = 0; n < ends.size(); ++n) {
+      const std::uint32_t neighbour = neighbours[n] >> bits,
+                          spring_class = neighbours[n] & ((1u << bits) - 1u);
       EXPECT_GT(neighbour, last);
       last = neighbour;
-      const Spring& spring = springs[by_spring.words[n] >> 1];
-      const bool is_b = (by_spring.words[n] & 1u) != 0;
+      const Spring& spring = springs[ends[n] >> 1];
+      const bool is_b = (ends[n] & 1u) != 0;
       EXPECT_EQ(is_b ? spring.b : spring.a, i);
       EXPECT_EQ(is_b ? spring.a : spring.b, neighbour);
       EXPECT_EQ(spring.spring_class, spring_class);
-      ++seen[by_spring.words[n] >> 1];
+      ++seen[ends[n] >> 1];
     }
   }
   for (const int times : seen) EXPECT_EQ(times, 2);
-  std::uint32_t most = 0;
-  for (std::size_t i = 0; i + 1 < by_spring.start.size(); ++i)
-    most = std::max(most, by_spring.start[i + 1] - by_spring.start[i]);
   EXPECT_EQ(highest_degree(model), most);
+}
+
+// A cube, cloth, a cube, a net: the words of cloth and net alone, as if there were nothing else.
+TEST(IncidentSpringsOfAModel, BesideLatticesAreThoseOfAllOtherBodies) {
+  ModelSettings settings = test::cube_on_plane(4);
+  settings.cubes.push_back(settings.cubes[0]);
+  settings.cubes[1].position.x = 20.0;
+  settings.cloths.emplace_back();
+  settings.goal_nets.emplace_back();
+  Model model = test::build(settings);
+  const IncidentSprings beside = *incident_springs(model, IncidentWords::beside_lattices),
+                        all = *incident_springs(model, IncidentWords::neighbours);
+  EXPECT_EQ(lattice_particles(model), 128u);
+  std::uint32_t place = 0;
+  for (const Body& body : model.bodies) {
+    if (body.lattice_edge > 0) continue;
+    for (std::uint32_t i = 0; i < body.particle_count; ++i)
+      EXPECT_EQ(words_at(beside, place++), words_at(all, body.first_particle + i));
+  }
+  EXPECT_EQ(place, model.particle_count() - 128u);
+  for (const IncidentWords words :
+       {IncidentWords::beside_lattices, IncidentWords::neighbours, IncidentWords::springs}) {
+    const IncidentSprings made = *incident_springs(model, words);
+    EXPECT_EQ(incident_counts(model, words).starts, made.start.size());
+    EXPECT_EQ(incident_counts(model, words).words, made.words.size());
+  }
+  list_springs(model);
+  EXPECT_EQ(incident_springs(model, IncidentWords::beside_lattices)->words, all.words);
 }
 
 TEST(PackedSprings, KeepBothEndsAndTheClass) {

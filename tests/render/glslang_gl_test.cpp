@@ -58,7 +58,7 @@ class Glslang : public aspic::testing::GlTest {
   /// Compiles what a solver of these settings needs.
   static void solve(const ModelSettings& settings, GpuOptions options) {
     const Model model = test::build(settings);
-    for (const ForcePathRow& path : built_force_paths()) {
+    for (const ForcePathRow& path : force_paths()) {
       if (!works_with(path.path, settings.simulation.integrator)) continue;
       options.force_path = path.path;
       const auto solver = make_gpu_solver(context(), model, options);

@@ -1,0 +1,55 @@
+// Force path `lattice`: gather for whole cubes, whose springs follow from the particles' indices. An invocation takes
+// ASPIC_LATTICE_RUN particles that lie one after the other, so that each neighbour is read once for all of them. The
+// neighbours come in ascending index, so every particle adds its springs in that order; one that lies outside the lattice
+// is left out of the sum.
+#include "compute/layout.glsl"
+#include "compute/common.glsl"
+#include "compute/control.glsl"
+#include "compute/spring.glsl"
+#include "compute/stage.glsl"
+#include "compute/lattices.glsl"
+#include "compute/lattice_rows.glsl"
+
+// Which lattice run `run` of all is in, and which of its runs it becomes.
+uint lattice_of(inout uint run) {
+  uint l = 0u;
+  for (; l < lattice_count; ++l) {
+    uint runs = (particles_of(lattices[l]) + ASPIC_LATTICE_RUN - 1u) / ASPIC_LATTICE_RUN;
+    if (run < runs) break;
+    run -= runs;
+  }
+  return l;
+}
+
+void main() {
+  uint run = item_index();
+  uint l = lattice_of(run);
+  if (l == lattice_count || halted()) return;
+  Lattice lattice = lattices[l];
+  uint edge = lattice.edge;
+  uint at = run * ASPIC_LATTICE_RUN;
+  int first_of_lattice = int(lattice.first_particle);
+  int last_of_lattice = int(lattice.first_particle + particles_of(lattice) - 1u);
+  int first_of_run = first_of_lattice + int(at);
+  int row_stride = int(edge), plane_stride = int(edge * edge);
+  for (uint c = 0u; c < LATTICE_CLASSES; ++c) classes[c] = spring_classes[lattice.first_class + c];
+  uvec3 place = place_in(edge, at);
+  EACH_OF_RUN(TAKE)
+  ROW_0(-2, 0)
+  ROW_1(-1, -1)
+  ROW_1(-1, 0)
+  ROW_1(-1, 1)
+  ROW_0(0, -2)
+  ROW_1(0, -1)
+  ROW_2
+  ROW_1(0, 1)
+  ROW_0(0, 2)
+  ROW_1(1, -1)
+  ROW_1(1, 0)
+  ROW_1(1, 1)
+  ROW_0(2, 0)
+  for (int p = 0; p < ASPIC_LATTICE_RUN && first_of_run + p <= last_of_lattice; ++p) {
+    finish_stage(uint(first_of_run + p), own[0], force[0]);
+    EACH_BUT_THE_LAST(MOVE_DOWN)
+  }
+}
