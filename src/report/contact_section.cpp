@@ -208,7 +208,7 @@ Result<Figure> drop_figure(const Study& study) {
   if (integrators.front() != Integrator::midpoint) integrators.push_back(Integrator::midpoint);
   for (const Integrator integrator : integrators)
     for (const auto& row : contact_models) cases.push_back({integrator, row.value});
-  const double duration = std::max(8.0, study.scene.model.simulation.duration);
+  ASPIC_TRY(const double duration, study.affordable(8.0));
   std::vector<TrialResult> results(cases.size());
   ASPIC_CHECK(study.each(cases.size(), [&](std::size_t i) -> Status {
     Scene scene = study.scene;

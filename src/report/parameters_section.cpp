@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "analysis/stability.h"
-#include "model/springs.h"
 #include "report/csv.h"
 #include "report/grid.h"
 #include "report/study.h"
@@ -69,13 +68,7 @@ struct Thrown {
 };
 Result<Thrown> thrown(const Study& study) {
   Thrown result;
-  const SimulationSettings& simulation = study.scene.model.simulation;
-  ASPIC_TRY(const auto model, build_model(study.scene.model));
-  // Long enough to come to rest, unless that takes long to compute; a ball counts as so many springs.
-  constexpr double ball = 200.0, most_work = 4e8;
-  const double work = static_cast<double>(spring_count(model)) + ball * model.ball_count() + 1.0;
-  const double affordable = std::floor(most_work / work * simulation.timestep);
-  result.duration = std::max(simulation.duration, std::min(study.thorough ? 20.0 : 12.0, affordable));
+  ASPIC_TRY(result.duration, study.affordable(study.thorough ? 20.0 : 12.0));
   const auto& cubes = study.scene.model.cubes;
   for (std::size_t c = 0; c < cubes.size(); ++c) {
     if (length(cubes[c].velocity) == 0.0)
