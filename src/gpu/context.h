@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -69,6 +68,7 @@ inline constexpr std::uint64_t read_part_bytes = std::uint64_t{4} << 20;
 
 struct DeleteFence;
 class ProgramCache;
+struct EglCandidate;
 class ReadRing;
 
 /// The address of a GL function, or null: eglGetProcAddress, glfwGetProcAddress.
@@ -150,8 +150,10 @@ class Context {
   friend class ReadRing;
   friend bool passed(Context& context, const std::unique_ptr<void, DeleteFence>& fence);
   friend Status wait_for(Context& context, const std::unique_ptr<void, DeleteFence>& fence);
-  friend class EglContextMaker;
   Context();
+  /// The context on a candidate. The error says why it does not do.
+  static Result<std::unique_ptr<Context>> create_on(const EglCandidate& candidate,
+                                                    const ContextOptions& options);
   void start(std::string platform, Loader loader);
   /// Whether an injected fault's time has come; it has only one.
   bool strikes(Fault fault);

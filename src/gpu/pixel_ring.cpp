@@ -1,6 +1,5 @@
 #include "gpu/pixel_ring.h"
 
-#include <fmt/format.h>
 #include <glad/gl.h>
 
 #include <cassert>

@@ -74,7 +74,7 @@ void Picker::draw_terrain(const Model& model, std::uint64_t step) const {
 void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const DeviceState& state,
                         const DrawSettings& draw) const {
   draw_terrain(model, state.step);
-  if (draws_balls(draw)) buffers.balls().draw_with(balls_, state);
+  if (draws_balls(draw)) buffers.balls().draw(balls_, state);
   if (!draw.solid && !draw.particles && !draws_springs(draw)) return;
   const float radius =
       static_cast<float>(draw.particles ? particle_radius(buffers.spacing())
