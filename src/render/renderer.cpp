@@ -17,7 +17,6 @@
 
 namespace aspic {
 namespace {
-
 /// The walls of a translucent body that face away from the eye, or towards it.
 enum class JellySide { far, near };
 
@@ -46,7 +45,6 @@ Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const 
   buffer.upload_items(items);
   return {};
 }
-
 }  // namespace
 
 struct Renderer::Parts {
@@ -290,7 +288,6 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   const Camera camera(view.camera, width, height);
   const QuantityRange range = options.range.value_or(default_range(*p.model, view.colour));
   const bool flesh = p.has(SurfaceStyle::flesh), solid = view.draw.solid && flesh;
-
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
   p.drawn_frame =

@@ -278,37 +278,6 @@ TEST_P(TimeOnBackend, InThePastFiguresAreThoseOfThatMoment) {
   }
 }
 
-TEST_F(Time, AClickInThePlotGoesToThatMoment) {
-  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "reference");
-  run_to(400);
-  frames(4);
-  click("section/Scene");
-  const app::Box plot = widgets().at("energy/plot");
-  const auto& energies = simulation().samples().energies();
-  const double span = energies.back().time - energies.front().time;
-  click("energy/plot");
-  settle();
-  EXPECT_NEAR(simulation().time(), energies.front().time + 0.5 * span, 0.02 * span);
-  EXPECT_LT(plot.top, plot.bottom);
-  EXPECT_FALSE(simulation().running());
-}
-
-TEST_F(Time, PlotsOfTwoRunsHaveTheSamePoints) {
-  const auto times = [&](const char* backend) {
-    open("cube-plane", {"cube[0].position=[0,1.2,0]", "cube[0].particles-per-edge=5"}, backend);
-    simulation().set_running(true);
-    frames_to_step(205);
-    std::vector<std::pair<std::uint64_t, double>> points;
-    for (const auto& sample : simulation().samples().energies())
-      if (sample.step <= 200) points.emplace_back(sample.step, sample.measures.total());
-    close();
-    return points;
-  };
-  const auto first = times("reference");
-  EXPECT_EQ(first.size(), 11u) << "one for every twenty steps of a millisecond";
-  EXPECT_EQ(first, times("reference"));
-}
-
 TEST_F(Time, ALargeModelIsBuiltAsideAndNothingThatHandsDoIsLost) {
   open("cube-plane", {"cube[0].particles-per-edge=30", "cube[0].position=[0,2,0]"}, "reference");
   simulation().set_running(true);
