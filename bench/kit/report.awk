@@ -32,7 +32,12 @@ kind == "info" && /units in the last place|are exact|rounds/ {
   gsub(/^ *"|",?$/, "", line)
   if (line !~ /are exact/) arithmetic[++sentences] = line
 }
-kind == "verify" && /^ *"(verdict|result)":/ { ++verdicts[value($0)] }
+kind == "verify" && /^      "name":/ { check = value($0) }
+kind == "verify" && /^      "measured":/ { measured = value($0) }
+kind == "verify" && /^      "verdict":/ {
+  ++verdicts[value($0)]
+  if (value($0) == "fail") failures = failures "- " check ": " measured "\n"
+}
 kind == "compare" && /^ *"identical":/ { same[name] = value($0) }
 kind == "compare" && /^ *"largest_ulp":/ && value($0) + 0 > ulps[name] + 0 { ulps[name] = value($0) }
 kind == "bench" && /^      "name":/ { row = ++rows; title[row] = value($0) }
@@ -50,7 +55,9 @@ END {
   if (sentences == 0) print "Every operation that was tried is exact."
   for (i = 1; i <= sentences; ++i) print "- " arithmetic[i]
   print "\n## Verification\n"
-  for (v in verdicts) print "- " v ": " verdicts[v]
+  for (v in verdicts) printf "%s%s %d", separator++ ? ", " : "", v, verdicts[v]
+  print "."
+  if (failures != "") printf "\nFailed:\n\n%s", failures
   print "\n## The GPU against the reference\n"
   for (i = 1; i <= comparisons; ++i) {
     name = compared[i]

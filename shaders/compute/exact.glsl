@@ -1,8 +1,8 @@
 // Quotients and roots rounded to nearest on every device. The canary (compute/canary.comp) decides at start-up:
 //   ASPIC_CORRECT_DIV, ASPIC_CORRECT_SQRT  the device's own operation is not exact and has to be corrected
 //   ASPIC_FUSED_FMA                        fma rounds once, so that it gives exact residuals; else double does
-// Correction: a Newton step from the device's value, then of it and its two neighbours the one with the smallest
-// residual (Markstein, IBM J. Res. Dev. 34, 1990). Mantissas alone are divided, exponents are added as integers, so
+// Correction: a Newton step from the device's value, then of it and its neighbour on the side of the exact value the one
+// with the smaller residual (Markstein, IBM J. Res. Dev. 34, 1990). Mantissas alone are divided, exponents are added as integers, so
 // that neither a huge divisor nor a denormal result comes in the way.
 #include "compute/device_arithmetic.glsl"
 
@@ -47,19 +47,16 @@ uint join(float q, int exponent, float r) {
   return up ? kept + 1u : kept;
 }
 
+// The neighbour of a positive q on the side of the exact value, which r has the sign of.
+float neighbour(float q, float r) {
+  return uintBitsToFloat(r < 0.0 ? floatBitsToUint(q) - 1u : floatBitsToUint(q) + 1u);
+}
+
 void take_better(float candidate, float candidate_residual, inout float best, inout float best_residual) {
   if (abs(candidate_residual) < abs(best_residual)) {
     best = candidate;
     best_residual = candidate_residual;
   }
-}
-
-float below(float q) {
-  return uintBitsToFloat(floatBitsToUint(q) - 1u);
-}
-
-float above(float q) {
-  return uintBitsToFloat(floatBitsToUint(q) + 1u);
 }
 #endif
 
@@ -77,14 +74,13 @@ float exact_div(float a, float b) {
   int b_exponent;
   precise float n = split(a_bits, a_exponent);
   precise float d = split(b_bits, b_exponent);
-  precise float q = device_div(n, d);
+  precise float y = device_div(1.0, d);
+  precise float q = n * y;
   precise float r = residual(n, q, d);
-  q = q + device_div(r, d);
-  precise float low = below(q);
-  precise float high = above(q);
+  q = q + r * y;
   r = residual(n, q, d);
-  take_better(low, residual(n, low, d), q, r);
-  take_better(high, residual(n, high, d), q, r);
+  precise float other = neighbour(q, r);
+  take_better(other, residual(n, other, d), q, r);
   return uintBitsToFloat(join(q, a_exponent - b_exponent, r) | sign);
 #endif
 }
@@ -104,11 +100,9 @@ float exact_sqrt(float x) {
   precise float r = residual(m, c, c);
   precise float twice = c * 2.0;
   c = c + device_div(r, twice);
-  precise float low = below(c);
-  precise float high = above(c);
   r = residual(m, c, c);
-  take_better(low, residual(m, low, low), c, r);
-  take_better(high, residual(m, high, high), c, r);
+  precise float other = neighbour(c, r);
+  take_better(other, residual(m, other, other), c, r);
   return uintBitsToFloat(join(c, exponent >> 1, r));
 #endif
 }

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "io/program.h"
+#include "run/reach.h"
 #include "scene/import_configuration.h"
 #include "scene/load.h"
 #include "scene/write.h"
@@ -58,7 +59,12 @@ Status execute(const SceneCheckOptions& options) {
     return Error{ErrorCode::interrupted,
                  "interrupted before the stable steps were known; nothing was printed."};
 
+  const std::optional<DeviceReach> reach = device_reach(own);
   if (options.json) {
+    Json largest = Json::object();
+    if (reach)
+      for (const CubeReach& cube : reach->cubes)
+        largest[std::string(cube.force_path)] = cube.particles_per_edge;
     Json bytes, steps;
     for (const BackendBytes& backend : bytes_by_backend(model))
       bytes[backend.backend] = backend.bytes ? Json(*backend.bytes) : Json();
@@ -79,7 +85,8 @@ Status execute(const SceneCheckOptions& options) {
                                     {"bytes", bytes},
                                     {"integrator", name_of(own)},
                                     {"timestep", timestep},
-                                    {"stable_steps", steps}})));
+                                    {"stable_steps", steps},
+                                    {"largest_cubes", reach ? largest : Json()}})));
   } else {
     std::string text = fmt::format("scene        {}\n", scene.name);
     text += fmt::format("particles    {}, {} of them pinned\n", counts.particles, counts.pinned);
@@ -93,6 +100,11 @@ Status execute(const SceneCheckOptions& options) {
       text += bytes ? fmt::format("memory       {:<24} {:>10}, a run {}\n", backend, human_bytes(*bytes),
                                   human_bytes(shared + *bytes))
                     : fmt::format("memory       {:<24} more than is free\n", backend);
+    }
+    if (reach) {
+      for (const CubeReach& cube : reach->cubes)
+        text += fmt::format("largest cube gpu:{:<20} {:>10}, by {}\n", cube.force_path,
+                            fmt::format("{}^3", cube.particles_per_edge), limit_text(cube));
     }
     for (std::size_t i = 0; i < limits.size(); ++i) {
       text += fmt::format("stable step  {:<24} {:>10}\n", name_of(explicit_integrators[i]),

@@ -16,16 +16,23 @@ bool solves(Integrator integrator, std::uint64_t particles) {
   return row_of(integrator).solved() && particles > 0;
 }
 
+/// Springs that are shared are held already.
+Status check_free_memory(const gl::Context& context, const Model& model, const GpuOptions& options,
+                         const ForcePathRow& path) {
+  const std::uint64_t needed = gpu_bytes(model, path.path),
+                      shared =
+                          options.share_springs_of ? options.share_springs_of->spring_buffers()->bytes() : 0;
+  return context.check_memory(needed - std::min(needed, shared));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
                                                    const GpuOptions& options) {
   if (context.lost()) return context.lost_error();
   const ForcePathRow& path = row_of(options.force_path, model);
-  const std::uint64_t needed = gpu_bytes(model, path.path),
-                      shared =
-                          options.share_springs_of ? options.share_springs_of->spring_buffers()->bytes() : 0;
-  ASPIC_CHECK(context.check_memory(needed - std::min(needed, shared)));
+  // Counting takes a while in large scenes, and without a figure to compare with it is for nothing.
+  if (context.free_memory()) ASPIC_CHECK(check_free_memory(context, model, options, path));
   if (!solves(model.simulation.integrator, model.particle_count()))
     return make_explicit_solver(context, model, options, path);
   if (path.implicit) return make_implicit_solver(context, model, options, path);

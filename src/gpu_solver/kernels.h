@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "gpu/canary.h"
 #include "gpu/context.h"
 #include "gpu/shader_source.h"

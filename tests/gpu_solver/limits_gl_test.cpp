@@ -4,6 +4,7 @@
 #include "cpu_reference/reference_solver.h"
 #include "gpu/pass.h"
 #include "gpu_solver/gpu_solver.h"
+#include "gpu_solver/reach.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 
@@ -57,6 +58,42 @@ TEST_F(LimitsGl, ASceneThatNeedsMoreThanIsFreeIsRefusedBeforeAnythingIsAllocated
   sharing.share_springs_of = first->get();
   context().assume_free_memory(needed - (*first)->spring_buffers()->bytes());
   EXPECT_TRUE(make_gpu_solver(context(), model, sharing).ok());
+}
+
+// The largest cube that is foretold is taken, and one a little larger is not.
+TEST_F(LimitsGl, TheLargestCubeOfEachPathIsForetold) {
+  for (const CubeReach& reach :
+       largest_cubes(context().info().limits, std::nullopt, Integrator::explicit_euler)) {
+    const auto path = std::ranges::find(force_paths(), reach.force_path, &ForcePathRow::name)->path;
+    EXPECT_EQ(reach.limit, ReachLimit::block) << reach.force_path;
+    for (const std::uint32_t more : {0u, 2u}) {
+      const Model model = test::build(test::cube_on_plane(static_cast<int>(reach.particles_per_edge + more)));
+      GpuOptions options;
+      options.force_path = path;
+      const auto made = make_gpu_solver(context(), model, options);
+      EXPECT_EQ(made.ok(), more == 0) << reach.force_path << ", " << reach.particles_per_edge + more;
+    }
+  }
+}
+
+TEST(LargestCubes, FollowBlocksMemoryAndWords) {
+  gl::DeviceLimits limits;
+  limits.storage_block_bytes = 128u << 20;
+  const auto of = [&](std::optional<std::uint64_t> free, Integrator integrator, std::string_view path) {
+    for (const CubeReach& reach : largest_cubes(limits, free, integrator))
+      if (reach.force_path == path) return reach;
+    return CubeReach{};
+  };
+  const auto cube = [](std::uint64_t n) { return n * n * n; };
+  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "lattice").particles_per_edge, 161u);  // 32 n³ ≤ 2²⁷
+  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "gather").particles_per_edge, 101u);   // 128 n³
+  EXPECT_EQ(of(std::nullopt, Integrator::implicit_euler, "per-spring").particles_per_edge,
+            0u);  // has no such path
+  const CubeReach small = of(100 * cube(50), Integrator::explicit_euler, "lattice");
+  EXPECT_EQ(small.limit, ReachLimit::memory);
+  EXPECT_EQ(small.particles_per_edge, 50u);  // 96 n³
+  limits.storage_block_bytes = std::uint64_t{1} << 40;
+  EXPECT_EQ(of(std::nullopt, Integrator::explicit_euler, "gather").limit, ReachLimit::words);
 }
 
 // Particles far apart, a few of them joined: more groups than the 65,535 that one dimension surely takes.

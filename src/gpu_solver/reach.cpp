@@ -1,0 +1,64 @@
+#include "gpu_solver/reach.h"
+
+#include <algorithm>
+
+#include "gpu_solver/device_solver.h"
+#include "gpu_solver/layout.h"
+
+namespace aspic {
+namespace {
+
+/// Springs of a cube: along edges, across faces and bodies, and over two steps.
+std::uint64_t springs_of_cube(std::uint64_t n) {
+  return 3 * n * n * (n - 1) + 6 * n * (n - 1) * (n - 1) + 4 * (n - 1) * (n - 1) * (n - 1) +
+         3 * n * n * (n - 2);
+}
+
+/// What keeps a cube from this path, if anything does.
+std::optional<ReachLimit> obstacle(const ForcePathRow& path, Integrator integrator, std::uint64_t n,
+                                   const gl::DeviceLimits& limits, std::optional<std::uint64_t> free) {
+  const std::uint64_t particles = n * n * n, springs = springs_of_cube(n);
+  const bool lattice = !path.lattice_kernel.empty(), solved = row_of(integrator).solved();
+  // Slices are as long as their longest list: nearly everywhere a particle has all directions.
+  const std::uint64_t slots = (particles + SPRING_SLICE - 1) / SPRING_SLICE * SPRING_SLICE,
+                      words = lattice ? 0 : slots * LATTICE_DIRECTIONS;
+  const std::uint64_t listed = path.words == IncidentWords::springs ? springs : 0;
+  const std::uint64_t largest = std::max({particles * sizeof(layout::Particle), words * sizeof(std::uint32_t),
+                                          listed * sizeof(layout::uvec2), springs * path.spring_bytes,
+                                          solved ? particles * OWN_VECTORS * sizeof(layout::vec4) : 0});
+  if (largest > limits.storage_block_bytes) return ReachLimit::block;
+  // A word holds a particle and two bits of class, or a spring and its side.
+  if (words > 0xffffffffu || (!lattice && particles >= 1u << 30) || 2 * listed > 0xffffffffu)
+    return ReachLimit::words;
+  ModelCounts counts;
+  counts.particles = particles;
+  const std::uint64_t all = (solved ? implicit_bytes(counts) : explicit_bytes(counts, integrator)) +
+                            words * sizeof(std::uint32_t) + listed * sizeof(layout::uvec2) +
+                            springs * path.spring_bytes;
+  if (free && all > *free) return ReachLimit::memory;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<CubeReach> largest_cubes(const gl::DeviceLimits& limits, std::optional<std::uint64_t> free,
+                                     Integrator integrator) {
+  std::vector<CubeReach> result;
+  for (const ForcePathRow& path : force_paths()) {
+    if (!works_with(path.path, integrator)) continue;
+    CubeReach reach = {path.name, 2, ReachLimit::block};
+    constexpr std::uint32_t most = 2000;  // whose particles no 32-bit index counts
+    while (reach.particles_per_edge < most) {
+      const auto ends = obstacle(path, integrator, reach.particles_per_edge + 1, limits, free);
+      if (ends) {
+        reach.limit = *ends;
+        break;
+      }
+      ++reach.particles_per_edge;
+    }
+    result.push_back(reach);
+  }
+  return result;
+}
+
+}  // namespace aspic
