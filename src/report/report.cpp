@@ -77,7 +77,7 @@ Status check_directory(const ReportPlan& plan) {
   std::error_code failed;
   for (const char* const part : {"", "data", "figures"}) {
     const fs::path directory = fs::path(plan.out) / part;
-    fs::create_directories(directory, failed);
+    fs::create_directory(directory, failed);  // its parent exists, or the name is mistyped
     if (failed) return file_error("make the directory", directory.string(), failed.value());
   }
   if (plan.force) return {};

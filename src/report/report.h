@@ -16,7 +16,7 @@ std::span<const SectionRow> sections();
 struct ReportPlan {
   Scene scene;
   std::string scene_words;        ///< the scene as commands name it
-  std::string out;                ///< directory; made where it is missing
+  std::string out;                ///< directory; made if its parent exists
   std::vector<std::string> only;  ///< names of sections; empty: all
   bool thorough = false;
   bool force = false;
