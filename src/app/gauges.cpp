@@ -278,7 +278,7 @@ void energy_section(Gui& gui, const Simulation& s, RunControl& run) {
 void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
   const std::vector<const BackendRow*> others = others_than(s.backend());
   bool on = s.shadowed();
-  if (check_box(gui, "compare with a second backend", "shadow/on", on,
+  if (check_box(gui, "compare", "shadow/on", on,
                 "Another backend does the same steps, and after each job of steps the two states are "
                 "compared. The picture shows the leading backend; speed is limited by the slower one."))
     run.set_shadow(on ? others.front() : nullptr);

@@ -104,7 +104,7 @@ class Simulation {
   Status step_back();
   /// Where to start again after a divergence: well before the present state.
   Moment before_trouble() const { return history_.keyframes_before(here(), 5); }
-  bool can_step_back() const { return history_.before(here()).has_value(); }
+  bool can_step_back() const { return history_.before({stretch_, seek_.value_or(step_)}).has_value(); }
 
   // ---- hands ----
   /// From the next step on; nothing lets go.

@@ -139,7 +139,13 @@ void stability_section(Gui& gui, SceneControl& scenes) {
   }
   const float scale = static_cast<float>(gui.scale()), line = ImGui::GetTextLineHeight();
   const float left = ImGui::CalcTextSize("100000").x + 8.0f * scale;
-  ImGui::TextDisabled("k [N/m]%s", map.busy() ? "   measuring…" : "");
+  ImGui::TextDisabled("k [N/m]");
+  if (map.busy()) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("   measuring…");
+    gui.mark("stability/measuring");
+    tooltip("Cells are run one after another by a thread of their own; grey ones are still to come.");
+  }
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size = {std::max(60.0f, ImGui::GetContentRegionAvail().x - left), 170.0f * scale};
   const Place place = {*cells, {corner.x + left, corner.y}, size};

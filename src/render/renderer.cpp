@@ -304,14 +304,12 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.prepare_light(state, options);
   glEnable(GL_FRAMEBUFFER_SRGB);
   if (solid) p.draw_thickness(particles);
-
   p.targets->samples.framebuffer.bind();
   p.colour_map.bind(UNIT_COLOUR_MAP);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  if (const auto& c = options.background) glClearColor((*c)[0], (*c)[1], (*c)[2], 1.0f);
-  glClear(GL_DEPTH_BUFFER_BIT | (options.background ? GL_COLOR_BUFFER_BIT : 0u));
-  glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with(*c, 1.0).data());
   p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
   p.draw_rods_and_balls(state, view.draw);
   p.draw_springs(particles, view.draw, view.colour);

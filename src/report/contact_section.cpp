@@ -55,6 +55,7 @@ Result<std::optional<double>> rebound_of_body(const Study& study, double e) {
   scene.model.contact.restitution = e;
   for (TerrainSettings& terrain : scene.model.terrain) terrain.restitution = e;
   ASPIC_TRY(auto model, build_model(scene.model));
+  if (model.bodies.empty()) return std::optional<double>();
   if (const auto step = study.step_for(model, model.simulation.integrator)) model.simulation.timestep = *step;
   ASPIC_TRY(const auto result, study.run(model, scene.model.simulation.duration, {}, 1.0 / 240));
   if (!result.summary || !result.summary->contact_time || result.outcome != Outcome::ok)
@@ -207,7 +208,7 @@ Result<Figure> drop_figure(const Study& study) {
   if (integrators.front() != Integrator::midpoint) integrators.push_back(Integrator::midpoint);
   for (const Integrator integrator : integrators)
     for (const auto& row : contact_models) cases.push_back({integrator, row.value});
-  const double duration = std::max(8.0, study.scene.model.simulation.duration);
+  ASPIC_TRY(const double duration, study.affordable(8.0));
   std::vector<TrialResult> results(cases.size());
   ASPIC_CHECK(study.each(cases.size(), [&](std::size_t i) -> Status {
     Scene scene = study.scene;

@@ -40,7 +40,8 @@ constexpr Varied varied[] = {
      [](double, double stable) {
        return std::vector<double>{stable / 16, stable / 4, 0.7 * stable, 0.95 * stable, 1.15 * stable};
      },
-     "Below the limit the step hardly matters; the last value is above it."},
+     "The step hardly matters as long as it is small enough; where springs limit it, the last value is above "
+     "the largest stable one."},
     {"n",
      [](double, double) {
        return std::vector<double>{4, 6, 8, 10, 12};
@@ -65,9 +66,9 @@ struct Thrown {
   std::vector<std::string> assignments;
   double duration = 0.0;  ///< [s]
 };
-Thrown thrown(const Study& study) {
+Result<Thrown> thrown(const Study& study) {
   Thrown result;
-  result.duration = std::max(study.scene.model.simulation.duration, study.thorough ? 20.0 : 12.0);
+  ASPIC_TRY(result.duration, study.affordable(study.thorough ? 20.0 : 12.0));
   const auto& cubes = study.scene.model.cubes;
   for (std::size_t c = 0; c < cubes.size(); ++c) {
     if (length(cubes[c].velocity) == 0.0)
@@ -253,7 +254,7 @@ Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown&
 }  // namespace
 
 Result<Section> parameters_section(const Study& study) {
-  const Thrown base = thrown(study);
+  ASPIC_TRY(const Thrown base, thrown(study));
   Section section{"parameters", "Parameters", {}, {}};
   section.paragraphs = {
       fmt::format("Each figure varies one parameter of {} and leaves the others alone{}. A run takes {} s; "

@@ -102,6 +102,19 @@ std::string hash_of(std::string_view text) {
   return fmt::format("{:016x}", hash.value());
 }
 
+/// Cubes with so many particles per edge at most are studied as they are.
+constexpr int most_per_edge = 12;
+
+/// Makes larger cubes coarser, in place. True if there was one.
+bool coarsen(Scene& scene) {
+  bool coarser = false;
+  for (CubeSettings& cube : scene.model.cubes) {
+    coarser = coarser || cube.particles_per_edge > most_per_edge;
+    cube.particles_per_edge = std::min(cube.particles_per_edge, most_per_edge);
+  }
+  return coarser;
+}
+
 Result<Page> make_page(const ReportPlan& plan, const Study& study,
                        const std::vector<const SectionRow*>& rows) {
   Page page;
@@ -112,6 +125,11 @@ Result<Page> make_page(const ReportPlan& plan, const Study& study,
       "machine by aspic {}. Every figure names the command that measures it again and the file with its "
       "numbers.",
       study.scene.name, ASPIC_VERSION);
+  if (plan.coarser)
+    page.lead += fmt::format(
+        " Its cubes are studied with {} particles per edge, so that hundreds of runs take a minute; "
+        "--thorough leaves them as they are.",
+        most_per_edge);
   if (!study.studio) page.lead += fmt::format(" There are no rendered pictures: {}", study.no_studio);
   const std::time_t now = std::time(nullptr);
   {
@@ -169,6 +187,7 @@ Result<ReportSummary> write_report(ReportPlan plan, const InterruptGuard& interr
   if (jobs == 0) {
     ASPIC_TRY(jobs, parallel::available_threads());
   }
+  plan.coarser = !plan.thorough && coarsen(plan.scene);
   Study study(std::move(plan.scene), plan.scene_words, plan.thorough, jobs,
               [&] { return interrupt.interrupted(); });
   auto studio = Studio::open();

@@ -20,7 +20,8 @@ struct ReportPlan {
   std::vector<std::string> only;  ///< names of sections; empty: all
   bool thorough = false;
   bool force = false;
-  unsigned jobs = 0;  ///< threads; 0: one for each processor
+  unsigned jobs = 0;     ///< threads; 0: one for each processor
+  bool coarser = false;  ///< set by write_report(): its cubes were made coarser
 };
 
 struct ReportSummary {

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "analysis/stability.h"
+#include "model/springs.h"
 #include "scene/load.h"
 
 namespace aspic::report {
@@ -74,6 +75,14 @@ Result<TrialResult> Study::run(const Model& model, double duration, std::span<co
   options.picture_times = picture_times;
   options.stop = stop_;
   return run_trial(model, options);
+}
+
+Result<double> Study::affordable(double wanted) const {
+  ASPIC_TRY(const auto model, build_model(scene.model));
+  constexpr double ball = 200.0, most = 4e8;  // spring evaluations: a ball's like so many, and of a run
+  const double work = static_cast<double>(spring_count(model)) + ball * model.ball_count() + 1.0;
+  const double seconds = std::floor(most / work * scene.model.simulation.timestep);
+  return std::max(scene.model.simulation.duration, std::min(wanted, seconds));
 }
 
 std::optional<double> Study::step_for(const Model& model, Integrator integrator) const {

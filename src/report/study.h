@@ -44,6 +44,9 @@ class Study {
   Result<TrialResult> run(const Model& model, double duration, std::span<const double> picture_times = {},
                           double interval = sample_interval) const;
 
+  /// A duration of `wanted` [s], less where a run would take seconds to compute, but at least the scene's
+  /// own.
+  Result<double> affordable(double wanted) const;
   /// The time step that a method takes here [s]: the scene's, at most 0.9 of the largest stable one; a
   /// sixtieth of a second where it is solved; nothing where no step is stable.
   std::optional<double> step_for(const Model& model, Integrator integrator) const;

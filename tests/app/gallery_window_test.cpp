@@ -86,5 +86,17 @@ TEST_F(Gallery, StrainOfACubeThatAHandPulls) {
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
 }
 
+TEST_F(Gallery, StabilityMapOfACube) {
+  open("cube-plane", {"simulation.steps-per-frame=32"}, "reference");
+  for (const char* section : {"Scene", "View", "Performance", "Energy", "Stability"})
+    click(std::string("section/") + section);
+  app().cursor(middle_x(), middle_y());
+  frames_until([&] { return has("stability/map") && !has("stability/measuring"); });
+  run_to(1420);
+  press(GLFW_KEY_SPACE);
+  frames(30);
+  take("window-stability");
+}
+
 }  // namespace
 }  // namespace aspic::test

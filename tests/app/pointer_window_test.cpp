@@ -14,11 +14,7 @@ namespace {
 class Pointer : public Stage {
  protected:
   bool full_quality() const override { return true; }  // pictures are compared, whatever time they take
-  Camera camera() {
-    const app::Box& view = app().view.box;
-    return {app().view.camera.shown(), static_cast<int>(view.right - view.left),
-            static_cast<int>(view.bottom - view.top)};
-  }
+  Camera camera() { return app().view.lens(); }
   /// Where a point is seen in the window.
   test::Projected place(const Vec3& point) {
     auto seen = test::project(camera(), point);
@@ -125,12 +121,13 @@ TEST_F(Pointer, RingFollowsTheMouseWithoutANewPicture) {
   point_at(corner);
   const auto with = pixels();
   ASSERT_TRUE(app().pointer.hovered().has_value());
-  // The tooltip hangs towards the middle of the view.
   const double x = p.x > middle_x() ? 1.0 : -1.0, y = p.y > middle_y() ? 1.0 : -1.0;
   EXPECT_GT(change(before, with, p.x + 7.2 * x, p.y, 2.0), 200);
   EXPECT_GT(change(before, with, p.x, p.y + 7.2 * y, 2.0), 200);
   EXPECT_EQ(change(before, with, p.x + 30.0 * x, p.y + 30.0 * y, 20.0), 0) << "nothing else changes";
-  EXPECT_GT(change(before, with, p.x - 60.0 * x, p.y - 60.0 * y, 20.0), 5000) << "the tooltip";
+  EXPECT_EQ(change(before, with, p.x - 30.0 * x, p.y - 30.0 * y, 20.0), 0) << "nothing is in the way";
+  const app::Box readout = widgets().at("particle");
+  EXPECT_GT(change(before, with, readout.centre_x(), readout.centre_y(), 20.0), 5000) << "what is told of it";
   app().cursor(5.0, 300.0);
   frames(3);
   EXPECT_EQ(change(before, pixels(), p.x, p.y, 40.0), 0) << "gone with the mouse";

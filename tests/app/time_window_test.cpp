@@ -165,6 +165,8 @@ TEST_F(Time, PausedWithAShadowTheEnergiesOfTheRunStay) {
   open("cube-plane", {}, "gpu");
   ASSERT_TRUE(simulation().set_shadow(&reference_backend()).ok());
   for (int i = 0; i < 3; ++i) type(U'.');
+  frames_until([&] { return !simulation().busy(); });
+  frames(3);
   const auto& energies = simulation().samples().energies();
   EXPECT_GT(energies.size(), 1u);
   // Twice as many steps: the plot has none of the last one, which is measured now.
