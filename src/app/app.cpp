@@ -308,6 +308,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
   if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
     view.frame_bodies(simulation.model(), simulation.snapshot());
   ASPIC_CHECK(picture.show(size));
+  if (const auto refusal = picture.take_refusal()) messages.error(*refusal);
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();
   deliver_keys();

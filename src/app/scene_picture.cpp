@@ -101,7 +101,15 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
   if (!state) {
     ASPIC_TRY(state, renderer_->upload(simulation_.snapshot()));
   }
-  ASPIC_CHECK(renderer_->draw(content.size.width, content.size.height, *state, options));
+  Status drawn = renderer_->draw(content.size.width, content.size.height, *state, options);
+  if (!drawn && drawn.error().code == ErrorCode::scene_rejected &&
+      options.view.colour >= ViewColour::strain) {
+    // What a colour needs of the device may be more than it has: the scene goes on without.
+    refusal_ = "This colour cannot be shown: " + drawn.error().message;
+    options.view.colour = ViewColour::material;
+    drawn = renderer_->draw(content.size.width, content.size.height, *state, options);
+  }
+  ASPIC_CHECK(drawn);
   if (context_->info().is_software) glFinish();
   drawn_ = content;
   ++number_;

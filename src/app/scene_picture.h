@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/resolution.h"
 #include "app/simulation.h"
@@ -55,6 +56,8 @@ class ScenePicture {
   /// first.
   Status show(const WindowSize& window);
   void postpone() { postponed_ = true; }
+  /// Why the last picture does not have the colour that was asked for, once.
+  std::optional<std::string> take_refusal() { return std::exchange(refusal_, std::nullopt); }
   /// Marks a particle in the window, on top of what show() put there. So the mark follows the mouse however
   /// long pictures take, and is in no film.
   Status mark(std::uint32_t particle);
@@ -106,6 +109,7 @@ class ScenePicture {
   const Simulation& simulation_;
   const Scene& scene_;
   const View& view_;
+  std::optional<std::string> refusal_;
   gl::Context* context_ = nullptr;
   std::unique_ptr<Renderer> renderer_;
   std::optional<Content> drawn_;
