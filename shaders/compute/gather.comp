@@ -6,7 +6,7 @@
 #include "compute/control.glsl"
 #include "compute/bounded.glsl"
 #include "compute/incident.glsl"
-#include "compute/spring.glsl"
+#include "compute/link_force.glsl"
 #include "compute/stage.glsl"
 
 void main() {
@@ -25,7 +25,7 @@ void main() {
     Link link;
     if (!listed_link_at(w, link)) continue;
     Particle other = stage_state[link.other];
-    f += spring_force(link.spring, p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
+    f += link_force(link.spring, p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
   }
   finish_stage(i, p, f);
 }

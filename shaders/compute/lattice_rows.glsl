@@ -49,7 +49,7 @@ void read_other(int i) {
   {                                                                                                             \
     SpringClass spring = classes[(di) * (di) + (dj) * (dj) + (dk) * (dk)-1];                                    \
     precise vec3 sum =                                                                                          \
-        force[p] + spring_force(spring, own[p].position.xyz, own[p].velocity.xyz, other_x, other_v).xyz;        \
+        force[p] + link_force(spring, own[p].position.xyz, own[p].velocity.xyz, other_x, other_v).xyz;        \
     uint needed = step_bits(di, dj, dk);                                                                        \
     if ((steps[p] & needed) == needed) force[p] = sum;                                                          \
   }
