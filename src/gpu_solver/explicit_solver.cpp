@@ -91,10 +91,10 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   }
   if (method_.stages.size() == 1) stage_kernels.defines.push_back({"ASPIC_ONE_STAGE", "1"});
   listed_particles_ = model_.particle_count();
+  const std::uint32_t by_device = context_.info().is_software ? software_run : 1;
+  const std::uint32_t run = options.lattice_run > 0 ? options.lattice_run : by_device;
+  if (run > 1) stage_kernels.defines.push_back({"ASPIC_WIDE_LOADS", "1"});
   if (takes_lattices()) {
-    const std::uint32_t run = options.lattice_run > 0       ? options.lattice_run
-                              : context_.info().is_software ? software_run
-                                                            : 1;
     ASPIC_CHECK(build_lattice_pass(stage_kernels, run, bindings));
   }
   if (listed_particles_ > 0 || !lattice_pass_) {
