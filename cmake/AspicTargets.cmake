@@ -50,13 +50,21 @@ function(aspic_program_part name)
 endfunction()
 
 # aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each of its tests known to ctest. Rooms among the
-# targets say what is tested; they come from the library.
+# targets say what is tested; they come from the library. SOFTWARE pattern: those of its tests that mean software
+# rasterisers alone, in the words of --gtest_filter, get the label software besides.
 function(aspic_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "" "SOFTWARE" "SOURCES;DEPENDS" ${ARGN})
   get_property(rooms GLOBAL PROPERTY ASPIC_ROOMS)
   list(REMOVE_ITEM arg_DEPENDS ${rooms})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE aspic_rules ${arg_DEPENDS} aspic::aspic GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 ${ASPIC_TEST_PROPERTIES})
+  set(discovery DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
+  set(properties PROPERTIES TIMEOUT 600 ${ASPIC_TEST_PROPERTIES})
+  if(NOT arg_SOFTWARE)
+    gtest_discover_tests(${name} ${discovery} ${properties})
+    return()
+  endif()
+  gtest_discover_tests(${name} ${discovery} TEST_FILTER "-${arg_SOFTWARE}" ${properties})
+  gtest_discover_tests(${name} ${discovery} TEST_FILTER "${arg_SOFTWARE}" ${properties} LABELS software)
 endfunction()

@@ -35,6 +35,12 @@ draw ball-pit 2.2 ball-pit
 draw curtain 1.25 curtain
 draw flag 2.25 flag
 
+"$aspic_build_dir/aspic" report cube-plane --only stability --out "$work/report" >&2
+chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --blink-settings=preferredColorScheme=1 --window-size=1240,1190 \
+  --screenshot="$work/report.png" "file://$work/report/report.html" >&2
+ffmpeg -v error -y -i "$work/report.png" -vf scale=960:-1 -q:v 4 "$images/report.jpg"
+echo "docs/images/report.jpg" >&2
+
 ASPIC_WINDOW_PICTURES=$work xvfb-run -a -s "-screen 0 1920x1080x24 -noreset" \
   "$aspic_build_dir/tests/app/app_window_tests" --gtest_filter='Gallery.*' >&2
 for picture in "$work"/window-*.jpg; do

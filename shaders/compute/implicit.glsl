@@ -13,10 +13,24 @@ layout(std430, binding = BINDING_SOLVE) restrict coherent buffer SolveBlock {
 };
 layout(std430, binding = BINDING_OWN) restrict buffer Own { vec4 own_vectors[]; };
 
-uint steps_done() { return solve.step; }
+// What no dispatch changes while it works, read once an invocation: the block is coherent, so that every look at it goes
+// past the caches.
+uint parity;       // where the state is
+uint ended_steps;  // Solve.step
+bool prescribing;  // Solve.prescribing; evaluate alone changes it, and does not look at it
+
+// The phase of the dispatch; every kernel begins with it.
+uint enter() {
+  parity = solve.parity;
+  ended_steps = solve.step;
+  prescribing = solve.prescribing != 0u;
+  return solve.phase;
+}
+
+uint steps_done() { return ended_steps; }
 
 Particle state(uint i) {
-  if (solve.parity == 0u) return state_a[i];
+  if (parity == 0u) return state_a[i];
   return state_b[i];
 }
 

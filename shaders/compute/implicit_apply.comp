@@ -7,7 +7,7 @@
 #include "compute/implicit_spring.glsl"
 #include "compute/reduction.glsl"
 
-vec3 direction(uint j) { return solve.prescribing != 0u ? own(OWN_PRESCRIBED, j) : search[j].xyz; }
+vec3 direction(uint j) { return prescribing ? own(OWN_PRESCRIBED, j) : search[j].xyz; }
 
 // Returns 0, p·A·p, 0, 0.
 vec4 apply(uint i) {
@@ -40,13 +40,13 @@ vec4 apply(uint i) {
 }
 
 void main() {
-  if (solve.phase != PHASE_CG) return;
+  if (enter() != PHASE_CG) return;
   uint i = item_index();
   precise vec4 element = vec4(0.0);
   if (i < particle_count) element = apply(i);
   precise vec4 total;
   if (!reduce(element, total) || gl_LocalInvocationIndex != 0u) return;
-  if (solve.prescribing != 0u) return;
+  if (prescribing) return;
   ++solve.cg;
   ++solve.cg_total;
   if (total.y > 0.0) {

@@ -25,7 +25,7 @@ vec3 held_contact_force(uint i, Particle p) {
 }
 
 void main() {
-  if (solve.phase != PHASE_BEGIN) return;
+  if (enter() != PHASE_BEGIN) return;
   uint i = item_index();
   if (i < particle_count) {
     Particle p = state(i);

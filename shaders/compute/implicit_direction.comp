@@ -8,11 +8,12 @@
 void main() {
   uint i = item_index();
   if (i >= particle_count) return;
-  if (solve.phase == PHASE_CG) {
+  uint phase = enter();
+  if (phase == PHASE_CG) {
     precise vec3 p = own(OWN_Z, i);
-    if (solve.prescribing == 0u) p = p + solve.beta * search[i].xyz;
+    if (!prescribing) p = p + solve.beta * search[i].xyz;
     search[i] = vec4(p, 0.0);
-  } else if (solve.phase == PHASE_EVALUATE) {
+  } else if (phase == PHASE_EVALUATE) {
     precise vec3 base = solve.halvings == 0u ? trial[i].xyz : own(OWN_BASE, i);
     precise vec3 delta = solve.updates == 0u ? vec3(0.0) : own(OWN_DELTA, i);
     precise vec3 next = base + solve.lambda * delta;

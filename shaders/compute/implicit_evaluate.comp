@@ -86,7 +86,7 @@ vec4 evaluate(uint i) {
 }
 
 void main() {
-  uint phase = solve.phase;
+  uint phase = enter();
   uint i = item_index();
   if (i == 0u && (phase == PHASE_EVALUATE || phase == PHASE_CG)) ++solve.ticks;
   if (i == 0u && phase == PHASE_CG) solve.prescribing = 0u;  // it took the round before

@@ -24,7 +24,7 @@ void finish(uint i) {
   uint bad = ball_count == 0u ? divergence_word(i, x, v) : NO_STEP;
   if (bad != NO_STEP) atomicMin(solve.bad_particle, bad);
   Particle end = Particle(vec4(x, start.position.w), vec4(v, start.velocity.w));
-  if (solve.parity == 0u) {
+  if (parity == 0u) {
     state_b[i] = end;
   } else {
     state_a[i] = end;
@@ -32,7 +32,7 @@ void finish(uint i) {
 }
 
 void main() {
-  if (solve.phase != PHASE_DONE) return;
+  if (enter() != PHASE_DONE) return;
   uint i = item_index();
   if (i < particle_count) finish(i);
   precise vec4 total;

@@ -9,7 +9,6 @@
 
 // Returns 0, r·z, 0, 0.
 vec4 update(uint i) {
-  bool prescribing = solve.prescribing != 0u;
   precise float alpha = prescribing ? 1.0 : solve.alpha;
   precise vec3 along_p = alpha * search[i].xyz;
   precise vec3 delta = own(OWN_DELTA, i) + along_p;
@@ -24,14 +23,14 @@ vec4 update(uint i) {
 }
 
 void main() {
-  if (solve.phase != PHASE_CG) return;
+  if (enter() != PHASE_CG) return;
   uint i = item_index();
   precise vec4 element = vec4(0.0);
   if (i < particle_count) element = update(i);
   precise vec4 total;
   if (!reduce(element, total) || gl_LocalInvocationIndex != 0u) return;
   ++solve.updates;
-  if (solve.prescribing != 0u) {
+  if (prescribing) {
     precise float enough = (solve.forcing * solve.forcing) * total.y;
     solve.enough = enough;
     solve.rz = total.y;

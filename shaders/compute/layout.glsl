@@ -187,6 +187,8 @@ struct Control {
   uint bad_particle;  // 2 · lowest particle that diverged in it, + 1 if its numbers are finite (too fast)
   uint full_step;     // first step whose contacts found no room, or NO_STEP: it has to be repeated with more
   uint overrun;       // KERNEL_… that had a loop of more than MAX_ROUNDS, or 0
+  uint passes;        // dispatches that were carried out since the words were written: a device may drop them
+  uint control_padding0, control_padding1, control_padding2;
 };
 
 // The state of implicit Euler's solve on the device, which decides by itself what the next dispatch does.

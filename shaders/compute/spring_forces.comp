@@ -12,6 +12,7 @@ layout(std430, binding = BINDING_SPRING_FORCES) restrict writeonly buffer Spring
 void main() {
   uint s = item_index();
   if (s >= spring_count || halted()) return;
+  if (s == 0u) count_pass();
   uvec2 ends = springs[s];
   Particle a = stage_state[ends.x];
   Particle b = stage_state[ends.y >> class_bits];

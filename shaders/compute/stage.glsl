@@ -25,6 +25,7 @@ void finish_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
 
 // p: the particle in this stage; f_springs: gravity and springs [N].
 void finish_stage(uint i, Particle p, vec3 f_springs) {
+  if (i == 0u) count_pass();
   precise vec3 f = with_pull(i, p.position.xyz, p.velocity.xyz, f_springs);
 #ifdef ASPIC_ONE_STAGE
   Particle start = p;

@@ -57,7 +57,7 @@
 #define PICK_TERRAIN 3u
 #define PICK_KIND_SHIFT 30
 
-// What colours mean.
+// What colours mean, in the order of ViewColour.
 #define COLOUR_MATERIAL 0u
 #define COLOUR_TYPE 1u
 #define COLOUR_STRAIN 2u

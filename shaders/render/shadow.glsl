@@ -32,7 +32,8 @@ vec2 smooth_map(sampler2D map, vec2 uv, float level) {
 }
 
 // How much of a light of angular size `spread` (tangent) the bodies keep from a point, 0…1; y: how far above they are [m].
-vec2 covered(int light, sampler2D map, vec3 world, float spread) {
+// Bodies nearer than `soft` [m] count for less: what they cover itself is no edge of a shadow.
+vec2 covered(int light, sampler2D map, vec3 world, float spread, float soft) {
   vec3 p = in_light(light, world);
   if (abs(p.x) >= 1.0 || abs(p.y) >= 1.0) return vec2(0.0);
   vec2 uv = 0.5 + 0.5 * p.xy;
@@ -44,19 +45,22 @@ vec2 covered(int light, sampler2D map, vec3 world, float spread) {
   float level = clamp(log2(max(texels, 1.0)), 0.0, 6.0);
   // The map ends here: let the shadow end gently before it.
   vec2 border = smoothstep(vec2(1.0), vec2(0.85), abs(p.xy));
-  return vec2(clamp(smooth_map(map, uv, level).x, 0.0, 1.0) * border.x * border.y, above);
+  float near = min(above / soft, 1.0);
+  return vec2(clamp(smooth_map(map, uv, level).x, 0.0, 1.0) * border.x * border.y * near, above);
 }
 
 // Light of the sun that reaches a point of the terrain, by colour.
 vec3 sunlight_at(vec3 world) {
-  vec2 c = covered(LIGHT_SUN, sun_map, world, 0.10);
+  vec2 c = covered(LIGHT_SUN, sun_map, world, 0.10, 1e-6);
   return mix(vec3(1.0), shadow_tint.rgb, c.x) * sphere_shade(world);
 }
 
 // Light of the sky that reaches a point of the terrain, 0…1: less close under a body.
-float skylight_at(vec3 world) {
-  vec2 c = covered(LIGHT_SKY, sky_map, world, 0.9);
+float skylight_at(vec3 world, float soft) {
+  vec2 c = covered(LIGHT_SKY, sky_map, world, 0.9, soft);
   float size = light_boxes[LIGHT_SKY].centre.w;
   float near = size * 0.5 / (size * 0.5 + c.y);
   return 1.0 - 0.75 * c.x * near * near;
 }
+
+float skylight_at(vec3 world) { return skylight_at(world, 1e-6); }

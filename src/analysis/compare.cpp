@@ -1,9 +1,8 @@
 #include "analysis/compare.h"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 namespace aspic {
@@ -52,15 +51,11 @@ std::uint64_t ulp_distance(double a, double b) {
 }
 
 Result<StateDifference> compare_states(const State& a, const State& b) {
-  if (a.position.size() != b.position.size()) {
-    return fail(ErrorCode::usage,
-                "The states have {} and {} particles: only states of one scene can be compared.",
-                a.position.size(), b.position.size());
-  }
-  if (a.ball_position.size() != b.ball_position.size()) {
-    return fail(ErrorCode::usage,
-                "The states have {} and {} balls: only states of one scene can be compared.",
-                a.ball_position.size(), b.ball_position.size());
+  for (const auto& [bodies, of_a, of_b] : {std::tuple{"particles", &a.position, &b.position},
+                                           std::tuple{"balls", &a.ball_position, &b.ball_position}}) {
+    if (of_a->size() != of_b->size())
+      return fail(ErrorCode::usage, "The states have {} and {} {}: only states of one scene can be compared.",
+                  of_a->size(), of_b->size(), bodies);
   }
   const bool in_double = a.precision == Precision::double_ && b.precision == Precision::double_;
   return StateDifference{compare(a.position, b.position, in_double),

@@ -119,6 +119,48 @@ bool LinearisedBody::proportional() const {
   return largest_ratio_ == smallest_ratio_ || largest_ratio_ <= smallest_ratio_ * (1.0 + 1e-12);
 }
 
+void LinearisedBody::multiply(double stiffness_factor, double damping_factor, const double* in,
+                              double* out) const {
+  std::fill_n(out, 3 * root_inverse_mass_.size(), 0.0);
+  for (const LinearSpring& s : springs_) {
+    const double wa = root_inverse_mass_[s.a], wb = root_inverse_mass_[s.b];
+    const std::size_t a = 3 * std::size_t{s.a}, b = 3 * std::size_t{s.b};
+    const Vec3& n = s.direction;
+    const double along_a = n.x * in[a] + n.y * in[a + 1] + n.z * in[a + 2];
+    const double along_b = n.x * in[b] + n.y * in[b + 1] + n.z * in[b + 2];
+    const double force =
+        (stiffness_factor * s.stiffness + damping_factor * s.damping) * (wa * along_a - wb * along_b);
+    const double fa = wa * force, fb = wb * force;
+    out[a] += fa * n.x;
+    out[a + 1] += fa * n.y;
+    out[a + 2] += fa * n.z;
+    out[b] -= fb * n.x;
+    out[b + 1] -= fb * n.y;
+    out[b + 2] -= fb * n.z;
+  }
+}
+
+std::vector<Vec3> LinearisedBody::stiffest_mode(double stiffness_factor, double damping_factor,
+                                                int rounds) const {
+  const std::size_t particles = root_inverse_mass_.size();
+  Vector mode = start_vector(3 * particles), image(mode.size());
+  for (int round = 0; round < rounds; ++round) {
+    multiply(stiffness_factor, damping_factor, mode.data(), image.data());
+    const double size = image.norm();
+    if (!(size > 0.0)) return std::vector<Vec3>(particles);
+    mode = image / size;
+  }
+  std::vector<Vec3> displacement(particles);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < particles; ++i) {
+    const auto at = static_cast<Eigen::Index>(3 * i);
+    displacement[i] = root_inverse_mass_[i] * Vec3{mode[at], mode[at + 1], mode[at + 2]};
+    largest = std::max(largest, length(displacement[i]));
+  }
+  for (Vec3& d : displacement) d = d / largest;
+  return displacement;
+}
+
 LargestEigenvalue LinearisedBody::largest_eigenvalue(double stiffness_factor, double damping_factor,
                                                      double tolerance, int max_iterations,
                                                      WorkBudget& work) const {
@@ -129,26 +171,6 @@ LargestEigenvalue LinearisedBody::largest_eigenvalue(double stiffness_factor, do
   constexpr std::uint64_t least_iterations = 20;
   if (springs_.empty() || !std::isfinite(bound) || work.left() < least_iterations * work_of_iteration)
     return {bound, false};
-  const auto apply = [&](const Vector& in, Vector& out) {
-    out.setZero();
-    for (const LinearSpring& s : springs_) {
-      const double wa = root_inverse_mass_[s.a], wb = root_inverse_mass_[s.b];
-      const Eigen::Index a = 3 * static_cast<Eigen::Index>(s.a), b = 3 * static_cast<Eigen::Index>(s.b);
-      const Vec3& n = s.direction;
-      const double along_a = n.x * in[a] + n.y * in[a + 1] + n.z * in[a + 2];
-      const double along_b = n.x * in[b] + n.y * in[b + 1] + n.z * in[b + 2];
-      const double force =
-          (stiffness_factor * s.stiffness + damping_factor * s.damping) * (wa * along_a - wb * along_b);
-      const double fa = wa * force, fb = wb * force;
-      out[a] += fa * n.x;
-      out[a + 1] += fa * n.y;
-      out[a + 2] += fa * n.z;
-      out[b] -= fb * n.x;
-      out[b + 1] -= fb * n.y;
-      out[b + 2] -= fb * n.z;
-    }
-  };
-
   const std::size_t size = 3 * root_inverse_mass_.size();
   Vector current = start_vector(size), previous = Vector::Zero(current.size()), image(current.size());
   current.normalize();
@@ -159,7 +181,7 @@ LargestEigenvalue LinearisedBody::largest_eigenvalue(double stiffness_factor, do
       std::min<int>(max_iterations, static_cast<int>(std::min<std::size_t>(size, 1u << 20)) + 1);
   int next_look = 5;
   for (int iteration = 1; iteration <= limit; ++iteration) {
-    apply(current, image);
+    multiply(stiffness_factor, damping_factor, current.data(), image.data());
     const double alpha = current.dot(image);
     image -= alpha * current + beta * previous;
     diagonal.push_back(alpha);

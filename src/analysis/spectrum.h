@@ -81,6 +81,10 @@ class LinearisedBody {
   LargestEigenvalue largest_eigenvalue(double stiffness_factor, double damping_factor, double tolerance,
                                        int max_iterations, WorkBudget& work) const;
 
+  /// Displacements [m] of all particles in about the mode of the largest eigenvalue, the largest of them 1:
+  /// that many rounds of power iteration. Zero where no springs are kept.
+  std::vector<Vec3> stiffest_mode(double stiffness_factor, double damping_factor, int rounds) const;
+
   /// All 2·free_dof() eigenvalues λ [1/s] of λ² + λC + K, by a dense solve: O(free_dof()³) time.
   std::vector<std::complex<double>> eigenvalues() const;
 
@@ -90,6 +94,9 @@ class LinearisedBody {
     Vec3 direction;      // unit
     double stiffness, damping;
   };
+  /// out = M^(-1/2) (stiffness_factor·K + damping_factor·C) M^(-1/2)·in, three numbers by particle.
+  void multiply(double stiffness_factor, double damping_factor, const double* in, double* out) const;
+
   std::vector<LinearSpring> springs_;
   std::uint64_t spring_count_ = 0;
   double stiffness_bound_ = 0.0, damping_bound_ = 0.0;

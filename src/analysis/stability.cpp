@@ -128,16 +128,17 @@ StabilityLimit symplectic_limit(BodyAnalysis& analysis) {
   double high = std::min(*mode_limit(Integrator::symplectic_euler, kappa, 0.0),
                          *mode_limit(Integrator::symplectic_euler, 0.0, gamma));
   double f_low = excess(low), f_high = excess(high);
+  const auto narrow = [&](double h) {
+    const double f = excess(h);
+    (f > 0.0 ? high : low) = h;
+    (f > 0.0 ? f_high : f_low) = f;
+  };
   for (int i = 0; i < 12 && high - low > 1e-7 * low && f_low < 0.0 && f_high > 0.0; ++i) {
     // The function is convex, so the secant never passes the root from below; the middle tames the upper end.
     const double secant = low - f_low * (high - low) / (f_high - f_low);
-    const double f_secant = excess(secant);
-    (f_secant > 0.0 ? high : low) = secant;
-    (f_secant > 0.0 ? f_high : f_low) = f_secant;
+    narrow(secant);
     const double middle = low + std::min(0.5 * (high - low), 2.0 * std::abs(secant - low) + 1e-7 * low);
-    const double f_middle = excess(middle);
-    (f_middle > 0.0 ? high : low) = middle;
-    (f_middle > 0.0 ? f_high : f_low) = f_middle;
+    narrow(middle);
   }
   return {low, converged};
 }

@@ -22,6 +22,9 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   ASPIC_TRY(auto simulation, Simulation::create(context, editor.scene(), backend, options.asked));
   std::unique_ptr<App> app(new App(options, std::move(editor), std::move(simulation)));
   ASPIC_CHECK(app->attach(context, scale, std::move(services)));
+  if (const auto& state = app->scene.editor().state()) {
+    ASPIC_CHECK(app->simulation.start_from(*state));
+  }
   app->restore(options.kept, options.overrides);
   return app;
 }
@@ -59,24 +62,30 @@ std::vector<Command> App::make_commands() {
   };
   const auto paste = [this] { paste_camera(view, scene.scene(), gui_->services(), messages); };
   return {
+      {"", "Motion"},
       {"Space", "start or pause", GLFW_KEY_SPACE, 0, 0, [this] { run.toggle(); }},
-      {".", "single step", -1, 0, U'.', step},
+      {". (full stop)", "single step", -1, 0, U'.', step},
       {"R", "reset to the start", GLFW_KEY_R, 0, 0, [this] { run.reset(); }},
-      {",", "step back", -1, 0, U',', [this] { run.step_back(); }},
+      {", (comma)", "step back", -1, 0, U',', [this] { run.step_back(); }},
       {"Backspace", "half a second back", GLFW_KEY_BACKSPACE, 0, 0, [this] { run.jump_back(); }, true},
       {"+", "twice as fast", -1, 0, U'+', [this] { run.change_speed(2.0); }},
       {"-", "half as fast", -1, 0, U'-', [this] { run.change_speed(0.5); }},
       {"G", "other backend", GLFW_KEY_G, 0, 0, [this] { run.switch_backend(); }},
+      {"", "Hands"},
       {"B", "throw a ball", GLFW_KEY_B, 0, 0, throw_ball},
       {"Ctrl+drag", "pull the particle under the mouse"},
       {"Ctrl+right click", "pin or free the particle"},
+      {"", "Scenes"},
       {"[", "previous scene", -1, 0, U'[', [this] { scene.open_neighbour(-1); }},
       {"]", "next scene", -1, 0, U']', [this] { scene.open_neighbour(1); }},
       {"Ctrl+L", "reload the scene", GLFW_KEY_L, ctrl, 0, [this] { scene.reload(); }},
+      {"Ctrl+O", "open a scene or checkpoint", GLFW_KEY_O, ctrl, 0, [this] { ask_for_scene(); }},
+      {"Ctrl+S", "save the scene", GLFW_KEY_S, ctrl, 0, [this] { ask_where_to_save(); }},
       {"F5", "reload the scene", GLFW_KEY_F5, 0, 0, [this] { scene.reload(); }},
       {"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, [this] { scene.undo(); }, true},
       {"Ctrl+Shift+Z", "redo", GLFW_KEY_Z, ctrl | shift, 0, [this] { scene.redo(); }, true},
       {"Ctrl+Y", "redo", GLFW_KEY_Y, ctrl, 0, [this] { scene.redo(); }, true},
+      {"", "Camera"},
       {"left drag", "turn the camera"},
       {"right or Shift drag", "move the camera"},
       {"wheel", "zoom"},
@@ -86,12 +95,27 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+C", "copy the camera as text", GLFW_KEY_C, ctrl, 0,
        [this] { copy_camera(view, gui_->services(), messages); }},
       {"Ctrl+V", "paste a camera", GLFW_KEY_V, ctrl, 0, paste},
+      {"", "Window and files"},
       {"Tab", "hide or show the panels", GLFW_KEY_TAB, 0, 0, [this] { layout.panels = !layout.panels; }},
+      {"Ctrl+P", "find an action, a scene or a value", GLFW_KEY_P, ctrl, 0, [this] { palette.open(); }},
       {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { help_visible = !help_visible; }},
       {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
       {"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
-      {"F12", "save a screenshot", GLFW_KEY_F12, 0, 0, [this] { screenshot_wanted_ = true; }},
+      {"F12", "save the picture", GLFW_KEY_F12, 0, 0, [this] { shot_wanted_ = Shot::picture; }},
+      {"Shift+F12", "save the whole window", GLFW_KEY_F12, shift, 0, [this] { shot_wanted_ = Shot::window; }},
   };
+}
+
+void App::ask_for_scene() {
+  files.ask(
+      {"Open", {".toml", ".aspic"}, false, [this](const std::string& path, Overwrite) { scene.open(path); }},
+      scene.editor().is_file() ? scene.editor().source() : "");
+}
+
+void App::ask_where_to_save() {
+  const auto save = [this](const std::string& path, Overwrite overwrite) { scene.save_as(path, overwrite); };
+  files.ask({"Save", {".toml"}, true, save},
+            scene.editor().is_file() ? scene.editor().source() : scene.editor().source() + ".toml");
 }
 
 // ---- the context ----
@@ -130,6 +154,7 @@ void App::restore(const KeptState& kept, const std::vector<std::string>& overrid
   view.kept = kept.cameras;
   const auto sets_camera = [](const std::string& set) { return set.starts_with("view.camera"); };
   if (std::ranges::none_of(overrides, sets_camera)) view.recall_camera(scene.editor().source());
+  if (!layout.panels) messages.info("Tab shows the panels, F1 all keys.");
 }
 
 KeptState App::kept_state() const {
@@ -144,18 +169,28 @@ KeptState App::kept_state() const {
   return kept;
 }
 
+bool App::may_close() {
+  if (closing == Closing::no && scene.editor().changed()) {
+    closing = Closing::asked;
+    touch();
+    return false;
+  }
+  return true;
+}
+
 std::string App::title() const {
   return fmt::format("{}{} - Aspic", scene.scene().name, scene.editor().changed() ? " (changed)" : "");
 }
 
 bool App::idle() const {
   return !simulation.running() && std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
-         !screenshot_wanted_ && !scene.pending() && !simulation.changing() && !simulation.busy();
+         shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() && !simulation.changing() &&
+         !simulation.busy();
 }
 
 double App::wait(double since) const {
   constexpr double shortest = 1.0 / 60.0, longest = 0.1, nap = 0.004;  // s
-  if (idle()) return std::max(0.25 - since, 0.0);
+  if (idle()) return std::max(0.5 - since, 0.0);
   // Displays set the pace of hardware. A software rasteriser draws on the processors that simulate: it draws
   // at no more than that pace, only what is new, and where steps are late for a third of the time at most.
   if (!picture.context().info().is_software) return 0.0;
@@ -171,22 +206,40 @@ double App::wait(double since) const {
 
 void App::key(int key, int action, int modifiers) {
   touch();
-  gui_->key(key, action, modifiers);
-  if (action == GLFW_RELEASE || gui_->takes_keyboard()) return;
-  if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS) {
-    help_visible = false;
-    messages.dismiss();
-  } else {
-    commands_.on_key(key, modifiers, action == GLFW_REPEAT);
-  }
+  keys_.push_back({key, action, modifiers});
+  deliver_keys();
 }
 
 void App::character(unsigned int code_point) {
   touch();
-  if (gui_->takes_keyboard())
-    gui_->character(code_point);
-  else
-    commands_.on_character(static_cast<char32_t>(code_point));
+  keys_.push_back({.character = code_point});
+  deliver_keys();
+}
+
+/// To the text field that has the keyboard, else to the command they stand for; some wait for the next
+/// picture.
+void App::deliver_keys() {
+  while (!keys_.empty() && gui_->ready_for(keys_.front())) {
+    const KeyEvent event = keys_.front();
+    keys_.pop_front();
+    // F1 and those after it are in no text.
+    const bool escapes = event.key == GLFW_KEY_ESCAPE && (files.is_open() || palette.is_open());
+    const bool typing =
+        gui_->takes_keyboard() && !escapes && !(event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F25);
+    if (event.character == 0 || typing) gui_->key(event);
+    if (typing || (event.character == 0 && event.action == GLFW_RELEASE)) continue;
+    if (event.character != 0) {
+      commands_.on_character(static_cast<char32_t>(event.character));
+    } else if (event.key == GLFW_KEY_ESCAPE && event.action == GLFW_PRESS) {
+      help_visible = false;
+      closing = Closing::no;
+      files.close();
+      palette.close();
+      messages.dismiss();
+    } else {
+      commands_.on_key(event.key, event.modifiers, event.action == GLFW_REPEAT);
+    }
+  }
 }
 
 void App::mouse_button(int button, int action, int modifiers) {
@@ -236,7 +289,7 @@ Status App::frame(const WindowSize& size, double dt) {
   run.watch_divergence();
   still_for_ = camera_moves_ || simulation.running() || simulation.seeking() ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
-  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25);
+  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25 || shot_wanted_ == Shot::window);
   const auto start = std::chrono::steady_clock::now();
   const Status made = make_picture(size, dt);
   frame_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -247,18 +300,23 @@ Status App::make_picture(const WindowSize& size, double dt) {
   pointer.find_hovered();
   view.pixels_per_unit = static_cast<double>(size.pixel_width) / size.width;
   picture.count(dt);
-  gui_->begin(size.width, size.height, view.pixels_per_unit, dt);
+  gui_->begin(dt);
   view.text_scale = gui_->scale();
-  view.box = draw_panels(
-      {*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, help_visible},
-      size.width, size.height);
+  view.box = draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer,
+                          layout, files, palette, closing, help_visible},
+                         size.width, size.height);
+  if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
+    view.frame_bodies(simulation.model(), simulation.snapshot());
   ASPIC_CHECK(picture.show(size));
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();
-  if (!std::exchange(screenshot_wanted_, false)) return {};
+  deliver_keys();
+  const Shot wanted = std::exchange(shot_wanted_, Shot::none);
+  if (wanted == Shot::none) return {};
   const std::string path = free_name(scene.editor().source(), ".png");
-  if (messages.check(save_screenshot(size, path)))
-    messages.info(fmt::format("Screenshot saved as {}.", path));
+  if (messages.check(wanted == Shot::picture ? picture.save(path)
+                                             : save_pixels(0, {size.pixel_width, size.pixel_height}, path)))
+    messages.info(fmt::format("Saved as {}.", path));
   return {};
 }
 

@@ -1,16 +1,19 @@
 #pragma once
 // The window's inside: puts its parts together, hands events to them and makes the pictures. Knows no window:
 // events come through EventReceiver, pictures go to the current context's framebuffer 0.
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/file_dialog.h"
 #include "app/film.h"
 #include "app/gui.h"
 #include "app/hands.h"
 #include "app/kept_state.h"
 #include "app/messages.h"
+#include "app/panels.h"
 #include "app/pointer.h"
 #include "app/run_control.h"
 #include "app/scene_control.h"
@@ -60,6 +63,11 @@ class App final : public EventReceiver {
   /// How long to wait for events before the next picture, `since` the last one [s]; 0: none, it is due.
   double wait(double since) const;
   std::string title() const;
+  /// The window was asked to close. False if there are changes that would be lost: a page asks then, and a
+  /// second request is an answer.
+  bool may_close();
+  /// That page was answered: the window closes.
+  bool closes() const { return closing == Closing::decided; }
   /// What to remember for the next time; the window's own place is not known here.
   KeptState kept_state() const;
   Gui& gui() { return *gui_; }
@@ -81,12 +89,18 @@ class App final : public EventReceiver {
   Film film;
   Pointer pointer;
   Layout layout;
+  FileDialog files;
+  Palette palette;
+  Closing closing = Closing::no;
   bool help_visible = false;
 
  private:
   App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Simulation> simulation);
   Status attach(gl::Context& context, double scale, WindowServices services);
   std::vector<Command> make_commands();
+  void deliver_keys();
+  void ask_for_scene();
+  void ask_where_to_save();
   Status make_picture(const WindowSize& size, double dt);
   void touch() {
     still_for_ = 0.0;
@@ -94,7 +108,9 @@ class App final : public EventReceiver {
   }
   void restore(const KeptState& kept, const std::vector<std::string>& overrides);
 
-  bool screenshot_wanted_ = false, camera_moves_ = false;
+  std::deque<KeyEvent> keys_;  // that came and were not delivered
+  enum class Shot { none, picture, window } shot_wanted_ = Shot::none;
+  bool camera_moves_ = false;
   /// Since something moved, and since the mouse did [s].
   double still_for_ = 0.0, mouse_still_for_ = 0.0;
   double frame_seconds_ = 0.0;  // the last picture with its panels

@@ -2,17 +2,12 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "base/memory.h"
 #include "base/printable.h"
-#include "gpu/device_info.h"
 #include "model/bodies.h"
 #include "model/springs.h"
-#include "scene/load.h"
 
 namespace aspic::app {
 namespace {
@@ -48,17 +43,10 @@ std::size_t body_count(const ModelSettings& settings) {
   return count;
 }
 
-/// "goal net", as people write the key goal-net.
-std::string name_of(const SettingsList& list) {
-  std::string name(list.key);
-  std::ranges::replace(name, '-', ' ');
-  return name;
-}
-
 /// The line of one body, with a button that removes it. True if it was removed.
 bool body_line(Gui& gui, SceneControl& scene, const SettingsList& list, std::size_t i) {
   const bool last_body = body_count(scene.scene().model) == 1;
-  const std::string name = name_of(list);
+  const std::string name = spaced(list.key);
   const std::string help =
       last_body
           ? "The last body cannot be removed: without one, nothing would move."
@@ -66,10 +54,14 @@ bool body_line(Gui& gui, SceneControl& scene, const SettingsList& list, std::siz
   if (!element_line(gui, fmt::format("{} {}", name, i), fmt::format("{}/{}/remove", list.key, i), help,
                     !last_body))
     return false;
-  Scene changed = scene.scene();
-  list.remove(changed.model, i);
-  scene.apply(std::move(changed), fmt::format("remove {}", name));
+  scene.change("remove " + name, [&](Scene& s) { list.remove(s.model, i); });
   return true;
+}
+
+/// A button below a list that adds an element to it. True if it was pressed.
+bool add_button(Gui& gui, std::string_view key, std::string_view help) {
+  return button(gui, fmt::format("{}/add", key).c_str(), fmt::format("Add a {}", spaced(key)).c_str(),
+                fmt::format("{}\n\nScene key: [[{}]]", help, key), true, -1.0f);
 }
 
 /// Every body of one list with all its keys, straight from the table, and a button that adds one.
@@ -79,63 +71,28 @@ void bodies_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
     if (body_line(gui, scene, list, i)) return;
     for (const Parameter& p : parameters()) {
       if (!p.path.starts_with(prefix) || !applies(p, scene.scene(), i)) continue;
-      std::string label(p.path.substr(prefix.size()));
-      std::ranges::replace(label, '.', ' ');
-      std::ranges::replace(label, '-', ' ');
-      edit(gui, scene, p.path, i, {label});
+      edit(gui, scene, p.path, i, {capitalized(spaced(p.path.substr(prefix.size())))});
     }
   }
-  const std::string name = name_of(list), mark = fmt::format("{}/add", list.key);
-  if (!button(gui, mark.c_str(), fmt::format("Add a {}", name).c_str(),
-              fmt::format("Adds a {} with default values. Restarts the simulation.\n\nScene key: [[{}]]",
-                          name, list.key),
-              true, -1.0f))
-    return;
-  Scene changed = scene.scene();
-  list.append(changed.model);
-  scene.apply(std::move(changed), fmt::format("add {}", name));
+  const std::string name = spaced(list.key);
+  if (add_button(gui, list.key, fmt::format("Adds a {} with default values. Restarts the simulation.", name)))
+    scene.change("add " + name, [&](Scene& s) { list.append(s.model); });
 }
 
 void add_cube(Gui& gui, SceneControl& scene) {
   const bool any = !scene.scene().model.cubes.empty();
-  if (!button(gui, "cube/add", "Add a cube",
-              any ? "Adds a cube like the last one, above it. Restarts the simulation.\n\nScene key: [[cube]]"
-                  : "Adds a cube with default values. Restarts the simulation.\n\nScene key: [[cube]]",
-              true, -1.0f))
+  if (!add_button(
+          gui, "cube",
+          any ? "Adds a cube like the last one, beside it: bodies do not touch one another. Restarts the "
+                "simulation."
+              : "Adds a cube with default values. Restarts the simulation."))
     return;
-  Scene changed = scene.scene();
-  CubeSettings cube = any ? changed.model.cubes.back() : CubeSettings();
-  if (any) cube.position.y += 1.5 * cube.edge_length;
-  changed.model.cubes.push_back(cube);
-  scene.apply(std::move(changed), "add cube");
+  scene.change("add cube", [&](Scene& s) {
+    CubeSettings cube = any ? s.model.cubes.back() : CubeSettings();
+    if (any) cube.position.x += 1.5 * cube.edge_length;
+    s.model.cubes.push_back(cube);
+  });
 }
-
-}  // namespace
-
-void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
-  const std::string note = memory_note(scene.solver());
-  edit(gui, scene, "cube[].particles-per-edge", cube, {{}, note});
-  edit(gui, scene, "cube[].position", cube, {"Offset"});
-  edit(gui, scene, "cube[].rotation.axis", cube, {"Rotation axis"});
-  edit(gui, scene, "cube[].rotation.angle", cube, {"Rotation angle"});
-}
-
-void bodies_section(Gui& gui, SceneControl& scene) {
-  const SettingsList& cubes = body_rows().front().list;
-  const std::size_t count = cubes.size(scene.scene().model);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (body_line(gui, scene, cubes, i)) return;
-    if (i > 0) placed_cube(gui, scene, i);
-    edit(gui, scene, "cube[].edge-length", i, {"Edge"});
-    edit(gui, scene, "cube[].velocity", i);
-    edit(gui, scene, "cube[].particle-mass", i);
-    edit(gui, scene, "cube[].pinned", i);
-  }
-  add_cube(gui, scene);
-  for (const BodyRow& row : body_rows().subspan(1)) bodies_of(gui, scene, row.list);
-}
-
-namespace {
 
 /// Which springs the picture shows: the words of view.draw, next to the springs' own values.
 void shown_springs(Gui& gui, SceneControl& scene) {
@@ -153,7 +110,7 @@ void shown_springs(Gui& gui, SceneControl& scene) {
     const std::string help = fmt::format(
         "Whether {} springs are in the picture. Their colours are chosen under View.\n\nScene key: view.draw",
         type);
-    if (check_box(gui, type, words, fmt::format("springs/show/{}", type), help))
+    if (check_box(gui, type, fmt::format("springs/show/{}", type), words, help))
       scene.set_value(p, 0, Value(words));
   }
 }
@@ -161,35 +118,74 @@ void shown_springs(Gui& gui, SceneControl& scene) {
 /// Springs as they are described: by type, or as a material.
 void kind_of_springs(Gui& gui, SceneControl& scene, std::size_t cube) {
   const CubeSettings& settings = scene.scene().model.cubes[cube];
-  static constexpr const char* kinds[] = {"stiffness, damping", "material"};
-  int kind = settings.material ? 1 : 0;
+  static constexpr std::string_view kinds[] = {"stiffness, damping", "material"};
+  std::size_t kind = settings.material ? 1 : 0;
   label_column("Given by");
-  const bool chosen = ImGui::Combo("##kind", &kind, kinds, 2);
-  gui.mark("springs/{}/kind", cube);
-  tooltip(
-      "Stiffness and damping of each type of spring and the mass of a particle; or a material, which means "
-      "the same jelly at every resolution.\n\nScene key: cube[].material");
-  if (!chosen || (kind == 1) == settings.material.has_value()) return;
-  Scene changed = scene.scene();
-  CubeSettings& c = changed.model.cubes[cube];
-  if (kind == 1)
-    c.material.emplace();
-  else
-    c.material.reset();
-  scene.apply(std::move(changed), "material");
+  if (!choice(gui, fmt::format("springs/{}/kind", cube), kinds, kinds, kind,
+              "Stiffness and damping of each type of spring and the mass of a particle; or a material, which "
+              "means the same jelly at every resolution.\n\nScene key: cube[].material"))
+    return;
+  scene.change("material", [&](Scene& s) {
+    auto& material = s.model.cubes[cube].material;
+    material = kind == 1 ? std::optional(MaterialSettings()) : std::nullopt;
+  });
 }
 
 void same_for_all(Gui& gui, SceneControl& scene, std::size_t cube, std::string_view what) {
   const Parameter& first = *find_parameter(fmt::format("cube[].structural.{}", what));
-  const auto change = parameter_widget(gui, first, scene.scene(), cube, {"All " + std::string(what)});
+  const std::string
+      label = fmt::format("All {}", what),
+      help = fmt::format(
+          "One {0} for structural, shear and bending springs.\n\nScene keys: cube[{1}].structural.{0}, "
+          "cube[{1}].shear.{0}, cube[{1}].bending.{0}\nDrag to change, Ctrl+click to type.",
+          what, cube);
+  const auto change = parameter_widget(gui, first, scene.scene(), cube, {label, {}, help});
   if (!change || !change->value) return;
-  Scene changed = scene.scene();
-  for (const std::string_view type : spring_types)
-    find_parameter(fmt::format("cube[].{}.{}", type, what))->set(changed, cube, *change->value);
-  scene.apply(std::move(changed), "springs", fmt::format("all {}", change->gesture));
+  const auto set = [&](Scene& s) {
+    for (const std::string_view type : spring_types)
+      find_parameter(fmt::format("cube[].{}.{}", type, what))->set(s, cube, *change->value);
+  };
+  scene.change("springs", set, fmt::format("all {}", change->gesture));
+}
+
+void terrain(Gui& gui, SceneControl& scene, std::size_t index) {
+  const TerrainShape shape = scene.scene().model.terrain[index].shape;
+  if (element_line(gui, fmt::format("terrain {}, {}", index, name_of(shape)),
+                   fmt::format("terrain/{}/remove", index),
+                   "Removes this terrain. The motion continues.\n\nScene key: [[terrain]]", true))
+    return scene.change("remove terrain", [&](Scene& s) {
+      s.model.terrain.erase(s.model.terrain.begin() + static_cast<std::ptrdiff_t>(index));
+    });
+  for (const Parameter& p : parameters()) {
+    if (p.path.starts_with("terrain[].") && applies(p, scene.scene(), index)) edit(gui, scene, p.path, index);
+  }
 }
 
 }  // namespace
+
+void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
+  const std::string note = memory_note(scene.solver());
+  edit(gui, scene, "cube[].particles-per-edge", cube, {{}, note});
+  edit(gui, scene, "cube[].position", cube, {"Position"});
+  edit(gui, scene, "cube[].rotation.axis", cube, {"Rotation axis"});
+  edit(gui, scene, "cube[].rotation.angle", cube, {"Rotation angle"});
+}
+
+void bodies_section(Gui& gui, SceneControl& scene) {
+  const SettingsList& cubes = body_rows().front().list;
+  const std::size_t count = cubes.size(scene.scene().model);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (body_line(gui, scene, cubes, i)) return;
+    placed_cube(gui, scene, i);
+    edit(gui, scene, "cube[].edge-length", i, {"Edge"});
+    edit(gui, scene, "cube[].velocity", i);
+    edit(gui, scene, "cube[].particle-mass", i);
+    edit(gui, scene, "cube[].pinned", i);
+  }
+  add_cube(gui, scene);
+  for (const BodyRow& row : body_rows().subspan(1)) bodies_of(gui, scene, row.list);
+  if (body_count(scene.scene().model) > 1) ImGui::TextDisabled("Bodies do not touch one another.");
+}
 
 void springs_section(Gui& gui, SceneControl& scene) {
   static bool together = false;
@@ -205,16 +201,14 @@ void springs_section(Gui& gui, SceneControl& scene) {
       edit(gui, scene, "cube[].material.youngs-modulus", i, {"Young's modulus"});
       edit(gui, scene, "cube[].material.damping-ratio", i);
     } else {
-      ImGui::Checkbox("all types together", &together);
-      gui.mark("springs/together");
-      tooltip("One stiffness and one damping for structural, shear and bending springs.");
+      check_box(gui, "all types together", "springs/together", together,
+                "One stiffness and one damping for structural, shear and bending springs.");
       if (together) {
         same_for_all(gui, scene, i, "stiffness");
         same_for_all(gui, scene, i, "damping");
       } else {
         for (const std::string_view type : spring_types) {
-          std::string label(type);
-          label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+          const std::string label = capitalized(std::string(type));
           edit(gui, scene, fmt::format("cube[].{}.stiffness", type), i, {label + " k"});
           edit(gui, scene, fmt::format("cube[].{}.damping", type), i, {label + " c"});
         }
@@ -224,37 +218,15 @@ void springs_section(Gui& gui, SceneControl& scene) {
   }
 }
 
-namespace {
-
-void terrain(Gui& gui, SceneControl& scene, std::size_t index) {
-  const TerrainShape shape = scene.scene().model.terrain[index].shape;
-  if (element_line(gui, fmt::format("terrain {}, {}", index, name_of(shape)),
-                   fmt::format("terrain/{}/remove", index),
-                   "Removes this terrain. The motion continues.\n\nScene key: [[terrain]]", true)) {
-    Scene changed = scene.scene();
-    changed.model.terrain.erase(changed.model.terrain.begin() + static_cast<std::ptrdiff_t>(index));
-    return scene.apply(std::move(changed), "remove terrain");
-  }
-  for (const Parameter& p : parameters()) {
-    if (p.path.starts_with("terrain[].") && applies(p, scene.scene(), index)) edit(gui, scene, p.path, index);
-  }
-}
-
-}  // namespace
-
 void contact_section(Gui& gui, SceneControl& scene) {
   for (const Parameter& p : parameters()) {
     if (p.path.starts_with("contact.")) edit(gui, scene, p.path);
   }
   for (std::size_t i = 0; i < scene.scene().model.terrain.size(); ++i) terrain(gui, scene, i);
-  if (!button(gui, "terrain/add", "Add a terrain",
-              "Adds a terrain, a plane at its default place. Terrains act in file order. The motion "
-              "continues.\n\nScene key: [[terrain]]",
-              true, -1.0f))
-    return;
-  Scene changed = scene.scene();
-  changed.model.terrain.emplace_back();
-  scene.apply(std::move(changed), "add terrain");
+  if (add_button(gui, "terrain",
+                 "Adds a terrain, a plane at its default place. Terrains act in file order. The motion "
+                 "continues."))
+    scene.change("add terrain", [](Scene& s) { s.model.terrain.emplace_back(); });
 }
 
 }  // namespace aspic::app

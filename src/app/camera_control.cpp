@@ -18,10 +18,6 @@ double radians(double degrees) {
 
 }  // namespace
 
-CameraControl::CameraControl(const CameraSettings& home) : home_(home) {
-  jump_to(home);
-}
-
 CameraControl::Orbit CameraControl::orbit_of(const CameraSettings& settings) {
   const Vec3 d = settings.position - settings.target;
   Orbit orbit;
@@ -30,28 +26,25 @@ CameraControl::Orbit CameraControl::orbit_of(const CameraSettings& settings) {
   orbit.azimuth = std::atan2(d.x, d.z);
   orbit.elevation = std::clamp(std::asin(std::clamp(d.y / orbit.distance, -1.0, 1.0)), -steepest, steepest);
   orbit.fov = settings.fov;
+  orbit.exact = settings;
   return orbit;
 }
 
 CameraSettings CameraControl::settings_of(const Orbit& o) {
+  if (o.exact) return *o.exact;
   const Vec3 direction = {std::cos(o.elevation) * std::sin(o.azimuth), std::sin(o.elevation),
                           std::cos(o.elevation) * std::cos(o.azimuth)};
   return {o.target + o.distance * direction, o.target, o.fov};
 }
 
-void CameraControl::start_moving() {
-  exact_goal_.reset();
-  exact_shown_.reset();
-}
-
 void CameraControl::orbit(double dx, double dy) {
-  start_moving();
+  goal_.exact.reset();
   goal_.azimuth -= std::numbers::pi * dx;
   goal_.elevation = std::clamp(goal_.elevation + std::numbers::pi * dy, -steepest, steepest);
 }
 
 void CameraControl::pan(double dx, double dy) {
-  start_moving();
+  goal_.exact.reset();
   // At the target's distance the view is this many metres high.
   const double height = 2.0 * goal_.distance * std::tan(0.5 * radians(goal_.fov));
   const Vec3 right = {std::cos(goal_.azimuth), 0.0, -std::sin(goal_.azimuth)};
@@ -61,33 +54,30 @@ void CameraControl::pan(double dx, double dy) {
 }
 
 void CameraControl::zoom(double notches) {
-  start_moving();
+  goal_.exact.reset();
   goal_.distance = std::clamp(goal_.distance * std::pow(0.9, notches), nearest, farthest);
 }
 
 void CameraControl::come_round(double azimuth) {
   const double turn = 2.0 * std::numbers::pi;
   shown_.azimuth -= turn * std::round((shown_.azimuth - azimuth) / turn);
-  exact_shown_.reset();
 }
 
 void CameraControl::reset() {
-  const Orbit home = orbit_of(home_);
-  come_round(home.azimuth);
-  goal_ = home;
-  exact_goal_ = home_;
+  goal_ = orbit_of(home_);
+  come_round(goal_.azimuth);
 }
 
 void CameraControl::look_from(const Vec3& direction) {
   const Orbit seen = orbit_of({goal_.target + direction, goal_.target, goal_.fov});
-  start_moving();
   come_round(seen.azimuth);
+  goal_.exact.reset();
   goal_.azimuth = seen.azimuth;
   goal_.elevation = seen.elevation;
 }
 
 void CameraControl::frame(const Vec3& centre, double radius, double aspect) {
-  start_moving();
+  goal_.exact.reset();
   const double half = 0.5 * radians(goal_.fov);
   const double narrow = aspect < 1.0 ? std::atan(aspect * std::tan(half)) : half;
   goal_.target = centre;
@@ -95,20 +85,13 @@ void CameraControl::frame(const Vec3& centre, double radius, double aspect) {
 }
 
 void CameraControl::centre(const Vec3& point) {
-  start_moving();
+  goal_.exact.reset();
   goal_.target = point;
 }
 
-void CameraControl::jump_to(const CameraSettings& settings) {
-  goal_ = shown_ = orbit_of(settings);
-  exact_goal_ = exact_shown_ = settings;
-}
-
 bool CameraControl::update(double dt) {
-  if (shown_ == goal_) {
-    exact_shown_ = exact_goal_;
-    return false;
-  }
+  if (shown_ == goal_) return false;
+  shown_.exact.reset();
   const double share = 1.0 - std::exp(-dt / easing);
   const auto ease = [share](double from, double to) { return from + share * (to - from); };
   const auto near = [](double a, double b, double scale) { return std::abs(a - b) < 1e-4 * scale; };
@@ -122,14 +105,6 @@ bool CameraControl::update(double dt) {
       near(shown_.distance, goal_.distance, goal_.distance) && near(shown_.fov, goal_.fov, 1))
     shown_ = goal_;
   return true;
-}
-
-CameraSettings CameraControl::shown() const {
-  return exact_shown_ ? *exact_shown_ : settings_of(shown_);
-}
-
-CameraSettings CameraControl::goal() const {
-  return exact_goal_ ? *exact_goal_ : settings_of(goal_);
 }
 
 }  // namespace aspic::app

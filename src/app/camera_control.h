@@ -9,7 +9,7 @@ namespace aspic::app {
 class CameraControl {
  public:
   /// Starts at rest at `home`, which is shown to the bit until the camera is first moved.
-  explicit CameraControl(const CameraSettings& home);
+  explicit CameraControl(const CameraSettings& home) : home_(home) { jump_to(home); }
 
   /// Turns about the target: dx, dy in heights of the view, to the right and down. One height is half a turn.
   /// The elevation stays within ±89°.
@@ -18,7 +18,6 @@ class CameraControl {
   void pan(double dx, double dy);
   /// Comes nearer by a tenth for each notch, or goes away for negative ones.
   void zoom(double notches);
-  /// Goes back home.
   void reset();
   /// Turns to a sphere and backs off until it fits; direction and field of view stay. `aspect` is
   /// width/height of the view, > 0; a radius of 0 [m] is taken as a small one.
@@ -29,7 +28,7 @@ class CameraControl {
   /// length of `direction` does not matter; straight above is 89° up, with −z away from the eye.
   void look_from(const Vec3& direction);
   /// Takes on a camera at once, without easing.
-  void jump_to(const CameraSettings& settings);
+  void jump_to(const CameraSettings& settings) { goal_ = shown_ = orbit_of(settings); }
   /// A new home, which the camera does not go to by itself.
   void set_home(const CameraSettings& home) { home_ = home; }
 
@@ -37,27 +36,25 @@ class CameraControl {
   bool update(double dt);
 
   const CameraSettings& home() const { return home_; }
-  /// What is shown now.
-  CameraSettings shown() const;
+  CameraSettings shown() const { return settings_of(shown_); }
   /// Where the camera is going.
-  CameraSettings goal() const;
+  CameraSettings goal() const { return settings_of(goal_); }
 
  private:
   /// A camera as angles about its target [radians, m, degrees].
   struct Orbit {
     Vec3 target;
     double azimuth = 0.0, elevation = 0.0, distance = 1.0, fov = 45.0;
+    std::optional<CameraSettings> exact = {};  ///< until moved: what the angles would round
     friend bool operator==(const Orbit&, const Orbit&) = default;
   };
   static Orbit orbit_of(const CameraSettings& settings);
   static CameraSettings settings_of(const Orbit& orbit);
-  void start_moving();
   /// The shown camera as many whole turns away as brings it nearest to an azimuth [radians].
   void come_round(double azimuth);
 
   CameraSettings home_;
   Orbit goal_, shown_;
-  std::optional<CameraSettings> exact_goal_, exact_shown_;  ///< until moved: what the angles would round
 };
 
 }  // namespace aspic::app

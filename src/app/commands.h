@@ -8,7 +8,7 @@
 namespace aspic::app {
 
 struct Command {
-  std::string_view keys;        ///< for people: "Ctrl+Z"
+  std::string_view keys;        ///< for people: "Ctrl+Z"; empty: a heading of the help page
   std::string_view name;        ///< a phrase, by which buttons refer to the command
   int key = -1;                 ///< GLFW key, or −1: by character, or by the mouse
   int modifiers = 0;            ///< GLFW modifiers, of Ctrl and Shift exactly these

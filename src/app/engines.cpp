@@ -11,9 +11,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 Status advance(const Backend& engine, std::uint64_t steps, Advanced& into) {
-  ASPIC_TRY(const auto advanced, engine.solver->advance(steps));
+  ASPIC_TRY(into.divergence, engine.solver->advance(steps));
   ASPIC_TRY(auto state, engine.solver->state());
-  into.divergence = advanced;
+  // A device may tell of a divergence once it was waited for.
+  ASPIC_TRY(into.divergence, engine.solver->advance(0));
   into.state = std::move(state);
   return {};
 }
@@ -29,6 +30,7 @@ Engines& Engines::operator=(Engines&& other) noexcept {
   leader_ = std::move(other.leader_);
   shadow_ = std::move(other.shadow_);
   model_ = std::move(other.model_);
+  departure = std::move(other.departure);
   return *this;
 }
 
@@ -42,23 +44,12 @@ Status Engines::set_pull(const std::optional<Pull>& pull) {
   return shadowed() ? shadow_.solver->set_pull(pull) : Status();
 }
 
-/// The energies of a state, unless that would take more than a tenth of the time.
-std::optional<Measures> Engines::measured(const State& state) {
-  const auto start = Clock::now();
-  if (start < next_measured_) return std::nullopt;
-  const Measures measures = measure(*model_, state);
-  const auto end = Clock::now();
-  next_measured_ = end + 9 * (end - start);
-  return measures;
+EnergySample Engines::measured(const State& state) const {
+  return {static_cast<double>(state.step) * model_->simulation.timestep, measure(*model_, state), state.step};
 }
 
-Outcome Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry) {
+Result<Outcome> Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry) {
   Outcome outcome;
-  if (const Status done = try_outside(limits, hurry, outcome); !done) outcome.error = done.error();
-  return outcome;
-}
-
-Status Engines::try_outside(const JobLimits& limits, const std::atomic<bool>& hurry, Outcome& outcome) {
   const auto end = Clock::now() + std::chrono::duration<double>(limits.seconds);
   const bool shadow_first = shadow_paces();
   const bool both = !shadow_first && !limits.alone && shadowed() && !in_context(shadow_);
@@ -69,10 +60,15 @@ Status Engines::try_outside(const JobLimits& limits, const std::atomic<bool>& hu
     ASPIC_TRY(start, first.state());
     ASPIC_TRY(other_start, shadow_.solver->state());
   }
+  const std::uint64_t interval = sample_interval(model_->simulation.timestep);
   first.heed(&hurry);
   for (std::uint64_t at = limits.from; at < limits.to && !hurry && !paced.divergence && Clock::now() < end;
        ++at) {
     ASPIC_TRY(paced.divergence, first.advance(1));
+    if ((at + 1) % interval != 0 || paced.divergence || limits.alone) continue;
+    ASPIC_TRY(const auto state, first.state());
+    // A step that was dropped in a hurry is none.
+    if (state.step == at + 1) outcome.energies.push_back(measured(state));
   }
   ASPIC_TRY(paced.state, first.state());
   outcome.steps = paced.state.step - limits.from;
@@ -85,24 +81,18 @@ Status Engines::try_outside(const JobLimits& limits, const std::atomic<bool>& hu
       ASPIC_CHECK(first.load(start));
       ASPIC_CHECK(shadow_.solver->load(other_start));
       outcome.steps = 0;
+      outcome.energies.clear();
       outcome.leader = {std::move(start), std::nullopt};
       outcome.shadow = {std::move(other_start), std::nullopt};
     }
   }
-  outcome.measures = measured(paced.state);
-  return {};
+  return outcome;
 }
 
 Status Engines::follow(Outcome& outcome) {
   if (shadow_paces()) return advance(leader_, tried_steps(outcome, outcome.shadow), outcome.leader);
   if (!in_context(shadow_)) return {};
   return advance(shadow_, tried_steps(outcome, outcome.leader), outcome.shadow);
-}
-
-Result<State> Engines::advance_shadow(std::uint64_t steps) {
-  Advanced other;
-  ASPIC_CHECK(advance(shadow_, steps, other));
-  return std::move(other.state);
 }
 
 void EngineFactory::set_context(gl::Context& context) {
@@ -112,24 +102,30 @@ void EngineFactory::set_context(gl::Context& context) {
 
 Result<Backend> EngineFactory::make(const Model& model, const BackendRow& row, const GpuSolver* like) {
   auto engine = make_backend(choice_for(&row, asked_), model, {context_, like, arithmetic_});
-  if (engine && engine->gpu) arithmetic_ = engine->gpu->arithmetic();
+  if (engine && engine->gpu) {
+    arithmetic_ = engine->gpu->arithmetic();
+    engine->gpu->set_late(true);
+  }
   return engine;
 }
 
-Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup,
-                                         std::optional<std::string>& message) {
+Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup) {
   ASPIC_TRY(auto built, build_model(setup));
   auto model = std::make_unique<Model>(std::move(built));
   auto leader = make(*model, *like.leader().row, like.gpu());
-  if (!leader && Engines::in_context(like.leader())) {
-    message = fmt::format("{} The reference takes over.", leader.error().message);
-    leader = make(*model, reference_backend(), nullptr);
-  } else if (leader && like.shadowed()) {
+  if (leader && like.shadowed()) {
     ASPIC_TRY(auto shadow, make(*model, *like.shadow().row, like.gpu()));
     return Engines(std::move(model), std::move(*leader), std::move(shadow));
   }
+  std::optional<std::string> departure;
+  if (!leader && Engines::in_context(like.leader())) {
+    departure = fmt::format("{} The reference takes over.", leader.error().message);
+    leader = make(*model, reference_backend(), nullptr);
+  }
   if (!leader) return leader.error();
-  return Engines(std::move(model), std::move(*leader), {});
+  Engines engines(std::move(model), std::move(*leader), {});
+  engines.departure = std::move(departure);
+  return engines;
 }
 
 }  // namespace aspic::app

@@ -1,14 +1,14 @@
 #pragma once
 // The model of a run with the solvers that advance it.
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "analysis/energy.h"
+#include "app/samples.h"
 #include "app/setup.h"
 #include "base/result.h"
 #include "gpu/context.h"
@@ -27,11 +27,10 @@ struct Advanced {
 
 /// What a worker's job leaves: steps done, or the energies of a state.
 struct Outcome {
-  std::optional<Error> error;
   std::uint64_t steps = 0;
-  Advanced leader, shadow;           ///< each where it took part
-  std::optional<Measures> measures;  ///< of the one that set the pace; taken now and then
-  std::optional<Pull> pull;          ///< in these steps
+  Advanced leader, shadow;             ///< each where it took part
+  std::vector<EnergySample> energies;  ///< of the one that set the pace, at each sample_interval()
+  std::optional<Pull> pull;            ///< in these steps
 };
 
 /// How far a job of steps goes.
@@ -51,6 +50,9 @@ class Engines {
   /// Solvers go before the model that they refer to.
   Engines& operator=(Engines&& other) noexcept;
 
+  /// In what these engines are not like those they replace, in a sentence; nothing: in nothing.
+  std::optional<std::string> departure;
+
   const Model& model() const { return *model_; }
   const Backend& leader() const { return leader_; }
   const Backend& shadow() const { return shadow_; }
@@ -69,28 +71,23 @@ class Engines {
   void set_leader(Backend engine) { leader_ = std::move(engine); }
   void set_shadow(Backend engine) { shadow_ = std::move(engine); }
   void swap() { std::swap(leader_, shadow_); }
-  /// To all solvers.
+  /// The energies of a state of the model.
+  EnergySample measured(const State& state) const;
   Status load(const State& state);
   Status set_pull(const std::optional<Pull>& pull);
 
   /// For a worker: advances the solvers that do without the context, until `hurry` at most, which drops the
   /// step in progress. The first of them sets the pace.
-  Outcome advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry);
-  /// With the context: the solver that needs it does the steps of a job in shadow mode.
+  Result<Outcome> advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry);
+  /// With the context: the solver of shadow mode that did not takes the steps of an outcome too, if it needs
+  /// the context.
   Status follow(Outcome& outcome);
-  /// The shadow alone does so many steps, tried ones included.
-  Result<State> advance_shadow(std::uint64_t steps);
 
  private:
-  std::optional<Measures> measured(const State& state);
-  Status try_outside(const JobLimits& limits, const std::atomic<bool>& hurry, Outcome& outcome);
-
   std::unique_ptr<Model> model_;
   Backend leader_, shadow_;
-  std::chrono::steady_clock::time_point next_measured_ = {};  // not before
 };
 
-/// Makes solvers in the window's context.
 class EngineFactory {
  public:
   /// `asked`: what solvers that have it are asked for, beside their row.
@@ -100,9 +97,9 @@ class EngineFactory {
   /// Errors: of make_backend().
   Result<Backend> make(const Model& model, const BackendRow& row, const GpuSolver* like);
   /// A model with solvers on the same backends as `like`. Where a leader in the context refuses the model the
-  /// reference takes its place without a shadow, and `message` says so. Without solvers in the context it may
+  /// reference takes its place without a shadow, as `departure` says. Without solvers in the context it may
   /// run on another thread.
-  Result<Engines> make_like(const Engines& like, const Setup& setup, std::optional<std::string>& message);
+  Result<Engines> make_like(const Engines& like, const Setup& setup);
 
  private:
   gl::Context* context_;

@@ -18,13 +18,14 @@ std::string result_text(Recording& film) {
                      film.seconds(), options.fps);
 }
 
-}  // namespace
-
+/// `path` with the ending that the format wants in place of another format's; directories have none.
 std::string film_path(const std::string& path, const FilmFormat& format) {
   std::filesystem::path named(path);
   if (find_film_format(named.extension().string())) named.replace_extension();
   return named.string() + std::string(film_ending(format));
 }
+
+}  // namespace
 
 void Film::start() {
   stop();
@@ -39,6 +40,9 @@ void Film::start() {
                                        : film_path(settings.path, format);
   options.size = {pixels(view_.box.right - view_.box.left), pixels(view_.box.bottom - view_.box.top)};
   std::error_code unknown;
+  if (!format.is_directory() && std::filesystem::exists(options.path, unknown))
+    return messages_.error(
+        fmt::format("{} already exists. Choose another name for the film, or none.", options.path));
   if (format.is_directory() && std::filesystem::exists(options.path, unknown) &&
       !std::filesystem::is_empty(options.path, unknown)) {
     return messages_.error(

@@ -25,9 +25,6 @@ struct FilmSettings {
   std::string path;   ///< empty: free_name()
 };
 
-/// `path` with the ending that the format wants in place of another format's; directories have none.
-std::string film_path(const std::string& path, const FilmFormat& format);
-
 /// The ending of a film's name: that of a video, nothing for a directory.
 inline std::string_view film_ending(const FilmFormat& format) {
   return format.is_directory() ? std::string_view() : format.ending;

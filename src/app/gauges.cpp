@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <span>
 
 #include "app/panels.h"
@@ -29,7 +29,7 @@ void figure(const char* label, const std::string& value, std::string_view help,
 std::string short_number(double value) {
   if (value >= 1e9) return fmt::format("{:.3g} G", value / 1e9);
   if (value >= 1e6) return fmt::format("{:.3g} M", value / 1e6);
-  if (value >= 1e4) return fmt::format("{:.3g} k", value / 1e3);
+  if (value >= 1e3) return fmt::format("{:.3g} k", value / 1e3);
   return fmt::format("{:.3g}", value);
 }
 
@@ -56,16 +56,18 @@ struct Plot {
   ImVec2 size, corner = ImGui::GetCursorScreenPos();
   double scale, start = 0.0, span = 0.0;  // of time [s]; a span of 0: there is nothing to draw
   float pad;
+  bool pressed = false, held = false, hovered = false;  // by the mouse
   ImDrawList& draw = *ImGui::GetWindowDrawList();
 
-  Plot(const Gui& gui, const char* name, double height, const std::deque<Sample>& samples,
-       std::string_view help)
+  Plot(Gui& gui, const char* name, double height, const std::deque<Sample>& samples, std::string_view help)
       : size(ImGui::GetContentRegionAvail().x, static_cast<float>(height * gui.scale())),
         scale(gui.scale()),
         pad(static_cast<float>(6.0 * scale)) {
-    ImGui::Dummy(size);
-    gui.mark("{}", name);
-    tooltip(help);
+    ImGui::InvisibleButton(name, size);
+    pressed = ImGui::IsItemActivated();
+    held = ImGui::IsItemActive();
+    hovered = ImGui::IsItemHovered();
+    named(gui, name, help);
     draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 21, 23, 255), 4.0f);
     if (samples.size() < 2) return;
     start = samples.front().time;
@@ -79,10 +81,25 @@ struct Plot {
   }
 };
 
-void plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples, std::span<const Curve> curves,
-          const char* unit, std::string_view help) {
+/// A length of 1, 2 or 5 times a power of ten, four or so of which make up a span > 0.
+double tick_length(double span) {
+  const double power = std::pow(10.0, std::floor(std::log10(span / 4.0)));
+  const double rest = span / 4.0 / power;
+  return (rest > 5.0 ? 10.0 : rest > 2.0 ? 5.0 : rest > 1.0 ? 2.0 : 1.0) * power;
+}
+
+/// A time in a plot that the mouse points at [s].
+struct Pointed {
+  double time = 0.0;
+  bool pressed = false;  ///< or dragged to
+};
+
+/// Curves over time with their scale.
+std::optional<Pointed> plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples,
+                            std::span<const Curve> curves, const char* unit, std::string_view help,
+                            double now) {
   const Plot plot(gui, name, 130.0, samples, help);
-  if (!(plot.span > 0.0)) return;
+  if (!(plot.span > 0.0)) return std::nullopt;
   double low = 0.0, high = 0.0;
   for (const EnergySample& s : samples) {
     for (const Curve& c : curves) {
@@ -90,10 +107,18 @@ void plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples, s
       high = std::max(high, c.value(s.measures));
     }
   }
-  if (!(high > low) || !std::isfinite(high - low)) return;
-  const auto& [size, corner, scale, start, span, pad, draw] = plot;
+  if (!(high > low) || !std::isfinite(high - low)) return std::nullopt;
+  const ImVec2 size = plot.size, corner = plot.corner;
+  const double start = plot.start, span = plot.span;
+  const float pad = plot.pad;
+  ImDrawList& draw = plot.draw;
   const float line = ImGui::GetTextLineHeight();
   const auto place = [&](double t, double e) { return plot.place(t, (e - low) / (high - low), line, line); };
+  const double time_tick = tick_length(span), tick = tick_length(high - low);
+  for (double t = std::ceil(start / time_tick) * time_tick; t <= start + span; t += time_tick)
+    draw.AddLine(place(t, low), place(t, high), IM_COL32(38, 40, 43, 255));
+  for (double e = std::ceil(low / tick) * tick; e <= high; e += tick)
+    draw.AddLine(place(start, e), place(start + span, e), IM_COL32(38, 40, 43, 255));
   draw.AddLine(place(start, 0.0), place(start + span, 0.0), IM_COL32(80, 84, 90, 255));
   // One point for each column is all that can be seen.
   const std::size_t stride =
@@ -102,13 +127,25 @@ void plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples, s
     for (std::size_t i = 0; i < samples.size(); i += stride)
       draw.PathLineTo(place(samples[i].time, c.value(samples[i].measures)));
     draw.PathLineTo(place(samples.back().time, c.value(samples.back().measures)));
-    draw.PathStroke(c.colour, 0, static_cast<float>(1.5 * scale));
+    draw.PathStroke(c.colour, 0, static_cast<float>(1.5 * plot.scale));
   }
-  const std::string top = fmt::format("{:.4g} {}", high, unit), end = fmt::format("{:.3g} s", start + span);
+  const double at = std::clamp(now, start, start + span);
+  draw.AddLine(place(at, low), place(at, high), IM_COL32(242, 176, 92, 200), static_cast<float>(plot.scale));
+  const std::string top =
+      fmt::format("{:.4g} {}, a line each {:.4g} {} and {:.3g} s", high, unit, tick, unit, time_tick);
+  const std::string bottom = fmt::format("{:.4g} {}", low, unit), end = fmt::format("{:.3g} s", start + span);
   draw.AddText({corner.x + pad, corner.y + 2.0f}, IM_COL32(140, 145, 152, 255), top.c_str());
   const ImVec2 text = ImGui::CalcTextSize(end.c_str());
+  draw.AddText({corner.x + pad, corner.y + size.y - text.y - 2.0f}, IM_COL32(140, 145, 152, 255),
+               bottom.c_str());
   draw.AddText({corner.x + size.x - pad - text.x, corner.y + size.y - text.y - 2.0f},
                IM_COL32(140, 145, 152, 255), end.c_str());
+  if (!plot.held && !plot.hovered) return std::nullopt;
+  const double share =
+      static_cast<double>((ImGui::GetIO().MousePos.x - corner.x - pad) / (size.x - 2.0f * pad));
+  const double time = start + std::clamp(share, 0.0, 1.0) * span;
+  draw.AddLine(place(time, low), place(time, high), IM_COL32(150, 155, 162, 255));
+  return Pointed{time, plot.held && (plot.pressed || ImGui::GetIO().MouseDelta.x != 0.0f)};
 }
 
 constexpr ImU32 same = IM_COL32(120, 205, 140, 255), other = IM_COL32(240, 120, 95, 255);
@@ -119,7 +156,7 @@ double height_of(const DifferenceSample& sample) {
   return std::min(std::log10(1.0 + static_cast<double>(sample.ulp)) / 10.0, 1.0);
 }
 
-void plot_differences(const Gui& gui, const std::deque<DifferenceSample>& samples) {
+void plot_differences(Gui& gui, const std::deque<DifferenceSample>& samples) {
   const Plot plot(
       gui, "shadow/plot", 70.0, samples,
       "Largest difference of any component of the state over time, in units in the last place: the bottom is "
@@ -146,10 +183,9 @@ void pass_times(Gui& gui, GpuSolver& solver) {
   // Measured only while it is shown: a measured step takes a little longer.
   solver.set_profiling(true);
   ImGui::TextDisabled("Passes of a step");
-  gui.mark("performance/passes");
-  tooltip(
-      "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
-      "last steps measured, from time stamps.");
+  named(gui, "performance/passes",
+        "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
+        "last steps measured, from time stamps.");
   const std::vector<gl::PassTime> passes = solver.pass_times();
   if (passes.empty()) {
     ImGui::TextDisabled("   not measured yet");
@@ -188,13 +224,21 @@ void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
   figure("Real-time factor", s.running() ? fmt::format("{:.3g}", s.real_time_factor()) : "paused",
          "Simulated seconds per second.");
   figure("Pictures",
-         fmt::format("{:.0f}/s, {:.1f} ms each", picture.pictures_per_second(), 1e3 * picture.draw_seconds()),
-         "Pictures per second, and the time for the last one.");
+         picture.at_rest() ? fmt::format("at rest, {:.0f} ms", 1e3 * picture.draw_seconds())
+                           : fmt::format("{:.0f}/s, {:.1f} ms each", picture.pictures_per_second(),
+                                         1e3 * picture.draw_seconds()),
+         "Pictures of the window per second, and how long the last one of the scene took.");
   if (device.is_software) {
     figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * picture.resolution()),
-           "A software rasteriser draws: pictures are coarser while something moves.");
+           "A software rasteriser draws: pictures are coarser while something moves. At rest and when saved "
+           "they "
+           "are of full size.");
   }
-  if (s.gpu()) pass_times(gui, *s.gpu());
+  if (s.gpu() && device.is_software)
+    figure("Passes of a step", "not timed",
+           "A software device's time stamps do not say when its passes ran.");
+  else if (s.gpu())
+    pass_times(gui, *s.gpu());
   const Model& model = s.model();
   figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
   figure("Springs", fmt::format("{}", spring_count(model)), "Springs of all types.");
@@ -206,30 +250,38 @@ void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
   tooltip(fmt::format("Draws the window: {}, OpenGL {}", device.renderer, device.version));
 }
 
-void energy_section(Gui& gui, const std::deque<EnergySample>& samples) {
+void energy_section(Gui& gui, const Simulation& s, RunControl& run) {
   const auto show = [&](const char* name, std::span<const Curve> curves, const char* unit,
                         std::string_view help) {
-    plot(gui, name, samples, curves, unit, help);
-    if (samples.empty()) return;
+    const auto pointed = plot(gui, name, s.samples().energies(), curves, unit, help, s.time());
+    if (pointed && pointed->pressed) run.go_to(pointed->time);
+    const EnergySample* const sample = s.samples().nearest(pointed ? pointed->time : s.time());
+    if (!sample) return;
+    figure("t", fmt::format("{:.4g} s{}", sample->time, pointed ? " (under the mouse)" : ""), help);
     for (const Curve& c : curves) {
-      figure(c.name, fmt::format("{:.5g} {}", c.value(samples.back().measures), unit), help,
+      figure(c.name, fmt::format("{:.5g} {}", c.value(sample->measures), unit), help,
              ImGui::ColorConvertU32ToFloat4(c.colour));
+      gui.mark("{}/{}", name, c.name);
     }
   };
   show("energy/plot", energy_curves, "J",
-       "Energies of the run over time [J]. The gravitational one is zero at the origin.");
+       "Energies of the run over time [J]. The gravitational one is zero at the origin. A click goes to that "
+       "moment. At rest explicit Euler keeps a little kinetic energy: within a step gravity and contact act "
+       "one "
+       "after the other.");
   show("energy/momentum", momentum_curves, "N·s",
-       "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude.");
+       "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude. A click goes to "
+       "that "
+       "moment.");
 }
 
 void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
   const std::vector<const BackendRow*> others = others_than(s.backend());
   bool on = s.shadowed();
-  if (ImGui::Checkbox("second backend", &on)) run.set_shadow(on ? others.front() : nullptr);
-  gui.mark("shadow/on");
-  tooltip(
-      "Another backend does the same steps, and after each job of steps the two states are compared. The "
-      "picture shows the leading backend; speed is limited by the slower one.");
+  if (check_box(gui, "compare with a second backend", "shadow/on", on,
+                "Another backend does the same steps, and after each job of steps the two states are "
+                "compared. The picture shows the leading backend; speed is limited by the slower one."))
+    run.set_shadow(on ? others.front() : nullptr);
   if (!s.shadowed()) return;
   // A machine with two backends has no choice to offer.
   for (std::size_t i = 0; others.size() > 1 && i < others.size(); ++i) {
@@ -247,12 +299,10 @@ void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
   }
   const DifferenceSample& last = s.samples().differences().back();
   const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(last.identical ? same : other);
-  if (!std::isfinite(last.metres))
-    ImGui::TextColored(colour, "one of the two diverged");
-  else if (last.identical)
-    ImGui::TextColored(colour, "0 ULP, 0 m: every bit is the same");
-  else
-    ImGui::TextColored(colour, "%llu ULP, %.3g m", static_cast<unsigned long long>(last.ulp), last.metres);
+  const std::string text = !std::isfinite(last.metres) ? "one of the two diverged"
+                           : last.identical            ? "0 ULP, 0 m: every bit is the same"
+                                            : fmt::format("{} ULP, {:.3g} m", last.ulp, last.metres);
+  ImGui::TextColored(colour, "%s", text.c_str());
   gui.mark("shadow/difference");
   if (last.identical && s.samples().ever_differed())
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(other), "there were differences before");

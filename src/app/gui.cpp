@@ -2,8 +2,10 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,17 +30,10 @@ constexpr float largest_font = 96.0f;
 constexpr ImWchar characters[] = {0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027, 0x2070, 0x209f,
                                   0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0};
 
-/// Keys of ImGui, each followed by its name in GLFW.
-constexpr int key_map[] = {
-    ImGuiKey_Tab,         GLFW_KEY_TAB,      ImGuiKey_LeftArrow, GLFW_KEY_LEFT,      ImGuiKey_RightArrow,
-    GLFW_KEY_RIGHT,       ImGuiKey_UpArrow,  GLFW_KEY_UP,        ImGuiKey_DownArrow, GLFW_KEY_DOWN,
-    ImGuiKey_PageUp,      GLFW_KEY_PAGE_UP,  ImGuiKey_PageDown,  GLFW_KEY_PAGE_DOWN, ImGuiKey_Home,
-    GLFW_KEY_HOME,        ImGuiKey_End,      GLFW_KEY_END,       ImGuiKey_Insert,    GLFW_KEY_INSERT,
-    ImGuiKey_Delete,      GLFW_KEY_DELETE,   ImGuiKey_Backspace, GLFW_KEY_BACKSPACE, ImGuiKey_Space,
-    GLFW_KEY_SPACE,       ImGuiKey_Enter,    GLFW_KEY_ENTER,     ImGuiKey_Escape,    GLFW_KEY_ESCAPE,
-    ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER, ImGuiKey_A,         GLFW_KEY_A,         ImGuiKey_C,
-    GLFW_KEY_C,           ImGuiKey_V,        GLFW_KEY_V,         ImGuiKey_X,         GLFW_KEY_X,
-    ImGuiKey_Y,           GLFW_KEY_Y,        ImGuiKey_Z,         GLFW_KEY_Z};
+/// Whether a key does something to a text, Enter among them, instead of being in it.
+bool edits(int key) {
+  return (key >= GLFW_KEY_ESCAPE && key <= GLFW_KEY_END) || key == GLFW_KEY_KP_ENTER;
+}
 
 ImVec4 grey(float value, float alpha = 1.0f) {
   return {value, value * 1.02f, value * 1.07f, alpha};
@@ -74,7 +69,7 @@ void set_theme(float scale) {
   c[ImGuiCol_HeaderHovered] = tint(0.40f);
   c[ImGuiCol_HeaderActive] = tint(0.60f);
   c[ImGuiCol_CheckMark] = {0.45f, 0.82f, 0.87f, 1.0f};
-  c[ImGuiCol_SliderGrab] = tint(0.9f);
+  c[ImGuiCol_SliderGrab] = tint(0.5f);  // the value can be read through it
   c[ImGuiCol_SliderGrabActive] = accent;
   c[ImGuiCol_TextSelectedBg] = tint(0.5f);
   c[ImGuiCol_Separator] = grey(0.22f);
@@ -90,19 +85,10 @@ Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services, 
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
-  for (std::size_t i = 0; i < std::size(key_map); i += 2) io.KeyMap[key_map[i]] = key_map[i + 1];
-  io.ClipboardUserData = gui.get();
-  io.GetClipboardTextFn = [](void* user) {
-    Gui& self = *static_cast<Gui*>(user);
-    self.clipboard_ = self.services_.clipboard ? self.services_.clipboard() : std::string();
-    return self.clipboard_.c_str();
-  };
-  io.SetClipboardTextFn = [](void* user, const char* text) {
-    const Gui& self = *static_cast<Gui*>(user);
-    if (self.services_.set_clipboard) self.services_.set_clipboard(text);
-  };
   io.UserData = gui.get();
   gui->set_look();
+  // Without its callbacks: events come through ours, so that tests can hand them over too.
+  ImGui_ImplGlfw_InitForOpenGL(gui->services_.window, false);
   if (!ImGui_ImplOpenGL3_Init("#version 430 core"))
     return Error{ErrorCode::no_device,
                  "The panels cannot be drawn: their OpenGL functions could not be loaded. Install libgl1, or "
@@ -125,19 +111,23 @@ void Gui::set_look() {
 
 Gui::~Gui() {
   if (ImGui::GetIO().BackendRendererUserData) ImGui_ImplOpenGL3_Shutdown();
+  if (ImGui::GetIO().BackendPlatformUserData) ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
 }
 
-void Gui::key(int key, int action, int modifiers) {
-  ImGuiIO& io = ImGui::GetIO();
-  if (key >= 0 && key < IM_ARRAYSIZE(io.KeysDown)) io.KeysDown[key] = action != GLFW_RELEASE;
-  io.KeyCtrl = (modifiers & GLFW_MOD_CONTROL) != 0;
-  io.KeyShift = (modifiers & GLFW_MOD_SHIFT) != 0;
-  io.KeyAlt = (modifiers & GLFW_MOD_ALT) != 0;
+bool Gui::ready_for(const KeyEvent& event) const {
+  const bool changed = std::ranges::find(changed_, event.key) != changed_.end();
+  // A modifier that was tapped with a click is down in the picture that sees the click.
+  if (event.key >= GLFW_KEY_LEFT_SHIFT) return !changed;
+  return !takes_keyboard() || (!changed && (!edited_ || event.action == GLFW_RELEASE));
 }
 
-void Gui::character(unsigned int code_point) {
-  ImGui::GetIO().AddInputCharacter(code_point);
+void Gui::key(const KeyEvent& event) {
+  if (event.character != 0) return ImGui::GetIO().AddInputCharacter(event.character);
+  // What GLFW says of modifiers lacks the key of the event itself; this keeps its own account.
+  ImGui_ImplGlfw_KeyCallback(services_.window, event.key, 0, event.action, event.modifiers);
+  if (event.action != GLFW_REPEAT) changed_.push_back(event.key);
+  edited_ = edited_ || (event.action != GLFW_RELEASE && edits(event.key));
 }
 
 void Gui::mouse_button(int button, int action) {
@@ -148,7 +138,8 @@ void Gui::mouse_button(int button, int action) {
 }
 
 void Gui::cursor(double x, double y) {
-  ImGui::GetIO().MousePos = {static_cast<float>(x), static_cast<float>(y)};
+  mouse_x_ = x;
+  mouse_y_ = y;
 }
 
 void Gui::scroll(double dx, double dy) {
@@ -157,30 +148,33 @@ void Gui::scroll(double dx, double dy) {
 }
 
 bool Gui::takes_keyboard() const {
-  return ImGui::GetIO().WantTextInput;
+  // A field that the last picture opened or closed counts already.
+  return ImGui::IsAnyItemActive() && ImGui::GetCurrentContext()->WantTextInputNextFrame == 1;
 }
 
 bool Gui::takes_mouse() const {
   return ImGui::GetIO().WantCaptureMouse;
 }
 
-void Gui::begin(double width, double height, double pixels_per_unit, double dt) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
-  const auto ratio = static_cast<float>(pixels_per_unit);
-  io.DisplayFramebufferScale = {ratio, ratio};
-  io.DeltaTime = static_cast<float>(std::max(dt, 1e-4));
-  for (int i = 0; i < 5; ++i) {
-    io.MouseDown[i] = pressed_[i] || held_[i];
-    pressed_[i] = false;
-  }
+void Gui::begin(double dt) {
   if (wanted_text_size_ != text_size_) {
     set_look();
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
   }
   ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  // The mouse as events told it, which may be ahead of where it is by now.
+  ImGuiIO& io = ImGui::GetIO();
+  io.DeltaTime = static_cast<float>(std::max(dt, 1e-4));
+  io.MousePos = {static_cast<float>(mouse_x_), static_cast<float>(mouse_y_)};
+  for (int i = 0; i < 5; ++i) {
+    io.MouseDown[i] = pressed_[i] || held_[i];
+    pressed_[i] = false;
+  }
   ImGui::NewFrame();
+  changed_.clear();
+  edited_ = false;
 }
 
 void Gui::end() {
@@ -195,9 +189,20 @@ Box Gui::last_item() {
           static_cast<double>(b.y)};
 }
 
-void Gui::explain(std::string_view text, std::string_view keys) const {
+bool Gui::explain(std::string_view text, std::string_view keys) {
+  constexpr double rest = 0.6;  // s
   if (watcher_)
     watcher_->tooltip(last_item(), fmt::format("{}{}{}", text, keys.empty() ? "" : "\nKey: ", keys));
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
+  const double now = ImGui::GetTime();
+  // Gone for a picture, or on another widget: it begins again.
+  const bool stays =
+      rested_on_ == last_item() && rested_seen_ >= now - 1.5 * static_cast<double>(io.DeltaTime);
+  rested_on_ = last_item();
+  rested_seen_ = now;
+  if (!stays || ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown()) rested_since_ = now;
+  return now - rested_since_ >= rest;
 }
 
 Gui& Gui::current() {

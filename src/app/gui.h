@@ -7,14 +7,18 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "app/commands.h"
 #include "base/result.h"
+
+struct GLFWwindow;
 
 namespace aspic::app {
 
 /// What the panels ask of the window system.
 struct WindowServices {
+  GLFWwindow* window = nullptr;  ///< the one that they are drawn in; never null
   std::function<std::string()> clipboard;
   std::function<void(const std::string&)> set_clipboard;
   std::function<void()> toggle_full_screen;
@@ -41,6 +45,12 @@ class WidgetWatcher {
   virtual void end_of_picture() = 0;
 };
 
+/// A key that went down, repeats or came up, or a character that was typed.
+struct KeyEvent {
+  int key = -1, action = 0, modifiers = 0;  ///< as GLFW names them
+  unsigned int character = 0;               ///< 0: it is a key
+};
+
 /// Owns the ImGui context; one at a time. Positions are in window units, as GLFW gives them.
 class Gui {
  public:
@@ -54,8 +64,10 @@ class Gui {
   Gui& operator=(const Gui&) = delete;
 
   // ---- events; keys, buttons, actions and modifiers as GLFW names them ----
-  void key(int key, int action, int modifiers);
-  void character(unsigned int code_point);
+  void key(const KeyEvent& event);
+  /// Whether the picture to come can take that key in addition to those it has: one that was pressed and let
+  /// go of between two pictures would be lost, and of characters and keys that edit the order.
+  bool ready_for(const KeyEvent& event) const;
   void mouse_button(int button, int action);
   void cursor(double x, double y);
   void scroll(double dx, double dy);
@@ -63,8 +75,8 @@ class Gui {
   bool takes_keyboard() const;
   bool takes_mouse() const;
 
-  /// Begins the panels of a picture; sizes in window units, `pixels_per_unit` of the framebuffer.
-  void begin(double width, double height, double pixels_per_unit, double dt);
+  /// Begins the panels of a picture, `dt` ≥ 0 after the last [s].
+  void begin(double dt);
   /// Draws them into the current framebuffer.
   void end();
 
@@ -82,8 +94,9 @@ class Gui {
   void mark(fmt::format_string<Arguments...> name, Arguments&&... arguments) const {
     if (watcher_) watcher_->widget(fmt::format(name, std::forward<Arguments>(arguments)...), last_item());
   }
-  /// Tells the watcher what the tooltip of the widget just made says.
-  void explain(std::string_view text, std::string_view keys) const;
+  /// Tells the watcher what the tooltip of the widget just made says. True if it is time to show it: the
+  /// mouse has rested on the widget and nothing is held or typed.
+  bool explain(std::string_view text, std::string_view keys);
   /// The one whose panels are being made, between begin() and end().
   static Gui& current();
 
@@ -96,8 +109,12 @@ class Gui {
   WindowServices services_;
   const Commands& commands_;
   WidgetWatcher* watcher_;
-  std::string clipboard_;
+  double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool pressed_[5] = {}, held_[5] = {};
+  std::vector<int> changed_;                       // keys that went down or came up since the last picture
+  bool edited_ = false;                            // one that went down edits text
+  Box rested_on_;                                  // the widget under the mouse
+  double rested_since_ = 0.0, rested_seen_ = 0.0;  // ImGui's time
 };
 
 }  // namespace aspic::app

@@ -5,24 +5,6 @@
 #include <cmath>
 
 namespace aspic::app {
-namespace {
-
-void put(std::vector<float>& numbers, const std::vector<Vec3>& vectors) {
-  for (const Vec3& v : vectors) {
-    for (int axis = 0; axis < 3; ++axis) numbers.push_back(static_cast<float>(v[axis]));
-  }
-}
-
-std::vector<Vec3> take(const float*& numbers, std::uint32_t count) {
-  std::vector<Vec3> vectors(count);
-  for (Vec3& v : vectors) {
-    for (int axis = 0; axis < 3; ++axis) v[axis] = static_cast<double>(*numbers++);
-  }
-  return vectors;
-}
-
-}  // namespace
-
 Keyframe pack(const State& state) {
   assert(state.precision == Precision::single);
   Keyframe k;
@@ -30,9 +12,9 @@ Keyframe pack(const State& state) {
   k.particles = static_cast<std::uint32_t>(state.position.size());
   k.balls = static_cast<std::uint32_t>(state.ball_position.size());
   k.numbers.reserve(std::size_t{6} * k.particles + std::size_t{9} * k.balls);
-  for (const auto* vectors : {&state.position, &state.velocity, &state.ball_position, &state.ball_velocity,
-                              &state.ball_angular_velocity})
-    put(k.numbers, *vectors);
+  for_each_vector(state, [&](const Vec3& v) {
+    for (int axis = 0; axis < 3; ++axis) k.numbers.push_back(static_cast<float>(v[axis]));
+  });
   return k;
 }
 
@@ -40,28 +22,30 @@ State unpack(const Keyframe& keyframe) {
   State s;
   s.precision = Precision::single;
   s.step = keyframe.step;
-  const float* numbers = keyframe.numbers.data();
-  s.position = take(numbers, keyframe.particles);
-  s.velocity = take(numbers, keyframe.particles);
-  s.ball_position = take(numbers, keyframe.balls);
-  s.ball_velocity = take(numbers, keyframe.balls);
-  s.ball_angular_velocity = take(numbers, keyframe.balls);
+  for (auto* const vectors : {&s.position, &s.velocity}) vectors->resize(keyframe.particles);
+  for (auto* const vectors : {&s.ball_position, &s.ball_velocity, &s.ball_angular_velocity})
+    vectors->resize(keyframe.balls);
+  const float* number = keyframe.numbers.data();
+  for_each_vector(s, [&](Vec3& v) {
+    for (int axis = 0; axis < 3; ++axis) v[axis] = static_cast<double>(*number++);
+  });
   return s;
+}
+
+std::uint64_t Stretch::bytes() const {
+  // All keyframes hold as many numbers, for the setup has as many bodies throughout.
+  return sizeof(PullChange) * pulls.size() + keyframes.size() * keyframes.front().bytes();
 }
 
 void History::clear() {
   // Numbers go on, so that no moment of the old run passes for one of the new.
   first_number_ += stretches_.size();
   stretches_.clear();
-  bytes_ = 0;
 }
 
 void History::begin(const Setup& setup, const State& state) {
-  if (!empty() && last().first == last().last && last().keyframes.size() == 1) drop_last_stretch();
-  Stretch stretch;
-  stretch.setup = setup;
-  stretch.first = stretch.last = state.step;
-  stretches_.push_back(std::move(stretch));
+  if (!empty() && last().first == last().last && last().keyframes.size() == 1) stretches_.pop_back();
+  stretches_.push_back({setup, state.step, state.step, {}, {}});
   add_keyframe(state);
 }
 
@@ -74,53 +58,35 @@ void History::add_keyframe(const State& state) {
   if (!stretch.keyframes.empty() && stretch.keyframes.back().step >= state.step) return;
   reach(state.step);
   stretch.keyframes.push_back(pack(state));
-  bytes_ += stretch.keyframes.back().bytes();
-  while (bytes_ > most_bytes_ && keyframe_count() > 1) drop_oldest();
+  while (bytes() > most_bytes_ && keyframe_count() > 1) drop_oldest();
 }
 
 void History::set_pull(std::uint64_t step, const std::optional<Pull>& pull) {
   std::vector<PullChange>& pulls = last().pulls;
   assert(pulls.empty() || pulls.back().step <= step);
-  if (!pulls.empty() && pulls.back().step == step) {
-    pulls.back().pull = pull;
-    return;
-  }
+  if (!pulls.empty() && pulls.back().step == step) pulls.pop_back();
   pulls.push_back({step, pull});
-  bytes_ += sizeof(PullChange);
-}
-
-void History::drop_last_stretch() {
-  for (const Keyframe& k : last().keyframes) bytes_ -= k.bytes();
-  bytes_ -= sizeof(PullChange) * last().pulls.size();
-  stretches_.pop_back();
 }
 
 void History::drop_oldest() {
   Stretch& oldest = stretches_.front();
-  bytes_ -= oldest.keyframes.front().bytes();
   oldest.keyframes.pop_front();
   if (!oldest.keyframes.empty()) {
     oldest.first = oldest.keyframes.front().step;
     return;
   }
-  bytes_ -= sizeof(PullChange) * oldest.pulls.size();
   stretches_.pop_front();
   ++first_number_;
 }
 
 void History::truncate(const Moment& moment) {
-  while (end_moment().stretch > moment.stretch) drop_last_stretch();
+  while (end_moment().stretch > moment.stretch) stretches_.pop_back();
   Stretch& stretch = last();
   stretch.last = std::min(stretch.last, moment.step);
-  while (stretch.keyframes.size() > 1 && stretch.keyframes.back().step > moment.step) {
-    bytes_ -= stretch.keyframes.back().bytes();
+  while (stretch.keyframes.size() > 1 && stretch.keyframes.back().step > moment.step)
     stretch.keyframes.pop_back();
-  }
   // A pull that begins with the step from `moment` on belongs to what is forgotten.
-  while (!stretch.pulls.empty() && stretch.pulls.back().step >= moment.step) {
-    bytes_ -= sizeof(PullChange);
-    stretch.pulls.pop_back();
-  }
+  while (!stretch.pulls.empty() && stretch.pulls.back().step >= moment.step) stretch.pulls.pop_back();
 }
 
 Moment History::begin_moment() const {
@@ -169,10 +135,8 @@ Moment History::nearest(double time) const {
     m.step = stretch(m.stretch).first;
   }
   const Stretch& s = stretch(m.stretch);
-  const double steps = std::round(time / s.timestep());
-  m.step = steps <= static_cast<double>(s.first)  ? s.first
-           : steps >= static_cast<double>(s.last) ? s.last
-                                                  : static_cast<std::uint64_t>(steps);
+  m.step = static_cast<std::uint64_t>(
+      std::clamp(std::round(time / s.timestep()), static_cast<double>(s.first), static_cast<double>(s.last)));
   return canonical(m);
 }
 
@@ -211,6 +175,12 @@ std::vector<double> History::changes() const {
   for (std::size_t i = 1; i < stretches_.size(); ++i)
     times.push_back(stretches_[i].time(stretches_[i].first));
   return times;
+}
+
+std::uint64_t History::bytes() const {
+  std::uint64_t sum = 0;
+  for (const Stretch& s : stretches_) sum += s.bytes();
+  return sum;
 }
 
 std::size_t History::keyframe_count() const {

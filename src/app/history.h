@@ -29,7 +29,7 @@ struct PullChange {
 struct Keyframe {
   std::uint64_t step = 0;
   std::uint32_t particles = 0, balls = 0;
-  std::vector<float> numbers;  ///< x, v of the particles; x, v, ω of the balls
+  std::vector<float> numbers;  ///< as for_each_vector() meets them
   std::uint64_t bytes() const { return sizeof(Keyframe) + sizeof(float) * numbers.size(); }
 };
 
@@ -42,6 +42,7 @@ struct Stretch {
   std::uint64_t first = 0, last = 0;  ///< steps that can be had
   std::deque<Keyframe> keyframes;     ///< ascending; the first one is of step `first`
   std::vector<PullChange> pulls;      ///< ascending, at most one a step
+  std::uint64_t bytes() const;
   double timestep() const { return setup.settings.simulation.timestep; }
   double time(std::uint64_t step) const { return static_cast<double>(step) * timestep(); }
 };
@@ -87,17 +88,16 @@ class History {
   /// Times at which the setup changed, oldest first [s].
   std::vector<double> changes() const;
 
-  std::uint64_t bytes() const { return bytes_; }
+  std::uint64_t bytes() const;
   std::uint64_t most_bytes() const { return most_bytes_; }
   std::size_t keyframe_count() const;
 
  private:
   Stretch& last() { return stretches_.back(); }
   void drop_oldest();
-  void drop_last_stretch();
   Moment canonical(Moment moment) const;
 
-  std::uint64_t most_bytes_, bytes_ = 0;
+  std::uint64_t most_bytes_;
   std::uint64_t first_number_ = 0;  // of stretches_.front()
   std::deque<Stretch> stretches_;
 };

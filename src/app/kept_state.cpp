@@ -6,122 +6,87 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <variant>
+
+#define JSON_DIAGNOSTICS 1  // errors name the key
+#include <nlohmann/json.hpp>
 
 #include "base/files.h"
 #include "io/atomic_file.h"
-#include "scene/document.h"
 #include "scene/load.h"
-#include "scene/write.h"
 
-namespace aspic::app {
+namespace aspic {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Vec3, x, y, z)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CameraSettings, position, target, fov)
+
+namespace app {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KeptCamera, scene, camera)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Layout, panels, left_width, right_width, text_size, sections)
+
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::int64_t version = 1;
+using Json = nlohmann::json;
+constexpr int version = 2;
 constexpr const char* paces[] = {"steps-per-frame", "real-time"};
 
-std::optional<double> number_of(const toml::node& node) {
-  if (const auto* x = node.as_floating_point()) return x->get();
-  if (const auto* x = node.as_integer()) return static_cast<double>(x->get());
-  return std::nullopt;
+Json json_of(const KeptState& s) {
+  Json json = {{"version", version},
+               {"layout", s.layout},
+               {"pace", paces[static_cast<std::size_t>(s.pace)]},
+               {"speed", s.speed},
+               {"film", {{"format", s.film_format->name}, {"fps", s.film_fps}, {"text", s.film_text}}},
+               {"cameras", s.cameras}};
+  if (!s.window) return json;
+  json["window"]["size"] = {s.window->width, s.window->height};
+  if (s.window->position) json["window"]["position"] = *s.window->position;
+  return json;
 }
 
-/// Takes values out of a parsed file; the first that is not as expected is remembered.
-class Taker {
- public:
-  /// A value of type T (toml::table, toml::array, std::string, bool), or nullptr.
-  template <class T>
-  const auto* find(const toml::table* table, std::string_view key) {
-    const toml::node* const node = table ? table->get(key) : nullptr;
-    const auto* const found = node ? node->as<T>() : nullptr;
-    if (node && !found) blame(key, *node);
-    return found;
-  }
-  void take(const toml::table* table, std::string_view key, double& into, double low, double high) {
-    const toml::node* const node = table ? table->get(key) : nullptr;
-    if (!node) return;
-    const auto value = number_of(*node);
-    if (!value || !(*value >= low && *value <= high)) return blame(key, *node);
-    into = *value;
-  }
-  void take(const toml::table* table, std::string_view key, bool& into) {
-    if (const auto* const node = find<bool>(table, key)) into = node->get();
-  }
-  /// An index into some words.
-  template <class Words>
-  void take(const toml::table* table, std::string_view key, const Words& words, std::size_t& into) {
-    const auto* const node = find<std::string>(table, key);
-    if (!node) return;
-    const auto word = std::ranges::find(words, node->get());
-    if (word == std::end(words)) return blame(key, *node);
-    into = static_cast<std::size_t>(word - std::begin(words));
-  }
-  /// `count` numbers within ±1e6; false if they are not there.
-  template <class Numbers>
-  bool take_numbers(const toml::table* table, std::string_view key, Numbers& into) {
-    const auto* const array = find<toml::array>(table, key);
-    if (!array) return false;
-    if (array->size() != into.size()) return blame(key, *array), false;
-    for (std::size_t i = 0; i < into.size(); ++i) {
-      const auto value = number_of((*array)[i]);
-      if (!value || !(std::abs(*value) <= 1e6)) return blame(key, (*array)[i]), false;
-      into[i] = static_cast<typename Numbers::value_type>(*value);
-    }
-    return true;
-  }
-  void blame(std::string_view key, const toml::node& node) {
-    if (complaint.empty())
-      complaint = fmt::format("line {}, '{}'", document::position_of(node.source(), 0).line, key);
-  }
-
-  std::string complaint;
-};
-
-void take_window(Taker& taker, const toml::table& root, KeptState& state) {
-  const toml::table* const window = taker.find<toml::table>(&root, "window");
-  std::array<int, 2> size = {}, position = {};
-  if (!taker.take_numbers(window, "size", size)) return;
-  if (std::min(size[0], size[1]) < 16 || std::max(size[0], size[1]) > 16384)
-    return taker.blame("size", *window);
-  state.window = WindowPlace{size[0], size[1], std::nullopt};
-  if (taker.take_numbers(window, "position", position)) state.window->position = position;
+std::array<int, 2> pair_of(const Json& numbers, double low, double high) {
+  const auto cut = [&](std::size_t i) {
+    return static_cast<int>(std::clamp(numbers.at(i).get<double>(), low, high));
+  };
+  return {cut(0), cut(1)};
 }
 
-void take_sections(Taker& taker, const toml::table* panels, std::string_view key, bool open, Layout& layout) {
-  const toml::array* const names = taker.find<toml::array>(panels, key);
-  if (!names) return;
-  for (const toml::node& name : *names) {
-    if (!name.is_string()) return taker.blame(key, name);
-    layout.sections[name.as_string()->get()] = open;
-  }
+bool is_legal(const CameraSettings& c) {
+  const auto near = [](const Vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= 1e6;
+  };
+  return near(c.position) && near(c.target) && length(c.position - c.target) > 0.0 && c.fov >= 1.0 &&
+         c.fov <= 179.0;
 }
 
-void take_cameras(Taker& taker, const toml::table& root, KeptState& state) {
-  const toml::array* const cameras = taker.find<toml::array>(&root, "camera");
-  if (!cameras) return;
-  for (const toml::node& node : *cameras) {
-    const toml::table* const table = node.as_table();
-    const auto* const scene = taker.find<std::string>(table, "scene");
-    std::array<double, 3> position = {}, target = {};
-    double fov = 0.0;
-    if (!scene || !taker.take_numbers(table, "position", position) ||
-        !taker.take_numbers(table, "target", target))
-      return taker.blame("camera", node);
-    taker.take(table, "fov", fov, 1.0, 179.0);
-    const CameraSettings camera = {
-        {position[0], position[1], position[2]}, {target[0], target[1], target[2]}, fov};
-    if (fov == 0.0 || !(length(camera.position - camera.target) > 0.0)) return taker.blame("camera", node);
-    keep_camera(state.cameras, scene->get(), camera);
+/// What the window could have written of it. Exceptions of Json: something is of another type.
+KeptState state_of(const Json& json) {
+  KeptState s;
+  if (json.contains("window")) {
+    const Json& window = json["window"];
+    const auto size = pair_of(window.at("size"), 16, 16384);
+    s.window = WindowPlace{size[0], size[1], std::nullopt};
+    if (window.contains("position")) s.window->position = pair_of(window["position"], -1e6, 1e6);
   }
+  Layout& layout = s.layout = json.value("layout", s.layout);
+  for (double* const width : {&layout.left_width, &layout.right_width})
+    *width = std::clamp(*width, Layout::narrowest, Layout::widest);
+  layout.text_size = std::clamp(layout.text_size, Layout::smallest_text, Layout::largest_text);
+  s.pace = json.value("pace", "") == paces[0] ? Pace::steps_per_frame : Pace::real_time;
+  s.speed = std::clamp(json.value("speed", s.speed), slowest_speed, fastest_speed);
+  const Json film = json.value("film", Json::object());
+  if (const auto* const format = find_film_format(film.value("format", ""))) s.film_format = format;
+  s.film_fps = std::clamp(film.value("fps", s.film_fps), 1.0, s.film_format->most_fps);
+  s.film_text = film.value("text", s.film_text);
+  for (const KeptCamera& kept : json.value("cameras", s.cameras)) {
+    if (is_legal(kept.camera)) keep_camera(s.cameras, kept.scene, kept.camera);
+  }
+  return s;
 }
 
-std::string list_of(const Layout& layout, bool open) {
-  std::vector<std::string> names;
-  for (const auto& [name, is_open] : layout.sections) {
-    if (is_open == open) names.push_back(name);
-  }
-  return toml_value(Value(names));
+/// Where version 1 was, in TOML, which is refused like any other broken file.
+std::string former_path(const std::string& path) {
+  return fs::path(path).replace_extension(".toml").string();
 }
 
 }  // namespace
@@ -141,89 +106,47 @@ std::string camera_key(const std::string& source) {
   return error ? source : path.string();
 }
 
-std::string to_text(const KeptState& s) {
-  std::string text =
-      "# Settings with which Aspic's window was last closed. Rewritten whenever it closes; may be deleted.\n"
-      "version = 1\n";
-  if (s.window) {
-    text += fmt::format("\n[window]\nsize = [{}, {}]\n", s.window->width, s.window->height);
-    if (const auto& position = s.window->position)
-      text += fmt::format("position = [{}, {}]\n", (*position)[0], (*position)[1]);
-  }
-  const Layout& l = s.layout;
-  text += fmt::format(
-      "\n[panels]\nvisible = {}\nleft-width = {}\nright-width = {}\ntext-size = {}\nopen = {}\nclosed = {}\n",
-      l.panels, toml_value(l.left_width), toml_value(l.right_width), toml_value(l.text_size),
-      list_of(l, true), list_of(l, false));
-  text += fmt::format("\n[simulation]\npace = \"{}\"\nspeed = {}\n", paces[static_cast<std::size_t>(s.pace)],
-                      toml_value(s.speed));
-  text += fmt::format("\n[recording]\nformat = \"{}\"\nfps = {}\nparameters = {}\n", s.film_format->name,
-                      toml_value(s.film_fps), s.film_text);
-  for (const KeptCamera& c : s.cameras) {
-    text +=
-        fmt::format("\n[[camera]]\nscene = {}\nposition = {}\ntarget = {}\nfov = {}\n", toml_value(c.scene),
-                    toml_value(c.camera.position), toml_value(c.camera.target), toml_value(c.camera.fov));
-  }
-  return text;
+std::string to_text(const KeptState& state) {
+  return json_of(state).dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 Result<KeptState> read_kept_state(const std::string& text) {
-  const auto parsed = document::parse(text, 0);
-  if (const auto* problem = std::get_if<document::Problem>(&parsed))
-    return fail(ErrorCode::io, "line {}: {}", problem->at.line, problem->message);
-  const auto& root = std::get<toml::table>(parsed);
-  const auto* const written = root.get_as<std::int64_t>("version");
-  if (!written || written->get() != version)
-    return fail(ErrorCode::io, "it does not say version = {}", version);
-  KeptState state;
-  Taker taker;
-  take_window(taker, root, state);
-  const toml::table* const panels = taker.find<toml::table>(&root, "panels");
-  Layout& layout = state.layout;
-  taker.take(panels, "visible", layout.panels);
-  taker.take(panels, "left-width", layout.left_width, Layout::narrowest, Layout::widest);
-  taker.take(panels, "right-width", layout.right_width, Layout::narrowest, Layout::widest);
-  taker.take(panels, "text-size", layout.text_size, Layout::smallest_text, Layout::largest_text);
-  take_sections(taker, panels, "open", true, layout);
-  take_sections(taker, panels, "closed", false, layout);
-  const toml::table* const simulation = taker.find<toml::table>(&root, "simulation");
-  std::size_t pace = 0, format = 0;
-  taker.take(simulation, "pace", paces, pace);
-  state.pace = static_cast<Pace>(pace);
-  taker.take(simulation, "speed", state.speed, slowest_speed, fastest_speed);
-  const toml::table* const recording = taker.find<toml::table>(&root, "recording");
-  std::vector<std::string> formats;
-  for (const FilmFormat& f : film_formats()) formats.emplace_back(f.name);
-  taker.take(recording, "format", formats, format);
-  state.film_format = &film_formats()[format];
-  // The default may be more than the kind of film shows.
-  state.film_fps = std::min(state.film_fps, state.film_format->most_fps);
-  taker.take(recording, "fps", state.film_fps, 1.0, state.film_format->most_fps);
-  taker.take(recording, "parameters", state.film_text);
-  take_cameras(taker, root, state);
-  if (!taker.complaint.empty())
-    return Error{ErrorCode::io, taker.complaint + ": the window would not write this"};
-  return state;
+  // What nests deeper than anything that is written is passed over: copies of it would take the stack.
+  const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth < 8; };
+  try {
+    const Json found = Json::parse(text, shallow);
+    if (found.value("version", 0) != version)
+      return fail(ErrorCode::io, "it does not say \"version\": {}", version);
+    KeptState state = state_of(found);
+    for (const Json& change : Json::diff(json_of(state), found)) {
+      if (change["op"].get<std::string>() != "remove")
+        return fail(ErrorCode::io, "{}: the window would not write this", change["path"].get<std::string>());
+    }
+    return state;
+  } catch (const Json::exception& error) {
+    return fail(ErrorCode::io, "{}", error.what());
+  }
 }
 
 std::string kept_state_path() {
   // The base directory specification takes absolute paths alone.
   const char* const state = std::getenv("XDG_STATE_HOME");
-  if (state && state[0] == '/') return fmt::format("{}/aspic/window.toml", state);
+  if (state && state[0] == '/') return fmt::format("{}/aspic/window.json", state);
   const char* const home = std::getenv("HOME");
-  return home && home[0] == '/' ? fmt::format("{}/.local/state/aspic/window.toml", home) : "";
+  return home && home[0] == '/' ? fmt::format("{}/.local/state/aspic/window.json", home) : "";
 }
 
 Result<KeptState> load_kept_state(const std::string& path) {
   std::error_code error;
-  if (path.empty() || !fs::exists(path, error)) return KeptState();
-  ASPIC_TRY(const auto text, read_file(path));
+  const std::string there = fs::exists(path, error) ? path : former_path(path);
+  if (path.empty() || !fs::exists(there, error)) return KeptState();
+  ASPIC_TRY(const auto text, read_file(there));
   auto state = read_kept_state(text);
   if (state) return state;
   return fail(ErrorCode::io,
               "{} cannot be used ({}), so the window opens with its defaults. "
               "The file is rewritten when the window closes.",
-              path, state.error().message);
+              there, state.error().message);
 }
 
 Status save_kept_state(const KeptState& state, const std::string& path) {
@@ -232,7 +155,10 @@ Status save_kept_state(const KeptState& state, const std::string& path) {
   fs::create_directories(fs::path(path).parent_path(), error);
   ASPIC_TRY(auto file, AtomicFile::create(path, Overwrite::allow));
   ASPIC_CHECK(file.write(to_text(state)));
-  return file.commit();
+  ASPIC_CHECK(file.commit());
+  fs::remove(former_path(path), error);
+  return {};
 }
 
-}  // namespace aspic::app
+}  // namespace app
+}  // namespace aspic

@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/pacer.h"
@@ -43,11 +42,11 @@ struct KeptCamera {
 struct KeptState {
   std::optional<WindowPlace> window;
   Layout layout;
-  Pace pace = Pace::steps_per_frame;
+  Pace pace = Pace::real_time;
   double speed = 1.0;
   const FilmFormat* film_format = &film_formats().front();
   double film_fps = 60.0;
-  bool film_text = true;
+  bool film_text = false;
   std::vector<KeptCamera> cameras;  ///< the one last used at the end
   friend bool operator==(const KeptState&, const KeptState&) = default;
 };
@@ -65,11 +64,12 @@ std::string camera_key(const std::string& source);
 std::string to_text(const KeptState& state);
 Result<KeptState> read_kept_state(const std::string& text);
 
-/// $XDG_STATE_HOME/aspic/window.toml, or below ~/.local/state; empty where neither is known.
+/// $XDG_STATE_HOME/aspic/window.json, or below ~/.local/state; empty where neither is known.
 std::string kept_state_path();
-/// Reads the file. One that is not there is no error and gives what a first time gives.
+/// Reads the file. One that is not there is no error and gives what a first time gives. Error (io): the file
+/// cannot be used, or there is only the window.toml of version 1.
 Result<KeptState> load_kept_state(const std::string& path);
-/// Writes the file and makes the directories above it. Error (io).
+/// Writes the file and makes the directories above it; removes that of version 1. Error (io).
 Status save_kept_state(const KeptState& state, const std::string& path);
 
 }  // namespace aspic::app

@@ -58,6 +58,8 @@ int show(const ViewOptions& view) {
       (*window)->poll(wait);
       wait = (*app)->wait(since_last());
     } while (wait > 0.0 && !(*window)->should_close() && !guard.interrupted());
+    if (((*window)->should_close() && !(*app)->may_close()) || (*app)->closes())
+      (*window)->set_should_close((*app)->closes());
     const auto now = Clock::now();
     // After a pause of the program itself time goes on; it does not catch up.
     const double dt = std::min(std::chrono::duration<double>(now - last).count(), 0.25);

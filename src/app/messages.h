@@ -20,8 +20,9 @@ class Messages {
  public:
   void info(const std::string& text) { notice_ = Notice{printable(text), false}; }
   void error(const std::string& text) { notice_ = Notice{printable(text), true}; }
-  /// Shows the error of a status, if it has one; true without.
-  bool check(const Status& status) {
+  /// Shows the error of a status or result, if it has one; true without.
+  template <class Outcome>
+  bool check(const Outcome& status) {
     if (!status) error(status.error().message);
     return status.ok();
   }

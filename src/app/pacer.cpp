@@ -1,8 +1,23 @@
 #include "app/pacer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace aspic::app {
+
+std::string slowness(double factor, int particles_per_edge) {
+  constexpr double slow = 0.05, quick = 0.5;  // × real time
+  if (factor <= 0.0 || factor >= slow) return "the solver does not keep up";
+  const double wait = 1.0 / factor;  // s
+  std::string text = wait < 90.0 ? fmt::format("1 s takes about {:.0f} s here", wait)
+                                 : fmt::format("1 s takes about {:.0f} min here", std::ceil(wait / 60.0));
+  // Work grows with the third power.
+  const int fewer = static_cast<int>(particles_per_edge * std::cbrt(factor / quick));
+  if (fewer >= 4) text += fmt::format("; try {} particles an edge", fewer);
+  return text;
+}
 
 void Pacer::restart() {
   due_ = 0.0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "model/settings.h"
 
@@ -15,9 +16,13 @@ enum class Pace {
 };
 inline constexpr double slowest_speed = 1.0 / 1024.0, fastest_speed = 1024.0;
 
+/// What to say of a run that comes to `factor` × real time where more was asked for. Where that is hopeless:
+/// how long a second takes, and how many particles along the edge of a cube (0: there is none) would do.
+std::string slowness(double factor, int particles_per_edge);
+
 class Pacer {
  public:
-  Pace pace = Pace::steps_per_frame;
+  Pace pace = Pace::real_time;
   double speed = 1.0;  ///< factor on the pace, slowest_speed … fastest_speed
   /// A step that the run does not pass, however far the pace has come: a film wants its picture first.
   std::optional<std::uint64_t> pause_step;

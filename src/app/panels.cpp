@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/parameter_widget.h"
+#include "base/printable.h"
 
 namespace aspic::app {
 namespace {
@@ -18,9 +19,11 @@ constexpr double status_height = 30.0, timeline_height = 34.0;
 /// Where both sides would leave the scene less, one takes all sections; and the most that one takes.
 constexpr double least_view = 376.0, most_of_width = 0.5;
 constexpr double edge = 6.0;  // width of the strip by which a panel is dragged
-constexpr ImGuiWindowFlags fixed_panel =
-    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
-    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
+                                   ImGuiWindowFlags_NoSavedSettings;
+constexpr ImGuiWindowFlags behind = ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags bar = behind | ImGuiWindowFlags_NoScrollbar;
 
 struct Heading {
   const char* name;
@@ -49,15 +52,19 @@ constexpr Heading right_sections[] = {
      [](Parts p) {
        recording_section(p.gui, p.scene.editor().source(), p.film);
        ImGui::Separator();
-       state_files(p.gui, p.scene.editor(), p.simulation, p.messages);
+       picture_files(p.gui, p.picture.saved);
+       ImGui::Separator();
+       state_files(p.gui, p.scene.editor(), p.simulation, p.messages, p.files);
      },
      false, "Films of the scene; its states, energies and checkpoints as files."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); }, true,
      "Speed of simulation and drawing, and the devices used."},
-    {"Energy", [](Parts p) { energy_section(p.gui, p.simulation.samples().energies()); }, true,
+    {"Energy", [](Parts p) { energy_section(p.gui, p.simulation, p.run); }, true,
      "Energies and momentum over time."},
-    {"Shadow", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); }, false,
-     "A second backend on the same run, and how far the two differ."}};
+    {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); }, false,
+     "A second backend on the same run, and how far the two differ."},
+    {"Stability", [](Parts p) { stability_section(p.gui, p.scene); }, false,
+     "Which time steps and stiffnesses are stable, and where the scene is among them."}};
 
 ImVec2 at(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};
@@ -71,8 +78,7 @@ void sections(Parts parts, std::span<const Heading> headings) {
     ImGui::SetNextItemOpen(was_open);
     const bool open = ImGui::CollapsingHeader(heading.name);
     if (open != was_open) kept[heading.name] = open;
-    parts.gui.mark("section/{}", heading.name);
-    tooltip(heading.help);
+    named(parts.gui, fmt::format("section/{}", heading.name), heading.help);
     if (!open) continue;
     ImGui::PushID(heading.name);
     heading.section(parts);
@@ -81,12 +87,51 @@ void sections(Parts parts, std::span<const Heading> headings) {
   }
 }
 
+/// A window of ImGui's, between Begin and End.
+class Panel {
+ public:
+  /// Stays at a place.
+  Panel(const char* name, const Box& box, const ImVec2& padding, ImGuiWindowFlags flags) {
+    ImGui::SetNextWindowPos(at(box.left, box.top));
+    ImGui::SetNextWindowSize(at(box.right - box.left, box.bottom - box.top));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+    ImGui::Begin(name, nullptr, fixed | flags);
+  }
+  /// Floats over the picture with round corners, where SetNextWindowPos says.
+  Panel(const char* name, double rounding, const ImVec4& colour, ImGuiWindowFlags flags = 0) : colours_(1) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, static_cast<float>(rounding));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, colour);
+    ImGui::Begin(name, nullptr, fixed | flags);
+  }
+  ~Panel() {
+    ImGui::End();
+    ImGui::PopStyleColor(colours_);
+    ImGui::PopStyleVar();
+  }
+  Panel(const Panel&) = delete;
+  Panel& operator=(const Panel&) = delete;
+
+ private:
+  int colours_ = 0;
+};
+
+int longest_edge(const Simulation& s) {
+  int particles = 0;
+  for (const CubeSettings& cube : s.setup().settings.cubes)
+    particles = std::max(particles, cube.particles_per_edge);
+  return particles;
+}
+
 /// The facts of the run, as many as there is room for: the first are never left out.
-void status_line(double scale, const Simulation& s, const Recording* film, bool software_device) {
+void status_line(Parts parts, const Box& box) {
+  const double scale = parts.gui.scale();
+  const Simulation& s = parts.simulation;
+  const Recording* const film = parts.film.recording();
+  const Panel panel("##status", box, at(12.0 * scale, 6.0 * scale), bar);
   const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
   const char* const motion = s.divergence() ? "Diverged" : s.running() ? "Running" : "Paused";
   ImGui::TextColored(s.divergence() ? ImVec4(0.95f, 0.55f, 0.40f, 1.0f) : bright, "%s", motion);
-  const bool software = software_device && s.backend().needs_context;
+  const bool software = parts.picture.context().info().is_software && s.backend().needs_context;
   std::vector<std::string> facts = {
       fmt::format("t = {:.3f} s", s.time()),
       fmt::format("{}{}", s.solver().backend(), software ? " (software)" : ""),
@@ -94,9 +139,10 @@ void status_line(double scale, const Simulation& s, const Recording* film, bool 
   };
   if (film) facts.insert(facts.begin() + 1, fmt::format("● filming, {:.2f} s", film->seconds()));
   if (s.running()) {
-    const char* const why = film && !film->ready()        ? " (waits for the encoder)"
-                            : s.pacer().behind() && !film ? " (the solver does not keep up)"
-                                                          : "";
+    const std::string why = film && !film->ready() ? " (waits for the encoder)"
+                            : s.pacer().late() && !film
+                                ? " (" + slowness(s.real_time_factor(), longest_edge(s)) + ")"
+                                : "";
     facts.push_back(fmt::format("{:.3g} × real time{}", s.real_time_factor(), why));
   }
   if (s.working())
@@ -115,29 +161,13 @@ void status_line(double scale, const Simulation& s, const Recording* film, bool 
   }
 }
 
-/// A panel that floats over the picture, with round corners.
-class FloatingPanel {
- public:
-  FloatingPanel(const char* name, double rounding, const ImVec4& colour, ImGuiWindowFlags flags = 0) {
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, static_cast<float>(rounding));
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, colour);
-    ImGui::Begin(name, nullptr, (fixed_panel & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | flags);
-  }
-  ~FloatingPanel() {
-    ImGui::End();
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar();
-  }
-  FloatingPanel(const FloatingPanel&) = delete;
-  FloatingPanel& operator=(const FloatingPanel&) = delete;
-};
-
 /// Ways on after a divergence.
 void divergence_buttons(Gui& gui, const Simulation& simulation, RunControl& run, Messages& messages) {
   const auto& stable = run.stable_step();
   if (stable && stable->step && std::isfinite(*stable->step)) {
     if (button(gui, "diverged/stable", "Use a stable step",
-               "Steps back and sets the time step to 0.95 of the estimate."))
+               "Goes on from shortly before the divergence with all values as they are now, and a time step "
+               "of 0.95 of the estimate."))
       run.take_stable_step();
     ImGui::SameLine();
   }
@@ -154,68 +184,139 @@ void divergence_buttons(Gui& gui, const Simulation& simulation, RunControl& run,
   ImGui::SameLine();
 }
 
-void notice_panel(Gui& gui, Messages& messages, const Simulation& simulation, RunControl& run,
-                  const Box& view) {
+/// The text of a message. In a proportional font a caret would not stand below what it points at: it is put
+/// there.
+void notice_text(std::string_view text, float width) {
+  std::string_view before;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    const std::size_t caret = line.find('^');
+    if (caret != std::string_view::npos && line.find_first_not_of(" |^") == std::string_view::npos) {
+      const std::string_view above = before.substr(0, std::min(caret, before.size()));
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
+                           ImGui::CalcTextSize(above.data(), above.data() + above.size()).x);
+      ImGui::TextUnformatted("^");
+    } else {
+      wrapped_text(line, width);
+      if (line.empty()) ImGui::NewLine();
+    }
+    before = line;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+/// As wide as its text needs. A film that writes on its pictures has that on the left: then it stands on the
+/// right.
+void notice_panel(Parts parts, const Box& view) {
+  Messages& messages = parts.messages;
   if (!messages.notice()) return;
   const Notice notice = *messages.notice();
-  const double scale = gui.scale();
-  const double width = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
-  if (width < 80.0 * scale) return;
-  ImGui::SetNextWindowPos(at(view.left + 16.0 * scale, view.top + 16.0 * scale));
-  ImGui::SetNextWindowSize(at(width, 0.0));
-  const FloatingPanel panel(
-      "##notice", 6.0 * scale,
-      notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f));
-  // Scene errors come with their line and a caret, whose columns must stay.
-  wrapped_text(notice.text, ImGui::GetContentRegionAvail().x);
-  if (simulation.divergence()) divergence_buttons(gui, simulation, run, messages);
-  if (button(gui, "notice/close", "Close", "Dismiss this message (Escape).")) messages.dismiss();
+  const double scale = parts.gui.scale();
+  const double room = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
+  if (room < 80.0 * scale) return;
+  const bool right = parts.picture.film && parts.picture.film->text;
+  ImGui::SetNextWindowPos(
+      at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale, view.top + 16.0 * scale),
+      ImGuiCond_Always, {right ? 1.0f : 0.0f, 0.0f});
+  const Panel panel("##notice", 6.0 * scale,
+                    notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f),
+                    ImGuiWindowFlags_AlwaysAutoResize);
+  notice_text(notice.text, static_cast<float>(room) - 2.0f * ImGui::GetStyle().WindowPadding.x);
+  if (parts.simulation.divergence()) divergence_buttons(parts.gui, parts.simulation, parts.run, messages);
+  if (button(parts.gui, "notice/close", "Close", "Dismiss this message (Escape).")) messages.dismiss();
 }
 
 void help_panel(Gui& gui, bool& visible, double width, double height) {
   if (!visible) return;
   ImGui::SetNextWindowPos(at(0.5 * width, 0.5 * height), ImGuiCond_Always, {0.5f, 0.5f});
-  const FloatingPanel panel("##help", 8.0 * gui.scale(), ImVec4(0.09f, 0.095f, 0.10f, 0.97f),
-                            ImGuiWindowFlags_AlwaysAutoResize);
+  const Panel panel("##help", 8.0 * gui.scale(), ImVec4(0.09f, 0.095f, 0.10f, 0.97f),
+                    ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::Separator();
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const Command& c : gui.commands().rows()) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%.*s    ",
-                         static_cast<int>(c.keys.size()), c.keys.data());
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(c.name.data(), c.name.data() + c.name.size());
+  // Headings begin groups, in two columns of about the same length.
+  const auto& rows = gui.commands().rows();
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  ImGui::BeginGroup();
+  float taken = 0.0f, keys = 0.0f;
+  for (const Command& c : rows) keys = std::max(keys, ImGui::CalcTextSize(c.keys.data()).x);
+  for (const Command& c : rows) {
+    const bool heading = c.keys.empty();
+    if (heading && taken > 0.45f * static_cast<float>(rows.size()) * line) {
+      ImGui::EndGroup();
+      ImGui::SameLine(0.0f, 2.0f * line);
+      ImGui::BeginGroup();
+      taken = 0.0f;
     }
-    ImGui::EndTable();
+    taken += line;
+    if (heading) {
+      ImGui::TextDisabled("%s", c.name.data());
+      continue;
+    }
+    const float left = ImGui::GetCursorPosX();
+    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", c.keys.data());
+    ImGui::SameLine(left + keys + line);
+    ImGui::TextUnformatted(c.name.data());
   }
+  ImGui::EndGroup();
   ImGui::Separator();
   if (button(gui, "help/close", "Close", "Close this page (F1 or Escape).")) visible = false;
 }
 
-void side(Parts parts, const char* name, double left, double width, double height,
-          std::span<const Heading> first, std::span<const Heading> second) {
-  ImGui::SetNextWindowPos(at(left, 0.0));
-  ImGui::SetNextWindowSize(at(width, height));
-  ImGui::Begin(name, nullptr, fixed_panel);
-  sections(parts, first);
-  sections(parts, second);
-  ImGui::End();
+/// Asks before changes are lost.
+void closing_panel(Gui& gui, Closing& closing, double width, double height) {
+  if (closing != Closing::asked) return;
+  ImGui::SetNextWindowPos(at(0.5 * width, 0.5 * height), ImGuiCond_Always, {0.5f, 0.5f});
+  const Panel panel("##closing", 8.0 * gui.scale(), ImVec4(0.23f, 0.11f, 0.09f, 0.97f),
+                    ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::TextUnformatted("The scene was changed and not saved.");
+  if (button(gui, "closing/close", "Close without saving", "Closing the window once more does the same."))
+    closing = Closing::decided;
+  ImGui::SameLine();
+  if (command_button(gui, "closing/save", "Save…", "Writes the scene to a file.", "save the scene"))
+    closing = Closing::no;
+  ImGui::SameLine();
+  if (button(gui, "closing/stay", "Stay", "Closes this page (Escape).")) closing = Closing::no;
+}
+
+/// The bar of the history, under the picture: any step since the start.
+void timeline(Gui& gui, const Simulation& s, RunControl& run, const Box& box) {
+  const History& history = s.history();
+  const double scale = gui.scale();
+  const Panel panel("##timeline", box, at(12.0 * scale, 4.0 * scale), bar);
+  const double first = history.time(history.begin_moment()), last = history.time(history.end_moment());
+  double now = std::clamp(s.time(), first, last);
+  const std::string text = fmt::format("{:.3f} / {:.3f} s{}", s.time(), last, s.seeking() ? "  …" : "");
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool moved = ImGui::SliderScalar("##history", ImGuiDataType_Double, &now, &first, &last, text.c_str(),
+                                         ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp);
+  gui.mark("timeline");
+  const ImVec2 corner = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
+  tooltip(fmt::format("The run so far, {} of at most 512 MiB. Drag to go to any step; this pauses the run. "
+                      "Steps between the {} stored states are simulated again and give the same bits, pulls "
+                      "and pins included. Marks are changes of the scene, which are reverted and restored as "
+                      "well. Continuing from the past discards what came after.",
+                      human_bytes(history.bytes()), history.keyframe_count()),
+          "step back");
+  if (last > first) {
+    for (const double t : history.changes()) {
+      const float x = corner.x + static_cast<float>((t - first) / (last - first)) * (end.x - corner.x);
+      ImGui::GetWindowDrawList()->AddLine({x, end.y - static_cast<float>(5.0 * scale)}, {x, end.y},
+                                          IM_COL32(242, 176, 92, 255), static_cast<float>(1.5 * scale));
+    }
+  }
+  if (moved && last > first) run.go_to(now);
 }
 
 /// The edge of a side, which can be dragged. `inwards` is 1 where the panel lies on the left.
 void drag_edge(Gui& gui, const char* name, double place, double height, double inwards, double& width) {
   const double scale = gui.scale(), grip = edge * scale;
-  ImGui::SetNextWindowPos(at(place - 0.5 * grip, 0.0));
-  ImGui::SetNextWindowSize(at(grip, height));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, at(0.0, 0.0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, at(1.0, 1.0));
-  ImGui::Begin(name, nullptr,
-               (fixed_panel & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoBackground);
+  const Panel panel(name, {place - 0.5 * grip, 0.0, place + 0.5 * grip, height}, at(0.0, 0.0),
+                    ImGuiWindowFlags_NoBackground);
+  ImGui::PopStyleVar();
   ImGui::InvisibleButton("##edge", at(grip, height));
-  gui.mark("{}", name);
-  tooltip("Drag to make the panels wider or narrower; double-click for their default width.");
+  named(gui, name, "Drag to make the panels wider or narrower; double-click for their default width.");
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   if (ImGui::IsItemHovered() || ImGui::IsItemActive())
     ImGui::GetWindowDrawList()->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_ButtonHovered));
@@ -226,8 +327,6 @@ void drag_edge(Gui& gui, const char* name, double place, double height, double i
   }
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
     width = Layout::side_width;
-  ImGui::End();
-  ImGui::PopStyleVar(2);
 }
 
 }  // namespace
@@ -241,24 +340,30 @@ Box draw_panels(const PanelParts& p, double width, double height) {
     const double left = std::min(layout.left_width * scale, most_of_width * width);
     const bool two = width - (layout.left_width + layout.right_width) * scale >= least_view * scale;
     const double right = two ? layout.right_width * scale : 0.0;
-    side(p, "##left", 0.0, left, bottom, left_sections,
-         two ? std::span<const Heading>() : std::span<const Heading>(right_sections));
-    if (two) side(p, "##right", width - right, right, bottom, {}, right_sections);
-    ImGui::SetNextWindowPos(at(0.0, bottom));
-    ImGui::SetNextWindowSize(at(width, status_height * scale));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, at(12.0 * scale, 6.0 * scale));
-    ImGui::Begin("##status", nullptr, fixed_panel | ImGuiWindowFlags_NoScrollbar);
-    status_line(scale, p.simulation, p.film.recording(), p.picture.context().info().is_software);
-    ImGui::End();
-    ImGui::PopStyleVar();
+    const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+    {
+      const Panel panel("##left", {0.0, 0.0, left, bottom}, padding, behind);
+      sections(p, left_sections);
+      if (!two) sections(p, right_sections);
+    }
+    if (two) {
+      const Panel panel("##right", {width - right, 0.0, width, bottom}, padding, behind);
+      sections(p, right_sections);
+    }
+    status_line(p, {0.0, bottom, width, height});
     view = {left, 0.0, width - right, bottom - timeline_height * scale};
-    draw_timeline(p.gui, p.simulation, p.run, {view.left, view.bottom, view.right, bottom});
+    timeline(p.gui, p.simulation, p.run, {view.left, view.bottom, view.right, bottom});
     drag_edge(p.gui, "layout/left", left, bottom, 1.0, layout.left_width);
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
-  notice_panel(p.gui, p.messages, p.simulation, p.run, view);
+  const double legend = draw_legend(p.gui, p.picture.legend(), view);
+  notice_panel(p, view);
   help_panel(p.gui, p.help_visible, width, height);
-  if (const auto& hovered = p.pointer.hovered()) hover_tooltip(scale, p.simulation, *hovered, p.view.box);
+  closing_panel(p.gui, p.closing, width, height);
+  p.files.draw(p.gui, width, height);
+  p.palette.draw(p, width, height);
+  if (const auto& hovered = p.pointer.hovered())
+    particle_readout(p.gui, p.simulation, *hovered, view, legend);
   return view;
 }
 

@@ -1,22 +1,25 @@
 #pragma once
 // The panels around the scene. Widgets of scene values are made from the parameter table.
 #include <cstddef>
-#include <deque>
 
+#include "app/file_dialog.h"
 #include "app/film.h"
 #include "app/gui.h"
 #include "app/hands.h"
 #include "app/kept_state.h"
 #include "app/messages.h"
+#include "app/palette.h"
 #include "app/pointer.h"
 #include "app/run_control.h"
-#include "app/samples.h"
 #include "app/scene_control.h"
 #include "app/scene_picture.h"
 #include "app/simulation.h"
 #include "app/view.h"
 
 namespace aspic::app {
+
+/// Whether the window may go with changes that were not saved.
+enum class Closing { no, asked, decided };
 
 /// What the panels show and change; a section gets of it what it uses.
 struct PanelParts {
@@ -31,6 +34,9 @@ struct PanelParts {
   Film& film;
   const Pointer& pointer;
   Layout& layout;
+  FileDialog& files;
+  Palette& palette;
+  Closing& closing;
   bool& help_visible;
 };
 
@@ -49,15 +55,21 @@ void contact_section(Gui& gui, SceneControl& scene);
 void balls_section(Gui& gui, const Simulation& simulation, Hands& hands);
 void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout);
 void recording_section(Gui& gui, const std::string& source, Film& film);
-/// A button for each format of states; part of the recording section.
-void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages);
+/// How pictures are saved; part of the recording section.
+void picture_files(Gui& gui, SavedLook& look);
+/// A button for each format of states; part of the recording section. The references must outlive `files`.
+void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
+                 FileDialog& files);
 void performance_section(Gui& gui, Simulation& simulation, const ScenePicture& picture);
-void energy_section(Gui& gui, const std::deque<EnergySample>& energies);
+void energy_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
+void stability_section(Gui& gui, SceneControl& scene);
 
-/// What is known of a particle, next to the mouse, or in a corner of the view while it is pulled.
-void hover_tooltip(double scale, const Simulation& simulation, const Hovered& hovered, const Box& view);
-/// The bar of the history, into that box.
-void draw_timeline(Gui& gui, const Simulation& simulation, RunControl& run, const Box& box);
+/// What is known of a particle, in the lower left corner of the view; where that is narrow `above` what
+/// stands on the right [window units].
+void particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& hovered, const Box& view,
+                      double above);
+/// What the colours mean, in the lower right corner of the view. Returns how much of its height is taken.
+double draw_legend(const Gui& gui, const Legend& legend, const Box& view);
 
 }  // namespace aspic::app

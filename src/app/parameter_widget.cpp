@@ -4,7 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <cmath>
 #include <variant>
 
@@ -15,19 +15,19 @@ namespace {
 constexpr float label_share = 0.40f, longest_label = 0.6f;
 constexpr ImGuiSliderFlags as_typed = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
 
-std::string words_of(std::string_view path) {
-  std::string words(path.substr(path.rfind('.') + 1));
-  std::ranges::replace(words, '-', ' ');
-  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
-    words[0] = static_cast<char>(words[0] - 'a' + 'A');
-  return words;
-}
-
-/// How fast a drag changes a number: by a two-hundredth of what it is for each window unit.
+/// How fast a drag changes a number for each window unit: lengths by a centimetre, angles by half a degree,
+/// others by a two-hundredth of what they are.
 float drag_speed(double value, const Parameter& p) {
+  if (p.unit == "m") return 0.01f;
+  if (p.unit == "°" || p.unit == "degrees") return 0.5f;
   const bool bounded = std::isfinite(p.range.max) && p.range.max - p.range.min <= 1000.0;
   const double floor = bounded && p.range.max <= 1.0 ? 1e-5 : 1e-3;
   return static_cast<float>(std::max(std::abs(value) / 200.0, floor));
+}
+
+bool is_dragged(const Parameter& p) {
+  return p.type == ParameterType::number || p.type == ParameterType::vector ||
+         p.type == ParameterType::numbers;
 }
 
 std::string format_with_unit(const Parameter& p, double value) {
@@ -72,26 +72,23 @@ std::optional<Value> widget(const Field& f, std::int64_t value) {
   return Value(std::clamp(value, low, high));
 }
 
-std::optional<Value> widget(const Field& f, const Vec3& value) {
-  std::array<double, 3> v = {value.x, value.y, value.z};
-  const Range& range = f.parameter.range;
-  const double size = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2]), 2.0});
-  if (!ImGui::DragScalarN("##value", ImGuiDataType_Double, v.data(), 3, static_cast<float>(size / 200.0),
-                          &range.min, &range.max, "%.4g", as_typed))
-    return std::nullopt;
-  return Value(Vec3{v[0], v[1], v[2]});
-}
-
 std::optional<Value> widget(const Field& f, std::vector<double> value) {
   const Range& range = f.parameter.range;
-  const double size = std::max(std::ranges::max(value), 2.0);
-  const int count = static_cast<int>(value.size());
+  double size = 2.0;
+  for (const double x : value) size = std::max(size, std::abs(x));
   const bool changed =
-      ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), count,
+      ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), static_cast<int>(value.size()),
                          static_cast<float>(size / 200.0), &range.min, &range.max, "%.4g", as_typed);
   // A drag that runs into an open end stops there instead of complaining.
   if (!changed || (range.min_excluded && std::ranges::min(value) <= range.min)) return std::nullopt;
   return Value(value);
+}
+
+std::optional<Value> widget(const Field& f, const Vec3& value) {
+  const auto changed = widget(f, std::vector<double>{value.x, value.y, value.z});
+  if (!changed) return std::nullopt;
+  const auto& v = std::get<std::vector<double>>(*changed);
+  return Value(Vec3{v[0], v[1], v[2]});
 }
 
 std::optional<Value> widget(const Field& f, std::vector<int> value) {
@@ -109,16 +106,10 @@ std::optional<Value> widget(const Field& f, const std::string& value) {
     ImGui::TextUnformatted(value.c_str());
     return std::nullopt;
   }
-  std::optional<Value> chosen;
-  if (!ImGui::BeginCombo("##value", value.c_str())) return chosen;
-  for (const std::string_view word : f.parameter.words) {
-    const std::string text(word);
-    if (ImGui::Selectable(text.c_str(), text == value)) chosen = Value(text);
-    f.gui.mark("{}/{}", f.key, text);
-    tooltip(f.help);
-  }
-  ImGui::EndCombo();
-  return chosen;
+  const std::vector<std::string_view>& words = f.parameter.words;
+  auto index = static_cast<std::size_t>(std::ranges::find(words, value) - words.begin());
+  if (!choice(f.gui, f.key, words, words, index, f.help)) return std::nullopt;
+  return Value(std::string(words[index]));
 }
 
 /// Boxes, in two columns where they fit, one for each word; those ticked stay in the order of the list.
@@ -133,7 +124,7 @@ bool check_boxes(const Field& f, std::vector<std::string>& ticked) {
   int column = 0;
   for (const std::string_view word : f.parameter.words) {
     if (two && column++ % 2 != 0) ImGui::SameLine(middle);
-    changed = check_box(f.gui, word, ticked, fmt::format("{}/{}", f.key, word), f.help) || changed;
+    changed = check_box(f.gui, word, fmt::format("{}/{}", f.key, word), ticked, f.help) || changed;
   }
   return changed;
 }
@@ -155,17 +146,45 @@ Value first_value(const Parameter& p, const Scene& scene) {
   return std::clamp(1e-4, p.range.min, p.range.max);
 }
 
-}  // namespace
-
 std::string tooltip_of(const Parameter& p, std::size_t index) {
   std::string text = fmt::format("{}\n\nAllowed: {}", p.meaning, allowed_text(p));
   const std::string by_default = default_text(p);
   if (!by_default.empty()) text += fmt::format("\nDefault: {}", by_default);
   text += fmt::format("\nScene key: {}", path_text(p.path, index));
   if (!p.live) text += "\nA change restarts the simulation.";
-  if (p.type == ParameterType::number || p.type == ParameterType::vector || p.type == ParameterType::numbers)
-    text += "\nDrag to change, Ctrl+click to type.";
+  if (is_dragged(p)) text += "\nDrag to change, Ctrl+click to type.";
   return text;
+}
+
+/// Where a value would stand: what its absence means, if there is room for that.
+void absent_text(std::string_view meaning) {
+  if (meaning == "that of [contact]") meaning = "as above";
+  const float width = ImGui::CalcTextSize(meaning.data(), meaning.data() + meaning.size()).x;
+  if (width > ImGui::GetContentRegionAvail().x) meaning = "–";
+  ImGui::TextDisabled("%.*s", static_cast<int>(meaning.size()), meaning.data());
+}
+
+/// The box before a key that may be absent; true if it was toggled.
+bool presence_box(const Field& f, bool& present) {
+  const bool toggled = ImGui::Checkbox("##set", &present);
+  named(f.gui, f.key + "/set",
+        fmt::format("Checked: use this value. Unchecked: {}.\n\n{}", f.parameter.when_absent, f.help));
+  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::SetNextItemWidth(-1.0f);
+  return toggled;
+}
+
+}  // namespace
+
+std::string spaced(std::string_view key) {
+  std::string words(key);
+  for (const char c : {'-', '.'}) std::ranges::replace(words, c, ' ');
+  return words;
+}
+
+std::string capitalized(std::string words) {
+  words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  return words;
 }
 
 void wrapped_text(std::string_view text, float width) {
@@ -183,25 +202,85 @@ void wrapped_text(std::string_view text, float width) {
   }
 }
 
+namespace {
+
+/// Beside the panel of the widget just made, so that it covers none of its neighbours; else below or above.
+void place_tooltip(float text_width) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize, pad = ImGui::GetStyle().WindowPadding;
+  const ImVec2 corner = ImGui::GetWindowPos(), low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float end = corner.x + ImGui::GetWindowSize().x, width = text_width + 2.0f * pad.x, gap = 6.0f;
+  const bool lower_half = low.y > 0.5f * display.y;
+  const float pivot = lower_half ? 1.0f : 0.0f;
+  if (end + gap + width < display.x)
+    ImGui::SetNextWindowPos({end + gap, lower_half ? high.y : low.y}, ImGuiCond_Always, {0.0f, pivot});
+  else if (corner.x - gap - width > 0.0f)
+    ImGui::SetNextWindowPos({corner.x - gap, lower_half ? high.y : low.y}, ImGuiCond_Always, {1.0f, pivot});
+  else
+    ImGui::SetNextWindowPos(
+        {std::min(low.x, std::max(display.x - width, 0.0f)), lower_half ? low.y - gap : high.y + gap},
+        ImGuiCond_Always, {0.0f, pivot});
+}
+
+}  // namespace
+
 void tooltip(std::string_view text, std::string_view command) {
   const std::string keys(Gui::current().commands().keys_of(command));
-  Gui::current().explain(text, keys);
-  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (!Gui::current().explain(text, keys)) return;
+  const float width = ImGui::GetFontSize() * 26.0f;
+  place_tooltip(width);
   ImGui::BeginTooltip();
-  wrapped_text(text, ImGui::GetFontSize() * 26.0f);
+  wrapped_text(text, width);
   if (!keys.empty()) ImGui::TextDisabled("Key: %s", keys.c_str());
   ImGui::EndTooltip();
 }
 
-bool check_box(Gui& gui, std::string_view word, std::vector<std::string>& ticked, const std::string& name,
+void named(Gui& gui, std::string_view name, std::string_view help, std::string_view command) {
+  gui.mark("{}", name);
+  tooltip(help, command);
+}
+
+bool check_box(Gui& gui, std::string_view label, std::string_view name, bool& on, std::string_view help) {
+  const bool toggled = ImGui::Checkbox(std::string(label).c_str(), &on);
+  named(gui, name, help);
+  return toggled;
+}
+
+bool check_box(Gui& gui, std::string_view word, std::string_view name, std::vector<std::string>& ticked,
                std::string_view help) {
   bool on = std::ranges::find(ticked, word) != ticked.end();
-  const bool toggled = ImGui::Checkbox(std::string(word).c_str(), &on);
-  gui.mark("{}", name);
-  tooltip(help);
-  if (toggled && on) ticked.emplace_back(word);
-  if (toggled && !on) std::erase(ticked, word);
-  return toggled;
+  if (!check_box(gui, word, name, on, help)) return false;
+  if (on)
+    ticked.emplace_back(word);
+  else
+    std::erase(ticked, word);
+  return true;
+}
+
+bool choice(Gui& gui, std::string_view name, std::span<const std::string_view> names,
+            std::span<const std::string_view> labels, std::size_t& index, std::string_view help) {
+  ImGui::PushID(name.data(), name.data() + name.size());
+  const bool open = ImGui::BeginCombo("##choice", std::string(labels[index]).c_str());
+  named(gui, name, help);
+  const std::size_t before = index;
+  for (std::size_t i = 0; open && i < names.size(); ++i) {
+    if (ImGui::Selectable(std::string(labels[i]).c_str(), i == before)) index = i;
+    named(gui, fmt::format("{}/{}", name, names[i]), help);
+  }
+  if (open) ImGui::EndCombo();
+  ImGui::PopID();
+  return index != before;
+}
+
+bool slider(Gui& gui, std::string_view label, std::string_view name, double& value, double low, double high,
+            const char* format, std::string_view help, bool logarithmic) {
+  label_column(label);
+  ImGui::PushID(name.data(), name.data() + name.size());
+  ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format,
+                      ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
+  const bool done = ImGui::IsItemDeactivated();
+  ImGui::PopID();
+  named(gui, name, help);
+  return done;
 }
 
 float share_of_line(int count) {
@@ -215,58 +294,29 @@ void label_column(std::string_view label) {
   const float width = ImGui::GetWindowContentRegionMax().x;
   const float end =
       ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemInnerSpacing.x;
-  // A long label pushes its widget aside, one that leaves too little of the line goes above it.
-  if (end < longest_label * width) ImGui::SameLine(std::max(label_share * width, end));
+  // A long label has its widget in a second column, one that leaves too little of the line goes above it.
+  if (end < longest_label * width)
+    ImGui::SameLine((end < label_share * width ? label_share : longest_label) * width);
   ImGui::SetNextItemWidth(-1.0f);
 }
 
-namespace {
-
-bool button_with_keys(Gui& gui, const char* name, const char* label, std::string_view help,
-                      std::string_view command, bool enabled, float width) {
+bool button(Gui& gui, const char* name, const char* label, std::string_view help, bool enabled, float width,
+            std::string_view command) {
   ImGui::PushID(name);
   ImGui::BeginDisabled(!enabled);
   const bool pressed = ImGui::Button(label, {width, 0.0f});
   ImGui::EndDisabled();
-  gui.mark("{}", name);
-  tooltip(help, command);
+  named(gui, name, help, command);
   ImGui::PopID();
   return pressed;
 }
 
-}  // namespace
-
-bool button(Gui& gui, const char* name, const char* label, std::string_view help, bool enabled, float width) {
-  return button_with_keys(gui, name, label, help, "", enabled, width);
-}
-
 bool command_button(Gui& gui, const char* name, const char* label, std::string_view help,
                     std::string_view command, bool enabled, float width) {
-  const bool pressed = button_with_keys(gui, name, label, help, command, enabled, width);
+  const bool pressed = button(gui, name, label, help, enabled, width, command);
   if (pressed) gui.commands().run(command);
   return pressed;
 }
-
-namespace {
-
-/// Where a value would stand: what its absence means, if there is room for that.
-void absent_text(std::string_view meaning) {
-  const float width = ImGui::CalcTextSize(meaning.data(), meaning.data() + meaning.size()).x;
-  if (width > ImGui::GetContentRegionAvail().x) meaning = "unset";
-  ImGui::TextDisabled("%.*s", static_cast<int>(meaning.size()), meaning.data());
-}
-
-/// The box before a key that may be absent; true if it was toggled.
-bool presence_box(const Field& f, bool& present) {
-  const bool toggled = ImGui::Checkbox("##set", &present);
-  f.gui.mark("{}/set", f.key);
-  tooltip(fmt::format("Checked: use this value. Unchecked: {}.\n\n{}", f.parameter.when_absent, f.help));
-  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
-  ImGui::SetNextItemWidth(-1.0f);
-  return toggled;
-}
-
-}  // namespace
 
 std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const Scene& scene,
                                              std::size_t index, const WidgetWords& words) {
@@ -274,8 +324,13 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const
   const bool optional = p.can_be_absent() && p.belonging == Belonging::always;
   const auto value = p.get(scene, index);
   if (!value && !optional) return std::nullopt;
-  const std::string label = words.label.empty() ? words_of(p.path) : std::string(words.label);
-  Field field = {gui, p, path_text(p.path, index), tooltip_of(p, index)};
+  std::string label = words.label.empty() ? capitalized(spaced(p.path.substr(p.path.rfind('.') + 1)))
+                                          : std::string(words.label);
+  // A number has its unit behind it; three have no room for it.
+  if (is_dragged(p) && p.type != ParameterType::number && !p.unit.empty())
+    label += fmt::format(" [{}]", p.unit);
+  Field field = {gui, p, path_text(p.path, index),
+                 words.help.empty() ? tooltip_of(p, index) : std::string(words.help)};
   if (!words.note.empty()) field.help += fmt::format("\n\n{}", words.note);
   ImGui::PushID(field.key.c_str());
   const bool many = p.type == ParameterType::words || p.type == ParameterType::pinned;
@@ -297,15 +352,10 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const
     changed = std::visit([&](const auto& v) { return widget(field, v); }, *value);
   else
     absent_text(p.when_absent);
-  if (!many && !(p.type == ParameterType::word && changed)) {
-    gui.mark("{}", field.key);
-    tooltip(field.help);
-  }
+  if (!many && (p.type != ParameterType::word || !value)) named(gui, field.key, field.help);
   ImGui::PopID();
   if (changed) {
-    const bool continuous = p.type == ParameterType::number || p.type == ParameterType::vector ||
-                            p.type == ParameterType::numbers;
-    change = WidgetChange{std::move(changed), continuous ? field.key : std::string()};
+    change = WidgetChange{std::move(changed), is_dragged(p) ? field.key : std::string()};
   }
   return change;
 }
@@ -315,9 +365,7 @@ void edit(Gui& gui, SceneControl& scene, std::string_view path, std::size_t inde
   const auto change = parameter_widget(gui, p, scene.scene(), index, words);
   if (!change) return;
   if (change->value) return scene.set_value(p, index, *change->value, change->gesture);
-  Scene changed = scene.scene();
-  p.clear(changed, index);
-  scene.apply(std::move(changed), key_text(p));
+  scene.change(key_text(p), [&](Scene& changed) { p.clear(changed, index); });
 }
 
 }  // namespace aspic::app

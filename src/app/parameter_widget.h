@@ -1,6 +1,8 @@
 #pragma once
 // A widget for any row of the parameter table: range, words, unit and tooltip come from there.
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +23,7 @@ struct WidgetChange {
 struct WidgetWords {
   std::string_view label = {};  ///< empty: the key's own words
   std::string_view note = {};   ///< a paragraph more in the tooltip
+  std::string_view help = {};   ///< instead of the parameter's tooltip; empty: that
 };
 
 /// The widget of a parameter of a scene. One that may be absent has a box before it that sets and clears it.
@@ -31,23 +34,35 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& paramete
 void edit(Gui& gui, SceneControl& scene, std::string_view path, std::size_t index = 0,
           const WidgetWords& words = {});
 
-/// The words of a tooltip: meaning, what is allowed, default, scene key.
-std::string tooltip_of(const Parameter& parameter, std::size_t index);
+/// "particle-mass" as "particle mass", and with a capital; not empty.
+std::string spaced(std::string_view key);
+std::string capitalized(std::string words);
 
 /// A tooltip for the widget just made, with the keys of the command of that name if there is one.
 void tooltip(std::string_view text, std::string_view command = "");
 /// Text broken at blanks alone, so that numbers stay whole, into lines of at most `width` [window units].
 void wrapped_text(std::string_view text, float width);
-/// A box that puts a word into a list and takes it out, with a name for the watcher. True if it was toggled.
-bool check_box(Gui& gui, std::string_view word, std::vector<std::string>& ticked, const std::string& name,
+/// Names the widget just made, for the watcher, and gives it a tooltip.
+void named(Gui& gui, std::string_view name, std::string_view help, std::string_view command = "");
+/// A box with its label; or one that puts a word into a list and takes it out. True if it was toggled.
+bool check_box(Gui& gui, std::string_view label, std::string_view name, bool& on, std::string_view help);
+bool check_box(Gui& gui, std::string_view word, std::string_view name, std::vector<std::string>& ticked,
                std::string_view help);
+/// A list to choose from, each item with its name (behind that of the list) and label. True if `index`
+/// changed.
+bool choice(Gui& gui, std::string_view name, std::span<const std::string_view> names,
+            std::span<const std::string_view> labels, std::size_t& index, std::string_view help);
+/// A slider with its label on the left. True once it is let go.
+bool slider(Gui& gui, std::string_view label, std::string_view name, double& value, double low, double high,
+            const char* format, std::string_view help, bool logarithmic = true);
 /// Width of one of `count` equal widgets on a line [window units].
 float share_of_line(int count);
 /// A label on the left; the next widget fills the rest of the line.
 void label_column(std::string_view label);
+/// The popup of that name, which asks for a file to write; `hint` shows what an empty path means. True once a
 /// A button with a name for the watcher and a tooltip. True if it was pressed.
 bool button(Gui& gui, const char* name, const char* label, std::string_view help, bool enabled = true,
-            float width = 0.0f);
+            float width = 0.0f, std::string_view command = "");
 /// A button that carries out a command; its tooltip names the keys. True if it was pressed.
 bool command_button(Gui& gui, const char* name, const char* label, std::string_view help,
                     std::string_view command, bool enabled = true, float width = 0.0f);

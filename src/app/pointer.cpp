@@ -3,7 +3,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <chrono>
 #include <cmath>
 
 namespace aspic::app {
@@ -11,10 +10,6 @@ namespace {
 
 /// Two presses are one double click if they come this close [s, window units].
 constexpr double double_click_time = 0.400, double_click_reach = 4.0;
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 }  // namespace
 
@@ -105,7 +100,7 @@ Status Pointer::mark_and_ask(bool on_panel) {
 }
 
 bool Pointer::is_double_click() {
-  const double time = clock ? clock() : now();
+  const double time = clock();
   const bool twice = time - pressed_time_ <= double_click_time &&
                      std::hypot(x_ - pressed_x_, y_ - pressed_y_) <= double_click_reach;
   // A third press is a first one again.

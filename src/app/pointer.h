@@ -1,6 +1,7 @@
 #pragma once
 // The mouse over the scene: moves the camera, finds the particle under it, works the hands.
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -49,7 +50,9 @@ class Pointer {
   void forget();
 
   /// Tells the time between clicks [s]; for tests, which do not wait.
-  std::function<double()> clock;
+  std::function<double()> clock = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
 
  private:
   /// What was asked about a place of a picture.

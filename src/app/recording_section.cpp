@@ -19,19 +19,17 @@ constexpr const char* start_or_end = "start or end a film";
 
 void format_widget(Gui& gui, FilmSettings& film) {
   label_column("Format");
-  const bool open = ImGui::BeginCombo("##format", film.format->label.data());
-  gui.mark("record/format");
-  const char* const help =
-      "Output of the film: a file (mp4, webm and GIF need the program ffmpeg), or a directory of numbered "
-      "pictures.";
-  tooltip(help);
-  if (!open) return;
+  std::vector<std::string_view> names, labels;
   for (const FilmFormat& format : film_formats()) {
-    if (ImGui::Selectable(format.label.data(), &format == film.format)) film.format = &format;
-    gui.mark("record/format/{}", format.name);
-    tooltip(help);
+    names.push_back(format.name);
+    labels.push_back(format.label);
   }
-  ImGui::EndCombo();
+  auto index = static_cast<std::size_t>(film.format - film_formats().data());
+  if (!choice(gui, "record/format", names, labels, index,
+              "Output of the film: a file (mp4, webm and GIF need the program ffmpeg), or a directory of "
+              "numbered pictures."))
+    return;
+  film.format = &film_formats()[index];
   film.fps = std::min(film.fps, film.format->most_fps);
 }
 
@@ -40,11 +38,10 @@ void rate_widget(Gui& gui, FilmSettings& film) {
   const double least = 1.0, most = film.format->most_fps;
   ImGui::DragScalar("##fps", ImGuiDataType_Double, &film.fps, 0.2f, &least, &most, "%.4g a second",
                     ImGuiSliderFlags_AlwaysClamp);
-  gui.mark("record/fps");
-  tooltip(
+  named(
+      gui, "record/fps",
       fmt::format("Pictures per second of the film, 1 … {:g} in this format. Each shows the state speed/rate "
-                  "seconds of simulated time after the previous one.\nDrag to change, Ctrl+click "
-                  "to type.",
+                  "seconds of simulated time after the previous one.\nDrag to change, Ctrl+click to type.",
                   most));
 }
 
@@ -54,35 +51,34 @@ void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
   film.path.copy(text.data(), text.size() - 1);
   const std::string hint = free_name(source, film_ending(*film.format));
   if (ImGui::InputTextWithHint("##film", hint.c_str(), text.data(), text.size())) film.path = text.data();
-  gui.mark("record/path");
-  tooltip(
+  named(
+      gui, "record/path",
       fmt::format("Name of the film; if left empty, {}. The format determines the extension. Existing files "
                   "are never overwritten.",
                   hint));
 }
 
 /// The energies of the plot as a table.
-Status write_series(const std::string& path, const std::deque<EnergySample>& samples) {
-  ASPIC_TRY(auto series, SeriesWriter::create(path, Overwrite::refuse));
+Status write_series(const std::string& path, Overwrite overwrite, const std::deque<EnergySample>& samples) {
+  ASPIC_TRY(auto series, SeriesWriter::create(path, overwrite));
   for (const EnergySample& sample : samples) {
     ASPIC_CHECK(series.add(sample.step, sample.time, sample.measures));
   }
   return series.finish();
 }
 
-Status write_state(const StateFormat& format, const std::string& path, Scene scene,
+Status write_state(const StateFormat& format, const std::string& path, Overwrite overwrite, Scene scene,
                    const Simulation& simulation) {
   scene.model = simulation.setup().settings;
   const RunFacts facts = {to_toml(scene), scene.model.simulation.integrator};
-  ASPIC_TRY(auto sink, format.open(path, 0, Overwrite::refuse, facts));
+  ASPIC_TRY(auto sink, format.open(path, 0, overwrite, facts));
   return sink->finish({simulation.model(), simulation.snapshot()});
 }
 
-/// Writes the state now, or with a format over time the energies of the plot, to a new file (empty: a free
-/// name). A message says what became of it.
-void save(const StateFormat& format, std::string path, const SceneEditor& editor, Simulation& simulation,
-          Messages& messages) {
-  if (path.empty()) path = free_name(editor.source(), format.ending);
+/// Writes the state now, or with a format over time the energies of the plot, to a file. A message says what
+/// became of it.
+void save(const StateFormat& format, const std::string& path, Overwrite overwrite, const SceneEditor& editor,
+          Simulation& simulation, Messages& messages) {
   if (!messages.check(simulation.settle())) return;
   const Setup& setup = simulation.setup();
   if (format.holds_scene && !(setup.thrown.empty() && setup.pinned.empty())) {
@@ -92,8 +88,8 @@ void save(const StateFormat& format, std::string path, const SceneEditor& editor
                     format.option));
   }
   const auto& energies = simulation.samples().energies();
-  if (!messages.check(format.over_time ? write_series(path, energies)
-                                       : write_state(format, path, editor.scene(), simulation)))
+  if (!messages.check(format.over_time ? write_series(path, overwrite, energies)
+                                       : write_state(format, path, overwrite, editor.scene(), simulation)))
     return;
   messages.info(format.over_time ? fmt::format("{} holds {} rows.", path, energies.size())
                                  : fmt::format("{} holds the {} at step {}.", path, format.option,
@@ -124,39 +120,37 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
   rate_widget(gui, film.settings);
   name_widget(gui, source, film.settings);
   label_column("Parameters");
-  ImGui::Checkbox("shown", &film.settings.text);
-  gui.mark("record/text");
-  tooltip(
-      "Terrain, integrator, time step, springs and time are written on the picture, as in aspic run --video, "
-      "with the legend of the colours.");
+  check_box(gui, "shown", "record/text", film.settings.text,
+            "Terrain, integrator, time step, springs and time are written on the picture, as in aspic run "
+            "--video, with the legend of the colours.");
   if (film.completing() > 0) ImGui::TextDisabled("Completing the last film …");
 }
 
-void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages) {
-  static std::array<char, 1024> path = {};
+void picture_files(Gui& gui, SavedLook& look) {
+  static constexpr std::string_view names[] = {"1", "2", "4"}, labels[] = {"as the view", "×2", "×4"};
+  command_button(gui, "picture/save", "Save the picture",
+                 "Saves the picture alone, as finely as it can be drawn.", "save the picture", true, -1.0f);
+  label_column("Size");
+  choice(gui, "picture/size", names, labels, look.scale, "Pixels of saved pictures for each of the view's.");
+  label_column("Background");
+  check_box(gui, "clear", "picture/clear", look.clear,
+            "Leaves sky and terrain out of saved pictures; what the bodies do not cover is transparent.");
+}
+
+void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
+                 FileDialog& files) {
   for (const StateFormat& format : state_formats()) {
     const std::string name = fmt::format("save/{}{}", format.option, format.ending);
     const std::string label = fmt::format("Save {}… ({})", format.option, format.ending);
     const std::string help =
         format.over_time ? "Writes the energies and momentum of the plot to a file, a row for each point."
                          : fmt::format("Writes the {} at this step to a file.", format.option);
-    if (button(gui, name.c_str(), label.c_str(), help, true, -1.0f)) {
-      path = {};
-      ImGui::OpenPopup(name.c_str());
-    }
-    if (!ImGui::BeginPopup(name.c_str())) continue;
-    const std::string hint = free_name(editor.source(), format.ending);
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16.0f);
-    const bool entered = ImGui::InputTextWithHint("##path", hint.c_str(), path.data(), path.size(),
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
-    gui.mark("{}/path", name);
-    tooltip(fmt::format("The file to write; if left empty, {}. Existing files are not overwritten.", hint));
-    ImGui::SameLine();
-    if (button(gui, (name + "/write").c_str(), "Write", "Writes the file.") || entered) {
-      save(format, path.data(), editor, simulation, messages);
-      ImGui::CloseCurrentPopup();
-    }
-    ImGui::EndPopup();
+    if (!button(gui, name.c_str(), label.c_str(), help, true, -1.0f)) continue;
+    const auto write = [&format, &editor, &simulation, &messages](const std::string& path,
+                                                                  Overwrite overwrite) {
+      save(format, path, overwrite, editor, simulation, messages);
+    };
+    files.ask({"Save", {format.ending}, true, write}, free_name(editor.source(), format.ending));
   }
 }
 

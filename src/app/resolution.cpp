@@ -11,6 +11,8 @@ constexpr double room = 0.85;
 /// Pictures after which a share's time is forgotten: what was slow once, as shaders were compiled or the
 /// machine was busy, is tried again where the others leave hope.
 constexpr int oldest = 60;
+/// Pictures before a finer share is taken up again.
+constexpr int patience = 200;
 
 double pixels(std::size_t i) {
   return Resolution::shares[i] * Resolution::shares[i];
@@ -18,7 +20,7 @@ double pixels(std::size_t i) {
 
 }  // namespace
 
-void Resolution::took(double share, double seconds, double moving) {
+void Resolution::took(double share, double seconds, double time) {
   const auto found = std::ranges::find(shares, share);
   assert(found != shares.end());
   const auto at = static_cast<std::size_t>(found - shares.begin());
@@ -29,20 +31,28 @@ void Resolution::took(double share, double seconds, double moving) {
   if (std::optional<double>& known = times_[at]) {
     // One slow picture among many may have been the machine's fault. If it was not, the others are slower
     // too.
-    const double ratio = 0.6 + 0.4 * seconds / *known;
-    for (auto& time : times_) {
-      if (time) *time *= ratio;
+    const double ratio = 0.6 + 0.4 * std::min(seconds / *known, 2.0);
+    for (auto& of_share : times_) {
+      if (of_share) *of_share *= ratio;
     }
   } else {
     known = seconds;
   }
-  moving_ = choose(moving, moving_);
-  still_ = std::min(choose(at_rest, still_), moving_);
+  patience_ = std::max(patience_ - 1, 0);
+  const std::size_t wanted = choose(time, chosen_);
+  slow_ = wanted > chosen_ ? slow_ + 1 : 0;
+  if (slow_ > 1)
+    patience_ = patience;
+  else if (wanted > chosen_ || patience_ > 0)
+    return;
+  slow_ = 0;
+  chosen_ = wanted;
 }
 
 void Resolution::reset(bool large) {
   times_ = {};
-  moving_ = still_ = large ? shares.size() - 1 : 0;
+  chosen_ = large ? shares.size() - 1 : 0;
+  slow_ = patience_ = 0;
 }
 
 /// Time of a picture at shares[i]; at least one share is known.

@@ -73,8 +73,11 @@ void RunControl::take_stable_step() {
   const double limit = 0.95 * *stable_->step;
   const double unit = std::pow(10.0, std::floor(std::log10(limit)) - 1.0);
   const double step = std::floor(limit / unit) * unit;
-  back_before_divergence();
+  messages_.dismiss();
+  messages_.check(simulation_.seek(simulation_.before_trouble()));
+  // The state of then, with the values of now.
   scene_.set_value(*find_parameter("simulation.timestep"), 0, Value(step));
+  scene_.hand_over();
 }
 
 void RunControl::watch_divergence() {

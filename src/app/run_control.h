@@ -31,7 +31,8 @@ class RunControl {
   /// To the moment nearest to a time of the history [s]; paused.
   void go_to(double time);
   void back_before_divergence();
-  /// Goes back, with a time step just below the estimated limit.
+  /// Goes on from shortly before the divergence with the scene as it is now and a time step just below the
+  /// estimated limit.
   void take_stable_step();
 
   /// Once for each picture: reports a new divergence.

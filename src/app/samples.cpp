@@ -1,6 +1,7 @@
 #include "app/samples.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -13,20 +14,35 @@ constexpr std::size_t most_samples = 2000;
 
 }  // namespace
 
+std::uint64_t sample_interval(double timestep) {
+  constexpr double interval = 0.02;  // s
+  return static_cast<std::uint64_t>(std::max(std::round(interval / timestep), 1.0));
+}
+
+const EnergySample* Samples::nearest(double time) const {
+  const auto after = std::ranges::lower_bound(energies_, time, {}, &EnergySample::time);
+  if (after == energies_.begin()) return energies_.empty() ? nullptr : &*after;
+  const auto before = after - 1;
+  return after == energies_.end() || time - before->time < after->time - time ? &*before : &*after;
+}
+
 void Samples::add(const EnergySample& sample) {
-  while (!energies_.empty() && energies_.back().time >= sample.time) energies_.pop_back();
-  energies_.push_back(sample);
+  const auto after = std::ranges::lower_bound(energies_, sample.time, {}, &EnergySample::time);
+  if (after != energies_.end() && after->time == sample.time)
+    *after = sample;
+  else
+    energies_.insert(after, sample);
   if (energies_.size() <= most_samples) return;
   std::deque<EnergySample> thinner;
   for (std::size_t i = 0; i < energies_.size(); i += 2) thinner.push_back(energies_[i]);
   energies_ = std::move(thinner);
 }
 
-void Samples::compare(double time, const State& leader, const State& shadow) {
+void Samples::compare(double time, const State& leader, const State& shadow, bool one_diverged) {
   DifferenceSample sample;
   sample.time = time;
   const auto difference = compare_states(leader, shadow);
-  if (difference && leader.step == shadow.step) {
+  if (difference && leader.step == shadow.step && !one_diverged) {
     sample.metres = std::max(difference->position.absolute, difference->ball_position.absolute);
     sample.ulp = std::max({difference->position.ulp, difference->velocity.ulp, difference->ball_position.ulp,
                            difference->ball_velocity.ulp, difference->ball_angular_velocity.ulp});
@@ -38,12 +54,6 @@ void Samples::compare(double time, const State& leader, const State& shadow) {
   while (!differences_.empty() && differences_.back().time >= time) differences_.pop_back();
   differences_.push_back(sample);
   if (differences_.size() > most_samples) differences_.pop_front();
-}
-
-void Samples::one_diverged() {
-  differences_.back().metres = std::numeric_limits<double>::infinity();
-  differences_.back().identical = false;
-  ever_differed_ = true;
 }
 
 void Samples::truncate(double time) {

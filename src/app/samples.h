@@ -23,22 +23,24 @@ struct DifferenceSample {
   bool identical = false;  ///< every bit is the same
 };
 
-/// Samples in the order of time; a later one at the same time or before takes the place of those from there
-/// on.
+/// Steps between two points of the plot while a run goes on: the same ones however fast it is.
+std::uint64_t sample_interval(double timestep);
+
+/// Samples in the order of time, one for each.
 class Samples {
  public:
   /// The whole run stays in the plot: long runs become less dense.
   const std::deque<EnergySample>& energies() const { return energies_; }
-  /// The newest ones.
+  /// The one that is nearest to a time of the run [s]; null if there is none.
+  const EnergySample* nearest(double time) const;
   const std::deque<DifferenceSample>& differences() const { return differences_; }
   /// Since shadow mode began, or the last change of setup.
   bool ever_differed() const { return ever_differed_; }
 
+  /// Takes the place of one at the same time.
   void add(const EnergySample& sample);
-  /// Compares the states of two backends at a time of the run [s].
-  void compare(double time, const State& leader, const State& shadow);
-  /// The states last compared differ in that one run diverged.
-  void one_diverged();
+  /// Compares the states of two backends at a time of the run [s], of which one alone may have diverged.
+  void compare(double time, const State& leader, const State& shadow, bool one_diverged);
   /// Forgets what came after a time [s].
   void truncate(double time);
   void clear_differences();

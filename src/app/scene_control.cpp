@@ -23,6 +23,7 @@ void SceneControl::open(const std::string& source) {
   if (!replace(editor_.other(source), false)) return;
   messages_.dismiss();
   messages_.check(simulation_.reset());
+  if (editor_.state()) messages_.check(simulation_.start_from(*editor_.state()));
   view_.camera = CameraControl(editor_.scene().view.camera);
   view_.recall_camera(editor_.source());
 }
@@ -42,35 +43,41 @@ void SceneControl::reload() {
   if (!messages_.notice()) messages_.info(fmt::format("{} reloaded.", source));
 }
 
-/// The file was written: constants take effect while the motion goes on.
+/// The file was written: constants take effect while the motion goes on, and undo comes back to what was
+/// here.
 void SceneControl::reread_file() {
-  auto loaded = editor_.other(editor_.source());
-  const Effect effect = loaded ? effect_between(editor_.scene(), loaded->scene()) : Effect::none;
+  const auto loaded = editor_.other(editor_.source());
+  if (!loaded) return messages_.error(loaded.error().message);
+  const Effect effect = effect_between(editor_.scene(), loaded->scene());
+  if (!messages_.check(simulation_.change(loaded->scene(), effect != Effect::restart))) return;
   const CameraSettings camera = editor_.scene().view.camera;
-  if (!replace(std::move(loaded), effect != Effect::restart)) return;
+  const bool changed = editor_.changed();
+  pending_ = Effect::none;
+  if (!messages_.check(editor_.apply(loaded->scene(), "reading the file", ""))) return;
+  editor_.mark_saved();
   if (camera != editor_.scene().view.camera) view_.camera = CameraControl(editor_.scene().view.camera);
   messages_.info(
-      fmt::format("{} changed on disk and was reloaded{}.", editor_.source(),
-                  effect == Effect::restart ? "; bodies changed, so the simulation was restarted" : ""));
+      fmt::format("{} changed on disk and was reloaded{}.{}", editor_.source(),
+                  effect == Effect::restart ? "; bodies changed, so the simulation was restarted" : "",
+                  changed ? " Undo brings back what was changed here." : ""));
 }
 
-void SceneControl::save_as(const std::string& path) {
-  if (messages_.check(editor_.save_as(path, view_.camera.goal())))
-    messages_.info(fmt::format("Saved as {}.", path));
+void SceneControl::save_as(const std::string& path, Overwrite overwrite) {
+  if (!messages_.check(editor_.save_as(path, view_.camera.goal(), overwrite))) return;
+  view_.camera.set_home(editor_.scene().view.camera);
+  messages_.info(fmt::format("Saved as {}.", path));
 }
 
 void SceneControl::undo() {
   if (!editor_.can_undo()) return;
-  const std::string name = editor_.undo_name();
   take_effect(editor_.undo());
-  messages_.info(fmt::format("Undone: {}.", name));
+  messages_.info(fmt::format("Undone: {}.", editor_.redo_name()));
 }
 
 void SceneControl::redo() {
   if (!editor_.can_redo()) return;
-  const std::string name = editor_.redo_name();
   take_effect(editor_.redo());
-  messages_.info(fmt::format("Redone: {}.", name));
+  messages_.info(fmt::format("Redone: {}.", editor_.undo_name()));
 }
 
 void SceneControl::set_value(const Parameter& parameter, std::size_t index, const Value& value,
@@ -80,6 +87,13 @@ void SceneControl::set_value(const Parameter& parameter, std::size_t index, cons
 
 void SceneControl::apply(Scene scene, const std::string& name, const std::string& gesture) {
   take_effect(editor_.apply(std::move(scene), name, gesture));
+}
+
+void SceneControl::change(const std::string& name, const std::function<void(Scene&)>& make,
+                          const std::string& gesture) {
+  Scene changed = scene();
+  make(changed);
+  apply(std::move(changed), name, gesture);
 }
 
 void SceneControl::take_effect(Result<Effect> effect) {

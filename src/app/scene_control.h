@@ -1,6 +1,8 @@
 #pragma once
 // The scene that is open, kept in step with its simulation: opening, changing, undo, and the file on disk.
+#include <algorithm>
 #include <chrono>
+#include <functional>
 #include <string>
 
 #include "app/messages.h"
@@ -18,7 +20,6 @@ class SceneControl {
 
   const SceneEditor& editor() const { return editor_; }
   const Scene& scene() const { return editor_.scene(); }
-  /// That of the simulation.
   const Solver& solver() const { return simulation_.solver(); }
 
   /// Opens a file or built-in scene; on an error the old one stays and a message says why.
@@ -26,7 +27,8 @@ class SceneControl {
   /// Opens the built-in scene that comes so many places later in the list, which goes round.
   void open_neighbour(int offset);
   void reload();
-  void save_as(const std::string& path);
+  /// The file is the one that is open from then on.
+  void save_as(const std::string& path, Overwrite overwrite = Overwrite::refuse);
   void undo();
   void redo();
 
@@ -34,11 +36,16 @@ class SceneControl {
   void set_value(const Parameter& parameter, std::size_t index, const Value& value,
                  const std::string& gesture = "");
   void apply(Scene scene, const std::string& name, const std::string& gesture = "");
+  void change(const std::string& name, const std::function<void(Scene&)>& make,
+              const std::string& gesture = "");
   /// The next change is another entry for undo.
   void end_gesture() { editor_.end_gesture(); }
   /// Goes back or forth in time with the simulation: the physics of the scene is part of the run. A change
   /// that can be undone.
   void follow_history();
+
+  /// The simulation gets the constants of the scene as it is, whatever it has now.
+  void hand_over() { pending_ = std::max(pending_, Effect::constants); }
 
   /// Once for each picture, `dt` after the last [s]: looks at the file and hands changes to the simulation.
   void update(double dt);

@@ -1,9 +1,11 @@
 #include "app/scene_editor.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "io/atomic_file.h"
+#include "io/checkpoint.h"
 #include "model/bodies.h"
 #include "scene/load.h"
 #include "scene/scene_checks.h"
@@ -18,6 +20,15 @@ constexpr std::size_t longest_past = 256;
 Effect effect_of(const Parameter& p) {
   if (p.path.starts_with("view.") || p.path == "name") return Effect::view;
   return p.live ? Effect::constants : Effect::restart;
+}
+
+/// "structural stiffness": a key as people call it, with what it belongs to where that is more than a list.
+std::string words_of(const Parameter& p) {
+  std::string words(p.path.substr(p.path.find("].") == std::string_view::npos ? p.path.find('.') + 1
+                                                                              : p.path.find("].") + 2));
+  std::ranges::replace(words, '.', ' ');
+  std::ranges::replace(words, '-', ' ');
+  return words;
 }
 
 std::optional<std::filesystem::file_time_type> time_of(const std::string& path) {
@@ -44,17 +55,19 @@ Effect effect_between(const Scene& before, const Scene& after) {
 }
 
 Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std::string> overrides) {
-  ASPIC_TRY(auto scene, load_scene(source, overrides));
   SceneEditor editor;
-  editor.scene_ = std::move(scene);
+  if (source.ends_with(".aspic")) {
+    ASPIC_TRY(auto checkpoint, read_checkpoint(source));
+    ASPIC_TRY(editor.scene_, parse_scene(checkpoint.scene, source, overrides));
+    ASPIC_CHECK(check_against_scene(checkpoint, editor.scene_.model, source));
+    editor.state_ = std::move(checkpoint.state);
+  } else {
+    ASPIC_TRY(editor.scene_, load_scene(source, overrides));
+  }
   editor.source_ = source;
   editor.overrides_ = std::move(overrides);
-  editor.look_at_file();
+  if (!builtin_scene_text(source)) editor.modified_ = time_of(source);
   return editor;
-}
-
-void SceneEditor::look_at_file() {
-  modified_ = builtin_scene_text(source_) ? std::nullopt : time_of(source_);
 }
 
 Result<SceneEditor> SceneEditor::other(const std::string& source) const {
@@ -75,7 +88,7 @@ Result<Effect> SceneEditor::set(const Parameter& parameter, std::size_t index, c
     return Error{ErrorCode::scene_rejected, complaint->message};
   Scene changed = scene_;
   parameter.set(changed, index, value);
-  return apply(std::move(changed), key_text(parameter), gesture);
+  return apply(std::move(changed), words_of(parameter), gesture);
 }
 
 Result<Effect> SceneEditor::apply(Scene changed, const std::string& name, const std::string& gesture) {
@@ -88,7 +101,12 @@ Result<Effect> SceneEditor::apply(Scene changed, const std::string& name, const 
     return Error{ErrorCode::scene_rejected, message};
   }
   if (gesture.empty() || gesture != gesture_ || undo_.empty()) {
-    if (undo_.size() == longest_past) undo_.erase(undo_.begin());
+    constexpr auto never = std::numeric_limits<std::size_t>::max();
+    if (saved_ > undo_.size()) saved_ = never;
+    if (undo_.size() == longest_past) {
+      undo_.erase(undo_.begin());
+      saved_ = saved_ == 0 ? never : saved_ - (saved_ == never ? 0 : 1);
+    }
     undo_.push_back({std::move(scene_), name});
   }
   gesture_ = gesture;
@@ -115,12 +133,19 @@ Effect SceneEditor::redo() {
   return swap_with(redo_, undo_);
 }
 
-Status SceneEditor::save_as(const std::string& path, const CameraSettings& camera) const {
+Status SceneEditor::save_as(const std::string& path, const CameraSettings& camera, Overwrite overwrite) {
   Scene saved = scene_;
   saved.view.camera = camera;
-  ASPIC_TRY(auto file, AtomicFile::create(path, Overwrite::refuse));
+  ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
   ASPIC_CHECK(file.write(to_toml(saved)));
-  return file.commit();
+  ASPIC_CHECK(file.commit());
+  scene_ = std::move(saved);
+  source_ = path;
+  overrides_.clear();
+  state_.reset();
+  modified_ = time_of(source_);
+  mark_saved();
+  return {};
 }
 
 }  // namespace aspic::app

@@ -3,10 +3,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/result.h"
+#include "io/atomic_file.h"
+#include "model/state.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 
@@ -25,14 +26,18 @@ Effect effect_between(const Scene& before, const Scene& after);
 
 class SceneEditor {
  public:
-  /// Loads a scene as aspic run does. Errors: those of load_scene.
+  /// Loads a scene as aspic run does, or the scene of a checkpoint (.aspic). Errors: those of load_scene, and
+  /// of read_checkpoint.
   static Result<SceneEditor> open(const std::string& source, std::vector<std::string> overrides);
 
   const Scene& scene() const { return scene_; }
   /// File or built-in name.
   const std::string& source() const { return source_; }
   bool is_file() const { return modified_.has_value(); }
-  bool changed() const { return !undo_.empty(); }
+  /// What a checkpoint holds beside its scene: where the run goes on.
+  const std::optional<State>& state() const { return state_; }
+  /// Since it was opened, saved or read again.
+  bool changed() const { return undo_.size() != saved_; }
 
   /// An editor of another source, or of the same one again, whose overrides (--set) stay with it. Errors:
   /// those of load_scene.
@@ -58,23 +63,30 @@ class SceneEditor {
   Effect undo();
   Effect redo();
 
-  /// Writes the scene as it is now, complete, with this camera. Error (io): the file exists or cannot be
-  /// written.
-  Status save_as(const std::string& path, const CameraSettings& camera) const;
+  /// Writes the scene as it is now, complete, with this camera; the file is the one that is open from then
+  /// on. Error (io): it exists and may not be overwritten, or cannot be written.
+  Status save_as(const std::string& path, const CameraSettings& camera, Overwrite overwrite);
+  /// The scene is what the file holds.
+  void mark_saved() {
+    saved_ = undo_.size();
+    end_gesture();
+  }
 
  private:
   struct Entry {
     Scene scene;
     std::string name;
   };
-  void look_at_file();
   Effect swap_with(std::vector<Entry>& from, std::vector<Entry>& to);
 
   Scene scene_;
   std::string source_, gesture_;
   std::vector<std::string> overrides_;
+  std::optional<State> state_;
   std::optional<std::filesystem::file_time_type> modified_;
   std::vector<Entry> undo_, redo_;
+  std::size_t saved_ =
+      0;  // length of undo_ when the scene was that of the file; never again: the largest number
 };
 
 }  // namespace aspic::app

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 
 #include "io/atomic_file.h"
 #include "io/film_format.h"
+#include "render/colour_map.h"
 #include "render/overlay_text.h"
 #include "run/backends.h"
 
@@ -27,7 +29,6 @@ Status ScenePicture::attach(gl::Context& context) {
   ASPIC_TRY(const auto directory, shader_directory());
   context_ = &context;
   RendererOptions look;
-  look.samples = in_full() ? 4 : 1;
   look.shaders = gl::ShaderLibrary(directory);
   ASPIC_TRY(renderer_, Renderer::create(context, look));
   drawn_.reset();
@@ -49,15 +50,16 @@ ScenePicture::Pixels ScenePicture::view_pixels(int window_height) const {
   return p;
 }
 
-ScenePicture::Content ScenePicture::wanted() const {
+ScenePicture::Content ScenePicture::wanted(bool fine) const {
   Content c;
   c.model = simulation_.model_number();
   c.state = simulation_.picture_number();
   c.view = scene_.view;
-  c.view.camera = view_.camera.shown();
+  c.view.camera = view_.seen();
   c.shadows = shadows;
   c.film = film;
-  const double scale = in_full() ? 1.0 : resolution_.share(at_rest_);
+  c.fine = in_full() || (fine && !film);
+  const double scale = c.fine ? 1.0 : resolution_.share();
   const Pixels full = view_pixels(0);
   c.size =
       film ? film->size
@@ -70,17 +72,21 @@ ScenePicture::Content ScenePicture::wanted() const {
 }
 
 Status ScenePicture::draw() {
-  const Content content = wanted();
-  if (drawn_ == content) return {};
+  const Content content = wanted(at_rest_);
+  if (drawn_ == content || (drawn_ && drawn_->fine && drawn_ == wanted(true))) return {};
+  return draw(content, film && film->text);
+}
+
+Status ScenePicture::draw(const Content& content, bool legend, const std::optional<Colour>& background) {
   const auto start = std::chrono::steady_clock::now();
-  const bool new_model = !is_of_model(), adapts = !in_full() && !film;
-  const double share = resolution_.share(at_rest_);
+  const bool new_model = !is_of_model(), adapts = !content.fine && !film;
+  const double share = resolution_.share();
   PictureOptions options;
+  options.legend = legend;
+  options.background = background;
+  options.samples = content.fine ? 0 : 1;
   options.view = content.view;
-  if (film) {
-    options.legend = film->text;
-    if (film->text) options.text = overlay_lines(scene_.model, simulation_.time());
-  }
+  if (film && film->text) options.text = overlay_lines(scene_.model, simulation_.time());
   options.shadows = shadows;
   options.highlight = content.marks;
   options.coarse_skin = adapts && share < 1.0;
@@ -159,21 +165,85 @@ void ScenePicture::count(double dt) {
   rate_pictures_ = 0;
 }
 
-Status save_screenshot(const WindowSize& size, const std::string& path) {
-  const auto row = 3 * static_cast<std::size_t>(size.pixel_width),
-             height = static_cast<std::size_t>(size.pixel_height);
+Legend ScenePicture::legend() const {
+  if (film && film->text) return {};
+  return legend_for(scene_.view, default_range(simulation_.model(), scene_.view.colour));
+}
+
+namespace {
+
+/// RGB, rows from the top.
+std::vector<std::byte> pixels_of(std::uint32_t framebuffer, const PictureSize& size) {
+  const auto row = 3 * static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
   std::vector<std::byte> below(row * height), rgb(below.size());
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size.pixel_width, size.pixel_height, GL_RGB, GL_UNSIGNED_BYTE, below.data());
+  glReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, below.data());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
   for (std::size_t i = 0; i < height; ++i)
     std::copy_n(below.begin() + static_cast<std::ptrdiff_t>((height - 1 - i) * row), row,
                 rgb.begin() + static_cast<std::ptrdiff_t>(i * row));
-  ASPIC_TRY(const auto png, encode_png({size.pixel_width, size.pixel_height}, rgb));
+  return rgb;
+}
+
+Status write_picture(const std::string& path, const Result<std::string>& png) {
+  if (!png) return png.error();
   ASPIC_TRY(auto file, AtomicFile::create(path, Overwrite::refuse));
-  ASPIC_CHECK(file.write(png));
+  ASPIC_CHECK(file.write(*png));
   return file.commit();
+}
+
+/// What bodies look like and how much they cover, from pictures of them before black and before white: light
+/// that comes through is what the two differ by.
+std::vector<std::byte> uncovered(std::span<const std::byte> on_black, std::span<const std::byte> on_white) {
+  const auto light = [](std::byte b) { return srgb_to_linear(std::to_integer<int>(b) / 255.0); };
+  const auto rounded_byte = [](double x) {
+    return static_cast<std::byte>(std::lround(255.0 * std::clamp(x, 0.0, 1.0)));
+  };
+  std::vector<std::byte> rgba;
+  rgba.reserve(on_black.size() / 3 * 4);
+  for (std::size_t i = 0; i < on_black.size(); i += 3) {
+    double through = 0.0;
+    for (std::size_t c = i; c < i + 3; ++c) through += (light(on_white[c]) - light(on_black[c])) / 3.0;
+    const double cover = std::clamp(1.0 - through, 0.0, 1.0);
+    for (std::size_t c = i; c < i + 3; ++c)
+      rgba.push_back(cover > 0.0 ? rounded_byte(linear_to_srgb(std::min(light(on_black[c]) / cover, 1.0)))
+                                 : std::byte{0});
+    rgba.push_back(rounded_byte(cover));
+  }
+  return rgba;
+}
+
+}  // namespace
+
+Status ScenePicture::save_clear(const Content& content, const std::string& path) {
+  ASPIC_CHECK(draw(content, false, Colour{0.0f, 0.0f, 0.0f}));
+  const std::vector<std::byte> on_black = pixels_of(renderer_->picture().id(), content.size);
+  ASPIC_CHECK(draw(content, false, Colour{1.0f, 1.0f, 1.0f}));
+  return write_picture(
+      path, encode_clear_png(content.size,
+                             uncovered(on_black, pixels_of(renderer_->picture().id(), content.size))));
+}
+
+Status ScenePicture::save(const std::string& path) {
+  const Content own = wanted(true);
+  Content content = own;
+  const double scale = film ? 1.0 : SavedLook::scales[saved.scale];
+  content.size = {rounded(scale * own.size.width), rounded(scale * own.size.height)};
+  content.marks.unit *= static_cast<decltype(content.marks.unit)>(scale);
+  Status written;
+  if (saved.clear)
+    written = save_clear(content, path);
+  else if (written = draw(content, true); written)
+    written = save_pixels(renderer_->picture().id(), content.size, path);
+  // The window's own has no legend, its own size and what is around the bodies.
+  if (content.size != own.size || saved.clear || !legend().empty()) ASPIC_CHECK(draw(own, false));
+  return written;
+}
+
+Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path) {
+  return write_picture(path, encode_png(size, pixels_of(framebuffer, size)));
 }
 
 }  // namespace aspic::app

@@ -22,6 +22,13 @@ struct FilmLook {
   friend bool operator==(const FilmLook&, const FilmLook&) = default;
 };
 
+/// How a picture is saved.
+struct SavedLook {
+  static constexpr std::array<double, 3> scales = {1.0, 2.0, 4.0};
+  std::size_t scale = 0;  ///< of `scales`: pixels for each of the view's, in each direction
+  bool clear = false;     ///< without sky and terrain; what the bodies do not cover is transparent
+};
+
 class ScenePicture {
  public:
   /// The references must outlive it. `in_full_quality`: a software rasteriser draws as hardware does.
@@ -31,14 +38,17 @@ class ScenePicture {
   bool full_quality;
   bool shadows = true;           ///< on terrain
   std::optional<FilmLook> film;  ///< while a film is made
+  SavedLook saved;               ///< of the next save()
 
   /// Everything of OpenGL, in a context that must outlive it or be detached. Errors: of Renderer::create.
   Status attach(gl::Context& context);
   void detach();
   gl::Context& context() const { return *context_; }
 
-  /// Nothing has moved for a while, or something does: a software rasteriser takes more time at rest.
+  /// Nothing has moved for a while, or something does: at rest a software rasteriser draws one picture as
+  /// finely as hardware does, which stays until something in it changes.
   void set_at_rest(bool at_rest) { at_rest_ = at_rest; }
+  bool at_rest() const { return at_rest_; }
   /// Draws the picture, if anything in it changed. Error: of Renderer.
   Status draw();
   /// Draws it and puts it into the window; after postpone() the last one once more, so that events come
@@ -49,10 +59,12 @@ class ScenePicture {
   /// long pictures take, and is in no film.
   Status mark(std::uint32_t particle);
   const gl::Framebuffer& pixels() const { return renderer_->picture(); }
+  /// Draws it as finely as hardware does, with the legend of its colours, and saves it as a new PNG file.
+  /// Errors: of Renderer; io.
+  Status save(const std::string& path);
 
   /// Where the last picture is in the window [window units]; a film of another shape has margins.
   const Box& shown() const { return shown_; }
-  /// Counts pictures drawn.
   std::uint64_t number() const { return number_; }
   /// Whether indices in the last picture are those of the simulation's model.
   bool is_of_model() const { return drawn_ && drawn_->model == simulation_.model_number(); }
@@ -62,7 +74,9 @@ class ScenePicture {
 
   /// The picture's share of the full resolution, 0 … 1: below 1 where a software rasteriser would be too
   /// slow.
-  double resolution() const { return in_full() ? 1.0 : resolution_.share(false); }
+  double resolution() const { return in_full() ? 1.0 : resolution_.share(); }
+  /// What the colours of the picture mean; empty where they mean nothing, or the picture says so itself.
+  Legend legend() const;
   /// How long the last picture took [s].
   double draw_seconds() const { return draw_seconds_; }
   /// Once for each picture of the window, `dt` after the last [s].
@@ -75,7 +89,7 @@ class ScenePicture {
     std::uint64_t model = 0, state = 0;
     ViewSettings view;
     HighlightOptions marks;
-    bool shadows = true;
+    bool shadows = true, fine = true;
     std::optional<FilmLook> film;
     PictureSize size;
     friend bool operator==(const Content&, const Content&) = default;
@@ -85,7 +99,9 @@ class ScenePicture {
   };
   bool in_full() const { return full_quality || !context_->info().is_software; }
   Pixels view_pixels(int window_height) const;
-  Content wanted() const;
+  Content wanted(bool fine) const;
+  Status draw(const Content& content, bool legend, const std::optional<Colour>& background = {});
+  Status save_clear(const Content& content, const std::string& path);
 
   const Simulation& simulation_;
   const Scene& scene_;
@@ -103,7 +119,7 @@ class ScenePicture {
   int rate_pictures_ = 0;
 };
 
-/// Saves what the window shows as a new PNG file. Error (io).
-Status save_screenshot(const WindowSize& size, const std::string& path);
+/// Saves the pixels of a framebuffer (0: the window's) as a new PNG file. Error (io).
+Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path);
 
 }  // namespace aspic::app

@@ -1,10 +1,6 @@
-// The sections that change the scene.
+// The sections that change the scene, or throw balls into it.
 #include <fmt/format.h>
 #include <imgui.h>
-
-#include <algorithm>
-#include <array>
-#include <cctype>
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
@@ -14,92 +10,84 @@
 namespace aspic::app {
 namespace {
 
-bool holds(std::string_view text, std::string_view word) {
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-  };
-  return word.empty() || std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
-}
-
 /// A terrain of another shape with the same surface.
 void terrain_button(Gui& gui, SceneControl& scenes, const TerrainShapeRow& row, float width) {
   const std::string name = fmt::format("terrain/{}", row.name), label(row.title);
   const std::string help =
-      fmt::format("Turns the first terrain into a {} at its default place. The motion continues.", label);
+      fmt::format("Turns the first terrain into a {} at its default place. Restarts the simulation.", label);
   if (!button(gui, name.c_str(), label.c_str(), help, true, width)) return;
-  Scene scene = scenes.scene();
-  if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
-  TerrainSettings& terrain = scene.model.terrain.front();
-  TerrainSettings other;
-  other.shape = row.value;
-  other.mass = terrain.mass;
-  other.restitution = terrain.restitution;
-  other.friction = terrain.friction;
-  terrain = other;
-  scenes.apply(std::move(scene), "terrain shape");
+  scenes.change("terrain shape", [&](Scene& scene) {
+    if (scene.model.terrain.empty()) scene.model.terrain.emplace_back();
+    TerrainSettings& terrain = scene.model.terrain.front();
+    TerrainSettings other;
+    other.shape = row.value;
+    other.mass = terrain.mass;
+    other.restitution = terrain.restitution;
+    other.friction = terrain.friction;
+    terrain = other;
+  });
 }
 
-void scene_buttons(Gui& gui, SceneControl& scene) {
-  static constexpr const char* popup = "Save scene as";
-  const float third = share_of_line(3);
-  command_button(gui, "scene/reload", "Reload", "Reloads the file; changes made here are discarded.",
+void scene_buttons(Gui& gui, const SceneEditor& editor) {
+  const float half = share_of_line(2), third = share_of_line(3);
+  command_button(gui, "scene/open", "Open…", "Opens a scene file, or a checkpoint where the run was then.",
+                 "open a scene or checkpoint", true, third);
+  ImGui::SameLine();
+  command_button(gui, "scene/save", "Save…", "Writes the scene as it is now, with this camera.",
+                 "save the scene", true, third);
+  ImGui::SameLine();
+  command_button(gui, "scene/reload", "Reload", "Reloads the scene; changes made here are discarded.",
                  "reload the scene", true, third);
+  const bool undo = editor.can_undo(), redo = editor.can_redo();
+  command_button(gui, "scene/undo", "Undo",
+                 undo ? "Undo " + editor.undo_name() : std::string("Nothing to undo."), "undo", undo, half);
   ImGui::SameLine();
-  command_button(gui, "scene/reset", "Reset", "Returns to the scene's start.", "reset to the start", true,
-                 third);
-  ImGui::SameLine();
-  if (button(gui, "scene/save", "Save as…", "Writes the scene as it is now, with this camera.", true, third))
-    ImGui::OpenPopup(popup);
-  if (!ImGui::BeginPopup(popup)) return;
-  static std::array<char, 512> path = {"my-scene.toml"};
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16.0f);
-  const bool entered =
-      ImGui::InputText("##path", path.data(), path.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-  tooltip("The file to write. Existing files are not overwritten.");
-  ImGui::SameLine();
-  if (button(gui, "scene/save/write", "Write", "Writes the file.") || entered) {
-    scene.save_as(path.data());
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
+  command_button(gui, "scene/redo", "Redo",
+                 redo ? "Redo " + editor.redo_name() : std::string("Nothing to redo."), "redo", redo, half);
 }
 
 }  // namespace
 
 void scene_section(Gui& gui, SceneControl& scene) {
   static ImGuiTextFilter filter;
-  ImGui::SetNextItemWidth(-1.0f);
-  ImGui::InputTextWithHint("##search", "search scenes", filter.InputBuf, sizeof filter.InputBuf);
-  gui.mark("scene/search");
-  tooltip(
-      "Shows scenes whose name or description contains this. A scene file is opened by dropping it on the "
-      "window.");
+  ImGui::SetNextItemWidth(filter.IsActive() ? -ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x
+                                            : -1.0f);
+  const bool entered = ImGui::InputTextWithHint("##search", "search scenes", filter.InputBuf,
+                                                sizeof filter.InputBuf, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::IsItemActive() || entered) filter.Build();
+  named(gui, "scene/search",
+        "Shows scenes whose name or description contains this. A scene file is opened by dropping it on the "
+        "window. Enter opens the only scene that is left.");
+  if (filter.IsActive()) {
+    ImGui::SameLine();
+    if (button(gui, "scene/search/clear", "×", "Shows all scenes.", true, ImGui::GetFrameHeight()))
+      filter.Clear();
+  }
+  std::vector<std::string> hits;
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
-    const std::string_view word = filter.InputBuf;
-    if (!holds(builtin.name, word) && !holds(builtin.description, word)) continue;
-    const std::string name(builtin.name);
-    if (ImGui::Selectable(name.c_str(), name == scene.editor().source())) scene.open(name);
-    gui.mark("scene/{}", name);
-    tooltip(builtin.description);
+    const std::string name(builtin.name), description(builtin.description);
+    const bool hit = filter.PassFilter(name.c_str()) || filter.PassFilter(description.c_str());
+    if (hit) hits.push_back(name);
+    const bool open = name == scene.editor().source();
+    if (!hit && !open) continue;  // the one that is open stays in sight
+    if (ImGui::Selectable(name.c_str(), open)) scene.open(name);
+    named(gui, "scene/" + name, description);
+  }
+  if (entered && hits.size() == 1) {
+    scene.open(hits.front());
+    filter.Clear();
   }
   if (scene.editor().is_file()) {
     ImGui::Selectable(scene.editor().source().c_str(), true);
     tooltip("A scene file. It is reloaded whenever it is written.");
   }
   const float half = share_of_line(2);
+  ImGui::TextDisabled("Terrain");
   for (const TerrainShapeRow& row : terrain_shapes) {
     if ((&row - terrain_shapes) % 2 != 0) ImGui::SameLine();
     terrain_button(gui, scene, row, half);
   }
-  scene_buttons(gui, scene);
-  const bool undo = scene.editor().can_undo(), redo = scene.editor().can_redo();
-  command_button(gui, "scene/undo", "Undo",
-                 undo ? "Undo " + scene.editor().undo_name() : std::string("Nothing to undo."), "undo", undo,
-                 half);
-  ImGui::SameLine();
-  command_button(gui, "scene/redo", "Redo",
-                 redo ? "Redo " + scene.editor().redo_name() : std::string("Nothing to redo."), "redo", redo,
-                 half);
+  scene_buttons(gui, scene.editor());
 }
 
 void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
@@ -123,29 +111,53 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
   edit(gui, scene, "simulation.integrator");
   edit(gui, scene, "simulation.timestep", 0, {"Time step"});
   label_column("Pace");
-  static constexpr const char* paces[] = {"steps per frame", "real time"};
+  static constexpr std::string_view paces[] = {"steps per frame", "real time"};
   Pacer& pacer = s.pacer();
-  int pace = static_cast<int>(pacer.pace);
-  if (ImGui::Combo("##pace", &pace, paces, 2)) pacer.pace = static_cast<Pace>(pace);
-  gui.mark("simulation/pace");
-  tooltip(
-      "How fast simulated time passes: a fixed number of steps for each picture, or real time. "
-      "Where "
-      "the solver cannot keep up, the factor in the status line says so.");
+  auto pace = static_cast<std::size_t>(pacer.pace);
+  if (choice(gui, "simulation/pace", paces, paces, pace,
+             "How fast simulated time passes: a fixed number of steps for each picture, or real time. Where "
+             "the solver cannot keep up, the factor in the status line says so."))
+    pacer.pace = static_cast<Pace>(pace);
   if (pacer.pace == Pace::steps_per_frame) edit(gui, scene, "simulation.steps-per-frame");
-  label_column("Speed");
-  ImGui::SliderScalar("##speed", ImGuiDataType_Double, &pacer.speed, &slowest_speed, &fastest_speed, "×%.4g",
-                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  gui.mark("simulation/speed");
-  tooltip("Factor on the pace, from 1/1024 to 1024. Keys + and - double and halve it.");
+  slider(gui, "Speed", "simulation/speed", pacer.speed, slowest_speed, fastest_speed, "×%.4g",
+         "Factor on the pace, from 1/1024 to 1024. Keys + and - double and halve it.");
   edit(gui, scene, "simulation.gravity");
   // The cube that the assignments speak of; the rest of it, and other bodies, are under Bodies.
   if (!scene.scene().model.cubes.empty()) placed_cube(gui, scene, 0);
   if (row_of(scene.scene().model.simulation.integrator).solved()) {
     edit(gui, scene, "simulation.implicit.newton-iterations");
-    edit(gui, scene, "simulation.implicit.cg-iterations");
+    edit(gui, scene, "simulation.implicit.cg-iterations", 0, {"CG iterations"});
     edit(gui, scene, "simulation.implicit.tolerance");
   }
+}
+
+void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
+  const float third = share_of_line(3);
+  command_button(gui, "balls/throw", "Throw",
+                 "Throws a ball from the camera into the middle of the picture; the key throws it at what is "
+                 "under the mouse.",
+                 "throw a ball", true, third);
+  ImGui::SameLine();
+  if (button(gui, "balls/many", "Throw many", "Throws a dozen balls, side by side.", true, third))
+    hands.throw_many();
+  ImGui::SameLine();
+  const std::size_t thrown = simulation.setup().thrown.size();
+  if (button(gui, "balls/clear", "Clear",
+             thrown > 0 ? fmt::format("Remove the {} thrown balls; the scene's own stay.", thrown)
+                        : std::string("There are no thrown balls; the scene's own stay."),
+             thrown > 0, third))
+    hands.clear_balls();
+  slider(gui, "Radius", "balls/radius", hands.radius, 0.02, 2.0, "%.3g m",
+         "Radius of the next ball to be thrown [m], 0.02 to 2.");
+  slider(gui, "Mass", "balls/mass", hands.mass, 0.01, 1000.0, "%.3g kg",
+         "Mass of the next ball to be thrown [kg], 0.01 to 1000.");
+  slider(gui, "Speed", "balls/speed", hands.speed, 0.5, 200.0, "%.3g m/s",
+         "Speed of the next ball to be thrown [m/s], 0.5 to 200.");
+  slider(gui, "Pull", "balls/strength", hands.strength, 0.01, 100.0, "×%.3g",
+         "How hard Ctrl+drag pulls a particle: a factor on twice the stiffness of the stiffest spring, "
+         "0.01 to 100, limited by the time step.");
+  ImGui::TextDisabled("%zu of the scene, %zu thrown",
+                      static_cast<std::size_t>(simulation.model().ball_count()) - thrown, thrown);
 }
 
 }  // namespace aspic::app

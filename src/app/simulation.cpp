@@ -30,25 +30,15 @@ Result<std::unique_ptr<Simulation>> Simulation::create(gl::Context& context, con
 Simulation::Simulation(gl::Context& context, Setup setup, const BackendChoice& asked)
     : setup_(std::move(setup)), factory_(context, asked), history_(most_history_bytes) {}
 
-Simulation::~Simulation() {
-  worker_.abandon();
-}
-
 /// On an error nothing changes.
-Status Simulation::install(Setup setup, Result<Engines> engines, std::optional<std::string> message) {
+Status Simulation::install(Setup setup, Result<Engines> engines) {
   if (!engines) return engines.error();
   engines_ = std::move(*engines);
-  if (message) message_ = std::move(message);
+  if (engines_.departure) message_ = engines_.departure;
   setup_ = std::move(setup);
   batch_ = 1;
   ++model_number_;
   return {};
-}
-
-Status Simulation::rebuild(Setup setup) {
-  std::optional<std::string> message;
-  auto engines = factory_.make_like(engines_, setup, message);
-  return install(std::move(setup), std::move(engines), std::move(message));
 }
 
 Status Simulation::load(const State& state) {
@@ -87,13 +77,9 @@ void Simulation::start_change() {
   change_ = begin_change(std::move(setup), keep_state);
   progress_ = Clock::now();
   worker_.start([this](const std::atomic<bool>&) {
-    build(*change_);
-    outcomes_.put({});
+    change_->engines = factory_.make_like(engines_, change_->setup);
+    outcomes_.put(Outcome());
   });
-}
-
-void Simulation::build(Change& change) {
-  change.engines = factory_.make_like(engines_, change.setup, change.message);
 }
 
 Status Simulation::change_setup(Setup setup, bool keep_state) {
@@ -101,7 +87,7 @@ Status Simulation::change_setup(Setup setup, bool keep_state) {
   if (!keep_state) seek_.reset();
   ASPIC_CHECK(halt(true));
   Change change = begin_change(std::move(setup), keep_state);
-  build(change);
+  change.engines = factory_.make_like(engines_, change.setup);
   return finish_change(std::move(change));
 }
 
@@ -127,13 +113,15 @@ Simulation::Change Simulation::begin_change(Setup setup, bool keep_state) const 
 Status Simulation::finish_change(Change change) {
   const std::size_t thrown = change.setup.thrown.size();
   const double now = time();  // by the old time step, as all samples are
-  ASPIC_CHECK(install(std::move(change.setup), std::move(*change.engines), std::move(change.message)));
+  ASPIC_CHECK(install(std::move(change.setup), std::move(*change.engines)));
   if (!change.keep_state || model().particle_count() != change.state.position.size() ||
       model().ball_count() - thrown != change.scene_balls)
     return reset();
   if (!at_end()) forget_future(now);
   samples_.clear_differed();
-  return begin_history(grown_state(model(), std::move(change.state)));
+  ASPIC_CHECK(begin_history(grown_state(model(), std::move(change.state))));
+  samples_.truncate(std::nextafter(time(), -1.0));  // with other constants this state has another energy
+  return {};
 }
 
 /// The run goes on with this state and setup.
@@ -153,7 +141,8 @@ Status Simulation::reset() {
   seek_.reset();
   single_steps_ = 0;
   if (!setup_.thrown.empty() || !setup_.pinned.empty()) {
-    ASPIC_CHECK(rebuild({setup_.settings, {}, {}}));
+    const Setup setup = {setup_.settings, {}, {}};
+    ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
   }
   history_.clear();
   samples_.clear();
@@ -162,7 +151,18 @@ Status Simulation::reset() {
   last_remembered_ = {};
   const State start = initial_state(model(), Precision::single);
   ASPIC_CHECK(begin_history(start));
-  add_sample(start, measure(model(), start));
+  remember(start, {engines_.measured(start)});
+  return {};
+}
+
+Status Simulation::start_from(const State& state) {
+  ASPIC_CHECK(halt(true));
+  history_.clear();
+  samples_.clear();
+  pacer_.restart();
+  last_remembered_ = {};
+  ASPIC_CHECK(begin_history(state));
+  remember(snapshot_, {engines_.measured(snapshot_)});
   return {};
 }
 
@@ -199,16 +199,14 @@ Status Simulation::fall_back(const Error& error) {
   if (!engines_.use_context()) return error;
   worker_.finish();
   outcomes_.clear();
+  engines_.set_shadow({});
+  seek_.reset();
   if (!Engines::in_context(engines_.leader())) {
-    engines_.set_shadow({});
-    seek_.reset();
     message_ = fmt::format("{} Shadow mode has ended.", error.message);
     return load(State(snapshot_));  // the leader may be steps ahead of what was taken from it
   }
   ASPIC_TRY(auto engine, factory_.make(model(), reference_backend(), nullptr));
   engines_.set_leader(std::move(engine));
-  engines_.set_shadow({});
-  seek_.reset();
   const double age = std::chrono::duration<double>(Clock::now() - snapshot_time_).count();
   const std::uint64_t lost = step_ > snapshot_.step ? step_ - snapshot_.step : 0;
   if (snapshot_.step >= history_.stretch(stretch_).first && snapshot_.step < step_)

@@ -33,7 +33,6 @@ class Simulation {
   static Result<std::unique_ptr<Simulation>> create(gl::Context& context, const Scene& scene,
                                                     const BackendRow& backend,
                                                     const BackendChoice& asked = {});
-  ~Simulation();
 
   // ---- what is simulated, and by whom ----
   /// Runs a changed scene from now on. With `keep_state` the motion goes on with other constants, where the
@@ -56,6 +55,9 @@ class Simulation {
   /// Back to the scene's start, which also forgets a divergence and all that hands did. Paused or running
   /// stays.
   Status reset();
+  /// The run begins with this state of the model, whatever step it is at; after reset() that is the scene's
+  /// start again.
+  Status start_from(const State& state);
   const Setup& setup() const { return setup_; }
   /// Before the context goes: what needs it goes on on the reference, from the last copy; take_message()
   /// tells `why`.
@@ -150,14 +152,11 @@ class Simulation {
     State state;
     std::size_t scene_balls = 0;
     std::optional<Result<Engines>> engines = {};
-    std::optional<std::string> message = {};
   };
   Simulation(gl::Context& context, Setup setup, const BackendChoice& asked);
 
-  Status install(Setup setup, Result<Engines> engines, std::optional<std::string> message);
-  Status rebuild(Setup setup);
+  Status install(Setup setup, Result<Engines> engines);
   Change begin_change(Setup setup, bool keep_state) const;
-  void build(Change& change);
   Status finish_change(Change change);
   void start_change();
   Status change_setup(Setup setup, bool keep_state);
@@ -168,10 +167,8 @@ class Simulation {
   Status prepare_to_advance();
   Status advance_run(double dt, double budget);
   Status advance_here(std::uint64_t steps, double budget);
-  Status compare_shadow(std::uint64_t steps);
   bool idle() const { return !worker_.busy() && outcomes_.empty(); }
   bool steps_quickly() const;
-  Status step_now();
   Status step_singly();
   Status show_figures();
   Status start_steps(std::uint64_t to, double budget);
@@ -182,8 +179,9 @@ class Simulation {
   Status follow(Outcome outcome);
   Status seek_on(double budget);
   void note(std::uint64_t steps, const std::optional<Divergence>& divergence);
+  void reach(std::uint64_t step, const std::optional<Divergence>& divergence);
   void take_snapshot(State state);
-  void add_sample(const State& state, const std::optional<Measures>& measures);
+  void remember(const State& state, const std::vector<EnergySample>& energies);
   void forget_future(double now);
 
   Setup setup_;
@@ -212,7 +210,7 @@ class Simulation {
   Clock::time_point progress_ = {};  // the worker began, or had an outcome
   std::uint64_t job_to_ = 0;         // of the newest job
   std::uint64_t job_step_ = 0;       // where the solvers are; the jobs' own
-  Mailbox<Outcome> outcomes_;
+  Mailbox<Result<Outcome>> outcomes_;
   Worker worker_;  // last: its job uses all of the above
 };
 

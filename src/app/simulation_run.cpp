@@ -61,42 +61,33 @@ bool Simulation::steps_quickly() const {
 
 Status Simulation::single_step() {
   if (running_ || divergence_) return {};
-  if (!steps_quickly()) {
-    ++single_steps_;
-    return {};
-  }
-  ASPIC_CHECK(settle());
-  return step_now();
-}
-
-Status Simulation::step_now() {
-  if (const auto next = history_.after(here())) {
-    ASPIC_CHECK(seek(*next));
-    return halt(true);
-  }
-  ASPIC_CHECK(start_steps(step_ + 1, std::numeric_limits<double>::infinity()));
-  worker_.wait();
-  const Status moved = collect();
-  return moved ? refresh_snapshot() : fall_back(moved.error());
-}
-
-/// The shadow does so many steps, tried ones included, on this thread and is compared with the snapshot.
-Status Simulation::compare_shadow(std::uint64_t steps) {
-  ASPIC_TRY(const auto other, engines_.advance_shadow(steps));
-  samples_.compare(time(), snapshot_, other);
-  return {};
+  ++single_steps_;
+  return steps_quickly() ? settle() : Status();
 }
 
 void Simulation::note(std::uint64_t steps, const std::optional<Divergence>& divergence) {
   step_ += steps;
   pacer_.did(steps);
   if (steps > 0) ++picture_number_;
-  if (!seek_) history_.reach(step_);
+  if (!seek_) {
+    history_.reach(step_);
+    single_steps_ -= std::min(single_steps_, steps);
+  }
   if (divergence) {
     set_running(false);
+    single_steps_ = 0;
     seek_.reset();
     divergence_ = divergence;
   }
+}
+
+/// The leader in the context is at this step, or will be: it tells of a divergence up to two queues late.
+void Simulation::reach(std::uint64_t step, const std::optional<Divergence>& divergence) {
+  const bool back = step < step_;
+  note(back ? 0 : step - step_, divergence);
+  if (!back) return;
+  step_ = step;
+  forget_future(time());
 }
 
 Status Simulation::update(double dt, double budget) {
@@ -119,13 +110,12 @@ Status Simulation::update(double dt, double budget) {
 /// While paused, all figures are of the state that is shown.
 Status Simulation::show_figures() {
   if (Engines::in_context(engines_.leader()) && snapshot_.step != step_) return refresh_snapshot();
-  const auto& energies = samples_.energies();
-  if (idle() && !divergence_ && at_end() && (energies.empty() || energies.back().step < step_))
-    start_measuring();
+  const EnergySample* const known = samples_.nearest(time());
+  if (idle() && !divergence_ && (!known || known->time != time())) start_measuring();
   return {};
 }
 
-/// The next of the single steps that a model takes long for.
+/// The next of the single steps that were asked for.
 Status Simulation::step_singly() {
   if (!idle()) return {};
   if (const auto next = history_.after(here())) {
@@ -158,7 +148,10 @@ Status Simulation::start_steps(std::uint64_t to, double budget) {
   ASPIC_CHECK(advance_here(to - step_, budget));
   if (!shadowed()) return {};
   ASPIC_CHECK(refresh_snapshot());
-  return compare_shadow(step_ - before + (divergence_ ? 1 : 0));
+  Outcome outcome;
+  outcome.steps = step_ - before;
+  outcome.leader = {snapshot_, divergence_};
+  return follow(std::move(outcome));
 }
 
 /// Steps of the leader, in the context, in batches.
@@ -169,7 +162,7 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
     const std::uint64_t count = std::min(batch_, steps - done);
     const auto before = Clock::now();
     ASPIC_TRY(const auto advanced, engines_.leader().solver->advance(count));
-    note(advanced ? advanced->step - 1 - step_ : count, advanced);
+    reach(advanced ? advanced->step - 1 : step_ + count, advanced);
     done += count;
     const double took = seconds_since(before);
     // A batch is about a quarter of the budget, so that its end is not far beyond.
@@ -190,8 +183,8 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
 void Simulation::start_measuring() {
   worker_.start([this, state = snapshot_](const std::atomic<bool>&) {
     Outcome outcome;
-    outcome.measures = measure(model(), state);
-    outcome.leader.state = state;
+    outcome.energies = {engines_.measured(state)};
+    (engines_.shadow_paces() ? outcome.shadow : outcome.leader).state = state;
     outcomes_.put(std::move(outcome));
   });
 }
@@ -203,22 +196,21 @@ void Simulation::start_job(std::uint64_t to, double budget, bool alone, std::opt
     progress_ = Clock::now();
   }
   job_to_ = to;
-  worker_.start([=, this](const std::atomic<bool>& hurry) {
-    Outcome outcome;
-    const Status pulled = engines_.use_context() ? Status() : engines_.set_pull(pull);
-    if (pulled)
-      outcome = engines_.advance_outside({job_step_, std::max(to, job_step_), budget, alone}, hurry);
-    else
-      outcome.error = pulled.error();
+  const auto job = [=, this](const std::atomic<bool>& hurry) -> Result<Outcome> {
+    ASPIC_CHECK(engines_.use_context() ? Status() : engines_.set_pull(pull));
+    const JobLimits limits = {job_step_, std::max(to, job_step_), budget, alone};
+    ASPIC_TRY(Outcome outcome, engines_.advance_outside(limits, hurry));
     outcome.pull = pull;
     job_step_ += outcome.steps;
-    outcomes_.put(std::move(outcome));
-  });
+    return outcome;
+  };
+  worker_.start([this, job](const std::atomic<bool>& hurry) { outcomes_.put(job(hurry)); });
 }
 
 Status Simulation::collect() {
   while (auto outcome = outcomes_.take()) {
-    ASPIC_CHECK(take(std::move(*outcome)));
+    ASPIC_TRY(Outcome done, std::move(*outcome));
+    ASPIC_CHECK(take(std::move(done)));
   }
   return {};
 }
@@ -231,12 +223,8 @@ Status Simulation::take(Outcome outcome) {
     change_result_ = finish_change(std::move(change));
     return {};
   }
-  if (outcome.error) return *outcome.error;
   const bool stepped = outcome.steps > 0 || outcome.leader.divergence || outcome.shadow.divergence;
-  if (stepped && !seek_) {
-    single_steps_ -= std::min(single_steps_, std::max<std::uint64_t>(outcome.steps, 1));
-    if (history_.pull_at(here()) != outcome.pull) history_.set_pull(step_, outcome.pull);
-  }
+  if (stepped && !seek_ && history_.pull_at(here()) != outcome.pull) history_.set_pull(step_, outcome.pull);
   if (shadowed() && stepped && !seek_) return follow(std::move(outcome));
   const bool in_context = Engines::in_context(engines_.leader());
   const State& paced = engines_.shadow_paces() ? outcome.shadow.state : outcome.leader.state;
@@ -244,7 +232,7 @@ Status Simulation::take(Outcome outcome) {
     take_snapshot(std::move(outcome.leader.state));
     note(outcome.steps, outcome.leader.divergence);
   }
-  if (!seek_) add_sample(in_context || !stepped ? paced : snapshot_, outcome.measures);
+  if (!seek_) remember(in_context || !stepped ? paced : snapshot_, outcome.energies);
   return {};
 }
 
@@ -254,12 +242,10 @@ Status Simulation::follow(Outcome outcome) {
   ASPIC_CHECK(engines_.follow(outcome));
   take_snapshot(std::move(outcome.leader.state));
   note(snapshot_.step - step_, outcome.leader.divergence);
-  samples_.compare(time(), snapshot_, outcome.shadow.state);
-  if (outcome.leader.divergence.has_value() != outcome.shadow.divergence.has_value()) {
-    samples_.one_diverged();
-    set_running(false);
-  }
-  add_sample(engines_.shadow_paces() ? outcome.shadow.state : snapshot_, outcome.measures);
+  const bool one_diverged = outcome.leader.divergence.has_value() != outcome.shadow.divergence.has_value();
+  samples_.compare(time(), snapshot_, outcome.shadow.state, one_diverged);
+  if (one_diverged) set_running(false);
+  remember(engines_.shadow_paces() ? outcome.shadow.state : snapshot_, outcome.energies);
   return {};
 }
 
@@ -276,8 +262,10 @@ Status Simulation::halt(bool arrive) {
 
 Status Simulation::settle() {
   ASPIC_CHECK(halt(true));
-  for (std::uint64_t n = std::exchange(single_steps_, 0); n > 0 && !divergence_; --n) {
-    ASPIC_CHECK(step_now());
+  while (single_steps_ > 0 && !divergence_) {
+    ASPIC_CHECK(step_singly());
+    worker_.wait();
+    ASPIC_CHECK(halt(true));
   }
   return {};
 }
@@ -292,6 +280,10 @@ Status Simulation::refresh_snapshot() {
   auto state = engines_.leader().solver->state();
   if (!state) return fall_back(state.error());
   take_snapshot(std::move(*state));
+  if (Engines::in_context(engines_.leader()) && !divergence_) {
+    ASPIC_TRY(const auto found, engines_.leader().solver->advance(0));
+    if (found) reach(snapshot_.step, found);
+  }
   step_ = snapshot_.step;
   return {};
 }
@@ -308,7 +300,8 @@ Status Simulation::seek(const Moment& moment) {
   const Keyframe& keyframe = history_.keyframe(moment);
   const bool on_the_way = moment.stretch == stretch_ && step_ <= moment.step && step_ >= keyframe.step;
   if (moment.stretch != stretch_) {
-    ASPIC_CHECK(rebuild(history_.stretch(moment.stretch).setup));
+    const Setup setup = history_.stretch(moment.stretch).setup;
+    ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
     stretch_ = moment.stretch;
   }
   if (!on_the_way) {
@@ -344,7 +337,8 @@ Status Simulation::step_back() {
   return earlier ? seek(*earlier) : Status();
 }
 
-void Simulation::add_sample(const State& state, const std::optional<Measures>& measures) {
+/// Keeps a state that was come to, now and then, and points of the plot.
+void Simulation::remember(const State& state, const std::vector<EnergySample>& energies) {
   if (!divergence_ && at_end()) {
     const double bytes = 24.0 * static_cast<double>(state.position.size());
     const double interval =
@@ -354,8 +348,7 @@ void Simulation::add_sample(const State& state, const std::optional<Measures>& m
       history_.add_keyframe(state);
     }
   }
-  if (measures)
-    samples_.add({static_cast<double>(state.step) * model().simulation.timestep, *measures, state.step});
+  for (const EnergySample& sample : energies) samples_.add(sample);
 }
 
 std::optional<double> Simulation::spring_evaluations_per_second() const {

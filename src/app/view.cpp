@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "scene/load.h"
@@ -10,8 +13,35 @@
 
 namespace aspic::app {
 
+namespace {
+
+/// Width/height below which a view shows more above and below, so that its sides are not cut.
+constexpr double narrow = 4.0 / 3.0;
+
+}  // namespace
+
+CameraSettings View::seen() const {
+  CameraSettings settings = camera.shown();
+  const double more = narrow * height() / width();
+  constexpr double degree = std::numbers::pi / 180.0;
+  if (more > 1.0)
+    settings.fov = std::min(2.0 * std::atan(more * std::tan(0.5 * degree * settings.fov)) / degree, 179.0);
+  return settings;
+}
+
+bool View::sees_bodies(const State& state) const {
+  const Camera now = lens();
+  const glm::mat4 through = now.projection() * now.view();
+  const auto seen = [&](const Vec3& x) {
+    const glm::vec4 p =
+        through * glm::vec4(static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z), 1.0f);
+    return p.w > 0.0f && std::abs(p.x) < p.w && std::abs(p.y) < p.w;
+  };
+  return std::ranges::any_of(state.position, seen) || std::ranges::any_of(state.ball_position, seen);
+}
+
 Camera View::lens() const {
-  return {camera.shown(), static_cast<int>(width()), static_cast<int>(height())};
+  return {seen(), static_cast<int>(width()), static_cast<int>(height())};
 }
 
 void View::frame_bodies(const Model& model, const State& state) {
@@ -26,7 +56,7 @@ void View::frame_bodies(const Model& model, const State& state) {
   for (const Vec3& x : state.position) include(x, 0.0);
   for (std::size_t i = 0; i < state.ball_position.size(); ++i)
     include(state.ball_position[i], model.balls[i].radius);
-  camera.frame(0.5 * (low + high), 0.5 * length(high - low), width() / height());
+  camera.frame(0.5 * (low + high), 0.5 * length(high - low), std::max(width() / height(), narrow));
 }
 
 std::vector<KeptCamera> View::kept_with(const std::string& source) const {
@@ -38,7 +68,8 @@ std::vector<KeptCamera> View::kept_with(const std::string& source) const {
 
 void View::recall_camera(const std::string& source) {
   const auto found = std::ranges::find(kept, camera_key(source), &KeptCamera::scene);
-  if (found != kept.end()) camera.jump_to(found->camera);
+  recalled = found != kept.end();
+  if (recalled) camera.jump_to(found->camera);
 }
 
 void copy_camera(const View& view, const WindowServices& services, Messages& messages) {

@@ -24,8 +24,14 @@ struct View {
   double text_scale = 1.0;       ///< of the panels, see Gui::scale()
   std::vector<KeptCamera> kept;  ///< of scenes seen before
 
+  bool recalled = false;  ///< a camera was that nobody has looked through since
+
   double width() const { return std::max(box.right - box.left, 1.0); }
   double height() const { return std::max(box.bottom - box.top, 1.0); }
+  /// The camera that is shown. A narrow view shows as much from side to side as one of 4 : 3.
+  CameraSettings seen() const;
+  /// Whether any particle or ball of a state is in the picture.
+  bool sees_bodies(const State& state) const;
   /// The camera now, of a picture with a pixel for each window unit.
   Camera lens() const;
   /// Comes nearer or backs off until all bodies of a state of the model are in the picture.

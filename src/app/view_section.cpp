@@ -19,20 +19,21 @@ void edit_camera(Gui& gui, CameraControl& camera, std::string_view path, std::st
 }
 
 struct Preset {
-  const char *name, *label, *help;
+  const char *name, *label;
   Vec3 from;
+  const char* help;
 };
 const Preset presets[] = {
     {"camera/front",
      "Front",
-     "Looks along −z, at the target from the front, at the same distance.",
-     {0, 0, 1}},
-    {"camera/side", "Side", "Looks along −x, at the target from the right, at the same distance.", {1, 0, 0}},
-    {"camera/top", "Top", "Looks down on the target, at the same distance.", {0, 1, 0}},
+     {0, 0, 1},
+     "Looks along −z, at the target from the front, at the same distance."},
+    {"camera/side", "Side", {1, 0, 0}, "Looks along −x, at the target from the right, at the same distance."},
+    {"camera/top", "Top", {0, 1, 0}, "Looks down on the target, at the same distance."},
     {"camera/isometric",
      "Isometric",
-     "Looks at the target along (−1, −1, −1), at the same distance.",
-     {1, 1, 1}},
+     {1, 1, 1},
+     "Looks at the target along (−1, −1, −1), at the same distance."},
 };
 
 void camera_buttons(Gui& gui, CameraControl& camera) {
@@ -42,7 +43,7 @@ void camera_buttons(Gui& gui, CameraControl& camera) {
     const Preset& p = presets[i];
     if (button(gui, p.name, p.label, p.help, true, half)) camera.look_from(p.from);
   }
-  command_button(gui, "camera/home", "Scene's", "Returns to the scene's own camera.", "reset the camera",
+  command_button(gui, "camera/home", "Scene camera", "Returns to the scene's own camera.", "reset the camera",
                  true, half);
   ImGui::SameLine();
   command_button(gui, "camera/frame", "Frame bodies", "Moves the camera until all bodies are in the picture.",
@@ -56,16 +57,13 @@ void camera_buttons(Gui& gui, CameraControl& camera) {
 
 /// Applied when the mouse lets go: the slider would run away from under it.
 void text_size(Gui& gui, Layout& layout) {
-  label_column("Text size");
-  const double low = Layout::smallest_text, high = Layout::largest_text;
-  ImGui::SliderScalar("##text", ImGuiDataType_Double, &layout.text_size, &low, &high, "×%.2f",
-                      ImGuiSliderFlags_AlwaysClamp);
-  gui.mark("layout/text-size");
-  const bool done = ImGui::IsItemDeactivated();
-  tooltip(
-      "Size of text and panels, a factor from 0.75 to 2.5 on that of the display: larger for a lecture hall. "
-      "Remembered when the window is closed.\nDrag to change, Ctrl+click to type.");
-  if (done) gui.set_text_size(layout.text_size);
+  if (slider(
+          gui, "Text size", "layout/text-size", layout.text_size, Layout::smallest_text, Layout::largest_text,
+          "×%.2f",
+          "Size of text and panels, a factor from 0.75 to 2.5 on that of the display: larger for a lecture "
+          "hall. Remembered when the window is closed.\nDrag to change, Ctrl+click to type.",
+          false))
+    gui.set_text_size(layout.text_size);
 }
 
 }  // namespace
@@ -73,11 +71,9 @@ void text_size(Gui& gui, Layout& layout) {
 void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout) {
   edit(gui, scene, "view.draw");
   edit(gui, scene, "view.colour", 0, {"Colour by"});
-  ImGui::Checkbox("shadows", &shadows);
-  gui.mark("view/shadows");
-  tooltip(
-      "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects this "
-      "window only; aspic run always draws them.");
+  check_box(gui, "shadows", "view/shadows", shadows,
+            "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "
+            "this window only; aspic run always draws them.");
   camera_buttons(gui, camera);
   edit_camera(gui, camera, "view.camera.position", "Camera");
   edit_camera(gui, camera, "view.camera.target", "Looks at");

@@ -111,6 +111,7 @@ void Window::connect() {
 
 WindowServices Window::services() {
   WindowServices services;
+  services.window = window_;
   services.clipboard = [this] {
     const char* text = glfwGetClipboardString(window_);
     return std::string(text ? text : "");
@@ -146,6 +147,10 @@ double Window::content_scale() const {
 
 bool Window::should_close() const {
   return glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
+
+void Window::set_should_close(bool close) {
+  glfwSetWindowShouldClose(window_, close ? GLFW_TRUE : GLFW_FALSE);
 }
 
 void Window::set_title(const std::string& title) {

@@ -53,6 +53,7 @@ class Window {
   std::array<int, 4> place() const;
   double content_scale() const;
   bool should_close() const;
+  void set_should_close(bool close);
   void set_title(const std::string& title);
   /// Hands over events; waits for one up to `wait` seconds where that is above 0.
   void poll(double wait);

@@ -23,6 +23,12 @@ Status execute(const CompareOptions& options);
 /// Measures throughput, one line for each size, integrator, backend and force path.
 Status execute(const BenchOptions& options);
 
+/// Runs a grid of runs and writes a row for each. Errors: those of run_sweep().
+Status execute(const SweepOptions& options);
+
+/// Compares a scene's integrators and parameters, as pages with plots. Errors: those of write_report().
+Status execute(const ReportOptions& options);
+
 /// Runs the verification battery and prints its table. Errors: usage, an unknown name; check_failed.
 Status execute(const VerifyOptions& options);
 
@@ -34,9 +40,5 @@ Status execute(const SceneImportOptions& options);
 
 /// Never fails for want of a GPU: says so instead.
 Status execute(const InfoOptions& options);
-
-/// Steps of a run of this length: what was asked for, else the scene's duration, rounded to the nearest whole
-/// step. Error (usage): more steps than can be counted.
-Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings& simulation);
 
 }  // namespace aspic::cli

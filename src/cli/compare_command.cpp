@@ -91,6 +91,16 @@ Json to_json(const Worst& worst, std::string_view body) {
           {"largest_ulp_step", worst.ulp_step}};
 }
 
+/// What the canary found on a device whose arithmetic is not that of IEEE 754; empty elsewhere.
+std::string inexact_arithmetic(const Backend& backend) {
+  if (!backend.gpu || backend.gpu->arithmetic().exact()) return "";
+  return fmt::format(
+      "{}: single operations are off by up to {} ULP; aspic verify --only equality tells whether that "
+      "explains a "
+      "difference",
+      backend.variant(), backend.gpu->arithmetic().worst_ulps());
+}
+
 Json to_json(const CompareOptions& options, const Scene& scene, const std::array<Backend, 2>& backends,
              const Comparison& result, bool within) {
   Json json = {{"scene", scene.name},
@@ -105,10 +115,12 @@ Json to_json(const CompareOptions& options, const Scene& scene, const std::array
   json["interrupted"] = result.interrupted;
   for (std::size_t i = 0; i < backends.size(); ++i) {
     const std::optional<Divergence>& divergence = result.divergence[i];
-    json["backends"].push_back({{"backend", backends[i].variant()},
-                                {"device", backends[i].device},
-                                {"state_hash", result.hash[i]},
-                                {"diverged_in_step", divergence ? Json(divergence->step) : Json()}});
+    json["backends"].push_back(
+        {{"backend", backends[i].variant()},
+         {"device", backends[i].device},
+         {"state_hash", result.hash[i]},
+         {"operation_ulps", backends[i].gpu ? Json(backends[i].gpu->arithmetic().worst_ulps()) : Json(0)},
+         {"diverged_in_step", divergence ? Json(divergence->step) : Json()}});
   }
   return json;
 }
@@ -133,6 +145,8 @@ Status print_result(const CompareOptions& options, const Scene& scene, const std
                           w.ulp_index, w.ulp_step);
     }
   }
+  for (const Backend& backend : backends)
+    if (const std::string note = inexact_arithmetic(backend); !note.empty()) text += note + "\n";
   text += result.first_difference ? fmt::format("first differing step {}\n", *result.first_difference)
                                   : "no step differs\n";
   text += fmt::format("{}: tolerance {}\n", within ? "within" : "EXCEEDED", options.tolerance);

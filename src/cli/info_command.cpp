@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "gpu/canary.h"
@@ -41,6 +42,11 @@ std::vector<std::string> arithmetic_sentences(gl::Context& context) {
   return arithmetic->sentences();
 }
 
+std::string memory_words(const std::optional<std::uint64_t>& free_bytes) {
+  if (!free_bytes) return "the driver does not tell how much is free";
+  return human_bytes(*free_bytes) + " free";
+}
+
 }  // namespace
 
 Status execute(const InfoOptions& options) {
@@ -60,6 +66,8 @@ Status execute(const InfoOptions& options) {
   }
   const std::vector<std::string> arithmetic =
       context ? arithmetic_sentences(*context) : std::vector<std::string>{};
+  std::optional<std::uint64_t> free_memory;
+  if (context) free_memory = context->free_memory();
   if (options.json) {
     Json list = Json::array(), rows = Json::array();
     for (const gl::EglDevice& device : devices)
@@ -73,6 +81,7 @@ Status execute(const InfoOptions& options) {
                                {"backends", rows},
                                {"devices", list},
                                {"gpu", context ? to_json(context->info()) : Json()},
+                               {"gpu_free_bytes", or_null(free_memory)},
                                {"gpu_error", context ? Json() : Json(no_context)},
                                {"arithmetic", arithmetic},
                                {"auto", chosen},
@@ -88,6 +97,7 @@ Status execute(const InfoOptions& options) {
   if (context) {
     text += "\nDevice of --backend gpu\n";
     for (const std::string& line : gl::describe(context->info())) text += "  " + line + "\n";
+    text += "  memory          " + memory_words(free_memory) + "\n";
     text += "\nArithmetic and workarounds\n";
     for (const std::string& sentence : arithmetic) text += "  " + sentence + "\n";
   } else {

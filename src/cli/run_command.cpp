@@ -311,17 +311,6 @@ Error divergence_error(const Model& model, const Outcome& outcome, const Interru
 
 }  // namespace
 
-Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings& simulation) {
-  if (length.steps) return *length.steps;
-  const double duration = length.duration.value_or(simulation.duration);
-  const double steps = std::round(duration / simulation.timestep);
-  if (!(steps <= static_cast<double>(most_steps))) {
-    return fail(ErrorCode::usage, "{} s at a time step of {} s are more steps than can be counted.", duration,
-                simulation.timestep);
-  }
-  return static_cast<std::uint64_t>(steps);
-}
-
 Status execute(const RunOptions& options) {
   const InterruptGuard interrupt;
   ASPIC_TRY(auto start, load_start(options));

@@ -20,13 +20,6 @@ namespace {
 /// Largest number of repeats and of particles per edge that is read at all.
 constexpr std::uint64_t most_of_int = 1000000;
 
-struct NotBuilt {
-  std::string_view command, what;
-};
-constexpr std::array<NotBuilt, 1> not_built_commands = {{
-    {"report", "the report with plots"},
-}};
-
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -254,6 +247,47 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
   return c;
 }
 
+CLI::App* add_sweep(CLI::App& app, SweepOptions& sweep, RawOptions& raw) {
+  CLI::App* c =
+      add_command(app, "sweep", "Run a scene at every point of a grid, a CSV row each", sweep_examples);
+  add(c, "scene", "SCENE", sweep.scene, "scene file or built-in name")->required();
+  add(c, "--vary", "KEY=VALUES", sweep.vary,
+      "from:to:count, from:to:count:log or a,b,c; KEY as for --set, or integrator, h, k, c, n, e, mu, "
+      "backend; "
+      "repeatable")
+      ->required();
+  add(c, "--out", "FILE", sweep.out, "the CSV file; until it is complete, FILE.partial")->required();
+  add(c, "--backend", "NAME", raw.backend, backend_words());
+  add(c, "--precision", "NAME", raw.precision, "single or double (reference only); default single");
+  add(c, "--force-path", "NAME", raw.force_path, force_path_words() + " (gpu only)");
+  add_arithmetic(c, raw);
+  add_length(c, sweep.length);
+  add_overrides(c, sweep.overrides);
+  add(c, "--jobs", "N", sweep.jobs, "runs at once; default: the processors, or 1 where runs take a GPU",
+      1024);
+  add(c, "--part", "I/N", raw.part, "the I-th of N equal parts of the grid, for job arrays");
+  c->add_flag("--force", sweep.force, "overwrite the file, and begin anew");
+  add_json(c, sweep.json, "numbers of rows on stdout as JSON");
+  c->add_flag("--worker", sweep.worker)->group("");  // what the sweep starts
+  return c;
+}
+
+CLI::App* add_report(CLI::App& app, ReportOptions& report) {
+  CLI::App* c =
+      add_command(app, "report", "Compare integrators and parameters, as a page with plots", report_examples);
+  add(c, "scene", "SCENE", report.scene, "scene file or built-in name");
+  add(c, "--out", "DIR", report.out, "directory for report.html, report.md, report.pdf, data and figures")
+      ->required();
+  add(c, "--only", "NAME", report.only,
+      "one section: integrators, parameters, stability, contact or backends; repeatable");
+  c->add_flag("--thorough", report.thorough, "finer maps, longer runs, larger sizes");
+  add(c, "--jobs", "N", report.jobs, "threads; default: the processors", 1024);
+  add_overrides(c, report.overrides);
+  c->add_flag("--force", report.force, "overwrite a report");
+  add_json(c, report.json, "names of the files on stdout as JSON");
+  return c;
+}
+
 CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
   CLI::App* c = add_command(
       app, "verify", "Check physics and equivalence on this machine, as a table of figures", verify_examples);
@@ -296,6 +330,8 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   ViewOptions view;
   CompareOptions compare;
   BenchOptions bench;
+  SweepOptions sweep;
+  ReportOptions report;
   VerifyOptions verify;
   SceneListOptions list;
   SceneShowOptions show;
@@ -313,6 +349,11 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   });
   on(add_compare(app, compare, raw), [&] { return finish_compare(compare, raw); });
   on(add_bench(app, bench, raw), [&] { return finish_bench(bench, raw); });
+  on(add_sweep(app, sweep, raw), [&] {
+    sweep.words.assign(argv + 2, argv + argc);
+    return finish_sweep(sweep, raw);
+  });
+  on(add_report(app, report), [&] { return Command(report); });
   on(add_verify(app, verify), [&] { return Command(verify); });
   const auto scenes = add_scene(app, list, show, check, import);
   on(scenes[0], [&] { return Command(list); });
@@ -324,12 +365,6 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   on(info_command, [&] { return Command(info); });
 
   if (argc < 2) return usage("no command given.\n\n{}", app.help());
-  const std::string first = argv[1];
-  for (const NotBuilt& entry : not_built_commands) {
-    if (first == entry.command) {
-      return usage("aspic {} ({}) is not built yet in version {}.", entry.command, entry.what, ASPIC_VERSION);
-    }
-  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

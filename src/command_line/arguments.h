@@ -10,18 +10,9 @@
 #include "model/state.h"
 #include "run/backends.h"
 #include "run/run_files.h"
+#include "run/run_length.h"
 
 namespace aspic {
-
-/// Largest number of steps: beyond 2⁵³ time, which is step·h in double precision, no longer tells steps
-/// apart.
-inline constexpr std::uint64_t most_steps = std::uint64_t{1} << 53;
-
-/// How far a run goes, counted from the scene's start, also when resumed.
-struct RunLength {
-  std::optional<std::uint64_t> steps;
-  std::optional<double> duration;  ///< [s], ≥ 0; rounded to the nearest whole number of steps
-};
 
 struct RunOptions {
   std::string scene;  ///< empty: that of the checkpoint
@@ -67,6 +58,32 @@ struct BenchOptions {
   bool json = false;
 };
 
+struct SweepOptions {
+  std::string scene;
+  std::vector<std::string> overrides;
+  BackendChoice backend;
+  RunLength length;
+  std::vector<std::string> vary;      ///< KEY=VALUES, at least one
+  std::string out;                    ///< the CSV file
+  unsigned jobs = 0;                  ///< processes; 0: as many as pay
+  std::uint64_t part = 1, parts = 1;  ///< 1 ≤ part ≤ parts
+  bool force = false;
+  bool json = false;
+  bool worker = false;             ///< it serves another sweep's process
+  std::vector<std::string> words;  ///< the arguments after `sweep` as they were given
+};
+
+struct ReportOptions {
+  std::string scene = "cube-plane";
+  std::vector<std::string> overrides;
+  std::string out;                ///< directory
+  std::vector<std::string> only;  ///< names of sections; empty: all
+  bool thorough = false;
+  bool force = false;
+  unsigned jobs = 0;  ///< threads; 0: as many as there are processors
+  bool json = false;
+};
+
 struct VerifyOptions {
   bool quick = false;
   std::vector<std::string> only;  ///< names of checks or groups; empty: all
@@ -106,9 +123,9 @@ struct ShowText {
   std::string text;
 };
 
-using Command =
-    std::variant<ShowText, RunOptions, ViewOptions, CompareOptions, BenchOptions, VerifyOptions,
-                 SceneListOptions, SceneShowOptions, SceneCheckOptions, SceneImportOptions, InfoOptions>;
+using Command = std::variant<ShowText, RunOptions, ViewOptions, CompareOptions, BenchOptions, SweepOptions,
+                             ReportOptions, VerifyOptions, SceneListOptions, SceneShowOptions,
+                             SceneCheckOptions, SceneImportOptions, InfoOptions>;
 
 /// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built
 /// yet.

@@ -10,6 +10,8 @@ inline constexpr const char* main_examples = R"(Examples:
   aspic view cube-bowl                              the window; F1 there shows all keys
   aspic compare cube-plane --backends gpu,reference --steps 1000
   aspic verify --quick                              check this build on this machine
+  aspic sweep cube-plane --vary k=500:8000:9:log --out k.csv   a run for each stiffness, a row each
+  aspic report cube-plane --out report              integrators and parameters compared, as a page
   aspic scene check my-scene.toml                   counts, memory and stable time steps
   aspic info                                        devices and limits
 
@@ -48,6 +50,26 @@ inline constexpr const char* bench_examples = R"(Examples:
 measured. Each case runs --repeats times over the same steps from the scene's start, all of a size in turn; the median
 counts, the spread is (slowest - fastest) / median. Spring evaluations are springs x force evaluations x steps; with
 implicit-euler an application of the Jacobian counts as one. A software rasteriser's figures are no GPU's: the renderer is named.)";
+
+inline constexpr const char* sweep_examples = R"(Examples:
+  aspic sweep cube-plane --vary h=0.0005:0.004:8:log --vary integrator=midpoint,runge-kutta-4 --out steps.csv
+  aspic sweep cube-plane --vary "cube[0].velocity=[1,0,0],[2,0,0]" --vary mu=0:0.6:7 --out slides.csv
+  aspic sweep large-cube --vary backend=cpu,gpu --duration 0.1 --out equal.csv
+  aspic sweep my-scene.toml --vary k=100:10000:64:log --out k-3.csv --part 3/8
+
+Every combination is a run; the last key varies fastest. h is the time step, k and c the stiffness and damping of all
+springs (the first gets the value, the others keep their ratios to it), n the particles per edge of all cubes, e and mu
+restitution and friction of all terrain. A run that diverges or that the scene rejects is a row with its reason. After a kill
+or Ctrl-C the same command continues. All columns but the last, seconds, are the same each time, whatever --jobs is;
+parts follow one another: awk 'FNR > 1 || NR == 1' k-*.csv joins them. docs/report.md explains the columns.)";
+
+inline constexpr const char* report_examples = R"(Examples:
+  aspic report cube-plane --out report              about a minute on two processors
+  aspic report my-scene.toml --out report --thorough
+  aspic report cube-plane --only stability --only contact --out part
+
+report.html is one file, light or dark as the reader's system is; report.md has its pictures beside it; report.pdf
+is made where chromium, weasyprint or wkhtmltopdf is installed. The numbers behind each figure are in data/.)";
 
 inline constexpr const char* verify_examples = R"(Examples:
   aspic verify                                      everything, a few minutes

@@ -150,6 +150,22 @@ Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
   return Command(std::move(view));
 }
 
+Result<Command> finish_sweep(SweepOptions sweep, const RawOptions& raw) {
+  ASPIC_TRY(sweep.backend, asked_of_all(raw));
+  ASPIC_TRY(sweep.backend.row, parse_backend_name(raw.backend));
+  ASPIC_CHECK(check_choice(sweep.backend));
+  ASPIC_CHECK(check_length(sweep.length));
+  const char* const end = raw.part.data() + raw.part.size();
+  const auto part = std::from_chars(raw.part.data(), end, sweep.part);
+  const bool slash = part.ec == std::errc() && part.ptr != end && *part.ptr == '/';
+  const auto parts = slash ? std::from_chars(part.ptr + 1, end, sweep.parts) : part;
+  if (!slash || parts.ec != std::errc() || parts.ptr != end || sweep.part < 1 || sweep.part > sweep.parts ||
+      sweep.parts > 1000000)
+    return usage("--part must be i/n with 1 <= i <= n <= 1000000, such as 2/8, not \"{}\".",
+                 printable_line(raw.part));
+  return Command(std::move(sweep));
+}
+
 Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
   ASPIC_TRY(bench.backends, bench_backends(raw));
   for (const std::string& word : raw.bench_integrators) {

@@ -16,6 +16,7 @@ struct RawOptions {
   std::vector<std::string> backends = {"gpu", "reference"};
   std::vector<std::string> bench_backends = {"auto"}, bench_force_paths, bench_integrators;
   std::string bench_timestep = "scene";
+  std::string part = "1/1";
   std::string window_size, size = "1280x720", frames_format = "png", text = "on";
   bool no_text = false;
 };
@@ -31,6 +32,7 @@ Error usage(fmt::format_string<T...> message, T&&... arguments) {
 Result<Command> finish_run(RunOptions run, const RawOptions& raw);
 Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw);
 Result<Command> finish_view(ViewOptions view, const RawOptions& raw);
+Result<Command> finish_sweep(SweepOptions sweep, const RawOptions& raw);
 Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw);
 
 }  // namespace aspic

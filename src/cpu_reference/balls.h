@@ -66,6 +66,7 @@ class Balls {
   /// Particles next to each other in number, which are mostly so in space: a box around them is far from all
   /// balls, or each of them looks for its own.
   static constexpr std::uint32_t neighbourhood = 64;
+  static constexpr std::uint32_t no_ball = 0xffffffffu;
   using Counts = std::vector<std::uint32_t>;
   /// What balls receive in a phase.
   using Impulses = std::vector<std::pair<std::uint32_t, Impulse<T>>>;
@@ -131,9 +132,11 @@ class Balls {
   }
 
   void find_touches(std::uint64_t step, const BallPhase<T>& balls, const ParticleView<T>& particles);
-  void find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls, std::uint32_t own);
-  void find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls, const ParticleView<T>& particles,
-                     std::uint32_t own);
+  /// Adds the balls closer than ε to a body of this radius at x, ball `own` or a particle (no_ball), in
+  /// ascending index; gap_to(b) is the gap to ball b. They stay in near_.
+  template <class GapTo>
+  void add_near(const BallSearch<T>& search, const BallPhase<T>& balls, const Vector<T>& x, T radius,
+                std::uint32_t own, const GapTo& gap_to, Contacts& contacts);
   void list_particles_of_balls();
   void exchange_among_balls(const BallPhase<T>& start, BallPhase<T>& balls);
   void exchange_with_particles(const BallPhase<T>& start, BallPhase<T>& balls,
@@ -193,7 +196,8 @@ void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const
   auto next = present_.begin();
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     if (next != present_.end() && *next == b) {
-      find_balls_of(search, balls, b);
+      const auto gap_to = [&](std::uint32_t other) { return between_balls(balls, b, other); };
+      add_near(search, balls, balls.x.col(b), body(b).radius, b, gap_to, ball_ball_);
       ++next;
     }
     ball_ball_.end_body();
@@ -205,42 +209,29 @@ void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const
     const std::uint32_t end = std::min(count, first + neighbourhood);
     if (!search.any_near(box_of(particles, first, end))) continue;
     for (std::uint32_t p = first; p < end; ++p) {
-      if (particles.position(p).allFinite()) find_balls_of(search, balls, particles, p);
+      const Vector<T> x = particles.position(p);
+      if (!x.allFinite()) continue;
+      const auto gap_to = [&](std::uint32_t b) { return from_particle(balls, particles, p, b); };
+      add_near(search, balls, x, T(0), no_ball, gap_to, particle_ball_);
+      if (near_.empty()) continue;
+      particle_ball_.end_body();
+      touching_.push_back(p);
     }
   }
   list_particles_of_balls();
 }
 
 template <class T>
-void Balls<T>::find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls, std::uint32_t own) {
+template <class GapTo>
+void Balls<T>::add_near(const BallSearch<T>& search, const BallPhase<T>& balls, const Vector<T>& x, T radius,
+                        std::uint32_t own, const GapTo& gap_to, Contacts& contacts) {
   near_.clear();
-  search.candidates(balls.x.col(own), true, [&](std::uint32_t other) {
-    if (own == other ||
-        !may_touch(balls.x.col(own) - balls.x.col(other), body(own).radius + body(other).radius))
-      return;
-    if (between_balls(balls, own, other).d < rules_.contact.epsilon) near_.push_back(other);
+  search.candidates(x, own != no_ball, [&](std::uint32_t b) {
+    if (b == own || !may_touch(x - balls.x.col(b), radius + body(b).radius)) return;
+    if (gap_to(b).d < rules_.contact.epsilon) near_.push_back(b);
   });
   if (!std::is_sorted(near_.begin(), near_.end())) std::sort(near_.begin(), near_.end());
-  for (const std::uint32_t other : near_) {
-    ball_ball_.add(other, between_balls(balls, own, other).d < T(0));
-  }
-}
-
-template <class T>
-void Balls<T>::find_balls_of(const BallSearch<T>& search, const BallPhase<T>& balls,
-                             const ParticleView<T>& particles, std::uint32_t own) {
-  near_.clear();
-  search.candidates(particles.position(own), false, [&](std::uint32_t b) {
-    if (!may_touch(particles.position(own) - balls.x.col(b), body(b).radius)) return;
-    if (from_particle(balls, particles, own, b).d < rules_.contact.epsilon) near_.push_back(b);
-  });
-  if (!std::is_sorted(near_.begin(), near_.end())) std::sort(near_.begin(), near_.end());
-  if (near_.empty()) return;
-  for (const std::uint32_t b : near_) {
-    particle_ball_.add(b, from_particle(balls, particles, own, b).d < T(0));
-  }
-  particle_ball_.end_body();
-  touching_.push_back(own);
+  for (const std::uint32_t b : near_) contacts.add(b, gap_to(b).d < T(0));
 }
 
 /// The particles' pairs once more, ball by ball: partners are numbers in touching_. Particles come in

@@ -1,6 +1,5 @@
 #include "gpu/buffer.h"
 
-#include <fmt/format.h>
 #include <glad/gl.h>
 
 #include <algorithm>
@@ -9,13 +8,13 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "gpu/read_ring.h"
 
 namespace aspic::gl {
 namespace {
 
 // The copy targets belong to no indexed binding point, so that working on a buffer disturbs no pass.
 constexpr GLenum target = GL_COPY_WRITE_BUFFER;
-constexpr GLenum source_target = GL_COPY_READ_BUFFER;
 constexpr std::uint64_t token_bytes = 16;
 
 }  // namespace
@@ -35,10 +34,11 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
 
   // An error from before would be taken for this allocation's; on debug contexts the message was kept.
   context.forget_errors();
+  std::uint32_t id = 0;
+  glGenBuffers(1, &id);
   Buffer buffer;
-  buffer.context_ = &context;
-  glGenBuffers(1, &buffer.id_);
-  glBindBuffer(target, buffer.id_);
+  buffer.held_ = {&context, {id, 0}};
+  glBindBuffer(target, id);
   glBufferData(target, static_cast<GLsizeiptr>(std::max(bytes, token_bytes)), nullptr,
                storage ? GL_DYNAMIC_COPY : GL_DYNAMIC_DRAW);
   const GLenum error = context.strikes(Fault::out_of_memory) ? GL_OUT_OF_MEMORY : glGetError();
@@ -50,66 +50,59 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
                 context.info().renderer, storage ? "storage" : "uniform", name, human_bytes(bytes), bytes,
                 human_bytes(context.bytes_held()), error);
   if (context.info().debug && !name.empty())
-    glObjectLabel(GL_BUFFER, buffer.id_, static_cast<GLsizei>(name.size()), name.data());
-  buffer.bytes_ = bytes;
+    glObjectLabel(GL_BUFFER, id, static_cast<GLsizei>(name.size()), name.data());
+  buffer.held_.get_deleter().bytes = bytes;
   context.bytes_held_ += bytes;
   return buffer;
 }
 
-Buffer::~Buffer() {
-  release();
-}
-
-Buffer::Buffer(Buffer&& other) noexcept
-    : context_(std::exchange(other.context_, nullptr)),
-      id_(std::exchange(other.id_, 0)),
-      bytes_(std::exchange(other.bytes_, 0)) {}
-
-Buffer& Buffer::operator=(Buffer&& other) noexcept {
-  if (this == &other) return *this;
-  release();
-  context_ = std::exchange(other.context_, nullptr);
-  id_ = std::exchange(other.id_, 0);
-  bytes_ = std::exchange(other.bytes_, 0);
-  return *this;
-}
-
-void Buffer::release() {
-  if (!id_) return;
-  glDeleteBuffers(1, &id_);
-  context_->bytes_held_ -= bytes_;
-  id_ = 0;
+void Buffer::Release::operator()(Context* context) const {
+  // Its number may soon be another buffer's.
+  for (auto& points : context->bound_)
+    for (Context::Bound& bound : points)
+      if (bound.id == id) bound = {};
+  glDeleteBuffers(1, &id);
+  context->bytes_held_ -= bytes;
 }
 
 void Buffer::upload(std::span<const std::byte> data, std::uint64_t offset) {
-  assert(offset <= bytes_ && data.size() <= bytes_ - offset);
+  assert(offset <= bytes() && data.size() <= bytes() - offset);
   if (data.empty()) return;
-  glBindBuffer(target, id_);
+  glBindBuffer(target, id());
   glBufferSubData(target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
 }
 
 void Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
-  assert(offset <= bytes_ && data.size() <= bytes_ - offset);
-  if (data.empty()) return;
-  if (context_->dead_) {
-    // What a lost device answers is anything; this is the least likely to pass for a result.
-    std::ranges::fill(data, std::byte{0xff});
-    return;
-  }
-  // Some drivers move a buffer that is read to the host's memory, and later passes with it: what is read is a
-  // copy.
-  for (std::uint64_t at = 0; at < data.size(); at += read_part_bytes) {
-    const auto size = static_cast<GLsizeiptr>(std::min(data.size() - at, read_part_bytes));
-    glBindBuffer(target, context_->read_buffer());
-    glBindBuffer(source_target, id_);
-    glCopyBufferSubData(source_target, target, static_cast<GLintptr>(offset + at), 0, size);
-    glGetBufferSubData(target, 0, size, data.data() + at);
+  assert(offset <= bytes() && data.size() <= bytes() - offset);
+  // One part is read while the next ones are copied.
+  ReadRing& ring = held_->reads();
+  const auto part = [&](std::uint64_t at) { return std::min(data.size() - at, read_part_bytes); };
+  for (std::uint64_t at = 0, asked = 0; at < data.size(); at += part(at)) {
+    for (; asked < data.size() && !ring.full(); asked += part(asked))
+      ring.submit(*this, offset + asked, part(asked));
+    ring.take(data.subspan(at, part(at)));
   }
 }
 
+void Buffer::bind(BufferKind kind, std::uint32_t binding, std::uint64_t offset, std::uint64_t bytes) const {
+  assert(bytes == 0 ? offset == 0 : offset <= this->bytes() && bytes <= this->bytes() - offset);
+  const bool storage = kind == BufferKind::storage;
+  auto& points = held_->bound_[storage ? 0 : 1];
+  const Context::Bound wanted = {id(), offset, bytes};
+  if (binding < points.size()) {
+    if (points[binding] == wanted) return;
+    points[binding] = wanted;
+  }
+  const GLenum point = storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER;
+  if (bytes == 0)
+    glBindBufferBase(point, binding, id());
+  else
+    glBindBufferRange(point, binding, id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+}
+
 void Buffer::clear() {
-  if (bytes_ == 0) return;
-  glBindBuffer(target, id_);
+  if (bytes() == 0) return;
+  glBindBuffer(target, id());
   glClearBufferData(target, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
 }
 

@@ -2,6 +2,7 @@
 // A block of device memory for shader storage or uniform blocks.
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <ranges>
 #include <span>
 #include <string>
@@ -43,10 +44,6 @@ class Buffer {
     return made;
   }
 
-  ~Buffer();
-  Buffer(Buffer&& other) noexcept;
-  Buffer& operator=(Buffer&& other) noexcept;
-
   /// Writes `data` from byte `offset` on; must lie within bytes().
   void upload(std::span<const std::byte> data, std::uint64_t offset = 0);
   /// Reads from byte `offset` on, waiting for the device. What a pass wrote is seen only if that pass, or one
@@ -70,9 +67,13 @@ class Buffer {
   }
 
   /// The size asked for [bytes].
-  std::uint64_t bytes() const { return bytes_; }
+  std::uint64_t bytes() const { return held_ ? held_.get_deleter().bytes : 0; }
   /// The GL name; 0 for an empty handle.
-  std::uint32_t id() const { return id_; }
+  std::uint32_t id() const { return held_ ? held_.get_deleter().id : 0; }
+  /// Binds it to an indexed binding point, where it stays for later passes and draws; nothing happens if it
+  /// is there. `bytes` of it from byte `offset` on, a multiple of the device's offset alignment; 0: all of it
+  /// (then offset must be 0). Nobody else may bind to these points with GL calls of their own.
+  void bind(BufferKind kind, std::uint32_t binding, std::uint64_t offset = 0, std::uint64_t bytes = 0) const;
 
  private:
   template <class Items>
@@ -80,10 +81,12 @@ class Buffer {
     static_assert(std::is_trivially_copyable_v<std::ranges::range_value_t<Items>>);
     return std::as_bytes(std::span(items));
   }
-  void release();
-  Context* context_ = nullptr;
-  std::uint32_t id_ = 0;
-  std::uint64_t bytes_ = 0;
+  struct Release {
+    std::uint32_t id;
+    std::uint64_t bytes;
+    void operator()(Context* context) const;
+  };
+  std::unique_ptr<Context, Release> held_;  // of its context; empty: no buffer
 };
 
 }  // namespace aspic::gl

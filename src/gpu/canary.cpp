@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -106,6 +107,15 @@ Result<Arithmetic> choose_arithmetic(Context& context, const ShaderLibrary& libr
   both.insert(both.end(), extra.begin(), extra.end());
   ASPIC_TRY(choice.corrected, measure_arithmetic(context, library, both));
   return choice;
+}
+
+std::uint32_t Arithmetic::worst_ulps() const {
+  const ArithmeticReport& found = corrected ? *corrected : device;
+  std::uint32_t worst = found.products_uncontracted() ? 0u : 1u;
+  for (const OperationCheck* check :
+       {&found.quotient, &found.reciprocal, &found.root, &found.product, &found.sum})
+    worst = std::max(worst, check->ulps);
+  return worst;
 }
 
 std::vector<std::string> Arithmetic::sentences() const {

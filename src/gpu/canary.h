@@ -74,6 +74,10 @@ struct Arithmetic {
   ArithmeticReport device;                    ///< the device's own operations
   std::optional<ArithmeticReport> corrected;  ///< measured again with `defines`, where they are needed
   std::vector<Define> defines;  ///< ASPIC_CORRECT_DIV, ASPIC_CORRECT_SQRT, ASPIC_FUSED_FMA, as needed
+  /// How far off a single operation may be in kernels compiled with `defines`, in units in the last place:
+  /// the worst case that was found. A contracted product and sum counts as one, since what it leaves out is
+  /// one rounding. 0: exact.
+  std::uint32_t worst_ulps() const;
   /// Kernels compiled with `defines` give the reference's bits wherever no denormal occurs.
   bool exact() const { return corrected ? corrected->all_exact() : device.all_exact(); }
   /// Complete sentences for `aspic info`: what is exact, what differs and with which operands, and what is

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 #include <glad/gl.h>
 
-#include <algorithm>
 #include <string_view>
 
 #include "base/printable.h"
+#include "gpu/fence.h"
 #include "gpu/program.h"
+#include "gpu/read_ring.h"
 
 namespace aspic::gl {
 namespace {
@@ -19,6 +20,10 @@ constexpr int most_errors = 64;
 constexpr GLenum reset_notification_strategy = 0x8256;
 constexpr GLint lose_context_on_reset = 0x8252;
 constexpr GLenum context_lost = 0x0507;
+
+// In KiB; of ATI's four numbers the first.
+constexpr GLenum nvx_free_memory = 0x9049;
+constexpr GLenum ati_vertex_free_memory = 0x87fb;
 
 bool has_extension(std::string_view name) {
   GLint count = 0;
@@ -65,6 +70,10 @@ void Context::start(std::string platform, Loader loader) {
     glGetIntegerv(reset_notification_strategy, &strategy);
     info_.robust = reset_status_ && strategy == lose_context_on_reset;
   }
+  if (has_extension("GL_NVX_gpu_memory_info"))
+    memory_query_ = nvx_free_memory;
+  else if (has_extension("GL_ATI_meminfo"))
+    memory_query_ = ati_vertex_free_memory;
   if (!info_.debug) return;
 
   // Synchronous, so that a message arrives within the call that caused it and on its thread.
@@ -82,7 +91,8 @@ void Context::start(std::string platform, Loader loader) {
 
 bool Context::lost() {
   if (lost_) return true;
-  lost_ = dead_ || strikes(Fault::lost_context) || (info_.robust && reset_status_() != GL_NO_ERROR);
+  lost_ =
+      dead_ || silent_ || strikes(Fault::lost_context) || (info_.robust && reset_status_() != GL_NO_ERROR);
   return lost_;
 }
 
@@ -100,12 +110,37 @@ bool Context::ran_out_of_memory() {
   return found;
 }
 
+std::optional<std::uint64_t> Context::free_memory() const {
+  if (assumed_free_ || memory_query_ == 0) return assumed_free_;
+  std::array<GLint, 4> kibibytes = {};
+  glGetIntegerv(memory_query_, kibibytes.data());
+  // A number beyond 2 TiB has no place in it.
+  if (kibibytes[0] <= 0) return std::nullopt;
+  return std::uint64_t{1024} * static_cast<std::uint64_t>(kibibytes[0]);
+}
+
+Status Context::check_memory(std::uint64_t bytes) const {
+  const auto free = free_memory();
+  if (!free || bytes <= *free) return {};
+  return fail(ErrorCode::scene_rejected,
+              "the scene needs {} ({} bytes) of memory on {}, and {} ({} bytes) are free; make it smaller, "
+              "close other "
+              "programs that use the device, or use --backend cpu",
+              human_bytes(bytes), bytes, info_.renderer, human_bytes(*free), *free);
+}
+
 void Context::forget_errors() {
   for (int n = 0; n < most_errors && glGetError() != GL_NO_ERROR; ++n) {
   }
 }
 
 Error Context::lost_error() const {
+  if (silent_)
+    return fail(
+        ErrorCode::no_device,
+        "The device {} has not answered for {} s. Resume from the last checkpoint on another device, or "
+        "choose --backend cpu.",
+        info_.renderer, longest_wait);
   return fail(ErrorCode::no_device,
               "The device {} was reset or lost, with everything it held. Resume from the last "
               "checkpoint, or choose --backend reference.",
@@ -128,7 +163,7 @@ void Context::inject_fault(Fault fault, std::uint64_t after) {
 
 void Context::take_back_faults() {
   faults_ = {};
-  dead_ = lost_ = false;
+  dead_ = lost_ = silent_ = false;
 }
 
 bool Context::begins_dispatch() {
@@ -137,17 +172,14 @@ bool Context::begins_dispatch() {
   return !dead_;
 }
 
-unsigned int Context::read_buffer() {
-  if (read_buffer_ != 0) return read_buffer_;
-  glGenBuffers(1, &read_buffer_);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, read_buffer_);
-  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(read_part_bytes), nullptr, GL_STREAM_READ);
-  return read_buffer_;
+ReadRing& Context::reads() {
+  if (!reads_) reads_ = std::make_unique<ReadRing>(*this, read_part_bytes);
+  return *reads_;
 }
 
 void Context::release_objects() {
   programs_.reset();
-  glDeleteBuffers(1, &read_buffer_);
+  reads_.reset();
 }
 
 bool Context::strikes(Fault fault) {

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -57,15 +56,20 @@ struct DebugMessage {
 
 /// What a driver does on a bad day; see Context::inject_fault.
 enum class Fault {
-  lost_context,     ///< the device was reset, and all that this context held is gone
-  out_of_memory,    ///< an allocation failed
-  lost_at_dispatch  ///< the same as lost_context, at a pass: it and all later ones do nothing
+  lost_context,      ///< the device was reset, and all that this context held is gone
+  out_of_memory,     ///< an allocation failed
+  lost_at_dispatch,  ///< the same as lost_context, at a pass: it and all later ones do nothing
+  no_answer,         ///< a wait for the device never ends
+  late               ///< the device has not got as far as a poll asks
 };
 
 /// What Buffer::download reads at a time [bytes].
 inline constexpr std::uint64_t read_part_bytes = std::uint64_t{4} << 20;
 
+struct DeleteFence;
 class ProgramCache;
+struct EglCandidate;
+class ReadRing;
 
 /// The address of a GL function, or null: eglGetProcAddress, glfwGetProcAddress.
 using Loader = void (*(*)(const char* name))();
@@ -112,8 +116,8 @@ class Context {
   /// For tests: the driver's fault strikes at its next chance, or after so many chances have passed. Chances
   /// of lost_context are calls of lost(); those of out_of_memory are the making of a buffer or a texture and
   /// calls of ran_out_of_memory(); those of lost_at_dispatch are the dispatches of passes, and what is
-  /// downloaded once it has struck has all bits set. No GL call is made for it, so that the context itself
-  /// goes on working.
+  /// downloaded once it has struck has all bits set; those of no_answer and late are calls of wait_for() and
+  /// passed(). No GL call is made for it, so that the context itself goes on working.
   void inject_fault(Fault fault, std::uint64_t after = 0);
   /// For tests: faults that have not struck yet never will, and an injected loss is taken back.
   void take_back_faults();
@@ -127,6 +131,15 @@ class Context {
   /// Compute programs that were linked in this context, to be used again.
   ProgramCache& programs() { return *programs_; }
 
+  /// Bytes of device memory that are free, where the driver tells (GL_NVX_gpu_memory_info, GL_ATI_meminfo),
+  /// or as assumed.
+  std::optional<std::uint64_t> free_memory() const;
+  /// For tests: what free_memory() answers from now on; nothing: what the driver tells.
+  void assume_free_memory(std::optional<std::uint64_t> bytes) { assumed_free_ = bytes; }
+  /// Error (scene_rejected): `bytes` more are needed than are free, as far as the driver tells; the sentence
+  /// gives the figures.
+  Status check_memory(std::uint64_t bytes) const;
+
   /// Bytes that this context's buffers hold at present.
   std::uint64_t bytes_held() const { return bytes_held_; }
 
@@ -134,13 +147,24 @@ class Context {
   friend class Buffer;
   friend class Texture;
   friend class Pass;
-  friend class EglContextMaker;
+  friend class ReadRing;
+  friend bool passed(Context& context, const std::unique_ptr<void, DeleteFence>& fence);
+  friend Status wait_for(Context& context, const std::unique_ptr<void, DeleteFence>& fence);
   Context();
+  /// The context on a candidate. The error says why it does not do.
+  static Result<std::unique_ptr<Context>> create_on(const EglCandidate& candidate,
+                                                    const ContextOptions& options);
   void start(std::string platform, Loader loader);
   /// Whether an injected fault's time has come; it has only one.
   bool strikes(Fault fault);
-  /// A buffer of read_part_bytes, for nothing but what is to be read; made when it is first asked for.
-  unsigned int read_buffer();
+  /// What an indexed binding point holds.
+  struct Bound {
+    unsigned int id = 0;
+    std::uint64_t offset = 0, bytes = 0;
+    friend bool operator==(const Bound&, const Bound&) = default;
+  };
+  /// Copies of read_part_bytes on their way back; made when it is first asked for.
+  ReadRing& reads();
   void release_objects();
   /// A pass is about to be dispatched: whether it may.
   bool begins_dispatch();
@@ -149,13 +173,18 @@ class Context {
   void* context_ = nullptr;
   DeviceInfo info_;
   bool lost_ = false;
-  unsigned int (*reset_status_)() = nullptr;            // glGetGraphicsResetStatus of a robust context
+  unsigned int (*reset_status_)() = nullptr;  // glGetGraphicsResetStatus of a robust context
+  std::uint32_t memory_query_ = 0;            // what tells of free memory, or 0
+  std::optional<std::uint64_t> assumed_free_;
   bool dead_ = false;                                   // by an injected loss at a dispatch
-  std::array<std::optional<std::uint64_t>, 3> faults_;  // by Fault: chances left to let pass
+  bool silent_ = false;                                 // a wait for the device did not end
+  std::array<std::optional<std::uint64_t>, 5> faults_;  // by Fault: chances left to let pass
   std::uint64_t dispatches_ = 0;
   std::unique_ptr<ProgramCache> programs_;
   std::uint64_t bytes_held_ = 0;
-  unsigned int read_buffer_ = 0;
+  std::unique_ptr<ReadRing> reads_;
+  // Storage and uniform binding points, so that nothing is bound where it is already.
+  std::array<std::array<Bound, 16>, 2> bound_ = {};
   std::function<void(const DebugMessage&)> sink_;
 };
 

@@ -16,8 +16,18 @@
 #include "gpu/context.h"
 #include "gpu/device_info.h"
 #include "gpu/program.h"
+#include "gpu/read_ring.h"
 
 namespace aspic::gl {
+
+/// One way to a display.
+struct EglCandidate {
+  std::string name;
+  EGLenum platform = 0;  // 0: eglGetDisplay
+  void* native = nullptr;
+  DeviceChoice demand = DeviceChoice::automatic;  // not index
+};
+
 namespace {
 
 bool has_extension(const char* list, std::string_view name) {
@@ -79,14 +89,6 @@ EglDevice describe_device(int index, EGLDeviceEXT device) {
   return result;
 }
 
-/// One way to a display.
-struct Candidate {
-  std::string name;
-  EGLenum platform = 0;  // 0: eglGetDisplay
-  void* native = nullptr;
-  DeviceChoice demand = DeviceChoice::automatic;  // not index
-};
-
 /// The choice after the environment had its say.
 struct Choice {
   DeviceChoice device = DeviceChoice::automatic;
@@ -119,9 +121,9 @@ Result<Choice> choose(const ContextOptions& options) {
   return choice;
 }
 
-Result<std::vector<Candidate>> candidates(const Choice& choice) {
+Result<std::vector<EglCandidate>> candidates(const Choice& choice) {
   const std::vector<EGLDeviceEXT> devices = egl_devices();
-  std::vector<Candidate> result;
+  std::vector<EglCandidate> result;
   const auto add_device = [&](std::size_t i, DeviceChoice demand) {
     result.push_back({fmt::format("EGL device {}", i), EGL_PLATFORM_DEVICE_EXT, devices[i], demand});
   };
@@ -221,58 +223,47 @@ std::vector<EglDevice> list_devices() {
   return result;
 }
 
-/// Walks the candidates and builds the first context that will do.
-class EglContextMaker {
- public:
-  explicit EglContextMaker(const ContextOptions& options) : options_(options) {}
-
-  /// The context on this candidate. The error says why it does not do.
-  Result<std::unique_ptr<Context>> attempt(const Candidate& candidate) const {
-    if (candidate.demand != DeviceChoice::hardware && vector_width_crashes())
-      return unfit(
-          "may be a software rasteriser, which the environment variable LP_NATIVE_VECTOR_WIDTH makes crash "
-          "(allowed are 128, 256 and 512)");
-    const EGLDisplay display = candidate.platform
-                                   ? eglGetPlatformDisplay(candidate.platform, candidate.native, nullptr)
-                                   : eglGetDisplay(EGL_DEFAULT_DISPLAY);
-    // A display is never terminated: EGL returns the same one to every caller in the process.
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
-      return unfit("cannot be opened ({})", egl_error());
-    if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
-      return unfit("cannot work without a window surface");
-    if (!eglBindAPI(EGL_OPENGL_API)) return unfit("has no desktop OpenGL ({})", egl_error());
-    const EGLContext egl_context = create_context(display, options_);
-    if (egl_context == EGL_NO_CONTEXT) return unfit("provides no OpenGL 4.3 core context ({})", egl_error());
-    std::unique_ptr<Context> context(new Context);
-    context->display_ = display;
-    context->context_ = egl_context;
-    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context))
-      return unfit("cannot make its context current ({})", egl_error());
-    if (gladLoadGL(eglGetProcAddress) < GLAD_MAKE_VERSION(4, 3))
-      return unfit("lacks functions of OpenGL 4.3");
-    const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    const bool software = is_software_renderer(renderer);
-    if ((candidate.demand == DeviceChoice::hardware && software) ||
-        (candidate.demand == DeviceChoice::software && !software))
-      return unfit("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
-    context->start(candidate.name, eglGetProcAddress);
-    return context;
-  }
-
- private:
-  ContextOptions options_;
-};
+Result<std::unique_ptr<Context>> Context::create_on(const EglCandidate& candidate,
+                                                    const ContextOptions& options) {
+  if (candidate.demand != DeviceChoice::hardware && vector_width_crashes())
+    return unfit(
+        "may be a software rasteriser, which the environment variable LP_NATIVE_VECTOR_WIDTH makes crash "
+        "(allowed are 128, 256 and 512)");
+  const EGLDisplay display = candidate.platform
+                                 ? eglGetPlatformDisplay(candidate.platform, candidate.native, nullptr)
+                                 : eglGetDisplay(EGL_DEFAULT_DISPLAY);
+  // A display is never terminated: EGL returns the same one to every caller in the process.
+  if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
+    return unfit("cannot be opened ({})", egl_error());
+  if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
+    return unfit("cannot work without a window surface");
+  if (!eglBindAPI(EGL_OPENGL_API)) return unfit("has no desktop OpenGL ({})", egl_error());
+  const EGLContext egl_context = create_context(display, options);
+  if (egl_context == EGL_NO_CONTEXT) return unfit("provides no OpenGL 4.3 core context ({})", egl_error());
+  std::unique_ptr<Context> context(new Context);
+  context->display_ = display;
+  context->context_ = egl_context;
+  if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context))
+    return unfit("cannot make its context current ({})", egl_error());
+  if (gladLoadGL(eglGetProcAddress) < GLAD_MAKE_VERSION(4, 3)) return unfit("lacks functions of OpenGL 4.3");
+  const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const bool software = is_software_renderer(renderer);
+  if ((candidate.demand == DeviceChoice::hardware && software) ||
+      (candidate.demand == DeviceChoice::software && !software))
+    return unfit("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
+  context->start(candidate.name, eglGetProcAddress);
+  return context;
+}
 
 Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& options) {
   if (const std::string missing = missing_resource(); !missing.empty()) {
     return Error{ErrorCode::no_device, missing + ". Raise it, or use --backend reference without pictures."};
   }
   ASPIC_TRY(const Choice choice, choose(options));
-  ASPIC_TRY(const std::vector<Candidate> ways, candidates(choice));
-  const EglContextMaker maker(options);
+  ASPIC_TRY(const std::vector<EglCandidate> ways, candidates(choice));
   std::string tried;
-  for (const Candidate& candidate : ways) {
-    auto context = maker.attempt(candidate);
+  for (const EglCandidate& candidate : ways) {
+    auto context = create_on(candidate, options);
     if (context) return context;
     tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, context.error().message);
   }

@@ -9,15 +9,7 @@ namespace {
 
 void bind(const Binding& b) {
   assert(b.buffer);
-  const GLenum target = b.kind == BufferKind::storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER;
-  if (b.bytes == 0) {
-    assert(b.offset == 0);
-    glBindBufferBase(target, b.binding, b.buffer->id());
-  } else {
-    assert(b.offset <= b.buffer->bytes() && b.bytes <= b.buffer->bytes() - b.offset);
-    glBindBufferRange(target, b.binding, b.buffer->id(), static_cast<GLintptr>(b.offset),
-                      static_cast<GLsizeiptr>(b.bytes));
-  }
+  b.buffer->bind(b.kind, b.binding, b.offset, b.bytes);
 }
 
 }  // namespace

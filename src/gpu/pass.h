@@ -54,7 +54,8 @@ GroupCount groups_for(std::uint32_t count, std::uint32_t group_size);
 
 /// A program with its bindings. Kernels have one invocation per item along a one-dimensional local size,
 /// compute their index with item_index() of compute/dispatch.glsl, and return where it is not below the
-/// count. Dispatching allocates nothing and costs one GL call per binding and three more.
+/// count. Dispatching allocates nothing and costs one GL call for each binding that is not
+/// in place already and three more.
 class Pass {
  public:
   /// `program` and the bindings' buffers must outlive the pass. `readers` is what comes next as a rule.

@@ -1,6 +1,5 @@
 #include "gpu/pixel_ring.h"
 
-#include <fmt/format.h>
 #include <glad/gl.h>
 
 #include <cassert>
@@ -11,19 +10,8 @@ namespace {
 
 // Four bytes a pixel go straight through; three would be repacked by the driver texel by texel.
 constexpr std::size_t stored_channels = 4;
-constexpr GLuint64 wait_ns = 100'000'000;
 
 }  // namespace
-
-void DeleteFence::operator()(void* sync) const {
-  glDeleteSync(static_cast<GLsync>(sync));
-}
-
-Fence fence() {
-  Fence made(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
-  glFlush();
-  return made;
-}
 
 Name pixel_buffer(std::size_t bytes) {
   GLuint id = 0;
@@ -69,9 +57,7 @@ Status PixelRing::take(std::vector<std::byte>& rgb) {
   assert(pending_ > 0);
   const std::size_t slot = first_;
   const Fence drawn = std::move(fences_[slot]);
-  const auto sync = static_cast<GLsync>(drawn.get());
-  GLenum state = glClientWaitSync(sync, GL_SYNC_FLUSH_COMMANDS_BIT, wait_ns);
-  while (state == GL_TIMEOUT_EXPIRED && !context_->lost()) state = glClientWaitSync(sync, 0, wait_ns);
+  const Status answered = wait_for(*context_, drawn);
   first_ = (first_ + 1) % capacity;
   --pending_;
 
@@ -83,7 +69,7 @@ Status PixelRing::take(std::vector<std::byte>& rgb) {
                 context_->info().renderer);
   };
   const auto* pixels = static_cast<const std::byte*>(
-      state == GL_WAIT_FAILED || context_->lost()
+      !answered || context_->lost()
           ? nullptr
           : glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0,
                              static_cast<GLsizeiptr>(stored_channels * width * height), GL_MAP_READ_BIT));

@@ -3,23 +3,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "base/result.h"
 #include "gpu/context.h"
+#include "gpu/fence.h"
 #include "gpu/name.h"
 #include "gpu/texture.h"
 
 namespace aspic::gl {
-
-/// Tells when the device has done all calls before it; owns a GLsync.
-struct DeleteFence {
-  void operator()(void* sync) const;
-};
-using Fence = std::unique_ptr<void, DeleteFence>;
-/// A fence after all calls so far, which go to the device.
-Fence fence();
 
 /// A buffer for pixels on their way back.
 Name pixel_buffer(std::size_t bytes);

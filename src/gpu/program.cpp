@@ -147,10 +147,6 @@ void Program::set(int location, float value) const {
   glProgramUniform1f(id(), location, value);
 }
 
-void Program::set(int location, const std::array<float, 3>& value) const {
-  glProgramUniform3f(id(), location, value[0], value[1], value[2]);
-}
-
 void Program::set(int location, const std::array<float, 4>& value) const {
   glProgramUniform4f(id(), location, value[0], value[1], value[2], value[3]);
 }

@@ -50,7 +50,6 @@ class Program {
   void set(int location, std::uint32_t value) const;
   void set(int location, std::int32_t value) const;
   void set(int location, float value) const;
-  void set(int location, const std::array<float, 3>& value) const;
   void set(int location, const std::array<float, 4>& value) const;
 
   std::uint32_t id() const { return name_.id(); }

@@ -13,12 +13,6 @@
 namespace aspic::gl {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 /// What follows `# word` on a line that starts with that directive.
 std::optional<std::string_view> directive(std::string_view line, std::string_view word) {
   line = trimmed(line);

@@ -1,6 +1,5 @@
 #include "gpu/texture.h"
 
-#include <fmt/format.h>
 #include <glad/gl.h>
 
 #include <algorithm>
@@ -104,29 +103,23 @@ void Texture::bind(std::uint32_t unit) const {
   glActiveTexture(GL_TEXTURE0);
 }
 
-Result<Framebuffer> Framebuffer::create(Context& context, const Texture* colour, const Texture* depth) {
-  assert(colour || depth);
-  const Texture& any = colour ? *colour : *depth;
+Result<Framebuffer> Framebuffer::create(Context& context, const Texture& colour, const Texture* depth) {
   Framebuffer result;
-  result.width_ = any.width();
-  result.height_ = any.height();
+  result.width_ = colour.width();
+  result.height_ = colour.height();
   GLuint id = 0;
   glGenFramebuffers(1, &id);
   result.name_ = Name(id, [](std::uint32_t owned) { glDeleteFramebuffers(1, &owned); });
   glBindFramebuffer(GL_FRAMEBUFFER, id);
-  if (colour) glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, colour->id(), 0);
+  glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, colour.id(), 0);
   if (depth) glFramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth->id(), 0);
-  if (!colour) {
-    glDrawBuffer(GL_NONE);
-    glReadBuffer(GL_NONE);
-  }
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
     return fail(ErrorCode::no_device,
                 "{} cannot draw into an image of {} x {} pixels with {} sample{} (framebuffer "
                 "status 0x{:04x}).",
-                context.info().renderer, any.width(), any.height(), any.settings().samples,
-                any.settings().samples == 1 ? "" : "s", status);
+                context.info().renderer, colour.width(), colour.height(), colour.settings().samples,
+                colour.settings().samples == 1 ? "" : "s", status);
   return result;
 }
 

@@ -66,9 +66,9 @@ class Framebuffer {
   /// An empty handle: id 0, which is GL's own name for a window's framebuffer.
   Framebuffer() = default;
 
-  /// Joins a colour and a depth texture; either may be null, not both.
+  /// Joins a colour texture and, unless null, a depth texture.
   /// Error (no_device): the driver cannot draw into this combination.
-  static Result<Framebuffer> create(Context& context, const Texture* colour, const Texture* depth);
+  static Result<Framebuffer> create(Context& context, const Texture& colour, const Texture* depth);
 
   /// Draws go here from now on, to the whole of it.
   void bind() const;

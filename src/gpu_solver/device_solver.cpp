@@ -75,7 +75,14 @@ Status DeviceSolver::load(const State& state) {
   return context_.check();
 }
 
+Status DeviceSolver::set_pull(const std::optional<Pull>& pull) {
+  // Steps of balls that found no room are repeated, with the pull that they had.
+  if (balls_.any()) ASPIC_CHECK(settle());
+  return pull_.set(model_, pull);
+}
+
 Result<State> DeviceSolver::state() {
+  ASPIC_CHECK(settle());
   State state;
   state.precision = Precision::single;
   state.step = base_step_ + steps_since_;
@@ -93,7 +100,7 @@ Result<gl::Pass> DeviceSolver::pass(const KernelOptions& kernels, std::string_vi
 }
 
 void DeviceSolver::keep_counting() {
-  if (steps_since_ <= 0x7fffffffu) return;
+  if (!counts_far()) return;
   base_step_ += steps_since_;
   steps_since_ = 0;
   balls_.set_base_step(base_step_);

@@ -35,7 +35,7 @@ class DeviceSolver : public GpuSolver {
   const std::shared_ptr<const SpringBuffers>& spring_buffers() const final { return springs_; }
 
   Status load(const State& state) final;
-  Status set_pull(const std::optional<Pull>& pull) final { return pull_.set(model_, pull); }
+  Status set_pull(const std::optional<Pull>& pull) final;
   Result<State> state() final;
   void set_profiling(bool on) final;
   std::vector<gl::PassTime> pass_times() final;
@@ -63,9 +63,12 @@ class DeviceSolver : public GpuSolver {
   void mark(std::size_t kind) const {
     if (profiler_) profiler_->mark(kind);
   }
+  /// Waits for what is queued, so that state and step number are those of good steps.
+  virtual Status settle() { return {}; }
   /// The kernels count steps in 32 bits: before those are full, counting begins again. No step may be under
-  /// way.
+  /// way when it does, which is where counts_far().
   void keep_counting();
+  bool counts_far() const { return steps_since_ > 0x7fffffffu; }
   /// The divergence a kernel's word means (Control and Solve in shaders/compute/layout.glsl), in the step
   /// after `steps` since the base step.
   Divergence divergence_from(std::uint32_t word, std::uint64_t steps) const;

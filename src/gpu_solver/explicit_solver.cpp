@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <deque>
 
+#include "gpu/read_ring.h"
 #include "gpu_solver/device_solver.h"
+#include "gpu_solver/queue_depth.h"
 #include "model/integrator.h"
 #include "model/springs.h"
 
@@ -12,8 +16,13 @@ using gl::Binding;
 using gl::Buffer;
 using gl::ReadBy;
 
-/// Steps queued between two looks at the control words: enough to hide the wait, few enough to answer Ctrl-C.
-constexpr std::uint64_t steps_per_look = 256;
+using Clock = std::chrono::steady_clock;
+
+/// Steps queued between two looks at the control words, at most, and queues under way: one is carried out
+/// while the host hears of the one before.
+constexpr std::uint32_t most_steps = 1024;
+constexpr std::size_t most_queues = 2;
+static_assert(most_queues <= gl::ReadRing::capacity);
 
 /// See GpuOptions::lattice_run.
 constexpr std::uint32_t software_run = 4;
@@ -34,21 +43,41 @@ class ExplicitSolver final : public DeviceSolver {
         method_(free_flight_row(model.simulation.integrator)) {}
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
+  void set_late(bool on) override { late_ = on; }
 
  private:
+  /// Steps that are queued, and not looked at yet.
+  struct Queue {
+    std::uint32_t count;
+    std::size_t first_state;   // where they begin
+    std::uint32_t first_slot;  // of the balls, likewise
+    std::uint32_t first_step;
+    Clock::time_point begun;
+  };
   /// Kinds of passes, for the profiler.
   enum Kind : std::size_t { springs_kind, lattices_kind, particles_kind };
   std::uint32_t group_size(const GpuOptions& options) const override { return options.group_size; }
   Status build_passes(const KernelOptions& kernels, const GpuOptions& options) override;
   void restart() override;
+  Status settle() override { return carry_out(0, true); }
+  Status carry_out(std::uint64_t steps, bool wait);
+  std::uint32_t queue_steps(std::uint32_t count);
   Status build_lattice_pass(KernelOptions kernels, std::uint32_t run, const std::vector<Binding>& bindings);
   void dispatch(const std::optional<gl::Pass>& pass, Kind kind, std::uint32_t items,
                 std::span<const Binding> states, ReadBy readers) const;
   void queue_step(std::uint32_t step_index, bool last_of_queue);
-  Result<layout::Control> read_control();
+  Result<std::uint64_t> take_look();
+  void forget_queues();
+  std::uint32_t passes_per_step() const;
 
   const IntegratorRow& method_;
   Buffer sums_, control_, forces_;
+  std::deque<Queue> queues_;
+  std::optional<gl::ReadRing> looks_;  // the control words after each queue
+  QueueDepth depth_{most_steps};
+  Clock::time_point last_look_ = {};
+  std::uint32_t passes_before_ = 0;  // that must have been carried out before the oldest queue
+  bool late_ = false;
   std::optional<gl::Pass> spring_pass_, lattice_pass_, particle_pass_;  // of each stage
   std::uint32_t lattice_runs_ = 0, listed_particles_ = 0;               // items of the last two
 };
@@ -67,6 +96,7 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   const std::uint64_t state_bytes = states_[0].bytes();
   ASPIC_TRY(sums_, Buffer::create(context_, "stage sums", keeps_sums(method_) ? state_bytes : 0));
   ASPIC_TRY(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
+  looks_.emplace(context_, sizeof(layout::Control));
   fast_ = options.spring_arithmetic == Arithmetic::fast;
   KernelOptions stage_kernels = kernels;
   if (fast_) stage_kernels.defines.push_back({"ASPIC_FAST", "1"});
@@ -105,8 +135,11 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
 }
 
 void ExplicitSolver::restart() {
-  const layout::Control control = {NO_STEP, NO_STEP, NO_STEP, 0};
+  layout::Control control{};
+  control.bad_step = control.bad_particle = control.full_step = NO_STEP;
   control_.upload_items(std::span(&control, 1));
+  forget_queues();
+  passes_before_ = 0;
 }
 
 void ExplicitSolver::dispatch(const std::optional<gl::Pass>& pass, Kind kind, std::uint32_t items,
@@ -147,40 +180,91 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
 }
 
 Result<std::optional<Divergence>> ExplicitSolver::advance(std::uint64_t steps) {
-  while (steps > 0 && !divergence_) {
-    keep_counting();
-    const auto queue = static_cast<std::uint32_t>(std::min(steps, steps_per_look));
-    const std::size_t first_state = current_;
-    const std::uint32_t first_slot = ball_slot_;
-    for (std::uint32_t n = 0; n < queue; ++n) {
-      if (profiler_ && n == 0) profiler_->begin();
-      queue_step(steps_since_ + n, n + 1 == queue);
-      if (profiler_ && n == 0) profiler_->end();
-    }
-    ASPIC_TRY(const layout::Control control, read_control());
-    std::uint32_t good = queue;
-    if (control.full_step != NO_STEP) {
-      // Steps before it have passed; it is repeated from the state it began with, where nothing was written.
-      good = control.full_step - steps_since_;
-      ASPIC_CHECK(balls_.grow());
-      restart();
-    } else if (control.bad_step != NO_STEP) {
-      good = control.bad_step - steps_since_;
-      divergence_ = divergence_from(control.bad_particle, control.bad_step);
-    }
-    current_ = (first_state + good) % 3;
-    ball_slot_ = (first_slot + good) % 2;
-    steps_since_ += good;
-    steps -= good;
-  }
+  ASPIC_CHECK(carry_out(steps, !late_));
   return divergence_;
 }
 
-Result<layout::Control> ExplicitSolver::read_control() {
-  const layout::Control control = control_.download_items<layout::Control>(1).front();
+Status ExplicitSolver::carry_out(std::uint64_t steps, bool wait) {
+  while (!divergence_) {
+    const bool must = queues_.size() == most_queues || (steps == 0 ? wait : counts_far());
+    if (!queues_.empty() && (must || looks_->ready())) {
+      const auto undone = take_look();
+      if (!undone) {
+        forget_queues();
+        return undone.error();
+      }
+      steps += *undone;
+    } else if (steps > 0) {
+      keep_counting();
+      steps -= queue_steps(static_cast<std::uint32_t>(std::min<std::uint64_t>(steps, depth_.next())));
+    } else {
+      break;
+    }
+  }
+  return {};
+}
+
+std::uint32_t ExplicitSolver::queue_steps(std::uint32_t count) {
+  queues_.push_back({count, current_, ball_slot_, steps_since_, Clock::now()});
+  for (std::uint32_t n = 0; n < count; ++n) {
+    if (profiler_ && n == 0) profiler_->begin();
+    queue_step(steps_since_ + n, n + 1 == count);
+    if (profiler_ && n == 0) profiler_->end();
+  }
+  steps_since_ += count;
+  looks_->submit(control_, 0, sizeof(layout::Control));
+  return count;
+}
+
+/// Waits for the oldest queue and takes in what came of it. Returns how many steps have to be queued again.
+Result<std::uint64_t> ExplicitSolver::take_look() {
+  layout::Control control;
+  looks_->take(std::as_writable_bytes(std::span(&control, 1)));
   ASPIC_CHECK(context_.check());
   ASPIC_CHECK(check_overrun(control.overrun));
-  return control;
+  const Queue queue = queues_.front();
+  queues_.pop_front();
+  const auto now = Clock::now();
+  depth_.took(queue.count, std::chrono::duration<double>(now - std::max(queue.begun, last_look_)).count());
+  last_look_ = now;
+  // What is queued behind a step that diverged or found no room has done nothing.
+  const bool full = control.full_step != NO_STEP, bad = !full && control.bad_step != NO_STEP;
+  const std::uint32_t good = full  ? control.full_step - queue.first_step
+                             : bad ? control.bad_step - queue.first_step
+                                   : queue.count;
+  // A step is found to fail after the last of its passes that count. Unsigned, so that a counter that wraps
+  // makes no difference.
+  const std::uint32_t least = passes_before_ + (good + (full || bad ? 1u : 0u)) * passes_per_step();
+  if (good > queue.count || control.passes - least > (1u << 31)) return idle_device(context_, model_, least);
+  passes_before_ = least;
+  if (!full && !bad) return std::uint64_t{0};
+  const std::uint64_t undone = std::uint64_t{steps_since_} - queue.first_step - good;
+  current_ = (queue.first_state + good) % 3;
+  ball_slot_ = (queue.first_slot + good) % 2;
+  steps_since_ = queue.first_step + good;
+  forget_queues();
+  if (full) {
+    // The step is repeated from the state it began with, where nothing was written.
+    ASPIC_CHECK(balls_.grow());
+    restart();
+  } else {
+    divergence_ = divergence_from(control.bad_particle, control.bad_step);
+  }
+  return undone;
+}
+
+void ExplicitSolver::forget_queues() {
+  queues_.clear();
+  looks_->forget();
+}
+
+/// Passes of a step that count themselves: of each stage those over springs and over particles, and the
+/// balls' flight.
+std::uint32_t ExplicitSolver::passes_per_step() const {
+  const auto stages = static_cast<std::uint32_t>(method_.stages.size());
+  const std::uint32_t particles = model_.particle_count() > 0 ? stages : 0u,
+                      springs = spring_pass_ && spring_count(model_) > 0 ? stages : 0u;
+  return particles + springs + (balls_.any() ? 1u : 0u);
 }
 
 }  // namespace

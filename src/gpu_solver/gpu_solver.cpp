@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/result.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/device_solver.h"
@@ -21,6 +23,10 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
                                                    const GpuOptions& options) {
   if (context.lost()) return context.lost_error();
   const ForcePathRow& path = row_of(options.force_path, model);
+  const std::uint64_t needed = gpu_bytes(model, path.path),
+                      shared =
+                          options.share_springs_of ? options.share_springs_of->spring_buffers()->bytes() : 0;
+  ASPIC_CHECK(context.check_memory(needed - std::min(needed, shared)));
   if (!solves(model.simulation.integrator, model.particle_count()))
     return make_explicit_solver(context, model, options, path);
   if (path.implicit) return make_implicit_solver(context, model, options, path);

@@ -55,8 +55,13 @@ class GpuSolver : public Solver {
   virtual ForcePath force_path() const = 0;
   /// What the canary found on this device, and how the kernels were compiled for it.
   virtual const gl::Arithmetic& arithmetic() const = 0;
+  /// From now on advance() may return before the device is done, for a window that must not wait: then a
+  /// divergence, a lost device and the end of the steps before it come out of the next advance(), at most two
+  /// queues late, and device_state() is what will be there. state() waits, and its step is that of a good
+  /// state. Off at first; implicit-euler always waits.
+  virtual void set_late(bool) {}
   /// Measures device time by pass from now on, or no longer. Off at first; never affects the bits. One step
-  /// in each advance() is measured, one in 256 of a long one; implicit-euler waits for the device once more
+  /// in each queue of an advance() is measured; implicit-euler waits for the device once more
   /// then.
   virtual void set_profiling(bool on) = 0;
   /// The passes of a step in their order, means over the last 64 steps that were measured: their sum is the

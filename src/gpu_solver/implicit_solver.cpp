@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
 #include "gpu_solver/device_solver.h"
+#include "gpu_solver/queue_depth.h"
 
 namespace aspic {
 namespace {
@@ -11,11 +13,15 @@ using gl::Binding;
 using gl::Buffer;
 using gl::ReadBy;
 
-/// Steps queued between two looks at the Solve block.
-constexpr std::uint64_t steps_per_look = 16;
-/// Rounds queued for the first step, before there is one to learn from, and whenever a step needed more than
-/// was queued.
-constexpr std::uint32_t first_rounds = 32, more_rounds = 16;
+using Clock = std::chrono::steady_clock;
+
+/// Steps queued between two looks at the Solve block, at most.
+constexpr std::uint32_t most_steps = 16;
+/// Rounds queued for the first step, before there is one to learn from, and at least where a step needed more
+/// than was queued.
+constexpr std::uint32_t first_rounds = 8, more_rounds = 16;
+/// Rounds queued for one step without a look, at most.
+constexpr std::uint32_t most_queued_rounds = 4096;
 
 enum Kernel : std::size_t { begin, evaluate, apply, update, direction, finish, kernel_count };
 constexpr std::array<KernelRow, kernel_count> kernel_rows = {
@@ -50,7 +56,8 @@ class ImplicitSolver final : public DeviceSolver {
   void queue_rounds(std::uint32_t rounds) const;
   /// More than a step can take.
   std::uint64_t most_rounds() const;
-  Error idle_device() const;
+  std::uint32_t rounds_wanted() const;
+  Status solve_queue();
   void write_solve();
   Status read_solve();
   void take_statistics(const layout::Solve& before);
@@ -59,6 +66,7 @@ class ImplicitSolver final : public DeviceSolver {
   std::vector<gl::Pass> passes_;  // by Kernel
   layout::Solve solve_{};         // as last read or written
   SolveStatistics statistics_;
+  QueueDepth depth_{most_steps}, round_depth_{most_queued_rounds, first_rounds};
 };
 
 Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptions& options) {
@@ -99,14 +107,6 @@ std::uint64_t ImplicitSolver::most_rounds() const {
   const auto iterations = static_cast<std::uint64_t>(implicit.newton_iterations),
              rounds = static_cast<std::uint64_t>(implicit.cg_iterations) + max_halvings + 3;
   return (iterations + 1) * rounds;
-}
-
-Error ImplicitSolver::idle_device() const {
-  return fail(
-      ErrorCode::no_device,
-      "{} does not carry out the kernels of implicit-euler: after {} rounds step {} is not at its end. Use "
-      "another device, or --backend cpu.",
-      context_.info().renderer, most_rounds(), base_step_ + solve_.step + 1);
 }
 
 void ImplicitSolver::write_solve() {
@@ -153,44 +153,70 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
     keep_counting();
     solve_.step = steps_since_;
     const bool measured = std::exchange(measure, false) && profiler_->begin();
-    const auto wanted = measured ? 1u : static_cast<std::uint32_t>(std::min(steps, steps_per_look));
+    const auto wanted =
+        measured ? 1u : static_cast<std::uint32_t>(std::min<std::uint64_t>(steps, depth_.next()));
     const std::uint32_t queue = poses_.cover(solve_.step, wanted);
     const std::uint32_t first = solve_.step;
+    const auto begun = Clock::now();
     solve_.target_step = first + queue;
     solve_.phase = PHASE_BEGIN;
     write_solve();
-    // As many rounds as the last step took and a quarter more; what is missing is queued on, what is too much
-    // does nothing. Neither changes a bit.
-    std::uint32_t rounds = solve_.ticks == 0 ? first_rounds : solve_.ticks + solve_.ticks / 4 + 1;
-    std::uint32_t looked = solve_.step;
-    std::uint64_t queued = 0;  // rounds of this step
-    while (solve_.phase != PHASE_IDLE && solve_.phase != PHASE_HALTED) {
-      if (solve_.step != looked) queued = 0;
-      looked = solve_.step;
-      if (queued > most_rounds()) return idle_device();
-      queued += rounds;
-      if (solve_.phase != PHASE_BEGIN) queue_rounds(more_rounds);
-      for (std::uint32_t n = solve_.step; n < solve_.target_step; ++n) {
-        dispatch(begin);
-        queue_rounds(rounds);
-      }
-      ASPIC_CHECK(read_solve());
-      if (solve_.full != 0) {
-        // The balls' part of the step is repeated, from the state it began with, where nothing was written.
-        ASPIC_CHECK(balls_.grow());
-        solve_.full = 0;
-        queued = 0;
-        write_solve();
-      }
-      rounds = std::max(more_rounds, solve_.ticks + solve_.ticks / 4 + 1);
-    }
+    ASPIC_CHECK(solve_queue());
     if (measured) profiler_->end();
     if (solve_.phase == PHASE_HALTED) {
       divergence_ = divergence_from(solve_.bad_particle, solve_.step);
     }
-    steps -= solve_.step - first;
+    const std::uint32_t done = solve_.step - first;
+    depth_.took(done, std::chrono::duration<double>(Clock::now() - begun).count());
+    steps -= done;
   }
   return divergence_;
+}
+
+/// As many as the last step took, or this one so far, and a quarter more.
+std::uint32_t ImplicitSolver::rounds_wanted() const {
+  if (solve_.ticks == 0) return first_rounds;
+  const std::uint32_t learnt = solve_.ticks + solve_.ticks / 4 + 1;
+  return solve_.phase == PHASE_BEGIN ? learnt : std::max(more_rounds, learnt);
+}
+
+/// Until the device has reached the target step or halted. No more rounds are queued for a step than take a
+/// moment; what is missing is queued on, what is too much does nothing. Neither changes a bit.
+Status ImplicitSolver::solve_queue() {
+  std::uint32_t looked = solve_.step;
+  std::uint64_t queued = 0;  // rounds of this step
+  while (solve_.phase != PHASE_IDLE && solve_.phase != PHASE_HALTED) {
+    if (solve_.step != looked) queued = 0;
+    looked = solve_.step;
+    if (queued > most_rounds()) return idle_device(context_, model_, queued * kernel_count);
+    const std::uint32_t rounds = std::min(rounds_wanted(), round_depth_.next());
+    queued += rounds;
+    const auto begun = Clock::now();
+    const layout::Solve before = solve_;
+    std::uint32_t n = solve_.step;
+    if (solve_.phase != PHASE_BEGIN) {
+      queue_rounds(rounds);
+      ++n;
+    }
+    for (; n < solve_.target_step; ++n) {
+      dispatch(begin);
+      queue_rounds(rounds);
+    }
+    ASPIC_CHECK(read_solve());
+    const std::uint32_t ended = solve_.step - before.step, worked = ended > 0 ? ended * solve_.ticks
+                                                                    : before.phase == PHASE_BEGIN
+                                                                        ? solve_.ticks
+                                                                        : solve_.ticks - before.ticks;
+    round_depth_.took(std::max(worked, 1u), std::chrono::duration<double>(Clock::now() - begun).count());
+    if (solve_.full != 0) {
+      // The balls' part of the step is repeated, from the state it began with, where nothing was written.
+      ASPIC_CHECK(balls_.grow());
+      solve_.full = 0;
+      queued = 0;
+      write_solve();
+    }
+  }
+  return {};
 }
 
 }  // namespace

@@ -62,6 +62,14 @@ void fill_stages(layout::Simulation& block, const IntegratorRow& method, double 
 
 Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, const GpuOptions& options,
                                      std::uint32_t group_size) {
+  const gl::DeviceLimits& limits = context.info().limits;
+  const std::uint32_t most = std::min(limits.group_invocations, limits.group_size[0]);
+  if (group_size < 1 || group_size > most)
+    return fail(ErrorCode::no_device,
+                "{} takes work groups of 1 to {} invocations, and the kernels were asked to have {}. Use "
+                "another group "
+                "size or another device.",
+                context.info().renderer, most, group_size);
   KernelOptions kernels{gl::ShaderLibrary(options.shader_directory), {}, {}};
   if (options.arithmetic) {
     kernels.arithmetic = *options.arithmetic;
@@ -84,6 +92,14 @@ std::vector<std::string> titles_of(std::span<const KernelRow> rows) {
   std::vector<std::string> titles;
   for (const KernelRow& row : rows) titles.emplace_back(row.title);
   return titles;
+}
+
+Error idle_device(const gl::Context& context, const Model& model, std::uint64_t count) {
+  return fail(
+      ErrorCode::no_device,
+      "{} is no usable device: it does not carry out the kernels of {}, of which {} or more were queued. Use "
+      "another device, or --backend cpu.",
+      context.info().renderer, name_of(model.simulation.integrator), count);
 }
 
 Status check_overrun(std::uint32_t overrun) {

@@ -27,9 +27,14 @@ struct KernelRow {
 std::vector<std::string> titles_of(std::span<const KernelRow> rows);
 
 /// Asks the canary unless the options know the arithmetic already. The kernels leave out the terrain shapes,
-/// and the motion, that the model does not have. Errors: those of choose_arithmetic.
+/// and the motion, that the model does not have. Errors: those of choose_arithmetic;
+/// no_device: the device takes no groups of this size.
 Result<KernelOptions> kernel_options(gl::Context& context, const Model& model, const GpuOptions& options,
                                      std::uint32_t group_size);
+
+/// The error (no_device) of a device that drops what it is given: of `count` dispatches some were not carried
+/// out.
+Error idle_device(const gl::Context& context, const Model& model, std::uint64_t count);
 
 /// Error (no_device): a kernel had a loop of more than MAX_ROUNDS (shaders/shared/layout.glsl), which
 /// `overrun` of Control or Solve names; 0: none had. The state is not to be trusted then.

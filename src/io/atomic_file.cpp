@@ -9,14 +9,16 @@
 #include <atomic>
 #include <cerrno>
 #include <climits>
-#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "base/printable.h"
 
 namespace aspic {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
@@ -47,18 +49,15 @@ void forget_temporary(int slot) {
 }
 
 std::string directory_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
+  const std::string directory = fs::path(path).parent_path();
+  return directory.empty() ? "." : directory;
 }
 
 /// Where a symbolic link leads, so that renaming replaces what it points to and not the link.
 std::string follow_links(const std::string& path) {
-  char* resolved = ::realpath(path.c_str(), nullptr);
-  if (resolved == nullptr) return path;
-  std::string result = resolved;
-  std::free(resolved);
-  return result;
+  std::error_code unresolved;
+  const fs::path resolved = fs::canonical(path, unresolved);
+  return unresolved ? path : resolved.string();
 }
 
 Error already_exists(const std::string& path) {

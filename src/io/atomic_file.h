@@ -1,8 +1,6 @@
 #pragma once
 // Files that appear complete or not at all: written under a temporary name in their directory and renamed
 // when complete.
-#include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 

@@ -129,7 +129,7 @@ ChildProcess::ChildProcess(ChildProcess&& other) noexcept
       answers_(std::move(other.answers_)) {}
 
 ChildProcess::~ChildProcess() {
-  if (pid_ > 0) ::kill(pid_, SIGKILL);
+  kill();
   (void)finish();
   if (errors_ >= 0) ::close(errors_);
 }
@@ -159,6 +159,10 @@ std::optional<std::string> ChildProcess::line() {
   std::string result = answers_.substr(0, end);
   answers_.erase(0, end + 1);
   return result;
+}
+
+void ChildProcess::kill() const {
+  if (pid_ > 0) ::kill(pid_, SIGKILL);
 }
 
 ChildProcess::End ChildProcess::finish() {

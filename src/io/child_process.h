@@ -34,6 +34,9 @@ class ChildProcess {
   /// output.
   std::optional<std::string> line();
 
+  /// Ends the program at once, from any thread while finish() is not called: line() then returns nothing.
+  void kill() const;
+
   /// How a program ended.
   struct End {
     int exit_code = -1;  ///< −1 if a signal ended it

@@ -62,4 +62,17 @@ void ProgressBar::update(std::uint64_t done) {
   std::fflush(stderr);
 }
 
+ProgressLines::ProgressLines(std::uint64_t total, std::string_view unit)
+    : silent_(::isatty(STDERR_FILENO) == 1 || total == 0), total_(total), unit_(unit) {}
+
+void ProgressLines::update(std::uint64_t done) {
+  const std::uint64_t tenth = silent_ ? 0 : 10 * done / total_;
+  if (tenth == tenth_ || silent_) return;
+  tenth_ = tenth;
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double left = elapsed / static_cast<double>(done) * static_cast<double>(total_ - done);
+  print_message(fmt::format("{} of {} {}{}", done, total_, unit_,
+                            done < total_ ? fmt::format(", about {:.0f} s left", left) : ""));
+}
+
 }  // namespace aspic

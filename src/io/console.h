@@ -44,4 +44,19 @@ class ProgressBar {
   Clock::time_point start_ = Clock::now(), last_ = {};
 };
 
+/// Where stderr is no terminal: a line at every tenth of a long piece of work, with an estimate of what is
+/// left.
+class ProgressLines {
+ public:
+  /// `unit`: what is counted, in the plural.
+  ProgressLines(std::uint64_t total, std::string_view unit);
+  void update(std::uint64_t done);
+
+ private:
+  bool silent_;
+  std::uint64_t total_, tenth_ = 0;
+  std::string unit_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace aspic

@@ -69,6 +69,8 @@ Result<std::unique_ptr<FrameSink>> open_film(const FilmFormat& format, const std
 
 /// One picture as the content of a file. JPEG has quality 92. Error (io): the encoder gave nothing.
 Result<std::string> encode_png(const PictureSize& size, std::span<const std::byte> rgb);
+/// The same with a share of coverage behind each colour: height·width·4 bytes.
+Result<std::string> encode_clear_png(const PictureSize& size, std::span<const std::byte> rgba);
 Result<std::string> encode_jpeg(const PictureSize& size, std::span<const std::byte> rgb);
 
 /// A sink of files frame-000000.png, … in `directory`, which is made if its parent exists. Every file appears

@@ -85,6 +85,12 @@ Result<std::string> encode_png(const PictureSize& size, std::span<const std::byt
   });
 }
 
+Result<std::string> encode_clear_png(const PictureSize& size, std::span<const std::byte> rgba) {
+  return encoded("PNG", size, rgba, [&](auto append, std::string& content) {
+    return stbi_write_png_to_func(append, &content, size.width, size.height, 4, rgba.data(), 4 * size.width);
+  });
+}
+
 Result<std::string> encode_jpeg(const PictureSize& size, std::span<const std::byte> rgb) {
   return encoded("JPEG", size, rgb, [&](auto append, std::string& content) {
     return stbi_write_jpg_to_func(append, &content, size.width, size.height, 3, rgb.data(), jpeg_quality);

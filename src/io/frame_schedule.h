@@ -21,9 +21,8 @@ class FrameSchedule {
   std::uint64_t step_of(std::uint64_t frame) const;
 
  private:
-  FrameSchedule(std::uint64_t first_step, double steps_per_frame);
   std::uint64_t first_, last_, count_;
-  double steps_per_frame_;
+  double steps_per_frame_;  // within what steps and pictures can count, whatever the quotient overflows to
 };
 
 }  // namespace aspic

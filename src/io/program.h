@@ -7,13 +7,10 @@ namespace aspic {
 /// Runs `work` and returns its exit code, or 6 if it ends with an exception: a sentence goes to stderr and
 /// the temporary files of this process are removed. Before that it
 /// - opens /dev/null on those of the descriptors 0, 1 and 2 that are closed, so that no file that is opened
-/// later
-///   takes their place and receives messages;
-/// - ignores SIGPIPE and SIGXFSZ: closed pipes and the limit on file sizes (ulimit -f) become errors of
-/// write();
+///   later takes their place and receives messages;
+/// - ignores SIGPIPE and SIGXFSZ: closed pipes and the limit on file sizes (ulimit -f) make write() fail;
 /// - sees to it that a fatal signal, such as one raised inside a graphics driver, removes the temporary files
-/// and says
-///   a sentence before it ends the process as it would have.
+///   and says a sentence before it ends the process as it would have.
 /// Call it once, first of all in main().
 int run_program(const std::function<int()>& work);
 

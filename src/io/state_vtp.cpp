@@ -132,21 +132,11 @@ void write_cells(Document& document, const Model& model, const State& state) {
         c.rest_length > 0.0 ? length(state.position[s.a] - state.position[s.b]) / c.rest_length - 1.0 : 0.0);
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    for (const Patch& p : model.bodies[b].surface) {
-      const auto at = [&](std::uint32_t i, std::uint32_t j) {
-        return std::uint64_t{p.first} + i * p.stride[0] + j * p.stride[1];
-      };
-      for (std::uint32_t i = 0; i + 1 < p.count[0]; ++i) {
-        for (std::uint32_t j = 0; j + 1 < p.count[1]; ++j) {
-          if (p.clockwise)
-            quads.add({at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
-          else
-            quads.add({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-          body.push_back(static_cast<std::int32_t>(b));
-          type.push_back(255);
-          strain.push_back(0.0);
-        }
-      }
+    for (const auto& [p, q, r, s] : quads_of(model.bodies[b])) {
+      quads.add({p, q, r, s});
+      body.push_back(static_cast<std::int32_t>(b));
+      type.push_back(255);
+      strain.push_back(0.0);
     }
   }
   balls.write(document, "Verts");
@@ -164,8 +154,7 @@ void write_cells(Document& document, const Model& model, const State& state) {
 Status write_state_vtp(AtomicFile& file, const Model& model, const State& state) {
   ASPIC_CHECK(check_finite(state, file.path()));
   std::uint64_t quads = 0;
-  for (const Body& body : model.bodies)
-    for (const Patch& p : body.surface) quads += std::uint64_t{p.count[0] - 1} * (p.count[1] - 1);
+  for (const Body& body : model.bodies) quads += quads_of(body).size();
   Document document;
   document.add(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "

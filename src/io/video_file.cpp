@@ -8,6 +8,11 @@
 namespace aspic {
 namespace {
 
+/// ffmpeg's options up to the size of the pictures it reads.
+constexpr const char* raw_input[] = {"ffmpeg",   "-hide_banner",  "-nostdin", "-loglevel",
+                                     "error",    "-xerror",       "-y",       "-f",
+                                     "rawvideo", "-pixel_format", "rgb24",    "-video_size"};
+
 class VideoFile : public FrameSink {
  public:
   VideoFile(AtomicFile file, ChildProcess ffmpeg) : file_(std::move(file)), ffmpeg_(std::move(ffmpeg)) {}
@@ -57,24 +62,9 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Fil
   ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
   if (file.temporary_path().empty())
     return fail(ErrorCode::io, "{} is a device or a pipe, but a video needs a file.", path);
-  std::vector<std::string> words = {"ffmpeg",
-                                    "-hide_banner",
-                                    "-nostdin",
-                                    "-loglevel",
-                                    "error",
-                                    "-xerror",
-                                    "-y",
-                                    "-f",
-                                    "rawvideo",
-                                    "-pixel_format",
-                                    "rgb24",
-                                    "-video_size",
-                                    fmt::format("{}x{}", size.width, size.height),
-                                    "-framerate",
-                                    fmt::format("{}", fps),
-                                    "-i",
-                                    "pipe:0",
-                                    "-an"};
+  std::vector<std::string> words(std::begin(raw_input), std::end(raw_input));
+  words.insert(words.end(), {fmt::format("{}x{}", size.width, size.height), "-framerate",
+                             fmt::format("{}", fps), "-i", "pipe:0", "-an"});
   if (format.even_sides) {
     // sRGB in, BT.709 video range out.
     words.insert(

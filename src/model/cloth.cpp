@@ -1,6 +1,4 @@
 // Cloth: a rectangular sheet of particles with structural, shear and bending springs.
-#include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 

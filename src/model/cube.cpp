@@ -1,6 +1,5 @@
 #include "model/cube.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>

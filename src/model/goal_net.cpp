@@ -1,8 +1,6 @@
 #include "model/goal_net.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -103,6 +101,10 @@ std::optional<std::uint32_t> net_index(const std::array<int, 3>& lattice, int i,
   return static_cast<std::uint32_t>(slice + 2 * j + (top ? k : k == 0 ? 0 : 1));
 }
 
+namespace {
+
+/// Whether the particle at a lattice point is pinned: the perimeter of the top, the bottom row of back and
+/// sides, and the four vertical corner posts.
 bool net_pinned(const std::array<int, 3>& lattice, int i, int j, int k) {
   const auto [nw, nh, nl] = lattice;
   const bool end_i = i == 0 || i == nw - 1, end_k = k == 0 || k == nl - 1;
@@ -110,6 +112,11 @@ bool net_pinned(const std::array<int, 3>& lattice, int i, int j, int k) {
   return perimeter_of_top || j == 0 || (end_i && end_k);
 }
 
+/// Appends the net's particles and springs to the model, springs sorted by (a, b). A spring joins two
+/// particles that lie in one face: structural neighbours along an axis, shear along the diagonals of a face's
+/// cells, bending two steps along an axis; shear and bending only if their stiffness is positive. One spring
+/// class for each type and direction, since the spacings along the axes differ. Never
+/// fails.
 Status add_goal_net(Model& model, const GoalNetSettings& net) {
   const auto [nw, nh, nl] = net.particles;
   const Vec3 s = spacing_of(net);
@@ -162,6 +169,8 @@ Status add_goal_net(Model& model, const GoalNetSettings& net) {
   model.bodies.push_back(std::move(body));
   return {};
 }
+
+}  // namespace
 
 BodyRow GoalNetSettings::row() {
   return body_row<&ModelSettings::goal_nets, goal_net_counts, add_goal_net>("goal-net", "particles");

@@ -17,15 +17,4 @@ ModelCounts goal_net_counts(const GoalNetSettings& net);
 /// exists in the back i = 0, the top j = nh − 1 and the sides k = 0 and k = nl − 1.
 std::optional<std::uint32_t> net_index(const std::array<int, 3>& lattice, int i, int j, int k);
 
-/// Whether the particle at a lattice point is pinned: the perimeter of the top, the bottom row of back and
-/// sides, and the four vertical corner posts.
-bool net_pinned(const std::array<int, 3>& lattice, int i, int j, int k);
-
-/// Appends the net's particles and springs to the model, springs sorted by (a, b). A spring joins two
-/// particles that lie in one face: structural neighbours along an axis, shear along the diagonals of a face's
-/// cells, bending two steps along an axis; shear and bending only if their stiffness is positive. One spring
-/// class for each type and direction, since the spacings along the axes differ. Never
-/// fails.
-Status add_goal_net(Model& model, const GoalNetSettings& net);
-
 }  // namespace aspic

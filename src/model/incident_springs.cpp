@@ -1,7 +1,5 @@
 #include "model/incident_springs.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 

@@ -12,7 +12,6 @@
 // whose stages each need only the one before (Kutta's third-order method, which needs two, does not fit).
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -70,6 +69,7 @@ struct IntegratorRow {
 
 namespace integrator_rows {
 
+inline constexpr std::array<Stage, 0> no_stages = {};
 inline constexpr std::array<Stage, 1> one_stage = {{{0.0, 1.0}}};
 inline constexpr std::array<Stage, 2> midpoint = {{{0.5, 0.0}, {0.0, 1.0}}};
 inline constexpr std::array<Stage, 2> one_pass = {{{1.0, 0.0}, {0.0, 1.0}}};
@@ -104,17 +104,9 @@ inline constexpr std::array integrator_table = {
                   Drift::stage_velocity, false, integrator_rows::midpoint_rule, nullptr, "Runge, 1895"},
     IntegratorRow{Integrator::runge_kutta_4, "runge-kutta-4", "Runge–Kutta 4", 4, integrator_rows::kutta, 6.0,
                   Drift::stage_velocity, false, integrator_rows::runge_kutta_4, nullptr, "Kutta, 1901"},
-    IntegratorRow{Integrator::implicit_euler,
-                  "implicit-euler",
-                  "implicit Euler",
-                  1,
-                  {},
-                  1.0,
-                  Drift::new_velocity,
-                  false,
-                  integrator_rows::implicit_euler,
-                  integrator_rows::no_limit,
-                  "Baraff and Witkin, 1998"},
+    IntegratorRow{Integrator::implicit_euler, "implicit-euler", "implicit Euler", 1,
+                  integrator_rows::no_stages, 1.0, Drift::new_velocity, false,
+                  integrator_rows::implicit_euler, integrator_rows::no_limit, "Baraff and Witkin, 1998"},
     IntegratorRow{Integrator::implicit_euler_one_pass, "implicit-euler-one-pass", "implicit Euler, one pass",
                   1, integrator_rows::one_pass, 1.0, Drift::stage_velocity, false,
                   integrator_rows::implicit_euler_one_pass, nullptr, "the 2021 assignment"},

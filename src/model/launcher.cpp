@@ -44,20 +44,19 @@ Ball launched_ball(const LauncherSettings& launcher, std::uint64_t n, double tim
   return ball;
 }
 
-Status add_launcher(Model& model, const LauncherSettings& launcher) {
-  for (int n = 0; n < launcher.count; ++n) {
-    model.balls.push_back(launched_ball(launcher, static_cast<std::uint64_t>(n), model.simulation.timestep));
-  }
-  return {};
-}
-
 BodyRow LauncherSettings::row() {
   constexpr auto counts = [](const LauncherSettings& launcher) {
     ModelCounts all;
     all.balls = static_cast<std::uint64_t>(launcher.count);
     return all;
   };
-  return body_row<&ModelSettings::launchers, counts, add_launcher>("launcher", "count");
+  constexpr auto add = [](Model& model, const LauncherSettings& launcher) -> Status {
+    for (int n = 0; n < launcher.count; ++n)
+      model.balls.push_back(
+          launched_ball(launcher, static_cast<std::uint64_t>(n), model.simulation.timestep));
+    return {};
+  };
+  return body_row<&ModelSettings::launchers, counts, add>("launcher", "count");
 }
 
 }  // namespace aspic

@@ -19,7 +19,4 @@ double launcher_number(std::int64_t seed, std::uint64_t index);
 /// numbers, with velocity factor·(target − start), not spinning.
 Ball launched_ball(const LauncherSettings& launcher, std::uint64_t n, double timestep);
 
-/// Appends the launcher's balls to the model.
-Status add_launcher(Model& model, const LauncherSettings& launcher);
-
 }  // namespace aspic

@@ -60,6 +60,9 @@ struct Patch {
   bool clockwise = false;                    ///< seen from outside, the turn from i to j
 };
 
+/// Four particles anticlockwise, seen from outside or from the side that an open surface turns to.
+using Quad = std::array<std::uint32_t, 4>;
+
 /// A straight rod with round ends that is drawn with a body and never moves.
 struct Rod {
   Vec3 from, to;        ///< [m], not the same point
@@ -82,6 +85,11 @@ struct Body {
   std::vector<Rod> rods;       ///< what it hangs on
   bool footballs = false;      ///< balls are drawn as footballs where it is
 };
+
+/// The quads of a body's surface patch by patch, j running before i: those of all cells, or larger ones, at
+/// most `most_along` of them along an edge of a patch.
+std::vector<Quad> quads_of(const Body& body,
+                           std::uint32_t most_along = std::numeric_limits<std::uint32_t>::max());
 
 /// A ball: a solid sphere. Those of [[ball]] come first, in file order, then those of the launchers.
 struct Ball {

@@ -1,7 +1,5 @@
 #include "model/pull.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <limits>
 

@@ -4,7 +4,6 @@
 // documentation.
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>

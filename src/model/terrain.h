@@ -42,6 +42,12 @@ struct TerrainShapeRow {
   }
 };
 
+/// The distance alone; what its shape computes for the normal only is left out once all is inlined.
+template <class S, class T>
+[[gnu::flatten]] T distance_of(const Geometry<T>& g, const Vec<T>& x) {
+  return S::template gap<T>(g, x).d;
+}
+
 /// The row of a shape's struct.
 template <class S>
 constexpr TerrainShapeRow shape_row(TerrainShape value) {
@@ -51,8 +57,8 @@ constexpr TerrainShapeRow shape_row(TerrainShape value) {
           S::kernel,
           S::keys,
           S::drop,
-          {S::template distance<float>, S::template gap<float>},
-          {S::template distance<double>, S::template gap<double>},
+          {distance_of<S, float>, S::template gap<float>},
+          {distance_of<S, double>, S::template gap<double>},
           S::flat,
           S::surface,
           S::glass,

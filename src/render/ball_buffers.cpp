@@ -58,38 +58,18 @@ void BallBuffers::prepare(const RenderPrograms& programs, const DeviceState& sta
       .dispatch_for(count_);
 }
 
-void BallBuffers::draw(const RenderPrograms& programs, const DeviceState& state) const {
-  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-  draw_with(programs.balls, state);
-  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-}
-
-void BallBuffers::draw_with(const gl::Program& program, const DeviceState& state) const {
+void BallBuffers::draw(const gl::Program& program, const DeviceState& state) const {
   if (!shows(state)) return;
-  glUseProgram(program.id());
-  const gl::VertexArray points = array(state);
-  points.bind();
-  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count_));
-}
-
-void BallBuffers::draw_into_light(const RenderPrograms& programs, const DeviceState& state, int light) const {
-  if (!shows(state)) return;
-  programs.light_balls.set(LOCATION_LIGHT, light);
-  programs.light_balls.set(LOCATION_RADIUS, 1.0f);
-  glUseProgram(programs.light_balls.id());
-  const gl::VertexArray points = array(state);
-  points.bind();
-  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count_));
-}
-
-gl::VertexArray BallBuffers::array(const DeviceState& state) const {
   constexpr std::uint32_t stride = sizeof(layout::Ball);
   const std::uint32_t first = stride * state.first_ball;
   const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, state.balls, 4, stride, first},
                                       {ATTRIBUTE_VELOCITY, state.balls, 4, stride, first + 16},
                                       {ATTRIBUTE_TURN, &turns_, 4, 16, 0},
                                       {ATTRIBUTE_COLOUR, &colours_, 4, 16, 0}};
-  return gl::VertexArray::create(attributes);
+  const gl::VertexArray points = gl::VertexArray::create(attributes);
+  points.bind();
+  glUseProgram(program.id());
+  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count_));
 }
 
 }  // namespace aspic

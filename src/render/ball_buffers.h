@@ -25,12 +25,8 @@ class BallBuffers {
   /// back in time starts again, unturned. The frame block must be bound.
   void prepare(const RenderPrograms& programs, const DeviceState& state, const gl::Buffer& bounds);
 
-  /// Draws what has been launched, lit; light maps must be in their places.
-  void draw(const RenderPrograms& programs, const DeviceState& state) const;
-  /// Draws what has been launched with another program over the same vertex and geometry shaders.
-  void draw_with(const gl::Program& program, const DeviceState& state) const;
-  /// Draws what has been launched into the map of a light.
-  void draw_into_light(const RenderPrograms& programs, const DeviceState& state, int light) const;
+  /// Draws what has been launched, as points that the program makes balls of.
+  void draw(const gl::Program& program, const DeviceState& state) const;
 
   std::uint32_t count() const { return count_; }
   /// Each ball's unit quaternion x, y, z, w, from its own frame to the world.
@@ -39,7 +35,6 @@ class BallBuffers {
  private:
   BallBuffers() = default;
   bool shows(const DeviceState& state) const { return count_ > 0 && state.balls && state.balls->id() != 0; }
-  gl::VertexArray array(const DeviceState& state) const;
 
   std::uint32_t count_ = 0;
   double timestep_ = 0.0;

@@ -6,14 +6,6 @@
 #include <glm/trigonometric.hpp>
 
 namespace aspic {
-namespace {
-
-glm::vec3 to_glm(const Vec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-}  // namespace
-
 Camera::Camera(const CameraSettings& settings, int width, int height)
     : eye_(to_glm(settings.position)), width_(width), height_(height) {
   assert(width >= 1 && height >= 1);

@@ -8,6 +8,10 @@
 
 namespace aspic {
 
+inline glm::vec3 to_glm(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
 /// A half line; direction of unit length.
 struct Ray {
   Vec3 origin;     ///< [m]

@@ -15,6 +15,7 @@
 #include <stb_truetype.h>
 
 #include "base/embedded_file.h"
+#include "base/printable.h"
 
 namespace aspic {
 
@@ -36,27 +37,9 @@ std::vector<char32_t> character_set() {
 }  // namespace
 
 char32_t next_character(std::string_view& text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t size = first < 0x80         ? 1
-                           : (first >> 5) == 6  ? 2
-                           : (first >> 4) == 14 ? 3
-                           : (first >> 3) == 30 ? 4
-                                                : 0;
-  if (size == 0 || size > text.size()) {
-    text.remove_prefix(1);
-    return 0xfffd;
-  }
-  char32_t character = size == 1 ? first : first & (0x7fu >> size);
-  for (std::size_t i = 1; i < size; ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    if ((byte & 0xc0) != 0x80) {
-      text.remove_prefix(i);
-      return 0xfffd;
-    }
-    character = (character << 6) | (byte & 0x3fu);
-  }
-  text.remove_prefix(size);
-  return character;
+  const Utf8Character c = first_character(text);
+  text.remove_prefix(c.size);
+  return c.valid ? c.code : 0xfffd;
 }
 
 Font::Font(int pixel_height) : pixel_height_(pixel_height) {

@@ -1,7 +1,6 @@
 #pragma once
 // Letters as pictures: DejaVu Sans, embedded, rasterised at the height they are shown at.
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <string_view>
 #include <vector>

@@ -12,10 +12,6 @@
 namespace aspic {
 namespace {
 
-glm::vec3 narrow(const Vec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 /// Towards the sun: from behind on the left of the default camera, so that light shines through bodies; from
 /// the right where that would leave a slope in the dark.
 glm::vec3 sun_over(const std::vector<Terrain>& terrain) {
@@ -23,7 +19,7 @@ glm::vec3 sun_over(const std::vector<Terrain>& terrain) {
     float least = 1.0f;
     for (const Terrain& t : terrain)
       if (const auto flat = terrain_row(t.shape).flat)
-        least = std::min(least, glm::dot(sun, narrow(flat(t.geometry).normal)));
+        least = std::min(least, glm::dot(sun, to_glm(flat(t.geometry).normal)));
     return least;
   };
   const glm::vec3 left = glm::normalize(glm::vec3(-0.60f, 0.78f, -0.12f));
@@ -56,7 +52,7 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
   for (const Terrain& t : model.terrain) {
     const auto flat = terrain_row(t.shape).flat;
     if (!flat) continue;
-    above = narrow(flat(t.geometry).normal);
+    above = to_glm(flat(t.geometry).normal);
     break;
   }
   block.lights[LIGHT_SKY] = light_rotation(above);
@@ -74,25 +70,10 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
     if (!content.shadows || !terrain_row(t.shape).ball || block.shadow_sphere_count == MAX_SHADOW_SPHERES)
       continue;
     const Geometry<double> ball = terrain_at(t, model.simulation.timestep, content.step).geometry;
-    block.shadow_spheres[block.shadow_sphere_count++] = glm::vec4(narrow(ball.vectors[0]), ball.numbers[0]);
+    block.shadow_spheres[block.shadow_sphere_count++] = glm::vec4(to_glm(ball.vectors[0]), ball.numbers[0]);
   }
-  switch (content.view.colour) {
-    case ViewColour::material:
-      block.colour_mode = COLOUR_MATERIAL;
-      break;
-    case ViewColour::type:
-      block.colour_mode = COLOUR_TYPE;
-      break;
-    case ViewColour::strain:
-      block.colour_mode = COLOUR_STRAIN;
-      break;
-    case ViewColour::force:
-      block.colour_mode = COLOUR_FORCE;
-      break;
-    case ViewColour::speed:
-      block.colour_mode = COLOUR_SPEED;
-      break;
-  }
+  static_assert(COLOUR_SPEED == static_cast<std::uint32_t>(ViewColour::speed));
+  block.colour_mode = static_cast<std::uint32_t>(content.view.colour);
   block.particle_count = model.particle_count();
   block.see_through = content.view.draw.particles || draws_springs(content.view.draw) ? 1.0f : 0.0f;
   return block;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "render/light_maps.h"
+#include "render/mesh.h"
 
 namespace aspic {
 namespace {
@@ -19,10 +20,6 @@ constexpr std::array marked_colour = {1.0f, 0.62f, 0.08f, 1.0f};
 constexpr double ring_size = 9.0, pinned_size = 4.5, marked_size = 7.5, anchor_size = 8.0, line_size = 2.2;
 /// Of what something else hides.
 constexpr double hidden_opacity = 0.15;
-
-std::array<float, 4> four(const Vec3& v, float w) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
-}
 
 }  // namespace
 
@@ -76,10 +73,10 @@ void HighlightPainter::draw_all(const ModelBuffers& model, const gl::Buffer& par
   }
   if (options.pull) {
     prepare(pull_, MARK_LINE, line_size, pull_colour, 0.0f);
-    pull_.set(LOCATION_ANCHOR, four(options.pull->anchor, 1.0f));
+    pull_.set(LOCATION_ANCHOR, four(options.pull->anchor, 1.0));
     point(options.pull->particle);
     prepare(marks_, MARK_ANCHOR, anchor_size, pull_colour, 0.0f);
-    marks_.set(LOCATION_ANCHOR, four(options.pull->anchor, 1.0f));
+    marks_.set(LOCATION_ANCHOR, four(options.pull->anchor, 1.0));
     point(options.pull->particle);
   }
   if (options.hovered) {
@@ -109,7 +106,7 @@ Status HighlightPainter::draw_over(const ModelBuffers& model, const gl::Buffer& 
                                    const render_layout::Frame& frame) {
   ASPIC_CHECK(list(options.marked));
   frame_.upload_items(std::span(&frame, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_.id());
+  frame_.bind(gl::BufferKind::uniform, BINDING_FRAME);
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

@@ -19,15 +19,8 @@ double spring_radius(double spacing, SpringType type) {
 }
 
 bool draws(const DrawSettings& draw, SpringType type) {
-  switch (type) {
-    case SpringType::structural:
-      return draw.structural;
-    case SpringType::shear:
-      return draw.shear;
-    case SpringType::bending:
-      return draw.bending;
-  }
-  return false;
+  const bool by_type[] = {draw.structural, draw.shear, draw.bending};
+  return by_type[static_cast<std::size_t>(type)];
 }
 
 bool draws_as_cord(const DrawSettings& draw, const SpringRun& run) {
@@ -57,14 +50,14 @@ Result<LightMaps> LightMaps::create(gl::Context& context) {
 }
 
 void LightMaps::leave_out(const ModelBuffers& model) {
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_LIGHT_BOXES, model.light_boxes().id());
+  model.light_boxes().bind(gl::BufferKind::uniform, BINDING_LIGHT_BOXES);
   empty_.colour.bind(UNIT_SUN_MAP);
   empty_.colour.bind(UNIT_SKY_MAP);
 }
 
 void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model, const DeviceState& state,
                        const DrawSettings& draw) {
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_LIGHT_BOXES, model.light_boxes().id());
+  model.light_boxes().bind(gl::BufferKind::uniform, BINDING_LIGHT_BOXES);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
@@ -73,33 +66,34 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
   const gl::VertexArray skin = model.skin_array(*state.particles);
   const gl::VertexArray points = model.particle_array(*state.particles);
   const gl::VertexArray lines = model.spring_array(*state.particles);
+  programs.light_balls.set(LOCATION_RADIUS, 1.0f);
+  programs.light_particles.set(LOCATION_RADIUS, static_cast<float>(particle_radius(model.spacing())));
   for (int light = 0; light < LIGHTS; ++light) {
     DrawableImage& map = maps_[static_cast<std::size_t>(light)];
     map.framebuffer.bind();
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    if (draw.solid && model.has_skin()) {
-      programs.light_surface.set(LOCATION_LIGHT, light);
+    for (const gl::Program* program :
+         {&programs.light_surface, &programs.light_particles, &programs.light_springs, &programs.light_balls})
+      program->set(LOCATION_LIGHT, light);
+    if (draw.solid) {
       glUseProgram(programs.light_surface.id());
       skin.bind();
       for (const Surface::Part& part : model.parts()) draw_triangles(part);
+      model.rods().draw();
     }
-    if (draw.solid) model.rods().draw_into_light(programs, light);
-    if (draws_balls(draw)) model.balls().draw_into_light(programs, state, light);
+    if (draws_balls(draw)) model.balls().draw(programs.light_balls, state);
     if (draw.particles) {
-      programs.light_particles.set(LOCATION_LIGHT, light);
-      programs.light_particles.set(LOCATION_RADIUS, static_cast<float>(particle_radius(model.spacing())));
       glUseProgram(programs.light_particles.id());
       points.bind();
       glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(model.particle_count()));
     }
+    glUseProgram(programs.light_springs.id());
+    lines.bind();
     for (const SpringRun& run : model.springs()) {
-      if (!draws(draw, run.constants.type) || run.index_count == 0) continue;
-      programs.light_springs.set(LOCATION_LIGHT, light);
+      if (!draws(draw, run.constants.type)) continue;
       programs.light_springs.set(LOCATION_RADIUS,
                                  static_cast<float>(spring_radius(model.spacing(), run.constants.type)));
-      glUseProgram(programs.light_springs.id());
-      lines.bind();
       draw_lines(run);
     }
     map.colour.generate_mipmaps();

@@ -85,7 +85,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   ASPIC_TRY(b.light_boxes_,
             gl::Buffer::of(context, "light boxes", std::vector<render_layout::LightBox>(LIGHTS)));
   ASPIC_TRY(b.balls_, BallBuffers::create(context, model));
-  ASPIC_TRY(b.rods_, Rods::create(context, model));
+  ASPIC_TRY(b.rods_, DeviceMesh::create(context, "rods", rod_mesh(model)));
   return b;
 }
 

@@ -68,7 +68,7 @@ class ModelBuffers {
   void use_coarse_skin(bool coarse) { coarse_ = coarse; }
   bool has_skin() const { return skin_vertices_ > 0; }
   const BallBuffers& balls() const { return *balls_; }
-  const Rods& rods() const { return *rods_; }
+  const DeviceMesh& rods() const { return rods_; }
   /// Empty before prepare_lines().
   const std::vector<SpringRun>& springs() const { return springs_; }
   /// Typical distance between neighbours [m]; 1 without springs.
@@ -86,7 +86,7 @@ class ModelBuffers {
   std::vector<Surface::Part> parts_, coarse_parts_;
   bool coarse_ = false, lines_ready_ = false;
   std::optional<BallBuffers> balls_;
-  std::optional<Rods> rods_;
+  DeviceMesh rods_;
   std::vector<SpringRun> springs_;
   gl::Buffer skin_indices_, fan_vertex_, fan_start_, fan_;
   gl::Buffer spring_indices_, spring_classes_;

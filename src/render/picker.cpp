@@ -74,7 +74,7 @@ void Picker::draw_terrain(const Model& model, std::uint64_t step) const {
 void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const DeviceState& state,
                         const DrawSettings& draw) const {
   draw_terrain(model, state.step);
-  if (draws_balls(draw)) buffers.balls().draw_with(balls_, state);
+  if (draws_balls(draw)) buffers.balls().draw(balls_, state);
   if (!draw.solid && !draw.particles && !draws_springs(draw)) return;
   const float radius =
       static_cast<float>(draw.particles ? particle_radius(buffers.spacing())
@@ -108,7 +108,7 @@ void Picker::submit(std::uint64_t request, const Model& model, const ModelBuffer
   slot.request = request;
   slot.frame = frame_around(frame, place.x, place.y, place.width, place.height, side);
   frame_.upload_items(std::span(&slot.frame, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame_.id());
+  frame_.bind(gl::BufferKind::uniform, BINDING_FRAME);
 
   image_.framebuffer.bind();
   const GLuint none[4] = {0, 0, 0, 0};

@@ -8,11 +8,6 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   const auto drawing = [&](const gl::GraphicsStages& stages, std::span<const gl::Define> defines = {}) {
     return gl::Program::graphics(context, library, stages, defines);
   };
-  const gl::Define plane[] = {{"PLANE", "1"}, {"UNSHADOWED_PLANE", "1"}};
-  const gl::Define shadowed_plane[] = {{"PLANE", "1"}, {"SHADOWED_PLANE", "1"}};
-  const gl::Define cut_plane[] = {{"PLANE", "1"}, {"UNSHADOWED_PLANE", "1"}, {"CUT_PLANE", "1"}};
-  const gl::Define shadowed_cut_plane[] = {{"PLANE", "1"}, {"SHADOWED_PLANE", "1"}, {"CUT_PLANE", "1"}};
-
   ASPIC_TRY(p.bounds, kernel("render/bounds.comp"));
   ASPIC_TRY(p.balls_turn, kernel("render/balls.comp"));
   ASPIC_TRY(p.light_boxes, kernel("render/light_boxes.comp"));
@@ -34,11 +29,15 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   ASPIC_TRY(p.balls, drawing({"render/balls.vert", "render/balls.frag", "render/balls.geom"}));
   ASPIC_TRY(p.rods, drawing({"render/rods.vert", "render/rods.frag"}));
   ASPIC_TRY(p.sheet, drawing({"render/jelly.vert", "render/sheet.frag"}));
-  ASPIC_TRY(p.plane, drawing({"render/terrain.vert", "render/terrain.frag"}, plane));
-  ASPIC_TRY(p.shadowed_plane, drawing({"render/terrain.vert", "render/terrain.frag"}, shadowed_plane));
-  ASPIC_TRY(p.cut_plane, drawing({"render/terrain.vert", "render/terrain.frag"}, cut_plane));
-  ASPIC_TRY(p.shadowed_cut_plane,
-            drawing({"render/terrain.vert", "render/terrain.frag"}, shadowed_cut_plane));
+  for (const bool cut : {false, true}) {
+    for (const bool shadowed : {false, true}) {
+      std::vector<gl::Define> defines = {{"PLANE", "1"},
+                                         {shadowed ? "SHADOWED_PLANE" : "UNSHADOWED_PLANE", "1"}};
+      if (cut) defines.push_back({"CUT_PLANE", "1"});
+      ASPIC_TRY((cut ? p.cut_plane : p.plane)[shadowed],
+                drawing({"render/terrain.vert", "render/terrain.frag"}, defines));
+    }
+  }
   ASPIC_TRY(p.solid, drawing({"render/terrain.vert", "render/terrain.frag"}));
   ASPIC_TRY(p.glass, drawing({"render/terrain.vert", "render/glass.frag"}));
   ASPIC_TRY(p.sky, drawing({"render/screen.vert", "render/sky.frag"}));

@@ -10,7 +10,7 @@ struct RenderPrograms {
   gl::Program light_surface, light_particles, light_springs, light_balls;  ///< into light maps
   gl::Program thickness, jelly_far, jelly, particles, springs, balls;      ///< bodies
   gl::Program rods, sheet;                                                 ///< more of them
-  gl::Program plane, shadowed_plane, cut_plane, shadowed_cut_plane;        ///< flat ground
+  std::array<gl::Program, 2> plane, cut_plane;                             ///< flat ground: plain, shadowed
   gl::Program solid, glass, sky;                                           ///< other surroundings
   gl::Program present;                                                     ///< into a window
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/terrain.h"
+#include "render/light_maps.h"
 #include "render/overlay_text.h"
 
 namespace aspic {
@@ -44,41 +45,27 @@ double round_up(double value) {
 }
 
 QuantityRange default_range(const Model& model, ViewColour colour) {
-  switch (colour) {
-    case ViewColour::strain:
-      return {0.0, 0.2};
-    case ViewColour::speed: {
-      double fastest = std::sqrt(2.0 * length(model.simulation.gravity) * fall_height(model));
-      for (const Vec3& v : model.initial_velocity) fastest = std::max(fastest, length(v));
-      for (const Ball& ball : model.balls) fastest = std::max(fastest, length(ball.initial_velocity));
-      return {0.0, round_up(std::max(fastest, 1.0))};
-    }
-    case ViewColour::force: {
-      double largest = 0.0;
-      for (const SpringClass& c : model.spring_classes)
-        largest = std::max(largest, 0.1 * c.stiffness * c.rest_length);
-      return {0.0, round_up(std::max(largest, 1.0))};
-    }
-    default:
-      return {0.0, 1.0};
+  if (colour == ViewColour::strain) return {0.0, 0.2};
+  double largest = 1.0;
+  if (colour == ViewColour::speed) {
+    largest = std::max(largest, std::sqrt(2.0 * length(model.simulation.gravity) * fall_height(model)));
+    for (const Vec3& v : model.initial_velocity) largest = std::max(largest, length(v));
+    for (const Ball& ball : model.balls) largest = std::max(largest, length(ball.initial_velocity));
   }
+  if (colour == ViewColour::force) {
+    for (const SpringClass& c : model.spring_classes)
+      largest = std::max(largest, 0.1 * c.stiffness * c.rest_length);
+  }
+  return {0.0, round_up(largest)};
 }
 
 Legend legend_for(const ViewSettings& view, const QuantityRange& range) {
-  switch (view.colour) {
-    case ViewColour::strain:
-      return scale("strain of the springs", range, 0.01, " %");
-    case ViewColour::force:
-      return scale("force of the springs", range, 1.0, " N");
-    case ViewColour::speed:
-      return scale("speed", range, 1.0, " m/s");
-    default:
-      break;
-  }
+  if (view.colour == ViewColour::strain) return scale("strain of the springs", range, 0.01, " %");
+  if (view.colour == ViewColour::force) return scale("force of the springs", range, 1.0, " N");
+  if (view.colour == ViewColour::speed) return scale("speed", range, 1.0, " m/s");
   Legend legend;
-  if (view.draw.structural) legend.entries.push_back({spring_colour(SpringType::structural), "structural"});
-  if (view.draw.shear) legend.entries.push_back({spring_colour(SpringType::shear), "shear"});
-  if (view.draw.bending) legend.entries.push_back({spring_colour(SpringType::bending), "bending"});
+  for (const SpringType type : {SpringType::structural, SpringType::shear, SpringType::bending})
+    if (draws(view.draw, type)) legend.entries.push_back({spring_colour(type), std::string(name_of(type))});
   if (!legend.entries.empty()) legend.title = "springs";
   return legend;
 }

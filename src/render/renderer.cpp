@@ -50,16 +50,9 @@ Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const 
 }  // namespace
 
 struct Renderer::Parts {
-  Parts(gl::Context& c, RenderPrograms p, OverlayPainter o, TerrainPainter t, LightMaps l)
-      : context(&c),
-        programs(std::move(p)),
-        overlay(std::move(o)),
-        terrain(std::move(t)),
-        lights(std::move(l)) {}
-
-  gl::Context* context;
+  gl::Context* context = nullptr;
   RenderPrograms programs;
-  OverlayPainter overlay;
+  std::optional<OverlayPainter> overlay;
   TerrainPainter terrain;
   LightMaps lights;
   gl::Texture colour_map;
@@ -79,11 +72,12 @@ struct Renderer::Parts {
   std::unique_ptr<HighlightPainter> highlight;
   std::uint64_t picks = 0;
 
-  Status prepare_targets(int width, int height);
+  Status prepare_targets(int width, int height, int wanted_samples);
   Status prepare_highlight();
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
   void draw_thickness(const gl::Buffer& particles) const;
+  void draw_rods_and_balls(const DeviceState& state, const DrawSettings& draw) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
   void draw_springs(const gl::Buffer& particles, const DrawSettings& draw, ViewColour mode) const;
   void draw_sheets(const gl::Buffer& particles, const ViewSettings& view) const;
@@ -116,13 +110,13 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Renderer::~Renderer() = default;
 
 Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const RendererOptions& options) {
-  ASPIC_TRY(auto programs, RenderPrograms::create(context, options.shaders));
-  ASPIC_TRY(auto overlay, OverlayPainter::create(context, options.shaders));
-  ASPIC_TRY(auto terrain, TerrainPainter::create(context));
-  ASPIC_TRY(auto lights, LightMaps::create(context));
-  auto parts = std::make_unique<Parts>(context, std::move(programs), std::move(overlay), std::move(terrain),
-                                       std::move(lights));
+  auto parts = std::make_unique<Parts>();
+  parts->context = &context;
   parts->shaders = options.shaders;
+  ASPIC_TRY(parts->programs, RenderPrograms::create(context, options.shaders));
+  ASPIC_TRY(parts->overlay, OverlayPainter::create(context, options.shaders));
+  ASPIC_TRY(parts->terrain, TerrainPainter::create(context));
+  ASPIC_TRY(parts->lights, LightMaps::create(context));
   ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
   parts->colour_map.upload(colour_map_texels());
   ASPIC_TRY(parts->frame,
@@ -153,11 +147,13 @@ Result<DeviceState> Renderer::upload(const State& state) {
   return DeviceState{&p.uploaded, &p.uploaded_balls, 0, state.step, nullptr};
 }
 
-Status Renderer::Parts::prepare_targets(int width, int height) {
-  if (targets && targets->picture.colour.width() == width && targets->picture.colour.height() == height)
+Status Renderer::Parts::prepare_targets(int width, int height, int wanted_samples) {
+  const int count = wanted_samples > 0 ? std::min(wanted_samples, samples) : samples;
+  if (targets && targets->picture.colour.width() == width && targets->picture.colour.height() == height &&
+      targets->samples.colour.settings().samples == count)
     return {};
   targets.reset();
-  ASPIC_TRY(targets, PictureTargets::create(*context, width, height, samples));
+  ASPIC_TRY(targets, PictureTargets::create(*context, width, height, count));
   return {};
 }
 
@@ -169,7 +165,7 @@ Status Renderer::Parts::prepare_highlight() {
 
 void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   frame.upload_items(std::span(&block, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
+  frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
 }
 
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
@@ -195,6 +191,16 @@ void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
   draw_skins(particles, SurfaceStyle::flesh, [](std::size_t) {});
   glDisable(GL_BLEND);
   targets->thickness.colour.bind(UNIT_THICKNESS);
+}
+
+void Renderer::Parts::draw_rods_and_balls(const DeviceState& state, const DrawSettings& draw) const {
+  programs.rods.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
+  glUseProgram(programs.rods.id());
+  if (draw.solid) buffers->rods().draw();
+  if (!draws_balls(draw)) return;
+  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  buffers->balls().draw(programs.balls, state);
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
 void Renderer::Parts::draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const {
@@ -274,13 +280,12 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   assert(p.model && state.particles);
   const gl::Buffer& particles = *state.particles;
   assert(particles.bytes() >= sizeof(layout::Particle) * p.model->particle_count());
-  Status ready = p.prepare_targets(width, height);
-  if (ready && options.highlight) ready = p.prepare_highlight();
   const ViewSettings& view = options.view;
-  if (ready && (p.has(SurfaceStyle::cords) || draws_springs(view.draw)))
-    ready = p.buffers->prepare_lines(*p.context, *p.model);
-  if (ready && shows_springs(view.colour)) ready = p.buffers->prepare_incident(*p.context, *p.model, state);
-  if (!ready) return ready;
+  ASPIC_CHECK(p.prepare_targets(width, height, options.samples));
+  if (options.highlight) ASPIC_CHECK(p.prepare_highlight());
+  if (p.has(SurfaceStyle::cords) || draws_springs(view.draw))
+    ASPIC_CHECK(p.buffers->prepare_lines(*p.context, *p.model));
+  if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
   p.buffers->use_coarse_skin(options.coarse_skin);
   const Camera camera(view.camera, width, height);
   const QuantityRange range = options.range.value_or(default_range(*p.model, view.colour));
@@ -292,7 +297,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
       frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows, state.step});
   std::vector<Terrain> terrain;
   for (const Terrain& t : p.model->terrain)
-    terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
+    if (!options.background) terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
   p.drawn_state = state;
   p.drawn_settings = view.draw;
   p.bind_frame(p.drawn_frame);
@@ -304,14 +309,15 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.colour_map.bind(UNIT_COLOUR_MAP);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  if (const auto& c = options.background) glClearColor((*c)[0], (*c)[1], (*c)[2], 1.0f);
+  glClear(GL_DEPTH_BUFFER_BIT | (options.background ? GL_COLOR_BUFFER_BIT : 0u));
+  glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
   p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
-  if (view.draw.solid) p.buffers->rods().draw(p.programs);
-  if (draws_balls(view.draw)) p.buffers->balls().draw(p.programs, state);
+  p.draw_rods_and_balls(state, view.draw);
   p.draw_springs(particles, view.draw, view.colour);
   p.draw_particles(particles, view.draw);
   // The last opaque part: only where there is nothing else.
-  p.fill(p.programs.sky);
+  if (!options.background) p.fill(p.programs.sky);
   if (view.draw.solid && p.has(SurfaceStyle::sheet)) p.draw_sheets(particles, view);
   p.terrain.draw_far_glass(p.programs, terrain);
   if (solid) {
@@ -327,8 +333,8 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
     written = p.highlight->draw_within(*p.buffers, particles, view.draw, *options.highlight);
   p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
   if (written)
-    written = p.overlay.draw(p.targets->picture.framebuffer, options.text,
-                             options.legend ? legend_for(view, range) : Legend{});
+    written = p.overlay->draw(p.targets->picture.framebuffer, options.text,
+                              options.legend ? legend_for(view, range) : Legend{});
   glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_FRAMEBUFFER_SRGB);

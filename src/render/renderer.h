@@ -13,6 +13,7 @@
 #include "model/model.h"
 #include "model/state.h"
 #include "render/camera.h"
+#include "render/colour_map.h"
 #include "render/highlight.h"
 #include "render/overlay.h"
 #include "render/picker.h"
@@ -32,7 +33,9 @@ struct PictureOptions {
   std::optional<QuantityRange> range;  ///< of strain, force [N] or speed [m/s]; absent: default_range()
   std::vector<OverlayLine> text;       ///< empty: no panel
   bool legend = true;                  ///< of colours, where they mean something
+  std::optional<Colour> background;    ///< instead of terrain and sky, linear light
   bool shadows = true;                 ///< on terrain; without them light maps are left out
+  int samples = 0;                     ///< per pixel, at most the renderer's; 0: those
   bool coarse_skin = false;            ///< fewer triangles for large bodies: for software rasterisers
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
 };

@@ -7,8 +7,7 @@ namespace aspic {
 Result<DrawableImage> DrawableImage::create(gl::Context& context, const std::string& name,
                                             const gl::TextureSettings& settings, bool with_depth) {
   DrawableImage image;
-  ASPIC_TRY(auto colour, gl::Texture::create(context, name, settings));
-  image.colour = std::move(colour);
+  ASPIC_TRY(image.colour, gl::Texture::create(context, name, settings));
   if (with_depth) {
     gl::TextureSettings depth = settings;
     depth.format = gl::TexelFormat::depth32f;
@@ -16,7 +15,7 @@ Result<DrawableImage> DrawableImage::create(gl::Context& context, const std::str
     ASPIC_TRY(image.depth, gl::Texture::create(context, name + " depth", depth));
   }
   ASPIC_TRY(image.framebuffer,
-            gl::Framebuffer::create(context, &image.colour, with_depth ? &image.depth : nullptr));
+            gl::Framebuffer::create(context, image.colour, with_depth ? &image.depth : nullptr));
   return image;
 }
 

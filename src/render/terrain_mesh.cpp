@@ -10,10 +10,6 @@
 namespace aspic {
 namespace {
 
-std::array<float, 4> four(const Vec3& v, float w) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
-}
-
 constexpr int tiles = 4;
 
 /// A number 0…1 for a lattice point, by integer mixing (finaliser of MurmurHash3, Appleby 2011).
@@ -64,8 +60,8 @@ Mesh terrain_mesh(const Terrain& terrain, int rings, int sectors) {
   }
   Mesh mesh;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    mesh.vertices.push_back(four(points[i], 1.0f));
-    mesh.normals.push_back(four(normals[i], 0.0f));
+    mesh.vertices.push_back(four(points[i], 1.0));
+    mesh.normals.push_back(four(normals[i], 0.0));
   }
   const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
     const Vec3 area = cross(points[b] - points[a], points[c] - points[a]);

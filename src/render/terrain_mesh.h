@@ -1,21 +1,15 @@
 #pragma once
 // Shapes and texture of the terrain, made here by procedures.
-#include <array>
+
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "model/model.h"
+#include "render/mesh.h"
 
 namespace aspic {
 
-struct Mesh {
-  std::vector<std::array<float, 4>> vertices;  ///< position; the last component is 1
-  std::vector<std::array<float, 4>> normals;   ///< unit, outwards; none for a square
-  std::vector<std::uint32_t> indices;          ///< three per triangle, anticlockwise from outside
-};
-
-/// The square −1…1 in x and y, z = 0.
+/// The square −1…1 in x and y, z = 0; without normals.
 Mesh square_mesh();
 
 /// The unit sphere by latitude (`rings` ≥ 2 strips) and longitude (`sectors` ≥ 3), poles at ±y.

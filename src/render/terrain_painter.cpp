@@ -15,10 +15,6 @@ constexpr int ground_size = 512;
 constexpr int mesh_rings = 64;
 constexpr int mesh_sectors = 128;
 
-std::array<float, 4> four(const Vec3& v, double w) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
-
 }  // namespace
 
 void set_terrain(const gl::Program& program, const Terrain& terrain) {
@@ -36,28 +32,17 @@ Result<TerrainPainter> TerrainPainter::create(gl::Context& context) {
   painter.ground_.upload(ground_texels(ground_size));
   painter.ground_.generate_mipmaps();
 
-  const Mesh square = square_mesh();
-  ASPIC_TRY(painter.square_vertices_, gl::Buffer::of(context, "square", square.vertices));
-  ASPIC_TRY(painter.square_indices_, gl::Buffer::of(context, "square indices", square.indices));
-  const gl::Attribute of_square[] = {{ATTRIBUTE_POSITION, &painter.square_vertices_}};
-  painter.square_ = gl::VertexArray::create(of_square, &painter.square_indices_);
+  ASPIC_TRY(painter.square_, DeviceMesh::create(context, "square", square_mesh()));
   return painter;
 }
 
 Status TerrainPainter::set_terrain(gl::Context& context, const std::vector<Terrain>& terrain) {
-  std::vector<MeshBuffers> meshes;
+  std::vector<PlacedMesh> meshes;
   for (const Terrain& t : terrain) {
-    MeshBuffers& buffers = meshes.emplace_back();
+    PlacedMesh& made = meshes.emplace_back();
     if (!terrain_row(t.shape).surface) continue;
-    buffers.place = t.geometry.vectors[0];
-    const Mesh mesh = terrain_mesh(t, mesh_rings, mesh_sectors);
-    ASPIC_TRY(buffers.vertices, gl::Buffer::of(context, "terrain", mesh.vertices));
-    ASPIC_TRY(buffers.normals, gl::Buffer::of(context, "terrain normals", mesh.normals));
-    ASPIC_TRY(buffers.indices, gl::Buffer::of(context, "terrain indices", mesh.indices));
-    const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &buffers.vertices},
-                                        {ATTRIBUTE_NORMAL, &buffers.normals}};
-    buffers.array = gl::VertexArray::create(attributes, &buffers.indices);
-    buffers.index_count = static_cast<int>(mesh.indices.size());
+    made.place = t.geometry.vectors[0];
+    ASPIC_TRY(made.mesh, DeviceMesh::create(context, "terrain", terrain_mesh(t, mesh_rings, mesh_sectors)));
   }
   meshes_ = std::move(meshes);
   return {};
@@ -67,12 +52,11 @@ void TerrainPainter::draw_meshes(const gl::Program& program, const std::vector<T
                                  bool glass) const {
   glUseProgram(program.id());
   for (std::size_t i = 0; i < terrain.size(); ++i) {
-    const MeshBuffers& mesh = meshes_[i];
-    if (mesh.index_count == 0 || terrain_row(terrain[i].shape).glass != glass) continue;
+    const PlacedMesh& placed = meshes_[i];
+    if (placed.mesh.empty() || terrain_row(terrain[i].shape).glass != glass) continue;
     if (!glass) aspic::set_terrain(program, terrain[i]);
-    program.set(LOCATION_OFFSET, four(terrain[i].geometry.vectors[0] - mesh.place, 0.0));
-    mesh.array.bind();
-    glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
+    program.set(LOCATION_OFFSET, four(terrain[i].geometry.vectors[0] - placed.place, 0.0));
+    placed.mesh.draw();
   }
 }
 
@@ -88,7 +72,6 @@ void TerrainPainter::draw_solid(const RenderPrograms& programs, const std::vecto
 void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                                  const CameraSettings& camera, const Camera& lens, Planes planes) const {
   const bool from_behind = planes == Planes::from_behind;
-  square_.bind();
   for (const Terrain& t : terrain) {
     const TerrainShapeRow& row = terrain_row(t.shape);
     if (!row.flat) continue;
@@ -96,8 +79,7 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
     const auto above = [&](const Vec3& x) { return dot(flat.normal, x - flat.point); };
     if ((above(camera.position) < 0.0) != from_behind) continue;
     const bool cut = row.surface != nullptr;
-    const gl::Program& plain = cut ? programs.cut_plane : programs.plane;
-    const gl::Program& shadowed = cut ? programs.shadowed_cut_plane : programs.shadowed_plane;
+    const auto& [plain, shadowed] = cut ? programs.cut_plane : programs.plane;
     if (from_behind) {
       glEnable(GL_BLEND);
       glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -111,14 +93,14 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
       if (cut) aspic::set_terrain(*program, t);
     }
     glUseProgram(plain.id());
-    glDrawElements(GL_TRIANGLES, 6, GL_UNSIGNED_INT, nullptr);
+    square_.draw();
     glDisable(GL_BLEND);
     if (planes != Planes::shadowed) continue;
     // Shadows cost several times the plain ground, and cover little of it.
     glUseProgram(shadowed.id());
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(-2.0f, -64.0f);
-    glDrawElementsInstanced(GL_TRIANGLES, 6, GL_UNSIGNED_INT, nullptr, LIGHTS);
+    square_.draw(LIGHTS);
     glPolygonOffset(0.0f, 0.0f);
     glDisable(GL_POLYGON_OFFSET_FILL);
   }

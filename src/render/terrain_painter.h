@@ -2,11 +2,10 @@
 // Ground, solid surfaces and glass.
 #include <vector>
 
-#include "gpu/buffer.h"
 #include "gpu/texture.h"
-#include "gpu/vertex_array.h"
 #include "model/model.h"
 #include "render/camera.h"
+#include "render/mesh.h"
 #include "render/programs.h"
 
 namespace aspic {
@@ -41,17 +40,14 @@ class TerrainPainter {
   void draw_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain, bool far_side) const;
   /// The bounded surfaces of solid terrain, or of glass.
   void draw_meshes(const gl::Program& program, const std::vector<Terrain>& terrain, bool glass) const;
-  /// The surface of one terrain; without one it has no indices.
-  struct MeshBuffers {
+  /// The surface of one terrain; without one it is empty.
+  struct PlacedMesh {
     Vec3 place;  ///< vector 0 of the geometry it was made with
-    gl::Buffer vertices, normals, indices;
-    gl::VertexArray array;
-    int index_count = 0;
+    DeviceMesh mesh;
   };
   gl::Texture ground_;
-  gl::Buffer square_vertices_, square_indices_;
-  gl::VertexArray square_;
-  std::vector<MeshBuffers> meshes_;  ///< one for each terrain
+  DeviceMesh square_;
+  std::vector<PlacedMesh> meshes_;  ///< one for each terrain
 };
 
 }  // namespace aspic

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <tuple>
 
 #include "base/lines.h"
 #include "base/printable.h"
@@ -76,13 +75,8 @@ std::string rendered(const Source& source, const Problem& problem) {
 }  // namespace
 
 Error rejection(std::span<const Source> sources, std::vector<Problem> problems) {
-  const auto key = [](const Problem& p) { return std::tie(p.at.source, p.at.line, p.at.column, p.message); };
-  const auto position = [](const Problem& p) { return std::tie(p.at.source, p.at.line, p.at.column); };
-  std::stable_sort(problems.begin(), problems.end(),
-                   [&](const auto& a, const auto& b) { return position(a) < position(b); });
-  problems.erase(std::unique(problems.begin(), problems.end(),
-                             [&](const auto& a, const auto& b) { return key(a) == key(b); }),
-                 problems.end());
+  std::ranges::stable_sort(problems, {}, &Problem::at);
+  problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
   std::string message;
   for (const Problem& problem : problems) {
     if (!message.empty()) message += "\n\n";

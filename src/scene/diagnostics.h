@@ -1,5 +1,6 @@
 #pragma once
 // Messages about scene text: where, the line with a caret, what is allowed, what was probably meant.
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -15,12 +16,14 @@ struct Position {
   std::uint32_t source = 0;  ///< 0: the file; i > 0: the i-th --set argument
   std::uint32_t line = 1;    ///< from 1
   std::uint32_t column = 1;  ///< from 1, in characters
+  friend auto operator<=>(const Position&, const Position&) = default;
 };
 
 /// What is wrong, and where.
 struct Problem {
   Position at;
   std::string message;
+  friend bool operator==(const Problem&, const Problem&) = default;
 };
 
 /// A text that problems point into.

@@ -56,14 +56,6 @@ constexpr std::array<Target, 24> targets = {{
     {"SimulationPerFrame", "simulation.steps-per-frame", -1, ""},
 }};
 
-std::string_view trimmed(std::string_view line) {
-  line = line.substr(0, line.find('#'));
-  const auto space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!line.empty() && space(line.front())) line.remove_prefix(1);
-  while (!line.empty() && space(line.back())) line.remove_suffix(1);
-  return line;
-}
-
 std::optional<double> number_in(std::string_view text) {
   if (text == "true") return 1.0;
   if (text == "false") return 0.0;
@@ -90,7 +82,8 @@ class Importer {
   Result<ImportedConfiguration> read(std::string_view text) {
     while (!text.empty()) {
       ++line_;
-      take(trimmed(take_line(text)));
+      const std::string_view line = take_line(text);
+      take(trimmed(line.substr(0, line.find('#'))));
     }
     if (!key_.empty()) missing_value();
     if (seen_.empty() && problems_.empty()) {

@@ -74,10 +74,6 @@ Rows contact_rows() {
   };
 }
 
-std::string_view last_key(const Parameter& p) {
-  return p.path.substr(p.path.rfind('.') + 1);
-}
-
 /// A key of terrain geometry. Its path is kept for the program's life.
 Parameter geometry_row(const GeometryKey& key) {
   static std::deque<std::string> paths;
@@ -92,12 +88,11 @@ Parameter geometry_row(const GeometryKey& key) {
   p.meaning = key.meaning;
   p.read = [](const Parameter& self, const Scene& scene, std::size_t i) -> std::optional<Value> {
     const auto& geometry = scene.model.terrain[i].geometry;
-    const auto found = geometry.find(last_key(self));
-    if (found == geometry.end()) return std::nullopt;
-    return std::visit([](const auto& x) { return Value(x); }, found->second);
+    const auto found = geometry.find(self.key());
+    return found == geometry.end() ? std::nullopt : std::optional(as_value(found->second));
   };
   p.write = [](const Parameter& self, Scene& scene, std::size_t i, const Value& value) {
-    GeometryValue& into = scene.model.terrain[i].geometry[std::string(last_key(self))];
+    GeometryValue& into = scene.model.terrain[i].geometry[std::string(self.key())];
     if (self.type == ParameterType::number) {
       into = std::get<double>(value);
     } else {
@@ -105,7 +100,7 @@ Parameter geometry_row(const GeometryKey& key) {
     }
   };
   p.erase = [](const Parameter& self, Scene& scene, std::size_t i) {
-    scene.model.terrain[i].geometry.erase(std::string(last_key(self)));
+    scene.model.terrain[i].geometry.erase(std::string(self.key()));
   };
   return p;
 }
@@ -113,6 +108,7 @@ Parameter geometry_row(const GeometryKey& key) {
 Rows terrain_rows() {
   Rows rows = {word<terrain_shapes>("terrain[].shape", FIELD(model.terrain[i].shape),
                                     "Shape of the resting surface; a bowl is the inside of a sphere.")};
+  rows.front().live = false;  // another one would begin somewhere inside the bodies
   for (const TerrainShapeRow& shape : terrain_shapes) {
     for (const GeometryKey& key : shape.keys) {
       Parameter geometry = geometry_row(key);

@@ -18,11 +18,7 @@ constexpr double shortest_direction = 1e-100;
 
 /// The shape's key behind a row of the table; nullptr if the shape does not have it.
 const GeometryKey* geometry_key(const Parameter& p, TerrainShape shape) {
-  return aspic::geometry_key(shape, p.path.substr(p.path.rfind('.') + 1));
-}
-
-Value value_of(const GeometryValue& value) {
-  return std::visit([](const auto& x) { return Value(x); }, value);
+  return aspic::geometry_key(shape, p.key());
 }
 
 /// The list an indexed path leads into, or nullptr.
@@ -80,7 +76,7 @@ std::optional<Value> Parameter::get(const Scene& scene, std::size_t index) const
   if (!applies(*this, scene, index)) return std::nullopt;
   std::optional<Value> value = read(*this, scene, index);
   if (!value && belonging == Belonging::geometry)
-    return value_of(geometry_key(*this, scene.model.terrain[index].shape)->value);
+    return as_value(geometry_key(*this, scene.model.terrain[index].shape)->value);
   return value;
 }
 
@@ -220,7 +216,7 @@ std::string default_text(const Parameter& p) {
     std::string text;
     for (const TerrainShapeRow& row : terrain_shapes) {
       if (const GeometryKey* key = geometry_key(p, row.value))
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, toml_value(value_of(key->value)));
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, toml_value(as_value(key->value)));
     }
     return text;
   }

@@ -1,7 +1,6 @@
 #pragma once
 // THE parameter table: every key of a scene file, once. Parser, validator, --set, `scene show`, the window's
 // widgets and docs/scene-reference.md are all driven by it.
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -35,6 +34,10 @@ enum class ParameterType {
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3,
                            std::vector<int>, std::vector<double>, PinnedSettings>;
 
+inline Value as_value(const GeometryValue& value) {
+  return std::visit([](const auto& x) { return Value(x); }, value);
+}
+
 /// Legal numbers, both ends included unless said otherwise.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
@@ -62,6 +65,11 @@ struct Parameter {
   std::string_view when_absent;  ///< what an absent value means; empty: the default is a value
   std::string_view meaning;      ///< one sentence
 
+  /// The table it stands in, `cube[]`, empty at the top of the file, and its key there, `shear.stiffness`.
+  std::string_view section() const {
+    return path.substr(0, path.find('.') == path.npos ? 0 : path.find('.'));
+  }
+  std::string_view key() const { return path.substr(path.find('.') + 1); }
   /// The value in a scene; `index` picks the element of its list (0 for other keys) and must exist. Absent
   /// terrain geometry reads as the shape's default. Nothing if the key is absent or does not apply
   /// (Belonging).
@@ -111,8 +119,8 @@ std::size_t index_count(const Parameter& parameter, const Scene& scene);
 /// A value that is not allowed.
 struct Complaint {
   std::string message;  ///< a sentence that names the key and says what is allowed
-  std::optional<std::size_t>
-      element;  ///< of a vector or list, the element to blame; of pinned, names come before indices
+  /// Of a vector or list, the element to blame; of pinned, names come before indices.
+  std::optional<std::size_t> element = {};
 };
 
 /// Checks range, finiteness, words and direction of a value of the parameter's type; nothing if it is legal.

@@ -48,9 +48,7 @@ std::string condition(const Parameter& p) {
 }
 
 std::string table_row(const Parameter& p) {
-  const std::size_t dot = p.path.find('.');
-  const std::string_view key = dot == std::string_view::npos ? p.path : p.path.substr(dot + 1);
-  return fmt::format("| `{}` | {}{} | {} | {} | {} |\n", key, p.meaning, condition(p), allowed_text(p),
+  return fmt::format("| `{}` | {}{} | {} | {} | {} |\n", p.key(), p.meaning, condition(p), allowed_text(p),
                      default_text(p), p.live ? "yes" : "no");
 }
 
@@ -73,10 +71,8 @@ std::string scene_reference() {
       "inline, `shear = { stiffness = 2000.0, damping = 60.0 }`, or as tables of their own.\n\n";
   std::string_view section = "-";
   for (const Parameter& p : parameters()) {
-    const std::size_t dot = p.path.find('.');
-    const std::string_view own = dot == std::string_view::npos ? std::string_view{} : p.path.substr(0, dot);
-    if (own != section) {
-      section = own;
+    if (p.section() != section) {
+      section = p.section();
       if (!page.ends_with("\n\n")) page += '\n';
       page +=
           section_heading(section) + "| key | meaning | allowed | default | live |\n|---|---|---|---|---|\n";

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string_view>
 
 #include "base/printable.h"
@@ -22,9 +21,9 @@ bool check_values(const Scene& scene, Complaints& complaints) {
     for (std::size_t i = 0; i < count; ++i) {
       const auto value = p.get(scene, i);
       if (!value) continue;
-      auto complaint = check_value(p, *value);
+      const auto complaint = check_value(p, *value);
       if (!complaint) continue;
-      complaints.emplace_back(path_text(p.path, i), std::move(*complaint));
+      complaints.push_back({*complaint, path_text(p.path, i)});
       legal = legal && p.type == ParameterType::pinned;
     }
   }
@@ -40,15 +39,13 @@ void check_geometry(const Scene& scene, Complaints& complaints) {
       std::vector<std::string_view> geometry;
       for (const Parameter& other : parameters()) {
         if (other.belonging == Belonging::geometry && belongs_to_shape(other, shape))
-          geometry.push_back(other.path.substr(other.path.find('.') + 1));
+          geometry.push_back(other.key());
       }
-      Complaint no_such_key = {
-          fmt::format("a {} has no '{}'; its geometry is {}", name_of(shape),
-                      p.path.substr(p.path.find('.') + 1), diagnostics::list_text(geometry, false)),
-          {}};
-      SceneComplaint& added = complaints.emplace_back(path_text(p.path, i), std::move(no_such_key));
-      added.other = path_text("terrain[].shape", i);
-      added.of_key = true;
+      complaints.push_back({{fmt::format("a {} has no '{}'; its geometry is {}", name_of(shape), p.key(),
+                                         diagnostics::list_text(geometry, false))},
+                            path_text(p.path, i),
+                            path_text("terrain[].shape", i),
+                            true});
     }
   }
 }
@@ -64,11 +61,11 @@ void check_pinned(const Scene& scene, Complaints& complaints) {
       for (std::size_t i = 0; i < pinned.indices.size(); ++i) {
         const std::int64_t index = pinned.indices[i];
         if (index >= 0 && index <= last) continue;
-        Complaint outside = {fmt::format("'{}.pinned' index {} is not in the {}; allowed: 0 … {}",
-                                         row.list.key, index, row.pins->body, last),
-                             pinned.names.size() + i};
-        complaints.emplace_back(fmt::format("{}[{}].pinned", row.list.key, b), std::move(outside)).other =
-            path_text(size.path, b);
+        complaints.push_back({{fmt::format("'{}.pinned' index {} is not in the {}; allowed: 0 … {}",
+                                           row.list.key, index, row.pins->body, last),
+                               pinned.names.size() + i},
+                              fmt::format("{}[{}].pinned", row.list.key, b),
+                              path_text(size.path, b)});
       }
     }
   }
@@ -78,12 +75,11 @@ void check_boxes(const Scene& scene, Complaints& complaints) {
   const auto check = [&](std::string_view key, std::size_t i, const BoxSettings& box) {
     for (int axis = 0; axis < 3; ++axis) {
       if (box.min[axis] <= box.max[axis]) continue;
-      Complaint no_box = {
-          fmt::format(
-              "'launcher.{}' is not a box: its min has the {} {} and its max {}; min must not exceed max",
-              key, "xyz"[axis], box.min[axis], box.max[axis]),
-          {}};
-      complaints.emplace_back(fmt::format("launcher[{}].{}", i, key), std::move(no_box));
+      complaints.push_back(
+          {{fmt::format(
+               "'launcher.{}' is not a box: its min has the {} {} and its max {}; min must not exceed max",
+               key, "xyz"[axis], box.min[axis], box.max[axis])},
+           fmt::format("launcher[{}].{}", i, key)});
     }
   };
   for (std::size_t i = 0; i < scene.model.launchers.size(); ++i) {
@@ -95,8 +91,9 @@ void check_boxes(const Scene& scene, Complaints& complaints) {
 void check_camera(const Scene& scene, Complaints& complaints) {
   const CameraSettings& camera = scene.view.camera;
   if (length(camera.position - camera.target) > 0.0) return;
-  Complaint nowhere = {"the camera's position and target are the same point, so it has no direction", {}};
-  complaints.emplace_back("view.camera.target", std::move(nowhere)).other = "view.camera.position";
+  complaints.push_back({{"the camera's position and target are the same point, so it has no direction"},
+                        "view.camera.target",
+                        "view.camera.position"});
 }
 
 /// The key that decides the size of the scene's largest body.
@@ -122,15 +119,16 @@ void check_size(const Scene& scene, std::optional<std::uint64_t> memory_bytes, C
           ? fmt::format("the scene has {} particles and {} springs", counts.particles, counts.springs())
           : fmt::format("the scene has {} particles, {} springs and {} balls", counts.particles,
                         counts.springs(), counts.balls);
-  Complaint too_large;
-  if (counts.particles + counts.balls > most_indices) {
-    too_large.message = size + ": more than 32-bit indices can name; use fewer particles or balls";
-  } else if (memory_bytes && bytes > *memory_bytes) {
-    too_large.message =
-        fmt::format("{}: they need {} of memory and {} are available; use fewer particles or balls", size,
-                    human_bytes(bytes), human_bytes(*memory_bytes));
-  }
-  if (!too_large.message.empty()) complaints.emplace_back(largest_body(scene), std::move(too_large));
+  std::string problem;
+  if (counts.particles + counts.balls > most_indices)
+    problem = "more than 32-bit indices can name";
+  else if (memory_bytes && bytes > *memory_bytes)
+    problem = fmt::format("they need {} of memory and {} are available", human_bytes(bytes),
+                          human_bytes(*memory_bytes));
+  else
+    return;
+  complaints.push_back(
+      {{fmt::format("{}: {}; use fewer particles or balls", size, problem)}, largest_body(scene)});
 }
 
 void check_bodies(const Scene& scene, Complaints& complaints) {
@@ -140,9 +138,9 @@ void check_bodies(const Scene& scene, Complaints& complaints) {
     tables.push_back(fmt::format("[[{}]]", row.list.key));
   }
   const std::vector<std::string_view> names(tables.begin(), tables.end());
-  complaints.emplace_back("", Complaint{fmt::format("the scene is empty: nothing in it moves; add a {}",
-                                                    diagnostics::list_text(names, false)),
-                                        {}});
+  complaints.push_back({{fmt::format("the scene is empty: nothing in it moves; add a {}",
+                                     diagnostics::list_text(names, false))},
+                        ""});
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "scene/parameters.h"
@@ -13,11 +12,9 @@ namespace aspic {
 
 /// What is wrong with a scene, and where.
 struct SceneComplaint : Complaint {
-  SceneComplaint(std::string where, Complaint what) : Complaint(std::move(what)), path(std::move(where)) {}
-
-  std::string path;     ///< the key to blame, `cube[1].shear.stiffness`; empty: the scene in general
-  std::string other;    ///< another key that the complaint depends on; empty: none
-  bool of_key = false;  ///< the key has no place there, whatever its value
+  std::string path;        ///< the key to blame, `cube[1].shear.stiffness`; empty: the scene in general
+  std::string other = {};  ///< another key that the complaint depends on; empty: none
+  bool of_key = false;     ///< the key has no place there, whatever its value
 };
 
 /// Checks every value and what only the complete scene shows: geometry of another shape, pinned indices,

@@ -74,8 +74,7 @@ std::vector<Line> lines_of(const Scene& scene, std::string_view prefix, std::siz
     open.clear();
   };
   for (const Parameter& p : parameters()) {
-    if (!p.path.starts_with(prefix) || (prefix.empty() && p.path.find('.') != std::string_view::npos))
-      continue;
+    if (!p.path.starts_with(prefix) || (prefix.empty() && !p.section().empty())) continue;
     const std::string_view rest = p.path.substr(prefix.size());
     const std::size_t dot = rest.find('.');
     const std::string_view head = rest.substr(0, dot);
@@ -133,10 +132,8 @@ std::string to_toml(const Scene& scene) {
   std::string text = aligned(lines_of(scene, "", 0));
   std::vector<std::string_view> done;
   for (const Parameter& p : parameters()) {
-    const std::size_t dot = p.path.find('.');
-    if (dot == std::string_view::npos) continue;
-    const std::string_view section = p.path.substr(0, dot);
-    if (std::find(done.begin(), done.end(), section) != done.end()) continue;
+    const std::string_view section = p.section();
+    if (section.empty() || std::ranges::find(done, section) != done.end()) continue;
     done.push_back(section);
     const bool list = section.ends_with("[]");
     for (std::size_t i = 0; i < index_count(p, scene); ++i) {

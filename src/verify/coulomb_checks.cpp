@@ -8,6 +8,7 @@
 #include "model/pull.h"
 #include "model/terrain.h"
 #include "verify/experiments.h"
+#include "verify/studies.h"
 
 namespace aspic::verify {
 namespace {
@@ -76,20 +77,17 @@ Result<Finding> restitution(const Subject& subject, Integrator integrator) {
   return finding;
 }
 
-/// Mean acceleration down a slope from 1 s to 3 s, or the mean speed in the tenth second.
-struct Slide {
-  double acceleration = 0.0;  ///< [m/s²]
-  double creep = 0.0;         ///< [m/s]
-};
+}  // namespace
 
-Result<Slide> slide(const Subject& subject, Integrator integrator, double degrees, double friction,
-                    double seconds) {
+Result<Slide> study_slide(const Subject& subject, Integrator integrator, ContactModel contact, double degrees,
+                          double friction, double seconds) {
   const double angle = degrees * std::numbers::pi / 180;
   const Vec3 normal = {std::sin(angle), std::cos(angle), 0}, down = {std::cos(angle), -std::sin(angle), 0};
   ModelSettings settings = cube_settings(5, 2.02 * normal);
   settings.cubes[0].rotation = {{0, 0, 1}, -degrees};
   settings.simulation.integrator = integrator;
   settings.simulation.timestep = usual_step(integrator);
+  settings.contact.model = contact;
   ASPIC_TRY(auto model, build_model(settings));
   model.terrain.push_back(plane_through_origin(model, normal));
   model.terrain[0].friction = friction;
@@ -105,15 +103,17 @@ Result<Slide> slide(const Subject& subject, Integrator integrator, double degree
                (mean(end.position) - mean(early.position)) / 2};
 }
 
+namespace {
+
 Result<Finding> cone(const Subject& subject, Integrator integrator) {
   double worst = 0.0;
   for (const double degrees : {15.0, 25.0}) {
     const double angle = degrees * std::numbers::pi / 180;
     const double expected = g * (std::sin(angle) - 0.2 * std::cos(angle));
-    ASPIC_TRY(auto found, slide(subject, integrator, degrees, 0.2, 3.0));
+    ASPIC_TRY(auto found, study_slide(subject, integrator, ContactModel::coulomb, degrees, 0.2, 3.0));
     worst = std::max(worst, std::abs(found.acceleration / expected - 1));
   }
-  ASPIC_TRY(auto stuck, slide(subject, integrator, 15.0, 0.3, 12.0));
+  ASPIC_TRY(auto stuck, study_slide(subject, integrator, ContactModel::coulomb, 15.0, 0.3, 12.0));
   return Finding{worst <= 1e-5 && std::abs(stuck.creep) <= 1e-6,
                  fmt::format("{:.2g}, creep {:.2g} m/s", worst, stuck.creep)};
 }

@@ -75,17 +75,29 @@ class BitComparison {
              std::span<const GpuOptions> variants);
 
   bool same() const { return ulp_ == 0; }
-  /// Largest difference and number of runs. Hardware that the canary found to compute otherwise is excused by
-  /// that finding, and by nothing else.
+  /// Largest difference and number of runs. A device that the canary found to compute otherwise has a bound
+  /// on single steps, since whole runs through contact drive any two roundings apart: from states along the
+  /// reference's run, it may differ, at their median, by 1 + 2p·√n times what a step in single precision
+  /// differs from one in double precision, with p = Arithmetic::worst_ulps() and n forces that act on a
+  /// particle in a step. Of these, roundings of half a unit add up like √n; a device that is always wrong by
+  /// p units to the same side adds up 2p·n of them.
   Finding finding() const;
 
  private:
+  Status bound(const Model& model, GpuSolver& gpu, std::uint64_t steps);
+
   const Subject& subject_;
   const BackendRow& row_;
   std::uint64_t ulp_ = 0;
   double absolute_ = 0.0;
   int runs_ = 0;
-  bool exact_ = true;
+  /// In units of the last place of the largest component.
+  struct StepBound {
+    double off = 0.0, allowed = 0.0;
+    double share() const { return off / allowed; }
+  };
+  double share_ = 0.0;  // of its bound that the median step of the worst run takes; infinite: without one
+  StepBound step_;
   std::string arithmetic_;  // the canary's sentences
 };
 

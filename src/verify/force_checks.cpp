@@ -16,8 +16,9 @@ namespace {
 // divides without rounding and keeps speeds below divergence.
 constexpr double probe_step = 0x1p-10;
 
-Result<Model> probe_model() {
-  ModelSettings settings = cube_settings(4, {0.0, 0.0, 0.0});
+Result<Model> probe_model(int particles_per_edge, const RotationSettings& rotation = {}) {
+  ModelSettings settings = cube_settings(particles_per_edge, {0.0, 0.0, 0.0});
+  settings.cubes[0].rotation = rotation;
   settings.simulation.gravity = {0, 0, 0};
   settings.simulation.timestep = probe_step;
   return build_model(settings);
@@ -37,7 +38,7 @@ double largest_component(const Vec3& v) {
 }
 
 Result<Finding> gradient(const Subject& subject) {
-  ASPIC_TRY(auto model, probe_model());
+  ASPIC_TRY(auto model, probe_model(4));
   State state = shaken(model, 0.1, 0.0, 3);
   ASPIC_TRY(auto f, forces(subject, model, state));
   constexpr double delta = 1e-5;
@@ -72,7 +73,7 @@ Result<Finding> gradient(const Subject& subject) {
 }
 
 Result<Finding> invariance(const Subject& subject) {
-  ASPIC_TRY(auto model, probe_model());
+  ASPIC_TRY(auto model, probe_model(4));
   const State state = shaken(model, 0.1, 1.0, 5);
   ASPIC_TRY(auto f, forces(subject, model, state));
   const Vec3 axis = {0.3, -1.0, 0.7}, shift = {11.0, -7.0, 5.0};
@@ -111,11 +112,7 @@ Result<Finding> invariance(const Subject& subject) {
 /// An undeformed cube is at rest whatever its attitude: each spring's rest length is the distance of its
 /// ends.
 Result<Finding> undeformed(const Subject& subject) {
-  ModelSettings settings = cube_settings(5, {0.0, 0.0, 0.0});
-  settings.simulation.gravity = {0, 0, 0};
-  settings.simulation.timestep = probe_step;
-  settings.cubes[0].rotation = {{1.0, 0.3, 0.7}, 25.0};
-  ASPIC_TRY(auto model, build_model(settings));
+  ASPIC_TRY(auto model, probe_model(5, {{1.0, 0.3, 0.7}, 25.0}));
   ASPIC_TRY(auto f, forces(subject, model, initial_state(model, Precision::double_)));
   double worst = 0.0;
   for (const Vec3& force_on_particle : f) worst = std::max(worst, length(force_on_particle));

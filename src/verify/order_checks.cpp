@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "verify/experiments.h"
+#include "verify/studies.h"
 #include "verify/textbook.h"
 
 namespace aspic::verify {
@@ -26,8 +27,10 @@ Result<Model> smooth_system(Integrator integrator, double h) {
   return build_model(settings);
 }
 
-Result<Finding> order_of(const Subject& subject, Integrator integrator, int order) {
-  double previous = 0.0, observed = 0.0, finest = 0.0;
+}  // namespace
+
+Result<OrderStudy> study_order(const Subject& subject, Integrator integrator) {
+  OrderStudy study;
   Motion<long double> truth;
   for (int halving = 0; halving <= halvings; ++halving) {
     const double h = first_step / (1 << halving);
@@ -40,25 +43,27 @@ Result<Finding> order_of(const Subject& subject, Integrator integrator, int orde
     const double error = static_cast<double>(
         std::sqrt((reached.x - truth.x).squaredNorm() + (reached.v - truth.v).squaredNorm()));
     if (halving > 0 && error > 1e-12) {
-      observed = std::log2(previous / error);
-      finest = error;
+      study.observed = std::log2(study.error.back() / error);
+      study.finest = error;
     }
-    previous = error;
+    study.step.push_back(h);
+    study.error.push_back(error);
   }
-  return Finding{std::abs(observed - order) <= 0.05,
-                 fmt::format("{:.4f} (finest error {:.2g})", observed, finest)};
+  return study;
 }
-
-}  // namespace
 
 void add_order_checks(std::vector<Check>& checks) {
   for (const IntegratorRow& row : integrator_table) {
     const Integrator integrator = row.integrator;
     const int order = row.order;
-    checks.push_back({fmt::format("order/{}", name_of(integrator)),
-                      fmt::format("halving h divides the error of {} by 2^{}", name_of(integrator), order),
-                      fmt::format("{} ± 0.05", order), true, false,
-                      [=](const Subject& subject) { return order_of(subject, integrator, order); }});
+    checks.push_back(
+        {fmt::format("order/{}", name_of(integrator)),
+         fmt::format("halving h divides the error of {} by 2^{}", name_of(integrator), order),
+         fmt::format("{} ± 0.05", order), true, false, [=](const Subject& subject) -> Result<Finding> {
+           ASPIC_TRY(const auto study, study_order(subject, integrator));
+           return Finding{std::abs(study.observed - order) <= 0.05,
+                          fmt::format("{:.4f} (finest error {:.2g})", study.observed, study.finest)};
+         }});
   }
 }
 

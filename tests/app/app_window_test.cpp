@@ -197,8 +197,7 @@ TEST_F(AppWindow, CameraTravelsAsText) {
 TEST_F(AppWindow, MouseOverAParticleTellsOfIt) {
   open("cube-plane", {"view.draw=[\"particles\"]"});
   const app::Box view = app().view.box;
-  const Camera camera(app().view.camera.shown(), static_cast<int>(view.right - view.left),
-                      static_cast<int>(view.bottom - view.top));
+  const Camera camera = app().view.lens();
   // The corner nearest to the eye has nothing before it.
   const std::uint32_t corner = 999;
   const auto seen = test::project(camera, simulation().snapshot().position[corner]);

@@ -56,8 +56,9 @@ TEST(Engines, AJobAndTheContextAdvanceAnyTwoByTheSameSteps) {
        {std::pair{&outside, &outside}, std::pair{&outside, &in_context}, std::pair{&in_context, &outside}}) {
     Engines engines = engines_of(*leader, shadow);
     EXPECT_FALSE(engines.only_context());
-    app::Outcome outcome = engines.advance_outside({0, 7, 1e9}, false);
-    ASSERT_FALSE(outcome.error) << outcome.error->message;
+    auto advanced = engines.advance_outside({0, 7, 1e9}, false);
+    ASSERT_TRUE(advanced.ok()) << advanced.error().message;
+    app::Outcome& outcome = *advanced;
     ASSERT_TRUE(engines.follow(outcome).ok());
     EXPECT_EQ(outcome.steps, 7u);
     EXPECT_EQ(state_hash_text(outcome.leader.state), expected) << leader->name << ", " << shadow->name;
@@ -68,22 +69,23 @@ TEST(Engines, AJobAndTheContextAdvanceAnyTwoByTheSameSteps) {
 TEST(Engines, TheShadowOfALeaderInTheContextMayBeThereToo) {
   Engines engines = engines_of(in_context, &in_context);
   EXPECT_TRUE(engines.only_context());
-  const auto state = engines.advance_shadow(7);
-  ASSERT_TRUE(state.ok());
-  EXPECT_EQ(state_hash_text(*state), hash_after(7));
+  app::Outcome outcome;
+  outcome.steps = 7;
+  ASSERT_TRUE(engines.follow(outcome).ok());
+  EXPECT_EQ(state_hash_text(outcome.shadow.state), hash_after(7));
 }
 
 TEST(Engines, AloneTheLeaderLeavesItsShadowBehind) {
   Engines engines = engines_of(outside, &outside);
-  EXPECT_EQ(engines.advance_outside({0, 7, 1e9, true}, false).steps, 7u);
+  EXPECT_EQ(engines.advance_outside({0, 7, 1e9, true}, false)->steps, 7u);
   EXPECT_EQ(engines.leader().solver->state()->step, 7u);
   EXPECT_EQ(engines.shadow().solver->state()->step, 0u);
 }
 
 TEST(Engines, AHurryOrASpentBudgetEndsAJobEarly) {
   Engines engines = engines_of(outside, nullptr);
-  EXPECT_EQ(engines.advance_outside({0, 1000, 1e9}, true).steps, 0u);
-  EXPECT_EQ(engines.advance_outside({0, 1000, 0.0}, false).steps, 0u);
+  EXPECT_EQ(engines.advance_outside({0, 1000, 1e9}, true)->steps, 0u);
+  EXPECT_EQ(engines.advance_outside({0, 1000, 0.0}, false)->steps, 0u);
 }
 
 /// Its steps never end but by a hurry, which comes when the first has begun.
@@ -109,10 +111,10 @@ TEST(Engines, AHurryDropsTheStepInProgressOfBoth) {
       std::move(*make_reference_solver(engines.model(), Precision::single)), hurry);
   engines.set_shadow(std::move(endless));
   const std::string start = hash_after(0);
-  const app::Outcome outcome = engines.advance_outside({0, 3, 1e9}, hurry);
-  ASSERT_FALSE(outcome.error) << outcome.error->message;
-  EXPECT_EQ(outcome.steps, 0u) << "the leader takes its steps back: the shadow has none";
-  EXPECT_EQ(state_hash_text(outcome.leader.state), start);
+  const auto outcome = engines.advance_outside({0, 3, 1e9}, hurry);
+  ASSERT_TRUE(outcome.ok()) << outcome.error().message;
+  EXPECT_EQ(outcome->steps, 0u) << "the leader takes its steps back: the shadow has none";
+  EXPECT_EQ(state_hash_text(outcome->leader.state), start);
   EXPECT_EQ(state_hash_text(*engines.leader().solver->state()), start);
   EXPECT_EQ(state_hash_text(*engines.shadow().solver->state()), start);
 }

@@ -115,10 +115,20 @@ class Events : public Stage {
   void click_at(const app::Box& box) {
     xdotool(fmt::format("mousemove --window {} {:.0f} {:.0f} click 1", id_, box.centre_x(), box.centre_y()));
   }
+  /// A picture later, so that a field that was opened has the keyboard.
+  void type(const std::string& text) { xdotool("type --delay 30 " + text); }
+  /// Closes the window and returns what it leaves for the next time.
+  app::KeptState left() {
+    ask_to_close();
+    EXPECT_EQ(exit_code(), 0) << log();
+    const auto left = app::load_kept_state(app::kept_state_path());
+    EXPECT_TRUE(left.ok());
+    return left.ok() ? *left : app::KeptState();
+  }
   /// All events so far are dealt with, and a picture was drawn after them.
   void catch_up() {
     const std::string name = fmt::format("aspic-cube-plane-{:04}.png", ++screenshots_);
-    key("F12");
+    key("shift+F12");
     require([&] { return exists(name); }, name);
     newest_ = name;
   }
@@ -223,9 +233,47 @@ TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
   click_at(boxes.at("terrain/sphere"));
   EXPECT_TRUE(waited_for([&] { return title().starts_with("cube-plane (changed)"); })) << title();
   ask_to_close();
+  catch_up();
+  ASSERT_FALSE(ended()) << "it asks: the change would be lost";
+  ask_to_close();
   EXPECT_EQ(exit_code(), 0) << log();
   EXPECT_TRUE(exists(picture(2, 1)));
   EXPECT_FALSE(exists(picture(2, 2))) << "Space had paused the motion";
+}
+
+TEST_F(Events, HeadingsOpenAtOnceAfterAShortcut) {
+  const app::KeptState kept = one_picture_a_step(find_film_format("png"));
+  const auto boxes = widgets(kept);
+  keep(kept);
+  start();
+  catch_up();
+  xdotool("keydown ctrl key z keyup ctrl");
+  click_at(boxes.at("section/Simulation"));
+  catch_up();
+  EXPECT_TRUE(left().layout.sections.at("Simulation"));
+}
+
+TEST_F(Events, ControlClickTypesIntoANumberAndEveryTapArrives) {
+  app::KeptState kept = one_picture_a_step(find_film_format("png"));
+  kept.layout.sections["View"] = true;
+  const auto boxes = widgets(kept);
+  keep(kept);
+  start();
+  catch_up();
+  const app::Box& box = boxes.at("view.camera.position");
+  xdotool(fmt::format("mousemove --window {} {:.0f} {:.0f}", id_, box.centre_x(), box.centre_y()));
+  xdotool("keydown ctrl click 1 keyup ctrl");
+  catch_up();
+  // Taps far shorter than a picture, and some that many hands make.
+  type("91234567890");
+  xdotool("key --delay 4 BackSpace BackSpace BackSpace BackSpace BackSpace");
+  xdotool("key --delay 60 BackSpace BackSpace BackSpace BackSpace BackSpace Return");
+  catch_up();
+  key("space");
+  catch_up();
+  const app::KeptState left_behind = left();
+  ASSERT_EQ(left_behind.cameras.size(), 1u);
+  EXPECT_NEAR(left_behind.cameras[0].camera.position.y, 9.0, 1e-9);
 }
 
 TEST_F(Events, ClosingWhileAFilmRunsLeavesItWhole) {
@@ -283,9 +331,9 @@ TEST_F(Events, SizeAndLayoutAreKeptAndABrokenFileIsToldOfOnce) {
   ask_to_close();
   EXPECT_EQ(exit_code(), 0) << log();
   const std::string said = log();
-  const std::size_t first = said.find("window.toml");
+  const std::size_t first = said.find("window.json");
   EXPECT_NE(first, std::string::npos) << said;
-  EXPECT_EQ(said.find("window.toml", first + 1), std::string::npos) << said;
+  EXPECT_EQ(said.find("window.json", first + 1), std::string::npos) << said;
   const auto left = app::load_kept_state(app::kept_state_path());
   ASSERT_TRUE(left.ok()) << left.error().message;
   EXPECT_FALSE(left->layout.panels);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "app/pacer.h"
+
 namespace aspic::app {
 namespace {
 
@@ -83,6 +85,12 @@ TEST(FilmPace, BeginsAnewWhenTold) {
   EXPECT_EQ(pace.take(0, h, 1.0), 1u);
   pace.restart();
   EXPECT_EQ(pace.take(0, h, 1.0), 1u);
+}
+
+TEST(Slowness, SaysHowLongASecondTakesAndWhatWouldDo) {
+  EXPECT_EQ(app::slowness(0.4, 10), "the solver does not keep up");
+  EXPECT_EQ(app::slowness(0.02, 0), "1 s takes about 50 s here");
+  EXPECT_EQ(app::slowness(0.00045, 64), "1 s takes about 38 min here; try 6 particles an edge");
 }
 
 }  // namespace

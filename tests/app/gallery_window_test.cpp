@@ -25,8 +25,7 @@ class Gallery : public Stage {
   }
   void point_at(const Vec3& point) {
     const app::Box& view = app().view.box;
-    const Camera camera(app().view.camera.shown(), static_cast<int>(view.right - view.left),
-                        static_cast<int>(view.bottom - view.top));
+    const Camera camera = app().view.lens();
     const auto seen = test::project(camera, point);
     ASSERT_TRUE(seen.has_value());
     app().cursor(view.left + seen->x, view.top + seen->y);

@@ -153,9 +153,9 @@ TEST(History, DropsTheOldestBeyondItsMemory) {
   EXPECT_EQ(h.begin_moment(), (Moment{1, 15})) << "stretches keep their numbers";
   EXPECT_EQ(h.before({1, 15}), std::nullopt);
   // What is larger than all memory for it is kept alone.
-  h.add_keyframe(state_at(60, 4000));
+  h.begin(setup_with(0.02), state_at(60, 4000));
   EXPECT_EQ(h.keyframe_count(), 1u);
-  EXPECT_EQ(h.begin_moment(), (Moment{1, 60}));
+  EXPECT_EQ(h.begin_moment(), (Moment{2, 60}));
 }
 
 TEST(History, MomentsOfAnOldRunAreNoneOfTheNew) {

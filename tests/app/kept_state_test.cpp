@@ -39,23 +39,43 @@ TEST(KeptState, ComesBackAsItWasWritten) {
   EXPECT_EQ(*first, KeptState());
 }
 
+std::string with(const std::string& member) {
+  return fmt::format("{{\"version\": 2, {}}}", member);
+}
+
+TEST(KeptState, WhatIsNotSaidIsAsAtTheFirstTime) {
+  const auto read = read_kept_state(with(R"("layout": {"text_size": 2}, "film": {"format": "gif"})"));
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  KeptState expected;
+  expected.layout.text_size = 2.0;
+  expected.film_format = find_film_format("gif");
+  expected.film_fps = expected.film_format->most_fps;
+  EXPECT_EQ(*read, expected);
+}
+
 TEST(KeptState, WhatTheWindowWouldNotWriteIsNamed) {
   const std::pair<std::string, std::string> cases[] = {
-      {"", "version"},
-      {"version = 2\n", "version"},
-      {"version = 1\n[panels\n", "line 2"},
-      {"version = 1\n[panels]\ntext-size = 99.0\n", "text-size"},
-      {"version = 1\n[panels]\nleft-width = \"wide\"\n", "left-width"},
-      {"version = 1\n[panels]\nopen = [1]\n", "open"},
-      {"version = 1\n[simulation]\npace = \"sideways\"\n", "pace"},
-      {"version = 1\n[simulation]\nspeed = nan\n", "speed"},
-      {"version = 1\n[window]\nsize = [1e300, 5]\n", "size"},
-      {"version = 1\n[window]\nsize = [800]\n", "size"},
-      {"version = 1\n[window]\nsize = [-800, 600]\n", "size"},
-      {"version = 1\nwindow = 3\n", "window"},
-      {"version = 1\n[recording]\nformat = \"gif\"\nfps = 200\n", "fps"},
-      {"version = 1\n[[camera]]\nscene = \"a\"\n", "camera"},
-      {"version = 1\n[[camera]]\nscene = \"a\"\nposition = [1,1,1]\ntarget = [1,1,1]\nfov = 45\n", "camera"},
+      {"", "line 1"},
+      {"{}", "version"},
+      {R"({"version": 1})", "version"},
+      {"{\"version\": 2,\n\"layout\"", "line 2"},
+      {with(R"("layout": {"text_size": 99.0})"), "text_size"},
+      {with(R"("layout": {"left_width": "wide"})"), "left_width"},
+      {with(R"("layout": {"sections": {"Scene": 1}})"), "Scene"},
+      {with(R"("pace": "sideways")"), "pace"},
+      {with(R"("speed": null)"), "speed"},
+      {with(R"("speed": 1e999)"), "1e999"},
+      {with(R"("window": {"size": [1e300, 5]})"), "size"},
+      {with(R"("window": {"size": [800]})"), "size"},
+      {with(R"("window": {"size": [-800, 600]})"), "size"},
+      {with(R"("window": {"size": [800.5, 600]})"), "size"},
+      {with(R"("window": 3)"), "window"},
+      {with(R"("film": {"format": "gif", "fps": 200})"), "fps"},
+      {with(R"("cameras": [{"scene": "a"}])"), "camera"},
+      {with(R"("cameras": [{"scene": "a", "camera": {"position": {"x": 1, "y": 1, "z": 1},
+                "target": {"x": 1, "y": 1, "z": 1}, "fov": 45}}])"),
+       "camera"},
+      {with("\"else\": " + std::string(100000, '[') + std::string(100000, ']')), "else"},
   };
   for (const auto& [text, word] : cases) {
     const auto read = read_kept_state(text);
@@ -89,11 +109,11 @@ class KeptFile : public testing::Test {
 };
 
 TEST_F(KeptFile, StandsWhereTheBaseDirectorySpecificationSays) {
-  EXPECT_EQ(kept_state_path(), (directory_.path() / "aspic" / "window.toml").string());
+  EXPECT_EQ(kept_state_path(), (directory_.path() / "aspic" / "window.json").string());
   ::setenv("XDG_STATE_HOME", "relative/paths/do/not/count", 1);
   const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
   ::setenv("HOME", "/home/somebody", 1);
-  EXPECT_EQ(kept_state_path(), "/home/somebody/.local/state/aspic/window.toml");
+  EXPECT_EQ(kept_state_path(), "/home/somebody/.local/state/aspic/window.json");
   ::unsetenv("HOME");
   EXPECT_EQ(kept_state_path(), "");
   ::setenv("HOME", home.c_str(), 1);
@@ -122,6 +142,19 @@ TEST_F(KeptFile, ABrokenOneIsToldOfByName) {
   EXPECT_TRUE(save_kept_state(unusual(), path).ok());
   EXPECT_TRUE(load_kept_state(path).ok());
   EXPECT_TRUE(save_kept_state(unusual(), "").ok()) << "nowhere to keep it is no error";
+}
+
+TEST_F(KeptFile, TheFormerVersionIsToldOfByNameAndReplaced) {
+  const std::string path = kept_state_path();
+  const auto former = directory_.path() / "aspic" / "window.toml";
+  std::filesystem::create_directories(former.parent_path());
+  std::ofstream(former) << "version = 1\n";
+  const auto read = load_kept_state(path);
+  ASSERT_FALSE(read.ok());
+  EXPECT_THAT(read.error().message, testing::HasSubstr(former.string()));
+  ASSERT_TRUE(save_kept_state(unusual(), path).ok());
+  EXPECT_FALSE(std::filesystem::exists(former));
+  EXPECT_EQ(*load_kept_state(path), unusual());
 }
 
 }  // namespace

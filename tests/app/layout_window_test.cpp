@@ -16,7 +16,7 @@ class Layout : public Stage {
   static app::KeptState with_sections(bool open) {
     app::KeptState kept;
     for (const char* name : {"Scene", "Simulation", "Bodies", "Springs", "Contact", "Balls", "View",
-                             "Recording", "Performance", "Energy", "Shadow"})
+                             "Recording", "Performance", "Energy", "Compare backends"})
       kept.layout.sections[name] = open;
     return kept;
   }

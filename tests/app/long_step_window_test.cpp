@@ -121,6 +121,16 @@ TEST_F(LongStep, ASingleStepIsDoneByTheBackendThatCan) {
   EXPECT_EQ(hash(), reference_hash(app().scene.scene(), 1));
 }
 
+TEST_F(LongStep, ASingleStepThatTheDeviceTakesOnIsDoneOnce) {
+  open("cube-plane", {"cube[0].particles-per-edge=15", "simulation.integrator=implicit-euler"}, "reference");
+  ASSERT_TRUE(simulation().set_backend(endless_backend()).ok());
+  type(U'.');
+  frames(2);
+  ASSERT_TRUE(simulation().set_backend(*find_backend("gpu")).ok());
+  frames_until([&] { return !simulation().busy(); });
+  EXPECT_EQ(simulation().step(), 1u);
+}
+
 TEST_F(LongStep, TheWindowClosesAtOnce) {
   run_endlessly();
   close();

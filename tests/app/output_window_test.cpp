@@ -30,7 +30,7 @@ class Output : public Stage {
   }
   void save(const std::string& widget) {
     click("save/" + widget);
-    click("save/" + widget + "/write");
+    click("files/accept");
     ASSERT_TRUE(app().messages.notice());
   }
   std::string path(const std::string& name) const { return (directory() / name).string(); }
@@ -66,6 +66,27 @@ TEST_P(OutputOn, ACheckpointGoesOnAsTheWindowDoes) {
   EXPECT_EQ(state_hash_text(*(*solver)->state()), state_hash_text(simulation().snapshot()));
 }
 
+TEST_P(OutputOn, ACheckpointIsOpenedWhereTheRunWas) {
+  open_falling(GetParam());
+  const std::uint64_t step = simulation().step();
+  const std::string hash = state_hash_text(simulation().snapshot());
+  save("checkpoint.aspic");
+  app().scene.open("cube-sphere");
+  app().scene.open(path("aspic-cube-plane-0001.aspic"));
+  EXPECT_FALSE(app().messages.notice()) << app().messages.notice()->text;
+  EXPECT_EQ(simulation().step(), step);
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), hash);
+  for (int i = 0; i < 10; ++i) type(U'.');
+  ASSERT_TRUE(simulation().settle().ok());
+  EXPECT_EQ(state_hash_text(simulation().snapshot()),
+            reference_hash(app().scene.editor().scene(), simulation().step()));
+  for (int i = 0; i < 20; ++i) type(U',');
+  ASSERT_TRUE(simulation().settle().ok());
+  EXPECT_EQ(simulation().step(), step) << "the history begins there";
+  press(GLFW_KEY_R);
+  EXPECT_EQ(simulation().step(), 0u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Output, OutputOn, testing::Values("reference", "gpu"),
                          [](const auto& backend) { return std::string(backend.param); });
 
@@ -87,13 +108,17 @@ TEST_F(Output, WhatExistsIsKeptAndTheNextNameIsFree) {
   EXPECT_EQ(*read_file(path("aspic-cube-plane-0001.csv")), "precious");
   EXPECT_TRUE(test::read_state_csv(path("aspic-cube-plane-0002.csv"), Precision::single).ok());
   click("save/state.csv");
-  click("save/state.csv/path");
-  for (const char32_t c : U"aspic-cube-plane-0001.csv") {
-    if (c != 0) type(c);
-  }
-  click("save/state.csv/write");
-  EXPECT_TRUE(app().messages.notice()->is_error);
+  click("files/entry/aspic-cube-plane-0001.csv");
+  click("files/name");
+  press(GLFW_KEY_ENTER);
+  frames(3);
+  EXPECT_EQ(*read_file(path("aspic-cube-plane-0001.csv")), "precious") << "Enter alone asks";
+  click("files/cancel");
   EXPECT_EQ(*read_file(path("aspic-cube-plane-0001.csv")), "precious");
+  click("save/state.csv");
+  click("files/entry/aspic-cube-plane-0001.csv");
+  click("files/accept");
+  EXPECT_NE(*read_file(path("aspic-cube-plane-0001.csv")), "precious") << "the button said Replace";
 }
 
 TEST_F(Output, ACheckpointIsRefusedWhereHandsAddedBodies) {

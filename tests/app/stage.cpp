@@ -46,13 +46,14 @@ void Stage::TearDown() {
 }
 
 void Stage::open(const std::string& scene, std::vector<std::string> overrides, std::string_view backend) {
-  static const app::KeptState never_closed;
+  app::KeptState never_closed;
+  never_closed.pace = app::Pace::steps_per_frame;  // as many steps a picture, however long it takes
   open(scene, std::move(overrides), backend, never_closed);
 }
 
 void Stage::open(const std::string& scene, std::vector<std::string> overrides, std::string_view backend,
                  const app::KeptState& kept) {
-  app::WindowServices services;
+  app::WindowServices services = window_->services();
   services.clipboard = [this] { return clipboard; };
   services.set_clipboard = [this](const std::string& text) { clipboard = text; };
   services.toggle_full_screen = [this] { ++full_screen_toggles; };

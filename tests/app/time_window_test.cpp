@@ -1,4 +1,5 @@
 // History, hands and shadow mode in the real window.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -133,7 +134,7 @@ TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
   run_to(10);
   click("section/View");  // which, with the plot of energies, leaves the others no room
   click("section/Energy");
-  click("section/Shadow");
+  click("section/Compare backends");
   click("shadow/on");
   ASSERT_TRUE(simulation().shadowed());
   run_to(120);
@@ -159,6 +160,20 @@ TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Backends, TimeOnBackend, testing::Values("reference", "gpu"),
                          [](const auto& backend) { return backend.param; });
+
+TEST_F(Time, PausedWithAShadowTheEnergiesOfTheRunStay) {
+  open("cube-plane", {}, "gpu");
+  ASSERT_TRUE(simulation().set_shadow(&reference_backend()).ok());
+  for (int i = 0; i < 3; ++i) type(U'.');
+  const auto& energies = simulation().samples().energies();
+  EXPECT_GT(energies.size(), 1u);
+  // Twice as many steps: the plot has none of the last one, which is measured now.
+  Scene scene = app().scene.scene();
+  scene.model.simulation.timestep /= 2.0;
+  app().scene.apply(std::move(scene), "time step");
+  frames_until([&] { return simulation().step() == 6 && energies.back().step == 6; });
+  EXPECT_GT(energies.size(), 1u);
+}
 
 TEST_F(Time, ADifferenceIsShown) {
   open("cube-plane", {}, "reference");
@@ -208,6 +223,88 @@ TEST_F(Time, AChangeOfTheTimeStepKeepsTheTime) {
   settle();
   EXPECT_EQ(app().scene.editor().scene().model.simulation.timestep, 0.001);
   EXPECT_NEAR(simulation().time(), t - 0.001, 1e-9);
+}
+
+TEST_P(TimeOnBackend, AStableStepKeepsTheSceneAndThePlot) {
+  open("cube-plane", {"cube[0].position=[0,1.2,0]", "simulation.integrator=runge-kutta-4"}, GetParam());
+  run_to(300);
+  const double t = simulation().time();
+  for (const char* type : {"structural", "shear", "bending"})
+    app().scene.set_value(*find_parameter(fmt::format("cube[].{}.stiffness", type)), 0, Value(1e6), type);
+  app().scene.set_value(*find_parameter("simulation.integrator"), 0, Value("explicit-euler"), "");
+  simulation().set_running(true);
+  frames_until([&] { return simulation().divergence().has_value(); });
+  frames(2);
+  click("diverged/stable");
+  frames_until([&] { return !simulation().seeking() && !simulation().changing() && !app().scene.pending(); });
+  frames(3);
+  EXPECT_FALSE(simulation().divergence().has_value());
+  const ModelSettings& now = app().scene.scene().model;
+  EXPECT_EQ(now.cubes[0].structural.stiffness, 1e6) << "what the user set";
+  EXPECT_EQ(now.simulation.integrator, Integrator::explicit_euler);
+  EXPECT_LT(now.simulation.timestep, 1e-3);
+  EXPECT_EQ(simulation().model().simulation.timestep, now.simulation.timestep);
+  EXPECT_EQ(simulation().setup().settings.cubes[0].structural.stiffness, 1e6);
+  EXPECT_GT(simulation().time(), 0.3 * t) << "the state of shortly before";
+  const auto& energies = simulation().samples().energies();
+  EXPECT_NEAR(energies.back().time, simulation().time(), 1e-9);
+  EXPECT_GT(energies.size(), static_cast<std::size_t>(0.3 * t / 0.1))
+      << "the curve up to here is still there";
+  for (std::size_t i = 1; i < energies.size(); ++i) EXPECT_LT(energies[i - 1].time, energies[i].time);
+  for (const auto& sample : energies) EXPECT_LT(sample.measures.kinetic, 1e5) << sample.time;
+  simulation().set_running(true);
+  frames_to_step(simulation().step() + 200);
+  EXPECT_FALSE(simulation().divergence().has_value());
+}
+
+TEST_P(TimeOnBackend, InThePastFiguresAreThoseOfThatMoment) {
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, GetParam());
+  run_to(400);
+  frames(4);
+  const auto kinetic = [&] {
+    const State state = simulation().snapshot();
+    return measure(simulation().model(), state).kinetic;
+  };
+  for (const std::uint64_t step : {137u, 3u, 255u}) {
+    go_to({simulation().here().stretch, step});
+    frames_until([&] { return !simulation().busy(); });
+    frames(3);
+    const app::EnergySample* const shown = simulation().samples().nearest(simulation().time());
+    ASSERT_TRUE(shown);
+    EXPECT_EQ(shown->step, step);
+    EXPECT_EQ(shown->measures.kinetic, kinetic());
+  }
+}
+
+TEST_F(Time, AClickInThePlotGoesToThatMoment) {
+  open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "reference");
+  run_to(400);
+  frames(4);
+  click("section/Scene");
+  const app::Box plot = widgets().at("energy/plot");
+  const auto& energies = simulation().samples().energies();
+  const double span = energies.back().time - energies.front().time;
+  click("energy/plot");
+  settle();
+  EXPECT_NEAR(simulation().time(), energies.front().time + 0.5 * span, 0.02 * span);
+  EXPECT_LT(plot.top, plot.bottom);
+  EXPECT_FALSE(simulation().running());
+}
+
+TEST_F(Time, PlotsOfTwoRunsHaveTheSamePoints) {
+  const auto times = [&](const char* backend) {
+    open("cube-plane", {"cube[0].position=[0,1.2,0]", "cube[0].particles-per-edge=5"}, backend);
+    simulation().set_running(true);
+    frames_to_step(205);
+    std::vector<std::pair<std::uint64_t, double>> points;
+    for (const auto& sample : simulation().samples().energies())
+      if (sample.step <= 200) points.emplace_back(sample.step, sample.measures.total());
+    close();
+    return points;
+  };
+  const auto first = times("reference");
+  EXPECT_EQ(first.size(), 11u) << "one for every twenty steps of a millisecond";
+  EXPECT_EQ(first, times("reference"));
 }
 
 TEST_F(Time, ALargeModelIsBuiltAsideAndNothingThatHandsDoIsLost) {
@@ -280,8 +377,7 @@ TEST_F(Time, CtrlDragPullsAndCtrlRightClickPins) {
        "reference");
   frames(3);
   const auto& view = app().view.box;
-  const Camera camera(app().view.camera.shown(), static_cast<int>(view.right - view.left),
-                      static_cast<int>(view.bottom - view.top));
+  const Camera camera = app().view.lens();
   const Vec3 corner = simulation().snapshot().position[999];
   const auto seen = test::project(camera, corner);
   ASSERT_TRUE(seen.has_value());

@@ -35,7 +35,7 @@ class LostDeviceGl : public aspic::testing::GlTest, public ::testing::WithParamI
  protected:
   void SetUp() override {
     GlTest::SetUp();
-    auto made = gl::Context::create_headless({.debug = true, .device = gl::DeviceChoice::software});
+    auto made = gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
     ASSERT_TRUE(made.ok()) << made.error().message;
     device_ = std::move(*made);
     ModelSettings settings = test::cube_on_plane(3, 1.9);

@@ -105,19 +105,19 @@ std::vector<std::string> kept_state_seeds() {
 }
 
 std::vector<std::string> kept_state_words() {
-  return {"version = 1\n",
-          "[window]\n",
-          "size = [16, 16]\n",
-          "position = [1e6, -1e6]\n",
-          "[panels]\n",
-          "open = [",
-          "[[camera]]\n",
-          "scene = ",
-          "fov = 179.0\n",
-          "format = \"gif\"\n",
-          "fps = 240\n",
-          "nan",
-          "inf",
+  return {"\"version\": 2",
+          "\"window\": {",
+          "\"size\": [16, 16]",
+          "\"position\": [1e6, -1e6]",
+          "\"layout\": {",
+          "\"sections\": {",
+          "\"cameras\": [",
+          "\"scene\": ",
+          "\"fov\": 179.0",
+          "\"format\": \"gif\"",
+          "\"fps\": 240",
+          "null",
+          "1e999",
           "1e308"};
 }
 

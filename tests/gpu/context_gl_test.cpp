@@ -132,7 +132,7 @@ TEST_F(ContextGl, TwoContextsLiveSideBySide) {
   ASSERT_TRUE(buffer.ok());
   buffer->clear();
   {
-    const auto second = Context::create_headless({.debug = true, .device = DeviceChoice::software});
+    const auto second = Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
     ASSERT_TRUE(second.ok()) << second.error().message;
     EXPECT_EQ((*second)->bytes_held(), 0u);
   }
@@ -141,7 +141,7 @@ TEST_F(ContextGl, TwoContextsLiveSideBySide) {
 }
 
 TEST_F(ContextGl, AdoptsTheCurrentContext) {
-  auto owner = Context::create_headless({.debug = true, .device = DeviceChoice::software});
+  auto owner = Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
   ASSERT_TRUE(owner.ok()) << owner.error().message;
   {
     auto adopted = Context::adopt_current(eglGetProcAddress);

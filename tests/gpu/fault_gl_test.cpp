@@ -16,7 +16,7 @@ class FaultGl : public testing::GlTest {
  protected:
   void SetUp() override {
     GlTest::SetUp();
-    auto made = Context::create_headless({.debug = true, .device = DeviceChoice::software});
+    auto made = Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
     ASSERT_TRUE(made.ok()) << made.error().message;
     own_ = std::move(*made);
   }
@@ -32,7 +32,7 @@ TEST_F(FaultGl, RobustContextsComeFromEglWhereTheyAreAskedFor) {
   EXPECT_TRUE(own_->info().robust);
   EXPECT_FALSE(own_->lost());
   const auto plain =
-      Context::create_headless({.debug = false, .robust = false, .device = DeviceChoice::software});
+      Context::create_headless({.debug = false, .robust = false, .device = aspic::testing::test_device()});
   ASSERT_TRUE(plain.ok()) << plain.error().message;
   EXPECT_FALSE((*plain)->info().robust);
   EXPECT_FALSE((*plain)->lost());

@@ -87,7 +87,7 @@ TEST_F(ProgramGl, SetsUniformsOfEachKind) {
   program.set(1, 2u);
   program.set(2, 40);
   program.set(3, 0.5f);
-  program.set(4, std::array<float, 3>{1, 2, 3});
+  program.set(4, std::array{1.0f, 2.0f, 3.0f, 4.0f});
   Pass(program,
        {{.binding = 3, .buffer = &*items}, {.binding = 5, .buffer = &*classes, .kind = BufferKind::uniform}},
        ReadBy::read_back)

@@ -34,7 +34,7 @@ class FaultySolverGl : public aspic::testing::GlTest {
 
   /// A fresh context, in which no fault has struck yet.
   gl::Context& own() {
-    auto made = gl::Context::create_headless({.debug = true, .device = gl::DeviceChoice::software});
+    auto made = gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
     EXPECT_TRUE(made.ok());
     own_ = std::move(made).value();
     return *own_;
@@ -152,6 +152,37 @@ TEST_F(FaultySolverGl, ADeviceThatDoesNothingEndsTheRun) {
     ASSERT_FALSE(done.ok()) << kernel;
     EXPECT_EQ(done.error().code, ErrorCode::no_device) << kernel;
     EXPECT_THAT(done.error().message, HasSubstr("does not carry out")) << kernel;
+  }
+}
+
+// Explicit methods wait for nothing, and would go on with whatever memory held.
+TEST_F(FaultySolverGl, ADeviceThatDropsExplicitPassesEndsTheRun) {
+  struct Dropped {
+    const char* kernel;
+    ForcePath path;
+  };
+  for (const auto& [kernel, path] : {Dropped{"gather", ForcePath::gather},
+                                     {"spring_forces", ForcePath::per_spring},
+                                     {"sum_springs", ForcePath::per_spring},
+                                     {"ball_fly", ForcePath::gather}}) {
+    const test::TemporaryDirectory shaders;
+    std::filesystem::create_directory(shaders.path() / "compute");
+    shaders.write(
+        std::string("compute/") + kernel + ".comp",
+        "layout(local_size_x = 64) in;\nlayout(location = 0) uniform uint a;\n"
+        "layout(location = 1) uniform uint b;\nlayout(location = 2) uniform uint c;\nvoid main() {}\n");
+    const Model model = scene(Integrator::midpoint);
+    GpuOptions options;
+    options.shader_directory = shaders.path();
+    options.force_path = path;
+    auto solver = make_gpu_solver(context(), model, options);
+    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    for (const std::uint64_t steps : {1u, 50u}) {
+      const auto done = (*solver)->advance(steps);
+      ASSERT_FALSE(done.ok()) << kernel;
+      EXPECT_EQ(done.error().code, ErrorCode::no_device) << kernel;
+      EXPECT_THAT(done.error().message, HasSubstr("no usable device")) << kernel;
+    }
   }
 }
 

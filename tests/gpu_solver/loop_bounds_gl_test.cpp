@@ -293,7 +293,7 @@ TEST_F(LoopBounds, OfTheForceThatIsDrawn) {
   const auto programs = RenderPrograms::create(context(), gl::ShaderLibrary());
   ASSERT_TRUE(programs.ok()) << programs.error().message;
   const gl::Buffer frame = frame_of(context(), model.particle_count(), COLOUR_FORCE);
-  glBindBufferBase(GL_UNIFORM_BUFFER, BINDING_FRAME, frame.id());
+  frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
   buffers.compute_quantity(*programs, shown);
   const auto force = static_cast<double>(buffers.quantity().download_items<float>(1).front());
   // Each addition rounds what the others have come to; the last spring's force and the result take a few

@@ -26,7 +26,7 @@ TEST(Rods, OfAGoalAreTubesAlongPostsAndTheTopsPerimeter) {
   net.size = {2.0, 3.0, 8.0};
   net.position = {1.0, 2.0, -3.0};
   settings.goal_nets.push_back(net);
-  const TubeMesh mesh = rod_mesh(test::build(settings));
+  const Mesh mesh = rod_mesh(test::build(settings));
   ASSERT_FALSE(mesh.indices.empty());
   ASSERT_EQ(mesh.vertices.size(), mesh.normals.size());
   const auto corner = [&](int x, int y, int z) { return net.position + Vec3{x * 1.0, y * 1.5, z * 4.0}; };

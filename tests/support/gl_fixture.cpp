@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace aspic::testing {
@@ -34,9 +35,18 @@ class ContextEnvironment : public ::testing::Environment {
 
 }  // namespace
 
+gl::DeviceChoice test_device() {
+  const char* const variable = std::getenv("ASPIC_TEST_DEVICE");
+  const std::string_view wish = variable && *variable ? variable : "software";
+  if (wish == "hardware") return gl::DeviceChoice::hardware;
+  if (wish == "automatic") return gl::DeviceChoice::automatic;
+  EXPECT_EQ(wish, "software") << "ASPIC_TEST_DEVICE is none of software, hardware, automatic";
+  return gl::DeviceChoice::software;
+}
+
 void GlTest::SetUpTestSuite() {
   if (process_context()) return;
-  auto made = gl::Context::create_headless({.debug = true, .device = gl::DeviceChoice::software});
+  auto made = gl::Context::create_headless({.debug = true, .device = test_device()});
   ASSERT_TRUE(made.ok()) << made.error().message;
   // A run that is meant for one driver must not pass on another that EGL took instead.
   if (const char* const renderer = std::getenv("ASPIC_TEST_RENDERER")) {

@@ -8,9 +8,12 @@
 
 namespace aspic::testing {
 
-/// One headless software context with debug output per test process, made at the first use; ASPIC_EGL_DEVICE
-/// chooses another device. Each test ends in failure if it left a GL error or caused a KHR_debug message of
-/// high severity.
+/// The device that tests of this process ask for: the environment variable ASPIC_TEST_DEVICE (software,
+/// hardware or automatic), else software. ASPIC_EGL_DEVICE goes before it.
+gl::DeviceChoice test_device();
+
+/// One headless context on test_device() with debug output per test process, made at the first use. Each test
+/// ends in failure if it left a GL error or caused a KHR_debug message of high severity.
 class GlTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite();

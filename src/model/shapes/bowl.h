@@ -14,13 +14,6 @@ struct Bowl : Shape {
   static constexpr auto surface = Sphere::surface;
 
   template <class T>
-  static T distance(const Geometry<T>& g, const Vec<T>& x) {
-    const Vec<T>& centre = g.vectors[0];
-    const T radius = g.numbers[0];
-    return radius - length(x - centre);
-  }
-
-  template <class T>
   static TerrainGap<T> gap(const Geometry<T>& g, const Vec<T>& x) {
     const Vec<T>& centre = g.vectors[0];
     const T radius = g.numbers[0];

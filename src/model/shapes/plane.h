@@ -13,14 +13,9 @@ struct Plane : Shape {
   static constexpr Vec3 drop = {0.0, 1.9, 0.0};
 
   template <class T>
-  static T distance(const Geometry<T>& g, const Vec<T>& x) {
-    const auto& [point, normal, unused] = g.vectors;
-    return dot(normal, x - point);
-  }
-
-  template <class T>
   static TerrainGap<T> gap(const Geometry<T>& g, const Vec<T>& x) {
-    return {distance(g, x), g.vectors[1]};
+    const auto& [point, normal, unused] = g.vectors;
+    return {dot(normal, x - point), normal};
   }
 
   static FlatPart flat(const Geometry<double>& g) { return {g.vectors[0], g.vectors[1]}; }

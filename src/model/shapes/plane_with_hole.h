@@ -20,15 +20,6 @@ struct PlaneWithHole : Shape {
   static constexpr Vec3 drop = {-4.0, 2.9, 1.0};  // onto the rim
 
   template <class T>
-  static T distance(const Geometry<T>& g, const Vec<T>& x) {
-    const auto& [point, normal, centre] = g.vectors;
-    const T radius = g.numbers[0];
-    const T over_plane = dot(normal, x - point);
-    const T within_bowl = radius - length(x - centre);
-    return within_bowl > over_plane ? within_bowl : over_plane;
-  }
-
-  template <class T>
   static TerrainGap<T> gap(const Geometry<T>& g, const Vec<T>& x) {
     const auto& [point, normal, centre] = g.vectors;
     const T radius = g.numbers[0];

@@ -14,13 +14,6 @@ struct Sphere : Shape {
   static constexpr bool ball = true;
 
   template <class T>
-  static T distance(const Geometry<T>& g, const Vec<T>& x) {
-    const Vec<T>& centre = g.vectors[0];
-    const T radius = g.numbers[0];
-    return length(x - centre) - radius;
-  }
-
-  template <class T>
   static TerrainGap<T> gap(const Geometry<T>& g, const Vec<T>& x) {
     const Vec<T>& centre = g.vectors[0];
     const T radius = g.numbers[0];

@@ -20,16 +20,6 @@ struct Torus : Shape {
   static constexpr Vec3 drop = {0.3, 3.4, 0.2};
 
   template <class T>
-  static T distance(const Geometry<T>& g, const Vec<T>& x) {
-    const auto& [centre, axis, unused] = g.vectors;
-    const T R = g.numbers[0], r = g.numbers[1];
-    const Vec<T> e = x - centre;
-    const T along = dot(e, axis);
-    const T off = length(e - along * axis) - R;
-    return std::sqrt(off * off + along * along) - r;
-  }
-
-  template <class T>
   static TerrainGap<T> gap(const Geometry<T>& g, const Vec<T>& x) {
     const auto& [centre, axis, unused] = g.vectors;
     const T R = g.numbers[0], r = g.numbers[1];

@@ -17,12 +17,12 @@ layout(std140, binding = 5) uniform Classes {
 layout(location = 1) uniform uint count;
 layout(location = 2) uniform int shift;
 layout(location = 3) uniform float gain;
-layout(location = 4) uniform vec3 gravity;
+layout(location = 4) uniform vec4 gravity;
 
 void main() {
   uint i = item_index();
   if (i >= count) return;
-  items[i].position = vec4(gravity, gain);
+  items[i].position = vec4(gravity.xyz, gain);
   items[i].mass = weights[2];
   items[i].flags = header + uint(int(i) + shift);
   weights[3] = factors[1];

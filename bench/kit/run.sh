@@ -1,0 +1,125 @@
+#!/bin/bash
+# Measures Aspic on this machine's GPU: what it is, whether it computes right, and how fast. No installation: it needs
+# a driver with EGL and OpenGL 4.3, the C library, and these files. Where nvcc is, the CUDA baseline is built and run too.
+# Usage: ./run.sh [--quick] [DIRECTORY]     results go to DIRECTORY, by default results-DATE beside this file
+#   --quick   small sizes and few steps, for software rasterisers and to try the kit: minutes instead of an hour
+# Environment: ASPIC_EGL_DEVICE chooses a device (aspic info lists them).
+set -u
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+quick=
+out=
+for word in "$@"; do
+  case $word in
+    --quick) quick=1 ;;
+    -*) sed -n '2,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 2 ;;
+    *) out=$word ;;
+  esac
+done
+out=${out:-$here/results-$(date -u +%Y%m%d-%H%M%S)}
+mkdir -p "$out/bench" "$out/compare" "$out/frames" || exit 6
+aspic=$here/bin/aspic
+
+# The system's own C++ library and EGL loader come first: its driver was built for them.
+own=$here/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+for more in "" ":$here/lib/cxx" ":$here/lib/loader" ":$here/lib/cxx:$here/lib/loader"; do
+  export LD_LIBRARY_PATH=$own$more
+  "$aspic" --version >"$out/version.txt" 2>"$out/start.log" && break
+done
+if [ ! -s "$out/version.txt" ]; then
+  echo "aspic does not start here:" >&2
+  cat "$out/start.log" >&2
+  exit 6
+fi
+
+# step NAME FILE command …: its output goes to FILE, its messages and how it ended to the log. A step that fails ends nothing.
+step() {
+  local name=$1 file=$2 begun=$SECONDS status
+  shift 2
+  echo "$name" >&2
+  timeout "${limit:-600}" "$@" >"$out/$file" 2>>"$out/messages.log"
+  status=$?
+  printf '%s\t%s\t%s\n' "$status" "$((SECONDS - begun))" "$name" >>"$out/steps.tsv"
+  return $status
+}
+
+if [ -n "$quick" ]; then
+  sizes="4 6 10" cuda_sizes="10" middle=6 seconds=0.3 repeats=3 verify=--quick steps=10
+  integrators="explicit-euler implicit-euler"
+else
+  sizes="10 20 40 64 100 128 200 256" cuda_sizes="10 20 40 64 100 128 200" middle=40 seconds=3 repeats=5 verify= steps=200
+  integrators="explicit-euler symplectic-euler midpoint runge-kutta-4 implicit-euler"
+fi
+
+step info info.txt "$aspic" info
+step "info as JSON" info.json "$aspic" info --json
+command -v nvidia-smi >/dev/null && step nvidia-smi nvidia-smi.txt nvidia-smi
+if ! step "first step" first.json "$aspic" run cube-plane --backend gpu --steps 1 --json; then
+  echo "No step was made on a GPU; $out/messages.log says why." >&2
+  exit 4
+fi
+paths=
+for path in lattice gather per-spring; do
+  "$aspic" run cube-plane --backend gpu --force-path $path --steps 1 >/dev/null 2>&1 && paths="$paths $path"
+done
+
+limit=3600 step verify verify.json "$aspic" verify $verify --json
+for scene in $("$aspic" scene list | awk '{ print $1 }'); do
+  for integrator in explicit-euler runge-kutta-4 implicit-euler; do
+    for path in auto $paths; do
+      [ -n "$quick" ] && [ $path != auto ] && [ "$scene" != cube-plane ] && continue
+      [ $integrator = implicit-euler ] && [ $path = per-spring ] && continue
+      step "compare $scene, $integrator, $path" "compare/$scene-$integrator-$path.json" \
+        "$aspic" compare "$scene" --backends gpu:$path,reference --steps $steps --json \
+        --set simulation.integrator=$integrator
+    done
+  done
+done
+
+bench() {  # bench NAME size integrator options …
+  local name=$1 size=$2 integrator=$3
+  shift 3
+  step "bench $name, $size, $integrator" "bench/$name-$integrator-$(printf %03d "$size").json" \
+    "$aspic" bench --size "$size" --integrator "$integrator" --seconds $seconds --repeats $repeats --json "$@"
+}
+for size in $sizes; do
+  for path in $paths; do bench $path "$size" explicit-euler --backend gpu:$path; done
+  bench cpu "$size" explicit-euler --backend cpu
+done
+for integrator in $integrators; do
+  for path in $paths; do
+    [ $integrator = implicit-euler ] && [ $path = per-spring ] && continue
+    bench $path $middle $integrator --backend gpu:$path
+  done
+done
+[ -n "$quick" ] || for path in lattice gather; do
+  case $paths in *$path*) bench $path 100 implicit-euler --backend gpu:$path ;; esac
+done
+
+if command -v nvcc >/dev/null || [ -x /usr/local/cuda/bin/nvcc ]; then
+  PATH=$PATH:/usr/local/cuda/bin
+  mkdir -p "$here/bin/bench"
+  if step "build of the CUDA baseline" cuda-build.txt \
+    nvcc -O3 -std=c++17 -arch=native "$here/bench/peers/cuda_peer.cu" -o "$here/bin/bench/peer_cuda" ||
+    step "build of the CUDA baseline, for any card" cuda-build.txt \
+      nvcc -O3 -std=c++17 "$here/bench/peers/cuda_peer.cu" -o "$here/bin/bench/peer_cuda"; then
+    for size in $cuda_sizes; do
+      bench cuda "$size" explicit-euler --backend gpu --peer cuda
+    done
+  fi
+fi
+
+step picture picture.json "$aspic" run cube-bowl --backend gpu --duration 1.5 --frames "$out/frames" --fps 2 \
+  --size 640x360 --force --json
+picture=$(ls "$out"/frames/*.png 2>/dev/null | tail -1)
+[ -n "$picture" ] && cp "$picture" "$out/picture.png"
+
+{ printf '[\n'; separator=; for file in "$out"/bench/*.json; do
+    [ -s "$file" ] && printf '%s' "$separator" && cat "$file" && separator=$',\n'
+  done; printf ']\n'; } >"$out/bench.json"
+LC_ALL=C awk -f "$here/bench/kit/report.awk" -v out="$out" "$out/info.json" "$out/verify.json" "$out"/compare/*.json \
+  "$out"/bench/*.json >"$out/report.md"
+LC_ALL=C awk -F'\t' '$1 != 0 { print "- " $3 ": exit code " $1 }' "$out/steps.tsv" >"$out/failed.txt"
+{ echo; echo "## Steps that failed"; echo; if [ -s "$out/failed.txt" ]; then cat "$out/failed.txt"; else echo none; fi
+} >>"$out/report.md"
+echo "Report: $out/report.md" >&2
+echo "$out"

@@ -1,0 +1,83 @@
+// What the colours of the picture mean, in window pixels whatever the picture's own.
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/panels.h"
+#include "render/colour_map.h"
+
+namespace aspic::app {
+namespace {
+
+ImU32 display_colour(const Colour& linear) {
+  std::array<float, 3> c;
+  for (std::size_t i = 0; i < 3; ++i)
+    c[i] = static_cast<float>(linear_to_srgb(static_cast<double>(linear[i])));
+  return ImGui::ColorConvertFloat4ToU32({c[0], c[1], c[2], 1.0f});
+}
+
+/// The scale of colours from its lower to its upper end, with its marks below.
+void scale_bar(const Legend& legend) {
+  static const std::vector<std::byte> texels = colour_map_texels();
+  const float line = ImGui::GetTextLineHeight(), height = 0.7f * line;
+  float marks = 2.0f * line;
+  for (const std::string& mark : legend.marks) marks += ImGui::CalcTextSize(mark.c_str()).x;
+  const float width = std::max({marks, 12.0f * line, ImGui::CalcTextSize(legend.title.c_str()).x});
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  constexpr int pieces = 64;
+  const auto colour = [](int i) {
+    const auto at = 4 * static_cast<std::size_t>(i * 255 / pieces);
+    const auto channel = [&](std::size_t c) { return std::to_integer<int>(texels[at + c]); };
+    return IM_COL32(channel(0), channel(1), channel(2), 255);
+  };
+  for (int i = 0; i < pieces; ++i) {
+    const auto x = [&](int n) { return corner.x + width * static_cast<float>(n) / pieces; };
+    ImGui::GetWindowDrawList()->AddRectFilledMultiColor({x(i), corner.y}, {x(i + 1), corner.y + height},
+                                                        colour(i), colour(i + 1), colour(i + 1), colour(i));
+  }
+  ImGui::Dummy({width, height});
+  const float left = ImGui::GetCursorPosX();
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i > 0) ImGui::SameLine();
+    const float rest = width - ImGui::CalcTextSize(legend.marks[i].c_str()).x;
+    ImGui::SetCursorPosX(left + 0.5f * static_cast<float>(i) * rest);
+    ImGui::TextUnformatted(legend.marks[i].c_str());
+  }
+}
+
+}  // namespace
+
+double draw_legend(const Gui& gui, const Legend& legend, const Box& view) {
+  if (legend.empty()) return 0.0;
+  const auto gap = static_cast<float>(16.0 * gui.scale());
+  ImGui::SetNextWindowPos({static_cast<float>(view.right) - gap, static_cast<float>(view.bottom) - gap},
+                          ImGuiCond_Always, {1.0f, 1.0f});
+  ImGui::SetNextWindowBgAlpha(0.72f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);
+  ImGui::Begin("##legend", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::BeginGroup();
+  ImGui::TextUnformatted(legend.title.c_str());
+  for (const Legend::Entry& entry : legend.entries) {
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 0.1f * line},
+                                              {at.x + 0.8f * line, at.y + 0.9f * line},
+                                              display_colour(entry.colour), 0.2f * line);
+    ImGui::Dummy({0.8f * line, line});
+    ImGui::SameLine();
+    ImGui::TextUnformatted(entry.name.c_str());
+  }
+  if (legend.entries.empty()) scale_bar(legend);
+  ImGui::EndGroup();
+  gui.mark("legend");
+  const float height = ImGui::GetWindowHeight();
+  ImGui::End();
+  ImGui::PopStyleVar();
+  return static_cast<double>(height + gap);
+}
+
+}  // namespace aspic::app

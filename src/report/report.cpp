@@ -1,0 +1,197 @@
+#include "report/report.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+
+#include "base/files.h"
+#include "base/fnv.h"
+#include "base/printable.h"
+#include "cpu_parallel/workers.h"
+#include "io/atomic_file.h"
+#include "io/child_process.h"
+#include "io/console.h"
+#include "io/machine.h"
+#include "scene/diagnostics.h"
+#include "scene/write.h"
+
+namespace aspic::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr SectionRow section_table[] = {
+    {"integrators", "Integrators", integrators_section}, {"parameters", "Parameters", parameters_section},
+    {"stability", "Stability map", stability_section},   {"contact", "Contact", contact_section},
+    {"backends", "Backends", backends_section},
+};
+
+/// A program that prints a page as PDF, and its words for `html` and `pdf`.
+struct Converter {
+  const char* program;
+  std::vector<std::string> (*words)(const std::string& html, const std::string& pdf);
+};
+std::vector<std::string> chromium_words(const std::string& html, const std::string& pdf) {
+  std::vector<std::string> words = {"--headless", "--disable-gpu", "--no-pdf-header-footer",
+                                    "--print-to-pdf=" + pdf};
+  if (::geteuid() == 0) words.emplace_back("--no-sandbox");  // it refuses to start for root otherwise
+  words.push_back("file://" + html);
+  return words;
+}
+constexpr Converter converters[] = {
+    {"chromium", chromium_words},
+    {"chromium-browser", chromium_words},
+    {"google-chrome", chromium_words},
+    {"weasyprint",
+     [](const std::string& html, const std::string& pdf) {
+       return std::vector<std::string>{html, pdf};
+     }},
+    {"wkhtmltopdf",
+     [](const std::string& html, const std::string& pdf) {
+       return std::vector<std::string>{"--print-media-type", "--enable-local-file-access", html, pdf};
+     }},
+};
+
+/// Empty: the PDF is there; otherwise why it is not.
+std::string print_pdf(const fs::path& directory) {
+  std::error_code failed;
+  const fs::path whole = fs::absolute(directory, failed);
+  const std::string html = (whole / "report.html").string(), pdf = (whole / "report.pdf").string();
+  std::string reason;
+  for (const Converter& converter : converters) {
+    std::vector<std::string> words = {converter.program};
+    for (std::string& word : converter.words(html, pdf)) words.push_back(std::move(word));
+    auto child = ChildProcess::start(words);
+    if (!child) continue;
+    if (child->finish().ok() && fs::exists(pdf, failed)) return "";
+    reason = fmt::format("{} did not make one.", converter.program);
+  }
+  return reason.empty() ? "none of chromium, weasyprint and wkhtmltopdf is installed." : reason;
+}
+
+Status check_directory(const ReportPlan& plan) {
+  std::error_code failed;
+  for (const char* const part : {"", "data", "figures"}) {
+    const fs::path directory = fs::path(plan.out) / part;
+    fs::create_directories(directory, failed);
+    if (failed) return file_error("make the directory", directory.string(), failed.value());
+  }
+  if (plan.force) return {};
+  for (const char* const page : {"report.html", "report.md", "report.pdf"}) {
+    const fs::path file = fs::path(plan.out) / page;
+    if (fs::exists(file, failed))
+      return fail(ErrorCode::io, "{} exists; give another --out, or --force to overwrite the report.",
+                  file.string());
+  }
+  return {};
+}
+
+Status write_file(const fs::path& path, const std::string& content) {
+  ASPIC_TRY(auto file, AtomicFile::create(path.string(), Overwrite::allow));
+  ASPIC_CHECK(file.write(content));
+  return file.commit();
+}
+
+std::string hash_of(std::string_view text) {
+  Fnv1a hash;
+  hash.add_bytes(std::as_bytes(std::span(text)));
+  return fmt::format("{:016x}", hash.value());
+}
+
+Result<Page> make_page(const ReportPlan& plan, const Study& study,
+                       const std::vector<const SectionRow*>& rows) {
+  Page page;
+  page.title = fmt::format("{}: integrators and parameters", study.scene.name);
+  page.scene_toml = to_toml(study.scene);
+  page.lead = fmt::format(
+      "What the choice of integrator, time step and parameters does to the scene `{}`, measured on this "
+      "machine by aspic {}. Every figure names the command that measures it again and the file with its "
+      "numbers.",
+      study.scene.name, ASPIC_VERSION);
+  if (!study.studio) page.lead += fmt::format(" There are no rendered pictures: {}", study.no_studio);
+  const std::time_t now = std::time(nullptr);
+  {
+    ProgressBar bar(rows.size(), "section");
+    ProgressLines lines(rows.size(), "sections");
+    for (const SectionRow* row : rows) {
+      ASPIC_TRY(auto section, row->make(study));
+      page.sections.push_back(std::move(section));
+      bar.update(page.sections.size());
+      lines.update(page.sections.size());
+    }
+  }
+  ASPIC_TRY(const auto model, build_model(study.scene.model));
+  ASPIC_TRY(const auto own, study.run(model, study.scene.model.simulation.duration));
+  ASPIC_TRY(const unsigned processors, parallel::available_threads());
+  page.colophon = {
+      {"machine",
+       fmt::format("{}, {} processors, {}", processor_name().empty() ? "unknown processor" : processor_name(),
+                   processors, human_bytes(memory_bytes()))},
+      {"driver", study.studio ? fmt::format("{}, OpenGL {}", study.studio->device().renderer,
+                                            study.studio->device().version)
+                              : "no OpenGL device"},
+      {"version", fmt::format("aspic {}", ASPIC_VERSION)},
+      {"date", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now))},
+      {"command",
+       fmt::format("aspic report {}{}{}{} --out DIR", plan.scene_words, plan.thorough ? " --thorough" : "",
+                   plan.only.empty() ? "" : " --only ", fmt::join(plan.only, " --only "))},
+      {"scene", fmt::format("{}, FNV-1a of the text below {}", study.scene.name, hash_of(page.scene_toml))},
+      {"state hash", fmt::format("{} after {} steps of the scene as it is, the same on every backend",
+                                 own.hash, own.steps)},
+  };
+  return page;
+}
+
+}  // namespace
+
+std::span<const SectionRow> sections() {
+  return section_table;
+}
+
+Result<ReportSummary> write_report(ReportPlan plan, const InterruptGuard& interrupt) {
+  std::vector<const SectionRow*> rows;
+  for (const SectionRow& row : sections()) {
+    if (plan.only.empty() || std::ranges::find(plan.only, row.name) != plan.only.end()) rows.push_back(&row);
+  }
+  for (const std::string& name : plan.only) {
+    std::vector<std::string_view> names;
+    for (const SectionRow& row : sections()) names.push_back(row.name);
+    if (std::ranges::find(names, name) == names.end())
+      return fail(ErrorCode::usage, "--only does not know \"{}\"; allowed: {}.", printable_line(name),
+                  diagnostics::list_text(names, false));
+  }
+  ASPIC_CHECK(check_directory(plan));
+  unsigned jobs = plan.jobs;
+  if (jobs == 0) {
+    ASPIC_TRY(jobs, parallel::available_threads());
+  }
+  Study study(std::move(plan.scene), plan.scene_words, plan.thorough, jobs,
+              [&] { return interrupt.interrupted(); });
+  auto studio = Studio::open();
+  if (studio) {
+    study.studio = std::move(*studio);
+  } else {
+    study.no_studio = studio.error().message;
+  }
+  ASPIC_TRY(const auto page, make_page(plan, study, rows));
+
+  ReportSummary summary;
+  summary.no_pictures = study.no_studio;
+  const fs::path out = plan.out;
+  for (const auto& [name, content] : files_of(page)) {
+    ASPIC_CHECK(write_file(out / name, content));
+    ++summary.data_files;
+  }
+  ASPIC_CHECK(write_file(out / "report.md", markdown_of(page)));
+  ASPIC_CHECK(write_file(out / "report.html", html_of(page)));
+  summary.files = {(out / "report.html").string(), (out / "report.md").string()};
+  summary.no_pdf = print_pdf(out);
+  if (summary.no_pdf.empty()) summary.files.push_back((out / "report.pdf").string());
+  return summary;
+}
+
+}  // namespace aspic::report

@@ -1,0 +1,36 @@
+#pragma once
+// `aspic report`: a scene's methods and parameters compared, as pages and data.
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "io/program.h"
+#include "report/study.h"
+
+namespace aspic::report {
+
+/// The sections, in the order of the page.
+std::span<const SectionRow> sections();
+
+struct ReportPlan {
+  Scene scene;
+  std::string scene_words;        ///< the scene as commands name it
+  std::string out;                ///< directory; made where it is missing
+  std::vector<std::string> only;  ///< names of sections; empty: all
+  bool thorough = false;
+  bool force = false;
+  unsigned jobs = 0;  ///< threads; 0: one for each processor
+};
+
+struct ReportSummary {
+  std::vector<std::string> files;  ///< the pages, in the order of report.html, report.md, report.pdf
+  std::size_t data_files = 0;
+  std::string no_pdf, no_pictures;  ///< why there is none; empty: there is
+};
+
+/// Measures and writes. Errors: usage, no such section; io, the directory holds a report and `force` is not
+/// given, or cannot be written; interrupted; those of solvers.
+Result<ReportSummary> write_report(ReportPlan plan, const InterruptGuard& interrupt);
+
+}  // namespace aspic::report

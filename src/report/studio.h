@@ -1,0 +1,32 @@
+#pragma once
+// Still pictures of states, as JPEG.
+#include <memory>
+#include <string>
+
+#include "base/result.h"
+#include "gpu/context.h"
+#include "io/film_format.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
+
+namespace aspic::report {
+
+class Studio {
+ public:
+  /// Draws in a headless context of its own. Errors: no_device, and those of Renderer::create.
+  static Result<std::unique_ptr<Studio>> open();
+
+  /// The next pictures show this model, which outlives them.
+  Status set_model(const Model& model) { return renderer_->set_model(model); }
+  /// A state of the model as the content of a JPEG file.
+  Result<std::string> jpeg(const State& state, const ViewSettings& view, const PictureSize& size);
+  /// GL_RENDERER.
+  const gl::DeviceInfo& device() const { return context_->info(); }
+
+ private:
+  Studio() = default;
+  std::unique_ptr<gl::Context> context_;  // goes last
+  std::unique_ptr<Renderer> renderer_;
+};
+
+}  // namespace aspic::report

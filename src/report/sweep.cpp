@@ -1,0 +1,265 @@
+#include "report/sweep.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+
+#include "cpu_parallel/workers.h"
+#include "io/atomic_file.h"
+#include "io/child_process.h"
+#include "io/console.h"
+#include "report/sweep_rows.h"
+
+namespace aspic::report {
+namespace {
+
+/// What a worker is told first: the grid, the backend that `auto` is, and threads for the cpu backend.
+struct Greeting {
+  std::string identity, backend;
+  unsigned threads = 0;
+};
+constexpr std::string_view ready = "ready";
+
+/// A process that does one run after another, restarted when a run takes it down.
+class Worker {
+ public:
+  Worker(const std::vector<std::string>& command, const Greeting& greeting)
+      : command_(command), greeting_(greeting) {}
+
+  /// The row of a run; nothing once the worker was told to end. Error (io): no process.
+  Result<std::optional<std::string>> row(const Grid& grid, std::size_t index) {
+    if (!child_) ASPIC_CHECK(start());
+    if (!child_) return std::optional<std::string>();
+    const std::string request = fmt::format("{}\n", index);
+    (void)child_->write(std::as_bytes(std::span(request)));
+    if (auto answer = child_->line()) return std::optional(*answer + "\n");
+    const std::lock_guard lock(mutex_);
+    if (ended_) return std::optional<std::string>();
+    const ChildProcess::End end = child_->finish();
+    TrialResult lost;
+    lost.outcome = Outcome::failed;
+    lost.reason = end.signal != 0 ? fmt::format("signal {} ended the process", end.signal)
+                                  : fmt::format("the process ended with exit code {}", end.exit_code);
+    child_.reset();
+    return std::optional(sweep_row(grid, index, lost));
+  }
+
+  /// From another thread: the run at hand is given up, and no more are done.
+  void end() {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    if (child_) child_->kill();
+  }
+
+ private:
+  Status start() {
+    ASPIC_TRY(auto child, ChildProcess::start(command_, ChildProcess::Output::answers));
+    {
+      const std::lock_guard lock(mutex_);
+      if (ended_) return {};
+      child_.emplace(std::move(child));
+    }
+    const std::string greeting =
+        fmt::format("{} {} {}\n", greeting_.identity, greeting_.backend, greeting_.threads);
+    (void)child_->write(std::as_bytes(std::span(greeting)));
+    if (child_->line() == ready) return {};
+    const std::lock_guard lock(mutex_);
+    (void)child_->finish();
+    const std::string said = child_->last_lines(3);
+    child_.reset();
+    if (ended_) return {};
+    return fail(ErrorCode::io, "a process for the runs cannot be started: {}",
+                said.empty() ? "it ended at once." : said);
+  }
+
+  const std::vector<std::string>& command_;
+  const Greeting& greeting_;
+  std::mutex mutex_;  // of all below; child_ itself changes on the worker's own thread alone
+  bool ended_ = false;
+  std::optional<ChildProcess> child_;
+};
+
+/// Workers on threads of their own, and the rows that they bring.
+class Crew {
+ public:
+  Crew(const SweepPlan& plan, const Greeting& greeting, unsigned jobs, std::deque<std::size_t> runs)
+      : plan_(plan), runs_(std::move(runs)) {
+    for (unsigned j = 0; j < jobs; ++j) workers_.push_back(std::make_unique<Worker>(plan.command, greeting));
+    for (const auto& worker : workers_) threads_.emplace_back([this, w = worker.get()] { work(*w); });
+  }
+  ~Crew() {
+    for (const auto& worker : workers_) worker->end();
+    for (std::thread& thread : threads_) thread.join();
+  }
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  struct Row {
+    std::size_t index = 0;
+    std::string text;
+  };
+  /// The next row; nothing if none comes within a tenth of a second. Error: of a worker.
+  Result<std::optional<Row>> next() {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, std::chrono::milliseconds(100), [&] { return !rows_.empty() || error_; });
+    if (error_) return *error_;
+    if (rows_.empty()) return std::optional<Row>();
+    Row row = std::move(rows_.front());
+    rows_.pop_front();
+    return std::optional(std::move(row));
+  }
+
+ private:
+  void work(Worker& worker) {
+    for (;;) {
+      std::size_t index = 0;
+      {
+        const std::lock_guard lock(mutex_);
+        if (runs_.empty() || error_) return;
+        index = runs_.front();
+        runs_.pop_front();
+      }
+      auto row = worker.row(plan_.grid, index);
+      const std::lock_guard lock(mutex_);
+      if (!row) error_ = row.error();
+      if (row && !*row) return;
+      if (row) rows_.push_back({index, std::move(**row)});
+      changed_.notify_one();
+    }
+  }
+
+  const SweepPlan& plan_;
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::vector<std::thread> threads_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::size_t> runs_;  // guarded, as all below
+  std::deque<Row> rows_;
+  std::optional<Error> error_;
+};
+
+/// Whether any run may take a device, which runs in several processes would only contend for.
+bool takes_device(const Grid& grid, const BackendRow& usual) {
+  bool takes = usual.needs_context;
+  for (const Axis& axis : grid.axes) {
+    if (axis.key != "backend") continue;
+    for (const std::string& value : axis.values) {
+      const auto choice = parse_backend(value, grid.backend);
+      takes = takes || (choice && choice->row && choice->row->needs_context);
+    }
+  }
+  return takes;
+}
+
+SweepCounts count_rows(const std::map<std::size_t, std::string>& rows, const Grid& grid) {
+  SweepCounts counts;
+  const std::size_t before = 1 + grid.axes.size();  // fields; values of keys may be quoted and hold commas
+  for (const auto& [index, row] : rows) {
+    std::size_t at = 0, fields = 0;
+    bool quoted = false;
+    for (; at < row.size() && fields < before; ++at) {
+      if (row[at] == '"') quoted = !quoted;
+      if (row[at] == ',' && !quoted) ++fields;
+    }
+    const std::string outcome = row.substr(at, row.find(',', at) - at);
+    if (outcome == name_of(Outcome::ok)) ++counts.ok;
+    if (outcome == name_of(Outcome::diverged)) ++counts.diverged;
+    if (outcome == name_of(Outcome::rejected)) ++counts.rejected;
+    if (outcome == name_of(Outcome::failed)) ++counts.failed;
+  }
+  return counts;
+}
+
+}  // namespace
+
+Result<SweepCounts> run_sweep(const SweepPlan& plan, const InterruptGuard& interrupt) {
+  const Grid& grid = plan.grid;
+  const Overwrite overwrite = plan.force ? Overwrite::allow : Overwrite::refuse;
+  {
+    // Proves that the output can be written; not kept, since a kill would leave its temporary file behind.
+    ASPIC_TRY(const auto proof, AtomicFile::create(plan.out, overwrite));
+  }
+  if (plan.force) ::unlink(journal_path(plan.out).c_str());
+  const std::string owner =
+      fmt::format("{}, part {}/{}, grid {}", plan.description, plan.part.i, plan.part.n, grid.identity());
+  ASPIC_TRY(auto journal, SweepJournal::open(plan.out, owner));
+
+  std::deque<std::size_t> runs;
+  for (std::size_t i = plan.part.first(grid.size()); i < plan.part.end(grid.size()); ++i) {
+    if (!journal.rows().contains(i)) runs.push_back(i);
+  }
+  const std::size_t resumed = journal.rows().size(), wanted = runs.size();
+  if (wanted > 0) {
+    const BackendRow& usual = grid.backend.row ? *grid.backend.row : *choose_automatically(grid.backend).row;
+    ASPIC_TRY(const unsigned processors, parallel::available_threads());
+    unsigned jobs = plan.jobs > 0 ? plan.jobs : takes_device(grid, usual) ? 1 : processors;
+    jobs = static_cast<unsigned>(std::min<std::size_t>(jobs, wanted));
+    const Greeting greeting = {grid.identity(), std::string(usual.name), std::max(1u, processors / jobs)};
+    ProgressBar bar(wanted, "run");
+    ProgressLines lines(wanted, "runs");
+    Crew crew(plan, greeting, jobs, std::move(runs));
+    for (std::size_t done = 0; done < wanted;) {
+      if (interrupt.interrupted())
+        return fail(ErrorCode::interrupted,
+                    "interrupted after {} of {} runs; the same command continues from {}.",
+                    journal.rows().size(), resumed + wanted, journal_path(plan.out));
+      ASPIC_TRY(const auto row, crew.next());
+      if (row) {
+        ASPIC_CHECK(journal.add(row->index, row->text));
+        lines.update(++done);
+      }
+      bar.update(done);
+    }
+  }
+  ASPIC_TRY(auto file, AtomicFile::create(plan.out, overwrite));
+  ASPIC_CHECK(file.write(sweep_header(grid)));
+  for (const auto& [index, row] : journal.rows()) ASPIC_CHECK(file.write(row));
+  ASPIC_CHECK(file.commit());
+  SweepCounts counts = count_rows(journal.rows(), grid);
+  counts.resumed = resumed;
+  journal.remove();
+  return counts;
+}
+
+Status serve_sweep(Grid grid) {
+  // Of what use is a run whose row nobody takes?
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  std::string identity, backend;
+  unsigned threads = 0;
+  std::cin >> identity >> backend >> threads;
+  if (!std::cin || identity != grid.identity())
+    return fail(ErrorCode::usage, "the scene has changed since the sweep began; begin anew with --force.");
+  if (!grid.backend.row) grid.backend = choice_for(find_backend(backend), grid.backend);
+  const bool given = grid.backend.threads > 0;
+  ASPIC_CHECK(print_data(fmt::format("{}\n", ready)));
+  for (std::size_t index = 0; std::cin >> index;) {
+    TrialResult result;
+    if (auto run = grid_run(grid, index)) {
+      if (!given && run->backend.row && run->backend.row->threaded) run->backend.threads = threads;
+      const auto model = build_model(run->scene.model);
+      if (model) {
+        ASPIC_TRY(result, run_trial(*model, {run->backend, grid.length}));
+      } else {
+        result = trial_error(model.error());
+      }
+    } else {
+      result = trial_error(run.error());
+    }
+    ASPIC_CHECK(print_data(sweep_row(grid, index, result)));
+  }
+  return {};
+}
+
+}  // namespace aspic::report

@@ -1,0 +1,45 @@
+#pragma once
+// A sweep: the runs of a grid in processes of their own, their rows in a file.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "io/program.h"
+#include "report/grid.h"
+
+namespace aspic::report {
+
+/// Part i of n of a grid: consecutive runs, as many as in the other parts or one more.
+struct Part {
+  std::size_t i = 1, n = 1;  ///< 1 ≤ i ≤ n
+
+  std::size_t first(std::size_t runs) const { return runs * (i - 1) / n; }
+  std::size_t end(std::size_t runs) const { return runs * i / n; }
+};
+
+struct SweepPlan {
+  Grid grid;
+  Part part;
+  unsigned jobs = 0;  ///< processes; 0: as many as there are processors, or one where runs take a device
+  std::string out;    ///< the CSV file
+  bool force = false;
+  std::string description;           ///< what the journal says of it: the command and its version
+  std::vector<std::string> command;  ///< that starts a worker: a program which calls serve_sweep()
+};
+
+/// Numbers of rows by outcome.
+struct SweepCounts {
+  std::size_t ok = 0, diverged = 0, rejected = 0, failed = 0, resumed = 0;  ///< resumed: of all these
+};
+
+/// Runs what the journal of `out` lacks, and then writes `out`, its rows in the grid's order. Errors: those
+/// of the journal and of the output; io, a worker cannot be started; interrupted, with the journal left to
+/// be continued.
+Result<SweepCounts> run_sweep(const SweepPlan& plan, const InterruptGuard& interrupt);
+
+/// A worker: reads runs from standard input, writes rows to standard output, until the input ends. It ends
+/// with its parent. Error (usage): the grid is another than the parent's.
+Status serve_sweep(Grid grid);
+
+}  // namespace aspic::report

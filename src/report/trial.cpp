@@ -1,0 +1,81 @@
+#include "report/trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+namespace aspic::report {
+
+std::string_view name_of(Outcome outcome) {
+  constexpr std::string_view names[] = {"ok", "diverged", "rejected", "failed"};
+  return names[static_cast<std::size_t>(outcome)];
+}
+
+TrialResult trial_error(const Error& error) {
+  const bool refused = error.code == ErrorCode::usage || error.code == ErrorCode::scene_rejected;
+  TrialResult result;
+  result.outcome = refused ? Outcome::rejected : Outcome::failed;
+  result.reason = error.message.substr(0, error.message.find('\n'));
+  return result;
+}
+
+double thread_time() {
+  timespec now = {};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Result<TrialResult> run_trial(const Model& model, const TrialOptions& options) {
+  const auto steps = steps_of(options.length, model.simulation);
+  if (!steps) return trial_error(steps.error());
+  auto backend = make_backend(options.backend, model);
+  if (!backend) return trial_error(backend.error());
+  Solver& solver = *backend->solver;
+  const double h = model.simulation.timestep;
+  const std::uint64_t stride = sample_stride(h, options.interval);
+
+  TrialResult result;
+  Course course(model);
+  std::uint64_t step = 0;
+  std::optional<Divergence> divergence;
+  for (;;) {
+    auto state = solver.state();
+    if (!state) return trial_error(state.error());
+    course.take(*state);
+    while (result.pictures.size() < options.picture_times.size() &&
+           static_cast<double>(step) * h >= options.picture_times[result.pictures.size()] - 0.5 * h)
+      result.pictures.push_back(*state);
+    if (step == *steps || divergence) {
+      result.steps = state->step;
+      result.hash = state_hash_text(*state);
+      break;
+    }
+    if (options.stop && options.stop()) return Error{ErrorCode::interrupted, "interrupted."};
+    std::uint64_t next = std::min(*steps, step + stride);
+    if (result.pictures.size() < options.picture_times.size()) {
+      const double wanted = options.picture_times[result.pictures.size()] / h;
+      if (wanted + 0.5 > static_cast<double>(step + 1))
+        next = std::min(next, static_cast<std::uint64_t>(wanted + 0.5));
+    }
+    const auto before = std::chrono::steady_clock::now();
+    const double thread_before = thread_time();
+    auto advanced = solver.advance(next - step);
+    result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+    result.thread_seconds += thread_time() - thread_before;
+    if (!advanced) return trial_error(advanced.error());
+    divergence = *advanced;
+    step = next;
+  }
+  if (divergence) {
+    result.outcome = Outcome::diverged;
+    result.reason =
+        fmt::format("{} {} in step {}", body_text(*divergence), fault_text(*divergence), divergence->step);
+  }
+  result.summary = course.summary();
+  result.samples = course.samples();
+  return result;
+}
+
+}  // namespace aspic::report

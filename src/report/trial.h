@@ -1,0 +1,58 @@
+#pragma once
+// One run to its end, and what it came to: a row of a sweep, a curve of a report.
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/course.h"
+#include "run/backends.h"
+#include "run/run_length.h"
+#include "scene/scene.h"
+
+namespace aspic::report {
+
+enum class Outcome {
+  ok,
+  diverged,  ///< figures are those of the last good step
+  rejected,  ///< by scene or backend, before its first step
+  failed     ///< device, memory or process; it may succeed another time
+};
+std::string_view name_of(Outcome outcome);
+
+/// Simulated time between the samples that figures of a course are taken from [s].
+inline constexpr double sample_interval = 1.0 / 60.0;
+
+struct TrialResult {
+  Outcome outcome = Outcome::ok;
+  std::string reason;                    ///< one line; empty: ok
+  std::uint64_t steps = 0;               ///< the last good one
+  std::optional<CourseSummary> summary;  ///< absent: it never began
+  std::vector<CourseSample> samples;
+  std::vector<State> pictures;  ///< of `picture_times`
+  std::string hash;             ///< of the last good state
+  double seconds = 0.0;         ///< that its steps took, samples not counted
+  double thread_seconds = 0.0;  ///< processor time that the calling thread spent on them
+};
+
+struct TrialOptions {
+  BackendChoice backend;
+  RunLength length;
+  double interval = sample_interval;           ///< between samples [s]
+  std::span<const double> picture_times = {};  ///< ascending [s]: states near them are kept
+  std::function<bool()> stop = {};             ///< asked at each sample; true ends the run early
+};
+
+/// Processor time of the calling thread so far [s]: unlike the clock's it does not count what others do.
+double thread_time();
+
+/// Runs a model, which must outlive the call. A model that a backend rejects, a lost device and a divergence
+/// are outcomes. Error (interrupted): `stop` said so.
+Result<TrialResult> run_trial(const Model& model, const TrialOptions& options);
+
+/// A result without figures from an error: rejected for usage and scene_rejected, failed otherwise.
+TrialResult trial_error(const Error& error);
+
+}  // namespace aspic::report

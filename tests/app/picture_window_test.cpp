@@ -1,0 +1,192 @@
+// The picture in the window: fine at rest, quick in motion; what is drawn over it, and what is saved of it.
+#include <gmock/gmock.h>
+#include <imgui_internal.h>
+#include <stb_image.h>
+
+#include "app/stage.h"
+#include "io/atomic_file.h"
+
+namespace aspic::test {
+namespace {
+
+class Picture : public Stage {
+ protected:
+  /// A body so large that pictures begin coarsely, in motion for a while.
+  void open_busy(std::vector<std::string> overrides = {}) {
+    overrides.emplace_back("cube[0].particles-per-edge=24");
+    open("cube-plane", std::move(overrides), "cpu");
+    press(GLFW_KEY_SPACE);
+    frames(1);
+    ASSERT_LT(app().picture.pixels().width(), view_width());
+  }
+  int view_width() { return static_cast<int>(app().view.box.right - app().view.box.left); }
+  /// What the window shows of the scene.
+  Image view() {
+    const Image window = image();
+    const app::Box& box = app().view.box;
+    Image view{static_cast<int>(box.right - box.left), static_cast<int>(box.bottom - box.top), {}};
+    for (int y = 0; y < view.height; ++y) {
+      const auto row = window.rgb.begin() +
+                       3 * (static_cast<int>(box.left) + (static_cast<int>(box.top) + y) * window.width);
+      view.rgb.insert(view.rgb.end(), row, row + 3 * view.width);
+    }
+    return view;
+  }
+  Image saved(const std::string& name) {
+    const auto content = read_file((directory() / name).string());
+    EXPECT_TRUE(content.ok());
+    Image image;
+    int channels = 0;
+    unsigned char* const rgb =
+        stbi_load_from_memory(reinterpret_cast<const unsigned char*>(content->data()),
+                              static_cast<int>(content->size()), &image.width, &image.height, &channels, 3);
+    EXPECT_TRUE(rgb);
+    for (int i = 0; rgb && i < 3 * image.width * image.height; ++i)
+      image.rgb.push_back(static_cast<std::byte>(rgb[i]));
+    stbi_image_free(rgb);
+    return image;
+  }
+  static bool tooltip_shown() {
+    const ImGuiWindow* const window = ImGui::FindWindowByName("##Tooltip_00");
+    return window && window->Active;
+  }
+};
+
+TEST_F(Picture, HalfASecondAfterABusyMomentItIsFineAndStaysSo) {
+  open_busy();
+  press(GLFW_KEY_SPACE);
+  ASSERT_TRUE(simulation().settle().ok());
+  frames(30);
+  EXPECT_EQ(app().picture.pixels().width(), view_width());
+  const Image fine = view();
+  const std::uint64_t number = app().picture.number();
+  // What does not change the picture does not make it coarse.
+  app().cursor(3.0, 3.0);
+  press(GLFW_KEY_ESCAPE);
+  frames(20);
+  EXPECT_EQ(app().picture.number(), number);
+  app().picture.full_quality = true;
+  drag(GLFW_MOUSE_BUTTON_LEFT, middle_x(), middle_y(), 90, 0);
+  press(GLFW_KEY_HOME);
+  frames_to_rest();
+  app().cursor(3.0, 3.0);
+  frames(20);
+  EXPECT_EQ(view().rgb, fine.rgb) << "as hardware draws it";
+}
+
+TEST_F(Picture, ASavedPictureIsFineAndWithoutPanels) {
+  open_busy();
+  press(GLFW_KEY_F12);
+  frames(1);
+  const Image picture = saved("aspic-cube-plane-0001.png");
+  EXPECT_EQ(picture.width, view_width());
+  press(GLFW_KEY_F12, GLFW_MOD_SHIFT);
+  frames(1);
+  const Image window = saved("aspic-cube-plane-0002.png");
+  EXPECT_EQ(window.width, window_size()[0]);
+  press(GLFW_KEY_SPACE);
+  ASSERT_TRUE(simulation().settle().ok());
+  frames(30);
+  press(GLFW_KEY_F12);
+  frames(1);
+  const Image still = saved("aspic-cube-plane-0003.png");
+  frames(2);
+  app().messages.dismiss();
+  frames(2);
+  const Image shown = view();
+  ASSERT_EQ(still.rgb.size(), shown.rgb.size());
+  int largest = 0;
+  for (std::size_t i = 0; i < shown.rgb.size(); ++i)
+    largest =
+        std::max(largest, std::abs(std::to_integer<int>(still.rgb[i]) - std::to_integer<int>(shown.rgb[i])));
+  EXPECT_LE(largest, 1) << "encoded anew on its way into the window";
+}
+
+TEST_F(Picture, SavedPicturesHaveTheSizeAndBackgroundThatWereChosen) {
+  open("cube-plane", {"cube[0].position=[0,3,0]"}, "reference");
+  frames(30);
+  app().messages.dismiss();
+  const Image before = view();
+  app().picture.saved = {1, true};
+  press(GLFW_KEY_F12);
+  frames(1);
+  const auto content = read_file((directory() / "aspic-cube-plane-0001.png").string());
+  ASSERT_TRUE(content.ok());
+  int width = 0, height = 0, channels = 0;
+  unsigned char* const rgba =
+      stbi_load_from_memory(reinterpret_cast<const unsigned char*>(content->data()),
+                            static_cast<int>(content->size()), &width, &height, &channels, 4);
+  ASSERT_TRUE(rgba);
+  EXPECT_EQ(width, 2 * view_width());
+  EXPECT_EQ(channels, 4);
+  int clear = 0, covered = 0, red = 0;
+  for (int i = 0; i < width * height; ++i) {
+    const unsigned char* const p = rgba + 4 * i;
+    clear += p[3] == 0 ? 1 : 0;
+    covered += p[3] > 200 ? 1 : 0;
+    red += p[3] > 200 && p[0] > p[2] ? 1 : 0;
+  }
+  stbi_image_free(rgba);
+  EXPECT_GT(clear, width * height / 2);
+  EXPECT_GT(covered, width * height / 200);
+  EXPECT_GT(red, 9 * covered / 10) << "the jelly's own colour";
+  app().messages.dismiss();
+  frames(2);
+  EXPECT_EQ(view().rgb, before.rgb) << "the window shows what it showed";
+}
+
+TEST_F(Picture, TheLegendIsOfTheWindowsPixels) {
+  open_busy({"view.colour=strain"});
+  ASSERT_TRUE(has("legend"));
+  const app::Box coarse = widgets().at("legend");
+  press(GLFW_KEY_SPACE);
+  ASSERT_TRUE(simulation().settle().ok());
+  frames(30);
+  EXPECT_EQ(widgets().at("legend"), coarse);
+  EXPECT_LT(coarse.right - coarse.left, 260.0);
+  EXPECT_GE(coarse.right, app().view.box.right - 60.0);
+  app().scene.set_value(*find_parameter("view.colour"), 0, Value("material"), "");
+  frames(2);
+  EXPECT_FALSE(has("legend"));
+}
+
+TEST_F(Picture, TooltipsWaitAndStandBesideThePanel) {
+  open("cube-plane", {}, "reference");
+  const app::Box start = widgets().at("simulation/run");
+  app().cursor(start.centre_x(), start.centre_y());
+  frames(10);
+  EXPECT_FALSE(tooltip_shown());
+  frames(40);
+  ASSERT_TRUE(tooltip_shown());
+  EXPECT_GE(ImGui::FindWindowByName("##Tooltip_00")->Pos.x, app().view.box.left);
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
+  frames(60);
+  EXPECT_FALSE(tooltip_shown()) << "none while something is held";
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+}
+
+class SmallPicture : public Picture {
+ protected:
+  std::array<int, 2> window_size() const override { return {800, 600}; }
+};
+
+TEST_F(SmallPicture, TheReadoutOfAParticleIsInTheView) {
+  open("goal-net", {}, "reference");
+  const app::Box view = app().view.box;
+  for (double x = view.left + 20.0; x < view.right && !app().pointer.hovered(); x += 12.0) {
+    for (double y = view.centre_y(); y < view.bottom && !app().pointer.hovered(); y += 25.0) {
+      app().cursor(x, y);
+      frames(3);
+    }
+  }
+  ASSERT_TRUE(app().pointer.hovered());
+  frames(2);
+  const app::Box readout = widgets().at("particle");
+  EXPECT_GE(readout.left, view.left);
+  EXPECT_LE(readout.right, view.right);
+  EXPECT_LE(readout.bottom, view.bottom);
+  EXPECT_GE(readout.top, view.top);
+}
+
+}  // namespace
+}  // namespace aspic::test

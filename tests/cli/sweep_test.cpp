@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "cli/process.h"
+
+namespace aspic {
+namespace {
+
+using test::aspic;
+using test::json_member;
+using testing::HasSubstr;
+using testing::SizeIs;
+using Words = std::vector<std::string>;
+
+std::string content(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// The rows without their last column, the seconds.
+Words without_seconds(const std::string& path) {
+  Words rows = test::lines(content(path));
+  for (std::string& row : rows) row.resize(row.rfind(','));
+  return rows;
+}
+
+std::string field(const std::string& row, std::size_t index) {
+  std::istringstream in(row);
+  std::string text;
+  for (std::size_t i = 0; i <= index; ++i) std::getline(in, text, ',');
+  return text;
+}
+
+/// A small cube; twelve runs, of which those with the larger step diverge.
+Words sweep(const std::string& out, const Words& more = {}) {
+  Words words = {"sweep",      "cube-plane",
+                 "--backend",  "cpu",
+                 "--set",      "cube[0].particles-per-edge=4",
+                 "--vary",     "h=0.001,0.01",
+                 "--vary",     "k=2000:8000:3:log",
+                 "--vary",     "integrator=explicit-euler,midpoint",
+                 "--duration", "1",
+                 "--out",      out};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(Sweep, DivergedRunsAreRowsWithTheirReason) {
+  const test::TemporaryDirectory dir;
+  const auto done = aspic(sweep(dir.file("s.csv"), {"--json"}));
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  ASSERT_TRUE(test::is_json(done.out)) << done.out;
+  EXPECT_EQ(json_member(done.out, "runs"), "12");
+  EXPECT_EQ(json_member(done.out, "ok"), "6");
+  EXPECT_EQ(json_member(done.out, "diverged"), "6");
+  const Words rows = test::lines(content(dir.file("s.csv")));
+  ASSERT_THAT(rows, SizeIs(13));
+  EXPECT_EQ(rows[0].substr(0, 36), "run,h,k,integrator,outcome,reason,st");
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_EQ(field(rows[i], 0), std::to_string(i - 1));
+    const bool diverged = field(rows[i], 1) == "0.01";
+    EXPECT_EQ(field(rows[i], 4), diverged ? "diverged" : "ok") << rows[i];
+    const std::string reason = field(rows[i], 5);
+    EXPECT_EQ(reason.find("became faster than 1000 m/s in step") != std::string::npos, diverged) << reason;
+    EXPECT_EQ(reason.empty(), !diverged) << reason;
+  }
+  EXPECT_FALSE(std::filesystem::exists(dir.file("s.csv.partial")));
+}
+
+TEST(Sweep, RowsAreThoseOfRun) {
+  const test::TemporaryDirectory dir;
+  ASSERT_EQ(aspic(sweep(dir.file("s.csv"))).exit_code, 0);
+  const auto run = aspic({"run", "cube-plane", "--backend", "reference", "--duration", "1", "--json", "--set",
+                          "cube[0].particles-per-edge=4", "--set", "simulation.integrator=midpoint", "--set",
+                          "cube[0].structural.stiffness=8000", "--set", "cube[0].shear.stiffness=8000",
+                          "--set", "cube[0].bending.stiffness=8000"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string row = test::lines(content(dir.file("s.csv")))[6];
+  EXPECT_THAT(row, HasSubstr("5,0.001,8000,midpoint,ok,,1000,1,"));
+  EXPECT_THAT(row, HasSubstr(fmt::format(",{},", json_member(run.out, "state_hash"))));
+  EXPECT_THAT(row, HasSubstr(fmt::format(",{},", json_member(run.out, "kinetic"))));
+}
+
+TEST(Sweep, JobsAndPartsChangeNoRow) {
+  const test::TemporaryDirectory dir;
+  ASSERT_EQ(aspic(sweep(dir.file("one.csv"), {"--jobs", "1"})).exit_code, 0);
+  ASSERT_EQ(aspic(sweep(dir.file("three.csv"), {"--jobs", "3"})).exit_code, 0);
+  const Words whole = without_seconds(dir.file("one.csv"));
+  EXPECT_EQ(whole, without_seconds(dir.file("three.csv")));
+  Words joined = {whole.front()};
+  for (int i = 1; i <= 5; ++i) {
+    const std::string file = dir.file("part.csv");
+    ASSERT_EQ(aspic(sweep(file, {"--force", "--part", fmt::format("{}/5", i)})).exit_code, 0);
+    const Words part = without_seconds(file);
+    EXPECT_EQ(part.front(), whole.front());
+    EXPECT_GE(part.size(), 3u);
+    joined.insert(joined.end(), part.begin() + 1, part.end());
+  }
+  EXPECT_EQ(joined, whole);
+}
+
+TEST(Sweep, ContinuesAfterAKill) {
+  const test::TemporaryDirectory dir;
+  ASSERT_EQ(aspic(sweep(dir.file("whole.csv"))).exit_code, 0);
+  const std::string out = dir.file("s.csv"), partial = out + ".partial";
+  // Killed once its first rows are there. Should this process have slept until all were there, again.
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    std::filesystem::remove(out);
+    test::Process running(sweep(out, {"--jobs", "1"}));
+    while (test::lines(content(partial)).size() < 3 && !std::filesystem::exists(out))
+      std::this_thread::yield();
+    running.send(SIGKILL);
+    EXPECT_EQ(running.wait().signal, std::filesystem::exists(out) ? 0 : SIGKILL);
+    if (!std::filesystem::exists(out)) break;
+  }
+  ASSERT_FALSE(std::filesystem::exists(out));
+  const std::string kept = content(partial);
+  ASSERT_GE(test::lines(kept).size(), 3u);
+  std::ofstream(partial, std::ios::app) << "11,0.01,8000,midp";  // a row that a kill cut short
+
+  const auto other = aspic(sweep(out, {"--vary", "c=60"}));
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("rows of another sweep"));
+  EXPECT_THAT(other.err, HasSubstr("--vary c=60"));
+  const auto other_part = aspic(sweep(out, {"--part", "1/2"}));
+  EXPECT_EQ(other_part.exit_code, 2) << other_part.err;
+
+  const auto resumed = aspic(sweep(out, {"--json"}));
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_GE(std::stoi(json_member(resumed.out, "resumed")), 2);
+  EXPECT_EQ(without_seconds(out), without_seconds(dir.file("whole.csv")));
+  for (const std::string& row : test::lines(kept)) {
+    if (row.starts_with("#")) continue;
+    EXPECT_THAT(content(out), HasSubstr(fmt::format("{}\n", row)));
+  }
+  EXPECT_FALSE(std::filesystem::exists(partial));
+  const auto again = aspic(sweep(out));
+  EXPECT_EQ(again.exit_code, 6);
+  EXPECT_THAT(again.err, HasSubstr("exists"));
+}
+
+TEST(Sweep, CtrlCKeepsTheRowsThatAreThere) {
+  const test::TemporaryDirectory dir;
+  const std::string out = dir.file("s.csv");
+  // The second run would take days.
+  const Words words = {"sweep", "cube-plane", "--backend", "cpu", "--vary", "simulation.duration=0.1,1000000",
+                       "--out", out,          "--jobs",    "1"};
+  test::Process running(words);
+  while (test::lines(content(out + ".partial")).size() < 2) std::this_thread::yield();
+  running.send(SIGINT);
+  const auto ended = running.wait();
+  EXPECT_EQ(ended.exit_code, 130);
+  EXPECT_THAT(ended.err, HasSubstr("interrupted after 1 of 2 runs"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_THAT(test::lines(content(out + ".partial")), SizeIs(2));
+}
+
+TEST(Sweep, RejectedValuesAreRowsToo) {
+  const test::TemporaryDirectory dir;
+  const auto done = aspic({"sweep", "cube-plane", "--backend", "cpu", "--vary",
+                           "cube[0].particles-per-edge=1,3", "--steps", "10", "--out", dir.file("s.csv")});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("1 ok, 0 diverged, 1 rejected, 0 failed"));
+  const Words rows = test::lines(content(dir.file("s.csv")));
+  ASSERT_THAT(rows, SizeIs(3));
+  EXPECT_THAT(rows[1], HasSubstr("0,1,rejected,\"--set cube[0].particles-per-edge=1: "));
+  EXPECT_THAT(rows[2], HasSubstr("1,3,ok,,10,0.01,"));
+}
+
+}  // namespace
+}  // namespace aspic

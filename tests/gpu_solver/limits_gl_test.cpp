@@ -1,0 +1,90 @@
+// Where a device ends: groups, memory, and more groups than one dimension has.
+#include <gmock/gmock.h>
+
+#include "cpu_reference/reference_solver.h"
+#include "gpu/pass.h"
+#include "gpu_solver/gpu_solver.h"
+#include "support/gl_fixture.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+using ::testing::HasSubstr;
+
+class LimitsGl : public aspic::testing::GlTest {
+ protected:
+  void TearDown() override {
+    context().assume_free_memory(std::nullopt);
+    GlTest::TearDown();
+  }
+};
+
+TEST_F(LimitsGl, GroupsThatTheDeviceDoesNotTakeAreRefused) {
+  const Model model = test::build(test::cube_on_plane(3));
+  const std::uint32_t most = context().info().limits.group_invocations;
+  for (const std::uint32_t size : {0u, most + 1}) {
+    GpuOptions options;
+    options.group_size = size;
+    const auto refused = make_gpu_solver(context(), model, options);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::no_device);
+    EXPECT_THAT(refused.error().message, HasSubstr("work groups of 1 to"));
+    EXPECT_THAT(refused.error().message, HasSubstr(std::to_string(size)));
+  }
+  GpuOptions options;
+  options.group_size = most;
+  EXPECT_TRUE(make_gpu_solver(context(), model, options).ok());
+}
+
+TEST_F(LimitsGl, ASceneThatNeedsMoreThanIsFreeIsRefusedBeforeAnythingIsAllocated) {
+  const Model model = test::build(test::cube_on_plane(8));
+  const std::uint64_t needed = gpu_bytes(model, ForcePath::automatic);
+  context().assume_free_memory(needed - 1);
+  EXPECT_EQ(context().free_memory(), needed - 1);
+  const std::uint64_t held = context().bytes_held();
+  const auto refused = make_gpu_solver(context(), model, {});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
+  EXPECT_THAT(refused.error().message, HasSubstr(std::to_string(needed) + " bytes"));
+  EXPECT_THAT(refused.error().message, HasSubstr("are free"));
+  EXPECT_EQ(context().bytes_held(), held);
+  context().assume_free_memory(needed);
+  const auto first = make_gpu_solver(context(), model, {});
+  ASSERT_TRUE(first.ok()) << first.error().message;
+  // A solver that shares the springs of another needs no memory for them.
+  GpuOptions sharing;
+  sharing.share_springs_of = first->get();
+  context().assume_free_memory(needed - (*first)->spring_buffers()->bytes());
+  EXPECT_TRUE(make_gpu_solver(context(), model, sharing).ok());
+}
+
+// Particles far apart, a few of them joined: more groups than the 65,535 that one dimension surely takes.
+TEST_F(LimitsGl, ManyParticlesTakeTwoDimensionsOfGroups) {
+  constexpr std::uint32_t count = 65535 * 64 + 64;
+  ASSERT_EQ(gl::groups_for(count, 64).y, 2u);
+  std::vector<Vec3> x, v;
+  x.reserve(count);
+  v.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    x.push_back({0.01 * (i % 2048), 0.01 * (i / 2048), 0.5});
+    v.push_back({0.001 * (i % 7), -0.002 * (i % 11), 0.003 * (i % 5)});
+  }
+  Model model = test::particles(std::move(x), std::move(v), 0.5);
+  model.spring_classes.push_back({SpringType::structural, 300.0, 2.0, 0.02, false});
+  for (std::uint32_t a = 0; a + 5 < count; a += 4099) model.listed_springs.push_back({a, a + 5, 0});
+  model.listed_springs.push_back({count - 3, count - 1, 0});
+  auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+  ASSERT_FALSE((*reference->advance(2)).has_value());
+  for (const ForcePath path : {ForcePath::gather, ForcePath::per_spring}) {
+    GpuOptions options;
+    options.force_path = path;
+    auto made = make_gpu_solver(context(), model, options);
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    ASSERT_FALSE((*(*made)->advance(2)).has_value());
+    EXPECT_TRUE(*(*made)->state() == *reference->state()) << name_of(path);
+  }
+}
+
+}  // namespace
+}  // namespace aspic

@@ -1,0 +1,130 @@
+#include "report/page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "report/chart_scale.h"
+
+namespace aspic::report {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<std::string> labels(const AxisScale& scale) {
+  std::vector<std::string> result;
+  for (const Tick& tick : scale.ticks())
+    if (!tick.label.empty()) result.push_back(tick.label);
+  return result;
+}
+
+TEST(AxisScale, LinearTicksAreRound) {
+  const AxisScale scale({"", Scale::linear, 0.0, 4.0}, {});
+  EXPECT_THAT(labels(scale), ElementsAre("0", "1", "2", "3", "4"));
+  EXPECT_EQ(scale.at(0.0), 0.0);
+  EXPECT_EQ(scale.at(1.0), 0.25);
+  const AxisScale small({"", Scale::linear, -0.2, 0.3}, {});
+  EXPECT_THAT(labels(small), ElementsAre("-0.2", "-0.1", "0", "0.1", "0.2", "0.3"));
+}
+
+TEST(AxisScale, LogTicksAreDecades) {
+  const AxisScale scale({"", Scale::log, 1e-8, 1e-2}, {});
+  EXPECT_THAT(labels(scale), ElementsAre("10⁻⁸", "10⁻⁷", "10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"));
+  EXPECT_DOUBLE_EQ(scale.at(1e-5), 0.5);
+  EXPECT_FALSE(std::isfinite(scale.at(0.0)));
+  EXPECT_THAT(labels(AxisScale({"", Scale::log, 0.5, 20.0}, {})),
+              ElementsAre("0.5", "1", "2", "5", "10", "20"));
+}
+
+TEST(AxisScale, CoversWhatIsFinite) {
+  const AxisScale scale({"", Scale::linear},
+                        {2.0, std::nan(""), 6.0, std::numeric_limits<double>::infinity()});
+  EXPECT_GE(scale.at(2.0), 0.0);
+  EXPECT_LE(scale.at(6.0), 1.0);
+  EXPECT_GT(scale.at(6.0), 0.5);
+}
+
+Chart chart() {
+  Chart c;
+  Curve curve{
+      "<rise & fall>", {{1.0, 2.5}, {2.0, std::nan("")}, {3.0, 0.1}}, Palette::category, 0, true, true};
+  c.panels.push_back({"one", {"x [s]"}, {"y [m]"}, {curve}});
+  return c;
+}
+
+TEST(Chart, DrawsWhatItsCsvHolds) {
+  EXPECT_EQ(csv_of(chart()),
+            "panel,curve,x,y,x_axis,y_axis\n"
+            "one,<rise & fall>,1,2.5,x [s],y [m]\n"
+            "one,<rise & fall>,2,,x [s],y [m]\n"
+            "one,<rise & fall>,3,0.1,x [s],y [m]\n");
+  const std::string svg = svg_of(chart(), "c", false);
+  EXPECT_THAT(svg, HasSubstr("<title>&lt;rise &amp; fall&gt;: 1, 2.5</title>"));
+  EXPECT_THAT(svg, HasSubstr("<title>&lt;rise &amp; fall&gt;: 3, 0.1</title>"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, HasSubstr("x [s]"));
+  EXPECT_THAT(svg_of(chart(), "c", true), HasSubstr("xmlns"));
+}
+
+TEST(Chart, MapsTellStableFromUnstable) {
+  Chart c;
+  Panel panel{"map", {"h", Scale::log}, {"k", Scale::log}, {}};
+  panel.map = CellMap{{1, 10}, {1}, {0.3, 3, 30}, {0.3, 3}, {true, false}};
+  c.panels.push_back(panel);
+  const std::string svg = svg_of(c, "m", false);
+  EXPECT_THAT(svg, HasSubstr("<title>1, 1: stable</title>"));
+  EXPECT_THAT(svg, HasSubstr("<title>10, 1: unstable</title>"));
+  EXPECT_THAT(csv_of(c), HasSubstr("map,unstable,10,1,h,k\n"));
+}
+
+TEST(Numbers, AreShort) {
+  EXPECT_EQ(rounded(0.00204820418), "0.002048");
+  EXPECT_EQ(rounded(9.1467e-5), "9.147·10⁻⁵");
+  EXPECT_EQ(rounded(1e-7), "10⁻⁷");
+  EXPECT_EQ(rounded(0.0), "0");
+  EXPECT_EQ(rounded(123456.0, 3), "1.23·10⁵");
+}
+
+TEST(Page, IsOneFileWithItsPictures) {
+  Figure figure;
+  figure.id = "f";
+  figure.caption = "A `code` <caption>";
+  figure.command = "aspic run a && b";
+  figure.chart = chart();
+  figure.table = Table{{{"name"}, {"value"}}, {{"a, b", 0.123456}, {"none", Cell()}}};
+  figure.strip = Strip{{"t = 1 s"}, {{"row", "note", {"JPEG"}}}};
+  Page page;
+  page.title = "T";
+  page.sections = {{"s", "S", {"A paragraph."}, {figure}}};
+  page.colophon = {{"machine", "M"}};
+  page.scene_toml = "schema = 1\n";
+  const std::string html = html_of(page);
+  EXPECT_THAT(html, HasSubstr("<data value=\"0.123456\">0.1235</data>"));
+  EXPECT_THAT(html, HasSubstr("src=\"data:image/jpeg;base64,SlBFRw==\""));
+  EXPECT_THAT(html, HasSubstr("A <code>code</code> &lt;caption&gt;"));
+  EXPECT_THAT(html, HasSubstr("aspic run a &amp;&amp; b"));
+  EXPECT_THAT(html, HasSubstr("prefers-color-scheme:dark"));
+  EXPECT_THAT(html, Not(HasSubstr("http://")));
+  EXPECT_THAT(html, Not(HasSubstr("https://")));
+  const std::string markdown = markdown_of(page);
+  EXPECT_THAT(markdown, HasSubstr("| a, b | 0.1235 |"));
+  EXPECT_THAT(markdown, HasSubstr("![](figures/f-1-1.jpg)"));
+  const auto files = files_of(page);
+  EXPECT_EQ(files.at("data/f-table.csv"), "name,value\n\"a, b\",0.123456\nnone,\n");
+  EXPECT_EQ(files.at("figures/f-1-1.jpg"), "JPEG");
+  EXPECT_TRUE(files.contains("figures/f.svg"));
+}
+
+TEST(Base64, FillsTheLastGroup) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+}
+
+}  // namespace
+}  // namespace aspic::report
