@@ -6,8 +6,9 @@
 #include "compute/control.glsl"
 #include "compute/bounded.glsl"
 #include "compute/incident.glsl"
-#include "compute/spring.glsl"
+#include "compute/link_force.glsl"
 #include "compute/stage.glsl"
+#include "compute/neighbour.glsl"
 
 void main() {
   uint place = item_index();
@@ -24,8 +25,9 @@ void main() {
   for (w.end = bounded(w.end, KERNEL_GATHER); w.at < w.end; ++w.at) {
     Link link;
     if (!listed_link_at(w, link)) continue;
-    Particle other = stage_state[link.other];
-    f += spring_force(link.spring, p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
+    precise vec3 x, v;
+    read_neighbour(link.other, x, v);
+    f += link_force(link.spring, p.position.xyz, p.velocity.xyz, x, v).xyz;
   }
   finish_stage(i, p, f);
 }

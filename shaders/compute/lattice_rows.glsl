@@ -1,29 +1,13 @@
 // Rows of neighbours, for an invocation's run of 1 or 4 particles. A row is (di, dj), of the particles at di planes and dj
 // rows from the run; ROW_n reaches n steps along it. Everything is unrolled by hand, with indices that are constants: where
 // a loop runs over these arrays, Mesa puts them into memory, and one form of this kernel took 13 s to compile.
-#if ASPIC_LATTICE_RUN > 1
-// A software rasteriser reads word by word, of 32 or 64 bits, so it reads a particle as pairs of numbers.
-layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer WideState { dvec4 wide_state[]; };
-vec2 halves(double pair) { return uintBitsToFloat(unpackDouble2x32(pair)); }
-#endif
+#include "compute/neighbour.glsl"
 
 Particle own[ASPIC_LATTICE_RUN];
 precise vec3 force[ASPIC_LATTICE_RUN];
 uint steps[ASPIC_LATTICE_RUN];
 SpringClass classes[LATTICE_CLASSES];
 precise vec3 other_x, other_v;
-
-void read_other(int i) {
-#if ASPIC_LATTICE_RUN > 1
-  precise dvec4 wide = wide_state[i];
-  other_x = vec3(halves(wide.x), halves(wide.y).x);
-  other_v = vec3(halves(wide.z), halves(wide.w).x);
-#else
-  Particle other = stage_state[i];
-  other_x = other.position.xyz;
-  other_v = other.velocity.xyz;
-#endif
-}
 
 // Particle p of the run, from the state.
 #define TAKE(p)                                                            \
@@ -39,8 +23,12 @@ void read_other(int i) {
 
 // The other end at t steps from the run's first particle along the row; NEAR: one of the run itself.
 // Where the lattice ends, any particle will do: no spring leads there.
-#define FAR(di, dj, t) \
-  read_other(clamp(first_of_run + (di)*plane_stride + (dj)*row_stride + (t), first_of_lattice, last_of_lattice));
+#define FAR(di, dj, t)                                                        \
+  {                                                                           \
+    int to = first_of_run + (di)*plane_stride + (dj)*row_stride + (t);        \
+    uint other = uint(clamp(to, first_of_lattice, last_of_lattice));          \
+    read_neighbour(other, other_x, other_v);                                  \
+  }
 #define NEAR(t)                      \
   other_x = own[t].position.xyz;     \
   other_v = own[t].velocity.xyz;
@@ -49,7 +37,7 @@ void read_other(int i) {
   {                                                                                                             \
     SpringClass spring = classes[(di) * (di) + (dj) * (dj) + (dk) * (dk)-1];                                    \
     precise vec3 sum =                                                                                          \
-        force[p] + spring_force(spring, own[p].position.xyz, own[p].velocity.xyz, other_x, other_v).xyz;        \
+        force[p] + link_force(spring, own[p].position.xyz, own[p].velocity.xyz, other_x, other_v).xyz;        \
     uint needed = step_bits(di, dj, dk);                                                                        \
     if ((steps[p] & needed) == needed) force[p] = sum;                                                          \
   }

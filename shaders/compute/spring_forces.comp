@@ -2,7 +2,7 @@
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"
-#include "compute/spring.glsl"
+#include "compute/link_force.glsl"
 
 layout(std430, binding = BINDING_STAGE_STATE) restrict readonly buffer StageState { Particle stage_state[]; };
 // x: end a; y: end b and the spring class, packed as a gather word
@@ -17,5 +17,5 @@ void main() {
   Particle a = stage_state[ends.x];
   Particle b = stage_state[ends.y >> class_bits];
   SpringClass spring = spring_classes[ends.y & ((1u << class_bits) - 1u)];
-  spring_forces[s] = spring_force(spring, a.position.xyz, a.velocity.xyz, b.position.xyz, b.velocity.xyz);
+  spring_forces[s] = link_force(spring, a.position.xyz, a.velocity.xyz, b.position.xyz, b.velocity.xyz);
 }

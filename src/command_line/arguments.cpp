@@ -135,7 +135,7 @@ void add_overrides(CLI::App* c, std::vector<std::string>& overrides) {
 
 void add_arithmetic(CLI::App* c, RawOptions& raw) {
   add(c, "--arithmetic", "NAME", raw.arithmetic,
-      "exact: the reference's bits, or fast: other last bits (cpu only)");
+      "exact: the reference's bits, or fast: other last bits (gpu and cpu)");
   add(c, "--threads", "N", raw.threads, "threads of the cpu backend, 1 to 1024; default: as many as pay",
       1024);
 }
@@ -226,7 +226,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
                             bench_examples);
   add(c, "scene", "SCENE", bench.scene, "scene file or built-in name");
   add(c, "--backend", "NAME", raw.bench_backends,
-      "auto, gpu, gpu:per-spring, cpu, cpu:fast, reference, reference:double")
+      "auto, gpu, gpu:gather, gpu:fast, cpu, cpu:fast, reference, reference:double")
       ->delimiter(',');
   add(c, "--force-path", "NAME", raw.bench_force_paths, "of gpu backends without their own")->delimiter(',');
   add_arithmetic(c, raw);

@@ -46,7 +46,8 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
 }
 
 std::string DeviceSolver::description() const {
-  return fmt::format("gpu, {}, force path {}, single precision", context_.info().renderer, path_.name);
+  return fmt::format("gpu, {}, force path {}, single precision{}", context_.info().renderer, path_.name,
+                     fast_ ? ", fast arithmetic" : "");
 }
 
 DeviceState DeviceSolver::device_state() const {

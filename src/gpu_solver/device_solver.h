@@ -88,6 +88,7 @@ class DeviceSolver : public GpuSolver {
   std::uint64_t base_step_ = 0;    // step number of the loaded state
   std::uint32_t steps_since_ = 0;  // steps since: what the kernels count in
   std::optional<Divergence> divergence_;
+  bool fast_ = false;  // spring forces in fast arithmetic
   std::unique_ptr<gl::PassProfiler> profiler_;
 
  private:

@@ -97,6 +97,9 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   ASPIC_TRY(sums_, Buffer::create(context_, "stage sums", keeps_sums(method_) ? state_bytes : 0));
   ASPIC_TRY(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
   looks_.emplace(context_, sizeof(layout::Control));
+  fast_ = options.spring_arithmetic == Arithmetic::fast;
+  KernelOptions stage_kernels = kernels;
+  if (fast_) stage_kernels.defines.push_back({"ASPIC_FAST", "1"});
   const Binding control = {BINDING_CONTROL, &control_};
   std::vector<Binding> bindings = {constants(),
                                    control,
@@ -110,19 +113,18 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
     ASPIC_TRY(forces_,
               Buffer::create(context_, "spring forces", spring_count(model_) * sizeof(layout::vec4)));
     bindings.push_back({BINDING_SPRING_FORCES, &forces_});
-    ASPIC_TRY(spring_pass_, pass(kernels, path_.spring_kernel,
+    ASPIC_TRY(spring_pass_, pass(stage_kernels, path_.spring_kernel,
                                  {constants(),
                                   control,
                                   {BINDING_SPRINGS, &springs_->springs},
                                   {BINDING_SPRING_FORCES, &forces_}}));
   }
-  KernelOptions stage_kernels = kernels;
   if (method_.stages.size() == 1) stage_kernels.defines.push_back({"ASPIC_ONE_STAGE", "1"});
   listed_particles_ = model_.particle_count();
+  const std::uint32_t by_device = context_.info().is_software ? software_run : 1;
+  const std::uint32_t run = options.lattice_run > 0 ? options.lattice_run : by_device;
+  if (run > 1) stage_kernels.defines.push_back({"ASPIC_WIDE_LOADS", "1"});
   if (takes_lattices()) {
-    const std::uint32_t run = options.lattice_run > 0       ? options.lattice_run
-                              : context_.info().is_software ? software_run
-                                                            : 1;
     ASPIC_CHECK(build_lattice_pass(stage_kernels, run, bindings));
   }
   if (listed_particles_ > 0 || !lattice_pass_) {

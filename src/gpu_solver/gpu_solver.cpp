@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/result.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"

@@ -31,6 +31,8 @@ struct GpuOptions {
   /// read a neighbour once for several, and 1 on hardware, whose lanes then read neighbouring particles.
   /// Never affects the bits.
   std::uint32_t lattice_run = 0;
+  /// fast: spring forces of explicit methods with reciprocal roots and fused operations, as the device likes.
+  Arithmetic spring_arithmetic = Arithmetic::exact;
   BallSearch ball_search = BallSearch::automatic;
   /// Files here go before the embedded shaders; empty: embedded alone.
   std::filesystem::path shader_directory;

@@ -28,6 +28,7 @@ Result<Backend> make_gpu(const Model& model, const BackendChoice& choice, const 
   options.shader_directory = std::move(directory);
   options.share_springs_of = host.share_springs_of;
   options.arithmetic = host.arithmetic;
+  options.spring_arithmetic = choice.arithmetic;
   ASPIC_TRY(auto solver, make_gpu_solver(*context, model, options));
   backend.gpu = solver.get();
   backend.device = context->info().renderer;
@@ -109,7 +110,7 @@ constexpr BackendRow table[] = {
      [](const Model& model, const BackendChoice& choice) -> std::optional<std::uint64_t> {
        return gpu_bytes(model, choice.force_path);
      },
-     gpu_suitability},
+     gpu_suitability, true},
     {"cpu", "CPU", "threads and vector instructions", single_alone, nullptr, false, make_cpu,
      [](const Model& model, const BackendChoice&) { return cpu_bytes(model); },
      [](const gl::Context*) {

@@ -17,8 +17,12 @@ Subject product(gl::Context* context, std::string program) {
   subject.reference = [](const Model& model, Precision precision) {
     return make_reference_solver(model, precision);
   };
-  subject.other = [](const Model& model, const BackendChoice& choice) -> Result<std::unique_ptr<Solver>> {
-    ASPIC_TRY(auto backend, make_backend(choice, model));
+  // Its context outlives the solver; one of the backend's own would not.
+  subject.other = [context](const Model& model,
+                            const BackendChoice& choice) -> Result<std::unique_ptr<Solver>> {
+    SolverHost host;
+    host.context = context;
+    ASPIC_TRY(auto backend, make_backend(choice, model, host));
     return std::move(backend.solver);
   };
   if (context != nullptr) {

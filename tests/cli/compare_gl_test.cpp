@@ -45,7 +45,7 @@ TEST(CompareGl, PenaltyIsIdenticalOverThreeThousandSteps) {
 TEST(CompareGl, ShaderDirectoryGoesBeforeTheEmbeddedShaders) {
   const test::TemporaryDirectory dir;
   std::filesystem::create_directory(dir.file("compute"));
-  dir.write("compute/gather.comp",
+  dir.write("compute/lattice.comp",
             "#include \"compute/layout.glsl\"\n\nvoid main() { no_such_function(); }\n");
   const std::vector<std::string> run = {"run", "cube-plane", "--backend", "gpu", "--steps", "1"};
   ASSERT_EQ(setenv("ASPIC_SHADER_DIR", dir.file("").c_str(), 1), 0);
@@ -54,7 +54,7 @@ TEST(CompareGl, ShaderDirectoryGoesBeforeTheEmbeddedShaders) {
   const auto missing = aspic(run);
   ASSERT_EQ(unsetenv("ASPIC_SHADER_DIR"), 0);
   EXPECT_EQ(broken.exit_code, 4) << broken.err;
-  EXPECT_NE(broken.err.find("compute/gather.comp:3: error"), std::string::npos) << broken.err;
+  EXPECT_NE(broken.err.find("compute/lattice.comp:3: error"), std::string::npos) << broken.err;
   EXPECT_EQ(missing.exit_code, 6) << missing.err;
   EXPECT_EQ(aspic(run).exit_code, 0);
 }

@@ -82,6 +82,26 @@ class Glslang : public aspic::testing::GlTest {
         }
       }
     }
+    // Cubes alone and with others, both forms of the lattice kernel, methods of one stage and of several;
+    // fast.
+    for (const bool beside : {false, true}) {
+      ModelSettings bodies = settings;
+      if (beside) bodies.goal_nets.emplace_back();
+      for (const Integrator integrator : {Integrator::explicit_euler, Integrator::midpoint}) {
+        bodies.simulation.integrator = integrator;
+        for (const std::uint32_t run : {1u, 4u}) {
+          for (const Arithmetic arithmetic : {Arithmetic::exact, Arithmetic::fast}) {
+            options.lattice_run = run;
+            options.spring_arithmetic = arithmetic;
+            solve(bodies, options);
+          }
+        }
+      }
+      bodies.simulation.integrator = Integrator::implicit_euler;
+      solve(bodies, options);
+    }
+    options.lattice_run = 0;
+    options.spring_arithmetic = Arithmetic::exact;
     // More bodies than a block of partners, which want a kernel of their own.
     settings.cubes[0].particles_per_edge = 7;
     for (const BallSearch search : {BallSearch::all_pairs, BallSearch::grid}) {

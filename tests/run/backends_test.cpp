@@ -57,11 +57,12 @@ TEST(Backends, FastArithmeticAndThreadsAreForThoseThatHaveThem) {
       if (has) continue;
       EXPECT_EQ(checked.error().code, ErrorCode::usage);
       EXPECT_THAT(checked.error().message, HasSubstr(fmt::format("the {} does not", row.name)));
-      EXPECT_THAT(checked.error().message, HasSubstr("use --backend cpu"));
+      EXPECT_THAT(checked.error().message, HasSubstr("use --backend "));
+      EXPECT_THAT(checked.error().message, HasSubstr("cpu"));
       EXPECT_TRUE(check_choice(choice_for(&row, choice)).ok()) << row.name;
     }
   }
-  EXPECT_EQ(choose_automatically({.arithmetic = Arithmetic::fast}).row, find_backend("cpu"));
+  EXPECT_TRUE(choose_automatically({.arithmetic = Arithmetic::fast}).row->fast);
   EXPECT_EQ(choose_automatically({.threads = 2}).row, find_backend("cpu"));
   const Status nobody = check_choice({.precision = Precision::double_, .arithmetic = Arithmetic::fast});
   ASSERT_FALSE(nobody.ok());
