@@ -77,6 +77,7 @@ class ExplicitSolver final : public DeviceSolver {
   QueueDepth depth_{most_steps};
   Clock::time_point last_look_ = {};
   std::uint32_t passes_before_ = 0;  // that must have been carried out before the oldest queue
+  std::optional<Error> unusable_;  // the device dropped passes
   bool late_ = false;
   std::optional<gl::Pass> spring_pass_, lattice_pass_, particle_pass_;  // of each stage
   std::uint32_t lattice_runs_ = 0, listed_particles_ = 0;               // items of the last two
@@ -140,6 +141,7 @@ void ExplicitSolver::restart() {
   control_.upload_items(std::span(&control, 1));
   forget_queues();
   passes_before_ = 0;
+  unusable_.reset();
 }
 
 void ExplicitSolver::dispatch(const std::optional<gl::Pass>& pass, Kind kind, std::uint32_t items,
@@ -185,6 +187,8 @@ Result<std::optional<Divergence>> ExplicitSolver::advance(std::uint64_t steps) {
 }
 
 Status ExplicitSolver::carry_out(std::uint64_t steps, bool wait) {
+  // Its count of passes is worth nothing any more, nor are its states, which may look like a divergence.
+  if (unusable_) return *unusable_;
   while (!divergence_) {
     const bool must = queues_.size() == most_queues || (steps == 0 ? wait : counts_far());
     if (!queues_.empty() && (must || looks_->ready())) {
@@ -235,7 +239,10 @@ Result<std::uint64_t> ExplicitSolver::take_look() {
   // A step is found to fail after the last of its passes that count. Unsigned, so that a counter that wraps
   // makes no difference.
   const std::uint32_t least = passes_before_ + (good + (full || bad ? 1u : 0u)) * passes_per_step();
-  if (good > queue.count || control.passes - least > (1u << 31)) return idle_device(context_, model_, least);
+  if (good > queue.count || control.passes - least > (1u << 31)) {
+    unusable_ = idle_device(context_, model_, least);
+    return *unusable_;
+  }
   passes_before_ = least;
   if (!full && !bad) return std::uint64_t{0};
   const std::uint64_t undone = std::uint64_t{steps_since_} - queue.first_step - good;

@@ -178,7 +178,8 @@ Result<Finding> driver_threads(const Subject& subject) {
 
 void add_equality_checks(std::vector<Check>& checks) {
   for (const BackendRow& row : backends().first(backends().size() - 1)) {
-    const char* const bound = row.needs_context ? "0 ULP, or what the arithmetic that the canary found explains" : "0 ULP";
+    const char* const bound =
+        row.needs_context ? "0 ULP, or what the arithmetic that the canary found explains" : "0 ULP";
     for (const Integrator integrator : all_integrators) {
       const std::vector<GpuOptions> paths = paths_of(row, integrator);
       checks.push_back(
