@@ -86,6 +86,7 @@ void Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
 
 void Buffer::bind(BufferKind kind, std::uint32_t binding, std::uint64_t offset, std::uint64_t bytes) const {
   assert(bytes == 0 ? offset == 0 : offset <= this->bytes() && bytes <= this->bytes() - offset);
+  if (!held_) return;  // a kernel that is given no buffer reads none
   const bool storage = kind == BufferKind::storage;
   auto& points = held_->bound_[storage ? 0 : 1];
   const Context::Bound wanted = {id(), offset, bytes};

@@ -72,7 +72,8 @@ class Buffer {
   std::uint32_t id() const { return held_ ? held_.get_deleter().id : 0; }
   /// Binds it to an indexed binding point, where it stays for later passes and draws; nothing happens if it
   /// is there. `bytes` of it from byte `offset` on, a multiple of the device's offset alignment; 0: all of it
-  /// (then offset must be 0). Nobody else may bind to these points with GL calls of their own.
+  /// (then offset must be 0). An empty handle leaves the point as it is. Nobody else may bind to these points
+  /// with GL calls of their own.
   void bind(BufferKind kind, std::uint32_t binding, std::uint64_t offset = 0, std::uint64_t bytes = 0) const;
 
  private:
