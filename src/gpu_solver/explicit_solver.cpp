@@ -77,7 +77,7 @@ class ExplicitSolver final : public DeviceSolver {
   QueueDepth depth_{most_steps};
   Clock::time_point last_look_ = {};
   std::uint32_t passes_before_ = 0;  // that must have been carried out before the oldest queue
-  std::optional<Error> unusable_;  // the device dropped passes
+  std::optional<Error> unusable_;    // the device dropped passes
   bool late_ = false;
   std::optional<gl::Pass> spring_pass_, lattice_pass_, particle_pass_;  // of each stage
   std::uint32_t lattice_runs_ = 0, listed_particles_ = 0;               // items of the last two
