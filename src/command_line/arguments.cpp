@@ -140,6 +140,13 @@ void add_arithmetic(CLI::App* c, RawOptions& raw) {
       1024);
 }
 
+void add_backend(CLI::App* c, RawOptions& raw) {
+  add(c, "--backend", "NAME", raw.backend, backend_words());
+  add(c, "--precision", "NAME", raw.precision, "single or double (reference only); default single");
+  add(c, "--force-path", "NAME", raw.force_path, force_path_words() + " (gpu only)");
+  add_arithmetic(c, raw);
+}
+
 void add_length(CLI::App* c, RunLength& length) {
   auto* steps = add(c, "--steps", "N", length.steps, "simulate up to this step");
   add(c, "--duration", "S", length.duration, "simulate up to this time, in seconds; default: the scene's")
@@ -177,10 +184,7 @@ void add_outputs(CLI::App* c, std::vector<StateOutput>& outputs) {
 CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   CLI::App* c = add_command(app, "run", "Simulate a scene headless", run_examples);
   add(c, "scene", "SCENE", run.scene, "scene file or built-in name; not needed with --resume");
-  add(c, "--backend", "NAME", raw.backend, backend_words());
-  add(c, "--precision", "NAME", raw.precision, "single or double (reference only); default single");
-  add(c, "--force-path", "NAME", raw.force_path, force_path_words() + " (gpu only)");
-  add_arithmetic(c, raw);
+  add_backend(c, raw);
   add_length(c, run.length);
   add_overrides(c, run.overrides);
   add_outputs(c, run.outputs);
@@ -257,10 +261,7 @@ CLI::App* add_sweep(CLI::App& app, SweepOptions& sweep, RawOptions& raw) {
       "repeatable")
       ->required();
   add(c, "--out", "FILE", sweep.out, "the CSV file; until it is complete, FILE.partial")->required();
-  add(c, "--backend", "NAME", raw.backend, backend_words());
-  add(c, "--precision", "NAME", raw.precision, "single or double (reference only); default single");
-  add(c, "--force-path", "NAME", raw.force_path, force_path_words() + " (gpu only)");
-  add_arithmetic(c, raw);
+  add_backend(c, raw);
   add_length(c, sweep.length);
   add_overrides(c, sweep.overrides);
   add(c, "--jobs", "N", sweep.jobs, "runs at once; default: the processors, or 1 where runs take a GPU",
