@@ -44,6 +44,12 @@
 #define LIGHT_SKY 1
 #define LIGHTS 2
 
+// Half sides of their maps, as shares of what they show, and in metres besides: room for penumbras, which are wider for
+// the sky.
+#define SUN_MAP_MARGIN 0.65
+#define SKY_MAP_MARGIN 0.85
+#define MAP_BORDER 0.05
+
 // Marks on particles.
 #define MARK_RING 0.0
 #define MARK_PINNED 1.0   // only where a particle is pinned

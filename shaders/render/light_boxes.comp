@@ -14,9 +14,8 @@ void main() {
   vec3 upper = decoded(bounds[light].upper.xyz);
   if (bounds[light].lower.x > bounds[light].upper.x) lower = upper = vec3(0.0);  // nothing there
   vec3 size = upper - lower;
-  // Room for penumbras, which are wider for the sky.
-  float margin = light == uint(LIGHT_SKY) ? 0.85 : 0.65;
-  float extent = margin * max(size.x, size.y) + 0.05;
+  float margin = light == uint(LIGHT_SKY) ? SKY_MAP_MARGIN : SUN_MAP_MARGIN;
+  float extent = margin * max(size.x, size.y) + MAP_BORDER;
   light_boxes[light].centre = vec4(0.5 * (lower + upper), extent);
   light_boxes[light].depth = vec4(0.55 * size.z + 0.05, 1.0 / extent, 0.0, 0.0);
 }

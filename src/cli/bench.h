@@ -133,5 +133,12 @@ struct BenchReport {
 };
 std::string table_of(const BenchReport& report);
 Json json_of(const BenchReport& report);
+/// Where and with what it was measured: the head of the JSON.
+Json origin_json();
+/// A value below which a share q of the samples lies, 0 (least) … 1, linear between two; not empty.
+double quantile_of(std::vector<double> samples, double q);
+
+/// `aspic bench --pictures`. Errors: as measure_pictures.
+Status execute_pictures(const BenchOptions& options, const Scene& scene, const InterruptGuard& interrupt);
 
 }  // namespace aspic::cli

@@ -172,6 +172,7 @@ Status measure_all(const BenchOptions& options, const Scene& loaded, const Inter
 Status execute(const BenchOptions& options) {
   const InterruptGuard interrupt;
   ASPIC_TRY(const auto loaded, load_scene(options.scene, options.overrides));
+  if (options.pictures) return execute_pictures(options, loaded, interrupt);
   BenchReport report = {loaded.name, options.repeats, options.warm_up, false, {}};
   const Status measured = measure_all(options, loaded, interrupt, report);
   report.interrupted = !measured && measured.error().code == ErrorCode::interrupted;

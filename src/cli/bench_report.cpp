@@ -106,24 +106,28 @@ std::string pass_lines(const Measurement& m) {
 
 }  // namespace
 
+double quantile_of(std::vector<double> samples, double q) {
+  std::ranges::sort(samples);
+  const double at = q * static_cast<double>(samples.size() - 1);
+  const auto below = static_cast<std::size_t>(at), above = std::min(below + 1, samples.size() - 1);
+  return std::lerp(samples[below], samples[above], at - static_cast<double>(below));
+}
+
 namespace {
 
-double quantile_of(const std::vector<Took>& repeats, double Took::*what, double q) {
-  std::vector<double> sorted;
-  for (const Took& took : repeats) sorted.push_back(took.*what);
-  std::ranges::sort(sorted);
-  const double at = q * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(at), above = std::min(below + 1, sorted.size() - 1);
-  return std::lerp(sorted[below], sorted[above], at - static_cast<double>(below));
+std::vector<double> each(const std::vector<Took>& repeats, double Took::*what) {
+  std::vector<double> values;
+  for (const Took& took : repeats) values.push_back(took.*what);
+  return values;
 }
 
 }  // namespace
 
 double Measurement::quantile(double q) const {
-  return quantile_of(repeats, &Took::seconds, q);
+  return quantile_of(each(repeats, &Took::seconds), q);
 }
 double Measurement::processor_median() const {
-  return quantile_of(repeats, &Took::processor_seconds, 0.5);
+  return quantile_of(each(repeats, &Took::processor_seconds), 0.5);
 }
 
 void compare_rows(std::vector<Measurement>& rows) {
@@ -144,19 +148,24 @@ void compare_rows(std::vector<Measurement>& rows) {
   }
 }
 
-Json json_of(const BenchReport& report) {
-  Json rows = Json::array();
-  for (const Measurement& m : report.rows) rows.push_back(row_json(m));
+Json origin_json() {
   return {{"version", ASPIC_VERSION},
           {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
           {"machine", machine()},
           {"compiler", ASPIC_COMPILER},
-          {"flags", ASPIC_FLAGS},
-          {"scene", report.scene},
-          {"repeats", report.repeats},
-          {"warm_up", report.warm_up},
-          {"interrupted", report.interrupted},
-          {"measurements", rows}};
+          {"flags", ASPIC_FLAGS}};
+}
+
+Json json_of(const BenchReport& report) {
+  Json rows = Json::array();
+  for (const Measurement& m : report.rows) rows.push_back(row_json(m));
+  Json json = origin_json();
+  json.update({{"scene", report.scene},
+               {"repeats", report.repeats},
+               {"warm_up", report.warm_up},
+               {"interrupted", report.interrupted},
+               {"measurements", rows}});
+  return json;
 }
 
 std::string table_of(const BenchReport& report) {

@@ -243,9 +243,12 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
       ->excludes(seconds);
   add(c, "--repeats", "N", bench.repeats, "runs of each case", most_of_int);
   add(c, "--warm-up", "N", bench.warm_up, "runs of each case before them, not counted", most_of_int);
-  c->add_flag("--peers", bench.with_peers,
-              "beside other programs with the same cube, from a source checkout");
-  add(c, "--peer", "NAME", bench.peers, "beside this one alone, e.g. textbook")->delimiter(',');
+  auto* peers = c->add_flag("--peers", bench.with_peers,
+                            "beside other programs with the same cube, from a source checkout");
+  auto* peer = add(c, "--peer", "NAME", bench.peers, "beside this one alone, e.g. textbook")->delimiter(',');
+  add(c, "--pictures", "WxH", raw.bench_pictures,
+      "what drawing the scene costs instead, by pass, 60 pictures a simulated second")
+      ->excludes(peers, peer, seconds);
   add_overrides(c, bench.overrides);
   add_json(c, bench.json);
   return c;

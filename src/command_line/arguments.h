@@ -49,12 +49,13 @@ struct BenchOptions {
   std::vector<int> sizes;               ///< particles per edge of all cubes; empty: the scene's
   std::vector<Integrator> integrators;  ///< empty: the scene's
   BenchTimestep timestep = BenchTimestep::scene;
-  double seconds = 2.0;            ///< per measurement, all repeats together, > 0
-  std::optional<double> duration;  ///< simulated time of each repeat [s], instead of `seconds`
-  int repeats = 5;                 ///< ≥ 1
-  int warm_up = 1;                 ///< runs of each case before them, ≥ 0
-  bool with_peers = false;         ///< beside other programs with the same lattice
-  std::vector<std::string> peers;  ///< their names; empty: all
+  double seconds = 2.0;                 ///< per measurement, all repeats together, > 0
+  std::optional<double> duration;       ///< simulated time of each repeat [s], instead of `seconds`
+  int repeats = 5;                      ///< ≥ 1
+  int warm_up = 1;                      ///< runs of each case before them, ≥ 0
+  bool with_peers = false;              ///< beside other programs with the same lattice
+  std::vector<std::string> peers;       ///< their names; empty: all
+  std::optional<PictureSize> pictures;  ///< what a picture of this size costs is measured instead
   bool json = false;
 };
 

@@ -21,7 +21,7 @@ Status check_length(const RunLength& length) {
 }
 
 /// "1280x720". The limits are those that every OpenGL 4.3 device takes.
-Result<PictureSize> parse_size(const std::string& text) {
+Result<PictureSize> parse_size(const std::string& text, std::string_view option = "--size") {
   PictureSize size;
   const char* end = text.data() + text.size();
   const auto width = std::from_chars(text.data(), end, size.width);
@@ -32,8 +32,8 @@ Result<PictureSize> parse_size(const std::string& text) {
         std::max(size.width, size.height) <= most)
       return size;
   }
-  return usage("--size must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".",
-               printable_line(text));
+  return usage("{} must be WIDTHxHEIGHT in pixels, each from 16 to 16384, such as 1280x720, not \"{}\".",
+               option, printable_line(text));
 }
 
 Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
@@ -195,6 +195,9 @@ Result<Command> finish_bench(BenchOptions bench, const RawOptions& raw) {
   }
   if (bench.repeats < 1) return usage("--repeats must be 1 or more.");
   bench.with_peers = bench.with_peers || !bench.peers.empty();
+  if (!raw.bench_pictures.empty()) {
+    ASPIC_TRY(bench.pictures, parse_size(raw.bench_pictures, "--pictures"));
+  }
   return Command(std::move(bench));
 }
 

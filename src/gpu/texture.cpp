@@ -97,6 +97,15 @@ void Texture::generate_mipmaps() {
   glGenerateMipmap(GL_TEXTURE_2D);
 }
 
+void Texture::copy_from(const Texture& source, const PixelBox& box) {
+  assert(source.settings_.format == settings_.format && source.settings_.samples == settings_.samples);
+  assert(source.width() == width() && source.height() == height());
+  if (box.empty()) return;
+  const GLenum target = target_of(settings_);
+  glCopyImageSubData(source.id(), target, 0, box.left, box.bottom, 0, id(), target, 0, box.left, box.bottom,
+                     0, box.right - box.left, box.top - box.bottom, 1);
+}
+
 void Texture::bind(std::uint32_t unit) const {
   glActiveTexture(GL_TEXTURE0 + unit);
   glBindTexture(target_of(settings_), id());
@@ -134,6 +143,15 @@ void Framebuffer::copy_colour_from(const Framebuffer& source) const {
   const bool same = source.width_ == width_ && source.height_ == height_;
   glBlitFramebuffer(0, 0, source.width_, source.height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
                     same ? GL_NEAREST : GL_LINEAR);
+}
+
+void Framebuffer::copy_colour_from(const Framebuffer& source, const PixelBox& box) const {
+  assert(source.width_ == width_ && source.height_ == height_);
+  if (box.empty()) return;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
+  glBlitFramebuffer(box.left, box.bottom, box.right, box.top, box.left, box.bottom, box.right, box.top,
+                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace aspic::gl

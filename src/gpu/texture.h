@@ -27,9 +27,18 @@ enum class Wrap { repeat, clamp };
 struct TextureSettings {
   TexelFormat format = TexelFormat::srgba8;
   int width = 1, height = 1;  ///< [texels], ≥ 1
-  int samples = 1;            ///< > 1: multisampled, neither sampled nor filtered by the project's shaders
+  int samples = 1;            ///< > 1: multisampled, never filtered
   bool mipmaps = false;       ///< a full chain, filled by generate_mipmaps()
   Wrap wrap = Wrap::clamp;
+};
+
+/// A part of an image: columns left … right − 1 and rows bottom … top − 1, counted from its lower left
+/// corner.
+struct PixelBox {
+  int left = 0, bottom = 0, right = 0, top = 0;
+  bool empty() const { return left >= right || bottom >= top; }
+  std::int64_t area() const { return empty() ? 0 : std::int64_t{right - left} * (top - bottom); }
+  friend bool operator==(const PixelBox&, const PixelBox&) = default;
 };
 
 /// Owns one GL texture of fixed size, filtered linearly. Movable; its context must outlive it and be current.
@@ -47,6 +56,8 @@ class Texture {
   /// bytes. No other format may be uploaded.
   void upload(std::span<const std::byte> texels);
   void generate_mipmaps();
+  /// Copies a part of an image of the same format, size and samples, to the same place, bit by bit.
+  void copy_from(const Texture& source, const PixelBox& box);
   /// Binds it to a texture unit, for a sampler of that binding number.
   void bind(std::uint32_t unit) const;
 
@@ -75,6 +86,8 @@ class Framebuffer {
   /// Copies the colour of `source`: resolves samples where it has more than one (sizes must agree then),
   /// filters linearly where sizes differ. Does not bind.
   void copy_colour_from(const Framebuffer& source) const;
+  /// The same for a part of framebuffers of one size.
+  void copy_colour_from(const Framebuffer& source, const PixelBox& box) const;
 
   std::uint32_t id() const { return name_.id(); }
   int width() const { return width_; }

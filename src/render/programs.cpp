@@ -41,6 +41,9 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   ASPIC_TRY(p.solid, drawing({"render/terrain.vert", "render/terrain.frag"}));
   ASPIC_TRY(p.glass, drawing({"render/terrain.vert", "render/glass.frag"}));
   ASPIC_TRY(p.sky, drawing({"render/screen.vert", "render/sky.frag"}));
+  const std::array several = {gl::Define{"SEVERAL_SAMPLES", "1"}};
+  ASPIC_TRY(p.halve[0], drawing({"render/screen.vert", "render/halve.frag"}));
+  ASPIC_TRY(p.halve[1], drawing({"render/screen.vert", "render/halve.frag"}, several));
   ASPIC_TRY(p.present, drawing({"render/screen.vert", "render/present.frag"}));
   return p;
 }

@@ -12,6 +12,7 @@ struct RenderPrograms {
   gl::Program rods, sheet;                                                 ///< more of them
   std::array<gl::Program, 2> plane, cut_plane;                             ///< flat ground: plain, shadowed
   gl::Program solid, glass, sky;                                           ///< other surroundings
+  std::array<gl::Program, 2> halve;                                        ///< of one sample, of several
   gl::Program present;                                                     ///< into a window
 
   /// Errors: those of Program::compute and Program::graphics.

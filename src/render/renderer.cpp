@@ -8,13 +8,8 @@
 #include "device/particles.h"
 #include "gpu/pass.h"
 #include "model/terrain.h"
-#include "render/body_painter.h"
 #include "render/frame_block.h"
-#include "render/light_maps.h"
-#include "render/model_buffers.h"
-#include "render/programs.h"
-#include "render/targets.h"
-#include "render/terrain_painter.h"
+#include "render/renderer_parts.h"
 
 namespace aspic {
 namespace {
@@ -34,48 +29,6 @@ Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const 
   return {};
 }
 }  // namespace
-
-struct Renderer::Parts {
-  gl::Context* context = nullptr;
-  RenderPrograms programs;
-  std::optional<OverlayPainter> overlay;
-  TerrainPainter terrain;
-  LightMaps lights;
-  gl::Texture colour_map;
-  gl::Buffer frame;
-  gl::VertexArray nothing;
-  int samples = 4;
-  std::optional<PictureTargets> targets;
-  const Model* model = nullptr;
-  std::optional<ModelBuffers> buffers;
-  gl::Buffer uploaded, uploaded_balls;
-  gl::ShaderLibrary shaders;
-  // Of the picture last drawn, for what is asked about it afterwards.
-  std::optional<DeviceState> drawn_state;
-  render_layout::Frame drawn_frame = {};
-  DrawSettings drawn_settings;
-  std::unique_ptr<Picker> picker;
-  std::unique_ptr<HighlightPainter> highlight;
-  std::uint64_t picks = 0;
-
-  Status prepare_targets(int width, int height, int wanted_samples);
-  Status prepare_highlight();
-  void bind_frame(const render_layout::Frame& block);
-  void prepare_light(const DeviceState& state, const PictureOptions& options);
-  /// Of this picture.
-  BodyPainter bodies(const DeviceState& state, const ViewSettings& view) const {
-    return {*model, programs, *buffers, *targets, colour_map, state, view};
-  }
-  /// The whole picture by one program.
-  void fill(const gl::Program& program) const {
-    nothing.bind();
-    glUseProgram(program.id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-  }
-  bool has(SurfaceStyle style) const {
-    return std::ranges::any_of(model->bodies, [=](const Body& b) { return b.style == style; });
-  }
-};
 
 Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Renderer::~Renderer() = default;
@@ -104,6 +57,8 @@ Status Renderer::set_model(const Model& model) {
   ASPIC_CHECK(parts_->terrain.set_terrain(*parts_->context, model.terrain));
   parts_->buffers.reset();
   parts_->buffers.emplace(std::move(buffers));
+  parts_->rods = extent_of(rod_mesh(model));
+  parts_->backdrop.forget();
   parts_->model = &model;
   parts_->drawn_state.reset();
   if (parts_->picker) parts_->picker->forget();
@@ -113,8 +68,10 @@ Status Renderer::set_model(const Model& model) {
 Result<DeviceState> Renderer::upload(const State& state) {
   Parts& p = *parts_;
   assert(p.model);
-  ASPIC_CHECK(refill(*p.context, p.uploaded, "particles to draw", packed_particles(*p.model, state)));
-  ASPIC_CHECK(refill(*p.context, p.uploaded_balls, "balls to draw", packed_balls(*p.model, state)));
+  p.uploaded_particles = packed_particles(*p.model, state);
+  p.uploaded_ball_items = packed_balls(*p.model, state);
+  ASPIC_CHECK(refill(*p.context, p.uploaded, "particles to draw", p.uploaded_particles));
+  ASPIC_CHECK(refill(*p.context, p.uploaded_balls, "balls to draw", p.uploaded_ball_items));
   return DeviceState{&p.uploaded, &p.uploaded_balls, 0, state.step, nullptr};
 }
 
@@ -142,12 +99,16 @@ void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
   const gl::Buffer& particles = *state.particles;
   buffers->compute_light_boxes(programs, state);
+  mark(PicturePass::bounds);
   if (options.view.draw.solid && buffers->has_skin()) buffers->compute_normals(programs, particles);
+  mark(PicturePass::normals);
   if (options.view.colour >= ViewColour::strain) buffers->compute_quantity(programs, state);
+  mark(PicturePass::quantity);
   if (options.shadows)
     lights.render(programs, *buffers, state, options.view.draw);
   else
     lights.leave_out(*buffers);
+  mark(PicturePass::light_maps);
 }
 
 Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
@@ -174,40 +135,67 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
     if (!options.background) terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
   p.drawn_state = state;
   p.drawn_settings = view.draw;
+  if (p.profiler) p.profiler->begin();
   p.bind_frame(p.drawn_frame);
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  const bool kept = p.prepare_backdrop(terrain, camera, options);
+  const std::vector<gl::PixelBox> boxes =
+      kept ? p.changing(state, terrain, options) : std::vector{p.targets->box()};
+  p.mark(PicturePass::backdrop);
+  glDisable(GL_FRAMEBUFFER_SRGB);
   p.prepare_light(state, options);
   glEnable(GL_FRAMEBUFFER_SRGB);
   const BodyPainter bodies = p.bodies(state, view);
   if (solid) bodies.draw_thickness();
+  p.mark(PicturePass::thickness);
+  if (kept) p.backdrop.put_samples(*p.targets, boxes);
   p.targets->samples.framebuffer.bind();
   p.colour_map.bind(UNIT_COLOUR_MAP);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  glClear(GL_DEPTH_BUFFER_BIT);
-  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with_alpha(*c, 1.0).data());
-  p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
+  if (!kept) {
+    p.draw_ground(terrain, camera, options, options.shadows);
+  } else if (options.shadows) {
+    p.terrain.draw_shadows(p.programs, terrain, view.camera, camera);
+  }
+  p.mark(PicturePass::surroundings);
   bodies.draw_rods_and_balls();
+  p.mark(PicturePass::balls);
   bodies.draw_springs();
+  p.mark(PicturePass::springs);
   bodies.draw_particles();
+  p.mark(PicturePass::particles);
   // The last opaque part: only where there is nothing else.
-  if (!options.background) p.fill(p.programs.sky);
+  if (!kept && !options.background) p.fill(p.programs.sky);
+  p.mark(PicturePass::sky);
   if (view.draw.solid && p.has(SurfaceStyle::sheet)) bodies.draw_sheets();
+  p.mark(PicturePass::sheets);
   p.terrain.draw_far_glass(p.programs, terrain);
+  p.mark(PicturePass::far_glass);
   if (solid) {
     bodies.draw_jelly(JellySide::far);
-    p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
-    p.targets->behind.framebuffer.copy_colour_from(p.targets->picture.framebuffer);
+    p.mark(PicturePass::jelly_far);
+    if (kept) p.backdrop.put_behind(*p.targets);
+    halve_samples(p.programs, p.nothing, *p.targets, boxes);
+    p.mark(PicturePass::behind);
     p.targets->samples.framebuffer.bind();
     bodies.draw_jelly(JellySide::near);
+    p.mark(PicturePass::jelly);
   }
   p.terrain.draw_before_bodies(p.programs, terrain, view.camera, camera);
+  p.mark(PicturePass::glass);
   Status written;
   if (options.highlight)
     written = p.highlight->draw_within(*p.buffers, particles, view.draw, *options.highlight);
-  p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
+  p.mark(PicturePass::marks);
+  if (kept) p.backdrop.put_picture(*p.targets);
+  resolve_samples(*p.targets, boxes);
+  p.mark(PicturePass::resolve);
   if (written)
     written = p.overlay->draw(p.targets->picture.framebuffer, options.text,
                               options.legend ? legend_for(view, range) : Legend{});
+  p.mark(PicturePass::text);
+  if (p.profiler) p.profiler->end();
   glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_FRAMEBUFFER_SRGB);
@@ -265,6 +253,20 @@ Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_
   glUseProgram(0);
   glBindVertexArray(0);
   return drawn;
+}
+
+void Renderer::set_profiling(bool on) {
+  Parts& p = *parts_;
+  if (on == (p.profiler != nullptr)) return;
+  p.profiler.reset();
+  if (on)
+    p.profiler = std::make_unique<gl::PassProfiler>(
+        *p.context, picture_pass_names(),
+        p.context->info().is_software ? gl::PassStamps::waiting : gl::PassStamps::queued);
+}
+
+std::vector<gl::PassTime> Renderer::pass_times() {
+  return parts_->profiler ? parts_->profiler->times() : std::vector<gl::PassTime>();
 }
 
 std::vector<Vec3> Renderer::normals() const {

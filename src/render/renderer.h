@@ -8,6 +8,7 @@
 #include "device/device_state.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
+#include "gpu/pass_profiler.h"
 #include "gpu/shader_source.h"
 #include "gpu/texture.h"
 #include "model/model.h"
@@ -83,6 +84,12 @@ class Renderer {
   /// state must still lie where it was. Error: scene_rejected, no_device or io.
   Status present_highlight(const HighlightOptions& options, std::uint32_t framebuffer, int width, int height,
                            int left = 0, int bottom = 0);
+
+  /// Whether the pictures from now on are told apart by pass; off at first. On software rasterisers each pass
+  /// then waits for the one before, which costs a little itself.
+  void set_profiling(bool on);
+  /// Means over the last pictures that were measured, by pass (picture_passes.h); empty without profiling.
+  std::vector<gl::PassTime> pass_times();
 
   /// For tests and probes: normals as of the last draw of solid bodies, one by particle (zero inside bodies).
   std::vector<Vec3> normals() const;

@@ -24,6 +24,16 @@ struct PictureTargets {
 
   /// Errors (scene_rejected, no_device): those of Texture and Framebuffer.
   static Result<PictureTargets> create(gl::Context& context, int width, int height, int samples);
+  /// Others of the same size and samples. Errors as create().
+  Result<PictureTargets> another(gl::Context& context) const {
+    return create(context, box().right, box().top, samples.colour.settings().samples);
+  }
+  bool is_like(const PictureTargets& other) const {
+    return box() == other.box() &&
+           samples.colour.settings().samples == other.samples.colour.settings().samples;
+  }
+  /// The whole of the picture.
+  gl::PixelBox box() const { return {0, 0, picture.colour.width(), picture.colour.height()}; }
 };
 
 }  // namespace aspic

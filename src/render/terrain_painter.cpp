@@ -42,7 +42,9 @@ Status TerrainPainter::set_terrain(gl::Context& context, const std::vector<Terra
     PlacedMesh& made = meshes.emplace_back();
     if (!terrain_row(t.shape).surface) continue;
     made.place = t.geometry.vectors[0];
-    ASPIC_TRY(made.mesh, DeviceMesh::create(context, "terrain", terrain_mesh(t, mesh_rings, mesh_sectors)));
+    const Mesh mesh = terrain_mesh(t, mesh_rings, mesh_sectors);
+    made.extent = extent_of(mesh);
+    ASPIC_TRY(made.mesh, DeviceMesh::create(context, "terrain", mesh));
   }
   meshes_ = std::move(meshes);
   return {};
@@ -62,11 +64,48 @@ void TerrainPainter::draw_meshes(const gl::Program& program, const std::vector<T
 
 void TerrainPainter::draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                                 const CameraSettings& camera, const Camera& lens, bool shadows) const {
+  draw_solid_meshes(programs, terrain);
+  draw_planes(programs, terrain, camera, lens, shadows ? Planes::shadowed : Planes::solid);
+}
+
+void TerrainPainter::draw_shadows(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
+                                  const CameraSettings& camera, const Camera& lens) const {
+  draw_solid_meshes(programs, terrain);
+  draw_planes(programs, terrain, camera, lens, Planes::shadows_alone);
+}
+
+void TerrainPainter::draw_solid_meshes(const RenderPrograms& programs,
+                                       const std::vector<Terrain>& terrain) const {
   ground_.bind(UNIT_GROUND);
   glEnable(GL_CULL_FACE);
   draw_meshes(programs.solid, terrain, false);
   glDisable(GL_CULL_FACE);
-  draw_planes(programs, terrain, camera, lens, shadows ? Planes::shadowed : Planes::solid);
+}
+
+namespace {
+
+/// Whether a place is behind a plane.
+bool behind(const FlatPart& flat, const Vec3& place) {
+  return dot(flat.normal, place - flat.point) < 0.0;
+}
+
+}  // namespace
+
+bool TerrainPainter::add_changing(const std::vector<Terrain>& terrain, const CameraSettings& camera,
+                                  bool shadows, MovingThings& things) const {
+  bool all = true;
+  for (std::size_t i = 0; i < terrain.size(); ++i) {
+    const TerrainShapeRow& row = terrain_row(terrain[i].shape);
+    if (row.surface && (shadows || row.glass)) {
+      const Vec3 by = terrain[i].geometry.vectors[0] - meshes_[i].place;
+      things.extents.push_back(meshes_[i].extent.moved({by.x, by.y, by.z}));
+    }
+    if (!row.flat) continue;
+    const FlatPart flat = row.flat(terrain[i].geometry);
+    if (behind(flat, camera.position)) all = false;
+    if (shadows) things.shadowed.push_back(flat);
+  }
+  return all;
 }
 
 void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
@@ -77,7 +116,7 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
     if (!row.flat) continue;
     const FlatPart flat = row.flat(t.geometry);
     const auto above = [&](const Vec3& x) { return dot(flat.normal, x - flat.point); };
-    if ((above(camera.position) < 0.0) != from_behind) continue;
+    if (behind(flat, camera.position) != from_behind) continue;
     const bool cut = row.surface != nullptr;
     const auto& [plain, shadowed] = cut ? programs.cut_plane : programs.plane;
     if (from_behind) {
@@ -92,10 +131,12 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
       program->set(LOCATION_PLANE_NORMAL, four(flat.normal, 0.0));
       if (cut) aspic::set_terrain(*program, t);
     }
-    glUseProgram(plain.id());
-    square_.draw();
+    if (planes != Planes::shadows_alone) {
+      glUseProgram(plain.id());
+      square_.draw();
+    }
     glDisable(GL_BLEND);
-    if (planes != Planes::shadowed) continue;
+    if (planes == Planes::solid || from_behind) continue;
     // Shadows cost several times the plain ground, and cover little of it.
     glUseProgram(shadowed.id());
     glEnable(GL_POLYGON_OFFSET_FILL);

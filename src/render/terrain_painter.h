@@ -6,6 +6,7 @@
 #include "model/model.h"
 #include "render/camera.h"
 #include "render/mesh.h"
+#include "render/moving_part.h"
 #include "render/programs.h"
 
 namespace aspic {
@@ -26,6 +27,13 @@ class TerrainPainter {
   /// without.
   void draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                   const CameraSettings& camera, const Camera& lens, bool shadows) const;
+  /// Over the same without shadows: all of it that may have some.
+  void draw_shadows(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
+                    const CameraSettings& camera, const Camera& lens) const;
+  /// Tells what of the terrain a state may change: surfaces, glass alone without `shadows`, and the planes
+  /// that have shadows then. Whether that is all: planes seen from behind lie over everything.
+  bool add_changing(const std::vector<Terrain>& terrain, const CameraSettings& camera, bool shadows,
+                    MovingThings& things) const;
   /// The far walls of glass, before the bodies.
   void draw_far_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain) const;
   /// After the bodies: the near walls of glass, and planes seen through from behind.
@@ -34,9 +42,10 @@ class TerrainPainter {
 
  private:
   /// Which planes, and how.
-  enum class Planes { solid, shadowed, from_behind };
+  enum class Planes { solid, shadowed, shadows_alone, from_behind };
   void draw_planes(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                    const CameraSettings& camera, const Camera& lens, Planes planes) const;
+  void draw_solid_meshes(const RenderPrograms& programs, const std::vector<Terrain>& terrain) const;
   void draw_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain, bool far_side) const;
   /// The bounded surfaces of solid terrain, or of glass.
   void draw_meshes(const gl::Program& program, const std::vector<Terrain>& terrain, bool glass) const;
@@ -44,6 +53,7 @@ class TerrainPainter {
   struct PlacedMesh {
     Vec3 place;  ///< vector 0 of the geometry it was made with
     DeviceMesh mesh;
+    Extent extent;
   };
   gl::Texture ground_;
   DeviceMesh square_;

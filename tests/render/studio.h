@@ -39,8 +39,9 @@ class Studio : public testing::GlTest {
   }
 
   /// The picture last drawn.
-  std::vector<std::byte> read() {
-    const gl::Framebuffer& picture = renderer_->picture();
+  std::vector<std::byte> read() { return read(*renderer_); }
+  std::vector<std::byte> read(const Renderer& by) {
+    const gl::Framebuffer& picture = by.picture();
     auto ring = gl::PixelRing::create(context(), picture.width(), picture.height());
     EXPECT_TRUE(ring.ok());
     ring->submit(picture);

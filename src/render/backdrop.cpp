@@ -1,0 +1,99 @@
+#include "render/backdrop.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace aspic {
+
+BackdropLook::BackdropLook(const render_layout::Frame& of_picture, const std::vector<Terrain>& placed,
+                           const std::optional<Colour>& plain, int count)
+    : frame(of_picture), terrain(placed), background(plain), samples(count) {
+  frame.shadow_tint = frame.quantity_range = {};
+  frame.colour_mode = frame.particle_count = 0;
+  frame.see_through = 0.0f;
+}
+
+bool operator==(const BackdropLook& a, const BackdropLook& b) {
+  const auto same = [](const Terrain& x, const Terrain& y) {
+    return x.shape == y.shape && x.geometry.vectors == y.geometry.vectors &&
+           x.geometry.numbers == y.geometry.numbers;
+  };
+  return a.samples == b.samples && a.background == b.background &&
+         std::memcmp(&a.frame, &b.frame, sizeof(a.frame)) == 0 &&
+         std::equal(a.terrain.begin(), a.terrain.end(), b.terrain.begin(), b.terrain.end(), same);
+}
+
+bool Backdrop::stays(const BackdropLook& look) {
+  if (look_ == look) return true;
+  look_ = look;
+  drawn_ = false;
+  return false;
+}
+
+void Backdrop::forget() {
+  look_.reset();
+  images_.reset();
+  drawn_ = false;
+}
+
+Status Backdrop::begin(gl::Context& context, const PictureTargets& like) {
+  if (!images_ || !images_->is_like(like)) {
+    images_.reset();
+    ASPIC_TRY(images_, like.another(context));
+  }
+  images_->samples.framebuffer.bind();
+  return {};
+}
+
+void Backdrop::finish(const RenderPrograms& programs, const gl::VertexArray& nothing) {
+  const std::vector<gl::PixelBox> whole = {images_->box()};
+  halve_samples(programs, nothing, *images_, whole);
+  resolve_samples(*images_, whole);
+  drawn_ = true;
+}
+
+void Backdrop::put_samples(PictureTargets& targets, const std::vector<gl::PixelBox>& boxes) const {
+  for (const gl::PixelBox& box : boxes) {
+    targets.samples.colour.copy_from(images_->samples.colour, box);
+    targets.samples.depth.copy_from(images_->samples.depth, box);
+  }
+}
+
+void Backdrop::put_behind(PictureTargets& targets) const {
+  targets.behind.colour.copy_from(images_->behind.colour,
+                                  {0, 0, targets.behind.colour.width(), targets.behind.colour.height()});
+}
+
+void Backdrop::put_picture(PictureTargets& targets) const {
+  targets.picture.colour.copy_from(images_->picture.colour, targets.box());
+}
+
+void halve_samples(const RenderPrograms& programs, const gl::VertexArray& nothing,
+                   const PictureTargets& targets, const std::vector<gl::PixelBox>& boxes) {
+  const int samples = targets.samples.colour.settings().samples;
+  const gl::Program& program = programs.halve[samples > 1];
+  if (samples > 1) program.set(LOCATION_COUNT, samples);
+  targets.behind.framebuffer.bind();
+  targets.samples.colour.bind(UNIT_FRAME);
+  nothing.bind();
+  glUseProgram(program.id());
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_SCISSOR_TEST);
+  for (const gl::PixelBox& box : boxes) {
+    // Pixels that the box touches.
+    const int left = box.left / 2, bottom = box.bottom / 2;
+    glScissor(left, bottom, (box.right + 1) / 2 - left, (box.top + 1) / 2 - bottom);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void resolve_samples(const PictureTargets& targets, const std::vector<gl::PixelBox>& boxes) {
+  for (const gl::PixelBox& box : boxes)
+    targets.picture.framebuffer.copy_colour_from(targets.samples.framebuffer, box);
+}
+
+}  // namespace aspic

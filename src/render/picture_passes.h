@@ -1,0 +1,37 @@
+#pragma once
+// What a picture is made of, as its cost is told apart.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace aspic {
+
+/// In the order of drawing. What a picture does without takes next to no time.
+enum class PicturePass {
+  backdrop,
+  bounds,
+  normals,
+  quantity,
+  light_maps,
+  thickness,
+  surroundings,
+  balls,
+  springs,
+  particles,
+  sky,
+  sheets,
+  far_glass,
+  jelly_far,
+  behind,
+  jelly,
+  glass,
+  marks,
+  resolve,
+  text,
+  count
+};
+
+/// Their names, in that order.
+std::vector<std::string> picture_pass_names();
+
+}  // namespace aspic

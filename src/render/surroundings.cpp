@@ -1,0 +1,57 @@
+// What stands around the bodies of a picture, and what of it need not be drawn again.
+#include "render/renderer_parts.h"
+
+namespace aspic {
+
+void Renderer::Parts::draw_ground(const std::vector<Terrain>& placed, const Camera& camera,
+                                  const PictureOptions& options, bool shadows) const {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with_alpha(*c, 1.0).data());
+  terrain.draw_solid(programs, placed, options.view.camera, camera, shadows);
+}
+
+/// Whether the picture may begin with the backdrop, which is drawn if need be. Hardware does without: what it
+/// would save there is little.
+bool Renderer::Parts::prepare_backdrop(const std::vector<Terrain>& placed, const Camera& camera,
+                                       const PictureOptions& options) {
+  if (!context->info().is_software ||
+      !backdrop.stays({drawn_frame, placed, options.background, targets->samples.colour.settings().samples}))
+    return false;
+  if (backdrop.drawn()) return true;
+  if (!backdrop.begin(*context, *targets)) return false;
+  lights.leave_out(*buffers);
+  draw_ground(placed, camera, options, false);
+  if (!options.background) fill(programs.sky);
+  backdrop.finish(programs, nothing);
+  return true;
+}
+
+/// Where a picture differs from its backdrop.
+std::vector<gl::PixelBox> Renderer::Parts::changing(const DeviceState& state,
+                                                    const std::vector<Terrain>& placed,
+                                                    const PictureOptions& options) const {
+  MovingThings things;
+  // Where other states are, only the device knows.
+  if (state.particles != &uploaded ||
+      !terrain.add_changing(placed, options.view.camera, options.shadows, things))
+    return {targets->box()};
+  things.particles = uploaded_particles;
+  things.balls = uploaded_ball_items;
+  things.particle_radius = 4.0 * particle_radius(buffers->spacing());
+  things.margin = 4.0;
+  things.extents.push_back(rods);
+  if (const auto& marks = options.highlight) {
+    things.margin += 12.0 * marks->unit;
+    if (const auto& pull = marks->pull) {
+      Extent& band = things.extents.emplace_back();
+      const layout::vec4& end = uploaded_particles[pull->particle].position;
+      band.add({pull->anchor.x, pull->anchor.y, pull->anchor.z});
+      band.add({end.x, end.y, end.z});
+    }
+  }
+  return moving_part(drawn_frame, things);
+}
+
+}  // namespace aspic

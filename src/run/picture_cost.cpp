@@ -1,0 +1,164 @@
+#include "run/picture_cost.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <optional>
+
+#include "gpu/pixel_ring.h"
+#include "io/frame_schedule.h"
+#include "render/overlay_text.h"
+#include "render/picture_passes.h"
+#include "render/renderer.h"
+#include "run/run_length.h"
+
+namespace aspic {
+namespace {
+
+/// Time since it was made.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  double processor_seconds() const {
+    return static_cast<double>(std::clock() - processor_start_) / CLOCKS_PER_SEC;
+  }
+  gl::PassTime pass(const char* name) const { return {name, 1e3 * seconds(), 1, 1e3 * processor_seconds()}; }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::clock_t processor_start_ = std::clock();
+};
+
+/// Sums of passes by name, in the order in which each came first.
+void add(std::vector<gl::PassTime>& sums, const std::vector<gl::PassTime>& passes) {
+  for (const gl::PassTime& pass : passes) {
+    auto sum = std::ranges::find(sums, pass.name, &gl::PassTime::name);
+    if (sum == sums.end()) sum = sums.insert(sums.end(), {pass.name});
+    sum->milliseconds += pass.milliseconds;
+    sum->dispatches += pass.dispatches;
+    sum->processor_milliseconds += pass.processor_milliseconds;
+  }
+}
+
+/// Draws as a recording does, and waits for each picture.
+class PictureCostMeter {
+ public:
+  static Result<PictureCostMeter> create(const Scene& scene, const BackendChoice& choice, const Model& model,
+                                         const PictureSize& size) {
+    PictureCostMeter m(scene, size);
+    ASPIC_TRY(m.backend_, make_backend(choice, model));
+    if (!m.backend_.context) {
+      ASPIC_TRY(m.backend_.context, gl::Context::create_headless());
+    }
+    RendererOptions look;
+    ASPIC_TRY(const auto directory, shader_directory());
+    look.shaders = gl::ShaderLibrary(directory);
+    ASPIC_TRY(m.renderer_, Renderer::create(*m.backend_.context, look));
+    ASPIC_CHECK(m.renderer_->set_model(model));
+    ASPIC_TRY(auto ring, gl::PixelRing::create(*m.backend_.context, size.width, size.height));
+    m.ring_.emplace(std::move(ring));
+    return m;
+  }
+
+  Solver& solver() { return *backend_.solver; }
+  const std::string& device() const { return backend_.context->info().renderer; }
+
+  /// Adds a picture of the solver's state to the cost.
+  Status picture(PictureCost& cost) {
+    const Stopwatch watch;
+    ASPIC_TRY(const auto state, on_device());
+    ASPIC_CHECK(draw(state));
+    ring_->submit(renderer_->picture());
+    ASPIC_CHECK(ring_->take(pixels_));
+    cost.seconds.push_back(watch.seconds());
+    cost.processor_seconds.push_back(watch.processor_seconds());
+    return {};
+  }
+
+  /// The same pass by pass, into sums.
+  Status passes(std::vector<gl::PassTime>& sums) {
+    const Stopwatch uploading;
+    ASPIC_TRY(const auto state, on_device());
+    std::vector<gl::PassTime> all = {uploading.pass("state to the device")};
+    renderer_->set_profiling(true);
+    ASPIC_CHECK(draw(state));
+    std::vector<gl::PassTime> drawn = renderer_->pass_times();
+    while (drawn.empty()) drawn = renderer_->pass_times();  // the device has not got there
+    renderer_->set_profiling(false);
+    all.insert(all.end(), drawn.begin(), drawn.end());
+    const Stopwatch reading;
+    ring_->submit(renderer_->picture());
+    ASPIC_CHECK(ring_->take(pixels_));
+    all.push_back(reading.pass("pixels to memory"));
+    add(sums, all);
+    return {};
+  }
+
+ private:
+  PictureCostMeter(const Scene& scene, const PictureSize& size) : scene_(&scene), size_(size) {}
+
+  Result<DeviceState> on_device() {
+    if (backend_.gpu) return backend_.gpu->device_state();
+    ASPIC_TRY(const auto state, backend_.solver->state());
+    return renderer_->upload(state);
+  }
+  Status draw(const DeviceState& state) {
+    PictureOptions picture;
+    picture.view = scene_->view;
+    const double h = backend_.solver->model().simulation.timestep;
+    picture.text = overlay_lines(scene_->model, static_cast<double>(state.step) * h);
+    return renderer_->draw(size_.width, size_.height, state, picture);
+  }
+
+  const Scene* scene_;
+  PictureSize size_;
+  Backend backend_;
+  std::unique_ptr<Renderer> renderer_;
+  std::optional<gl::PixelRing> ring_;
+  std::vector<std::byte> pixels_;
+};
+
+}  // namespace
+
+Result<PictureCost> measure_pictures(const Scene& scene, const BackendChoice& choice,
+                                     const PictureCostOptions& options,
+                                     const std::function<bool()>& interrupted) {
+  ASPIC_TRY(const auto model, build_model(scene.model));
+  ASPIC_TRY(auto meter, PictureCostMeter::create(scene, choice, model, options.size));
+  Solver& solver = meter.solver();
+  ASPIC_TRY(const auto last, steps_of({std::nullopt, options.duration}, model.simulation));
+  const FrameSchedule schedule(model.simulation.timestep, 0, last, 60.0, 1.0);
+  PictureCost cost;
+  cost.device = meter.device();
+  std::uint64_t by_pass = 0;
+  for (int repeat = -options.warm_up; repeat < options.repeats; ++repeat) {
+    if (repeat == 0) {
+      cost = {cost.device, {}, {}, {}};
+      by_pass = 0;
+    }
+    ASPIC_CHECK(solver.load(initial_state(model, solver.precision())));
+    std::uint64_t step = 0;
+    for (std::uint64_t frame = 0; frame < schedule.count(); ++frame) {
+      if (interrupted()) return Error{ErrorCode::interrupted, "interrupted; nothing was measured."};
+      ASPIC_TRY(const auto divergence, solver.advance(schedule.step_of(frame) - step));
+      if (divergence) return fail(ErrorCode::diverged, "the scene diverged in step {}.", divergence->step);
+      step = schedule.step_of(frame);
+      if (frame % 2 == 0) {
+        ASPIC_CHECK(meter.picture(cost));
+      } else {
+        ASPIC_CHECK(meter.passes(cost.passes));
+        ++by_pass;
+      }
+    }
+  }
+  for (gl::PassTime& pass : cost.passes) {
+    pass.milliseconds /= static_cast<double>(by_pass);
+    pass.dispatches /= static_cast<double>(by_pass);
+    pass.processor_milliseconds /= static_cast<double>(by_pass);
+  }
+  return cost;
+}
+
+}  // namespace aspic
