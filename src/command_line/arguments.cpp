@@ -234,10 +234,12 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
       ->delimiter(',');
   add(c, "--force-path", "NAME", raw.bench_force_paths, "of gpu backends without their own")->delimiter(',');
   add_arithmetic(c, raw);
-  add(c, "--size", "N", bench.sizes, "particles per edge of the scene's cubes", most_of_int)->delimiter(',');
-  add(c, "--integrator", "NAME", raw.bench_integrators, "instead of the scene's, or all")->delimiter(',');
-  add(c, "--timestep", "WORD", raw.bench_timestep,
-      "scene, or largest: 0.99 of the largest stable step, 1/60 s with implicit-euler");
+  auto* sizes = add(c, "--size", "N", bench.sizes, "particles per edge of the scene's cubes", most_of_int);
+  sizes->delimiter(',');
+  auto* integrators = add(c, "--integrator", "NAME", raw.bench_integrators, "instead of the scene's, or all");
+  integrators->delimiter(',');
+  auto* timestep = add(c, "--timestep", "WORD", raw.bench_timestep,
+                       "scene, or largest: 0.99 of the largest stable step, 1/60 s with implicit-euler");
   auto* seconds = add(c, "--seconds", "S", bench.seconds, "time to spend on each case");
   add(c, "--duration", "S", bench.duration, "simulated seconds of each repeat, however long they take")
       ->excludes(seconds);
@@ -248,7 +250,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
   auto* peer = add(c, "--peer", "NAME", bench.peers, "beside this one alone, e.g. textbook")->delimiter(',');
   add(c, "--pictures", "WxH", raw.bench_pictures,
       "what drawing the scene costs instead, by pass, 60 pictures a simulated second")
-      ->excludes(peers, peer, seconds);
+      ->excludes(peers, peer, seconds, sizes, integrators, timestep);
   add_overrides(c, bench.overrides);
   add_json(c, bench.json);
   return c;

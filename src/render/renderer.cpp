@@ -141,6 +141,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   const bool kept = p.prepare_backdrop(terrain, camera, options);
   const std::vector<gl::PixelBox> boxes =
       kept ? p.changing(state, terrain, options) : std::vector{p.targets->box()};
+  if (kept) p.backdrop.put_samples(*p.targets, boxes);
   p.mark(PicturePass::backdrop);
   glDisable(GL_FRAMEBUFFER_SRGB);
   p.prepare_light(state, options);
@@ -148,7 +149,6 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   const BodyPainter bodies = p.bodies(state, view);
   if (solid) bodies.draw_thickness();
   p.mark(PicturePass::thickness);
-  if (kept) p.backdrop.put_samples(*p.targets, boxes);
   p.targets->samples.framebuffer.bind();
   p.colour_map.bind(UNIT_COLOUR_MAP);
   glEnable(GL_DEPTH_TEST);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "cli/process.h"
@@ -49,6 +50,40 @@ std::string probe(const std::string& file) {
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
   ::pclose(pipe);
   return text;
+}
+
+TEST(PictureCost, IsToldByPass) {
+  const auto run = aspic({"bench", "--pictures", "128x96", "--backend", "reference", "--size", "4",
+                          "--duration", "0.1", "--repeats", "2", "--warm-up", "0", "--json"},
+                         software());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto report = nlohmann::json::parse(run.out);
+  // Six intervals, seven pictures, of which every other one is told apart.
+  EXPECT_EQ(report["pictures"], 8);
+  EXPECT_EQ(report["width"], 128);
+  EXPECT_EQ(report["seconds"].size(), 8u);
+  std::vector<std::string> names;
+  double sum = 0.0;
+  for (const auto& pass : report["passes"]) {
+    names.push_back(pass["name"]);
+    sum += pass["milliseconds"].get<double>();
+  }
+  EXPECT_EQ(names.front(), "state to the device");
+  EXPECT_EQ(names.back(), "pixels to memory");
+  EXPECT_THAT(names, testing::IsSupersetOf({"light maps", "terrain", "jelly", "samples to pixels"}));
+  EXPECT_GT(sum, 0.0);
+}
+
+TEST(PictureCost, RefusesWhatItDoesNotMeasure) {
+  for (const Words& words :
+       {Words{"--pictures", "128"}, Words{"--pictures", "128x96", "--seconds", "1"},
+        Words{"--pictures", "128x96", "--peers"}, Words{"--pictures", "128x96", "--size", "4"}}) {
+    Words all = {"bench"};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto run = aspic(all);
+    EXPECT_EQ(run.exit_code, 2) << run.out;
+    EXPECT_THAT(run.err, HasSubstr("--pictures"));
+  }
 }
 
 TEST(Video, HasTheLengthRateAndSizeAskedFor) {

@@ -64,6 +64,24 @@ TEST_F(PassProfilerGl, GivesEachDispatchItsTime) {
   EXPECT_GT(longer, 7);
 }
 
+TEST_F(PassProfilerGl, WaitsForEachPassWhereAsked) {
+  PassProfiler profiler(context(), {"small", "never", "large"}, PassStamps::waiting);
+  for (std::size_t n = 0; n < 2 * PassProfiler::window; ++n) {
+    ASSERT_TRUE(profiler.begin());  // nothing is ever out
+    dispatch(64);
+    profiler.mark(0);
+    dispatch(most);
+    profiler.mark(2);
+    profiler.end();
+  }
+  const auto times = profiler.times();
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_EQ(times[1].name, "large");
+  EXPECT_EQ(times[1].dispatches, 1.0);
+  EXPECT_GT(times[1].milliseconds, 0.0);
+  EXPECT_GE(times[1].processor_milliseconds, 0.0);
+}
+
 TEST_F(PassProfilerGl, TakesMeansOverTheLastSteps) {
   PassProfiler profiler(context(), {"one", "other"});
   for (std::size_t n = 0; n < 3 * PassProfiler::window; ++n) {
