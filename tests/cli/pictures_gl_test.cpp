@@ -53,9 +53,10 @@ std::string probe(const std::string& file) {
 }
 
 TEST(PictureCost, IsToldByPass) {
-  const auto run = aspic({"bench", "--pictures", "128x96", "--backend", "reference", "--size", "4",
-                          "--duration", "0.1", "--repeats", "2", "--warm-up", "0", "--json"},
-                         software());
+  const auto run = aspic(
+      {"bench", "--pictures", "128x96", "--backend", "reference", "--set", "cube[0].particles-per-edge=4",
+       "--duration", "0.1", "--repeats", "2", "--warm-up", "0", "--json"},
+      software());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto report = nlohmann::json::parse(run.out);
   // Six intervals, seven pictures, of which every other one is told apart.
