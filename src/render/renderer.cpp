@@ -18,6 +18,9 @@ bool shows_springs(ViewColour colour) {
   return colour == ViewColour::strain || colour == ViewColour::force;
 }
 
+/// Particles that are kept in memory too, so that a picture's moving part can be told.
+constexpr std::size_t most_followed = 100000;
+
 /// Uploads into a buffer that is made, or made larger, as needed.
 template <class T>
 Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const std::vector<T>& items) {
@@ -72,6 +75,8 @@ Result<DeviceState> Renderer::upload(const State& state) {
   p.uploaded_ball_items = packed_balls(*p.model, state);
   ASPIC_CHECK(refill(*p.context, p.uploaded, "particles to draw", p.uploaded_particles));
   ASPIC_CHECK(refill(*p.context, p.uploaded_balls, "balls to draw", p.uploaded_ball_items));
+  // To look at all of very many would take longer than it saves.
+  if (p.uploaded_particles.size() > most_followed) p.uploaded_particles = {};
   return DeviceState{&p.uploaded, &p.uploaded_balls, 0, state.step, nullptr};
 }
 

@@ -31,7 +31,7 @@ struct Renderer::Parts {
   const Model* model = nullptr;
   std::optional<ModelBuffers> buffers;
   gl::Buffer uploaded, uploaded_balls;
-  std::vector<layout::Particle> uploaded_particles;  // the same again
+  std::vector<layout::Particle> uploaded_particles;  // the same again, unless there are too many
   std::vector<layout::Ball> uploaded_ball_items;
   Extent rods;
   Backdrop backdrop;

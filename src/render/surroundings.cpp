@@ -34,7 +34,7 @@ std::vector<gl::PixelBox> Renderer::Parts::changing(const DeviceState& state,
                                                     const PictureOptions& options) const {
   MovingThings things;
   // Where other states are, only the device knows.
-  if (state.particles != &uploaded ||
+  if (state.particles != &uploaded || uploaded_particles.size() != model->particle_count() ||
       !terrain.add_changing(placed, options.view.camera, options.shadows, things))
     return {targets->box()};
   things.particles = uploaded_particles;
