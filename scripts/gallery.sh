@@ -26,6 +26,8 @@ draw cube-sphere 1.1 cube-sphere
 draw cube-bowl 1.5 cube-bowl
 draw strain 1.42 cube-plane --view colour=strain
 draw springs 1.42 cube-plane --view 'draw=["structural","shear","bending"]'
+draw cut 1.05 cube-sphere --view cut.inside=section --view 'cut.normal=[0.2,0,1]' --view colour=strain \
+  --view 'camera={position=[5,5,9],target=[0.2,2.4,0]}'
 draw penalty 1.4 penalty
 draw cube-and-balls 0.7 cube-and-balls
 draw cube-torus 0.95 cube-torus

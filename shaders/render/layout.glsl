@@ -37,6 +37,8 @@
 #define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it stands for the particle
 #define LOCATION_TERRAIN 12       // DrawnTerrain: its geometry, three vec4, and shape
 #define LOCATION_OFFSET 6         // of terrain that moves [m]
+#define LOCATION_EDGE 16          // of a lattice: particles along it
+#define LOCATION_CELL 17          // of a lattice: the first of a run of cells
 #define LOCATION_MARK 11          // MARK_…, least radius [pixels], opacity, whether to encode as sRGB
 
 // Lights that the bodies keep off: the sun, and the sky straight above.
@@ -76,6 +78,16 @@ struct LightBox {
   vec4 depth;   // half depth [m]; y: 1/half side [1/m]; z, w: unused
 };
 
+// Arguments of an indexed indirect draw, before the indices themselves.
+struct SectionDraw {
+  uint indices;
+  uint instances;
+  uint first_index;  // past this struct
+  uint base_vertex;
+  uint base_instance;
+  uint padding0, padding1, padding2;
+};
+
 #ifdef __cplusplus
 struct Frame {
 #else
@@ -91,6 +103,8 @@ layout(std140, binding = BINDING_FRAME) uniform Frame {
   vec4 viewport;              // width, height, 1/width, 1/height [pixels]
   vec4 shadow_tint;           // light that the bodies let through
   vec4 quantity_range;        // lower end, 1/(upper − lower) of the colour scale
+  vec4 cut;                   // unit normal and offset [m] of the plane beyond which bodies are not drawn; none: 0, 0, 0, 1
+  vec4 section;               // x: offset of the plane whose section of the bodies is filled [m]; y: 1 if it hides all springs behind it; z: 1 if it is their ground
   vec4 shadow_spheres[MAX_SHADOW_SPHERES];  // solid spheres of the terrain: centre, radius
   uint shadow_sphere_count;
   uint colour_mode;           // COLOUR_…

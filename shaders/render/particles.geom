@@ -1,5 +1,6 @@
 // A square before each particle, on which the fragment shader finds the ball.
 #include "render/layout.glsl"
+#include "render/cut.glsl"
 
 layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -13,6 +14,7 @@ flat out float pinned;
 flat out float size;
 
 void main() {
+  if (kept(gl_in[0].gl_Position.xyz) < 0.0) return;
   vec3 c = (view * vec4(gl_in[0].gl_Position.xyz, 1.0)).xyz;
   // Never smaller than a pixel and a half across.
   float pixel = -c.z * 2.0 / (projection[1][1] * viewport.y);

@@ -1,5 +1,6 @@
 // Triangles of the skin that the ID image may show, each with the three particles it joins.
 #include "render/layout.glsl"
+#include "render/cut.glsl"
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
@@ -25,6 +26,7 @@ void main() {
     }
     particles = uvec3(vertex_particle[0], vertex_particle[1], vertex_particle[2]);
     gl_Position = clip[i];
+    gl_ClipDistance[0] = kept(here);
     EmitVertex();
   }
   EndPrimitive();

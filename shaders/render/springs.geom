@@ -1,5 +1,6 @@
 // A ribbon along each spring that faces the eye, at least a pixel wide.
 #include "render/layout.glsl"
+#include "render/cut.glsl"
 
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -22,6 +23,9 @@ void main() {
   float damped = spring.y * dot(end_velocity[0] - end_velocity[1], e) / L;
   bool slack = spring.w > 0.0 && strain < 0.0;
   float force = slack ? 0.0 : abs(spring.x * (L - spring.z) + damped);
+  if (!cut_segment(xa, xb)) return;
+  // What lies behind a filled section is not seen.
+  if (section.y > 0.0 && max(dot(cut.xyz, xa), dot(cut.xyz, xb)) < section.x) return;
   vec3 a = (view * vec4(xa, 1.0)).xyz;
   vec3 b = (view * vec4(xb, 1.0)).xyz;
   // What lies behind the eye would turn the ribbon inside out.

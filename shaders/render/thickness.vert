@@ -1,5 +1,6 @@
 // How much of a body a sight line crosses: front faces count minus their distance, back faces plus it.
 #include "render/layout.glsl"
+#include "render/cut.glsl"
 
 layout(location = ATTRIBUTE_POSITION) in vec4 position;
 out vec3 from_eye;
@@ -7,4 +8,5 @@ out vec3 from_eye;
 void main() {
   from_eye = position.xyz - eye.xyz;
   gl_Position = view_projection * vec4(position.xyz, 1.0);
+  gl_ClipDistance[0] = kept(position.xyz);
 }

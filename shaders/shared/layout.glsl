@@ -37,6 +37,7 @@
 #define BINDING_QUANTITY 6    // float[particles]
 #define BINDING_LIGHT_BOXES_OUT 7  // LightBox[LIGHTS]
 #define BINDING_SPRING_CLASSES 3   // SpringClass[]
+#define BINDING_SECTION 2     // Section, then uvec4[]: tetrahedra that a cut crosses
 #define BINDING_TURNS 1       // vec4[balls]: unit quaternions, from a ball's own frame to the world
 
 // Uniform blocks of the solvers' kernels, and of pictures.

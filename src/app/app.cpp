@@ -57,6 +57,13 @@ std::vector<Command> App::make_commands() {
     if (messages.check(simulation.refresh_snapshot()))
       view.frame_bodies(simulation.model(), simulation.snapshot());
   };
+  // Off, and in turn what there is to see.
+  const auto cut = [this] {
+    scene.change("view.cut", [](Scene& s) {
+      constexpr int kinds = std::size(cut_insides);
+      s.view.cut.inside = cut_insides[(static_cast<int>(s.view.cut.inside) + 1) % kinds].value;
+    });
+  };
   const auto full_screen = [this] {
     if (gui_->services().toggle_full_screen) gui_->services().toggle_full_screen();
   };
@@ -95,6 +102,7 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+C", "copy the camera as text", GLFW_KEY_C, ctrl, 0,
        [this] { copy_camera(view, gui_->services(), messages); }},
       {"Ctrl+V", "paste a camera", GLFW_KEY_V, ctrl, 0, paste},
+      {"X", "cut the bodies open: section, springs, not at all", GLFW_KEY_X, 0, 0, cut},
       {"", "Window and files"},
       {"Tab", "hide or show the panels", GLFW_KEY_TAB, 0, 0, [this] { layout.panels = !layout.panels; }},
       {"Ctrl+P", "find an action, a scene or a value", GLFW_KEY_P, ctrl, 0, [this] { palette.open(); }},

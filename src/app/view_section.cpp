@@ -55,6 +55,34 @@ void camera_buttons(Gui& gui, CameraControl& camera) {
                  half);
 }
 
+struct CutPreset {
+  const char *name, *label, *help;
+  Vec3 normal;
+};
+const CutPreset cut_presets[] = {
+    {"cut/x", "X", "Cuts across the x axis: the side of larger x is taken away.", {1, 0, 0}},
+    {"cut/y", "Y", "Cuts across the y axis: the upper side is taken away.", {0, 1, 0}},
+    {"cut/z", "Z", "Cuts across the z axis: the side of larger z is taken away.", {0, 0, 1}},
+};
+
+void cut_widgets(Gui& gui, SceneControl& scene, const CameraSettings& camera) {
+  edit(gui, scene, "view.cut.inside", 0, {"Cut"});
+  if (!scene.scene().view.cut.on()) return;
+  const auto turn = [&](const Vec3& normal) {
+    scene.change("view.cut.normal", [&](Scene& changed) { changed.view.cut.normal = normal; });
+  };
+  const float quarter = share_of_line(4);
+  for (const CutPreset& p : cut_presets) {
+    if (button(gui, p.name, p.label, p.help, true, quarter)) turn(p.normal);
+    ImGui::SameLine();
+  }
+  if (button(gui, "cut/to-the-eye", "Eye", "Cuts across the view: what is nearer to the eye is taken away.",
+             true, quarter))
+    turn((1.0 / length(camera.position - camera.target)) * (camera.position - camera.target));
+  edit(gui, scene, "view.cut.normal", 0, {"Normal"});
+  edit(gui, scene, "view.cut.offset", 0, {"Offset"});
+}
+
 /// Applied when the mouse lets go: the slider would run away from under it.
 void text_size(Gui& gui, Layout& layout) {
   if (slider(
@@ -71,6 +99,7 @@ void text_size(Gui& gui, Layout& layout) {
 void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout) {
   edit(gui, scene, "view.draw");
   edit(gui, scene, "view.colour", 0, {"Colour by"});
+  cut_widgets(gui, scene, camera.goal());
   check_box(gui, "shadows", "view/shadows", shadows,
             "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "
             "this window only; aspic run always draws them.");

@@ -22,6 +22,7 @@ template <class Prepare>
 void BodyPainter::draw_skins(SurfaceStyle style, const Prepare& prepare) const {
   const gl::VertexArray skin = buffers.skin_array(*state.particles);
   skin.bind();
+  const SkinsCut cut(view.cut);
   for (std::size_t i = 0; i < buffers.parts().size(); ++i) {
     if (buffers.parts()[i].index_count == 0 || model.bodies[i].style != style) continue;
     prepare(i);
@@ -39,6 +40,7 @@ void BodyPainter::draw_thickness() const {
   glBlendFunc(GL_ONE, GL_ONE);
   glUseProgram(programs.thickness.id());
   draw_skins(SurfaceStyle::flesh, [](std::size_t) {});
+  if (section) section->draw(SectionUse::thickness, model, buffers, *state.particles, view.colour);
   glDisable(GL_BLEND);
   targets.thickness.colour.bind(UNIT_THICKNESS);
 }
@@ -65,14 +67,19 @@ void BodyPainter::draw_particles() const {
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
+void BodyPainter::draw_section() const {
+  if (section) section->draw(SectionUse::colour, model, buffers, *state.particles, view.colour);
+}
+
 void BodyPainter::draw_springs() const {
+  const DrawSettings draw = drawn_springs(view);
   glUseProgram(programs.springs.id());
   const gl::VertexArray lines = buffers.spring_array(*state.particles);
   lines.bind();
   for (const SpringRun& run : buffers.springs()) {
     const SpringClass& c = run.constants;
     const bool cord = draws_as_cord(view.draw, run);
-    if (!(cord || draws(view.draw, c.type)) || run.index_count == 0) continue;
+    if (!(cord || draws(draw, c.type)) || run.index_count == 0) continue;
     const Colour colour = cord && view.colour != ViewColour::type ? net_colour : spring_colour(c.type);
     programs.springs.set(LOCATION_BASE_COLOUR, with_alpha(colour, 1.0));
     programs.springs.set(LOCATION_SPRING,

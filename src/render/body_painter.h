@@ -4,6 +4,7 @@
 #include "model/model.h"
 #include "render/model_buffers.h"
 #include "render/programs.h"
+#include "render/section.h"
 #include "render/targets.h"
 #include "scene/scene.h"
 
@@ -22,12 +23,15 @@ struct BodyPainter {
   const gl::Texture& colour_map;
   const DeviceState& state;
   const ViewSettings& view;
+  const SectionPainter* section = nullptr;  ///< prepared for the model where the view has a cut
 
   /// Into the target of that name, which it binds to its texture unit.
   void draw_thickness() const;
   void draw_rods_and_balls() const;
   void draw_springs() const;
   void draw_particles() const;
+  /// What a cut shows of bodies' insides.
+  void draw_section() const;
   void draw_sheets() const;
   void draw_jelly(JellySide side) const;
 

@@ -75,6 +75,13 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
   static_assert(COLOUR_SPEED == static_cast<std::uint32_t>(ViewColour::speed));
   block.colour_mode = static_cast<std::uint32_t>(content.view.colour);
   block.particle_count = model.particle_count();
+  block.cut = glm::vec4(0, 0, 0, 1);
+  if (const CutSettings& cut = content.view.cut; cut.on()) {
+    block.cut = glm::vec4(to_glm((1.0 / length(cut.normal)) * cut.normal), cut.offset);
+    const bool alone = cut.inside == CutInside::springs && !draws_springs(content.view.draw);
+    block.section = glm::vec4(cut.offset - content.section_depth, alone ? 1.0 : 0.0,
+                              cut.inside == CutInside::springs ? 1.0 : 0.0, 0);
+  }
   block.see_through = content.view.draw.particles || draws_springs(content.view.draw) ? 1.0f : 0.0f;
   return block;
 }

@@ -14,7 +14,8 @@ struct FrameContent {
   QuantityRange range = {};  ///< ends of the colour scale
   bool has_flesh = false;    ///< the model has translucent bodies
   bool shadows = true;
-  std::uint64_t step = 0;  ///< of the state: moving terrain is where it is then
+  std::uint64_t step = 0;      ///< of the state: moving terrain is where it is then
+  double section_depth = 0.0;  ///< behind the cut [m]
 };
 
 /// The block of a picture of width × height pixels.

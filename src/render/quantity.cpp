@@ -6,6 +6,7 @@
 #include "model/terrain.h"
 #include "render/light_maps.h"
 #include "render/overlay_text.h"
+#include "render/section.h"
 
 namespace aspic {
 namespace {
@@ -63,9 +64,10 @@ Legend legend_for(const ViewSettings& view, const QuantityRange& range) {
   if (view.colour == ViewColour::strain) return scale("strain of the springs", range, 0.01, " %");
   if (view.colour == ViewColour::force) return scale("force of the springs", range, 1.0, " N");
   if (view.colour == ViewColour::speed) return scale("speed", range, 1.0, " m/s");
+  const DrawSettings draw = drawn_springs(view);
   Legend legend;
   for (const SpringType type : {SpringType::structural, SpringType::shear, SpringType::bending})
-    if (draws(view.draw, type)) legend.entries.push_back({spring_colour(type), std::string(name_of(type))});
+    if (draws(draw, type)) legend.entries.push_back({spring_colour(type), std::string(name_of(type))});
   if (!legend.entries.empty()) legend.title = "springs";
   return legend;
 }

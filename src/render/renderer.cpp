@@ -53,18 +53,21 @@ struct Renderer::Parts {
   // Of the picture last drawn, for what is asked about it afterwards.
   std::optional<DeviceState> drawn_state;
   render_layout::Frame drawn_frame = {};
-  DrawSettings drawn_settings;
+  ViewSettings drawn_view;
   std::unique_ptr<Picker> picker;
   std::unique_ptr<HighlightPainter> highlight;
+  std::unique_ptr<SectionPainter> section;
   std::uint64_t picks = 0;
 
   Status prepare_targets(int width, int height, int wanted_samples);
   Status prepare_highlight();
+  Status prepare_section();
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
   /// Of this picture.
   BodyPainter bodies(const DeviceState& state, const ViewSettings& view) const {
-    return {*model, programs, *buffers, *targets, colour_map, state, view};
+    return {*model,     programs, *buffers, *targets,
+            colour_map, state,    view,     view.cut.on() ? section.get() : nullptr};
   }
   /// The whole picture by one program.
   void fill(const gl::Program& program) const {
@@ -134,6 +137,13 @@ Status Renderer::Parts::prepare_highlight() {
   return {};
 }
 
+Status Renderer::Parts::prepare_section() {
+  if (!section) {
+    ASPIC_TRY(section, SectionPainter::create(*context, shaders));
+  }
+  return section->prepare(*model);
+}
+
 void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   frame.upload_items(std::span(&block, 1));
   frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
@@ -145,7 +155,7 @@ void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptio
   if (options.view.draw.solid && buffers->has_skin()) buffers->compute_normals(programs, particles);
   if (options.view.colour >= ViewColour::strain) buffers->compute_quantity(programs, state);
   if (options.shadows)
-    lights.render(programs, *buffers, state, options.view.draw);
+    lights.render(programs, *buffers, state, options.view);
   else
     lights.leave_out(*buffers);
 }
@@ -158,22 +168,24 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   const ViewSettings& view = options.view;
   ASPIC_CHECK(p.prepare_targets(width, height, options.samples));
   if (options.highlight) ASPIC_CHECK(p.prepare_highlight());
-  if (p.has(SurfaceStyle::cords) || draws_springs(view.draw))
+  if (view.cut.on()) ASPIC_CHECK(p.prepare_section());
+  if (p.has(SurfaceStyle::cords) || draws_springs(drawn_springs(view)))
     ASPIC_CHECK(p.buffers->prepare_lines(*p.context, *p.model));
   if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
-  p.buffers->use_coarse_skin(options.coarse_skin);
+  p.buffers->use_coarse_skin(options.coarse_skin && !view.cut.on());
   const Camera camera(view.camera, width, height);
   const QuantityRange range = options.range.value_or(default_range(*p.model, view.colour));
   const bool flesh = p.has(SurfaceStyle::flesh), solid = view.draw.solid && flesh;
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
-  p.drawn_frame =
-      frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows, state.step});
+  p.drawn_frame = frame_block(
+      *p.model, camera, width, height,
+      {view, range, flesh, options.shadows, state.step, section_depth(view.cut, p.buffers->spacing())});
   std::vector<Terrain> terrain;
   for (const Terrain& t : p.model->terrain)
     if (!options.background) terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
   p.drawn_state = state;
-  p.drawn_settings = view.draw;
+  p.drawn_view = view;
   p.bind_frame(p.drawn_frame);
   p.prepare_light(state, options);
   glEnable(GL_FRAMEBUFFER_SRGB);
@@ -189,6 +201,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   bodies.draw_rods_and_balls();
   bodies.draw_springs();
   bodies.draw_particles();
+  bodies.draw_section();
   // The last opaque part: only where there is nothing else.
   if (!options.background) p.fill(p.programs.sky);
   if (view.draw.solid && p.has(SurfaceStyle::sheet)) bodies.draw_sheets();
@@ -223,7 +236,8 @@ Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
   if (!p.picker) {
     ASPIC_TRY(p.picker, Picker::create(*p.context, p.shaders));
   }
-  p.picker->submit(++p.picks, *p.model, *p.buffers, *p.drawn_state, p.drawn_settings, p.drawn_frame, place);
+  p.picker->submit(++p.picks, *p.model, *p.buffers, *p.drawn_state, p.drawn_view,
+                   p.drawn_view.cut.on() ? p.section.get() : nullptr, p.drawn_frame, place);
   return p.picks;
 }
 
@@ -260,7 +274,7 @@ Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
   frame.viewport = glm::vec4(w, h, 1.0f / w, 1.0f / h);
   const Status drawn =
-      p.highlight->draw_over(*p.buffers, *p.drawn_state->particles, p.drawn_settings, options, frame);
+      p.highlight->draw_over(*p.buffers, *p.drawn_state->particles, p.drawn_view.draw, options, frame);
   glDisable(GL_SCISSOR_TEST);
   glUseProgram(0);
   glBindVertexArray(0);

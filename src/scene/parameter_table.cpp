@@ -148,6 +148,13 @@ Rows view_rows() {
       row("view.camera.fov", "°", {1.0, 179.0}, FIELD(view.camera.fov), "Vertical field of view."),
       draw,
       word<view_colours>("view.colour", FIELD(view.colour), "What the colours of bodies mean."),
+      word<cut_insides>("view.cut.inside", FIELD(view.cut.inside),
+                        "What a cut shows of the bodies' inside: a filled section in their colours, or the "
+                        "springs before one; off: nothing is cut."),
+      direction(row("view.cut.normal", FIELD(view.cut.normal),
+                    "Normal of the cut's plane; the side that it points to is not drawn.")),
+      row("view.cut.offset", "m", within(far), FIELD(view.cut.offset),
+          "Distance of the cut's plane from the world's origin, along its normal."),
   };
 }
 
@@ -155,6 +162,10 @@ Rows view_rows() {
 
 std::string_view name_of(ViewColour colour) {
   return std::ranges::find(view_colours, colour, &Named<ViewColour>::value)->name;
+}
+
+std::string_view name_of(CutInside inside) {
+  return std::ranges::find(cut_insides, inside, &Named<CutInside>::value)->name;
 }
 
 std::span<const Parameter> parameters() {

@@ -37,17 +37,37 @@ inline constexpr Named<ViewColour> view_colours[] = {{ViewColour::material, "mat
                                                      {ViewColour::force, "force"},
                                                      {ViewColour::speed, "speed"}};
 
+/// What a cut through the bodies shows of their inside.
+enum class CutInside { off, section, springs };
+
+/// Every one, in the order in which they are listed for users.
+inline constexpr Named<CutInside> cut_insides[] = {
+    {CutInside::off, "off"}, {CutInside::section, "section"}, {CutInside::springs, "springs"}};
+
+/// A plane of the world that bodies are cut along: what lies at normal·x > offset is not drawn, with the unit
+/// vector along `normal`.
+struct CutSettings {
+  CutInside inside = CutInside::off;  ///< off: nothing is cut
+  Vec3 normal = {0.0, 0.0, 1.0};      ///< of any length but zero, towards what is cut away
+  double offset = 0.0;                ///< from the world's origin along the normal [m]
+
+  bool on() const { return inside != CutInside::off; }
+  friend bool operator==(const CutSettings&, const CutSettings&) = default;
+};
+
 /// The `view` table of a scene.
 struct ViewSettings {
   CameraSettings camera;
   DrawSettings draw;
   ViewColour colour = ViewColour::material;
+  CutSettings cut;
 
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 
 /// Name in scene files.
 std::string_view name_of(ViewColour colour);
+std::string_view name_of(CutInside inside);
 
 /// Physics and picture of one scene. Default-constructed it has no terrain and no bodies, as an empty file
 /// would.
