@@ -63,6 +63,13 @@
 #define COLOUR_STRAIN 2u
 #define COLOUR_FORCE 3u
 #define COLOUR_SPEED 4u
+#define COLOUR_SIGNED_STRAIN 5u
+#define COLOUR_ENERGY 6u
+
+// Places in the list of extremes of what colours show: least and largest, as ordered() integers.
+#define EXTREMES_BODIES 0
+#define EXTREMES_SPRINGS 2
+#define EXTREMES 4
 
 // Light-space box of the particles; floats as unsigned integers in the same order, for atomicMin and atomicMax.
 struct Bounds {

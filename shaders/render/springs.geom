@@ -1,5 +1,6 @@
 // A ribbon along each spring that faces the eye, at least a pixel wide.
 #include "render/layout.glsl"
+#include "render/spring_quantity.glsl"
 
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -16,12 +17,9 @@ void main() {
   vec3 xa = gl_in[0].gl_Position.xyz;
   vec3 xb = gl_in[1].gl_Position.xyz;
   vec3 e = xa - xb;
-  float L = length(e);
-  if (L == 0.0) return;
-  float strain = (L - spring.z) / spring.z;
-  float damped = spring.y * dot(end_velocity[0] - end_velocity[1], e) / L;
-  bool slack = spring.w > 0.0 && strain < 0.0;
-  float force = slack ? 0.0 : abs(spring.x * (L - spring.z) + damped);
+  if (e == vec3(0.0)) return;
+  float own = chosen_of(
+      spring_quantity(e, end_velocity[0] - end_velocity[1], spring.x, spring.y, spring.z, spring.w > 0.0));
   vec3 a = (view * vec4(xa, 1.0)).xyz;
   vec3 b = (view * vec4(xb, 1.0)).xyz;
   // What lies behind the eye would turn the ribbon inside out.
@@ -38,9 +36,7 @@ void main() {
     vec3 side = cross(normalize(b - a), towards_eye);
     side = dot(side, side) > 0.0 ? normalize(side) : vec3(1.0, 0.0, 0.0);
     sideways = side;
-    float value = colour_mode == COLOUR_STRAIN  ? abs(strain)
-                  : colour_mode == COLOUR_FORCE ? force
-                                                : end_quantity[first ? 0 : 1];
+    float value = colour_mode == COLOUR_SPEED ? end_quantity[first ? 0 : 1] : own;
     shown = (value - quantity_range.x) * quantity_range.y;
     gl_Position = projection * vec4(end + across * max(radius, 0.6 * pixel * -end.z) * side, 1.0);
     EmitVertex();

@@ -36,6 +36,7 @@
 #define BINDING_BOUNDS 5      // Bounds[LIGHTS]
 #define BINDING_QUANTITY 6    // float[particles]
 #define BINDING_LIGHT_BOXES_OUT 7  // LightBox[LIGHTS]
+#define BINDING_EXTREMES 7    // uint[EXTREMES]: of what colours show
 #define BINDING_SPRING_CLASSES 3   // SpringClass[]
 #define BINDING_TURNS 1       // vec4[balls]: unit quaternions, from a ball's own frame to the world
 

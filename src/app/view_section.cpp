@@ -68,9 +68,11 @@ void text_size(Gui& gui, Layout& layout) {
 
 }  // namespace
 
-void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout) {
+void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const QuantityRange& shown,
+                  bool& shadows, Layout& layout) {
   edit(gui, scene, "view.draw");
   edit(gui, scene, "view.colour", 0, {"Colour by"});
+  scale_rows(gui, scene, shown);
   check_box(gui, "shadows", "view/shadows", shadows,
             "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "
             "this window only; aspic run always draws them.");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "device/particles.h"
 #include "gpu/loop_bound.h"
@@ -15,6 +16,9 @@ namespace aspic {
 namespace {
 
 using gl::ReadBy;
+
+/// Extremes of no value at all.
+constexpr std::array<std::uint32_t, EXTREMES> no_extremes = {0xffffffffu, 0u, 0xffffffffu, 0u};
 
 /// Whether a state brings the words that name neighbours.
 bool has_neighbours(const DeviceState& state) {
@@ -81,6 +85,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
             gl::Buffer::of(context, "normals", std::vector<std::array<float, 4>>(b.particle_count_)));
   ASPIC_TRY(b.quantity_,
             gl::Buffer::of(context, "coloured quantity", std::vector<float>(b.particle_count_, 0.0f)));
+  ASPIC_TRY(b.extremes_, gl::Buffer::of(context, "extremes", no_extremes));
   ASPIC_TRY(b.bounds_, gl::Buffer::of(context, "light bounds", std::vector<render_layout::Bounds>(LIGHTS)));
   ASPIC_TRY(b.light_boxes_,
             gl::Buffer::of(context, "light boxes", std::vector<render_layout::LightBox>(LIGHTS)));
@@ -126,8 +131,14 @@ void ModelBuffers::compute_normals(const RenderPrograms& programs, const gl::Buf
 }
 
 void ModelBuffers::compute_quantity(const RenderPrograms& programs, const DeviceState& state) {
+  extremes_.upload_items(no_extremes);
+  const std::uint32_t balls = balls_->shows(state) ? balls_->count() : 0;
   programs.quantity.set(LOCATION_CLASS_BITS, class_bits_);
-  std::vector<gl::Binding> bindings = {{BINDING_PARTICLES, state.particles}, {BINDING_QUANTITY, &quantity_}};
+  programs.quantity.set(LOCATION_COUNT, balls);
+  programs.quantity.set(LOCATION_FIRST, state.first_ball);
+  std::vector<gl::Binding> bindings = {
+      {BINDING_PARTICLES, state.particles}, {BINDING_QUANTITY, &quantity_}, {BINDING_EXTREMES, &extremes_}};
+  if (balls > 0) bindings.push_back({BINDING_BALLS, state.balls});
   if (const SpringBuffers* springs = has_neighbours(state) ? state.springs : own_springs_.get()) {
     bindings.push_back({BINDING_INCIDENT_START, &springs->incident_start});
     bindings.push_back({BINDING_INCIDENT, &springs->incident});
@@ -135,7 +146,23 @@ void ModelBuffers::compute_quantity(const RenderPrograms& programs, const Device
     bindings.push_back({BINDING_SPRING_CLASSES, &spring_classes_});
   }
   gl::Pass(programs.quantity, std::move(bindings), ReadBy::vertex_draw | ReadBy::read_back)
-      .dispatch_for(particle_count_);
+      .dispatch_for(std::max(particle_count_, balls));
+}
+
+std::array<double, 2> ModelBuffers::extremes(bool springs) const {
+  const auto found = extremes_.download_items<std::uint32_t>(EXTREMES);
+  // The inverse of ordered() in shaders/render/ordered.glsl.
+  const auto value = [](std::uint32_t bits) {
+    const bool negative = (bits & 0x80000000u) == 0u;
+    return static_cast<double>(std::bit_cast<float>(negative ? ~bits : bits & 0x7fffffffu));
+  };
+  std::uint32_t low = found[EXTREMES_BODIES], high = found[EXTREMES_BODIES + 1];
+  if (springs) {
+    low = std::min(low, found[EXTREMES_SPRINGS]);
+    high = std::max(high, found[EXTREMES_SPRINGS + 1]);
+  }
+  if (low > high) return {1.0, 0.0};
+  return {value(low), value(high)};
 }
 
 void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const DeviceState& state) {

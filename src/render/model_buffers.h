@@ -1,5 +1,6 @@
 #pragma once
 // What drawing needs of a model on the device, and what is derived from its particles for each picture.
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -46,6 +47,9 @@ class ModelBuffers {
   /// The coloured quantity of each particle; the frame block must be bound. Strain and force want
   /// prepare_incident() with the same state before.
   void compute_quantity(const RenderPrograms& programs, const DeviceState& state);
+  /// Waits for the device: least and largest value that compute_quantity() found on particles and launched
+  /// balls, and on springs too if they are shown. The first is larger where there was none.
+  std::array<double, 2> extremes(bool springs) const;
   /// The map of each light, fitted to particles and balls, and the turn of each ball; the frame block must be
   /// bound.
   void compute_light_boxes(const RenderPrograms& programs, const DeviceState& state);
@@ -91,7 +95,7 @@ class ModelBuffers {
   gl::Buffer skin_indices_, fan_vertex_, fan_start_, fan_;
   gl::Buffer spring_indices_, spring_classes_;
   std::shared_ptr<const SpringBuffers> own_springs_;  // for states that bring none
-  gl::Buffer normals_, quantity_, bounds_, light_boxes_;
+  gl::Buffer normals_, quantity_, extremes_, bounds_, light_boxes_;
 };
 
 }  // namespace aspic

@@ -32,7 +32,7 @@ std::array<float, 4> with(const Colour& c, double w) {
 
 /// Whether a colour shows what a particle's springs do.
 bool shows_springs(ViewColour colour) {
-  return colour == ViewColour::strain || colour == ViewColour::force;
+  return has_scale(colour) && colour != ViewColour::speed;
 }
 
 /// Uploads into a buffer that is made, or made larger, as needed.
@@ -54,6 +54,8 @@ struct Renderer::Parts {
   TerrainPainter terrain;
   LightMaps lights;
   gl::Texture colour_map;
+  ScaleMap uploaded_map = ScaleMap::automatic;  // that of colour_map; automatic: none yet
+  QuantityRange range = {0.0, 1.0};
   gl::Buffer frame;
   gl::VertexArray nothing;
   int samples = 4;
@@ -74,6 +76,7 @@ struct Renderer::Parts {
   Status prepare_highlight();
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
+  void prepare_scale(const DeviceState& state, const ViewSettings& view);
   void draw_thickness(const gl::Buffer& particles) const;
   void draw_rods_and_balls(const DeviceState& state, const DrawSettings& draw) const;
   void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
@@ -116,7 +119,6 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
   ASPIC_TRY(parts->terrain, TerrainPainter::create(context));
   ASPIC_TRY(parts->lights, LightMaps::create(context));
   ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
-  parts->colour_map.upload(colour_map_texels());
   ASPIC_TRY(parts->frame,
             gl::Buffer::create(context, "frame", sizeof(render_layout::Frame), gl::BufferKind::uniform));
   parts->nothing = gl::VertexArray::create({});
@@ -170,11 +172,22 @@ void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptio
   const gl::Buffer& particles = *state.particles;
   buffers->compute_light_boxes(programs, state);
   if (options.view.draw.solid && buffers->has_skin()) buffers->compute_normals(programs, particles);
-  if (options.view.colour >= ViewColour::strain) buffers->compute_quantity(programs, state);
   if (options.shadows)
     lights.render(programs, *buffers, state, options.view.draw);
   else
     lights.leave_out(*buffers);
+}
+
+void Renderer::Parts::prepare_scale(const DeviceState& state, const ViewSettings& view) {
+  const ScaleMap wanted = chosen_map(view);
+  if (std::exchange(uploaded_map, wanted) != wanted) colour_map.upload(colour_map_texels(wanted));
+  if (!has_scale(view.colour)) return;
+  buffers->compute_quantity(programs, state);
+  if (!follows_picture(view)) return;
+  const bool springs = draws_springs(view.draw) || (view.draw.solid && has(SurfaceStyle::cords));
+  range = range_for(*model, view, buffers->extremes(springs && shows_springs(view.colour)));
+  drawn_frame.quantity_range = quantity_scale(range);
+  bind_frame(drawn_frame);
 }
 
 void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
@@ -286,12 +299,12 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
   p.buffers->use_coarse_skin(options.coarse_skin);
   const Camera camera(view.camera, width, height);
-  const QuantityRange range = options.range.value_or(default_range(*p.model, view.colour));
+  p.range = range_for(*p.model, view, {});
   const bool flesh = p.has(SurfaceStyle::flesh), solid = view.draw.solid && flesh;
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
   p.drawn_frame =
-      frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows, state.step});
+      frame_block(*p.model, camera, width, height, {view, p.range, flesh, options.shadows, state.step});
   std::vector<Terrain> terrain;
   for (const Terrain& t : p.model->terrain)
     if (!options.background) terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
@@ -299,6 +312,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.drawn_settings = view.draw;
   p.bind_frame(p.drawn_frame);
   p.prepare_light(state, options);
+  p.prepare_scale(state, view);
   glEnable(GL_FRAMEBUFFER_SRGB);
   if (solid) p.draw_thickness(particles);
   p.targets->samples.framebuffer.bind();
@@ -329,7 +343,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
   if (written)
     written = p.overlay->draw(p.targets->picture.framebuffer, options.text,
-                              options.legend ? legend_for(view, range) : Legend{});
+                              options.legend ? legend_for(view, p.range) : Legend{});
   glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_FRAMEBUFFER_SRGB);
@@ -351,6 +365,10 @@ Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
 
 PickAnswer Renderer::picked() const {
   return parts_->picker ? parts_->picker->answer() : PickAnswer{};
+}
+
+QuantityRange Renderer::range() const {
+  return parts_->range;
 }
 
 const gl::Framebuffer& Renderer::picture() const {

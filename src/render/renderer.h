@@ -30,13 +30,12 @@ struct RendererOptions {
 /// What a picture shows besides the particles.
 struct PictureOptions {
   ViewSettings view;
-  std::optional<QuantityRange> range;  ///< of strain, force [N] or speed [m/s]; absent: default_range()
-  std::vector<OverlayLine> text;       ///< empty: no panel
-  bool legend = true;                  ///< of colours, where they mean something
-  std::optional<Colour> background;    ///< instead of terrain and sky, linear light
-  bool shadows = true;                 ///< on terrain; without them light maps are left out
-  int samples = 0;                     ///< per pixel, at most the renderer's; 0: those
-  bool coarse_skin = false;            ///< fewer triangles for large bodies: for software rasterisers
+  std::vector<OverlayLine> text;              ///< empty: no panel
+  bool legend = true;                         ///< of colours, where they mean something
+  std::optional<Colour> background;           ///< instead of terrain and sky, linear light
+  bool shadows = true;                        ///< on terrain; without them light maps are left out
+  int samples = 0;                            ///< per pixel, at most the renderer's; 0: those
+  bool coarse_skin = false;                   ///< fewer triangles for large bodies: for software rasterisers
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
 };
 
@@ -71,6 +70,9 @@ class Renderer {
   Result<std::uint64_t> request_pick(const PickPlace& place);
   /// The newest answer that has come back, as a rule that of the picture before; never waits for the device.
   PickAnswer picked() const;
+
+  /// The ends of the colour scale of the picture last drawn. Legal after draw().
+  QuantityRange range() const;
 
   /// The picture last drawn: one sample, sRGB encoded values. Legal after draw().
   const gl::Framebuffer& picture() const;

@@ -47,7 +47,7 @@ TEST(ColourMap, OklabOfWhiteIsWhite) {
 }
 
 TEST(ColourMap, IsPerceptuallyUniform) {
-  const auto texels = colour_map_texels();
+  const auto texels = colour_map_texels(ScaleMap::violet_yellow);
   ASSERT_EQ(texels.size(), 4u * 256);
   // Sixteen texels apart, so that rounding to 8 bits (half a step of 1/255 per channel, under 0.003 in Oklab)
   // is small beside the distance.
