@@ -73,6 +73,7 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const Qu
   edit(gui, scene, "view.draw");
   edit(gui, scene, "view.colour", 0, {"Colour by"});
   scale_rows(gui, scene, shown);
+  edit(gui, scene, "view.ground", 0, {"Grid at height"});
   check_box(gui, "shadows", "view/shadows", shadows,
             "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "
             "this window only; aspic run always draws them.");

@@ -61,7 +61,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   b.class_bits_ = class_bits(model);
   const Surface surface = make_surface(model);
   for (const Status& ok :
-       {gl::check_loop("normals", "the faces at one particle", longest(surface.fan_start)),
+       {gl::check_loop("skin", "the faces at one particle", longest(surface.fan_start)),
         gl::check_loop(
             "bounds", "particles",
             LIGHTS * (std::uint64_t{b.particle_count_} / software::most_bounding_invocations + 1))}) {
@@ -70,9 +70,13 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   b.parts_ = surface.parts;
   b.coarse_parts_ = surface.coarse_parts;
   b.skin_vertices_ = static_cast<std::uint32_t>(surface.fan_vertex.size());
+  ASPIC_TRY(b.skin_,
+            gl::Buffer::create(context, "skin", sizeof(render_layout::SkinVertex) * b.skin_vertices_));
   ASPIC_TRY(b.skin_indices_, gl::Buffer::of(context, "skin indices", surface.indices));
+  ASPIC_TRY(b.skin_corners_, gl::Buffer::of(context, "skin corners", surface.corners));
   ASPIC_TRY(b.fan_vertex_, gl::Buffer::of(context, "skin vertices", surface.fan_vertex));
   ASPIC_TRY(b.fan_start_, gl::Buffer::of(context, "skin fan starts", surface.fan_start));
+  ASPIC_TRY(b.fan_own_, gl::Buffer::of(context, "skin fans' own ends", surface.fan_own));
   ASPIC_TRY(b.fan_, gl::Buffer::of(context, "skin fans", surface.fan));
 
   double least = 0.0;
@@ -81,8 +85,6 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   }
   if (least > 0.0) b.spacing_ = least;
 
-  ASPIC_TRY(b.normals_,
-            gl::Buffer::of(context, "normals", std::vector<std::array<float, 4>>(b.particle_count_)));
   ASPIC_TRY(b.quantity_,
             gl::Buffer::of(context, "coloured quantity", std::vector<float>(b.particle_count_, 0.0f)));
   ASPIC_TRY(b.extremes_, gl::Buffer::of(context, "extremes", no_extremes));
@@ -118,14 +120,16 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
   return {};
 }
 
-void ModelBuffers::compute_normals(const RenderPrograms& programs, const gl::Buffer& particles) {
-  programs.normals.set(LOCATION_COUNT, skin_vertices_);
-  gl::Pass(programs.normals,
+void ModelBuffers::compute_skin(const RenderPrograms& programs, const gl::Buffer& particles) {
+  programs.skin.set(LOCATION_COUNT, skin_vertices_);
+  gl::Pass(programs.skin,
            {{BINDING_PARTICLES, &particles},
             {BINDING_FAN_START, &fan_start_},
             {BINDING_FAN, &fan_},
             {BINDING_FAN_VERTEX, &fan_vertex_},
-            {BINDING_NORMALS, &normals_}},
+            {BINDING_FAN_OWN, &fan_own_},
+            {BINDING_QUANTITY, &quantity_},
+            {BINDING_SKIN, &skin_}},
            ReadBy::vertex_draw | ReadBy::read_back)
       .dispatch_for(skin_vertices_);
 }
@@ -145,7 +149,8 @@ void ModelBuffers::compute_quantity(const RenderPrograms& programs, const Device
     bindings.push_back({BINDING_LATTICES, &springs->lattices, gl::BufferKind::uniform});
     bindings.push_back({BINDING_SPRING_CLASSES, &spring_classes_});
   }
-  gl::Pass(programs.quantity, std::move(bindings), ReadBy::vertex_draw | ReadBy::read_back)
+  gl::Pass(programs.quantity, std::move(bindings),
+           ReadBy::compute_pass | ReadBy::vertex_draw | ReadBy::read_back)
       .dispatch_for(std::max(particle_count_, balls));
 }
 
@@ -195,11 +200,18 @@ void draw_lines(const SpringRun& run) {
   draw_elements(GL_LINES, run.first_index, run.index_count);
 }
 
+gl::VertexArray ModelBuffers::shaded_skin_array() const {
+  constexpr std::uint32_t stride = sizeof(render_layout::SkinVertex);
+  const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &skin_, 4, stride, 0},
+                                      {ATTRIBUTE_NORMAL, &skin_, 4, stride, 16},
+                                      {ATTRIBUTE_QUANTITY, &skin_, 1, stride, 28}};
+  return gl::VertexArray::create(attributes, &skin_corners_);
+}
+
 gl::VertexArray ModelBuffers::array(const gl::Buffer& particles, const gl::Buffer* indices) const {
   constexpr std::uint32_t stride = sizeof(layout::Particle);
   const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &particles, 4, stride, 0},
                                       {ATTRIBUTE_VELOCITY, &particles, 4, stride, 16},
-                                      {ATTRIBUTE_NORMAL, &normals_, 4, 16, 0},
                                       {ATTRIBUTE_QUANTITY, &quantity_, 1, 4, 0}};
   return gl::VertexArray::create(attributes, indices);
 }

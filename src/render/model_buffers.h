@@ -42,8 +42,8 @@ class ModelBuffers {
   /// as make_spring_buffers; no_device (more springs at one particle than a kernel may loop over).
   Status prepare_incident(gl::Context& context, const Model& model, const DeviceState& state);
 
-  /// Normals of the skin at these particles' positions, readable as vertices afterwards.
-  void compute_normals(const RenderPrograms& programs, const gl::Buffer& particles);
+  /// The vertices of the skin at these particles' positions, with what compute_quantity() found before.
+  void compute_skin(const RenderPrograms& programs, const gl::Buffer& particles);
   /// The coloured quantity of each particle; the frame block must be bound. Strain and force want
   /// prepare_incident() with the same state before.
   void compute_quantity(const RenderPrograms& programs, const DeviceState& state);
@@ -54,7 +54,9 @@ class ModelBuffers {
   /// bound.
   void compute_light_boxes(const RenderPrograms& programs, const DeviceState& state);
 
-  /// Inputs of the skin's, the particles' and the springs' shaders.
+  /// Inputs of the skin's shaders, of those that need positions of it alone, and of the particles' and the
+  /// springs'.
+  gl::VertexArray shaded_skin_array() const;
   gl::VertexArray skin_array(const gl::Buffer& particles) const { return array(particles, &skin_indices_); }
   gl::VertexArray particle_array(const gl::Buffer& particles) const { return array(particles, nullptr); }
   /// The particles that a buffer of 32-bit indices names.
@@ -78,7 +80,9 @@ class ModelBuffers {
   /// Typical distance between neighbours [m]; 1 without springs.
   double spacing() const { return spacing_; }
   const gl::Buffer& light_boxes() const { return light_boxes_; }
-  const gl::Buffer& normals() const { return normals_; }
+  /// SkinVertex each, in the order of Surface::fan_vertex.
+  const gl::Buffer& skin() const { return skin_; }
+  std::uint32_t skin_vertices() const { return skin_vertices_; }
   const gl::Buffer& quantity() const { return quantity_; }
 
  private:
@@ -92,10 +96,10 @@ class ModelBuffers {
   std::optional<BallBuffers> balls_;
   DeviceMesh rods_;
   std::vector<SpringRun> springs_;
-  gl::Buffer skin_indices_, fan_vertex_, fan_start_, fan_;
+  gl::Buffer skin_, skin_indices_, skin_corners_, fan_vertex_, fan_start_, fan_own_, fan_;
   gl::Buffer spring_indices_, spring_classes_;
   std::shared_ptr<const SpringBuffers> own_springs_;  // for states that bring none
-  gl::Buffer normals_, quantity_, extremes_, bounds_, light_boxes_;
+  gl::Buffer quantity_, extremes_, bounds_, light_boxes_;
 };
 
 }  // namespace aspic

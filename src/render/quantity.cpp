@@ -43,9 +43,10 @@ Legend scale(const ScaleWords& words, const ViewSettings& view, const QuantityRa
   }
   if (follows_picture(view)) return legend;
   // Values past an end take its colour.
-  const bool falls = range[1] < range[0];
-  if (range[0] != 0.0 || falls) legend.marks[0] = (falls ? "≥ " : "≤ ") + legend.marks[0];
-  if (range[1] != 0.0 || !falls) legend.marks[2] = (falls ? "≤ " : "≥ ") + legend.marks[2];
+  const std::size_t low = range[1] < range[0] ? 1 : 0, high = 1 - low;
+  legend.marks[2 * high] = "≥ " + legend.marks[2 * high];
+  if (range[low] != 0.0 || view.colour == ViewColour::signed_strain)
+    legend.marks[2 * low] = "≤ " + legend.marks[2 * low];
   return legend;
 }
 

@@ -13,6 +13,7 @@
 #include "render/light_maps.h"
 #include "render/model_buffers.h"
 #include "render/programs.h"
+#include "render/reference_ground.h"
 #include "render/targets.h"
 #include "render/terrain_painter.h"
 
@@ -40,6 +41,7 @@ struct Renderer::Parts {
   RenderPrograms programs;
   std::optional<OverlayPainter> overlay;
   TerrainPainter terrain;
+  ReferenceGround reference_ground;
   LightMaps lights;
   gl::Texture colour_map;
   ScaleMap uploaded_map = ScaleMap::automatic;  // that of colour_map; automatic: none yet
@@ -90,6 +92,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
   ASPIC_TRY(parts->programs, RenderPrograms::create(context, options.shaders));
   ASPIC_TRY(parts->overlay, OverlayPainter::create(context, options.shaders));
   ASPIC_TRY(parts->terrain, TerrainPainter::create(context));
+  ASPIC_TRY(parts->reference_ground, ReferenceGround::create(context, options.shaders));
   ASPIC_TRY(parts->lights, LightMaps::create(context));
   ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
   ASPIC_TRY(parts->frame,
@@ -144,7 +147,7 @@ void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
   const gl::Buffer& particles = *state.particles;
   buffers->compute_light_boxes(programs, state);
-  if (options.view.draw.solid && buffers->has_skin()) buffers->compute_normals(programs, particles);
+  if (options.view.draw.solid && buffers->has_skin()) buffers->compute_skin(programs, particles);
   if (options.shadows)
     lights.render(programs, *buffers, state, options.view.draw);
   else
@@ -188,8 +191,8 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.drawn_state = state;
   p.drawn_settings = view.draw;
   p.bind_frame(p.drawn_frame);
-  p.prepare_light(state, options);
   p.prepare_scale(state, view);
+  p.prepare_light(state, options);
   glEnable(GL_FRAMEBUFFER_SRGB);
   const BodyPainter bodies = p.bodies(state, view);
   if (solid) bodies.draw_thickness();
@@ -207,13 +210,17 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   if (!options.background) p.fill(p.programs.sky);
   if (view.draw.solid && p.has(SurfaceStyle::sheet)) bodies.draw_sheets();
   p.terrain.draw_far_glass(p.programs, terrain);
+  if (!options.background) p.reference_ground.draw(view, camera);
+  bodies.draw_thin_springs(ThinSprings::all);
   if (solid) {
     bodies.draw_jelly(JellySide::far);
     p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
     p.targets->behind.framebuffer.copy_colour_from(p.targets->picture.framebuffer);
     p.targets->samples.framebuffer.bind();
     bodies.draw_jelly(JellySide::near);
+    bodies.draw_thin_springs(ThinSprings::cords);
   }
+  if (!options.background) p.reference_ground.draw(view, camera);
   p.terrain.draw_before_bodies(p.programs, terrain, view.camera, camera);
   Status written;
   if (options.highlight)
@@ -287,9 +294,10 @@ Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_
 
 std::vector<Vec3> Renderer::normals() const {
   std::vector<Vec3> result;
-  for (const auto& n :
-       parts_->buffers->normals().download_items<std::array<float, 4>>(parts_->buffers->particle_count()))
-    result.push_back({static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
+  for (const render_layout::SkinVertex& v :
+       parts_->buffers->skin().download_items<render_layout::SkinVertex>(parts_->buffers->skin_vertices()))
+    result.push_back(
+        {static_cast<double>(v.normal.x), static_cast<double>(v.normal.y), static_cast<double>(v.normal.z)});
   return result;
 }
 

@@ -86,7 +86,7 @@ class Renderer {
   Status present_highlight(const HighlightOptions& options, std::uint32_t framebuffer, int width, int height,
                            int left = 0, int bottom = 0);
 
-  /// For tests and probes: normals as of the last draw of solid bodies, one by particle (zero inside bodies).
+  /// For tests and probes: normals as of the last draw of solid bodies, one by vertex of make_surface().
   std::vector<Vec3> normals() const;
 
  private:

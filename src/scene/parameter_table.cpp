@@ -159,6 +159,8 @@ Rows view_rows() {
       absent("suits the scene",
              row("view.scale.to", "", within(1e12), FIELD(view.scale.to),
                  "Value at the upper end of a fixed scale, in N, J or m/s; strain as a ratio.")),
+      absent("none", row("view.ground", "m", within(far), FIELD(view.ground),
+                         "Height of a level grid that is drawn only: bodies fall through it.")),
   };
 }
 

@@ -72,6 +72,7 @@ struct ViewSettings {
   DrawSettings draw;
   ViewColour colour = ViewColour::material;
   ScaleSettings scale;
+  std::optional<double> ground;  ///< height of a ground that is drawn only [m]; absent: none
 
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
