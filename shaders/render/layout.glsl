@@ -32,7 +32,7 @@
 #define LOCATION_PLANE_POINT 4
 #define LOCATION_PLANE_NORMAL 5
 #define LOCATION_SIDE 7
-#define LOCATION_WIDTHS 7         // of springs: WIDTHS_…
+#define LOCATION_FADES 7          // of springs: 1 where those thinner than a pixel fade
 #define LOCATION_FIRST 8          // of balls, particles or terrains: the first
 #define LOCATION_ELAPSED 9        // since the picture before [s]
 #define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it stands for the particle
@@ -51,11 +51,6 @@
 #define MARK_DIAMOND 2.0
 #define MARK_ANCHOR 3.0
 #define MARK_LINE 4.0
-
-// Which springs are drawn, as seen: at least a pixel wide throughout, the others, or all.
-#define WIDTHS_WIDE 0
-#define WIDTHS_THIN 1
-#define WIDTHS_ALL 2
 
 // What the ID image shows: kinds, in the bits above the index.
 #define PICK_PARTICLE 1u

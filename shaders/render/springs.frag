@@ -1,7 +1,7 @@
 #include "render/frame.glsl"
 
 layout(binding = UNIT_COLOUR_MAP) uniform sampler2D colour_map;
-layout(location = LOCATION_WIDTHS) uniform int widths;
+layout(location = LOCATION_FADES) uniform int fades;
 layout(location = LOCATION_BASE_COLOUR) uniform vec4 base_colour;
 in float across;
 in vec3 sideways;
@@ -15,11 +15,11 @@ void main() {
                   ? textureLod(colour_map, vec2(clamp(shown, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5), 0.0).rgb
                   : base_colour.rgb;
   // What a pixel spans has one tone.
-  float round = widths == WIDTHS_WIDE ? across : across * clamp(reach.y - 0.5, 0.0, 1.0);
+  float round = fades == 0 ? across : across * clamp(reach.y - 0.5, 0.0, 1.0);
   vec3 n_view = round * sideways + sqrt(max(1.0 - round * round, 0.0)) * towards_eye;
   vec3 n = transpose(mat3(view)) * normalize(n_view);
   float wrapped = clamp((dot(n, sun.xyz) + 0.5) / 1.5, 0.0, 1.0);
   float within = clamp(reach.x - abs(across) * reach.x, 0.0, 1.0);
-  float coverage = widths == WIDTHS_WIDE ? 1.0 : within * min(2.0 * reach.y, 1.0);
+  float coverage = fades == 0 ? 1.0 : within * min(2.0 * reach.y, 1.0);
   colour = vec4(to_display(base * (0.45 * sun_light * wrapped + 0.65 * ambient(n))), coverage);
 }

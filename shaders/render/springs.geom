@@ -1,12 +1,12 @@
-// A ribbon along each spring that faces the eye. One that is thinner than a pixel somewhere has half a pixel more on either
-// side, over which its coverage fades.
+// A ribbon along each spring that faces the eye, at least a pixel wide; where springs fade, with half a pixel more on
+// either side.
 #include "render/layout.glsl"
 #include "render/spring_quantity.glsl"
 
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
 layout(location = LOCATION_RADIUS) uniform float radius;
-layout(location = LOCATION_WIDTHS) uniform int widths;
+layout(location = LOCATION_FADES) uniform int fades;
 layout(location = LOCATION_SPRING) uniform vec4 spring;  // k, c, r, cord
 in vec3 end_velocity[];
 in float end_quantity[];
@@ -31,8 +31,6 @@ void main() {
   if (a.z > -nearest) a = mix(b, a, (b.z + nearest) / (b.z - a.z));
   if (b.z > -nearest) b = mix(a, b, (a.z + nearest) / (a.z - b.z));
   float pixel = 2.0 / (projection[1][1] * viewport.y);
-  bool wide = radius >= 0.5 * pixel * max(-a.z, -b.z);
-  if (widths != WIDTHS_ALL && wide != (widths == WIDTHS_WIDE)) return;
   for (int corner = 0; corner < 4; ++corner) {
     bool first = (corner & 1) == 0;
     vec3 end = first ? a : b;
@@ -44,7 +42,7 @@ void main() {
     float value = colour_mode == COLOUR_SPEED ? end_quantity[first ? 0 : 1] : own;
     shown = (value - quantity_range.x) * quantity_range.y;
     float half_width = radius / (pixel * -end.z);
-    reach = vec2(max(half_width, 0.5) + (widths == WIDTHS_WIDE ? 0.0 : 0.5), half_width);
+    reach = vec2(fades == 0 ? max(half_width, 0.6) : max(half_width, 0.5) + 0.5, half_width);
     gl_Position = projection * vec4(end + across * reach.x * pixel * -end.z * side, 1.0);
     EmitVertex();
   }

@@ -67,27 +67,24 @@ void BodyPainter::draw_particles() const {
 
 void BodyPainter::draw_springs() const {
   glUseProgram(programs.springs.id());
+  programs.springs.set(LOCATION_FADES, 0);
   const gl::VertexArray lines = buffers.spring_array(*state.particles);
   lines.bind();
-  programs.springs.set(LOCATION_WIDTHS, WIDTHS_WIDE);
   for (const SpringRun& run : buffers.springs())
     if (draws(view.draw, run.constants.type)) draw_run(run);
 }
 
-void BodyPainter::draw_thin_springs(ThinSprings which) const {
+void BodyPainter::draw_cords() const {
   glUseProgram(programs.springs.id());
+  programs.springs.set(LOCATION_FADES, 1);
   const gl::VertexArray lines = buffers.spring_array(*state.particles);
   lines.bind();
   colour_map.bind(UNIT_COLOUR_MAP);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
-  for (const SpringRun& run : buffers.springs()) {
-    const bool cord = draws_as_cord(view.draw, run);
-    if (!cord && (which == ThinSprings::cords || !draws(view.draw, run.constants.type))) continue;
-    programs.springs.set(LOCATION_WIDTHS, cord ? WIDTHS_ALL : WIDTHS_THIN);
-    draw_run(run);
-  }
+  for (const SpringRun& run : buffers.springs())
+    if (draws_as_cord(view.draw, run)) draw_run(run);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
 }

@@ -12,9 +12,6 @@ namespace aspic {
 /// The walls of a translucent body that face away from the eye, or towards it.
 enum class JellySide { far, near };
 
-/// Which springs that may be thinner than a pixel: every one that is shown, or the cords of nets.
-enum class ThinSprings { all, cords };
-
 /// Draws what one state of a model looks like, into the framebuffer that is bound. The frame block must be
 /// bound, and the buffers prepared for state and view.
 struct BodyPainter {
@@ -29,12 +26,12 @@ struct BodyPainter {
   /// Into the target of that name, which it binds to its texture unit.
   void draw_thickness() const;
   void draw_rods_and_balls() const;
-  /// Springs at least a pixel wide; not the cords of nets.
+  /// Springs by type, at least a pixel wide; not the cords of nets.
   void draw_springs() const;
-  /// The others, and cords: a pixel wide at least, and covering as much as their own width does. They blend,
-  /// and nothing hides behind them: after everything opaque. What is drawn later covers them even where it
-  /// lies behind, so cords are drawn again then.
-  void draw_thin_springs(ThinSprings which) const;
+  /// Cords: where they are thinner than a pixel, they are a pixel wide and cover as much as their own width
+  /// does. They blend in any order, so they come after everything opaque and hide nothing; where bodies are
+  /// drawn later that may lie behind them, they are drawn again.
+  void draw_cords() const;
   void draw_particles() const;
   void draw_sheets() const;
   void draw_jelly(JellySide side) const;

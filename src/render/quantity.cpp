@@ -28,7 +28,7 @@ struct ScaleWords {
   double unit_size;
 };
 constexpr ScaleWords scales[] = {{ViewColour::strain, "strain of the springs", " %", 0.01},
-                                 {ViewColour::signed_strain, "signed strain: −short, +long", " %", 0.01},
+                                 {ViewColour::signed_strain, "strain: − shortened, + stretched", " %", 0.01},
                                  {ViewColour::force, "force of the springs", " N", 1.0},
                                  {ViewColour::energy, "energy of the springs", " J", 1.0},
                                  {ViewColour::speed, "speed", " m/s", 1.0}};

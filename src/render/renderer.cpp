@@ -211,14 +211,14 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   if (view.draw.solid && p.has(SurfaceStyle::sheet)) bodies.draw_sheets();
   p.terrain.draw_far_glass(p.programs, terrain);
   if (!options.background) p.reference_ground.draw(view, camera);
-  bodies.draw_thin_springs(ThinSprings::all);
+  bodies.draw_cords();
   if (solid) {
     bodies.draw_jelly(JellySide::far);
     p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
     p.targets->behind.framebuffer.copy_colour_from(p.targets->picture.framebuffer);
     p.targets->samples.framebuffer.bind();
     bodies.draw_jelly(JellySide::near);
-    bodies.draw_thin_springs(ThinSprings::cords);
+    bodies.draw_cords();
   }
   if (!options.background) p.reference_ground.draw(view, camera);
   p.terrain.draw_before_bodies(p.programs, terrain, view.camera, camera);
