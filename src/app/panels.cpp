@@ -46,8 +46,11 @@ constexpr Heading left_sections[] = {
     {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); }, false,
      "Balls thrown by hand, and the strength of pulls."}};
 constexpr Heading right_sections[] = {
-    {"View", [](Parts p) { view_section(p.gui, p.scene, p.view.camera, p.picture.shadows, p.layout); }, true,
-     "What is drawn, its colours, the camera, and the size of text."},
+    {"View",
+     [](Parts p) {
+       view_section(p.gui, p.scene, p.view.camera, p.picture.range(), p.picture.shadows, p.layout);
+     },
+     true, "What is drawn, its colours, the camera, and the size of text."},
     {"Recording",
      [](Parts p) {
        recording_section(p.gui, p.scene.editor().source(), p.film);

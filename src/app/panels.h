@@ -53,7 +53,10 @@ void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube);
 void springs_section(Gui& gui, SceneControl& scene);
 void contact_section(Gui& gui, SceneControl& scene);
 void balls_section(Gui& gui, const Simulation& simulation, Hands& hands);
-void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout);
+/// `shown`: the ends of the scale of colours in the picture.
+void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const QuantityRange& shown,
+                  bool& shadows, Layout& layout);
+void scale_rows(Gui& gui, SceneControl& scene, const QuantityRange& shown);
 void recording_section(Gui& gui, const std::string& source, Film& film);
 /// How pictures are saved; part of the recording section.
 void picture_files(Gui& gui, SavedLook& look);

@@ -102,8 +102,7 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
     ASPIC_TRY(state, renderer_->upload(simulation_.snapshot()));
   }
   Status drawn = renderer_->draw(content.size.width, content.size.height, *state, options);
-  if (!drawn && drawn.error().code == ErrorCode::scene_rejected &&
-      options.view.colour >= ViewColour::strain) {
+  if (!drawn && drawn.error().code == ErrorCode::scene_rejected && has_scale(options.view.colour)) {
     // What a colour needs of the device may be more than it has: the scene goes on without.
     refusal_ = "This colour cannot be shown: " + drawn.error().message;
     options.view.colour = ViewColour::material;
@@ -173,9 +172,16 @@ void ScenePicture::count(double dt) {
   rate_pictures_ = 0;
 }
 
+QuantityRange ScenePicture::range() const {
+  const bool drawn =
+      is_of_model() && drawn_->view.colour == scene_.view.colour && drawn_->view.scale == scene_.view.scale;
+  if (drawn) return renderer_->range();
+  return range_for(simulation_.model(), scene_.view, {});
+}
+
 Legend ScenePicture::legend() const {
   if (film && film->text) return {};
-  return legend_for(scene_.view, default_range(simulation_.model(), scene_.view.colour));
+  return legend_for(scene_.view, range());
 }
 
 namespace {

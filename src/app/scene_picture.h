@@ -78,6 +78,8 @@ class ScenePicture {
   /// The picture's share of the full resolution, 0 … 1: below 1 where a software rasteriser would be too
   /// slow.
   double resolution() const { return in_full() ? 1.0 : resolution_.share(); }
+  /// The ends of the scale of its colours.
+  QuantityRange range() const;
   /// What the colours of the picture mean; empty where they mean nothing, or the picture says so itself.
   Legend legend() const;
   /// How long the last picture took [s].

@@ -96,10 +96,13 @@ void text_size(Gui& gui, Layout& layout) {
 
 }  // namespace
 
-void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout) {
+void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const QuantityRange& shown,
+                  bool& shadows, Layout& layout) {
   edit(gui, scene, "view.draw");
   edit(gui, scene, "view.colour", 0, {"Colour by"});
+  scale_rows(gui, scene, shown);
   cut_widgets(gui, scene, camera.goal());
+  edit(gui, scene, "view.ground", 0, {"Grid at height"});
   check_box(gui, "shadows", "view/shadows", shadows,
             "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "
             "this window only; aspic run always draws them.");

@@ -23,6 +23,7 @@ struct OverlayLine {
 /// A scale of colours with its ends, or a key of named colours, bottom right.
 struct Legend {
   std::string title;
+  ScaleMap map = ScaleMap::violet_yellow;  ///< colours of the scale
   std::array<std::string, 3> marks;  ///< lower end, middle, upper end; all empty: no scale is drawn
   struct Entry {
     Colour colour;
