@@ -28,6 +28,8 @@ draw strain 1.42 cube-plane --view colour=strain
 draw springs 1.42 cube-plane --view 'draw=["structural","shear","bending"]'
 draw penalty 1.4 penalty
 draw cube-and-balls 0.7 cube-and-balls
+draw beside 1.72 cube-plane --set cube[0].structural.damping=1 --set cube[0].shear.damping=1 --set cube[0].bending.damping=1 \
+  --beside integrator=implicit-euler --view camera.position=[10,5,14] --view camera.target=[0,2.4,0]
 draw cube-torus 0.95 cube-torus
 draw cube-hole 1.3 cube-hole
 draw elevator 2 elevator

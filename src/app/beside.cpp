@@ -175,16 +175,21 @@ Status Beside::follow(double dt, double budget) {
 
 /// The states of one time are those that are shown until the next ones are complete.
 void Beside::keep_shown() {
-  std::vector<std::uint64_t> numbers = {leader_.picture_number()};
-  for (const auto& companion : companions_) numbers.push_back(companion->simulation().picture_number());
-  if (numbers == shown_) return;
+  std::vector<Shown> now;
+  bool changed = shown_.size() != count();
+  for (std::size_t i = 0; i < count(); ++i) {
+    now.push_back({run(i).picture_number(), run(i).time(), run(i).divergence()});
+    changed = changed || now[i].picture != shown_[i].picture ||
+              now[i].divergence.has_value() != shown_[i].divergence.has_value();
+  }
+  if (!changed) return;
   if (!messages_.check(leader_.refresh_snapshot())) return;
   picture_.keep(leader_.snapshot());
   for (const auto& companion : companions_) {
     if (!messages_.check(companion->simulation().refresh_snapshot())) return;
     companion->picture().keep(companion->simulation().snapshot());
   }
-  shown_ = std::move(numbers);
+  shown_ = std::move(now);
 }
 
 // ---- pictures ----

@@ -66,8 +66,13 @@ class Beside {
   /// Before and after the window's own run moves.
   void lead();
   Status follow(double dt, double budget);
-  /// All runs have come to the time that is shown.
+  /// All runs have come to one time, which is shown.
   bool settled() const { return settled_; }
+  /// The time that the picture of a run shows [s], and its divergence if it diverged on the way there.
+  double shown_time(std::size_t i) const { return i < shown_.size() ? shown_[i].time : run(i).time(); }
+  std::optional<Divergence> shown_divergence(std::size_t i) const {
+    return i < shown_.size() ? shown_[i].divergence : std::nullopt;
+  }
   /// Divides the place of the scene between the runs; returns that of the window's own.
   void place(const Box& whole);
   /// The places of all runs [window units]; one if there is only the window's own.
@@ -92,7 +97,13 @@ class Beside {
   std::vector<std::unique_ptr<Companion>> companions_;
   std::vector<Box> boxes_;
   bool settled_ = true, others_run_ = false, was_running_ = false;
-  std::vector<std::uint64_t> shown_;  // numbers of the pictures of each run that are kept
+  /// What is kept of a run.
+  struct Shown {
+    std::uint64_t picture = 0;
+    double time = 0.0;
+    std::optional<Divergence> divergence;
+  };
+  std::vector<Shown> shown_;  // of each run
 };
 
 }  // namespace aspic::app

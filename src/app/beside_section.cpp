@@ -127,9 +127,9 @@ void Beside::draw_labels(const Gui& gui) const {
   const float gap = 14.0f * scale;
   for (std::size_t i = 0; i < count(); ++i) {
     const Simulation& s = run(i);
-    const auto& divergence = s.divergence();
+    const auto divergence = shown_divergence(i);
     const std::vector<OverlayLine> lines =
-        beside_text(label(i), s.time(), s.model().simulation.timestep, divergence);
+        beside_text(label(i), shown_time(i), s.model().simulation.timestep, divergence);
     ImGui::SetNextWindowPos(
         {static_cast<float>(boxes_[i].left) + gap, static_cast<float>(boxes_[i].top) + gap});
     ImGui::SetNextWindowBgAlpha(0.72f);
