@@ -32,6 +32,8 @@ draw cut 1.05 cube-sphere --view cut.inside=section --view 'cut.normal=[0.2,0,1]
   --view 'camera={position=[5,5,9],target=[0.2,2.4,0]}'
 draw penalty 1.4 penalty
 draw cube-and-balls 0.7 cube-and-balls
+draw beside 1.72 cube-plane --set cube[0].structural.damping=1 --set cube[0].shear.damping=1 --set cube[0].bending.damping=1 \
+  --beside integrator=implicit-euler --view camera.position=[10,5,14] --view camera.target=[0,2.4,0]
 draw cube-torus 0.95 cube-torus
 draw cube-hole 1.3 cube-hole
 draw elevator 2 elevator

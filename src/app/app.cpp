@@ -40,7 +40,10 @@ App::App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Simulati
       picture(simulation, scene.scene(), view, options.full_quality),
       hands(simulation, view, messages),
       film(simulation, scene.editor(), view, picture, messages),
-      pointer(simulation, view, picture, hands) {}
+      beside(simulation, scene, view, picture, messages, options.asked),
+      pointer(simulation, view, picture, hands) {
+  hands.refusal = [this] { return beside.hands_refused(); };
+}
 
 std::vector<Command> App::make_commands() {
   constexpr int ctrl = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
@@ -48,6 +51,9 @@ std::vector<Command> App::make_commands() {
     film.update();
     run.single_step();
     film.update();
+  };
+  const auto toggle = [this] {
+    if (!beside.toggle()) run.toggle();
   };
   const auto throw_ball = [this] {
     const auto [x, y] = pointer.aim(gui_->takes_mouse());
@@ -70,7 +76,7 @@ std::vector<Command> App::make_commands() {
   const auto paste = [this] { paste_camera(view, scene.scene(), gui_->services(), messages); };
   return {
       {"", "Motion"},
-      {"Space", "start or pause", GLFW_KEY_SPACE, 0, 0, [this] { run.toggle(); }},
+      {"Space", "start or pause", GLFW_KEY_SPACE, 0, 0, toggle},
       {". (full stop)", "single step", -1, 0, U'.', step},
       {"R", "reset to the start", GLFW_KEY_R, 0, 0, [this] { run.reset(); }},
       {", (comma)", "step back", -1, 0, U',', [this] { run.step_back(); }},
@@ -92,6 +98,9 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, [this] { scene.undo(); }, true},
       {"Ctrl+Shift+Z", "redo", GLFW_KEY_Z, ctrl | shift, 0, [this] { scene.redo(); }, true},
       {"Ctrl+Y", "redo", GLFW_KEY_Y, ctrl, 0, [this] { scene.redo(); }, true},
+      {"", "Runs side by side"},
+      {"Ctrl+B", "add a run side by side", GLFW_KEY_B, ctrl, 0, [this] { beside.add(); }},
+      {"Ctrl+Shift+B", "leave side by side", GLFW_KEY_B, ctrl | shift, 0, [this] { beside.leave(); }},
       {"", "Camera"},
       {"left drag", "turn the camera"},
       {"right or Shift drag", "move the camera"},
@@ -130,6 +139,7 @@ void App::ask_where_to_save() {
 
 Status App::attach(gl::Context& context, double scale, WindowServices services) {
   ASPIC_CHECK(picture.attach(context));
+  beside.attach(context);
   ASPIC_TRY(gui_, Gui::create(scale, std::move(services), commands_, watcher_));
   gui_->set_text_size(layout.text_size);
   return {};
@@ -137,6 +147,7 @@ Status App::attach(gl::Context& context, double scale, WindowServices services) 
 
 Status App::release_context(const Error& why) {
   for (const std::string& line : film.finish()) messages.error(line);
+  beside.detach();
   ASPIC_CHECK(simulation.leave_context(why));
   // What the solver said when it noticed first says more.
   if (!messages.notice() || !messages.notice()->is_error) messages.error(why.message);
@@ -191,7 +202,8 @@ std::string App::title() const {
 }
 
 bool App::idle() const {
-  return !simulation.running() && std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
+  return !simulation.running() && !beside.running() && beside.settled() &&
+         std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
          shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() && !simulation.changing() &&
          !simulation.busy();
 }
@@ -202,7 +214,8 @@ double App::wait(double since) const {
   // Displays set the pace of hardware. A software rasteriser draws on the processors that simulate: it draws
   // at no more than that pace, only what is new, and where steps are late for a third of the time at most.
   if (!picture.context().info().is_software) return 0.0;
-  const bool nothing_new = simulation.busy() && !simulation.has_news() && !touched_ && !camera_moves_;
+  const bool nothing_new =
+      !beside.active() && simulation.busy() && !simulation.has_news() && !touched_ && !camera_moves_;
   const bool late = simulation.running() && simulation.pacer().late();
   const double interval = nothing_new ? longest
                           : late      ? std::clamp(3.0 * frame_seconds_, shortest, longest)
@@ -290,12 +303,15 @@ Status App::frame(const WindowSize& size, double dt) {
   // A picture of a software rasteriser takes longer anyway, so steps may too.
   const double budget = context.info().is_software ? 0.030 : 0.012;
   film.update();
+  beside.lead();
   ASPIC_CHECK(simulation.update(dt, budget));
   if (scene.finish_change()) picture.postpone();
   if (const auto message = simulation.take_message()) messages.error(*message);
   film.update();
+  ASPIC_CHECK(beside.follow(dt, budget));
   run.watch_divergence();
-  still_for_ = camera_moves_ || simulation.running() || simulation.seeking() ? 0.0 : still_for_ + dt;
+  const bool moves = simulation.running() || simulation.seeking() || beside.running() || !beside.settled();
+  still_for_ = camera_moves_ || moves ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
   picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25 || shot_wanted_ == Shot::window);
   const auto start = std::chrono::steady_clock::now();
@@ -310,12 +326,13 @@ Status App::make_picture(const WindowSize& size, double dt) {
   picture.count(dt);
   gui_->begin(dt);
   view.text_scale = gui_->scale();
-  view.box = draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer,
-                          layout, files, palette, closing, help_visible},
-                         size.width, size.height);
+  draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, files,
+               palette, beside, closing, help_visible},
+              size.width, size.height);
   if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
     view.frame_bodies(simulation.model(), simulation.snapshot());
   ASPIC_CHECK(picture.show(size));
+  ASPIC_CHECK(beside.show(size, picture.at_rest()));
   if (const auto refusal = picture.take_refusal()) messages.error(*refusal);
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/beside.h"
 #include "app/commands.h"
 #include "app/file_dialog.h"
 #include "app/film.h"
@@ -87,6 +88,7 @@ class App final : public EventReceiver {
   ScenePicture picture;
   Hands hands;
   Film film;
+  Beside beside;
   Pointer pointer;
   Layout layout;
   FileDialog files;

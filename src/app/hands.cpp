@@ -50,7 +50,15 @@ void Hands::clear_balls() {
   messages_.check(simulation_.clear_balls());
 }
 
+/// True with a message if pulls and pins are not possible.
+bool Hands::refused() {
+  const auto why = refusal ? refusal() : std::nullopt;
+  if (why) messages_.error(*why);
+  return why.has_value();
+}
+
 void Hands::toggle_pin(std::uint32_t particle) {
+  if (refused()) return;
   const bool pinned = simulation_.model().inverse_mass[particle] == 0.0;
   if (messages_.check(simulation_.toggle_pin(particle)))
     messages_.info(fmt::format("Particle {} is {}.", particle, pinned ? "free" : "pinned"));
@@ -60,6 +68,7 @@ void Hands::toggle_pin(std::uint32_t particle) {
 /// swings freely, and explicit Euler lets a swing grow at the rate h·k/2m, 5 a second at the cap on k, which
 /// the body's own dampers hold down.
 void Hands::begin_pull(std::uint32_t particle, const Vec3& position) {
+  if (refused()) return;
   const Model& model = simulation_.model();
   double stiffest = 0.0;
   for (const SpringClass& c : model.spring_classes) stiffest = std::max(stiffest, c.stiffness);

@@ -1,6 +1,9 @@
 #pragma once
 // What the user does to bodies with the mouse: throws balls at them, pulls and pins their particles.
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
 
 #include "app/messages.h"
 #include "app/simulation.h"
@@ -14,6 +17,8 @@ class Hands {
   Hands(Simulation& simulation, const View& view, Messages& messages)
       : simulation_(simulation), view_(view), messages_(messages) {}
 
+  /// Why pulls and pins are not possible at present; nothing: they are.
+  std::function<std::optional<std::string>()> refusal = {};
   double radius = 0.3;    ///< of a thrown ball [m], > 0
   double mass = 20.0;     ///< of a thrown ball [kg], > 0
   double speed = 15.0;    ///< of a thrown ball [m/s], ≥ 0
@@ -34,6 +39,7 @@ class Hands {
   void end_pull() { simulation_.set_hand(std::nullopt); }
 
  private:
+  bool refused();
   BallSettings thrown_ball(const Ray& sight) const;
 
   Simulation& simulation_;

@@ -35,7 +35,7 @@ using Parts = const PanelParts&;
 constexpr Heading left_sections[] = {
     {"Scene", [](Parts p) { scene_section(p.gui, p.scene); }, true,
      "Scenes and terrain; opening, saving and reloading."},
-    {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene); }, true,
+    {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene, p.beside); }, true,
      "Motion, integrator, time step, pace and gravity."},
     {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene); }, false,
      "Cubes, nets, balls and launchers of the scene: place, size, mass, pins."},
@@ -62,8 +62,10 @@ constexpr Heading right_sections[] = {
      false, "Films of the scene; its states, energies and checkpoints as files."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); }, true,
      "Speed of simulation and drawing, and the devices used."},
-    {"Energy", [](Parts p) { energy_section(p.gui, p.simulation, p.run); }, true,
+    {"Energy", [](Parts p) { energy_section(p.gui, p.beside, p.run); }, true,
      "Energies and momentum over time."},
+    {"Side by side", [](Parts p) { beside_section(p.gui, p.scene, p.beside); }, false,
+     "Further runs of the scene, each with one difference, on the same clock."},
     {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); }, false,
      "A second backend on the same run, and how far the two differ."},
     {"Stability", [](Parts p) { stability_section(p.gui, p.scene); }, false,
@@ -132,7 +134,10 @@ void status_line(Parts parts, const Box& box) {
   const Recording* const film = parts.film.recording();
   const Panel panel("##status", box, at(12.0 * scale, 6.0 * scale), bar);
   const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
-  const char* const motion = s.divergence() ? "Diverged" : s.running() ? "Running" : "Paused";
+  const bool others = parts.beside.others_go_on();
+  const char* const motion = s.divergence() && !others                           ? "Diverged"
+                             : s.running() || (others && parts.beside.running()) ? "Running"
+                                                                                 : "Paused";
   ImGui::TextColored(s.divergence() ? ImVec4(0.95f, 0.55f, 0.40f, 1.0f) : bright, "%s", motion);
   const bool software = parts.picture.context().info().is_software && s.backend().needs_context;
   std::vector<std::string> facts = {
@@ -333,7 +338,7 @@ void drag_edge(Gui& gui, const char* name, double place, double height, double i
 
 }  // namespace
 
-Box draw_panels(const PanelParts& p, double width, double height) {
+void draw_panels(const PanelParts& p, double width, double height) {
   const double scale = p.gui.scale();
   Layout& layout = p.layout;
   Box view = {0.0, 0.0, width, height};
@@ -358,6 +363,8 @@ Box draw_panels(const PanelParts& p, double width, double height) {
     drag_edge(p.gui, "layout/left", left, bottom, 1.0, layout.left_width);
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
+  p.beside.place(view);
+  p.beside.draw_labels(p.gui);
   const double legend = draw_legend(p.gui, p.picture.legend(), view);
   notice_panel(p, view);
   help_panel(p.gui, p.help_visible, width, height);
@@ -366,7 +373,6 @@ Box draw_panels(const PanelParts& p, double width, double height) {
   p.palette.draw(p, width, height);
   if (const auto& hovered = p.pointer.hovered())
     particle_readout(p.gui, p.simulation, *hovered, view, legend > 0.0);
-  return view;
 }
 
 }  // namespace aspic::app

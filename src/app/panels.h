@@ -2,6 +2,7 @@
 // The panels around the scene. Widgets of scene values are made from the parameter table.
 #include <cstddef>
 
+#include "app/beside.h"
 #include "app/file_dialog.h"
 #include "app/film.h"
 #include "app/gui.h"
@@ -36,17 +37,18 @@ struct PanelParts {
   Layout& layout;
   FileDialog& files;
   Palette& palette;
+  Beside& beside;
   Closing& closing;
   bool& help_visible;
 };
 
-/// Makes all panels of one picture, between Gui::begin and end; sizes in window units. Returns the place they
-/// leave to the scene.
-Box draw_panels(const PanelParts& parts, double width, double height);
+/// Makes all panels of one picture, between Gui::begin and end; sizes in window units. The runs get the place
+/// that they leave.
+void draw_panels(const PanelParts& parts, double width, double height);
 
 // ---- sections of the panels; each a heading with its widgets ----
 void scene_section(Gui& gui, SceneControl& scene);
-void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene);
+void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene, const Beside& beside);
 void bodies_section(Gui& gui, SceneControl& scene);
 /// Size, place and turn of a cube.
 void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube);
@@ -64,7 +66,8 @@ void picture_files(Gui& gui, SavedLook& look);
 void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
                  FileDialog& files);
 void performance_section(Gui& gui, Simulation& simulation, const ScenePicture& picture);
-void energy_section(Gui& gui, const Simulation& simulation, RunControl& run);
+void energy_section(Gui& gui, Beside& beside, RunControl& run);
+void beside_section(Gui& gui, SceneControl& scene, Beside& beside);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void stability_section(Gui& gui, SceneControl& scene);
 

@@ -14,7 +14,7 @@ constexpr double double_click_time = 0.400, double_click_reach = 4.0;
 }  // namespace
 
 void Pointer::press(int button, int modifiers, bool on_panel) {
-  if (drag_button_ >= 0 || on_panel || !view_.box.contains(x_, y_)) return;
+  if (drag_button_ >= 0 || on_panel || !view_.whole.contains(x_, y_)) return;
   if (modifiers & GLFW_MOD_CONTROL) {
     if (!hovered_) return;
     if (button == GLFW_MOUSE_BUTTON_LEFT) hands_.begin_pull(hovered_->particle, hovered_->position);
@@ -43,14 +43,14 @@ void Pointer::move(double x, double y) {
 }
 
 bool Pointer::scroll(double notches, bool on_panel) {
-  if (on_panel || !view_.box.contains(x_, y_)) return false;
+  if (on_panel || !view_.whole.contains(x_, y_)) return false;
   view_.camera.zoom(notches);
   return true;
 }
 
 std::array<double, 2> Pointer::aim(bool on_panel) const {
-  if (on_panel || !view_.box.contains(x_, y_)) return {0.5 * view_.width(), 0.5 * view_.height()};
-  return {x_ - view_.box.left, y_ - view_.box.top};
+  if (on_panel || !view_.whole.contains(x_, y_)) return {0.5 * view_.width(), 0.5 * view_.height()};
+  return view_.within(x_, y_);
 }
 
 void Pointer::describe(std::uint32_t particle) {

@@ -90,11 +90,12 @@ void scene_section(Gui& gui, SceneControl& scene) {
   scene_buttons(gui, scene.editor());
 }
 
-void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
+void simulation_section(Gui& gui, Simulation& s, SceneControl& scene, const Beside& beside) {
   const float third = share_of_line(3), half = share_of_line(2);
   const bool diverged = s.divergence().has_value();
-  command_button(gui, "simulation/run", s.running() ? "Pause" : "Start", "Starts or pauses the motion.",
-                 "start or pause", !diverged, third);
+  const bool runs = s.running() || beside.running();
+  command_button(gui, "simulation/run", runs ? "Pause" : "Start", "Starts or pauses the motion.",
+                 "start or pause", !diverged || beside.others_go_on(), third);
   ImGui::SameLine();
   command_button(gui, "simulation/step", "Step", "Takes one time step; pauses first.", "single step",
                  !diverged, third);

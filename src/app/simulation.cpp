@@ -144,6 +144,7 @@ Status Simulation::reset() {
     const Setup setup = {setup_.settings, {}, {}};
     ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
   }
+  ++run_number_;
   history_.clear();
   samples_.clear();
   pacer_.restart();
@@ -157,6 +158,7 @@ Status Simulation::reset() {
 
 Status Simulation::start_from(const State& state) {
   ASPIC_CHECK(halt(true));
+  ++run_number_;
   history_.clear();
   samples_.clear();
   pacer_.restart();

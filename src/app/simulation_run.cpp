@@ -276,7 +276,8 @@ bool Simulation::working() const {
 }
 
 Status Simulation::refresh_snapshot() {
-  if (!Engines::in_context(engines_.leader()) && worker_.busy()) return {};
+  // The solver may be further than what was taken up of it.
+  if (!Engines::in_context(engines_.leader()) && !idle()) return {};
   auto state = engines_.leader().solver->state();
   if (!state) return fall_back(state.error());
   take_snapshot(std::move(*state));

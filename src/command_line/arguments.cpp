@@ -189,6 +189,9 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add_overrides(c, run.overrides);
   add_outputs(c, run.outputs);
   add_pictures(c, run, raw);
+  add(c, "--beside", "KEY=VALUE", run.beside,
+      "a run with this difference beside the scene's own, e.g. integrator=implicit-euler, h=0.002, k=500, "
+      "backend=reference or a key of --set; up to three");
   add(c, "--resume", "FILE", run.resume_file,
       "continue from a checkpoint; --steps and --duration count from its start");
   c->add_flag("--force", run.force, "overwrite files");

@@ -241,7 +241,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
   if (written)
     written = p.overlay->draw(p.targets->picture.framebuffer, options.text,
-                              options.legend ? legend_for(view, p.range) : Legend{});
+                              options.legend ? legend_for(view, p.range) : Legend{}, options.text_height);
   glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_FRAMEBUFFER_SRGB);

@@ -31,6 +31,7 @@ struct RendererOptions {
 struct PictureOptions {
   ViewSettings view;
   std::vector<OverlayLine> text;              ///< empty: no panel
+  int text_height = 0;                        ///< [pixels], at most 256; 0: a share of the picture's height
   bool legend = true;                         ///< of colours, where they mean something
   std::optional<Colour> background;           ///< instead of terrain and sky, linear light
   bool shadows = true;                        ///< on terrain; without them light maps are left out

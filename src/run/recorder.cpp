@@ -5,6 +5,7 @@
 #include <chrono>
 #include <limits>
 
+#include "render/camera.h"
 #include "render/overlay_text.h"
 
 namespace aspic {
@@ -90,6 +91,7 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   }
   PictureOptions picture;
   picture.view = scene_.view;
+  picture.view.camera = fitted(scene_.view.camera, output_.size.width, output_.size.height);
   picture.legend = output_.text;
   if (output_.text)
     picture.text =

@@ -58,6 +58,23 @@ TEST_F(Gallery, CubeInABowlRuns) {
   take("window-cube-bowl");
 }
 
+TEST_F(Gallery, TwoIntegratorsSideBySide) {
+  open("cube-plane",
+       {"cube[0].structural.damping=1", "cube[0].shear.damping=1", "cube[0].bending.damping=1",
+        "simulation.steps-per-frame=20", "view.camera={position=[10,5,14], target=[0,2.4,0]}"},
+       "reference");
+  press(GLFW_KEY_B, GLFW_MOD_CONTROL);
+  click("section/Performance");
+  click("section/Side by side");
+  run_to(1700);
+  press(GLFW_KEY_SPACE);
+  frames_until([&] { return app().beside.settled(); });
+  app().messages.dismiss();
+  frames(3);
+  EXPECT_EQ(app().beside.count(), 2u);
+  take("window-beside");
+}
+
 TEST_F(Gallery, GoalNetCatchesAShot) {
   open("goal-net", {}, "reference");
   run_to(320);
