@@ -77,7 +77,6 @@ void BodyPainter::draw_springs() const {
   programs.springs.set(LOCATION_FADES, 0);
   const gl::VertexArray lines = buffers.spring_array(*state.particles);
   lines.bind();
-  const DrawSettings draw = drawn_springs(view);
   for (const SpringRun& run : buffers.springs())
     if (draws(draw, run.constants.type)) draw_run(run);
 }
