@@ -44,7 +44,7 @@ void fly(Ball ball, BallBody body, out precise vec3 end_x, out precise vec3 end_
 void main() {
   uint b = item_index();
   if (b >= ball_count || idle()) return;
-  if (b == 0u) count_pass();
+  count_item(b, ball_count);
   Ball start = ball_in(start_slot(), b);
   BallBody body = bodies[b];
   precise vec3 x = start.position.xyz, v = start.velocity.xyz, omega = start.spin.xyz;

@@ -37,6 +37,11 @@ Status PullBuffer::build(gl::Context& context) {
   return {};
 }
 
+Result<bool> PullBuffer::changes(const Model& model, const std::optional<Pull>& pull) const {
+  ASPIC_TRY(const std::optional<Pull> taken, rounded_pull(model, pull, Precision::single));
+  return taken != pull_;
+}
+
 Status PullBuffer::set(const Model& model, const std::optional<Pull>& pull) {
   ASPIC_TRY(const std::optional<Pull> taken, rounded_pull(model, pull, Precision::single));
   if (taken == pull_) return {};

@@ -56,6 +56,9 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
 }  // namespace
 
 Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& model) {
+  // Passes over pictures see whole states.
+  ASPIC_CHECK(gl::Buffer::check_size(context, "particle state",
+                                     std::uint64_t{model.particle_count()} * sizeof(layout::Particle)));
   ModelBuffers b;
   b.particle_count_ = model.particle_count();
   b.class_bits_ = class_bits(model);
@@ -113,10 +116,13 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
     for (const SpringClass& c : model.spring_classes) classes.push_back(rounded(c));
     ASPIC_TRY(spring_classes_, gl::Buffer::of(context, "spring classes", classes));
   }
-  if (has_neighbours(state) || own_springs_) return {};
+  if (has_neighbours(state))
+    return gl::Buffer::check_size(context, "incident springs", state.springs->incident.bytes());
+  if (own_springs_) return {};
   ASPIC_TRY(own_springs_, make_spring_buffers(context, model,
                                               has_lattices(model) ? IncidentWords::beside_lattices
-                                                                  : IncidentWords::neighbours));
+                                                                  : IncidentWords::neighbours,
+                                              gl::BufferKind::storage));
   return {};
 }
 
