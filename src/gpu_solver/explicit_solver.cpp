@@ -131,7 +131,8 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   if (listed_particles_ > 0 || !lattice_pass_) {
     ASPIC_TRY(particle_pass_, pass(stage_kernels, path_.particle_kernel, std::move(bindings)));
   }
-  return balls_.build(context_, model_, kernels, {&simulation_, &control_, false, poses_.binding()},
+  return balls_.build(context_, model_, kernels,
+                      {&simulation_, &control_, false, poses_.binding(), pull_.binding()},
                       options.ball_search);
 }
 
