@@ -35,6 +35,10 @@ Colour encoded(double r, double g, double b) {
 
 }  // namespace
 
+std::array<float, 4> with_alpha(const Colour& c, double alpha) {
+  return {c[0], c[1], c[2], static_cast<float>(alpha)};
+}
+
 double srgb_to_linear(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }

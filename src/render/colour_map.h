@@ -11,6 +11,9 @@ namespace aspic {
 /// Linear light, red, green, blue, each 0…1.
 using Colour = std::array<float, 3>;
 
+/// Followed by a fourth component.
+std::array<float, 4> with_alpha(const Colour& colour, double alpha);
+
 /// IEC 61966-2-1: an encoded value 0…1 to linear light and back.
 double srgb_to_linear(double encoded);
 double linear_to_srgb(double linear);

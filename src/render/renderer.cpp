@@ -8,6 +8,7 @@
 #include "device/particles.h"
 #include "gpu/pass.h"
 #include "model/terrain.h"
+#include "render/body_painter.h"
 #include "render/frame_block.h"
 #include "render/light_maps.h"
 #include "render/model_buffers.h"
@@ -17,19 +18,6 @@
 
 namespace aspic {
 namespace {
-/// The walls of a translucent body that face away from the eye, or towards it.
-enum class JellySide { far, near };
-
-/// Cords of nets.
-constexpr Colour net_colour = {0.98f, 0.98f, 0.98f};
-
-/// How deep light reaches into a body [m], as a share of its size.
-constexpr double reach_share = 0.30;
-
-std::array<float, 4> with(const Colour& c, double w) {
-  return {c[0], c[1], c[2], static_cast<float>(w)};
-}
-
 /// Whether a colour shows what a particle's springs do.
 bool shows_springs(ViewColour colour) {
   return colour == ViewColour::strain || colour == ViewColour::force;
@@ -74,24 +62,9 @@ struct Renderer::Parts {
   Status prepare_highlight();
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
-  void draw_thickness(const gl::Buffer& particles) const;
-  void draw_rods_and_balls(const DeviceState& state, const DrawSettings& draw) const;
-  void draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const;
-  void draw_springs(const gl::Buffer& particles, const DrawSettings& draw, ViewColour mode) const;
-  void draw_sheets(const gl::Buffer& particles, const ViewSettings& view) const;
-  void draw_jelly(const gl::Buffer& particles, const ViewSettings& view, JellySide side) const;
-  void draw_parts(const gl::Program& program, const gl::Buffer& particles, const ViewSettings& view,
-                  SurfaceStyle style) const;
-  /// The skins of bodies of a style, each after prepare(body).
-  template <class Prepare>
-  void draw_skins(const gl::Buffer& particles, SurfaceStyle style, const Prepare& prepare) const {
-    const gl::VertexArray skin = buffers->skin_array(particles);
-    skin.bind();
-    for (std::size_t i = 0; i < buffers->parts().size(); ++i) {
-      if (buffers->parts()[i].index_count == 0 || model->bodies[i].style != style) continue;
-      prepare(i);
-      draw_triangles(buffers->parts()[i]);
-    }
+  /// Of this picture.
+  BodyPainter bodies(const DeviceState& state, const ViewSettings& view) const {
+    return {*model, programs, *buffers, *targets, colour_map, state, view};
   }
   /// The whole picture by one program.
   void fill(const gl::Program& program) const {
@@ -177,102 +150,6 @@ void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptio
     lights.leave_out(*buffers);
 }
 
-void Renderer::Parts::draw_thickness(const gl::Buffer& particles) const {
-  targets->thickness.framebuffer.bind();
-  glClearColor(0, 0, 0, 0);
-  glClear(GL_COLOR_BUFFER_BIT);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE);
-  glUseProgram(programs.thickness.id());
-  draw_skins(particles, SurfaceStyle::flesh, [](std::size_t) {});
-  glDisable(GL_BLEND);
-  targets->thickness.colour.bind(UNIT_THICKNESS);
-}
-
-void Renderer::Parts::draw_rods_and_balls(const DeviceState& state, const DrawSettings& draw) const {
-  programs.rods.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
-  glUseProgram(programs.rods.id());
-  if (draw.solid) buffers->rods().draw();
-  if (!draws_balls(draw)) return;
-  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-  buffers->balls().draw(programs.balls, state);
-  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-}
-
-void Renderer::Parts::draw_particles(const gl::Buffer& particles, const DrawSettings& draw) const {
-  if (!draw.particles) return;
-  programs.particles.set(LOCATION_RADIUS, static_cast<float>(particle_radius(buffers->spacing())));
-  programs.particles.set(LOCATION_BASE_COLOUR, std::array{0.62f, 0.64f, 0.68f, 1.0f});
-  glUseProgram(programs.particles.id());
-  const gl::VertexArray points = buffers->particle_array(particles);
-  points.bind();
-  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(buffers->particle_count()));
-  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-}
-
-void Renderer::Parts::draw_springs(const gl::Buffer& particles, const DrawSettings& draw,
-                                   ViewColour mode) const {
-  glUseProgram(programs.springs.id());
-  const gl::VertexArray lines = buffers->spring_array(particles);
-  lines.bind();
-  for (const SpringRun& run : buffers->springs()) {
-    const SpringClass& c = run.constants;
-    const bool cord = draws_as_cord(draw, run);
-    if (!(cord || draws(draw, c.type)) || run.index_count == 0) continue;
-    const Colour colour = cord && mode != ViewColour::type ? net_colour : spring_colour(c.type);
-    programs.springs.set(LOCATION_BASE_COLOUR, with(colour, 1.0));
-    programs.springs.set(LOCATION_SPRING,
-                         std::array{static_cast<float>(c.stiffness), static_cast<float>(c.damping),
-                                    static_cast<float>(c.rest_length), c.cord ? 1.0f : 0.0f});
-    programs.springs.set(LOCATION_RADIUS, static_cast<float>(spring_radius(buffers->spacing(), c.type)));
-    draw_lines(run);
-  }
-}
-
-void Renderer::Parts::draw_jelly(const gl::Buffer& particles, const ViewSettings& view,
-                                 JellySide side) const {
-  const gl::Program& program = side == JellySide::far ? programs.jelly_far : programs.jelly;
-  glEnable(GL_CULL_FACE);
-  glCullFace(side == JellySide::far ? GL_FRONT : GL_BACK);
-  if (side == JellySide::far) {
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    glDepthMask(GL_FALSE);
-  }
-  targets->behind.colour.bind(UNIT_BEHIND);
-  colour_map.bind(UNIT_COLOUR_MAP);
-  draw_parts(program, particles, view, SurfaceStyle::flesh);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
-  glCullFace(GL_BACK);
-  glDisable(GL_CULL_FACE);
-}
-
-void Renderer::Parts::draw_sheets(const gl::Buffer& particles, const ViewSettings& view) const {
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  // Springs and particles lie in the surface: it gives way to them.
-  glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(1.0f, 1.0f);
-  colour_map.bind(UNIT_COLOUR_MAP);
-  draw_parts(programs.sheet, particles, view, SurfaceStyle::sheet);
-  glPolygonOffset(0.0f, 0.0f);
-  glDisable(GL_POLYGON_OFFSET_FILL);
-  glDisable(GL_BLEND);
-}
-
-void Renderer::Parts::draw_parts(const gl::Program& program, const gl::Buffer& particles,
-                                 const ViewSettings& view, SurfaceStyle style) const {
-  glUseProgram(program.id());
-  draw_skins(particles, style, [&](std::size_t body) {
-    const Colour colour = view.colour == ViewColour::material ? body_colour(body) : neutral_body_colour();
-    program.set(LOCATION_BASE_COLOUR, with(colour, reach_share * model->bodies[body].size));
-  });
-}
-
 Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
   Parts& p = *parts_;
   assert(p.model && state.particles);
@@ -300,27 +177,28 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.bind_frame(p.drawn_frame);
   p.prepare_light(state, options);
   glEnable(GL_FRAMEBUFFER_SRGB);
-  if (solid) p.draw_thickness(particles);
+  const BodyPainter bodies = p.bodies(state, view);
+  if (solid) bodies.draw_thickness();
   p.targets->samples.framebuffer.bind();
   p.colour_map.bind(UNIT_COLOUR_MAP);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
-  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with(*c, 1.0).data());
+  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with_alpha(*c, 1.0).data());
   p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
-  p.draw_rods_and_balls(state, view.draw);
-  p.draw_springs(particles, view.draw, view.colour);
-  p.draw_particles(particles, view.draw);
+  bodies.draw_rods_and_balls();
+  bodies.draw_springs();
+  bodies.draw_particles();
   // The last opaque part: only where there is nothing else.
   if (!options.background) p.fill(p.programs.sky);
-  if (view.draw.solid && p.has(SurfaceStyle::sheet)) p.draw_sheets(particles, view);
+  if (view.draw.solid && p.has(SurfaceStyle::sheet)) bodies.draw_sheets();
   p.terrain.draw_far_glass(p.programs, terrain);
   if (solid) {
-    p.draw_jelly(particles, view, JellySide::far);
+    bodies.draw_jelly(JellySide::far);
     p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
     p.targets->behind.framebuffer.copy_colour_from(p.targets->picture.framebuffer);
     p.targets->samples.framebuffer.bind();
-    p.draw_jelly(particles, view, JellySide::near);
+    bodies.draw_jelly(JellySide::near);
   }
   p.terrain.draw_before_bodies(p.programs, terrain, view.camera, camera);
   Status written;

@@ -1,0 +1,125 @@
+#include "render/body_painter.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+
+#include "render/colour_map.h"
+#include "render/light_maps.h"
+
+namespace aspic {
+namespace {
+
+/// Cords of nets.
+constexpr Colour net_colour = {0.98f, 0.98f, 0.98f};
+
+/// How deep light reaches into a body [m], as a share of its size.
+constexpr double reach_share = 0.30;
+
+}  // namespace
+
+template <class Prepare>
+void BodyPainter::draw_skins(SurfaceStyle style, const Prepare& prepare) const {
+  const gl::VertexArray skin = buffers.skin_array(*state.particles);
+  skin.bind();
+  for (std::size_t i = 0; i < buffers.parts().size(); ++i) {
+    if (buffers.parts()[i].index_count == 0 || model.bodies[i].style != style) continue;
+    prepare(i);
+    draw_triangles(buffers.parts()[i]);
+  }
+}
+
+void BodyPainter::draw_thickness() const {
+  targets.thickness.framebuffer.bind();
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glUseProgram(programs.thickness.id());
+  draw_skins(SurfaceStyle::flesh, [](std::size_t) {});
+  glDisable(GL_BLEND);
+  targets.thickness.colour.bind(UNIT_THICKNESS);
+}
+
+void BodyPainter::draw_rods_and_balls() const {
+  programs.rods.set(LOCATION_BASE_COLOUR, std::array{0.94f, 0.94f, 0.94f, 1.0f});
+  glUseProgram(programs.rods.id());
+  if (view.draw.solid) buffers.rods().draw();
+  if (!draws_balls(view.draw)) return;
+  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  buffers.balls().draw(programs.balls, state);
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+}
+
+void BodyPainter::draw_particles() const {
+  if (!view.draw.particles) return;
+  programs.particles.set(LOCATION_RADIUS, static_cast<float>(particle_radius(buffers.spacing())));
+  programs.particles.set(LOCATION_BASE_COLOUR, std::array{0.62f, 0.64f, 0.68f, 1.0f});
+  glUseProgram(programs.particles.id());
+  const gl::VertexArray points = buffers.particle_array(*state.particles);
+  points.bind();
+  glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(buffers.particle_count()));
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+}
+
+void BodyPainter::draw_springs() const {
+  glUseProgram(programs.springs.id());
+  const gl::VertexArray lines = buffers.spring_array(*state.particles);
+  lines.bind();
+  for (const SpringRun& run : buffers.springs()) {
+    const SpringClass& c = run.constants;
+    const bool cord = draws_as_cord(view.draw, run);
+    if (!(cord || draws(view.draw, c.type)) || run.index_count == 0) continue;
+    const Colour colour = cord && view.colour != ViewColour::type ? net_colour : spring_colour(c.type);
+    programs.springs.set(LOCATION_BASE_COLOUR, with_alpha(colour, 1.0));
+    programs.springs.set(LOCATION_SPRING,
+                         std::array{static_cast<float>(c.stiffness), static_cast<float>(c.damping),
+                                    static_cast<float>(c.rest_length), c.cord ? 1.0f : 0.0f});
+    programs.springs.set(LOCATION_RADIUS, static_cast<float>(spring_radius(buffers.spacing(), c.type)));
+    draw_lines(run);
+  }
+}
+
+void BodyPainter::draw_jelly(JellySide side) const {
+  const gl::Program& program = side == JellySide::far ? programs.jelly_far : programs.jelly;
+  glEnable(GL_CULL_FACE);
+  glCullFace(side == JellySide::far ? GL_FRONT : GL_BACK);
+  if (side == JellySide::far) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+  }
+  targets.behind.colour.bind(UNIT_BEHIND);
+  colour_map.bind(UNIT_COLOUR_MAP);
+  draw_parts(program, SurfaceStyle::flesh);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glCullFace(GL_BACK);
+  glDisable(GL_CULL_FACE);
+}
+
+void BodyPainter::draw_sheets() const {
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  // Springs and particles lie in the surface: it gives way to them.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.0f, 1.0f);
+  colour_map.bind(UNIT_COLOUR_MAP);
+  draw_parts(programs.sheet, SurfaceStyle::sheet);
+  glPolygonOffset(0.0f, 0.0f);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_BLEND);
+}
+
+void BodyPainter::draw_parts(const gl::Program& program, SurfaceStyle style) const {
+  glUseProgram(program.id());
+  draw_skins(style, [&](std::size_t body) {
+    const Colour colour = view.colour == ViewColour::material ? body_colour(body) : neutral_body_colour();
+    program.set(LOCATION_BASE_COLOUR, with_alpha(colour, reach_share * model.bodies[body].size));
+  });
+}
+
+}  // namespace aspic

@@ -1,0 +1,41 @@
+#pragma once
+// Bodies, springs, particles and balls: everything of a picture that a solver moves.
+#include "device/device_state.h"
+#include "model/model.h"
+#include "render/model_buffers.h"
+#include "render/programs.h"
+#include "render/targets.h"
+#include "scene/scene.h"
+
+namespace aspic {
+
+/// The walls of a translucent body that face away from the eye, or towards it.
+enum class JellySide { far, near };
+
+/// Draws what one state of a model looks like, into the framebuffer that is bound. The frame block must be
+/// bound, and the buffers prepared for state and view.
+struct BodyPainter {
+  const Model& model;
+  const RenderPrograms& programs;
+  const ModelBuffers& buffers;
+  const PictureTargets& targets;
+  const gl::Texture& colour_map;
+  const DeviceState& state;
+  const ViewSettings& view;
+
+  /// Into the target of that name, which it binds to its texture unit.
+  void draw_thickness() const;
+  void draw_rods_and_balls() const;
+  void draw_springs() const;
+  void draw_particles() const;
+  void draw_sheets() const;
+  void draw_jelly(JellySide side) const;
+
+ private:
+  void draw_parts(const gl::Program& program, SurfaceStyle style) const;
+  /// The skins of bodies of a style, each after prepare(body).
+  template <class Prepare>
+  void draw_skins(SurfaceStyle style, const Prepare& prepare) const;
+};
+
+}  // namespace aspic
