@@ -66,7 +66,8 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
   c.size =
       film ? film->size
            : PictureSize{std::max(rounded(scale * full.width), 1), std::max(rounded(scale * full.height), 1)};
-  if (const auto& hand = simulation_.hand()) c.marks.pull = {hand->particle, hand->anchor};
+  if (const auto& hand = simulation_.hand(); hand && !hand->ball)
+    c.marks.pull = {hand->particle, hand->anchor};
   for (const auto& [particle, pinned] : simulation_.setup().pinned)
     if (pinned) c.marks.marked.push_back(particle);
   c.marks.unit = view_.text_scale * c.size.width / view_.width();
