@@ -6,6 +6,10 @@
 #define MAX_SPRING_CLASSES 256
 #define MAX_TERRAINS 64
 #define MAX_POSES 510  // of moving terrain, in the table of the next steps: 16 KiB with its head
+// Particles of a tile of a cube along i, j and k: a group's. With two on each side it takes 27 KiB, of 32 that are certain.
+#define TILE_I 4
+#define TILE_J 8
+#define TILE_K 8
 #define GEOMETRY_SIZE 3  // vectors, and numbers, of a shape: geometry_size in src/model/shapes/shape.h
 
 // Vectors of the OWN block, each an array over particles.

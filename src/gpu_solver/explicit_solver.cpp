@@ -84,13 +84,20 @@ class ExplicitSolver final : public DeviceSolver {
 
 Status ExplicitSolver::build_lattice_pass(KernelOptions kernels, std::uint32_t run,
                                           const std::vector<Binding>& bindings) {
-  std::uint32_t runs = 0;
+  const auto items = [&](const Body& body) {
+    return path_.tiles ? tiles_in(body).all() * tile_particles : (body.particle_count - 1) / run + 1;
+  };
+  std::uint32_t all = 0;
   for (const Body& body : model_.bodies)
-    if (body.lattice_edge > 0) runs += (body.particle_count - 1) / run + 1;
+    if (body.lattice_edge > 0) all += items(body);
   kernels.defines.push_back({"ASPIC_LATTICE_RUN", std::to_string(run)});
+  if (path_.tiles)
+    std::ranges::find(kernels.defines, "ASPIC_GROUP_SIZE", &gl::Define::name)->value =
+        std::to_string(tile_particles);
   ASPIC_TRY(lattice_pass_,
-            sliced_pass(std::move(kernels), path_.lattice_kernel, bindings, runs,
-                        {.particle = sizeof(layout::Particle)}, seen_by_lattice_runs(model_, run)));
+            sliced_pass(std::move(kernels), path_.lattice_kernel, bindings, all,
+                        {.particle = sizeof(layout::Particle)},
+                        path_.tiles ? seen_by_lattice_tiles(model_) : seen_by_lattice_runs(model_, run)));
   return {};
 }
 
@@ -121,7 +128,7 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   const std::uint32_t run = options.lattice_run > 0 ? options.lattice_run : by_device;
   if (run > 1) stage_kernels.defines.push_back({"ASPIC_WIDE_LOADS", "1"});
   if (takes_lattices()) {
-    ASPIC_CHECK(build_lattice_pass(stage_kernels, run, bindings));
+    ASPIC_CHECK(build_lattice_pass(stage_kernels, path_.tiles ? 1 : run, bindings));
   }
   const std::uint32_t listed = model_.particle_count() - (takes_lattices() ? lattice_particles(model_) : 0u);
   if (listed > 0 || !lattice_pass_) {

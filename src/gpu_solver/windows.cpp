@@ -115,6 +115,34 @@ Seen seen_by_lattice_runs(const Model& model, std::uint32_t run) {
   };
 }
 
+TileCounts tiles_in(const Body& lattice) {
+  const std::uint32_t edge = lattice.lattice_edge;
+  const auto along = [&](std::uint32_t size) { return (edge + size - 1) / size; };
+  return {along(TILE_I), along(TILE_J), along(TILE_K)};
+}
+
+Seen seen_by_lattice_tiles(const Model& model) {
+  return [&model](IndexRange items) {
+    Window window{.items = items};
+    std::uint64_t tiles_before = 0;
+    for (const Body& body : model.bodies) {
+      if (body.lattice_edge == 0) continue;
+      const TileCounts tiles = tiles_in(body);
+      const std::uint64_t begin = tiles_before * tile_particles,
+                          end = begin + std::uint64_t{tiles.all()} * tile_particles,
+                          first = std::max(items.first, begin), last = std::min(items.end, end);
+      tiles_before += tiles.all();
+      if (first >= last) continue;
+      // Whole layers of tiles: as many planes.
+      const std::uint64_t layer = std::uint64_t{tiles.j} * tiles.k * tile_particles,
+                          plane = std::uint64_t{body.lattice_edge} * body.lattice_edge * TILE_I;
+      window.particles.take(near(body, {body.first_particle + (first - begin) / layer * plane,
+                                        body.first_particle + ((last - 1 - begin) / layer + 1) * plane}));
+    }
+    return window;
+  };
+}
+
 Seen seen_by_listed(const Model& model, const SpringBuffers& springs) {
   return [&model, &springs](IndexRange items) {
     const bool beside = springs.kind == IncidentWords::beside_lattices;

@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "device/device_state.h"
 #include "gpu/pass.h"
+#include "gpu_solver/layout.h"
 #include "model/model.h"
 
 namespace aspic {
@@ -50,6 +51,17 @@ Result<std::vector<Window>> windows_over(std::uint64_t items, std::uint64_t bloc
 
 /// Items are runs of particles of lattices, `run` each; with run 1 particles.
 Seen seen_by_lattice_runs(const Model& model, std::uint32_t run);
+/// Particles of a tile (TILE_I and the like in shaders/compute/layout.glsl), and a group of its kernel.
+inline constexpr std::uint32_t tile_particles = TILE_I * TILE_J * TILE_K;
+static_assert(tile_particles == window_unit);
+/// Tiles of a lattice along i, j and k.
+struct TileCounts {
+  std::uint32_t i, j, k;
+  std::uint32_t all() const { return i * j * k; }
+};
+TileCounts tiles_in(const Body& lattice);
+/// Items are places in tiles of lattices.
+Seen seen_by_lattice_tiles(const Model& model);
 /// Items are the particles whose springs have words, in their order.
 Seen seen_by_listed(const Model& model, const SpringBuffers& springs);
 /// Items are particles, in lattices or not.

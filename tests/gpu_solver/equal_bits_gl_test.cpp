@@ -36,9 +36,9 @@ class EqualBits : public aspic::testing::GlTest {
       contact = std::max(contact, length(expected.velocity[i] - fallen));
     }
     ASSERT_GT(contact, 0.5);
-    const bool solved = model.simulation.integrator == Integrator::implicit_euler;
-    for (const ForcePath path : {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring}) {
-      if (solved && path == ForcePath::per_spring) continue;  // refused by name
+    for (const ForcePath path :
+         {ForcePath::lattice, ForcePath::tiles, ForcePath::gather, ForcePath::per_spring}) {
+      if (!works_with(path, model.simulation.integrator)) continue;  // refused by name
       for (const std::uint32_t group_size : group_sizes) {
         GpuOptions options;
         options.force_path = path;
@@ -207,6 +207,7 @@ TEST_F(EqualBits, ScenesLargerThanABlock) {
        {Case{ForcePath::lattice, Integrator::explicit_euler, 48u << 10},
         {ForcePath::lattice, Integrator::runge_kutta_4, 48u << 10},
         {ForcePath::lattice, Integrator::implicit_euler, 48u << 10},
+        {ForcePath::tiles, Integrator::runge_kutta_4, 52u << 10},
         {ForcePath::gather, Integrator::explicit_euler, 48u << 10},
         {ForcePath::gather, Integrator::midpoint, 64u << 10},
         {ForcePath::gather, Integrator::implicit_euler, 48u << 10},
