@@ -1,5 +1,6 @@
 // A ribbon along each spring that faces the eye, at least a pixel wide.
 #include "render/layout.glsl"
+#include "render/sight.glsl"
 #include "render/cut.glsl"
 
 layout(lines) in;
@@ -33,12 +34,11 @@ void main() {
   if (a.z > -nearest && b.z > -nearest) return;
   if (a.z > -nearest) a = mix(b, a, (b.z + nearest) / (b.z - a.z));
   if (b.z > -nearest) b = mix(a, b, (a.z + nearest) / (a.z - b.z));
-  float pixel = 2.0 / (projection[1][1] * viewport.y);
   for (int corner = 0; corner < 4; ++corner) {
     bool first = (corner & 1) == 0;
     vec3 end = first ? a : b;
     across = float((corner >> 1) * 2 - 1);
-    towards_eye = normalize(-end);
+    towards_eye = -sight_of(end);
     vec3 side = cross(normalize(b - a), towards_eye);
     side = dot(side, side) > 0.0 ? normalize(side) : vec3(1.0, 0.0, 0.0);
     sideways = side;
@@ -46,7 +46,7 @@ void main() {
                   : colour_mode == COLOUR_FORCE ? force
                                                 : end_quantity[first ? 0 : 1];
     shown = (value - quantity_range.x) * quantity_range.y;
-    gl_Position = projection * vec4(end + across * max(radius, 0.6 * pixel * -end.z) * side, 1.0);
+    gl_Position = projection * vec4(end + across * max(radius, 0.6 * pixel_at(-end.z)) * side, 1.0);
     EmitVertex();
   }
   EndPrimitive();

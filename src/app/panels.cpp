@@ -355,7 +355,11 @@ Box draw_panels(const PanelParts& p, double width, double height) {
     drag_edge(p.gui, "layout/left", left, bottom, 1.0, layout.left_width);
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
-  const double legend = draw_legend(p.gui, p.picture.legend(), view);
+  const double colours = draw_legend(p.gui, "legend", p.picture.legend(), view);
+  const Legend arrows = p.picture.arrow_legend();
+  const double legend = colours + draw_legend(p.gui, "legend/arrows", arrows,
+                                              {view.left, view.top, view.right, view.bottom - colours});
+  if (p.scene.scene().view.axes && !p.picture.film) draw_axes(p.gui, p.view.lens(), view);
   notice_panel(p, view);
   help_panel(p.gui, p.help_visible, width, height);
   closing_panel(p.gui, p.closing, width, height);

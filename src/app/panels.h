@@ -1,5 +1,7 @@
 #pragma once
 // The panels around the scene. Widgets of scene values are made from the parameter table.
+#include <imgui.h>
+
 #include <cstddef>
 
 #include "app/file_dialog.h"
@@ -70,6 +72,11 @@ void stability_section(Gui& gui, SceneControl& scene);
 void particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& hovered, const Box& view,
                       bool legend);
 /// What the colours mean, in the lower right corner of the view. Returns how much of its height is taken.
-double draw_legend(const Gui& gui, const Legend& legend, const Box& view);
+/// `name` is that of its widget.
+double draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view);
+/// The world's axes, in the upper right corner of the view.
+void draw_axes(const Gui& gui, const Camera& camera, const Box& view);
+/// A colour as ImGui takes it, opaque.
+ImU32 display_colour(const Colour& linear);
 
 }  // namespace aspic::app

@@ -100,13 +100,17 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& sh
   edit(gui, scene, "view.draw");
   edit(gui, scene, "view.colour", 0, {"Colour by"});
   cut_widgets(gui, scene, camera.goal());
+  edit(gui, scene, "view.arrows");
+  if (scene.scene().view.arrows.any()) edit(gui, scene, "view.arrow-scale", 0, {"Force per length"});
   check_box(gui, "shadows", "view/shadows", shadows,
             "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "
             "this window only; aspic run always draws them.");
+  edit(gui, scene, "view.axes");
   camera_buttons(gui, camera);
   edit_camera(gui, camera, "view.camera.position", "Camera");
   edit_camera(gui, camera, "view.camera.target", "Looks at");
   edit_camera(gui, camera, "view.camera.fov", "Field of view");
+  edit_camera(gui, camera, "view.camera.projection", "Projection");
   text_size(gui, layout);
   if (button(gui, "layout/reset", "Reset layout",
              "Resets panels, their widths and the size of text to their defaults. Scene and camera are "

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "render/overlay_text.h"
+#include "run/arrows.h"
 
 namespace aspic {
 namespace {
@@ -91,6 +92,10 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   PictureOptions picture;
   picture.view = scene_.view;
   picture.legend = output_.text;
+  if (picture.view.arrows.any()) {
+    ASPIC_TRY(const auto state, solver.state());
+    picture.arrows = arrows_of(solver.model(), state, picture.view.arrows);
+  }
   if (output_.text)
     picture.text =
         overlay_lines(scene_.model, static_cast<double>(step) * solver.model().simulation.timestep);
