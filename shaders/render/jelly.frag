@@ -38,10 +38,11 @@ void main() {
   float through = max(dot(-v, sun.xyz), 0.0);
   sunlit += sun_light * exp(-0.9 * absorbed * inside) * 0.35 * through * through;
 
-  // Near the outline a straight sight line crosses next to nothing, but a bent one still goes some way inside.
+  // Beside an edge a straight sight line crosses next to nothing, but a bent one meets the other face from inside so
+  // slantingly that all of it stays in the body, and goes on for about half the size of it.
   vec2 at = gl_FragCoord.xy * viewport.zw;
   float crossed = max(textureLod(thickness_map, at, 0.0).r, 0.0);
-  float thickness = sqrt(crossed * crossed + 0.25 * reach * reach);
+  float thickness = sqrt(crossed * crossed + 4.0 * reach * reach);
   float opacity = mapped ? 0.94 : 1.0 - exp(-0.34 * thickness / reach);
   opacity *= 1.0 - 0.72 * see_through;
   vec3 bent = mat3(view) * n;

@@ -32,6 +32,7 @@
 #define LOCATION_PLANE_POINT 4
 #define LOCATION_PLANE_NORMAL 5
 #define LOCATION_SIDE 7
+#define LOCATION_FADES 7          // of springs: 1 where those thinner than a pixel fade
 #define LOCATION_FIRST 8          // of balls, particles or terrains: the first
 #define LOCATION_ELAPSED 9        // since the picture before [s]
 #define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it stands for the particle
@@ -68,11 +69,24 @@
 #define COLOUR_STRAIN 2u
 #define COLOUR_FORCE 3u
 #define COLOUR_SPEED 4u
+#define COLOUR_SIGNED_STRAIN 5u
+#define COLOUR_ENERGY 6u
+
+// Places in the list of extremes of what colours show: least and largest, as ordered() integers.
+#define EXTREMES_BODIES 0
+#define EXTREMES_SPRINGS 2
+#define EXTREMES 4
 
 // Light-space box of the particles; floats as unsigned integers in the same order, for atomicMin and atomicMax.
 struct Bounds {
   uvec4 lower;
   uvec4 upper;
+};
+
+// A vertex of a body's surface.
+struct SkinVertex {
+  vec4 position;  // [m]; w: 1
+  vec4 normal;    // unit; w: what colours show there
 };
 
 // The square map of a light, fitted to that box.

@@ -44,19 +44,26 @@ void CameraControl::orbit(double dx, double dy) {
   goal_.elevation = std::clamp(goal_.elevation + std::numbers::pi * dy, -steepest, steepest);
 }
 
-void CameraControl::pan(double dx, double dy) {
-  goal_.exact.reset();
+Vec3 CameraControl::across(double dx, double dy, double fov) const {
   // At the target's distance the view is this many metres high.
-  const double height = 2.0 * goal_.distance * std::tan(0.5 * radians(goal_.fov));
+  const double height = 2.0 * goal_.distance * std::tan(0.5 * radians(fov));
   const Vec3 right = {std::cos(goal_.azimuth), 0.0, -std::sin(goal_.azimuth)};
   const Vec3 up = {-std::sin(goal_.elevation) * std::sin(goal_.azimuth), std::cos(goal_.elevation),
                    -std::sin(goal_.elevation) * std::cos(goal_.azimuth)};
-  goal_.target = goal_.target + (-dx * height) * right + (dy * height) * up;
+  return (dx * height) * right + (-dy * height) * up;
 }
 
-void CameraControl::zoom(double notches) {
+void CameraControl::pan(double dx, double dy) {
   goal_.exact.reset();
-  goal_.distance = std::clamp(goal_.distance * std::pow(0.9, notches), nearest, farthest);
+  goal_.target = goal_.target - across(dx, dy, goal_.fov);
+}
+
+void CameraControl::zoom(double notches, double dx, double dy, double fov) {
+  goal_.exact.reset();
+  const Vec3 point = across(dx, dy, fov > 0.0 ? fov : goal_.fov);
+  const double before = goal_.distance;
+  goal_.distance = std::clamp(before * std::pow(0.9, notches), nearest, farthest);
+  goal_.target = goal_.target + (1.0 - goal_.distance / before) * point;
 }
 
 void CameraControl::come_round(double azimuth) {

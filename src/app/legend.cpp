@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "app/panels.h"
 #include "render/colour_map.h"
@@ -13,7 +14,9 @@ namespace {
 
 /// The scale of colours from its lower to its upper end, with its marks below.
 void scale_bar(const Legend& legend) {
-  static const std::vector<std::byte> texels = colour_map_texels();
+  static ScaleMap kept = legend.map;
+  static std::vector<std::byte> texels = colour_map_texels(kept);
+  if (std::exchange(kept, legend.map) != legend.map) texels = colour_map_texels(legend.map);
   const float line = ImGui::GetTextLineHeight(), height = 0.7f * line;
   float marks = 2.0f * line;
   for (const std::string& mark : legend.marks) marks += ImGui::CalcTextSize(mark.c_str()).x;

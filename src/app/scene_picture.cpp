@@ -43,18 +43,20 @@ void ScenePicture::detach() {
 
 ScenePicture::Pixels ScenePicture::view_pixels(int window_height) const {
   const double ratio = view_.pixels_per_unit;
+  const Box& box = place_ ? *place_ : view_.box;
   Pixels p;
-  p.left = rounded(view_.box.left * ratio);
-  p.bottom = window_height - rounded(view_.box.bottom * ratio);
-  p.width = std::max(rounded(view_.box.right * ratio) - p.left, 1);
-  p.height = std::max(rounded((view_.box.bottom - view_.box.top) * ratio), 1);
+  p.left = rounded(box.left * ratio);
+  p.bottom = window_height - rounded(box.bottom * ratio);
+  p.width = std::max(rounded(box.right * ratio) - p.left, 1);
+  p.height = std::max(rounded((box.bottom - box.top) * ratio), 1);
   return p;
 }
 
 ScenePicture::Content ScenePicture::wanted(bool fine) const {
   Content c;
   c.model = simulation_.model_number();
-  c.state = simulation_.picture_number();
+  c.state = kept() ? 0 : simulation_.picture_number();
+  c.kept = kept() ? kept_number_ : 0;
   c.view = scene_.view;
   c.view.camera = view_.seen();
   c.shadows = shadows;
@@ -65,7 +67,8 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
   c.size =
       film ? film->size
            : PictureSize{std::max(rounded(scale * full.width), 1), std::max(rounded(scale * full.height), 1)};
-  if (const auto& hand = simulation_.hand()) c.marks.pull = {hand->particle, hand->anchor};
+  if (const auto& hand = simulation_.hand(); hand && !hand->ball)
+    c.marks.pull = {hand->particle, hand->anchor};
   for (const auto& [particle, pinned] : simulation_.setup().pinned)
     if (pinned) c.marks.marked.push_back(particle);
   c.marks.unit = view_.text_scale * c.size.width / view_.width();
@@ -103,13 +106,12 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
       resolution_.reset(model.particle_count() > many_particles);
     drawn_particles_ = model.particle_count();
   }
-  std::optional<DeviceState> state = simulation_.device_state();
+  std::optional<DeviceState> state = kept() ? std::nullopt : simulation_.device_state();
   if (!state) {
-    ASPIC_TRY(state, renderer_->upload(simulation_.snapshot()));
+    ASPIC_TRY(state, renderer_->upload(kept() ? *kept() : simulation_.snapshot()));
   }
   Status drawn = renderer_->draw(content.size.width, content.size.height, *state, options);
-  if (!drawn && drawn.error().code == ErrorCode::scene_rejected &&
-      options.view.colour >= ViewColour::strain) {
+  if (!drawn && drawn.error().code == ErrorCode::scene_rejected && has_scale(options.view.colour)) {
     // What a colour needs of the device may be more than it has: the scene goes on without.
     refusal_ = "This colour cannot be shown: " + drawn.error().message;
     options.view.colour = ViewColour::material;
@@ -127,16 +129,37 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
   return {};
 }
 
+void ScenePicture::keep(const State& state) {
+  kept_ = state;
+  ++kept_number_;
+}
+
+const State* ScenePicture::kept() const {
+  const Model& model = simulation_.model();
+  const bool fits = kept_ && kept_->position.size() == model.particle_count() &&
+                    kept_->ball_position.size() == model.ball_count();
+  return fits ? &*kept_ : nullptr;
+}
+
+Status ScenePicture::show(const WindowSize& window, const Box& place) {
+  place_ = place;
+  return present(window);
+}
+
 Status ScenePicture::show(const WindowSize& window) {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, window.pixel_width, window.pixel_height);
+  glClearColor(0.105f, 0.107f, 0.112f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+  return present(window);
+}
+
+Status ScenePicture::present(const WindowSize& window) {
   const Pixels view = view_pixels(window.pixel_height);
   // Nothing but the picture may be used of the renderer while it is postponed: its model is gone.
   if (!std::exchange(postponed_, false) || !drawn_ || film) {
     ASPIC_CHECK(draw());
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, window.pixel_width, window.pixel_height);
-  glClearColor(0.105f, 0.107f, 0.112f, 1.0f);
-  glClear(GL_COLOR_BUFFER_BIT);
   Pixels& p = shown_pixels_ = view;
   if (film) {
     // A film of another shape than the view is shown complete, between margins.
@@ -184,9 +207,16 @@ Legend ScenePicture::arrow_legend() const {
   return aspic::arrow_legend(scene_.view, arrows_);
 }
 
+QuantityRange ScenePicture::range() const {
+  const bool drawn =
+      is_of_model() && drawn_->view.colour == scene_.view.colour && drawn_->view.scale == scene_.view.scale;
+  if (drawn) return renderer_->range();
+  return range_for(simulation_.model(), scene_.view, {});
+}
+
 Legend ScenePicture::legend() const {
   if (film && film->text) return {};
-  return legend_for(scene_.view, default_range(simulation_.model(), scene_.view.colour));
+  return legend_for(scene_.view, range());
 }
 
 namespace {

@@ -55,6 +55,12 @@ class ScenePicture {
   /// Draws it and puts it into the window; after postpone() the last one once more, so that events come
   /// first.
   Status show(const WindowSize& window);
+  /// The same for the picture of another run at a place of its own in the window, which keeps what else is
+  /// there.
+  Status show(const WindowSize& window, const Box& place);
+  /// From now on this state is shown, whatever becomes of the simulation, until the next one or release().
+  void keep(const State& state);
+  void release() { kept_.reset(); }
   void postpone() { postponed_ = true; }
   /// Why the last picture does not have the colour that was asked for, once.
   std::optional<std::string> take_refusal() { return std::exchange(refusal_, std::nullopt); }
@@ -78,6 +84,8 @@ class ScenePicture {
   /// The picture's share of the full resolution, 0 … 1: below 1 where a software rasteriser would be too
   /// slow.
   double resolution() const { return in_full() ? 1.0 : resolution_.share(); }
+  /// The ends of the scale of its colours.
+  QuantityRange range() const;
   /// What the colours of the picture mean; empty where they mean nothing, or the picture says so itself.
   Legend legend() const;
   /// The same of its arrows.
@@ -91,7 +99,7 @@ class ScenePicture {
  private:
   /// What the last picture shows, and how.
   struct Content {
-    std::uint64_t model = 0, state = 0;
+    std::uint64_t model = 0, state = 0, kept = 0;
     ViewSettings view;
     HighlightOptions marks;
     bool shadows = true, fine = true;
@@ -104,6 +112,9 @@ class ScenePicture {
   };
   bool in_full() const { return full_quality || !context_->info().is_software; }
   Pixels view_pixels(int window_height) const;
+  Status present(const WindowSize& window);
+  /// What is kept, if it is one of the simulation's model.
+  const State* kept() const;
   Content wanted(bool fine) const;
   Status draw(const Content& content, bool legend, const std::optional<Colour>& background = {});
   Status save_clear(const Content& content, const std::string& path);
@@ -112,6 +123,9 @@ class ScenePicture {
   const Scene& scene_;
   const View& view_;
   std::optional<std::string> refusal_;
+  std::optional<Box> place_;   // absent: the view's
+  std::optional<State> kept_;  // that is shown; absent: the simulation's
+  std::uint64_t kept_number_ = 0;
   gl::Context* context_ = nullptr;
   std::unique_ptr<Renderer> renderer_;
   std::optional<Content> drawn_;

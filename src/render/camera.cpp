@@ -1,13 +1,25 @@
 #include "render/camera.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+#include <numbers>
 
 #include "render/layout.h"
 
 namespace aspic {
+
+CameraSettings fitted(CameraSettings settings, double width, double height) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  const double more = narrowest * height / width;
+  if (more > 1.0)
+    settings.fov = std::min(2.0 * std::atan(more * std::tan(0.5 * degree * settings.fov)) / degree, 179.0);
+  return settings;
+}
+
 Camera::Camera(const CameraSettings& settings, int width, int height)
     : eye_(to_glm(settings.position)),
       width_(width),

@@ -18,6 +18,13 @@ struct Ray {
   Vec3 direction;  ///< unit
 };
 
+/// Width/height below which a picture shows more above and below, so that its sides are not cut.
+inline constexpr double narrowest = 4.0 / 3.0;
+
+/// The settings for a picture of width × height, both > 0: a narrow one shows as much from side to side as
+/// one of 4 : 3.
+CameraSettings fitted(CameraSettings settings, double width, double height);
+
 class Camera {
  public:
   /// `settings` as a scene accepts them; a picture of width × height pixels, both ≥ 1. Up is +y, or −z where

@@ -22,6 +22,9 @@ struct FrameContent {
 render_layout::Frame frame_block(const Model& model, const Camera& camera, int width, int height,
                                  const FrameContent& content);
 
+/// A range as the block holds it: its lower end, and one over its width (0 of an empty one).
+glm::vec4 quantity_scale(const QuantityRange& range);
+
 /// The same for the `side` × `side` pixels around the middle of pixel (x, y) [pixels from left and top] of a
 /// view of width × height pixels, alone: what lies elsewhere is clipped.
 render_layout::Frame frame_around(const render_layout::Frame& whole, double x, double y, double width,

@@ -22,6 +22,7 @@ constexpr float bar_height = 0.75f;
 
 constexpr std::array<float, 4> bright = {0.93f, 0.95f, 0.97f, 1.0f};
 constexpr std::array<float, 4> dim = {0.42f, 0.49f, 0.57f, 1.0f};
+constexpr std::array<float, 4> alarming = {0.95f, 0.30f, 0.12f, 1.0f};
 constexpr std::array<float, 4> backdrop = {0.006f, 0.009f, 0.014f, 0.66f};
 
 constexpr float glyph_shape = 0.0f, panel_shape = 1.0f, scale_shape = 2.0f;
@@ -98,8 +99,8 @@ void OverlayPainter::facts(const std::vector<OverlayLine>& lines) {
         static_cast<float>(lines.size()) * step + 2 * inset - (step - em));
   float y = top + inset;
   for (const OverlayLine& line : lines) {
-    text(left + inset, y, line.label, dim);
-    text(left + inset + labels, y, line.value, bright);
+    text(left + inset, y, line.label, line.alarm ? alarming : dim);
+    text(left + inset + labels, y, line.value, line.alarm ? alarming : bright);
     y += step;
   }
 }
@@ -178,9 +179,9 @@ void OverlayPainter::axes(const Camera& camera, float picture_width) {
 }
 
 Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines,
-                            std::span<const Legend> legends, const Camera* camera) {
+                            std::span<const Legend> legends, const Camera* camera, int text_height) {
   if (lines.empty() && !camera && std::ranges::all_of(legends, &Legend::empty)) return {};
-  const int wanted = static_cast<int>(std::lround(picture.height() / 42.0));
+  const int wanted = text_height > 0 ? text_height : static_cast<int>(std::lround(picture.height() / 42.0));
   ASPIC_CHECK(prepare_font(std::clamp(wanted, 11, 256)));
   pending_.clear();
   if (!lines.empty()) facts(lines);

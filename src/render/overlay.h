@@ -17,14 +17,16 @@ namespace aspic {
 
 /// One line of the panel.
 struct OverlayLine {
-  std::string label;  ///< in the left column, dimmer; may be empty
-  std::string value;  ///< in the right column
+  std::string label;   ///< in the left column, dimmer; may be empty
+  std::string value;   ///< in the right column
+  bool alarm = false;  ///< it tells of a failure
 };
 
 /// A scale of colours with its ends, or a key of named colours, bottom right.
 struct Legend {
   std::string title;
-  std::array<std::string, 3> marks;  ///< lower end, middle, upper end; all empty: no scale is drawn
+  ScaleMap map = ScaleMap::violet_yellow;  ///< colours of the scale
+  std::array<std::string, 3> marks;        ///< lower end, middle, upper end; all empty: no scale is drawn
   struct Entry {
     Colour colour;
     std::string name;
@@ -38,13 +40,14 @@ class OverlayPainter {
  public:
   static Result<OverlayPainter> create(gl::Context& context, const gl::ShaderLibrary& library);
 
-  /// Draws over `picture`, an sRGB image; text height is a fixed fraction of its height, 11 pixels at least.
+  /// Draws over `picture`, an sRGB image; text is `text_height` pixels high, if that is 0 a fixed fraction of
+  /// the picture's height, 11 pixels at least.
   /// The colour map must be bound to its unit and the frame block to its binding. Leaves blending off. Error
   /// (scene_rejected): no device memory.
   /// Legends stand one above the other; empty ones are left out. `camera`: that of axes in the upper right
   /// corner; null: none.
   Status draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines,
-              std::span<const Legend> legends, const Camera* camera = nullptr);
+              std::span<const Legend> legends, const Camera* camera = nullptr, int text_height = 0);
 
  private:
   struct Vertex {

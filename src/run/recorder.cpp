@@ -5,6 +5,7 @@
 #include <chrono>
 #include <limits>
 
+#include "render/camera.h"
 #include "render/overlay_text.h"
 #include "run/arrows.h"
 
@@ -91,6 +92,7 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   }
   PictureOptions picture;
   picture.view = scene_.view;
+  picture.view.camera = fitted(scene_.view.camera, output_.size.width, output_.size.height);
   picture.legend = output_.text;
   if (picture.view.arrows.any()) {
     ASPIC_TRY(const auto state, solver.state());

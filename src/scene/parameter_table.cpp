@@ -167,6 +167,19 @@ Rows view_rows() {
       absent("as long as the picture has room for",
              row("view.arrow-scale", "N/m", {0.0, 1e12, true}, FIELD(view.arrow_scale),
                  "Force that an arrow of a metre stands for.")),
+      word<scale_maps>("view.scale.map", FIELD(view.scale.map),
+                       "Colours of the scale; automatic: blue-red for signed strain, else violet-yellow."),
+      word<scale_ranges>("view.scale.range", FIELD(view.scale.range),
+                         "Values at the ends of the scale: fixed for the run, those of each picture "
+                         "(automatic), or those of each picture with 0 in the middle (symmetric)."),
+      absent("suits the scene",
+             row("view.scale.from", "", within(1e12), FIELD(view.scale.from),
+                 "Value at the lower end of a fixed scale, in N, J or m/s; strain as a ratio.")),
+      absent("suits the scene",
+             row("view.scale.to", "", within(1e12), FIELD(view.scale.to),
+                 "Value at the upper end of a fixed scale, in N, J or m/s; strain as a ratio.")),
+      absent("none", row("view.ground", "m", within(far), FIELD(view.ground),
+                         "Height of a level grid that is drawn only: bodies fall through it.")),
   };
 }
 
@@ -174,6 +187,12 @@ Rows view_rows() {
 
 std::string_view name_of(ViewColour colour) {
   return std::ranges::find(view_colours, colour, &Named<ViewColour>::value)->name;
+}
+std::string_view name_of(ScaleMap map) {
+  return std::ranges::find(scale_maps, map, &Named<ScaleMap>::value)->name;
+}
+std::string_view name_of(ScaleRange range) {
+  return std::ranges::find(scale_ranges, range, &Named<ScaleRange>::value)->name;
 }
 
 std::string_view name_of(CutInside inside) {

@@ -37,14 +37,42 @@ struct DrawSettings {
 };
 
 /// What the colours of bodies mean.
-enum class ViewColour { material, type, strain, force, speed };
+enum class ViewColour { material, type, strain, force, speed, signed_strain, energy };
 
 /// Every one, in the order in which they are listed for users.
-inline constexpr Named<ViewColour> view_colours[] = {{ViewColour::material, "material"},
-                                                     {ViewColour::type, "type"},
-                                                     {ViewColour::strain, "strain"},
-                                                     {ViewColour::force, "force"},
-                                                     {ViewColour::speed, "speed"}};
+inline constexpr Named<ViewColour> view_colours[] = {
+    {ViewColour::material, "material"}, {ViewColour::type, "type"},
+    {ViewColour::strain, "strain"},     {ViewColour::signed_strain, "signed-strain"},
+    {ViewColour::force, "force"},       {ViewColour::energy, "energy"},
+    {ViewColour::speed, "speed"}};
+
+/// Whether a colour stands for a number, on a scale.
+inline bool has_scale(ViewColour colour) {
+  return colour >= ViewColour::strain;
+}
+
+/// Colours of a scale.
+enum class ScaleMap { automatic, violet_yellow, heat, grey, blue_red };
+inline constexpr Named<ScaleMap> scale_maps[] = {{ScaleMap::automatic, "automatic"},
+                                                 {ScaleMap::violet_yellow, "violet-yellow"},
+                                                 {ScaleMap::heat, "heat"},
+                                                 {ScaleMap::grey, "grey"},
+                                                 {ScaleMap::blue_red, "blue-red"}};
+
+/// Which values the ends of a scale stand for.
+enum class ScaleRange { fixed, automatic, symmetric };
+inline constexpr Named<ScaleRange> scale_ranges[] = {
+    {ScaleRange::fixed, "fixed"}, {ScaleRange::automatic, "automatic"}, {ScaleRange::symmetric, "symmetric"}};
+
+/// The scale of a colour that stands for a number.
+struct ScaleSettings {
+  ScaleMap map = ScaleMap::automatic;
+  ScaleRange range = ScaleRange::fixed;
+  /// Ends of a fixed scale, in the quantity's SI unit, strain as a ratio; absent: what suits the model.
+  std::optional<double> from, to;
+
+  friend bool operator==(const ScaleSettings&, const ScaleSettings&) = default;
+};
 
 /// What a cut through the bodies shows of their inside.
 enum class CutInside { off, section, springs };
@@ -84,14 +112,18 @@ struct ViewSettings {
   bool axes = false;  ///< the world's axes are drawn in a corner
   ArrowSettings arrows;
   std::optional<double> arrow_scale = {};  ///< an arrow's force by its length [N/m]; absent: fits the picture
+  ScaleSettings scale;
+  std::optional<double> ground;  ///< height of a ground that is drawn only [m]; absent: none
 
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 
-/// Name in scene files.
+/// Names in scene files.
 std::string_view name_of(ViewColour colour);
 std::string_view name_of(CutInside inside);
 std::string_view name_of(Projection projection);
+std::string_view name_of(ScaleMap map);
+std::string_view name_of(ScaleRange range);
 
 /// Physics and picture of one scene. Default-constructed it has no terrain and no bodies, as an empty file
 /// would.

@@ -28,7 +28,8 @@ class Cut : public test::Studio {
     options.view.camera.target = {0.0, 0.0, 0.0};
     options.view.cut = {CutInside::section, {0.0, 0.0, 1.0}, offset};
     options.view.colour = ViewColour::speed;
-    options.range = {{0.0, 4.0}};
+    options.view.scale.from = 0.0;
+    options.view.scale.to = 4.0;
     options.background = Colour{0.0f, 0.0f, 0.0f};
     options.legend = false;
     options.samples = 1;
@@ -81,7 +82,7 @@ TEST_F(Cut, SectionHasTheLegendsColours) {
     state.velocity[i] = {0.0, 2.0 + 0.5 * state.position[i].x + 0.25 * state.position[i].z, 0.0};
   const PictureOptions options = from_front(0.3);
   const test::Image image = draw(model, state, options, width, height);
-  const std::vector<std::byte> texels = colour_map_texels();
+  const std::vector<std::byte> texels = colour_map_texels(chosen_map(options.view));
   for (const double x : {-1.5, -0.5, 0.5, 1.5}) {
     for (const double y : {-1.5, 0.5}) {
       const auto at = test::project(camera_of(options), {x, y, 0.3});

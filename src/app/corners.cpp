@@ -1,10 +1,11 @@
-// The world's axes in the upper right corner of the view, in window pixels whatever the picture's own.
+// What stands in the corners of the view, in window pixels whatever the picture's own: labels, legends and axes.
 #include <imgui.h>
 
 #include "app/panels.h"
 #include "render/axes.h"
 
 namespace aspic::app {
+namespace {
 
 void draw_axes(const Gui& gui, const Camera& camera, const Box& view) {
   const float em = ImGui::GetFontSize();
@@ -26,6 +27,17 @@ void draw_axes(const Gui& gui, const Camera& camera, const Box& view) {
     list.AddText({letter.x - 0.5f * size.x, letter.y - 0.5f * size.y}, IM_COL32(240, 243, 247, 255),
                  &arm.letter, &arm.letter + 1);
   }
+}
+
+}  // namespace
+
+double draw_corners(const PanelParts& p, const Box& view) {
+  p.beside.draw_labels(p.gui);
+  const double colours = draw_legend(p.gui, "legend", p.picture.legend(), view);
+  const Box above = {view.left, view.top, view.right, view.bottom - colours};
+  const double arrows = draw_legend(p.gui, "legend/arrows", p.picture.arrow_legend(), above);
+  if (p.scene.scene().view.axes && !p.picture.film) draw_axes(p.gui, p.view.lens(), view);
+  return colours + arrows;
 }
 
 }  // namespace aspic::app
