@@ -1,6 +1,7 @@
 // A translucent body: what lies behind it, bent and tinted by the thickness crossed; sunlight that has travelled inside
 // it; skylight; reflection at the surface.
 #include "render/frame.glsl"
+#include "render/sight.glsl"
 #include "render/light.glsl"
 
 layout(binding = UNIT_SUN_MAP) uniform sampler2D sun_map;
@@ -15,7 +16,7 @@ layout(location = 0) out vec4 colour;
 
 void main() {
   vec3 n = normalize(surface_normal);
-  vec3 v = normalize(eye.xyz - world);
+  vec3 v = to_eye(world);
   if (!gl_FrontFacing) n = -n;
   // On an outline between flat faces the smooth normal turns from the eye before the surface does.
   float nv = max(dot(n, v), 0.2);

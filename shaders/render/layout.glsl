@@ -42,6 +42,9 @@
 #define LOCATION_CELL 17          // of a lattice: the first of a run of cells
 #define LOCATION_MARK 11          // MARK_…, least radius [pixels], opacity, whether to encode as sRGB
 
+// An orthographic picture's eye, in distances of the target: as far as is seen before the target, and behind it.
+#define ORTHOGRAPHIC_DISTANCE 40.0f
+
 // Lights that the bodies keep off: the sun, and the sky straight above.
 #define LIGHT_SUN 0
 #define LIGHT_SKY 1
@@ -112,7 +115,8 @@ layout(std140, binding = BINDING_FRAME) uniform Frame {
   mat4 view_projection;
   mat4 clip_to_world;
   mat4 lights[LIGHTS];        // rotations from the world to each light's space, +z away from the light
-  vec4 eye;                   // [m]; w: distance from the eye to the target
+  vec4 eye;                   // [m]; w: distance from the camera's position to the target
+  vec4 viewer;                // the eye and 1; of an orthographic picture, the unit vector towards it and 0
   vec4 sun;                   // unit, towards the sun
   vec4 viewport;              // width, height, 1/width, 1/height [pixels]
   vec4 shadow_tint;           // light that the bodies let through

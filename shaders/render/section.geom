@@ -1,5 +1,6 @@
 // Where the section's plane crosses a tetrahedron: a triangle or a quadrilateral, its front towards what is cut away.
 #include "render/layout.glsl"
+#include "render/sight.glsl"
 
 layout(lines_adjacency) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -63,7 +64,7 @@ void main() {
     along = -(view * vec4(at[i], 1.0)).z;
 #else
     world = at[i];
-    from_eye = at[i] - eye.xyz;
+    from_eye = way_from_eye(at[i]);
     place = mix(vertex_place[crossed[i].x], vertex_place[crossed[i].y], share[i]);
     shown = mix(vertex_shown[crossed[i].x], vertex_shown[crossed[i].y], share[i]);
 #endif

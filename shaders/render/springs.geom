@@ -1,6 +1,7 @@
 // A ribbon along each spring that faces the eye, at least a pixel wide; where springs fade, with half a pixel more on
 // either side.
 #include "render/layout.glsl"
+#include "render/sight.glsl"
 #include "render/cut.glsl"
 #include "render/spring_quantity.glsl"
 
@@ -34,20 +35,20 @@ void main() {
   if (a.z > -nearest && b.z > -nearest) return;
   if (a.z > -nearest) a = mix(b, a, (b.z + nearest) / (b.z - a.z));
   if (b.z > -nearest) b = mix(a, b, (a.z + nearest) / (a.z - b.z));
-  float pixel = 2.0 / (projection[1][1] * viewport.y);
   for (int corner = 0; corner < 4; ++corner) {
     bool first = (corner & 1) == 0;
     vec3 end = first ? a : b;
     across = float((corner >> 1) * 2 - 1);
-    towards_eye = normalize(-end);
+    towards_eye = -sight_of(end);
     vec3 side = cross(normalize(b - a), towards_eye);
     side = dot(side, side) > 0.0 ? normalize(side) : vec3(1.0, 0.0, 0.0);
     sideways = side;
     float value = colour_mode == COLOUR_SPEED ? end_quantity[first ? 0 : 1] : own;
     shown = (value - quantity_range.x) * quantity_range.y;
-    float half_width = radius / (pixel * -end.z);
+    float pixel = pixel_at(-end.z);
+    float half_width = radius / pixel;
     reach = vec2(fades == 0 ? max(half_width, 0.6) : max(half_width, 0.5) + 0.5, half_width);
-    gl_Position = projection * vec4(end + across * reach.x * pixel * -end.z * side, 1.0);
+    gl_Position = projection * vec4(end + across * reach.x * pixel * side, 1.0);
     EmitVertex();
   }
   EndPrimitive();

@@ -70,6 +70,7 @@ std::vector<Command> App::make_commands() {
       s.view.cut.inside = cut_insides[(static_cast<int>(s.view.cut.inside) + 1) % kinds].value;
     });
   };
+  const auto axes = [this] { scene.change("view.axes", [](Scene& s) { s.view.axes = !s.view.axes; }); };
   const auto full_screen = [this] {
     if (gui_->services().toggle_full_screen) gui_->services().toggle_full_screen();
   };
@@ -111,6 +112,8 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+C", "copy the camera as text", GLFW_KEY_C, ctrl, 0,
        [this] { copy_camera(view, gui_->services(), messages); }},
       {"Ctrl+V", "paste a camera", GLFW_KEY_V, ctrl, 0, paste},
+      {"A", "axes in a corner of the picture", GLFW_KEY_A, 0, 0, axes},
+      {"O", "orthographic or perspective", GLFW_KEY_O, 0, 0, [this] { view.camera.change_projection(); }},
       {"X", "cut the bodies open: section, springs, not at all", GLFW_KEY_X, 0, 0, cut},
       {"", "Window and files"},
       {"L", "next layout", GLFW_KEY_L, 0, 0, [this] { layout.choose_next(); }},

@@ -26,6 +26,7 @@ CameraControl::Orbit CameraControl::orbit_of(const CameraSettings& settings) {
   orbit.azimuth = std::atan2(d.x, d.z);
   orbit.elevation = std::clamp(std::asin(std::clamp(d.y / orbit.distance, -1.0, 1.0)), -steepest, steepest);
   orbit.fov = settings.fov;
+  orbit.projection = settings.projection;
   orbit.exact = settings;
   return orbit;
 }
@@ -34,7 +35,7 @@ CameraSettings CameraControl::settings_of(const Orbit& o) {
   if (o.exact) return *o.exact;
   const Vec3 direction = {std::cos(o.elevation) * std::sin(o.azimuth), std::sin(o.elevation),
                           std::cos(o.elevation) * std::cos(o.azimuth)};
-  return {o.target + o.distance * direction, o.target, o.fov};
+  return {o.target + o.distance * direction, o.target, o.fov, o.projection};
 }
 
 void CameraControl::orbit(double dx, double dy) {
@@ -76,7 +77,7 @@ void CameraControl::reset() {
 }
 
 void CameraControl::look_from(const Vec3& direction) {
-  const Orbit seen = orbit_of({goal_.target + direction, goal_.target, goal_.fov});
+  const Orbit seen = orbit_of({goal_.target + direction, goal_.target, goal_.fov, goal_.projection});
   come_round(seen.azimuth);
   goal_.exact.reset();
   goal_.azimuth = seen.azimuth;
@@ -89,6 +90,13 @@ void CameraControl::frame(const Vec3& centre, double radius, double aspect) {
   const double narrow = aspect < 1.0 ? std::atan(aspect * std::tan(half)) : half;
   goal_.target = centre;
   goal_.distance = std::clamp(1.1 * std::max(radius, 10.0 * nearest) / std::sin(narrow), nearest, farthest);
+}
+
+void CameraControl::change_projection() {
+  const bool parallel = goal_.projection == Projection::orthographic;
+  goal_.projection = shown_.projection = parallel ? Projection::perspective : Projection::orthographic;
+  for (Orbit* const orbit : {&goal_, &shown_})
+    if (orbit->exact) orbit->exact->projection = goal_.projection;
 }
 
 void CameraControl::centre(const Vec3& point) {
@@ -106,6 +114,7 @@ bool CameraControl::update(double dt) {
   shown_.azimuth = ease(shown_.azimuth, goal_.azimuth);
   shown_.elevation = ease(shown_.elevation, goal_.elevation);
   shown_.distance = std::exp(ease(std::log(shown_.distance), std::log(goal_.distance)));
+  shown_.projection = goal_.projection;
   shown_.fov = ease(shown_.fov, goal_.fov);
   if (length(shown_.target - goal_.target) < 1e-4 * goal_.distance &&
       near(shown_.azimuth, goal_.azimuth, 1) && near(shown_.elevation, goal_.elevation, 1) &&

@@ -31,6 +31,8 @@ class CameraControl {
   void look_from(const Vec3& direction);
   /// Takes on a camera at once, without easing.
   void jump_to(const CameraSettings& settings) { goal_ = shown_ = orbit_of(settings); }
+  /// From perspective to orthographic and back, at once; what is at the target's distance stays as large.
+  void change_projection();
   /// A new home, which the camera does not go to by itself.
   void set_home(const CameraSettings& home) { home_ = home; }
 
@@ -47,6 +49,7 @@ class CameraControl {
   struct Orbit {
     Vec3 target;
     double azimuth = 0.0, elevation = 0.0, distance = 1.0, fov = 45.0;
+    Projection projection = Projection::perspective;
     std::optional<CameraSettings> exact = {};  ///< until moved: what the angles would round
     friend bool operator==(const Orbit&, const Orbit&) = default;
   };

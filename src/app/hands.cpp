@@ -30,8 +30,9 @@ void Hands::throw_many() {
   const double width = view_.width(), height = view_.height();
   const Camera camera = view_.lens();
   const Ray axis = camera.ray_through(0.5 * width, 0.5 * height);
-  const Vec3 right = camera.ray_through(width, 0.5 * height).direction - axis.direction;
-  const Vec3 up = camera.ray_through(0.5 * width, 0.0).direction - axis.direction;
+  const glm::mat4& to_view = camera.view();
+  const Vec3 right = {to_view[0][0], to_view[1][0], to_view[2][0]};
+  const Vec3 up = {to_view[0][1], to_view[1][1], to_view[2][1]};
   std::vector<BallSettings> balls;
   for (int i = 0; i < many; ++i) {
     const double angle = golden_angle * static_cast<double>(thrown_++);
@@ -40,7 +41,7 @@ void Hands::throw_many() {
     BallSettings ball =
         thrown_ball(camera.ray_through((0.5 + 0.15 * dx) * width, (0.5 + 0.15 * dy) * height));
     const double spread = 1.4 * ball.radius * std::sqrt(static_cast<double>(many));
-    ball.position = ball.position + (spread * dx / length(right)) * right - (spread * dy / length(up)) * up;
+    ball.position = ball.position + (spread * dx) * right - (spread * dy) * up;
     balls.push_back(ball);
   }
   messages_.check(simulation_.throw_balls(balls));

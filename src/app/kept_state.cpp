@@ -19,7 +19,18 @@
 namespace aspic {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Vec3, x, y, z)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CameraSettings, position, target, fov)
+NLOHMANN_JSON_SERIALIZE_ENUM(Projection, {{Projection::perspective, "perspective"},
+                                          {Projection::orthographic, "orthographic"}})
+
+void to_json(nlohmann::json& json, const CameraSettings& c) {
+  json = {{"position", c.position}, {"target", c.target}, {"fov", c.fov}, {"projection", c.projection}};
+}
+void from_json(const nlohmann::json& json, CameraSettings& c) {
+  json.at("position").get_to(c.position);
+  json.at("target").get_to(c.target);
+  json.at("fov").get_to(c.fov);
+  c.projection = json.value("projection", Projection::perspective);
+}
 
 namespace app {
 

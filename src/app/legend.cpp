@@ -1,4 +1,5 @@
 // What the colours of the picture mean, in window pixels whatever the picture's own.
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -10,13 +11,6 @@
 
 namespace aspic::app {
 namespace {
-
-ImU32 display_colour(const Colour& linear) {
-  std::array<float, 3> c;
-  for (std::size_t i = 0; i < 3; ++i)
-    c[i] = static_cast<float>(linear_to_srgb(static_cast<double>(linear[i])));
-  return ImGui::ColorConvertFloat4ToU32({c[0], c[1], c[2], 1.0f});
-}
 
 /// The scale of colours from its lower to its upper end, with its marks below.
 void scale_bar(const Legend& legend) {
@@ -51,14 +45,21 @@ void scale_bar(const Legend& legend) {
 
 }  // namespace
 
-double draw_legend(const Gui& gui, const Legend& legend, const Box& view) {
+ImU32 display_colour(const Colour& linear) {
+  std::array<float, 3> c;
+  for (std::size_t i = 0; i < 3; ++i)
+    c[i] = static_cast<float>(linear_to_srgb(static_cast<double>(linear[i])));
+  return ImGui::ColorConvertFloat4ToU32({c[0], c[1], c[2], 1.0f});
+}
+
+double draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view) {
   if (legend.empty()) return 0.0;
   const auto gap = static_cast<float>(16.0 * gui.scale());
   ImGui::SetNextWindowPos({static_cast<float>(view.right) - gap, static_cast<float>(view.bottom) - gap},
                           ImGuiCond_Always, {1.0f, 1.0f});
   ImGui::SetNextWindowBgAlpha(0.72f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);
-  ImGui::Begin("##legend", nullptr,
+  ImGui::Begin(fmt::format("##{}", name).c_str(), nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
@@ -76,7 +77,7 @@ double draw_legend(const Gui& gui, const Legend& legend, const Box& view) {
   }
   if (legend.entries.empty()) scale_bar(legend);
   ImGui::EndGroup();
-  gui.mark("legend");
+  gui.mark("{}", name);
   const float height = ImGui::GetWindowHeight();
   ImGui::End();
   ImGui::PopStyleVar();

@@ -61,8 +61,7 @@ constexpr Heading right_sections[] = {
      "Films of the scene; its states, energies and checkpoints as files."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); },
      "Speed of simulation and drawing, and the devices used."},
-    {"Energy", [](Parts p) { energy_section(p.gui, p.beside, p.run); },
-     "Energies and momentum over time."},
+    {"Energy", [](Parts p) { energy_section(p.gui, p.beside, p.run); }, "Energies and momentum over time."},
     {"Side by side", [](Parts p) { beside_section(p.gui, p.scene, p.beside); },
      "Further runs of the scene, each with one difference, on the same clock."},
     {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); },
@@ -384,8 +383,7 @@ void draw_panels(const PanelParts& p, double width, double height) {
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
   p.beside.place(view);
-  p.beside.draw_labels(p.gui);
-  const double legend = draw_legend(p.gui, p.picture.legend(), view);
+  const double legend = draw_corners(p, view);
   notice_panel(p, view);
   help_panel(p.gui, p.help_visible, width, height);
   closing_panel(p.gui, p.closing, width, height);

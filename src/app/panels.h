@@ -1,5 +1,7 @@
 #pragma once
 // The panels around the scene. Widgets of scene values are made from the parameter table.
+#include <imgui.h>
+
 #include <cstddef>
 #include <optional>
 
@@ -80,6 +82,12 @@ void particle_readout(const Gui& gui, const Simulation& simulation, const Hovere
 void ball_mark(const Gui& gui, const std::optional<Pull>& hand, const Hovered& hovered, const View& view,
                const Box& picture);
 /// What the colours mean, in the lower right corner of the view. Returns how much of its height is taken.
-double draw_legend(const Gui& gui, const Legend& legend, const Box& view);
+/// `name` is that of its widget.
+double draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view);
+/// Labels of runs beside each other, what colours and arrows mean, one above the other, and the world's axes
+/// in the upper right corner, where the view asks for them. Returns how much of the height the legends take.
+double draw_corners(const PanelParts& parts, const Box& view);
+/// A colour as ImGui takes it, opaque.
+ImU32 display_colour(const Colour& linear);
 
 }  // namespace aspic::app

@@ -168,6 +168,7 @@ Value first_value(const Parameter& p, const Scene& scene) {
   if (p.path == "terrain[].restitution") return scene.model.contact.restitution;
   if (p.path == "terrain[].friction") return scene.model.contact.friction;
   if (p.path == "terrain[].mass") return 10.0;  // the assignments' sphere and bowl
+  if (p.path == "view.arrow-scale") return 100.0;
   return std::clamp(1e-4, p.range.min, p.range.max);
 }
 

@@ -11,6 +11,7 @@
 #include "io/film_format.h"
 #include "render/colour_map.h"
 #include "render/overlay_text.h"
+#include "run/arrows.h"
 #include "run/backends.h"
 
 namespace aspic::app {
@@ -91,6 +92,11 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
   options.view = content.view;
   if (film && film->text) options.text = overlay_lines(scene_.model, simulation_.time());
   options.shadows = shadows;
+  options.axes = legend || film;
+  // Of the very state that is drawn.
+  if (options.view.arrows.any() && simulation_.device_state()) ASPIC_CHECK(simulation_.refresh_snapshot());
+  arrows_ = arrows_of(simulation_.model(), simulation_.snapshot(), options.view.arrows, simulation_.hand());
+  options.arrows = arrows_;
   options.highlight = content.marks;
   options.coarse_skin = adapts && share < 1.0;
   if (new_model) {
@@ -196,6 +202,11 @@ void ScenePicture::count(double dt) {
   rate_pictures_ = 0;
 }
 
+Legend ScenePicture::arrow_legend() const {
+  if (film && film->text) return {};
+  return aspic::arrow_legend(scene_.view, arrows_);
+}
+
 QuantityRange ScenePicture::range() const {
   const bool drawn =
       is_of_model() && drawn_->view.colour == scene_.view.colour && drawn_->view.scale == scene_.view.scale;
@@ -276,7 +287,9 @@ Status ScenePicture::save(const std::string& path) {
   else if (written = draw(content, true); written)
     written = save_pixels(renderer_->picture().id(), content.size, path);
   // The window's own has no legend, its own size and what is around the bodies.
-  if (content.size != own.size || saved.clear || !legend().empty()) ASPIC_CHECK(draw(own, false));
+  if (content.size != own.size || saved.clear || !legend().empty() || !arrow_legend().empty() ||
+      scene_.view.axes)
+    ASPIC_CHECK(draw(own, false));
   return written;
 }
 

@@ -133,14 +133,18 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const Qu
   edit(gui, scene, "view.colour", 0, {"Colour by"});
   scale_rows(gui, scene, shown);
   cut_widgets(gui, scene, camera.goal());
+  edit(gui, scene, "view.arrows");
+  if (scene.scene().view.arrows.any()) edit(gui, scene, "view.arrow-scale", 0, {"Force per length"});
   edit(gui, scene, "view.ground", 0, {"Grid at height"});
   check_box(gui, "shadows", "view/shadows", shadows,
             "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "
             "this window only; aspic run always draws them.");
+  edit(gui, scene, "view.axes");
   camera_buttons(gui, camera);
   edit_camera(gui, camera, "view.camera.position", "Camera");
   edit_camera(gui, camera, "view.camera.target", "Looks at");
   edit_camera(gui, camera, "view.camera.fov", "Field of view");
+  edit_camera(gui, camera, "view.camera.projection", "Projection");
   layout_widgets(gui, layout);
 }
 

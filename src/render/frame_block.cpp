@@ -57,6 +57,7 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
   }
   block.lights[LIGHT_SKY] = light_rotation(above);
   block.eye = glm::vec4(camera.eye(), camera.target_distance());
+  block.viewer = camera.orthographic() ? glm::vec4(-camera.axis(), 0) : glm::vec4(camera.eye(), 1);
   block.sun = glm::vec4(to_sun, 0);
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
   block.viewport = glm::vec4(w, h, 1.0f / w, 1.0f / h);

@@ -24,8 +24,11 @@ struct Word {
 Vec3 point_at(const render_layout::Frame& frame, int column, int row, int side, double distance) {
   const glm::dmat4 projection(frame.projection);
   const double x = 2.0 * (column + 0.5) / side - 1.0, y = 2.0 * (row + 0.5) / side - 1.0;
-  const glm::dvec4 in_view((x + projection[2][0]) * distance / projection[0][0],
-                           (y + projection[2][1]) * distance / projection[1][1], -distance, 1.0);
+  // Of clip space: the distance itself, or 1 in an orthographic picture.
+  const double w = projection[3][3] - projection[2][3] * distance;
+  const glm::dvec4 in_view((x * w + projection[2][0] * distance - projection[3][0]) / projection[0][0],
+                           (y * w + projection[2][1] * distance - projection[3][1]) / projection[1][1],
+                           -distance, 1.0);
   const glm::dvec4 world = glm::inverse(glm::dmat4(frame.view)) * in_view;
   return {world.x, world.y, world.z};
 }

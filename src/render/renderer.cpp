@@ -61,11 +61,13 @@ struct Renderer::Parts {
   std::unique_ptr<Picker> picker;
   std::unique_ptr<HighlightPainter> highlight;
   std::unique_ptr<SectionPainter> section;
+  std::unique_ptr<ArrowPainter> arrows;
   std::uint64_t picks = 0;
 
   Status prepare_targets(int width, int height, int wanted_samples);
   Status prepare_highlight();
   Status prepare_section();
+  Status draw_arrows(const ViewSettings& view, const ArrowSet& set);
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
   void prepare_scale(const DeviceState& state, const ViewSettings& view);
@@ -147,6 +149,16 @@ Status Renderer::Parts::prepare_section() {
     ASPIC_TRY(section, SectionPainter::create(*context, shaders));
   }
   return section->prepare(*model);
+}
+
+Status Renderer::Parts::draw_arrows(const ViewSettings& view, const ArrowSet& set) {
+  if (set.arrows.empty()) return {};
+  if (!arrows) {
+    ASPIC_TRY(arrows, ArrowPainter::create(*context, shaders));
+  }
+  const Status drawn = arrows->draw(view, set);
+  glDepthFunc(GL_LEQUAL);
+  return drawn;
 }
 
 void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
@@ -235,13 +247,16 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   }
   if (!options.background) p.reference_ground.draw(view, camera);
   p.terrain.draw_before_bodies(p.programs, terrain, view.camera, camera);
-  Status written;
-  if (options.highlight)
+  Status written = p.draw_arrows(view, options.arrows);
+  if (written && options.highlight)
     written = p.highlight->draw_within(*p.buffers, particles, view.draw, *options.highlight);
   p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
-  if (written)
-    written = p.overlay->draw(p.targets->picture.framebuffer, options.text,
-                              options.legend ? legend_for(view, p.range) : Legend{}, options.text_height);
+  if (written) {
+    std::vector<Legend> legends;
+    if (options.legend) legends = {legend_for(view, p.range), arrow_legend(view, options.arrows)};
+    written = p.overlay->draw(p.targets->picture.framebuffer, options.text, legends,
+                              options.axes && view.axes ? &camera : nullptr, options.text_height);
+  }
   glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_FRAMEBUFFER_SRGB);

@@ -12,6 +12,7 @@
 #include "gpu/texture.h"
 #include "model/model.h"
 #include "model/state.h"
+#include "render/arrows.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
 #include "render/highlight.h"
@@ -37,6 +38,8 @@ struct PictureOptions {
   bool shadows = true;                        ///< on terrain; without them light maps are left out
   int samples = 0;                            ///< per pixel, at most the renderer's; 0: those
   bool coarse_skin = false;                   ///< fewer triangles for large bodies: for software rasterisers
+  ArrowSet arrows;                            ///< of those that the view asks for
+  bool axes = true;                           ///< in a corner, where the view asks for them
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
 };
 

@@ -8,11 +8,19 @@
 
 namespace aspic {
 
-/// A perspective camera. Position and target never coincide in a scene that was accepted.
+/// How a camera brings the world into the picture.
+enum class Projection { perspective, orthographic };
+
+inline constexpr Named<Projection> projections[] = {{Projection::perspective, "perspective"},
+                                                    {Projection::orthographic, "orthographic"}};
+
+/// A camera. Position and target never coincide in a scene that was accepted.
 struct CameraSettings {
   Vec3 position = {10.0, 6.0, 14.0};  ///< of the eye [m]
   Vec3 target = {0.0, 2.0, 0.0};      ///< point in the middle of the picture [m]
   double fov = 45.0;                  ///< vertical field of view [degrees], 1…179
+  /// Orthographic: parallel to the axis, with the height that the field of view has at the target.
+  Projection projection = Projection::perspective;
 
   friend bool operator==(const CameraSettings&, const CameraSettings&) = default;
 };
@@ -84,12 +92,26 @@ struct CutSettings {
   friend bool operator==(const CutSettings&, const CutSettings&) = default;
 };
 
+/// Which vectors are drawn as arrows; `arrows = ["contacts"]` in a file.
+struct ArrowSettings {
+  bool contacts = false;  ///< where particles touch terrain: normals, and the force of the contact
+  bool springs = false;   ///< the sum of each particle's springs
+  bool external = false;  ///< gravity, and a hand's pull
+  bool net = false;       ///< all of these: f
+
+  bool any() const { return contacts || springs || external || net; }
+  friend bool operator==(const ArrowSettings&, const ArrowSettings&) = default;
+};
+
 /// The `view` table of a scene.
 struct ViewSettings {
   CameraSettings camera;
   DrawSettings draw;
   ViewColour colour = ViewColour::material;
   CutSettings cut;
+  bool axes = false;  ///< the world's axes are drawn in a corner
+  ArrowSettings arrows;
+  std::optional<double> arrow_scale = {};  ///< an arrow's force by its length [N/m]; absent: fits the picture
   ScaleSettings scale;
   std::optional<double> ground;  ///< height of a ground that is drawn only [m]; absent: none
 
@@ -99,6 +121,7 @@ struct ViewSettings {
 /// Names in scene files.
 std::string_view name_of(ViewColour colour);
 std::string_view name_of(CutInside inside);
+std::string_view name_of(Projection projection);
 std::string_view name_of(ScaleMap map);
 std::string_view name_of(ScaleRange range);
 

@@ -163,5 +163,63 @@ TEST_F(Cut, ParticlesOfTheSectionArePickedAndThoseCutAwayAreNot) {
   EXPECT_TRUE(picked_at(camera_of(above), {0.0, 2.0, -1.5}).has_value());
 }
 
+class Orthographic : public Cut {};
+
+TEST_F(Orthographic, PicksTheSameParticlesAsPerspective) {
+  const Model model = lonely_cube(6);
+  const State state = initial_state(model, Precision::single);
+  for (const bool solid : {true, false}) {
+    PictureOptions options = from_front(0.0);
+    options.view.cut.inside = CutInside::off;
+    options.view.draw = {.solid = solid, .particles = !solid};
+    options.view.camera.position = {6.0, 7.0, 12.0};
+    options.view.camera.projection = Projection::orthographic;
+    (void)draw(model, state, options, width, height);
+    const Camera camera = camera_of(options);
+    for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
+      const Vec3& x = state.position[i];
+      if (x.z < 1.99 || std::abs(x.x) > 1.5 || std::abs(x.y) > 1.5) continue;
+      const auto what = picked_at(camera, x);
+      ASSERT_TRUE(what && what->kind == PickKind::particle) << solid << ' ' << i;
+      EXPECT_EQ(what->index, i);
+      // On the skin at the pixel's middle, or within a pixel of the particle.
+      EXPECT_LT(length(what->point - x), 2.0 / test::pixels_per_metre(camera, 1.0));
+    }
+  }
+}
+
+TEST_F(Orthographic, TheNearAndTheFarFaceAreAsLarge) {
+  const Model model = lonely_cube(4);
+  const State state = initial_state(model, Precision::single);
+  PictureOptions options = from_front(0.0);
+  options.view.camera.projection = Projection::orthographic;
+  for (const double distance : {16.0, 12.0, 9.0}) {  // what zooming changes
+    options.view.camera.position = {0.0, 0.0, distance};
+    const double side = 4.0 * test::pixels_per_metre(camera_of(options), 1.0);
+    for (const CutInside inside : {CutInside::off, CutInside::section}) {
+      options.view.cut.inside = inside;
+      EXPECT_NEAR(lit_pixels(draw(model, state, options, width, height)), side * side, 2.0 * side);
+    }
+  }
+}
+
+TEST_F(Orthographic, BallsAndTerrainArePickedWhereTheyAre) {
+  ModelSettings settings;
+  settings.terrain.emplace_back();
+  settings.balls.push_back({.radius = 0.5, .position = {1.0, 2.0, 0.5}});
+  const Model model = test::build(settings);
+  PictureOptions options;
+  options.view.camera.projection = Projection::orthographic;
+  (void)draw(model, initial_state(model, Precision::single), options, width, height);
+  const Camera camera = camera_of(options);
+  const auto ball = picked_at(camera, {1.0, 2.0, 0.5});
+  ASSERT_TRUE(ball && ball->kind == PickKind::ball);
+  EXPECT_NEAR(length(ball->point - Vec3{1.0, 2.0, 0.5}), 0.5, 2.0 / test::pixels_per_metre(camera, 1.0));
+  const Vec3 spot = {-2.0, 0.0, 1.0};
+  const auto ground = picked_at(camera, spot);
+  ASSERT_TRUE(ground && ground->kind == PickKind::terrain);
+  EXPECT_LT(length(ground->point - spot), 3.0 / test::pixels_per_metre(camera, 1.0));
+}
+
 }  // namespace
 }  // namespace aspic
