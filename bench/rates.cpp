@@ -16,7 +16,6 @@ using Float = hn::Vec<Tag>;
 constexpr Tag tag;
 
 /// Keeps a value from being known or left out.
-/// array's.
 HWY_INLINE void used(Float& value) {
 #if HWY_TARGET == HWY_EMU128
   asm volatile("" : "+m"(value.raw));
