@@ -29,7 +29,6 @@ void Hands::throw_many() {
   constexpr double golden_angle = 2.399963229728653;
   const double width = view_.width(), height = view_.height();
   const Camera camera = view_.lens();
-  const Ray axis = camera.ray_through(0.5 * width, 0.5 * height);
   const glm::mat4& to_view = camera.view();
   const Vec3 right = {to_view[0][0], to_view[1][0], to_view[2][0]};
   const Vec3 up = {to_view[0][1], to_view[1][1], to_view[2][1]};
