@@ -1,4 +1,5 @@
-// What stands in the corners of the view, in window pixels whatever the picture's own: labels, legends and axes.
+// What stands in the corners of the view, in window pixels whatever the picture's own: labels, legends and
+// axes.
 #include <imgui.h>
 
 #include "app/panels.h"
@@ -36,7 +37,12 @@ double draw_corners(const PanelParts& p, const Box& view) {
   const double colours = draw_legend(p.gui, "legend", p.picture.legend(), view);
   const Box above = {view.left, view.top, view.right, view.bottom - colours};
   const double arrows = draw_legend(p.gui, "legend/arrows", p.picture.arrow_legend(), above);
-  if (p.scene.scene().view.axes && !p.picture.film) draw_axes(p.gui, p.view.lens(), view);
+  if (p.scene.scene().view.axes && !p.picture.film) {
+    // Below the time, where that stands in the same corner.
+    const double clock =
+        p.layout.clock ? static_cast<double>(p.gui.large_font()->FontSize) + 40.0 * p.gui.scale() : 0.0;
+    draw_axes(p.gui, p.view.lens(), {view.left, view.top + clock, view.right, view.bottom});
+  }
   return colours + arrows;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/camera.h"
+#include "run/arrows.h"
 
 namespace aspic {
 namespace {
@@ -91,8 +92,13 @@ Status BesideRecorder::draw(Part& part, std::uint64_t step, const std::optional<
   // One legend for all that share a scale.
   const ViewSettings& last = parts_.back().run.scene->view;
   const bool own_scale = follows_picture(options.view) || part.run.scene->view.scale != last.scale ||
-                         options.view.colour != last.colour;
+                         options.view.colour != last.colour ||
+                         (options.view.arrows.any() && !options.view.arrow_scale);
   options.legend = output_.text && (own_scale || &part == &parts_.back());
+  if (options.view.arrows.any()) {
+    ASPIC_TRY(const auto copy, backend.solver->state());
+    options.arrows = arrows_of(backend.solver->model(), copy, options.view.arrows);
+  }
   options.text_height = beside_text_height(output_.size.height, parts_.size());
   if (output_.text)
     options.text = beside_text(part.run.label, static_cast<double>(step) * timestep, timestep, divergence);

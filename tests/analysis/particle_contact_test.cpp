@@ -33,7 +33,7 @@ TEST(ParticleContact, ForcesAreThoseOfTheNextStep) {
   // A soft cube that has come to lie on the ground, pulled along it.
   ModelSettings settings = test::low_cube(4, Integrator::explicit_euler, ContactModel::coulomb);
   settings.cubes[0].rotation.angle = 0.0;
-  settings.cubes[0].position = {0.0, 2.0, 0.0};
+  settings.cubes[0].position = {0.0, 1.0, 0.0};
   settings.cubes[0].velocity = {0.3, 0.0, 0.1};
   const Model model = test::build(settings);
   const State state = after(model, 300);
@@ -60,7 +60,7 @@ TEST(ParticleContact, ForcesAreThoseOfTheNextStep) {
 TEST(ParticleContact, TheCourseModelsForceIsThatOfTheReadout) {
   ModelSettings settings = test::low_cube(4, Integrator::explicit_euler, ContactModel::course);
   settings.cubes[0].rotation.angle = 0.0;
-  settings.cubes[0].position = {0.0, 2.0, 0.0};
+  settings.cubes[0].position = {0.0, 1.0, 0.0};
   settings.cubes[0].velocity = {};
   const Model model = test::build(settings);
   const State state = initial_state(model, Precision::double_);

@@ -35,7 +35,7 @@ TEST(Arrows, AreTheReferencesForces) {
 TEST(Arrows, OfContactsAreNormalsAndForces) {
   ModelSettings settings = test::low_cube(4, Integrator::explicit_euler, ContactModel::coulomb);
   settings.cubes[0].rotation.angle = 0.0;
-  settings.cubes[0].position = {0.0, 2.0, 0.0};
+  settings.cubes[0].position = {0.0, 1.0, 0.0};
   settings.cubes[0].velocity = {};
   const Model model = test::build(settings);
   const State state = initial_state(model, Precision::single);
@@ -50,7 +50,7 @@ TEST(Arrows, OfContactsAreNormalsAndForces) {
 }
 
 TEST(Arrows, OfLargeCubesAreThinnedEvenly) {
-  ModelSettings settings = test::cube_on_plane(30, 2.0);
+  ModelSettings settings = test::cube_on_plane(30, 1.0);
   const Model model = test::build(settings);
   const State state = initial_state(model, Precision::single);
   const ArrowSet net = arrows_of(model, state, {.net = true});
