@@ -104,6 +104,8 @@ class App final : public EventReceiver {
   void ask_for_scene();
   void ask_where_to_save();
   Status make_picture(const WindowSize& size, double dt);
+  enum class Shot { none, picture, window };
+  Status save_shot(Shot wanted, const WindowSize& size, const std::string& path);
   void touch() {
     still_for_ = 0.0;
     touched_ = true;
@@ -111,7 +113,7 @@ class App final : public EventReceiver {
   void restore(const KeptState& kept, const std::vector<std::string>& overrides);
 
   std::deque<KeyEvent> keys_;  // that came and were not delivered
-  enum class Shot { none, picture, window } shot_wanted_ = Shot::none;
+  Shot shot_wanted_ = Shot::none;
   bool camera_moves_ = false;
   /// Since something moved, and since the mouse did [s].
   double still_for_ = 0.0, mouse_still_for_ = 0.0;
