@@ -64,6 +64,14 @@ std::vector<Command> App::make_commands() {
     if (messages.check(simulation.refresh_snapshot()))
       view.frame_bodies(simulation.model(), simulation.snapshot());
   };
+  // Off, and in turn what there is to see.
+  const auto cut = [this] {
+    scene.change("view.cut", [](Scene& s) {
+      constexpr int kinds = std::size(cut_insides);
+      s.view.cut.inside = cut_insides[(static_cast<int>(s.view.cut.inside) + 1) % kinds].value;
+    });
+  };
+  const auto axes = [this] { scene.change("view.axes", [](Scene& s) { s.view.axes = !s.view.axes; }); };
   const auto full_screen = [this] {
     if (gui_->services().toggle_full_screen) gui_->services().toggle_full_screen();
   };
@@ -80,7 +88,7 @@ std::vector<Command> App::make_commands() {
       {"G", "other backend", GLFW_KEY_G, 0, 0, [this] { run.switch_backend(); }},
       {"", "Hands"},
       {"B", "throw a ball", GLFW_KEY_B, 0, 0, throw_ball},
-      {"Ctrl+drag", "pull the particle under the mouse"},
+      {"Ctrl+drag", "pull the particle or ball under the mouse"},
       {"Ctrl+right click", "pin or free the particle"},
       {"", "Scenes"},
       {"[", "previous scene", -1, 0, U'[', [this] { scene.open_neighbour(-1); }},
@@ -100,16 +108,24 @@ std::vector<Command> App::make_commands() {
       {"", "Camera"},
       {"left drag", "turn the camera"},
       {"right or Shift drag", "move the camera"},
-      {"wheel", "zoom"},
+      {"wheel", "zoom to the point under the mouse"},
       {"double click", "look at the point under the mouse"},
       {"Home", "reset the camera", GLFW_KEY_HOME, 0, 0, [this] { view.camera.reset(); }},
       {"F", "frame the bodies", GLFW_KEY_F, 0, 0, frame_bodies},
       {"Ctrl+C", "copy the camera as text", GLFW_KEY_C, ctrl, 0,
        [this] { copy_camera(view, gui_->services(), messages); }},
       {"Ctrl+V", "paste a camera", GLFW_KEY_V, ctrl, 0, paste},
+      {"A", "axes in a corner of the picture", GLFW_KEY_A, 0, 0, axes},
+      {"O", "orthographic or perspective", GLFW_KEY_O, 0, 0, [this] { view.camera.change_projection(); }},
+      {"X", "cut the bodies open: section, springs, not at all", GLFW_KEY_X, 0, 0, cut},
       {"", "Window and files"},
+      {"L", "next layout", GLFW_KEY_L, 0, 0, [this] { layout.choose_next(); }},
       {"Tab", "hide or show the panels", GLFW_KEY_TAB, 0, 0, [this] { layout.panels = !layout.panels; }},
       {"Ctrl+P", "find an action, a scene or a value", GLFW_KEY_P, ctrl, 0, [this] { palette.open(); }},
+      {"Ctrl++", "larger text", GLFW_KEY_EQUAL, ctrl, 0, [this] { layout.scale_text(1.1); }, true,
+       GLFW_KEY_KP_ADD},
+      {"Ctrl+-", "smaller text", GLFW_KEY_MINUS, ctrl, 0, [this] { layout.scale_text(1.0 / 1.1); }, true,
+       GLFW_KEY_KP_SUBTRACT},
       {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { help_visible = !help_visible; }},
       {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
       {"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
@@ -136,7 +152,6 @@ Status App::attach(gl::Context& context, double scale, WindowServices services) 
   ASPIC_CHECK(picture.attach(context));
   beside.attach(context);
   ASPIC_TRY(gui_, Gui::create(scale, std::move(services), commands_, watcher_));
-  gui_->set_text_size(layout.text_size);
   return {};
 }
 
@@ -161,14 +176,20 @@ Status App::adopt_context(gl::Context& context, double scale, WindowServices ser
 
 void App::restore(const KeptState& kept, const std::vector<std::string>& overrides) {
   layout = kept.layout;
-  gui_->set_text_size(layout.text_size);
+  greeted_ = kept.greeted;
   simulation.pacer().pace = kept.pace;
   simulation.pacer().speed = kept.speed;
   film.settings = {kept.film_format, kept.film_fps, kept.film_text, ""};
   view.kept = kept.cameras;
   const auto sets_camera = [](const std::string& set) { return set.starts_with("view.camera"); };
   if (std::ranges::none_of(overrides, sets_camera)) view.recall_camera(scene.editor().source());
-  if (!layout.panels) messages.info("Tab shows the panels, F1 all keys.");
+  if (!std::exchange(greeted_, true))
+    messages.info(
+        "Space starts and pauses. Drag to turn the view, the wheel zooms. Ctrl+drag pulls a body, B throws a "
+        "ball. F1 shows all keys, Ctrl+P finds everything by name.",
+        20.0);
+  else if (!layout.panels)
+    messages.info("Tab shows the panels, F1 all keys.");
 }
 
 KeptState App::kept_state() const {
@@ -179,6 +200,7 @@ KeptState App::kept_state() const {
   kept.film_format = film.settings.format;
   kept.film_fps = film.settings.fps;
   kept.film_text = film.settings.text;
+  kept.greeted = greeted_;
   kept.cameras = view.kept_with(scene.editor().source());
   return kept;
 }
@@ -201,6 +223,21 @@ bool App::idle() const {
          std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
          shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() && !simulation.changing() &&
          !simulation.busy();
+}
+
+bool App::asleep() const {
+  constexpr double rest = 1.5;  // s, by when tooltips have come
+  return idle() && !touched_ && std::min(still_for_, mouse_still_for_) > rest && !gui_->takes_keyboard() &&
+         !gui_->awake() && !film.recording() && film.completing() == 0 &&
+         (!messages.notice() || messages.notice()->is_error);
+}
+
+bool App::doze(double dt) {
+  const auto said = messages.notice() ? messages.notice()->text : std::string();
+  scene.update(dt);
+  if (!scene.pending() && (messages.notice() ? messages.notice()->text : "") == said && idle()) return false;
+  touch();
+  return true;
 }
 
 double App::wait(double since) const {
@@ -333,6 +370,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
   pointer.find_hovered();
   view.pixels_per_unit = static_cast<double>(size.pixel_width) / size.width;
   picture.count(dt);
+  gui_->set_text_size(layout.text_size);
   gui_->begin(dt);
   view.text_scale = gui_->scale();
   draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, files,

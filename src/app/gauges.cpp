@@ -284,11 +284,13 @@ void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
            "they "
            "are of full size.");
   }
-  if (s.gpu() && device.is_software)
+  if (s.gpu() && device.is_software) {
     figure("Passes of a step", "not timed",
            "A software device's time stamps do not say when its passes ran.");
-  else if (s.gpu())
+    gui.mark("performance/not-timed");
+  } else if (s.gpu()) {
     pass_times(gui, *s.gpu());
+  }
   const Model& model = s.model();
   figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
   figure("Springs", fmt::format("{}", spring_count(model)), "Springs of all types.");

@@ -34,6 +34,10 @@ class Hands {
   /// A pull on a particle of the model, which moves with the mouse in the plane through `position` [m] that
   /// is square to the view.
   void begin_pull(std::uint32_t particle, const Vec3& position);
+  /// The same on a ball.
+  void begin_ball_pull(std::uint32_t ball, const Vec3& position);
+  /// Says that there is no pinning of a ball.
+  void refuse_pin() { messages_.info("Particles can be pinned, balls cannot."); }
   /// To the place (x, y) of the view [window units]; nothing without a pull.
   void move_pull(double x, double y);
   void end_pull() { simulation_.set_hand(std::nullopt); }
@@ -41,6 +45,7 @@ class Hands {
  private:
   bool refused();
   BallSettings thrown_ball(const Ray& sight) const;
+  void take_hold(Pull pull, double held_mass, double most);
 
   Simulation& simulation_;
   const View& view_;

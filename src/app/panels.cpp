@@ -28,25 +28,27 @@ constexpr ImGuiWindowFlags bar = behind | ImGuiWindowFlags_NoScrollbar;
 struct Heading {
   const char* name;
   void (*section)(const PanelParts&);
-  bool open;  ///< at first
   const char* help;
 };
 using Parts = const PanelParts&;
 constexpr Heading left_sections[] = {
-    {"Scene", [](Parts p) { scene_section(p.gui, p.scene); }, true,
+    {"Scene", [](Parts p) { scene_section(p.gui, p.scene); },
      "Scenes and terrain; opening, saving and reloading."},
-    {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene, p.beside); }, true,
+    {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene, p.beside); },
      "Motion, integrator, time step, pace and gravity."},
-    {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene); }, false,
+    {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene); },
      "Cubes, nets, balls and launchers of the scene: place, size, mass, pins."},
-    {"Springs", [](Parts p) { springs_section(p.gui, p.scene); }, false,
+    {"Springs", [](Parts p) { springs_section(p.gui, p.scene); },
      "Stiffness and damping by type, or a material."},
-    {"Contact", [](Parts p) { contact_section(p.gui, p.scene); }, false,
+    {"Contact", [](Parts p) { contact_section(p.gui, p.scene); },
      "Contact model, restitution, friction, and the terrain's own values."},
-    {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); }, false,
+    {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); },
      "Balls thrown by hand, and the strength of pulls."}};
 constexpr Heading right_sections[] = {
-    {"View", [](Parts p) { view_section(p.gui, p.scene, p.view.camera, p.picture.shadows, p.layout); }, true,
+    {"View",
+     [](Parts p) {
+       view_section(p.gui, p.scene, p.view.camera, p.picture.range(), p.picture.shadows, p.layout);
+     },
      "What is drawn, its colours, the camera, and the size of text."},
     {"Recording",
      [](Parts p) {
@@ -56,16 +58,15 @@ constexpr Heading right_sections[] = {
        ImGui::Separator();
        state_files(p.gui, p.scene.editor(), p.simulation, p.messages, p.files);
      },
-     false, "Films of the scene; its states, energies and checkpoints as files."},
-    {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); }, true,
+     "Films of the scene; its states, energies and checkpoints as files."},
+    {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); },
      "Speed of simulation and drawing, and the devices used."},
-    {"Energy", [](Parts p) { energy_section(p.gui, p.beside, p.run); }, true,
-     "Energies and momentum over time."},
-    {"Side by side", [](Parts p) { beside_section(p.gui, p.scene, p.beside); }, false,
+    {"Energy", [](Parts p) { energy_section(p.gui, p.beside, p.run); }, "Energies and momentum over time."},
+    {"Side by side", [](Parts p) { beside_section(p.gui, p.scene, p.beside); },
      "Further runs of the scene, each with one difference, on the same clock."},
-    {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); }, false,
+    {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); },
      "A second backend on the same run, and how far the two differ."},
-    {"Stability", [](Parts p) { stability_section(p.gui, p.scene); }, false,
+    {"Stability", [](Parts p) { stability_section(p.gui, p.scene); },
      "Which time steps and stiffnesses are stable, and where the scene is among them."}};
 
 ImVec2 at(double x, double y) {
@@ -73,10 +74,14 @@ ImVec2 at(double x, double y) {
 }
 
 void sections(Parts parts, std::span<const Heading> headings) {
+  const LayoutRow& row = parts.layout.row();
   std::map<std::string, bool>& kept = parts.layout.sections;
   for (const Heading& heading : headings) {
+    if (!row.sections.empty() && std::ranges::find(row.sections, heading.name) == row.sections.end())
+      continue;
     const auto known = kept.find(heading.name);
-    const bool was_open = known == kept.end() ? heading.open : known->second;
+    const bool was_open =
+        known == kept.end() ? std::ranges::find(row.open, heading.name) != row.open.end() : known->second;
     ImGui::SetNextItemOpen(was_open);
     const bool open = ImGui::CollapsingHeader(heading.name);
     if (open != was_open) kept[heading.name] = open;
@@ -267,6 +272,22 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
   if (button(gui, "help/close", "Close", "Close this page (F1 or Escape).")) visible = false;
 }
 
+/// The time in large figures, in the upper right corner of the view. Returns how much of its height is taken.
+double clock(const Gui& gui, const Simulation& simulation, const Box& view) {
+  const std::string text = fmt::format("t = {:.2f} s", simulation.time());
+  const auto gap = static_cast<float>(16.0 * gui.scale());
+  ImGui::SetNextWindowPos(at(view.right - 16.0 * gui.scale(), view.top + 16.0 * gui.scale()),
+                          ImGuiCond_Always, {1.0f, 0.0f});
+  const Panel panel("##clock", 0.5 * static_cast<double>(gap), ImVec4(0.08f, 0.082f, 0.09f, 0.72f),
+                    ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoScrollbar |
+                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PushFont(gui.large_font());
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopFont();
+  gui.mark("clock");
+  return static_cast<double>(ImGui::GetWindowSize().y + gap);
+}
+
 /// Asks before changes are lost.
 void closing_panel(Gui& gui, Closing& closing, double width, double height) {
   if (closing != Closing::asked) return;
@@ -337,12 +358,13 @@ void drag_edge(Gui& gui, const char* name, double place, double height, double i
 
 void draw_panels(const PanelParts& p, double width, double height) {
   const double scale = p.gui.scale();
-  Layout& layout = p.layout;
+  Layouts& layout = p.layout;
   Box view = {0.0, 0.0, width, height};
   if (layout.panels) {
     const double bottom = height - status_height * scale;
     const double left = std::min(layout.left_width * scale, most_of_width * width);
-    const bool two = width - (layout.left_width + layout.right_width) * scale >= least_view * scale;
+    const bool two = layout.row().sides == 2 &&
+                     width - (layout.left_width + layout.right_width) * scale >= least_view * scale;
     const double right = two ? layout.right_width * scale : 0.0;
     const ImVec2 padding = ImGui::GetStyle().WindowPadding;
     {
@@ -361,15 +383,18 @@ void draw_panels(const PanelParts& p, double width, double height) {
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
   p.beside.place(view);
-  p.beside.draw_labels(p.gui);
-  const double legend = draw_legend(p.gui, p.picture.legend(), view);
+  const double legend = draw_corners(p, view);
   notice_panel(p, view);
   help_panel(p.gui, p.help_visible, width, height);
   closing_panel(p.gui, p.closing, width, height);
   p.files.draw(p.gui, width, height);
   p.palette.draw(p, width, height);
   if (const auto& hovered = p.pointer.hovered())
-    particle_readout(p.gui, p.simulation, *hovered, view, legend > 0.0);
+    ball_mark(p.gui, p.simulation.hand(), *hovered, p.view, p.picture.shown());
+  const double taken = layout.clock ? clock(p.gui, p.simulation, view) : 0.0;
+  if (const auto& hovered = p.pointer.hovered(); hovered && layout.row().readout)
+    particle_readout(p.gui, p.simulation, *hovered, {view.left, view.top + taken, view.right, view.bottom},
+                     legend > 0.0);
 }
 
 }  // namespace aspic::app

@@ -11,6 +11,7 @@
 #include "io/film_format.h"
 #include "render/colour_map.h"
 #include "render/overlay_text.h"
+#include "run/arrows.h"
 #include "run/backends.h"
 
 namespace aspic::app {
@@ -69,7 +70,8 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
   c.size =
       film ? film->size
            : PictureSize{std::max(rounded(scale * full.width), 1), std::max(rounded(scale * full.height), 1)};
-  if (const auto& hand = simulation_.hand()) c.marks.pull = {hand->particle, hand->anchor};
+  if (const auto& hand = simulation_.hand(); hand && !hand->ball)
+    c.marks.pull = {hand->particle, hand->anchor};
   for (const auto& [particle, pinned] : simulation_.setup().pinned)
     if (pinned) c.marks.marked.push_back(particle);
   c.marks.unit = view_.text_scale * c.size.width / view_.width();
@@ -93,6 +95,13 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
   options.view = content.view;
   if (film && film->text) options.text = overlay_lines(scene_.model, simulation_.time());
   options.shadows = shadows;
+  options.axes = legend || film;
+  // Of the very state that is drawn.
+  if (options.view.arrows.any() && !kept() && simulation_.device_state())
+    ASPIC_CHECK(simulation_.refresh_snapshot());
+  const State& shown_state = kept() ? *kept() : simulation_.snapshot();
+  if (!ghost) arrows_ = arrows_of(simulation_.model(), shown_state, options.view.arrows, simulation_.hand());
+  options.arrows = arrows_;
   options.highlight = content.marks;
   options.coarse_skin = adapts && share < 1.0;
   if (new_model) {
@@ -107,8 +116,7 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
     ASPIC_TRY(state, renderer_->upload(kept() ? *kept() : simulation_.snapshot()));
   }
   Status drawn = renderer_->draw(content.size.width, content.size.height, *state, options);
-  if (!drawn && drawn.error().code == ErrorCode::scene_rejected &&
-      options.view.colour >= ViewColour::strain) {
+  if (!drawn && drawn.error().code == ErrorCode::scene_rejected && has_scale(options.view.colour)) {
     // What a colour needs of the device may be more than it has: the scene goes on without.
     refusal_ = "This colour cannot be shown: " + drawn.error().message;
     options.view.colour = ViewColour::material;
@@ -202,9 +210,21 @@ void ScenePicture::count(double dt) {
   rate_pictures_ = 0;
 }
 
+Legend ScenePicture::arrow_legend() const {
+  if (film && film->text) return {};
+  return aspic::arrow_legend(scene_.view, arrows_);
+}
+
+QuantityRange ScenePicture::range() const {
+  const bool drawn =
+      is_of_model() && drawn_->view.colour == scene_.view.colour && drawn_->view.scale == scene_.view.scale;
+  if (drawn) return renderer_->range();
+  return range_for(simulation_.model(), scene_.view, {});
+}
+
 Legend ScenePicture::legend() const {
   if (film && film->text) return {};
-  return legend_for(scene_.view, default_range(simulation_.model(), scene_.view.colour));
+  return legend_for(scene_.view, range());
 }
 
 namespace {
@@ -276,7 +296,9 @@ Status ScenePicture::save(const std::string& path) {
   else if (written = draw(content, true); written)
     written = save_pixels(renderer_->picture().id(), content.size, path);
   // The window's own has no legend, its own size and what is around the bodies.
-  if (content.size != own.size || saved.clear || !legend().empty()) ASPIC_CHECK(draw(own, false));
+  if (content.size != own.size || saved.clear || !legend().empty() || !arrow_legend().empty() ||
+      scene_.view.axes)
+    ASPIC_CHECK(draw(own, false));
   return written;
 }
 

@@ -33,7 +33,7 @@ struct SavedLook {
 class ScenePicture {
  public:
   /// The references must outlive it. `in_full_quality`: a software rasteriser draws as hardware does.
-  ScenePicture(const Simulation& simulation, const Scene& scene, const View& view, bool in_full_quality)
+  ScenePicture(Simulation& simulation, const Scene& scene, const View& view, bool in_full_quality)
       : full_quality(in_full_quality), simulation_(simulation), scene_(scene), view_(view) {}
 
   bool full_quality;
@@ -85,8 +85,12 @@ class ScenePicture {
   /// The picture's share of the full resolution, 0 … 1: below 1 where a software rasteriser would be too
   /// slow.
   double resolution() const { return in_full() ? 1.0 : resolution_.share(); }
+  /// The ends of the scale of its colours.
+  QuantityRange range() const;
   /// What the colours of the picture mean; empty where they mean nothing, or the picture says so itself.
   Legend legend() const;
+  /// The same of its arrows.
+  Legend arrow_legend() const;
   /// How long the last picture took [s].
   double draw_seconds() const { return draw_seconds_; }
   /// Once for each picture of the window, `dt` after the last [s].
@@ -116,7 +120,7 @@ class ScenePicture {
   Status draw(const Content& content, bool legend, const std::optional<Colour>& background = {});
   Status save_clear(const Content& content, const std::string& path);
 
-  const Simulation& simulation_;
+  Simulation& simulation_;
   const Scene& scene_;
   const View& view_;
   std::optional<std::string> refusal_;
@@ -126,6 +130,7 @@ class ScenePicture {
   gl::Context* context_ = nullptr;
   std::unique_ptr<Renderer> renderer_;
   std::optional<Content> drawn_;
+  ArrowSet arrows_;  // of the last picture
   bool at_rest_ = false, postponed_ = false;
   std::uint64_t number_ = 0;
   Box shown_;

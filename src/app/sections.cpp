@@ -155,8 +155,8 @@ void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
   slider(gui, "Speed", "balls/speed", hands.speed, 0.5, 200.0, "%.3g m/s",
          "Speed of the next ball to be thrown [m/s], 0.5 to 200.");
   slider(gui, "Pull", "balls/strength", hands.strength, 0.01, 100.0, "×%.3g",
-         "How hard Ctrl+drag pulls a particle: a factor on twice the stiffness of the stiffest spring, "
-         "0.01 to 100, limited by the time step.");
+         "How hard Ctrl+drag pulls, 0.01 to 100: a factor on twice the stiffness of the stiffest spring for "
+         "particles, on 200 N/m for each kilogram for balls; limited by the time step.");
   ImGui::TextDisabled("%zu of the scene, %zu thrown",
                       static_cast<std::size_t>(simulation.model().ball_count()) - thrown, thrown);
 }

@@ -36,7 +36,9 @@ Status Simulation::install(Setup setup, Result<Engines> engines) {
   engines_ = std::move(*engines);
   if (engines_.departure) message_ = engines_.departure;
   setup_ = std::move(setup);
-  batch_ = 1;
+  if (hand_ && hand_->particle >= (hand_->ball ? model().ball_count() : model().particle_count()))
+    hand_.reset();  // what it held is no more
+  batch_ = sample_stride_ = 1;
   ++model_number_;
   return {};
 }

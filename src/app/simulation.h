@@ -184,6 +184,7 @@ class Simulation {
   Status start_steps(std::uint64_t to, double budget);
   void start_job(std::uint64_t to, double budget, bool alone, std::optional<Pull> pull);
   void start_measuring();
+  Status sample_here();
   Status collect();
   Status take(Outcome outcome);
   Status follow(Outcome outcome);
@@ -204,6 +205,10 @@ class Simulation {
   Clock::time_point snapshot_time_ = {};
   bool running_ = false;
   std::uint64_t batch_ = 1;  // steps between two looks at the clock, of a backend in the context
+  /// Of a backend in the context: energies are those of steps that are multiples of sample_interval() times
+  /// this, a power of two that keeps the time for reading states back low.
+  std::uint64_t sample_stride_ = 1;
+  double read_seconds_ = 0.0;  // for the last energies
   std::optional<Divergence> divergence_;
   std::optional<std::string> message_;
 

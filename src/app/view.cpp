@@ -67,8 +67,9 @@ void View::recall_camera(const std::string& source) {
 
 void copy_camera(const View& view, const WindowServices& services, Messages& messages) {
   const CameraSettings c = view.camera.goal();
-  const std::string text = fmt::format("camera = {{ position = {}, target = {}, fov = {} }}",
-                                       toml_value(c.position), toml_value(c.target), toml_value(c.fov));
+  const std::string text =
+      fmt::format("camera = {{ position = {}, target = {}, fov = {}, projection = \"{}\" }}",
+                  toml_value(c.position), toml_value(c.target), toml_value(c.fov), name_of(c.projection));
   if (services.set_clipboard) services.set_clipboard(text);
   messages.info("The camera is on the clipboard, as a line for [view] of a scene file.");
 }

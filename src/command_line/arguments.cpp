@@ -12,6 +12,7 @@
 #include "base/printable.h"
 #include "command_line/help_texts.h"
 #include "command_line/raw_options.h"
+#include "command_line/window_layouts.h"
 #include "scene/diagnostics.h"
 
 namespace aspic {
@@ -206,6 +207,8 @@ CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
   add_arithmetic(c, raw);
   add_overrides(c, view.overrides);
   add(c, "--size", "WxH", raw.window_size, "size of the window; default: its last size");
+  add(c, "--layout", "NAME", view.layout,
+      fmt::format("arrangement of the panels: {}; default: the last one", fmt::join(window_layouts, ", ")));
   return c;
 }
 

@@ -9,6 +9,7 @@
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
+#include "render/camera.h"
 #include "render/colour_map.h"
 #include "render/font.h"
 
@@ -24,7 +25,8 @@ struct OverlayLine {
 /// A scale of colours with its ends, or a key of named colours, bottom right.
 struct Legend {
   std::string title;
-  std::array<std::string, 3> marks;  ///< lower end, middle, upper end; all empty: no scale is drawn
+  ScaleMap map = ScaleMap::violet_yellow;  ///< colours of the scale
+  std::array<std::string, 3> marks;        ///< lower end, middle, upper end; all empty: no scale is drawn
   struct Entry {
     Colour colour;
     std::string name;
@@ -42,8 +44,10 @@ class OverlayPainter {
   /// the picture's height, 11 pixels at least.
   /// The colour map must be bound to its unit and the frame block to its binding. Leaves blending off. Error
   /// (scene_rejected): no device memory.
-  Status draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines, const Legend& legend,
-              int text_height = 0);
+  /// Legends stand one above the other; empty ones are left out. `camera`: that of axes in the upper right
+  /// corner; null: none.
+  Status draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines,
+              std::span<const Legend> legends, const Camera* camera = nullptr, int text_height = 0);
 
  private:
   struct Vertex {
@@ -56,7 +60,12 @@ class OverlayPainter {
   void panel(float x, float y, float width, float height);
   void text(float x, float y, std::string_view utf8, const std::array<float, 4>& tint);
   void facts(const std::vector<OverlayLine>& lines);
-  void scale(const Legend& legend, float picture_width, float picture_height);
+  /// Returns the height it takes, and the gap above it.
+  float scale(const Legend& legend, float picture_width, float bottom);
+  void axes(const Camera& camera, float picture_width);
+  /// A line with round ends.
+  void line(const std::array<float, 2>& from, const std::array<float, 2>& to, float width,
+            const std::array<float, 4>& tint);
 
   gl::Context* context_;
   gl::Program program_;

@@ -6,7 +6,7 @@
 namespace aspic {
 
 struct RenderPrograms {
-  gl::Program bounds, balls_turn, light_boxes, normals, quantity;          ///< kernels
+  gl::Program bounds, balls_turn, light_boxes, skin, quantity;             ///< kernels
   gl::Program light_surface, light_particles, light_springs, light_balls;  ///< into light maps
   gl::Program thickness, jelly_far, jelly, particles, springs, balls;      ///< bodies
   gl::Program rods, sheet;                                                 ///< more of them

@@ -83,8 +83,16 @@ Status BesideRecorder::draw(Part& part, std::uint64_t step, const std::optional<
   PictureOptions options;
   options.view = part.run.scene->view;
   options.view.camera = fitted(options.view.camera, part.tile.width, part.tile.height);
-  options.range = part.range;
-  options.legend = output_.text && &part == &parts_.back();
+  ScaleSettings& scale = options.view.scale;
+  if (has_scale(options.view.colour) && scale.range == ScaleRange::fixed) {
+    scale.from = scale.from.value_or(part.range[0]);
+    scale.to = scale.to.value_or(part.range[1]);
+  }
+  // One legend for all that share a scale.
+  const ViewSettings& last = parts_.back().run.scene->view;
+  const bool own_scale = follows_picture(options.view) || part.run.scene->view.scale != last.scale ||
+                         options.view.colour != last.colour;
+  options.legend = output_.text && (own_scale || &part == &parts_.back());
   options.text_height = beside_text_height(output_.size.height, parts_.size());
   if (output_.text)
     options.text = beside_text(part.run.label, static_cast<double>(step) * timestep, timestep, divergence);

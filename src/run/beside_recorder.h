@@ -55,7 +55,7 @@ class BesideRecorder {
     PicturedRun run;
     Tile tile;
     std::unique_ptr<Renderer> renderer;
-    std::optional<QuantityRange> range = {};
+    QuantityRange range = {};
     std::optional<std::uint64_t> drawn_step = {};
     bool drawn_diverged = false;
   };

@@ -40,21 +40,22 @@ TEST_P(Golden, Picture) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, Golden,
-    ::testing::Values(Shot{"cube-plane", 1500}, Shot{"cube-tilted-plane", 1300}, Shot{"cube-sphere", 1000},
-                      Shot{"cube-bowl", 1300}, Shot{"cube-torus", 1200}, Shot{"cube-hole", 1500},
-                      Shot{"elevator", 2600}, Shot{"large-cube", 0}, Shot{"goal-net", 300},
-                      Shot{"penalty", 1080}, Shot{"cube-and-balls", 700}, Shot{"ball-pit", 4000},
-                      Shot{"flag", 2400}, Shot{"curtain", 1000},
-                      Shot{"flag",
-                           2400,
-                           {"view.colour=strain", "view.draw=[\"solid\", \"structural\", \"shear\"]"},
-                           "flag-strain"},
-                      Shot{"cube-plane", 1500, {"view.colour=strain"}, "strain"},
-                      Shot{"cube-plane",
-                           1500,
-                           {"view.draw=[\"solid\", \"particles\", \"structural\", \"shear\", \"bending\"]",
-                            "cube[0].pinned=[\"top\"]", "cube[0].position=[0.0, 2.0, 0.0]"},
-                           "springs"}),
+    ::testing::Values(
+        Shot{"cube-plane", 1500}, Shot{"cube-tilted-plane", 1300}, Shot{"cube-sphere", 1000},
+        Shot{"cube-bowl", 1300}, Shot{"cube-torus", 1200}, Shot{"cube-hole", 1500}, Shot{"elevator", 2600},
+        Shot{"large-cube", 0}, Shot{"goal-net", 300}, Shot{"penalty", 1080}, Shot{"cube-and-balls", 700},
+        Shot{"ball-pit", 4000}, Shot{"flag", 2400}, Shot{"curtain", 1000},
+        Shot{"flag",
+             2400,
+             {"view.colour=strain", "view.draw=[\"solid\", \"structural\", \"shear\"]"},
+             "flag-strain"},
+        Shot{"cube-plane", 1500, {"view.colour=strain"}, "strain"},
+        Shot{"flag", 2250, {"view.colour=signed-strain", "view.scale.range=symmetric"}, "signed-strain"},
+        Shot{"cube-plane",
+             1500,
+             {"view.draw=[\"solid\", \"particles\", \"structural\", \"shear\", \"bending\"]",
+              "cube[0].pinned=[\"top\"]", "cube[0].position=[0.0, 2.0, 0.0]"},
+             "springs"}),
     [](const ::testing::TestParamInfo<Shot>& shot) {
       std::string name = shot.param.name.empty() ? shot.param.scene : shot.param.name;
       std::erase(name, '-');
