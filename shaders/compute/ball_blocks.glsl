@@ -16,7 +16,7 @@ uint start_slot() { return solve.parity; }
 void mark_divergence(uint bad) { atomicMin(solve.bad_particle, bad); }
 void mark_full() { atomicMax(solve.full, 1u); }
 void report_overrun(uint kernel) { atomicMax(solve.overrun, kernel); }
-void count_pass() {}  // the phases tell
+void count_item(uint i, uint count) {}  // the phases tell
 #else
 #include "compute/control.glsl"
 layout(location = LOCATION_BALL_PARITY) uniform uint ball_parity;

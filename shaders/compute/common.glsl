@@ -20,6 +20,9 @@ float norm3(vec3 a) {
   return root;
 }
 
+// Whether item i of `count` counts itself.
+bool is_counted(uint i, uint count) { return i % COUNTED_ITEMS == 0u || i + 1u == count; }
+
 bool finite(vec3 a) {
   uvec3 exponent = floatBitsToUint(a) & 0x7f800000u;
   return all(notEqual(exponent, uvec3(0x7f800000u)));

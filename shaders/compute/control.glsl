@@ -10,7 +10,9 @@ uint steps_done() { return step_index; }
 // follows would build on it.
 bool halted() { return min(control.bad_step, control.full_step) < step_index || control.overrun != 0u; }
 
-// Called by one invocation of a dispatch: it has been carried out.
-void count_pass() { atomicAdd(control.passes, 1u); }
+// Called by every invocation that is at work: item `i` of `count` has been carried out.
+void count_item(uint i, uint count) {
+  if (is_counted(i, count)) atomicAdd(control.passes, 1u);
+}
 
 void report_overrun(uint kernel) { atomicMax(control.overrun, kernel); }

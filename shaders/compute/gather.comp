@@ -13,13 +13,13 @@
 void main() {
   uint place = item_index();
 #ifdef ASPIC_LATTICES
-  if (place >= listed_count || halted()) return;
+  if (place >= item_end(listed_count) || halted()) return;
   uint i = listed_particle(place);
 #else
-  if (place >= particle_count || halted()) return;
+  if (place >= item_end(particle_count) || halted()) return;
   uint i = place;
 #endif
-  Particle p = stage_state[i];
+  Particle p = stage_state[AT(i)];
   precise vec3 f = p.velocity.w * gravity.xyz;
   Walk w = walk_words(place);
   for (w.end = bounded(w.end, KERNEL_GATHER); w.at < w.end; ++w.at) {

@@ -30,14 +30,38 @@ uint enter() {
 uint steps_done() { return ended_steps; }
 
 Particle state(uint i) {
-  if (parity == 0u) return state_a[i];
-  return state_b[i];
+  if (parity == 0u) return state_a[AT(i)];
+  return state_b[AT(i)];
 }
 
-vec3 own(uint which, uint i) { return own_vectors[which * particle_count + i].xyz; }
-vec4 own4(uint which, uint i) { return own_vectors[which * particle_count + i]; }
-void set_own(uint which, uint i, vec3 value) { own_vectors[which * particle_count + i] = vec4(value, 0.0); }
-void set_own4(uint which, uint i, vec4 value) { own_vectors[which * particle_count + i] = value; }
+// A window has its particles' vectors to itself. Beside the search direction lies what neighbours need of them.
+#ifdef ASPIC_WINDOWS
+uint own_at(uint which, uint i) { return which * (window.y - window.x) + AT_ITEM(i); }
+#define AT_SEARCH(i) (2u * AT(i))
+#else
+uint own_at(uint which, uint i) { return which * particle_count + i; }
+#define AT_SEARCH(i) (i)
+#endif
+
+vec3 own(uint which, uint i) { return own_vectors[own_at(which, i)].xyz; }
+vec4 own4(uint which, uint i) { return own_vectors[own_at(which, i)]; }
+void set_own(uint which, uint i, vec3 value) { own_vectors[own_at(which, i)] = vec4(value, 0.0); }
+void set_own4(uint which, uint i, vec4 value) { own_vectors[own_at(which, i)] = value; }
+
+// The part of δ that the ground prescribes.
+void prescribe(uint i, vec4 value) {
+  set_own4(OWN_PRESCRIBED, i, value);
+#ifdef ASPIC_WINDOWS
+  search[AT_SEARCH(i) + 1u] = value;
+#endif
+}
+vec3 prescribed_of_any(uint i) {
+#ifdef ASPIC_WINDOWS
+  return search[AT_SEARCH(i) + 1u].xyz;
+#else
+  return own(OWN_PRESCRIBED, i);
+#endif
+}
 
 // The part of y that the ground leaves free; ground: OWN_GROUND of the particle.
 vec3 free_part(vec4 ground, vec3 y) {

@@ -25,12 +25,14 @@ vec3 held_contact_force(uint i, Particle p) {
 }
 
 void main() {
-  if (enter() != PHASE_BEGIN) return;
+  uint phase = enter();
+  // The host may have set a new target since the last one was reached.
+  if (phase != PHASE_BEGIN && !(phase == PHASE_IDLE && ended_steps != solve.target_step)) return;
   uint i = item_index();
-  if (i < particle_count) {
+  if (i < item_end(particle_count)) {
     Particle p = state(i);
     set_own(OWN_HELD, i, held_contact_force(i, p));
-    trial[i] = vec4(p.velocity.xyz, 0.0);
+    trial[AT(i)] = vec4(p.velocity.xyz, 0.0);
   }
   precise vec4 total;
   if (!reduce(vec4(0.0), total) || gl_LocalInvocationIndex != 0u) return;
@@ -39,6 +41,7 @@ void main() {
   solve.without_progress = 0u;
   solve.halvings = 0u;
   solve.ticks = 0u;
+  solve.moved = 0u;
   solve.lambda = 1.0;
   solve.first = 1u;
   solve.phase = PHASE_EVALUATE;

@@ -33,21 +33,21 @@ void keep_reaction(uint i, Reaction reaction, vec3 R) {
   if (reaction.freedom == FREE_ALL) prescribed = vec3(0.0);
   if (reaction.freedom == FREE_PLANE) prescribed = -(dot3(R, reaction.axis) * reaction.axis);
   if (reaction.freedom == FREE_LINE) prescribed = -(R - dot3(R, reaction.axis) * reaction.axis);
-  set_own4(OWN_PRESCRIBED, i, vec4(prescribed, held_word(reaction)));
+  prescribe(i, vec4(prescribed, held_word(reaction)));
   if (reaction.freedom != FREE_ALL) atomicMax(solve.ground, prescribed == vec3(0.0) ? 1u : 2u);
 }
 
 // Returns largest |residual| component, its square sum, r·z, and the square sum after a fall.
 vec4 evaluate(uint i) {
   Particle p = state(i);
-  precise vec3 v = trial[i].xyz;
+  precise vec3 v = trial[AT(i)].xyz;
   precise vec3 f = p.velocity.w * gravity.xyz;
   DiagonalBlock block = block_of_mass(p.velocity.w);
   Walk w = walk(i);
   for (w.end = bounded(w.end, KERNEL_IMPLICIT_EVALUATE); w.at < w.end; ++w.at) {
     Link link;
     if (!link_at(w, link)) continue;
-    precise vec3 dv = v - trial[link.other].xyz;
+    precise vec3 dv = v - trial[AT(link.other)].xyz;
     precise vec3 e = (p.position.xyz - state(link.other).position.xyz) + time_step * dv;
     SpringJacobian H;
     f += linearised(link.spring, e, dv, H);
@@ -79,7 +79,7 @@ vec4 evaluate(uint i) {
   set_own(OWN_Z, i, z);
   set_own(OWN_INVERSE_A, i, inverted.diagonal);
   set_own(OWN_INVERSE_B, i, inverted.mixed);
-  search[i] = vec4(z, 0.0);
+  search[AT_SEARCH(i)] = vec4(z, 0.0);
   precise float xy = abs(R.y) > abs(R.x) ? abs(R.y) : abs(R.x);
   precise vec3 after_fall = R + fall;
   return vec4(abs(R.z) > xy ? abs(R.z) : xy, dot3(R, R), dot3(r, z), dot3(after_fall, after_fall));
@@ -88,11 +88,14 @@ vec4 evaluate(uint i) {
 void main() {
   uint phase = enter();
   uint i = item_index();
-  if (i == 0u && (phase == PHASE_EVALUATE || phase == PHASE_CG)) ++solve.ticks;
+  if (i == 0u && (phase == PHASE_EVALUATE || phase == PHASE_CG)) {
+    if (solve.moved != solve.ticks * COUNTED_OF(particle_count)) report_overrun(ITEMS_MISSING);
+    ++solve.ticks;
+  }
   if (i == 0u && phase == PHASE_CG) solve.prescribing = 0u;  // it took the round before
   if (phase != PHASE_EVALUATE) return;
   precise vec4 element = vec4(0.0);
-  if (i < particle_count) element = evaluate(i);
+  if (i < item_end(particle_count)) element = evaluate(i);
   precise vec4 total;
   if (reduce(element, total) && gl_LocalInvocationIndex == 0u) judge(total);
 }

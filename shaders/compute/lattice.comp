@@ -23,6 +23,7 @@ uint lattice_of(inout uint run) {
 
 void main() {
   uint run = item_index();
+  if (run >= item_end(NO_BODY)) return;
   uint l = lattice_of(run);
   if (l == lattice_count || halted()) return;
   Lattice lattice = lattices[l];
@@ -35,19 +36,7 @@ void main() {
   for (uint c = 0u; c < LATTICE_CLASSES; ++c) classes[c] = spring_classes[lattice.first_class + c];
   uvec3 place = place_in(edge, at);
   EACH_OF_RUN(TAKE)
-  ROW_0(-2, 0)
-  ROW_1(-1, -1)
-  ROW_1(-1, 0)
-  ROW_1(-1, 1)
-  ROW_0(0, -2)
-  ROW_1(0, -1)
-  ROW_2
-  ROW_1(0, 1)
-  ROW_0(0, 2)
-  ROW_1(1, -1)
-  ROW_1(1, 0)
-  ROW_1(1, 1)
-  ROW_0(2, 0)
+  EACH_ROW
   for (int p = 0; p < ASPIC_LATTICE_RUN && first_of_run + p <= last_of_lattice; ++p) {
     finish_stage(uint(first_of_run + p), own[0], force[0]);
     EACH_BUT_THE_LAST(MOVE_DOWN)

@@ -11,7 +11,7 @@ precise vec3 other_x, other_v;
 
 // Particle p of the run, from the state.
 #define TAKE(p)                                                            \
-  own[p] = stage_state[uint(min(first_of_run + (p), last_of_lattice))];    \
+  own[p] = stage_state[AT(uint(min(first_of_run + (p), last_of_lattice)))];   \
   force[p] = own[p].velocity.w * gravity.xyz;                              \
   steps[p] = steps_from(place, edge);                                      \
   place.z++;                                                               \
@@ -23,12 +23,15 @@ precise vec3 other_x, other_v;
 
 // The other end at t steps from the run's first particle along the row; NEAR: one of the run itself.
 // Where the lattice ends, any particle will do: no spring leads there.
-#define FAR(di, dj, t)                                                        \
+#ifndef READ_OTHER
+#define READ_OTHER(di, dj, t)                                                 \
   {                                                                           \
     int to = first_of_run + (di)*plane_stride + (dj)*row_stride + (t);        \
     uint other = uint(clamp(to, first_of_lattice, last_of_lattice));          \
     read_neighbour(other, other_x, other_v);                                  \
   }
+#endif
+#define FAR(di, dj, t) READ_OTHER(di, dj, t)
 #define NEAR(t)                      \
   other_x = own[t].position.xyz;     \
   other_v = own[t].velocity.xyz;
@@ -80,3 +83,9 @@ precise vec3 other_x, other_v;
   FAR(0, 0, 4) LINK(2, 0, 0, 2) LINK(3, 0, 0, 1)                           \
   FAR(0, 0, 5) LINK(3, 0, 0, 2)
 #endif
+
+// All rows, in ascending index of the neighbours.
+#define EACH_ROW                                              \
+  ROW_0(-2, 0) ROW_1(-1, -1) ROW_1(-1, 0) ROW_1(-1, 1)        \
+  ROW_0(0, -2) ROW_1(0, -1) ROW_2 ROW_1(0, 1) ROW_0(0, 2)     \
+  ROW_1(1, -1) ROW_1(1, 0) ROW_1(1, 1) ROW_0(2, 0)

@@ -6,6 +6,10 @@
 #define MAX_SPRING_CLASSES 256
 #define MAX_TERRAINS 64
 #define MAX_POSES 510  // of moving terrain, in the table of the next steps: 16 KiB with its head
+// Particles of a tile of a cube along i, j and k: a group's. With two on each side it takes 27 KiB, of 32 that are certain.
+#define TILE_I 4
+#define TILE_J 8
+#define TILE_K 8
 #define GEOMETRY_SIZE 3  // vectors, and numbers, of a shape: geometry_size in src/model/shapes/shape.h
 
 // Vectors of the OWN block, each an array over particles.
@@ -50,6 +54,12 @@
 #define LOCATION_BALL_PARITY 2  // explicit methods: slot of the balls' state at the start of the step
 #define LOCATION_BALL_PHASE 3   // BALL_PHASE_…
 #define LOCATION_BALL_KIND 4    // KIND_… of the candidates that a dispatch looks at
+#define LOCATION_WINDOW 5       // what a dispatch over a part of the items sees: compute/dispatch.glsl
+#define LOCATION_FIRST_SPRING 6
+
+// Of the items of a pass, each COUNTED_ITEMS-th and the last count themselves, so that a device which drops some is found out.
+#define COUNTED_ITEMS 4096u
+#define COUNTED_OF(count) (((count) - 1u) / COUNTED_ITEMS + 1u + (((count) - 1u) % COUNTED_ITEMS == 0u ? 0u : 1u))
 
 // Ball slots: two that take turns as start and end of a step, and one between phases.
 #define BALL_SLOTS 3u
@@ -93,6 +103,7 @@
 #define KERNEL_BALL_EXCHANGE 9u
 #define KERNEL_BALL_PARTICLES 10u
 #define KERNEL_COUNT 11u
+#define ITEMS_MISSING 11u  // in place of a kernel: items of a pass that were not carried out
 
 #define DRIFT_STAGE_VELOCITY 0u  // Drift in src/model/integrator.h
 #define DRIFT_NEW_VELOCITY 1u
@@ -178,7 +189,7 @@ struct Pull {
   vec4 anchor;      // [m]; w: unused
   float stiffness;  // k [N/m]
   float damping;    // c [N·s/m]
-  uint particle;    // NO_BODY: nobody is pulled
+  uint particle;    // balls count on after the particles; NO_BODY: nobody is pulled
   uint pull_padding;
 };
 
@@ -187,7 +198,7 @@ struct Control {
   uint bad_particle;  // 2 · lowest particle that diverged in it, + 1 if its numbers are finite (too fast)
   uint full_step;     // first step whose contacts found no room, or NO_STEP: it has to be repeated with more
   uint overrun;       // KERNEL_… that had a loop of more than MAX_ROUNDS, or 0
-  uint passes;        // dispatches that were carried out since the words were written: a device may drop them
+  uint passes;        // items that counted themselves since the words were written: a device may drop some
   uint control_padding0, control_padding1, control_padding2;
 };
 
@@ -232,7 +243,9 @@ struct Solve {
   uint on_ground;     // 1: the ground held a particle at the accepted iterate or at a trial since
   uint prescribing;   // 1: the round under way takes the prescribed part of δ to the right-hand side
   uint full;          // 1: the balls' contacts found no room; their part of the step has to be repeated with more
-  uint overrun;       // as in Control
+  uint overrun;       // as in Control, or ITEMS_MISSING
+  uint moved;         // items of the kernel direction that counted themselves in this step
+  uint solve_padding0, solve_padding1, solve_padding2;
 };
 
 #ifdef __cplusplus

@@ -11,11 +11,11 @@ layout(std430, binding = BINDING_SPRING_FORCES) restrict writeonly buffer Spring
 
 void main() {
   uint s = item_index();
-  if (s >= spring_count || halted()) return;
-  if (s == 0u) count_pass();
-  uvec2 ends = springs[s];
-  Particle a = stage_state[ends.x];
-  Particle b = stage_state[ends.y >> class_bits];
+  if (s >= item_end(spring_count) || halted()) return;
+  count_item(s, spring_count);
+  uvec2 ends = springs[AT_ITEM(s)];
+  Particle a = stage_state[AT(ends.x)];
+  Particle b = stage_state[AT(ends.y >> class_bits)];
   SpringClass spring = spring_classes[ends.y & ((1u << class_bits) - 1u)];
-  spring_forces[s] = link_force(spring, a.position.xyz, a.velocity.xyz, b.position.xyz, b.velocity.xyz);
+  spring_forces[AT_ITEM(s)] = link_force(spring, a.position.xyz, a.velocity.xyz, b.position.xyz, b.velocity.xyz);
 }

@@ -8,13 +8,33 @@
 
 namespace aspic {
 
+/// Consecutive numbers: first ≤ … < end.
+struct IndexRange {
+  std::uint64_t first = 0, end = 0;
+  std::uint64_t count() const { return end - first; }
+  /// Grows to hold the other one, too; empty ones hold nothing.
+  void take(const IndexRange& other);
+  bool operator==(const IndexRange&) const = default;
+};
+
+/// Springs that SpringBuffers::spring_ends speaks of together.
+inline constexpr std::uint32_t spring_unit = 256;
+
 /// Nothing writes them once they are made, so solvers and pictures of one context may share them.
+/// Where the words of a slice of particles begin, and what they name.
+struct SliceWords {
+  std::uint32_t first_word = 0;
+  IndexRange named = {};  ///< particles, or springs
+};
+
 struct SpringBuffers {
   const gl::Context* context = nullptr;
   IncidentWords kind = IncidentWords::neighbours;  ///< what the incident words mean
   gl::Buffer incident_start;                       ///< BINDING_INCIDENT_START
   gl::Buffer incident;                             ///< BINDING_INCIDENT
-  gl::Buffer springs;   ///< BINDING_SPRINGS: packed_springs(), with words that name springs alone
+  gl::Buffer springs;              ///< BINDING_SPRINGS: packed_springs(), with words that name springs alone
+  std::vector<SliceWords> slices;  ///< of the words, and one past the last
+  std::vector<IndexRange> spring_ends;  ///< particles that each spring_unit of `springs` join
   gl::Buffer lattices;  ///< BINDING_LATTICES, with words beside lattices; else a table without any
 
   std::uint64_t bytes() const {
@@ -28,10 +48,10 @@ std::uint64_t spring_buffer_bytes(const Model& model, IncidentWords kind);
 /// Whether the model has lattices, and not too many for words beside them.
 bool has_lattices(const Model& model);
 
-/// Errors: as incident_springs and Buffer::create. Words beside lattices take a model for which
-/// has_lattices().
+/// Errors: as incident_springs and Buffer::create; `buffers`: storage or sliced. Words beside lattices take a
+/// model for which has_lattices().
 Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& context, const Model& model,
-                                                                 IncidentWords kind);
+                                                                 IncidentWords kind, gl::BufferKind buffers);
 
 /// Whether both models' springs are the same words on the device; constants of their classes do not matter.
 bool same_springs(const Model& a, const Model& b);

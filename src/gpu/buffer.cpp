@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <utility>
 
 #include "base/printable.h"
@@ -19,19 +18,24 @@ constexpr std::uint64_t token_bytes = 16;
 
 }  // namespace
 
-Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t bytes, BufferKind kind) {
+Status Buffer::check_size(const Context& context, std::string_view name, std::uint64_t bytes,
+                          BufferKind kind) {
   const DeviceLimits& limits = context.info().limits;
-  const bool storage = kind == BufferKind::storage;
-  const std::uint64_t limit =
-      std::min<std::uint64_t>(storage ? limits.storage_block_bytes : limits.uniform_block_bytes,
-                              std::numeric_limits<GLsizeiptr>::max());
-  if (bytes > limit)
-    return fail(ErrorCode::scene_rejected,
-                "The {} buffer \"{}\" needs {} ({} bytes), but {} takes blocks of {} ({} bytes) at most. "
-                "Make the scene smaller, or choose another device or backend.",
-                storage ? "storage" : "uniform", name, human_bytes(bytes), bytes, context.info().renderer,
-                human_bytes(limit), limit);
+  const bool storage = kind != BufferKind::uniform, sliced = kind == BufferKind::sliced;
+  const std::uint64_t limit = sliced    ? limits.buffer_bytes
+                              : storage ? std::min(limits.storage_block_bytes, limits.buffer_bytes)
+                                        : limits.uniform_block_bytes;
+  if (bytes <= limit) return {};
+  return fail(ErrorCode::scene_rejected,
+              "The {} buffer \"{}\" needs {} ({} bytes), but {} takes {} of {} ({} bytes) at most. "
+              "Make the scene smaller, or choose another device or backend.",
+              storage ? "storage" : "uniform", name, human_bytes(bytes), bytes, context.info().renderer,
+              sliced ? "buffers" : "blocks", human_bytes(limit), limit);
+}
 
+Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t bytes, BufferKind kind) {
+  ASPIC_CHECK(check_size(context, name, bytes, kind));
+  const bool storage = kind != BufferKind::uniform;
   // An error from before would be taken for this allocation's; on debug contexts the message was kept.
   context.forget_errors();
   std::uint32_t id = 0;
@@ -87,7 +91,7 @@ void Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
 void Buffer::bind(BufferKind kind, std::uint32_t binding, std::uint64_t offset, std::uint64_t bytes) const {
   assert(bytes == 0 ? offset == 0 : offset <= this->bytes() && bytes <= this->bytes() - offset);
   if (!held_) return;  // a kernel that is given no buffer reads none
-  const bool storage = kind == BufferKind::storage;
+  const bool storage = kind != BufferKind::uniform;
   auto& points = held_->bound_[storage ? 0 : 1];
   const Context::Bound wanted = {id(), offset, bytes};
   if (binding < points.size()) {

@@ -136,6 +136,9 @@ class Context {
   std::optional<std::uint64_t> free_memory() const;
   /// For tests: what free_memory() answers from now on; nothing: what the driver tells.
   void assume_free_memory(std::optional<std::uint64_t> bytes) { assumed_free_ = bytes; }
+  /// For tests: the limits of another device, no wider than this one's; with small blocks, small scenes take
+  /// the ways of large ones.
+  void assume_limits(const DeviceLimits& limits) { info_.limits = limits; }
   /// Error (scene_rejected): `bytes` more are needed than are free, as far as the driver tells; the sentence
   /// gives the figures.
   Status check_memory(std::uint64_t bytes) const;

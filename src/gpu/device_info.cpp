@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 #include "base/printable.h"
 
@@ -54,6 +55,10 @@ DeviceInfo query_device_info() {
   info.glsl_version = text_of(GL_SHADING_LANGUAGE_VERSION);
   info.is_software = is_software_renderer(info.renderer);
   info.limits.storage_block_bytes = integer<std::uint64_t>(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+  // OpenGL has no limit to ask for.
+  const bool mesa = info.version.find("Mesa") != std::string::npos;
+  info.limits.buffer_bytes = mesa ? std::numeric_limits<std::uint32_t>::max()
+                                  : static_cast<std::uint64_t>(std::numeric_limits<GLsizeiptr>::max());
   info.limits.uniform_block_bytes = integer<std::uint64_t>(GL_MAX_UNIFORM_BLOCK_SIZE);
   info.limits.compute_storage_blocks = integer<std::uint32_t>(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
   info.limits.vertex_storage_blocks = integer<std::uint32_t>(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS);

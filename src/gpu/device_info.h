@@ -11,6 +11,7 @@ namespace aspic::gl {
 /// The limits that the solver has to live within, as the device states them. Sizes in bytes.
 struct DeviceLimits {
   std::uint64_t storage_block_bytes = 0;          ///< GL_MAX_SHADER_STORAGE_BLOCK_SIZE; 16 MiB guaranteed
+  std::uint64_t buffer_bytes = 0;                 ///< of one buffer; Mesa counts its bytes in 32 bits
   std::uint64_t uniform_block_bytes = 0;          ///< GL_MAX_UNIFORM_BLOCK_SIZE; 16 KiB guaranteed
   std::uint32_t compute_storage_blocks = 0;       ///< GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS; 8 guaranteed
   std::uint32_t vertex_storage_blocks = 0;        ///< GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS; 0 guaranteed

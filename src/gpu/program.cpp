@@ -151,6 +151,10 @@ void Program::set(int location, const std::array<float, 4>& value) const {
   glProgramUniform4f(id(), location, value[0], value[1], value[2], value[3]);
 }
 
+void Program::set(int location, const std::array<std::uint32_t, 4>& value) const {
+  glProgramUniform4ui(id(), location, value[0], value[1], value[2], value[3]);
+}
+
 Result<std::shared_ptr<const Program>> ProgramCache::compute(const ShaderLibrary& library,
                                                              std::string_view path,
                                                              std::span<const Define> defines) {

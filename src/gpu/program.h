@@ -51,6 +51,7 @@ class Program {
   void set(int location, std::int32_t value) const;
   void set(int location, float value) const;
   void set(int location, const std::array<float, 4>& value) const;
+  void set(int location, const std::array<std::uint32_t, 4>& value) const;
 
   std::uint32_t id() const { return name_.id(); }
   /// The context it was made in; not of an empty handle.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "device/particles.h"
 #include "gpu_solver/kernels.h"
 
@@ -29,7 +31,12 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
   ASPIC_TRY(const layout::Simulation block, simulation_block(model_));
   const std::uint64_t state_bytes = std::uint64_t{model_.particle_count()} * sizeof(layout::Particle);
   for (Buffer& state : states_) {
-    ASPIC_TRY(state, Buffer::create(context_, "particle state", state_bytes));
+    // Balls may meet any particle, so their passes see whole states.
+    if (model_.ball_count() > 0) {
+      ASPIC_TRY(state, Buffer::create(context_, "particle state", state_bytes));
+    } else {
+      ASPIC_TRY(state, sliced("particle state", state_bytes));
+    }
   }
   ASPIC_TRY(simulation_,
             Buffer::of(context_, "simulation constants", std::span(&block, 1), gl::BufferKind::uniform));
@@ -40,8 +47,10 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
     if (theirs->context == &context_ && theirs->kind == path_.words && same_springs(other->model(), model_))
       springs_ = theirs;
   }
-  if (springs_) return {};
-  ASPIC_TRY(springs_, make_spring_buffers(context_, model_, path_.words));
+  if (!springs_) {
+    ASPIC_TRY(springs_, make_spring_buffers(context_, model_, path_.words, gl::BufferKind::sliced));
+  }
+  largest_sliced_ = std::max({largest_sliced_, springs_->incident.bytes(), springs_->springs.bytes()});
   return {};
 }
 
@@ -76,8 +85,10 @@ Status DeviceSolver::load(const State& state) {
 }
 
 Status DeviceSolver::set_pull(const std::optional<Pull>& pull) {
+  ASPIC_TRY(const bool changes, pull_.changes(model_, pull));
+  if (!changes) return {};
   // Steps of balls that found no room are repeated, with the pull that they had.
-  if (balls_.any()) ASPIC_CHECK(settle());
+  if (repeats_steps()) ASPIC_CHECK(settle());
   return pull_.set(model_, pull);
 }
 
@@ -97,6 +108,23 @@ Result<gl::Pass> DeviceSolver::pass(const KernelOptions& kernels, std::string_vi
   ASPIC_TRY(auto program, context_.programs().compute(kernels.library, path, kernels.defines));
   programs_.push_back(std::move(program));
   return gl::Pass(*programs_.back(), std::move(bindings), gl::ReadBy::compute_pass);
+}
+
+Result<gl::Buffer> DeviceSolver::sliced(std::string name, std::uint64_t bytes) {
+  largest_sliced_ = std::max(largest_sliced_, bytes);
+  return Buffer::create(context_, std::move(name), bytes, gl::BufferKind::sliced);
+}
+
+Result<SlicedPass> DeviceSolver::sliced_pass(KernelOptions kernels, std::string_view path,
+                                             std::vector<gl::Binding> bindings, std::uint32_t items,
+                                             const ElementBytes& bytes, const Seen& seen) {
+  std::vector<Window> windows;
+  if (windowed()) {
+    kernels.defines.push_back({"ASPIC_WINDOWS", "1"});
+    ASPIC_TRY(windows, windows_over(items, context_.info().limits.storage_block_bytes, bytes, seen));
+  }
+  ASPIC_TRY(auto made, pass(kernels, path, std::move(bindings)));
+  return SlicedPass(std::move(made), items, std::move(windows));
 }
 
 void DeviceSolver::keep_counting() {

@@ -12,6 +12,7 @@
 #include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"
 #include "gpu_solver/step_inputs.h"
+#include "gpu_solver/windows.h"
 
 namespace aspic {
 
@@ -60,9 +61,19 @@ class DeviceSolver : public GpuSolver {
   /// A program and the pass that runs it.
   Result<gl::Pass> pass(const KernelOptions& kernels, std::string_view path,
                         std::vector<gl::Binding> bindings);
+  /// The same over `items`, in windows where sliced() arrays are larger than a block.
+  Result<SlicedPass> sliced_pass(KernelOptions kernels, std::string_view path,
+                                 std::vector<gl::Binding> bindings, std::uint32_t items,
+                                 const ElementBytes& bytes, const Seen& seen);
+  /// A buffer that sliced passes alone see.
+  Result<gl::Buffer> sliced(std::string name, std::uint64_t bytes);
+  /// Whether the passes go by windows. Known once all sliced buffers are made.
+  bool windowed() const { return largest_sliced_ > context_.info().limits.storage_block_bytes; }
   void mark(std::size_t kind) const {
     if (profiler_) profiler_->mark(kind);
   }
+  /// Whether steps under way may be carried out after what the host says next.
+  virtual bool repeats_steps() const { return balls_.any(); }
   /// Waits for what is queued, so that state and step number are those of good steps.
   virtual Status settle() { return {}; }
   /// The kernels count steps in 32 bits: before those are full, counting begins again. No step may be under
@@ -98,6 +109,7 @@ class DeviceSolver : public GpuSolver {
   std::vector<std::string> pass_names_;
   std::vector<std::shared_ptr<const gl::Program>> programs_;  // of the passes
   gl::Arithmetic arithmetic_;
+  std::uint64_t largest_sliced_ = 0;  // bytes
   std::uint64_t bytes_ = 0;
 };
 

@@ -63,8 +63,8 @@ class ExplicitSolver final : public DeviceSolver {
   Status carry_out(std::uint64_t steps, bool wait);
   std::uint32_t queue_steps(std::uint32_t count);
   Status build_lattice_pass(KernelOptions kernels, std::uint32_t run, const std::vector<Binding>& bindings);
-  void dispatch(const std::optional<gl::Pass>& pass, Kind kind, std::uint32_t items,
-                std::span<const Binding> states, ReadBy readers) const;
+  void dispatch(const std::optional<SlicedPass>& pass, Kind kind, std::span<const SlicedArray> arrays,
+                ReadBy readers) const;
   void queue_step(std::uint32_t step_index, bool last_of_queue);
   Result<std::uint64_t> take_look();
   void forget_queues();
@@ -76,26 +76,34 @@ class ExplicitSolver final : public DeviceSolver {
   std::optional<gl::ReadRing> looks_;  // the control words after each queue
   QueueDepth depth_{most_steps};
   Clock::time_point last_look_ = {};
-  std::uint32_t passes_before_ = 0;  // that must have been carried out before the oldest queue
+  std::uint32_t passes_before_ = 0;  // counts that must have been made before the oldest queue
   std::optional<Error> unusable_;    // the device dropped passes
   bool late_ = false;
-  std::optional<gl::Pass> spring_pass_, lattice_pass_, particle_pass_;  // of each stage
-  std::uint32_t lattice_runs_ = 0, listed_particles_ = 0;               // items of the last two
+  std::optional<SlicedPass> spring_pass_, lattice_pass_, particle_pass_;  // of each stage
 };
 
 Status ExplicitSolver::build_lattice_pass(KernelOptions kernels, std::uint32_t run,
                                           const std::vector<Binding>& bindings) {
+  const auto items = [&](const Body& body) {
+    return path_.tiles ? tiles_in(body).all() * tile_particles : (body.particle_count - 1) / run + 1;
+  };
+  std::uint32_t all = 0;
   for (const Body& body : model_.bodies)
-    if (body.lattice_edge > 0) lattice_runs_ += (body.particle_count - 1) / run + 1;
-  listed_particles_ -= lattice_particles(model_);
+    if (body.lattice_edge > 0) all += items(body);
   kernels.defines.push_back({"ASPIC_LATTICE_RUN", std::to_string(run)});
-  ASPIC_TRY(lattice_pass_, pass(kernels, path_.lattice_kernel, bindings));
+  if (path_.tiles)
+    std::ranges::find(kernels.defines, "ASPIC_GROUP_SIZE", &gl::Define::name)->value =
+        std::to_string(tile_particles);
+  ASPIC_TRY(lattice_pass_,
+            sliced_pass(std::move(kernels), path_.lattice_kernel, bindings, all,
+                        {.particle = sizeof(layout::Particle)},
+                        path_.tiles ? seen_by_lattice_tiles(model_) : seen_by_lattice_runs(model_, run)));
   return {};
 }
 
 Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptions& options) {
   const std::uint64_t state_bytes = states_[0].bytes();
-  ASPIC_TRY(sums_, Buffer::create(context_, "stage sums", keeps_sums(method_) ? state_bytes : 0));
+  ASPIC_TRY(sums_, sliced("stage sums", keeps_sums(method_) ? state_bytes : 0));
   ASPIC_TRY(control_, Buffer::create(context_, "control words", sizeof(layout::Control)));
   looks_.emplace(context_, sizeof(layout::Control));
   fast_ = options.spring_arithmetic == Arithmetic::fast;
@@ -106,32 +114,32 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                    control,
                                    pull_.binding(),
                                    poses_.binding(),
-                                   {BINDING_STAGE_SUMS, &sums_},
                                    {BINDING_INCIDENT_START, &springs_->incident_start},
-                                   {BINDING_INCIDENT, &springs_->incident},
                                    lattices()};
   if (!path_.spring_kernel.empty()) {
-    ASPIC_TRY(forces_,
-              Buffer::create(context_, "spring forces", spring_count(model_) * sizeof(layout::vec4)));
-    bindings.push_back({BINDING_SPRING_FORCES, &forces_});
-    ASPIC_TRY(spring_pass_, pass(stage_kernels, path_.spring_kernel,
-                                 {constants(),
-                                  control,
-                                  {BINDING_SPRINGS, &springs_->springs},
-                                  {BINDING_SPRING_FORCES, &forces_}}));
+    ASPIC_TRY(forces_, sliced("spring forces", spring_count(model_) * sizeof(layout::vec4)));
+    ASPIC_TRY(spring_pass_, sliced_pass(stage_kernels, path_.spring_kernel, {constants(), control},
+                                        static_cast<std::uint32_t>(spring_count(model_)),
+                                        {.item = sizeof(layout::vec4), .particle = sizeof(layout::Particle)},
+                                        seen_by_springs(*springs_)));
   }
   if (method_.stages.size() == 1) stage_kernels.defines.push_back({"ASPIC_ONE_STAGE", "1"});
-  listed_particles_ = model_.particle_count();
   const std::uint32_t by_device = context_.info().is_software ? software_run : 1;
   const std::uint32_t run = options.lattice_run > 0 ? options.lattice_run : by_device;
   if (run > 1) stage_kernels.defines.push_back({"ASPIC_WIDE_LOADS", "1"});
   if (takes_lattices()) {
-    ASPIC_CHECK(build_lattice_pass(stage_kernels, run, bindings));
+    ASPIC_CHECK(build_lattice_pass(stage_kernels, path_.tiles ? 1 : run, bindings));
   }
-  if (listed_particles_ > 0 || !lattice_pass_) {
-    ASPIC_TRY(particle_pass_, pass(stage_kernels, path_.particle_kernel, std::move(bindings)));
+  const std::uint32_t listed = model_.particle_count() - (takes_lattices() ? lattice_particles(model_) : 0u);
+  if (listed > 0 || !lattice_pass_) {
+    ASPIC_TRY(particle_pass_, sliced_pass(stage_kernels, path_.particle_kernel, std::move(bindings), listed,
+                                          {.particle = sizeof(layout::Particle),
+                                           .word = sizeof(std::uint32_t),
+                                           .spring = sizeof(layout::vec4)},
+                                          seen_by_listed(model_, *springs_)));
   }
-  return balls_.build(context_, model_, kernels, {&simulation_, &control_, false, poses_.binding()},
+  return balls_.build(context_, model_, kernels,
+                      {&simulation_, &control_, false, poses_.binding(), pull_.binding()},
                       options.ball_search);
 }
 
@@ -144,10 +152,10 @@ void ExplicitSolver::restart() {
   unusable_.reset();
 }
 
-void ExplicitSolver::dispatch(const std::optional<gl::Pass>& pass, Kind kind, std::uint32_t items,
-                              std::span<const Binding> states, ReadBy readers) const {
+void ExplicitSolver::dispatch(const std::optional<SlicedPass>& pass, Kind kind,
+                              std::span<const SlicedArray> arrays, ReadBy readers) const {
   if (!pass) return;
-  pass->dispatch_for(items, states, readers);
+  pass->dispatch(arrays, readers);
   mark(kind);
 }
 
@@ -163,16 +171,25 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
     const std::size_t out = (stages - 1 - s) % 2 == 0 ? end : between;
     for (const auto* pass : {&lattice_pass_, &particle_pass_})
       if (*pass) (*pass)->program().set(LOCATION_STAGE, s);
-    const std::array<Binding, 3> states = {{{BINDING_STAGE_STATE, &states_[stage_state]},
-                                            {BINDING_START_STATE, &states_[current_]},
-                                            {BINDING_OUT_STATE, &states_[out]}}};
-    dispatch(spring_pass_, springs_kind, static_cast<std::uint32_t>(spring_count(model_)),
-             std::span(states).first(1), ReadBy::compute_pass);
+    constexpr std::uint64_t particle = sizeof(layout::Particle), force = sizeof(layout::vec4);
+    const SlicedArray stage = {BINDING_STAGE_STATE, &states_[stage_state], Over::particles, particle};
+    const std::array<SlicedArray, 6> arrays = {
+        {stage,
+         {BINDING_START_STATE, &states_[current_], Over::particles, particle},
+         {BINDING_OUT_STATE, &states_[out], Over::particles, particle},
+         {BINDING_STAGE_SUMS, &sums_, Over::particles, particle},
+         {BINDING_INCIDENT, &springs_->incident, Over::words, sizeof(std::uint32_t)},
+         {BINDING_SPRING_FORCES, &forces_, Over::springs, force}}};
+    dispatch(spring_pass_, springs_kind,
+             std::array{stage,
+                        SlicedArray{BINDING_SPRINGS, &springs_->springs, Over::items, sizeof(layout::uvec2)},
+                        SlicedArray{BINDING_SPRING_FORCES, &forces_, Over::items, force}},
+             ReadBy::compute_pass);
     const bool leaves = last_of_queue && s + 1 == stages && !balls_.any();
     const ReadBy readers = leaves ? anyone : ReadBy::compute_pass;
     // Cubes and all else write different particles.
-    dispatch(lattice_pass_, lattices_kind, lattice_runs_, states, particle_pass_ ? ReadBy::nobody : readers);
-    dispatch(particle_pass_, particles_kind, listed_particles_, states, readers);
+    dispatch(lattice_pass_, lattices_kind, arrays, particle_pass_ ? ReadBy::nobody : readers);
+    dispatch(particle_pass_, particles_kind, arrays, readers);
     stage_state = out;
   }
   balls_.queue(states_[current_], states_[end], step_index, ball_slot_,
@@ -265,13 +282,13 @@ void ExplicitSolver::forget_queues() {
   looks_->forget();
 }
 
-/// Passes of a step that count themselves: of each stage those over springs and over particles, and the
-/// balls' flight.
+/// Items of a step that count themselves: of each stage springs and particles, and balls in flight.
 std::uint32_t ExplicitSolver::passes_per_step() const {
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
-  const std::uint32_t particles = model_.particle_count() > 0 ? stages : 0u,
-                      springs = spring_pass_ && spring_count(model_) > 0 ? stages : 0u;
-  return particles + springs + (balls_.any() ? 1u : 0u);
+  const auto counted = [](std::uint32_t items) { return items > 0 ? COUNTED_OF(items) : 0u; };
+  return stages * counted(model_.particle_count()) +
+         (spring_pass_ ? stages * counted(static_cast<std::uint32_t>(spring_count(model_))) : 0u) +
+         counted(model_.ball_count());
 }
 
 }  // namespace

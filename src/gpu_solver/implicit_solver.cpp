@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <deque>
 #include <utility>
 
+#include "gpu/read_ring.h"
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/queue_depth.h"
 
@@ -15,8 +17,11 @@ using gl::ReadBy;
 
 using Clock = std::chrono::steady_clock;
 
-/// Steps queued between two looks at the Solve block, at most.
+/// Steps queued between two looks at the Solve block, at most, and queues under way: one is carried out while
+/// the host hears of the one before.
 constexpr std::uint32_t most_steps = 16;
+constexpr std::size_t most_queues = 2;
+static_assert(most_queues <= gl::ReadRing::capacity);
 /// Rounds queued for the first step, before there is one to learn from, and at least where a step needed more
 /// than was queued.
 constexpr std::uint32_t first_rounds = 8, more_rounds = 16;
@@ -44,62 +49,98 @@ class ImplicitSolver final : public DeviceSolver {
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   std::optional<SolveStatistics> solve_statistics() override { return statistics_; }
+  void set_late(bool on) override { late_ = on; }
 
  private:
   std::uint32_t group_size(const GpuOptions&) const override { return REDUCTION_BLOCK; }
   Status build_passes(const KernelOptions& kernels, const GpuOptions& options) override;
   void restart() override;
   void dispatch(Kernel kernel, ReadBy readers = ReadBy::compute_pass) const {
-    passes_[kernel].dispatch_for(model_.particle_count(), {}, readers);
+    passes_[kernel].dispatch(arrays_, readers);
     mark(kernel);
   }
+  // A step may end in a later queue than its own, and would meet the pull of that one.
+  bool repeats_steps() const override { return true; }
+  Status settle() override { return carry_out(0, true); }
+  Status carry_out(std::uint64_t steps, bool wait);
+  Result<std::uint32_t> work_on(std::uint64_t steps, bool must);
+  bool is_behind() const { return solve_.step != target_; }
   void queue_rounds(std::uint32_t rounds) const;
+  std::uint32_t queue_steps(std::uint32_t wanted);
+  void queue_more();
+  void submit(std::uint32_t rounds);
+  Status take_look();
+  Status repeat_balls();
+  void forget_queues();
+  void foretell();
   /// More than a step can take.
   std::uint64_t most_rounds() const;
   std::uint32_t rounds_wanted() const;
-  Status solve_queue();
   void write_solve();
-  Status read_solve();
   void take_statistics(const layout::Solve& before);
 
   Buffer trial_, search_, own_, solve_buffer_;
-  std::vector<gl::Pass> passes_;  // by Kernel
-  layout::Solve solve_{};         // as last read or written
+  std::vector<SlicedPass> passes_;        // by Kernel
+  std::vector<SlicedArray> arrays_;       // of every pass
+  layout::Solve solve_{};                 // as last read or written
+  std::uint32_t target_ = 0;              // the device's target_step after all queues
+  std::uint64_t queued_rounds_ = 0;       // since a step was last seen to end
+  std::deque<Clock::time_point> queues_;  // under way: when each began
+  std::optional<gl::ReadRing> looks_;     // the Solve block after each queue
+  Clock::time_point last_look_ = {};
+  std::optional<Error> unusable_;  // the device dropped passes
+  bool unheard_ = false;           // a look failed: the device has got further than solve_ says
+  bool late_ = false;
   SolveStatistics statistics_;
   QueueDepth depth_{most_steps}, round_depth_{most_queued_rounds, first_rounds};
 };
 
 Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptions& options) {
   const std::uint64_t particles = model_.particle_count(), vectors = particles * sizeof(layout::vec4);
-  ASPIC_TRY(trial_, Buffer::create(context_, "trial velocities", vectors));
-  ASPIC_TRY(search_, Buffer::create(context_, "search direction", vectors));
-  ASPIC_TRY(own_, Buffer::create(context_, "solver vectors", OWN_VECTORS * vectors));
+  ASPIC_TRY(trial_, sliced("trial velocities", vectors));
+  ASPIC_TRY(own_, sliced("solver vectors", OWN_VECTORS * vectors));
+  // In windows, what neighbours need beside it goes with it (shaders/compute/implicit.glsl).
+  const std::uint64_t search_bytes = (windowed() ? 2 : 1) * sizeof(layout::vec4);
+  ASPIC_TRY(search_, sliced("search direction", particles * search_bytes));
   ASPIC_TRY(solve_buffer_, Buffer::create(context_, "solve control", solve_bytes(particles)));
-  const std::vector<Binding> bindings = {constants(),
-                                         pull_.binding(),
-                                         poses_.binding(),
-                                         {BINDING_STATE_A, &states_[0]},
-                                         {BINDING_STATE_B, &states_[1]},
-                                         {BINDING_TRIAL, &trial_},
-                                         {BINDING_SEARCH, &search_},
-                                         {BINDING_INCIDENT_START, &springs_->incident_start},
-                                         {BINDING_INCIDENT, &springs_->incident},
-                                         lattices(),
-                                         {BINDING_SOLVE, &solve_buffer_},
-                                         {BINDING_OWN, &own_}};
+  looks_.emplace(context_, sizeof(layout::Solve));
+  const std::vector<Binding> bindings = {
+      constants(),      pull_.binding(),
+      poses_.binding(), {BINDING_INCIDENT_START, &springs_->incident_start},
+      lattices(),       {BINDING_SOLVE, &solve_buffer_}};
+  constexpr std::uint64_t particle = sizeof(layout::Particle), own = OWN_VECTORS * sizeof(layout::vec4);
+  arrays_ = {{BINDING_STATE_A, &states_[0], Over::particles, particle},
+             {BINDING_STATE_B, &states_[1], Over::particles, particle},
+             {BINDING_TRIAL, &trial_, Over::particles, sizeof(layout::vec4)},
+             {BINDING_SEARCH, &search_, Over::particles, search_bytes},
+             {BINDING_INCIDENT, &springs_->incident, Over::words, sizeof(std::uint32_t)},
+             {BINDING_OWN, &own_, Over::items, own}};
   for (const KernelRow& row : kernel_rows) {
-    ASPIC_TRY(auto made, pass(kernels, row.path, bindings));
+    ASPIC_TRY(auto made, sliced_pass(kernels, row.path, bindings, model_.particle_count(),
+                                     {.item = own, .particle = particle, .word = sizeof(std::uint32_t)},
+                                     seen_by_particles(model_, *springs_)));
     passes_.push_back(std::move(made));
   }
-  return balls_.build(context_, model_, kernels, {&simulation_, &solve_buffer_, true, poses_.binding()},
+  return balls_.build(context_, model_, kernels,
+                      {&simulation_, &solve_buffer_, true, poses_.binding(), pull_.binding()},
                       options.ball_search);
 }
 
 void ImplicitSolver::restart() {
   solve_ = {};
   solve_.bad_particle = NO_STEP;
+  target_ = 0;
+  forget_queues();
+  unusable_.reset();
+  unheard_ = false;
   write_solve();
   statistics_ = {};
+}
+
+void ImplicitSolver::forget_queues() {
+  queues_.clear();
+  looks_->forget();
+  queued_rounds_ = 0;
 }
 
 std::uint64_t ImplicitSolver::most_rounds() const {
@@ -111,18 +152,6 @@ std::uint64_t ImplicitSolver::most_rounds() const {
 
 void ImplicitSolver::write_solve() {
   solve_buffer_.upload_items(std::span(&solve_, 1));
-}
-
-Status ImplicitSolver::read_solve() {
-  // A lost device answers with anything, also with a parity that names no state.
-  const layout::Solve read = solve_buffer_.download_items<layout::Solve>(1).front();
-  ASPIC_CHECK(context_.check());
-  ASPIC_CHECK(check_overrun(read.overrun));
-  const layout::Solve before = std::exchange(solve_, read);
-  current_ = ball_slot_ = solve_.parity;
-  steps_since_ = solve_.step;
-  take_statistics(before);
-  return {};
 }
 
 /// The device's counters are 32-bit and wrap; their differences between two looks are right all the same.
@@ -148,28 +177,15 @@ void ImplicitSolver::queue_rounds(std::uint32_t rounds) const {
 
 Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
   // A step that is measured is queued alone: what is queued behind it may turn out to belong to it.
-  bool measure = profiler_ != nullptr;
-  while (steps > 0 && !divergence_) {
-    keep_counting();
-    solve_.step = steps_since_;
-    const bool measured = std::exchange(measure, false) && profiler_->begin();
-    const auto wanted =
-        measured ? 1u : static_cast<std::uint32_t>(std::min<std::uint64_t>(steps, depth_.next()));
-    const std::uint32_t queue = poses_.cover(solve_.step, wanted);
-    const std::uint32_t first = solve_.step;
-    const auto begun = Clock::now();
-    solve_.target_step = first + queue;
-    solve_.phase = PHASE_BEGIN;
-    write_solve();
-    ASPIC_CHECK(solve_queue());
-    if (measured) profiler_->end();
-    if (solve_.phase == PHASE_HALTED) {
-      divergence_ = divergence_from(solve_.bad_particle, solve_.step);
+  if (profiler_ && steps > 0) {
+    ASPIC_CHECK(settle());
+    if (!divergence_ && profiler_->begin()) {
+      ASPIC_CHECK(carry_out(1, true));
+      profiler_->end();
+      --steps;
     }
-    const std::uint32_t done = solve_.step - first;
-    depth_.took(done, std::chrono::duration<double>(Clock::now() - begun).count());
-    steps -= done;
   }
+  ASPIC_CHECK(carry_out(steps, !late_));
   return divergence_;
 }
 
@@ -177,45 +193,145 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
 std::uint32_t ImplicitSolver::rounds_wanted() const {
   if (solve_.ticks == 0) return first_rounds;
   const std::uint32_t learnt = solve_.ticks + solve_.ticks / 4 + 1;
-  return solve_.phase == PHASE_BEGIN ? learnt : std::max(more_rounds, learnt);
+  const bool between = solve_.phase == PHASE_BEGIN || solve_.phase == PHASE_IDLE;
+  return between ? learnt : std::max(more_rounds, learnt);
 }
 
-/// Until the device has reached the target step or halted. No more rounds are queued for a step than take a
-/// moment; what is missing is queued on, what is too much does nothing. Neither changes a bit.
-Status ImplicitSolver::solve_queue() {
-  std::uint32_t looked = solve_.step;
-  std::uint64_t queued = 0;  // rounds of this step
-  while (solve_.phase != PHASE_IDLE && solve_.phase != PHASE_HALTED) {
-    if (solve_.step != looked) queued = 0;
-    looked = solve_.step;
-    if (queued > most_rounds()) return idle_device(context_, model_, queued * kernel_count);
-    const std::uint32_t rounds = std::min(rounds_wanted(), round_depth_.next());
-    queued += rounds;
-    const auto begun = Clock::now();
-    const layout::Solve before = solve_;
-    std::uint32_t n = solve_.step;
-    if (solve_.phase != PHASE_BEGIN) {
-      queue_rounds(rounds);
-      ++n;
+/// Queues steps, and hears of those before. No more rounds are queued for a step than take a moment; what is
+/// missing is queued on, what is too much does nothing. Neither changes a bit.
+Status ImplicitSolver::carry_out(std::uint64_t steps, bool wait) {
+  if (unusable_) return *unusable_;
+  if (std::exchange(unheard_, false)) submit(0);
+  while (!divergence_) {
+    const bool idle = queues_.empty() && !is_behind();
+    const bool must = queues_.size() == most_queues || (steps == 0 ? wait : counts_far());
+    if (steps == 0 && (idle || (!must && !queues_.empty() && !looks_->ready()))) break;
+    const auto queued = work_on(steps, must);
+    if (!queued) {
+      forget_queues();
+      unheard_ = true;
+      return queued.error();
     }
-    for (; n < solve_.target_step; ++n) {
-      dispatch(begin);
-      queue_rounds(rounds);
-    }
-    ASPIC_CHECK(read_solve());
-    const std::uint32_t ended = solve_.step - before.step, worked = ended > 0 ? ended * solve_.ticks
-                                                                    : before.phase == PHASE_BEGIN
-                                                                        ? solve_.ticks
-                                                                        : solve_.ticks - before.ticks;
-    round_depth_.took(std::max(worked, 1u), std::chrono::duration<double>(Clock::now() - begun).count());
-    if (solve_.full != 0) {
-      // The balls' part of the step is repeated, from the state it began with, where nothing was written.
-      ASPIC_CHECK(balls_.grow());
-      solve_.full = 0;
-      queued = 0;
-      write_solve();
-    }
+    steps -= *queued;
   }
+  return {};
+}
+
+/// Takes a look, or queues what is missing or new; returns how many steps are queued that were not.
+Result<std::uint32_t> ImplicitSolver::work_on(std::uint64_t steps, bool must) {
+  std::uint32_t queued = 0;
+  if (!queues_.empty() && (must || looks_->ready())) {
+    ASPIC_CHECK(take_look());
+  } else if (queues_.empty() && is_behind()) {
+    if (queued_rounds_ > most_rounds()) {
+      unusable_ = idle_device(context_, model_, queued_rounds_ * kernel_count);
+      return *unusable_;
+    }
+    queue_more();
+  } else {
+    queued = queue_steps(static_cast<std::uint32_t>(std::min<std::uint64_t>(steps, depth_.next())));
+    if (queued == 0) ASPIC_CHECK(take_look());  // the table of poses has no room
+  }
+  return queued;
+}
+
+/// Steps behind those that are queued; returns how many there was room for.
+std::uint32_t ImplicitSolver::queue_steps(std::uint32_t wanted) {
+  if (queues_.empty()) {
+    keep_counting();
+    solve_.step = target_ = steps_since_;
+  }
+  // Steps that are queued already may end behind this.
+  const std::uint32_t before = target_ - solve_.step,
+                      steps = poses_.cover(solve_.step, before + wanted) - before;
+  if (steps == 0) return 0;
+  target_ += steps;
+  if (queues_.empty()) {
+    solve_.target_step = target_;
+    solve_.phase = PHASE_BEGIN;
+    write_solve();
+  } else {
+    solve_buffer_.upload_items(std::span(&target_, 1),
+                               offsetof(layout::Solve, target_step) / sizeof(target_));
+  }
+  const std::uint32_t rounds = std::min(rounds_wanted(), round_depth_.next());
+  for (std::uint32_t n = 0; n < steps; ++n) {
+    dispatch(begin);
+    queue_rounds(rounds);
+  }
+  submit(rounds);
+  return steps;
+}
+
+/// What the steps of the queues before took more than was queued for them.
+void ImplicitSolver::queue_more() {
+  const std::uint32_t rounds = std::min(rounds_wanted(), round_depth_.next());
+  std::uint32_t n = solve_.step;
+  if (solve_.phase != PHASE_BEGIN) {
+    queue_rounds(rounds);
+    ++n;
+  }
+  for (; n != target_; ++n) {
+    dispatch(begin);
+    queue_rounds(rounds);
+  }
+  submit(rounds);
+}
+
+void ImplicitSolver::submit(std::uint32_t rounds) {
+  queued_rounds_ += rounds;
+  queues_.push_back(Clock::now());
+  looks_->submit(solve_buffer_, 0, sizeof(layout::Solve));
+  foretell();
+}
+
+/// Where the state will be once all queues have ended.
+void ImplicitSolver::foretell() {
+  steps_since_ = target_;
+  current_ = ball_slot_ = (solve_.parity + (target_ - solve_.step)) % 2;
+}
+
+/// Waits for the oldest queue and takes in what came of it.
+Status ImplicitSolver::take_look() {
+  layout::Solve read;
+  looks_->take(std::as_writable_bytes(std::span(&read, 1)));
+  // A lost device answers with anything, also with a parity that names no state.
+  ASPIC_CHECK(context_.check());
+  if (read.overrun == ITEMS_MISSING) {
+    unusable_ = idle_device(context_, model_, queued_rounds_);
+    return *unusable_;
+  }
+  ASPIC_CHECK(check_overrun(read.overrun));
+  const layout::Solve before = std::exchange(solve_, read);
+  take_statistics(before);
+  const auto now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - std::max(queues_.front(), last_look_)).count();
+  queues_.pop_front();
+  last_look_ = now;
+  const bool anew = before.phase == PHASE_BEGIN || before.phase == PHASE_IDLE;
+  const std::uint32_t ended = solve_.step - before.step,
+                      worked = ended > 0 ? ended * solve_.ticks : solve_.ticks - (anew ? 0 : before.ticks);
+  depth_.took(ended, seconds);
+  round_depth_.took(std::max(worked, 1u), seconds);
+  if (ended > 0) queued_rounds_ = 0;
+  if (solve_.full != 0) return repeat_balls();
+  if (solve_.phase == PHASE_HALTED) {
+    forget_queues();
+    target_ = solve_.step;
+    divergence_ = divergence_from(solve_.bad_particle, solve_.step);
+  }
+  foretell();
+  return {};
+}
+
+/// The balls' part of a step is repeated, from the state it began with, where nothing was written. What is
+/// queued behind it has done nothing.
+Status ImplicitSolver::repeat_balls() {
+  forget_queues();
+  ASPIC_CHECK(balls_.grow());
+  solve_.full = 0;
+  solve_.target_step = target_;
+  write_solve();
   return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
+#include "gpu_solver/windows.h"
 
 namespace aspic {
 namespace {
@@ -26,7 +27,14 @@ std::optional<ReachLimit> obstacle(const ForcePathRow& path, Integrator integrat
   const std::uint64_t largest = std::max({particles * sizeof(layout::Particle), words * sizeof(std::uint32_t),
                                           listed * sizeof(layout::uvec2), springs * path.spring_bytes,
                                           solved ? particles * OWN_VECTORS * sizeof(layout::vec4) : 0});
-  if (largest > limits.storage_block_bytes) return ReachLimit::block;
+  if (largest > limits.buffer_bytes) return ReachLimit::buffer;
+  // Passes over windows see a few particles' neighbours at least, two planes away, and their springs.
+  const std::uint64_t seen = 2 * window_unit + 2 * (2 * n * n + 2 * n + 8),
+                      seen_bytes =
+                          std::max(std::min(seen, particles) * sizeof(layout::Particle),
+                                   std::min(seen * LATTICE_DIRECTIONS / 2, springs) * path.spring_bytes);
+  if (largest > limits.storage_block_bytes && seen_bytes > limits.storage_block_bytes)
+    return ReachLimit::block;
   // A word holds a particle and two bits of class, or a spring and its side.
   if (words > 0xffffffffu || (!lattice && particles >= 1u << 30) || 2 * listed > 0xffffffffu)
     return ReachLimit::words;

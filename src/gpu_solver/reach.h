@@ -14,6 +14,7 @@ namespace aspic {
 /// What ends the growth of a cube.
 enum class ReachLimit {
   block,   ///< the largest storage block
+  buffer,  ///< the largest buffer
   memory,  ///< what the driver says is free
   words    ///< 32-bit words of springs
 };

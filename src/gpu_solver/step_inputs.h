@@ -16,6 +16,8 @@ class PullBuffer {
  public:
   /// Nobody is pulled. Errors as Buffer::create.
   Status build(gl::Context& context);
+  /// Whether it is another than the one that holds. Errors: those of set().
+  Result<bool> changes(const Model& model, const std::optional<Pull>& pull) const;
   /// See Solver::set_pull. An upload of 32 bytes, queued after the steps before; nothing if nothing changed.
   Status set(const Model& model, const std::optional<Pull>& pull);
   gl::Binding binding() const { return {BINDING_PULL, &buffer_, gl::BufferKind::uniform}; }

@@ -11,6 +11,7 @@
 #include "render/moving_part.h"
 #include "render/picture_passes.h"
 #include "render/programs.h"
+#include "render/reference_ground.h"
 #include "render/renderer.h"
 #include "render/targets.h"
 #include "render/terrain_painter.h"
@@ -22,8 +23,11 @@ struct Renderer::Parts {
   RenderPrograms programs;
   std::optional<OverlayPainter> overlay;
   TerrainPainter terrain;
+  ReferenceGround reference_ground;
   LightMaps lights;
   gl::Texture colour_map;
+  ScaleMap uploaded_map = ScaleMap::automatic;  // that of colour_map; automatic: none yet
+  QuantityRange range = {0.0, 1.0};
   gl::Buffer frame;
   gl::VertexArray nothing;
   int samples = 4;
@@ -39,14 +43,18 @@ struct Renderer::Parts {
   // Of the picture last drawn, for what is asked about it afterwards.
   std::optional<DeviceState> drawn_state;
   render_layout::Frame drawn_frame = {};
-  DrawSettings drawn_settings;
+  ViewSettings drawn_view;
   std::unique_ptr<Picker> picker;
   std::unique_ptr<HighlightPainter> highlight;
+  std::unique_ptr<SectionPainter> section;
+  std::unique_ptr<ArrowPainter> arrows;
   std::uint64_t picks = 0;
   std::unique_ptr<gl::PassProfiler> profiler;
 
   Status prepare_targets(int width, int height, int wanted_samples);
   Status prepare_highlight();
+  Status prepare_section();
+  Status draw_arrows(const ViewSettings& view, const ArrowSet& set);
   /// This pass is over.
   void mark(PicturePass pass) const {
     if (profiler) profiler->mark(static_cast<std::size_t>(pass));
@@ -56,12 +64,14 @@ struct Renderer::Parts {
                         const PictureOptions& options);
   void draw_ground(const std::vector<Terrain>& placed, const Camera& camera, const PictureOptions& options,
                    bool shadows) const;
-  std::vector<gl::PixelBox> changing(const DeviceState& state, const std::vector<Terrain>& placed,
-                                     const PictureOptions& options) const;
+  std::vector<gl::PixelBox> changing(const DeviceState& state, const Camera& camera,
+                                     const std::vector<Terrain>& placed, const PictureOptions& options) const;
   void prepare_light(const DeviceState& state, const PictureOptions& options);
+  void prepare_scale(const DeviceState& state, const ViewSettings& view);
   /// Of this picture.
   BodyPainter bodies(const DeviceState& state, const ViewSettings& view) const {
-    return {*model, programs, *buffers, *targets, colour_map, state, view};
+    return {*model,     programs, *buffers, *targets,
+            colour_map, state,    view,     view.cut.on() ? section.get() : nullptr};
   }
   /// The whole picture by one program.
   void fill(const gl::Program& program) const {

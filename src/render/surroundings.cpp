@@ -8,7 +8,7 @@ void Renderer::Parts::draw_ground(const std::vector<Terrain>& placed, const Came
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
-  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with_alpha(*c, 1.0).data());
+  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with_alpha(*c, 0.0).data());
   terrain.draw_solid(programs, placed, options.view.camera, camera, shadows);
 }
 
@@ -29,13 +29,14 @@ bool Renderer::Parts::prepare_backdrop(const std::vector<Terrain>& placed, const
 }
 
 /// Where a picture differs from its backdrop.
-std::vector<gl::PixelBox> Renderer::Parts::changing(const DeviceState& state,
+std::vector<gl::PixelBox> Renderer::Parts::changing(const DeviceState& state, const Camera& camera,
                                                     const std::vector<Terrain>& placed,
                                                     const PictureOptions& options) const {
   MovingThings things;
   // Where other states are, only the device knows.
   if (state.particles != &uploaded || uploaded_particles.size() != model->particle_count() ||
-      !terrain.add_changing(placed, options.view.camera, options.shadows, things))
+      !options.arrows.arrows.empty() || options.view.cut.on() || options.view.ground ||
+      !terrain.add_changing(placed, options.view.camera, camera, options.shadows, things))
     return {targets->box()};
   things.particles = uploaded_particles;
   things.balls = uploaded_ball_items;

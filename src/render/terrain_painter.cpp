@@ -84,6 +84,12 @@ void TerrainPainter::draw_solid_meshes(const RenderPrograms& programs,
 
 namespace {
 
+/// Where sight lines come from.
+Vec3 eye_of(const CameraSettings& camera, const Camera& lens) {
+  const glm::vec3& far_eye = lens.eye();
+  return lens.orthographic() ? Vec3{far_eye.x, far_eye.y, far_eye.z} : camera.position;
+}
+
 /// Whether a place is behind a plane.
 bool behind(const FlatPart& flat, const Vec3& place) {
   return dot(flat.normal, place - flat.point) < 0.0;
@@ -92,7 +98,7 @@ bool behind(const FlatPart& flat, const Vec3& place) {
 }  // namespace
 
 bool TerrainPainter::add_changing(const std::vector<Terrain>& terrain, const CameraSettings& camera,
-                                  bool shadows, MovingThings& things) const {
+                                  const Camera& lens, bool shadows, MovingThings& things) const {
   bool all = true;
   for (std::size_t i = 0; i < terrain.size(); ++i) {
     const TerrainShapeRow& row = terrain_row(terrain[i].shape);
@@ -102,7 +108,7 @@ bool TerrainPainter::add_changing(const std::vector<Terrain>& terrain, const Cam
     }
     if (!row.flat) continue;
     const FlatPart flat = row.flat(terrain[i].geometry);
-    if (behind(flat, camera.position)) all = false;
+    if (behind(flat, eye_of(camera, lens))) all = false;
     if (shadows) things.shadowed.push_back(flat);
   }
   return all;
@@ -116,7 +122,7 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
     if (!row.flat) continue;
     const FlatPart flat = row.flat(t.geometry);
     const auto above = [&](const Vec3& x) { return dot(flat.normal, x - flat.point); };
-    if (behind(flat, camera.position) != from_behind) continue;
+    if (behind(flat, eye_of(camera, lens)) != from_behind) continue;
     const bool cut = row.surface != nullptr;
     const auto& [plain, shadowed] = cut ? programs.cut_plane : programs.plane;
     if (from_behind) {

@@ -32,8 +32,8 @@ class TerrainPainter {
                     const CameraSettings& camera, const Camera& lens) const;
   /// Tells what of the terrain a state may change: surfaces, glass alone without `shadows`, and the planes
   /// that have shadows then. Whether that is all: planes seen from behind lie over everything.
-  bool add_changing(const std::vector<Terrain>& terrain, const CameraSettings& camera, bool shadows,
-                    MovingThings& things) const;
+  bool add_changing(const std::vector<Terrain>& terrain, const CameraSettings& camera, const Camera& lens,
+                    bool shadows, MovingThings& things) const;
   /// The far walls of glass, before the bodies.
   void draw_far_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain) const;
   /// After the bodies: the near walls of glass, and planes seen through from behind.

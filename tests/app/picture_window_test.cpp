@@ -74,6 +74,28 @@ TEST_F(Picture, HalfASecondAfterABusyMomentItIsFineAndStaysSo) {
   EXPECT_EQ(view().rgb, fine.rgb) << "as hardware draws it";
 }
 
+TEST_F(Picture, AColourThatNeedsMoreThanABlockBecomesANotice) {
+  open("flag", {"view.colour=material"},
+       "reference");  // on which pictures hold the words of springs themselves
+  frames(2);
+  const gl::DeviceLimits own = context().info().limits;
+  gl::DeviceLimits small = own;
+  small.storage_block_bytes = 16u << 10;
+  context().assume_limits(small);
+  const Image plain = view();
+  app().scene.set_value(*find_parameter("view.colour"), 0, Value("strain"), "");
+  frames(3);
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_TRUE(app().messages.notice()->is_error);
+  EXPECT_THAT(app().messages.notice()->text, ::testing::HasSubstr("This colour cannot be shown"));
+  EXPECT_THAT(app().messages.notice()->text, ::testing::HasSubstr("incident springs"));
+  press(GLFW_KEY_SPACE);
+  frames_to_step(3);
+  context().assume_limits(own);
+  frames(3);
+  EXPECT_NE(view().rgb, plain.rgb) << "there is room again";
+}
+
 TEST_F(Picture, ASavedPictureIsFineAndWithoutPanels) {
   open_busy();
   press(GLFW_KEY_F12);

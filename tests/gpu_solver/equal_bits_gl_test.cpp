@@ -2,6 +2,8 @@
 // CMakeLists.txt runs the cells named Five under several thread counts of the driver.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <optional>
 #include <tuple>
 
 #include "cpu_reference/reference_solver.h"
@@ -34,9 +36,9 @@ class EqualBits : public aspic::testing::GlTest {
       contact = std::max(contact, length(expected.velocity[i] - fallen));
     }
     ASSERT_GT(contact, 0.5);
-    const bool solved = model.simulation.integrator == Integrator::implicit_euler;
-    for (const ForcePath path : {ForcePath::lattice, ForcePath::gather, ForcePath::per_spring}) {
-      if (solved && path == ForcePath::per_spring) continue;  // refused by name
+    for (const ForcePath path :
+         {ForcePath::lattice, ForcePath::tiles, ForcePath::gather, ForcePath::per_spring}) {
+      if (!works_with(path, model.simulation.integrator)) continue;  // refused by name
       for (const std::uint32_t group_size : group_sizes) {
         GpuOptions options;
         options.force_path = path;
@@ -139,8 +141,8 @@ TEST_F(EqualBits, FourInACornerOfThreeTerrains) {
 
 /// A cube, one whose springs are listed, another cube, and cloth: every body on a path of its own, in one
 /// run.
-Model mixed(Integrator integrator, double timestep) {
-  ModelSettings settings = test::low_cube(5, integrator, ContactModel::coulomb);
+Model mixed(Integrator integrator, double timestep, int first_edge = 5) {
+  ModelSettings settings = test::low_cube(first_edge, integrator, ContactModel::coulomb);
   settings.simulation.timestep = timestep;
   for (const int edge : {2, 3}) {
     settings.cubes.push_back(settings.cubes[0]);
@@ -167,6 +169,90 @@ TEST_F(EqualBits, MixedBodies) {
 
 TEST_F(EqualBits, MixedBodiesImplicit) {
   expect_equal(mixed(Integrator::implicit_euler, 1.0 / 60.0), 40, {64});
+}
+
+/// The device's limits but for blocks of so many bytes, until the end of the scope.
+class SmallBlocks {
+ public:
+  SmallBlocks(gl::Context& context, std::uint64_t bytes) : context_(context), own_(context.info().limits) {
+    gl::DeviceLimits limits = own_;
+    limits.storage_block_bytes = bytes;
+    context_.assume_limits(limits);
+  }
+  ~SmallBlocks() { context_.assume_limits(own_); }
+
+ private:
+  gl::Context& context_;
+  gl::DeviceLimits own_;
+};
+
+/// The canary's operands take larger blocks.
+GpuOptions options_for_small_blocks(gl::Context& context) {
+  GpuOptions options;
+  auto arithmetic = gl::choose_arithmetic(context, gl::ShaderLibrary());
+  EXPECT_TRUE(arithmetic.ok());
+  options.arithmetic = std::move(*arithmetic);
+  return options;
+}
+
+// Arrays larger than a block: passes go by windows, and see of every array what they need, no more and no
+// less. The ground prescribes part of the implicit step, which neighbours in other windows need, too.
+TEST_F(EqualBits, ScenesLargerThanABlock) {
+  struct Case {
+    ForcePath path;
+    Integrator integrator;
+    std::uint64_t block;
+  };
+  for (const auto& [path, integrator, block] :
+       {Case{ForcePath::lattice, Integrator::explicit_euler, 48u << 10},
+        {ForcePath::lattice, Integrator::runge_kutta_4, 48u << 10},
+        {ForcePath::lattice, Integrator::implicit_euler, 48u << 10},
+        {ForcePath::tiles, Integrator::runge_kutta_4, 52u << 10},
+        {ForcePath::gather, Integrator::explicit_euler, 48u << 10},
+        {ForcePath::gather, Integrator::midpoint, 64u << 10},
+        {ForcePath::gather, Integrator::implicit_euler, 48u << 10},
+        {ForcePath::per_spring, Integrator::explicit_euler, 192u << 10},
+        {ForcePath::per_spring, Integrator::runge_kutta_4, 160u << 10}}) {
+    const bool solved = integrator == Integrator::implicit_euler;
+    const Model model = mixed(integrator, solved ? 1.0 / 60.0 : 0.001, 12);
+    const std::uint64_t steps = solved ? 15 : 120;
+    auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+    ASSERT_FALSE((*reference->advance(steps)).has_value());
+    GpuOptions options = options_for_small_blocks(context());
+    options.force_path = path;
+    std::array<std::uint64_t, 2> dispatches = {};
+    for (const bool small : {false, true}) {
+      std::optional<SmallBlocks> blocks;
+      if (small) blocks.emplace(context(), block);
+      for (const std::uint32_t run : {4u, 1u}) {
+        if (run == 1 && (path != ForcePath::lattice || solved)) continue;
+        options.lattice_run = run;
+        auto solver = make_gpu_solver(context(), model, options);
+        ASSERT_TRUE(solver.ok()) << solver.error().message;
+        const std::uint64_t before = context().dispatches();
+        ASSERT_FALSE((*(*solver)->advance(1)).has_value());
+        dispatches[small] = context().dispatches() - before;
+        ASSERT_FALSE((*(*solver)->advance(steps - 1)).has_value());
+        EXPECT_EQ(*(*solver)->state(), *reference->state())
+            << name_of(integrator) << ", " << name_of(path) << ", " << (small ? "windows" : "whole");
+      }
+    }
+    EXPECT_GT(dispatches[1], dispatches[0]) << name_of(integrator) << ", " << name_of(path);
+  }
+}
+
+// A few particles with springs to everywhere need the whole state at once.
+TEST_F(EqualBits, SpringsAcrossMoreThanABlockAreRefused) {
+  constexpr std::uint32_t count = 4096;
+  Model model = test::particles(std::vector<Vec3>(count), std::vector<Vec3>(count));
+  model.spring_classes.push_back({SpringType::structural, 300.0, 2.0, 0.02, false});
+  model.listed_springs.push_back({3, count - 2, 0});
+  const GpuOptions options = options_for_small_blocks(context());
+  const SmallBlocks small(context(), 64u << 10);
+  const auto refused = make_gpu_solver(context(), model, options);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
+  EXPECT_NE(refused.error().message.find("springs join particles so far apart"), std::string::npos);
 }
 
 /// Implicit Euler with 60 steps a second; what contact does to it shows after a few.

@@ -133,7 +133,7 @@ TEST_F(FaultySolverGl, RunningOutOfMemoryRefusesTheSceneAndLeaksNothing) {
 
 // A driver that compiles a kernel to nothing, or drops what it is given, must not keep the host waiting.
 TEST_F(FaultySolverGl, ADeviceThatDoesNothingEndsTheRun) {
-  for (const char* const kernel : {"begin", "evaluate", "apply", "update", "finish"}) {
+  for (const char* const kernel : {"begin", "evaluate", "apply", "update", "direction", "finish"}) {
     const test::TemporaryDirectory shaders;
     std::filesystem::create_directory(shaders.path() / "compute");
     shaders.write(std::string("compute/implicit_") + kernel + ".comp",
@@ -183,6 +183,34 @@ TEST_F(FaultySolverGl, ADeviceThatDropsExplicitPassesEndsTheRun) {
       EXPECT_EQ(done.error().code, ErrorCode::no_device) << kernel;
       EXPECT_THAT(done.error().message, HasSubstr("no usable device")) << kernel;
     }
+  }
+}
+
+// Some of a pass alone: the first particle is carried out, and later ones are not.
+TEST_F(FaultySolverGl, ADeviceThatDropsAPartOfAPassEndsTheRun) {
+  for (const auto& [integrator, kernel] : {std::pair{Integrator::explicit_euler, "gather"},
+                                           {Integrator::implicit_euler, "implicit_direction"}}) {
+    const std::string path = std::string("compute/") + kernel + ".comp";
+    const auto text = gl::ShaderLibrary().read(path);
+    ASSERT_TRUE(text.ok());
+    std::string cut = *text;
+    const std::size_t main_at = cut.find("void main() {\n");
+    ASSERT_NE(main_at, std::string::npos);
+    cut.insert(main_at + std::string_view("void main() {\n").size(), "  if (item_index() >= 64u) return;\n");
+    const test::TemporaryDirectory shaders;
+    std::filesystem::create_directory(shaders.path() / "compute");
+    shaders.write(path, cut);
+    Model model = test::build(test::cube_on_plane(6, 0.99));
+    model.simulation.integrator = integrator;
+    GpuOptions options;
+    options.shader_directory = shaders.path();
+    options.force_path = ForcePath::gather;
+    auto solver = make_gpu_solver(context(), model, options);
+    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    const auto done = (*solver)->advance(20);
+    ASSERT_FALSE(done.ok()) << kernel;
+    EXPECT_EQ(done.error().code, ErrorCode::no_device) << kernel;
+    EXPECT_THAT(done.error().message, HasSubstr("no usable device")) << kernel;
   }
 }
 

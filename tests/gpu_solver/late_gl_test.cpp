@@ -104,6 +104,60 @@ TEST_F(LateGl, RepeatedStepsKeepTheirPull) {
   EXPECT_EQ(*late->state(), *reference->state());
 }
 
+// Implicit Euler does not wait for its solves: steps are queued behind steps of which nothing is known yet,
+// fewer rounds than they take among them, terrain moves, hands pull, and the bits and the counts of
+// iterations are those of the reference.
+TEST_F(LateGl, ImplicitEulerQueuesBehindStepsOfWhichItHasNotHeard) {
+  ModelSettings settings = test::cube_on_plane(5, 1.1);
+  settings.cubes[0].velocity = {0.3, -3.0, 0.1};
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = 1.0 / 60.0;
+  settings.terrain[0].motion = TerrainMotion{{0.1, 1.0, 0.0}, 0.2, 0.9, 0.1};
+  for (const bool balls : {false, true}) {
+    if (balls) {
+      for (int n = 0; n < 40; ++n)
+        settings.balls.push_back({0.3, 0.5, {0.01 * n, 2.8, 0.005 * n}, {0.0, -6.0, 0.0}, {}});
+    }
+    const Model model = test::build(settings);
+    auto late = solver_for(model);
+    late->set_late(true);
+    auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+    for (std::uint32_t n = 0; n < 20; ++n) {
+      if (n % 5 == 4) {
+        const Pull pull = {3 * n, {0.5, 2.0, -0.1}, 300.0, 10.0};
+        ASSERT_TRUE(late->set_pull(pull).ok());
+        ASSERT_TRUE(reference->set_pull(pull).ok());
+      }
+      context().inject_fault(Fault::late, n % 3);
+      ASSERT_FALSE((*late->advance(1 + n % 3)).has_value());
+      ASSERT_FALSE((*reference->advance(1 + n % 3)).has_value());
+      context().take_back_faults();
+      EXPECT_EQ(late->device_state().step, reference->state()->step);
+    }
+    EXPECT_EQ(*late->state(), *reference->state());
+    const auto expected = reference->solve_statistics(), got = late->solve_statistics();
+    ASSERT_TRUE(expected && got);
+    EXPECT_EQ(got->steps, expected->steps);
+    EXPECT_EQ(got->newton_iterations, expected->newton_iterations);
+    EXPECT_EQ(got->cg_iterations, expected->cg_iterations);
+  }
+}
+
+TEST_F(LateGl, ImplicitEulerReturnsBeforeTheDeviceIsDone) {
+  ModelSettings settings = test::cube_on_plane(6, 0.99);
+  settings.simulation.integrator = Integrator::implicit_euler;
+  settings.simulation.timestep = 1.0 / 60.0;
+  const Model model = test::build(settings);
+  auto late = solver_for(model);
+  late->set_late(true);
+  context().inject_fault(Fault::late);
+  ASSERT_FALSE((*late->advance(1)).has_value());
+  EXPECT_EQ(late->device_state().step, 1u);
+  EXPECT_EQ(late->solve_statistics()->steps, 0u) << "nothing has been heard of it";
+  ASSERT_TRUE(late->state().ok());
+  EXPECT_EQ(late->solve_statistics()->steps, 1u);
+}
+
 TEST_F(LateGl, NoMoreThanTwoQueuesAreUnderWay) {
   const Model model = test::build(test::cube_on_plane(4, 1.2));
   auto late = solver_for(model);

@@ -15,9 +15,19 @@ using ::testing::HasSubstr;
 
 class LimitsGl : public aspic::testing::GlTest {
  protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    own_limits();
+  }
   void TearDown() override {
     context().assume_free_memory(std::nullopt);
+    context().assume_limits(own_limits());
     GlTest::TearDown();
+  }
+  /// What the device takes.
+  static const gl::DeviceLimits& own_limits() {
+    static const gl::DeviceLimits limits = context().info().limits;
+    return limits;
   }
 };
 
@@ -62,22 +72,30 @@ TEST_F(LimitsGl, ASceneThatNeedsMoreThanIsFreeIsRefusedBeforeAnythingIsAllocated
 
 // The largest cube that is foretold is taken, and one a little larger is not.
 TEST_F(LimitsGl, TheLargestCubeOfEachPathIsForetold) {
-  for (const CubeReach& reach :
-       largest_cubes(context().info().limits, std::nullopt, Integrator::explicit_euler)) {
-    const auto path = std::ranges::find(force_paths(), reach.force_path, &ForcePathRow::name)->path;
-    EXPECT_EQ(reach.limit, ReachLimit::block) << reach.force_path;
-    for (const std::uint32_t more : {0u, 2u}) {
-      const Model model = test::build(test::cube_on_plane(static_cast<int>(reach.particles_per_edge + more)));
-      GpuOptions options;
-      options.force_path = path;
-      const auto made = make_gpu_solver(context(), model, options);
-      EXPECT_EQ(made.ok(), more == 0) << reach.force_path << ", " << reach.particles_per_edge + more;
+  gl::DeviceLimits limits = own_limits();
+  limits.buffer_bytes = 8u << 20;
+  limits.storage_block_bytes = 2u << 20;
+  context().assume_limits(limits);
+  for (const Integrator integrator : {Integrator::explicit_euler, Integrator::implicit_euler}) {
+    for (const CubeReach& reach : largest_cubes(limits, std::nullopt, integrator)) {
+      const auto path = std::ranges::find(force_paths(), reach.force_path, &ForcePathRow::name)->path;
+      EXPECT_EQ(reach.limit, ReachLimit::buffer) << reach.force_path;
+      for (const std::uint32_t more : {0u, 2u}) {
+        ModelSettings cube = test::cube_on_plane(static_cast<int>(reach.particles_per_edge + more));
+        cube.simulation.integrator = integrator;
+        const Model model = test::build(cube);
+        GpuOptions options;
+        options.force_path = path;
+        const auto made = make_gpu_solver(context(), model, options);
+        EXPECT_EQ(made.ok(), more == 0) << reach.force_path << ", " << reach.particles_per_edge + more;
+      }
     }
   }
 }
 
-TEST(LargestCubes, FollowBlocksMemoryAndWords) {
+TEST(LargestCubes, FollowBuffersBlocksMemoryAndWords) {
   gl::DeviceLimits limits;
+  limits.buffer_bytes = std::uint64_t{1} << 32;
   limits.storage_block_bytes = 128u << 20;
   const auto of = [&](std::optional<std::uint64_t> free, Integrator integrator, std::string_view path) {
     for (const CubeReach& reach : largest_cubes(limits, free, integrator))
@@ -85,15 +103,20 @@ TEST(LargestCubes, FollowBlocksMemoryAndWords) {
     return CubeReach{};
   };
   const auto cube = [](std::uint64_t n) { return n * n * n; };
-  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "lattice").particles_per_edge, 161u);  // 32 n³ ≤ 2²⁷
-  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "gather").particles_per_edge, 101u);   // 128 n³
+  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "lattice").particles_per_edge, 512u);  // 32 n³ ≤ 2³²
+  EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "gather").particles_per_edge, 322u);   // 128 n³
+  EXPECT_EQ(of(std::nullopt, Integrator::implicit_euler, "lattice").particles_per_edge, 290u);  // 176 n³
   EXPECT_EQ(of(std::nullopt, Integrator::implicit_euler, "per-spring").particles_per_edge,
             0u);  // has no such path
   const CubeReach small = of(100 * cube(50), Integrator::explicit_euler, "lattice");
   EXPECT_EQ(small.limit, ReachLimit::memory);
   EXPECT_EQ(small.particles_per_edge, 50u);  // 96 n³
-  limits.storage_block_bytes = std::uint64_t{1} << 40;
+  limits.buffer_bytes = std::uint64_t{1} << 62;
   EXPECT_EQ(of(std::nullopt, Integrator::explicit_euler, "gather").limit, ReachLimit::words);
+  limits.storage_block_bytes = 16u << 20;
+  const CubeReach planes = of(std::nullopt, Integrator::explicit_euler, "lattice");
+  EXPECT_EQ(planes.limit, ReachLimit::block);
+  EXPECT_EQ(planes.particles_per_edge, 361u);  // about four planes: 32 (4 n² + 4 n + 528) ≤ 2²⁴
 }
 
 // Particles far apart, a few of them joined: more groups than the 65,535 that one dimension surely takes.
