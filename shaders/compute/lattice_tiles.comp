@@ -45,9 +45,9 @@ void see(Lattice lattice, ivec3 first) {
   for (uint n = gl_LocalInvocationIndex; n < uint(SEEN); n += uint(ASPIC_GROUP_SIZE)) {
     ivec3 place = first + ivec3(n / uint(SEEN_J * SEEN_K), n / uint(SEEN_K) % uint(SEEN_J), n % uint(SEEN_K)) - 2;
     uvec3 at = uvec3(clamp(place, ivec3(0), last));
-    uint particle = lattice.first_particle + (at.x * lattice.edge + at.y) * lattice.edge + at.z;
+    uint i = lattice.first_particle + (at.x * lattice.edge + at.y) * lattice.edge + at.z;
     precise vec3 x, v;
-    read_neighbour(particle, x, v);
+    read_neighbour(i, x, v);
     seen_x[n] = x.x;
     seen_y[n] = x.y;
     seen_z[n] = x.z;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "analysis/stability.h"
@@ -101,6 +102,8 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+Y", "redo", GLFW_KEY_Y, ctrl, 0, [this] { scene.redo(); }, true},
       {"", "Runs side by side"},
       {"Ctrl+B", "add a run side by side", GLFW_KEY_B, ctrl, 0, [this] { beside.add(); }},
+      {"Ctrl+G", "keep this run as ghost", GLFW_KEY_G, ctrl, 0, [this] { beside.keep_ghost(); }},
+      {"Ctrl+Shift+G", "remove the ghost", GLFW_KEY_G, ctrl | shift, 0, [this] { beside.remove_ghost(); }},
       {"Ctrl+Shift+B", "leave side by side", GLFW_KEY_B, ctrl | shift, 0, [this] { beside.leave(); }},
       {"", "Camera"},
       {"left drag", "turn the camera"},
@@ -224,8 +227,9 @@ bool App::idle() const {
 
 bool App::asleep() const {
   constexpr double rest = 1.5;  // s, by when tooltips have come
-  return idle() && !touched_ && std::min(still_for_, mouse_still_for_) > rest && !gui_->takes_keyboard() && !gui_->awake() &&
-         !film.recording() && film.completing() == 0 && (!messages.notice() || messages.notice()->is_error);
+  return idle() && !touched_ && std::min(still_for_, mouse_still_for_) > rest && !gui_->takes_keyboard() &&
+         !gui_->awake() && !film.recording() && film.completing() == 0 &&
+         (!messages.notice() || messages.notice()->is_error);
 }
 
 bool App::doze(double dt) {
@@ -243,7 +247,7 @@ double App::wait(double since) const {
   // at no more than that pace, only what is new, and where steps are late for a third of the time at most.
   if (!picture.context().info().is_software) return 0.0;
   const bool nothing_new =
-      !beside.active() && simulation.busy() && !simulation.has_news() && !touched_ && !camera_moves_;
+      !beside.several() && simulation.busy() && !simulation.has_news() && !touched_ && !camera_moves_;
   const bool late = simulation.running() && simulation.pacer().late();
   const double interval = nothing_new ? longest
                           : late      ? std::clamp(3.0 * frame_seconds_, shortest, longest)
@@ -341,11 +345,25 @@ Status App::frame(const WindowSize& size, double dt) {
   const bool moves = simulation.running() || simulation.seeking() || beside.running() || !beside.settled();
   still_for_ = camera_moves_ || moves ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
-  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25 || shot_wanted_ == Shot::window);
+  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25 || shot_wanted_ == Shot::window ||
+                      (shot_wanted_ == Shot::picture && beside.several()));
   const auto start = std::chrono::steady_clock::now();
   const Status made = make_picture(size, dt);
   frame_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return made;
+}
+
+/// Of several runs the picture is what the window shows of them, with their names.
+Status App::save_shot(Shot wanted, const WindowSize& size, const std::string& path) {
+  if (wanted == Shot::window) return save_pixels(0, {size.pixel_width, size.pixel_height}, path);
+  if (!beside.several()) return picture.save(path);
+  const auto pixels = [&](double length) {
+    return static_cast<int>(std::lround(length * view.pixels_per_unit));
+  };
+  const int left = pixels(view.whole.left), bottom = size.pixel_height - pixels(view.whole.bottom);
+  const PictureSize whole = {pixels(view.whole.right) - left,
+                             pixels(view.whole.bottom) - pixels(view.whole.top)};
+  return save_pixels(0, whole, path, left, bottom);
 }
 
 Status App::make_picture(const WindowSize& size, double dt) {
@@ -369,9 +387,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
   const Shot wanted = std::exchange(shot_wanted_, Shot::none);
   if (wanted == Shot::none) return {};
   const std::string path = free_name(scene.editor().source(), ".png");
-  if (messages.check(wanted == Shot::picture ? picture.save(path)
-                                             : save_pixels(0, {size.pixel_width, size.pixel_height}, path)))
-    messages.info(fmt::format("Saved as {}.", path));
+  if (messages.check(save_shot(wanted, size, path))) messages.info(fmt::format("Saved as {}.", path));
   return {};
 }
 

@@ -62,8 +62,9 @@ class App final : public EventReceiver {
   Status adopt_context(gl::Context& context, double scale, WindowServices services);
   /// Nothing moves: the next picture would be the same but for events.
   bool idle() const;
-  /// The picture to come would be the last one once more: there is no need to make it. Then doze() instead, `dt` ≥ 0
-  /// after the last call [s], which looks at the scene's file; true if there is something to show again.
+  /// The picture to come would be the last one once more: there is no need to make it. Then doze() instead,
+  /// `dt` ≥ 0 after the last call [s], which looks at the scene's file; true if there is something to show
+  /// again.
   bool asleep() const;
   bool doze(double dt);
   /// How long to wait for events before the next picture, `since` the last one [s]; 0: none, it is due.
@@ -109,6 +110,8 @@ class App final : public EventReceiver {
   void ask_for_scene();
   void ask_where_to_save();
   Status make_picture(const WindowSize& size, double dt);
+  enum class Shot { none, picture, window };
+  Status save_shot(Shot wanted, const WindowSize& size, const std::string& path);
   void touch() {
     still_for_ = 0.0;
     touched_ = true;
@@ -116,7 +119,7 @@ class App final : public EventReceiver {
   void restore(const KeptState& kept, const std::vector<std::string>& overrides);
 
   std::deque<KeyEvent> keys_;  // that came and were not delivered
-  enum class Shot { none, picture, window } shot_wanted_ = Shot::none;
+  Shot shot_wanted_ = Shot::none;
   bool camera_moves_ = false;
   /// Since something moved, and since the mouse did [s].
   double still_for_ = 0.0, mouse_still_for_ = 0.0;

@@ -23,6 +23,9 @@ std::vector<Variation> suggestions(const Scene& scene) {
   return all;
 }
 
+/// What the keyframes of a ghost may take.
+constexpr std::uint64_t most_ghost_bytes = std::uint64_t{128} << 20;
+
 std::string words_of(const Variation& variation) {
   return fmt::format("{} = {}", title_of(variation.key), variation.value);
 }
@@ -31,6 +34,7 @@ std::string words_of(const Variation& variation) {
 
 void Beside::detach() {
   companions_.clear();
+  ghost_.reset();
   boxes_.clear();
   shown_.clear();
   picture_.release();
@@ -113,10 +117,7 @@ void Beside::match_editor() {
   shown_.clear();
   others_run_ = false;
   if (any_new) messages_.check(leader_.reset());
-  if (!active()) {
-    picture_.release();
-    leader_.pacer().waits = false;
-  }
+  if (!several()) end_waiting();
 }
 
 // ---- time ----
@@ -147,12 +148,13 @@ std::optional<std::string> Beside::hands_refused() const {
 
 void Beside::lead() {
   match_editor();
-  if (!active()) return;
+  if (ghost_ && ghost_->source != scene_.editor().source()) remove_ghost();
+  if (!several()) return;
   leader_.pacer().waits = !settled_;
 }
 
 Status Beside::follow(double dt, double budget) {
-  if (!active()) return {};
+  if (!several()) return {};
   Companion* const ahead = leader_.divergence() ? stand_in() : nullptr;
   // They go on where the window's own run did.
   if (ahead && was_running_) others_run_ = true;
@@ -169,8 +171,64 @@ Status Beside::follow(double dt, double budget) {
     if (const auto message = companion->take_message()) messages_.error(*message);
     if (const auto message = companion->simulation().take_message()) messages_.error(*message);
   }
+  if (ghost_) ASPIC_CHECK(follow_with_ghost(ahead ? ahead->simulation().time() : leader_.time(), dt, budget));
   if (settled_) keep_shown();
   return {};
+}
+
+// ---- the ghost ----
+
+void Beside::keep_ghost() {
+  // Another gets what this one has.
+  ghost_.reset();
+  if (!messages_.check(leader_.halt(true))) return;
+  auto ghost = std::make_unique<Ghost>();
+  ghost->scene = scene_.scene();
+  ghost->source = scene_.editor().source();
+  auto made = Simulation::create(*context_, ghost->scene, leader_.backend(), asked_);
+  if (!messages_.check(made)) return;
+  ghost->simulation = std::move(*made);
+  History history = leader_.history();
+  history.thin(most_ghost_bytes);
+  if (!messages_.check(ghost->simulation->replay(std::move(history)))) return;
+  ghost->picture =
+      std::make_unique<ScenePicture>(*ghost->simulation, ghost->scene, view_, picture_.full_quality);
+  ghost->picture->ghost = true;
+  if (!messages_.check(ghost->picture->attach(*context_))) return;
+  ghost_ = std::move(ghost);
+  settled_ = false;
+  shown_.clear();
+  messages_.info(
+      fmt::format("This run is the ghost from now on, up to t = {:.3f} s. Change something and press Reset.",
+                  ghost_end()));
+}
+
+void Beside::remove_ghost() {
+  ghost_.reset();
+  if (!several()) end_waiting();
+}
+
+double Beside::ghost_end() const {
+  const History& history = ghost_->simulation->history();
+  return history.time(history.end_moment());
+}
+
+/// To the time that is shown, or as near as its run has come to.
+Status Beside::follow_with_ghost(double time, double dt, double budget) {
+  Simulation& run = *ghost_->simulation;
+  ghost_->scene.view = scene_.scene().view;
+  const Moment moment = run.history().nearest(time);
+  if (!run.seeking() && moment != run.here()) ASPIC_CHECK(run.seek(moment));
+  ASPIC_CHECK(run.update(dt, budget));
+  ghost_->arrived = !run.seeking() && run.here() == moment;
+  settled_ = settled_ && ghost_->arrived;
+  return {};
+}
+
+void Beside::end_waiting() {
+  picture_.release();
+  leader_.pacer().waits = false;
+  settled_ = true;
 }
 
 /// The states of one time are those that are shown until the next ones are complete.
@@ -182,12 +240,18 @@ void Beside::keep_shown() {
     changed = changed || now[i].picture != shown_[i].picture ||
               now[i].divergence.has_value() != shown_[i].divergence.has_value();
   }
+  if (ghost_) changed = changed || ghost_->shown != ghost_->simulation->picture_number();
   if (!changed) return;
   if (!messages_.check(leader_.refresh_snapshot())) return;
   picture_.keep(leader_.snapshot());
   for (const auto& companion : companions_) {
     if (!messages_.check(companion->simulation().refresh_snapshot())) return;
     companion->picture().keep(companion->simulation().snapshot());
+  }
+  if (ghost_) {
+    if (!messages_.check(ghost_->simulation->refresh_snapshot())) return;
+    ghost_->picture->keep(ghost_->simulation->snapshot());
+    ghost_->shown = ghost_->simulation->picture_number();
   }
   shown_ = std::move(now);
 }
@@ -209,6 +273,11 @@ void Beside::place(const Box& whole) {
 }
 
 Status Beside::show(const WindowSize& window, bool at_rest) {
+  if (ghost_) {
+    ghost_->picture->shadows = false;
+    ghost_->picture->set_at_rest(at_rest);
+    ASPIC_CHECK(ghost_->picture->show(window, boxes_.front()));
+  }
   for (std::size_t i = 0; i < companions_.size(); ++i) {
     ScenePicture& picture = companions_[i]->picture();
     picture.shadows = picture_.shadows;

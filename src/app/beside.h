@@ -63,6 +63,17 @@ class Beside {
   /// Why hands that touch particles cannot act on all runs; nothing: they can.
   std::optional<std::string> hands_refused() const;
 
+  // ---- the ghost: an earlier run in the picture of the window's own ----
+  /// The run so far is the ghost from now on, instead of another one.
+  void keep_ghost();
+  void remove_ghost();
+  /// The ghost's run; null if there is none.
+  const Simulation* ghost() const { return ghost_ ? ghost_->simulation.get() : nullptr; }
+  /// The last time that the ghost has come to [s]; there is a ghost.
+  double ghost_end() const;
+
+  /// More than the window's own run is shown.
+  bool several() const { return active() || ghost_; }
   /// Before and after the window's own run moves.
   void lead();
   Status follow(double dt, double budget);
@@ -83,8 +94,20 @@ class Beside {
   void draw_labels(const Gui& gui) const;
 
  private:
+  void draw_ghost_label(const Gui& gui) const;
+  /// An earlier run, which its history makes again.
+  struct Ghost {
+    Scene scene;
+    std::unique_ptr<Simulation> simulation;
+    std::unique_ptr<ScenePicture> picture;
+    std::string source;  ///< of the scene
+    bool arrived = false;
+    std::uint64_t shown = 0;  ///< number of the picture that is kept
+  };
+  Status follow_with_ghost(double time, double dt, double budget);
   Companion* stand_in() const;
   void match_editor();
+  void end_waiting();
   void keep_shown();
 
   Simulation& leader_;
@@ -95,6 +118,7 @@ class Beside {
   BackendChoice asked_;
   gl::Context* context_ = nullptr;
   std::vector<std::unique_ptr<Companion>> companions_;
+  std::unique_ptr<Ghost> ghost_;
   std::vector<Box> boxes_;
   bool settled_ = true, others_run_ = false, was_running_ = false;
   /// What is kept of a run.

@@ -11,6 +11,7 @@
 #include "app/beside.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "base/printable.h"
 #include "model/integrator.h"
 #include "run/backends.h"
 #include "scene/parameters.h"
@@ -84,6 +85,11 @@ void difference_widget(Gui& gui, Beside& beside, const Scene& scene, std::size_t
   if (entered) beside.set(i, {own.key, text});
 }
 
+constexpr ImGuiWindowFlags label_flags =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
+    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+    ImGuiWindowFlags_NoBringToFrontOnFocus;
+
 }  // namespace
 
 void beside_section(Gui& gui, SceneControl& scene, Beside& beside) {
@@ -107,12 +113,26 @@ void beside_section(Gui& gui, SceneControl& scene, Beside& beside) {
                  "clock; up to four runs. All start anew.",
                  "add a run side by side", differences.size() + 1 < most_beside,
                  differences.empty() ? 0.0f : half);
-  if (differences.empty()) return;
-  ImGui::SameLine();
-  command_button(gui, "beside/leave", "Leave", "Goes back to the scene's own run alone, which goes on.",
-                 "leave side by side", true, half);
+  if (!differences.empty()) {
+    ImGui::SameLine();
+    command_button(gui, "beside/leave", "Leave", "Goes back to the scene's own run alone, which goes on.",
+                   "leave side by side", true, half);
+  }
   if (beside.others_go_on())
     ImGui::TextWrapped("The scene's own run diverged; the others go on. Space pauses them.");
+  command_button(gui, "beside/ghost", "Keep as ghost",
+                 "The run so far is shown pale over the scene's own from now on, at the same time: change a "
+                 "value, press Reset, and see both. At most 128 MiB; what is not kept is simulated again.",
+                 "keep this run as ghost", true, half);
+  ImGui::SameLine();
+  command_button(gui, "beside/no-ghost", "Remove ghost", "Shows the run without its ghost.",
+                 "remove the ghost", beside.ghost() != nullptr, half);
+  if (const Simulation* const ghost = beside.ghost()) {
+    const History& history = ghost->history();
+    ImGui::TextDisabled("Ghost: %.3f to %.3f s, %s", history.time(history.begin_moment()), beside.ghost_end(),
+                        human_bytes(history.bytes()).c_str());
+    gui.mark("beside/ghost-reach");
+  }
 }
 
 std::uint32_t Beside::packed_colour(std::size_t i) {
@@ -121,7 +141,31 @@ std::uint32_t Beside::packed_colour(std::size_t i) {
   return colours[i];
 }
 
+/// Tells where the ghost stands still, in the lower part of the picture.
+void Beside::draw_ghost_label(const Gui& gui) const {
+  if (!ghost_) return;
+  const History& history = ghost_->simulation->history();
+  const double begin = history.time(history.begin_moment()), end = ghost_end(), now = shown_time(0);
+  const double half = 0.5 * ghost_->simulation->model().simulation.timestep;
+  const std::string text = now > end + half     ? fmt::format("ghost: its run ends at {:.3f} s", end)
+                           : now < begin - half ? fmt::format("ghost: kept from {:.3f} s on", begin)
+                                                : std::string("ghost: an earlier run");
+  const auto scale = static_cast<float>(gui.scale());
+  const Box& box = boxes_.front();
+  ImGui::SetNextWindowPos(
+      {static_cast<float>(box.right) - 14.0f * scale, static_cast<float>(box.top) + 14.0f * scale},
+      ImGuiCond_Always, {1.0f, 0.0f});
+  ImGui::SetNextWindowBgAlpha(0.72f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 7.0f * scale);
+  ImGui::Begin("##ghost", nullptr, label_flags);
+  ImGui::TextColored(ImVec4(0.72f, 0.84f, 1.0f, 1.0f), "%s", text.c_str());
+  gui.mark("ghost/label");
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
 void Beside::draw_labels(const Gui& gui) const {
+  draw_ghost_label(gui);
   if (!active()) return;
   const auto scale = static_cast<float>(gui.scale());
   const float gap = 14.0f * scale;
@@ -134,10 +178,7 @@ void Beside::draw_labels(const Gui& gui) const {
         {static_cast<float>(boxes_[i].left) + gap, static_cast<float>(boxes_[i].top) + gap});
     ImGui::SetNextWindowBgAlpha(0.72f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);
-    ImGui::Begin(fmt::format("##beside{}", i).c_str(), nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::Begin(fmt::format("##beside{}", i).c_str(), nullptr, label_flags);
     // To be read from the last row.
     ImGui::SetWindowFontScale(1.35f);
     float column = 0.0f;

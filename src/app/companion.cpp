@@ -37,6 +37,12 @@ Result<std::unique_ptr<Companion>> Companion::create(gl::Context& context, const
   return c;
 }
 
+/// What is pulled is here too.
+bool Companion::can_pull(const Simulation& leader, const Pull& pull) const {
+  return pull.ball ? simulation_->model().ball_count() == leader.model().ball_count()
+                   : has_particles_of(leader);
+}
+
 std::uint64_t Companion::step_at(double time) const {
   return nearest_step(time, simulation_->model().simulation.timestep);
 }
@@ -131,8 +137,9 @@ Status Companion::follow(const Scene& scene, const Simulation& leader, double dt
     const Moment then = {here.stretch,
                          std::clamp(nearest_step(own.time(), leader.model().simulation.timestep),
                                     history.stretch(here.stretch).first, here.step)};
-    own.set_hand(has_particles_of(leader) ? history.pull_at(then) : std::nullopt);
-    if (const auto next = history.next_pull_change(then); next && has_particles_of(leader))
+    const auto pull = history.pull_at(then);
+    own.set_hand(pull && can_pull(leader, *pull) ? pull : std::nullopt);
+    if (const auto next = history.next_pull_change(then))
       wanted = std::min(wanted, std::max(step_at(history.time({here.stretch, *next})), own.step() + 1));
   }
   ASPIC_CHECK(go_to(wanted));

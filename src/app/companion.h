@@ -51,6 +51,7 @@ class Companion {
   Status take_over(const Scene& scene, const Simulation& leader);
   Status adopt_setup(const Simulation& leader);
   Status go_to(std::uint64_t step);
+  bool can_pull(const Simulation& leader, const Pull& pull) const;
   std::uint64_t step_at(double time) const;
 
   Variation variation_;

@@ -118,7 +118,7 @@ class Gui {
   ImFont* large_font_ = nullptr;
   double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool pressed_[5] = {}, held_[5] = {};
-  std::vector<int> changed_;                       // keys that went down or came up since the last picture
+  std::vector<int> changed_;  // keys that went down or came up since the last picture
   bool awake_ = false;
   bool edited_ = false;                            // one that went down edits text
   Box rested_on_;                                  // the widget under the mouse

@@ -217,7 +217,7 @@ void notice_text(std::string_view text, float width) {
 }
 
 /// As wide as its text needs. A film that writes on its pictures has that on the left: then it stands on the
-/// right.
+/// right; and below where runs have their names above.
 void notice_panel(Parts parts, const Box& view) {
   Messages& messages = parts.messages;
   if (!messages.notice()) return;
@@ -225,10 +225,10 @@ void notice_panel(Parts parts, const Box& view) {
   const double scale = parts.gui.scale();
   const double room = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
   if (room < 80.0 * scale) return;
-  const bool right = parts.picture.film && parts.picture.film->text;
-  ImGui::SetNextWindowPos(
-      at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale, view.top + 16.0 * scale),
-      ImGuiCond_Always, {right ? 1.0f : 0.0f, 0.0f});
+  const bool right = parts.picture.film && parts.picture.film->text, named = parts.beside.active();
+  ImGui::SetNextWindowPos(at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale,
+                             named ? view.bottom - 16.0 * scale : view.top + 16.0 * scale),
+                          ImGuiCond_Always, {right ? 1.0f : 0.0f, named ? 1.0f : 0.0f});
   const Panel panel("##notice", 6.0 * scale,
                     notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f),
                     ImGuiWindowFlags_AlwaysAutoResize);

@@ -20,6 +20,9 @@ namespace {
 /// Particles from which on a first picture may take too long.
 constexpr std::uint32_t many_particles = 8000;
 
+/// Seen through a ghost's bodies, which take its brightness on.
+constexpr Colour behind_ghost = {0.55f, 0.60f, 0.66f};
+
 int rounded(double length) {
   return static_cast<int>(std::lround(length));
 }
@@ -78,7 +81,7 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
 Status ScenePicture::draw() {
   const Content content = wanted(at_rest_);
   if (drawn_ == content || (drawn_ && drawn_->fine && drawn_ == wanted(true))) return {};
-  return draw(content, film && film->text);
+  return draw(content, film && film->text, ghost ? std::optional(behind_ghost) : std::nullopt);
 }
 
 Status ScenePicture::draw(const Content& content, bool legend, const std::optional<Colour>& background) {
@@ -94,8 +97,10 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
   options.shadows = shadows;
   options.axes = legend || film;
   // Of the very state that is drawn.
-  if (options.view.arrows.any() && simulation_.device_state()) ASPIC_CHECK(simulation_.refresh_snapshot());
-  arrows_ = arrows_of(simulation_.model(), simulation_.snapshot(), options.view.arrows, simulation_.hand());
+  if (options.view.arrows.any() && !kept() && simulation_.device_state())
+    ASPIC_CHECK(simulation_.refresh_snapshot());
+  const State& shown_state = kept() ? *kept() : simulation_.snapshot();
+  if (!ghost) arrows_ = arrows_of(simulation_.model(), shown_state, options.view.arrows, simulation_.hand());
   options.arrows = arrows_;
   options.highlight = content.marks;
   options.coarse_skin = adapts && share < 1.0;
@@ -171,7 +176,10 @@ Status ScenePicture::present(const WindowSize& window) {
     p.left += (view.width - p.width) / 2;
     p.bottom += (view.height - p.height) / 2;
   }
-  renderer_->present(0, p.width, p.height, p.left, p.bottom);
+  if (ghost)
+    renderer_->present_ghost(behind_ghost, 0, p.width, p.height, p.left, p.bottom);
+  else
+    renderer_->present(0, p.width, p.height, p.left, p.bottom);
   const double ratio = view_.pixels_per_unit;
   shown_ = {p.left / ratio, (window.pixel_height - p.bottom - p.height) / ratio, (p.left + p.width) / ratio,
             (window.pixel_height - p.bottom) / ratio};
@@ -222,12 +230,13 @@ Legend ScenePicture::legend() const {
 namespace {
 
 /// RGB, rows from the top.
-std::vector<std::byte> pixels_of(std::uint32_t framebuffer, const PictureSize& size) {
+std::vector<std::byte> pixels_of(std::uint32_t framebuffer, const PictureSize& size, int left = 0,
+                                 int bottom = 0) {
   const auto row = 3 * static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
   std::vector<std::byte> below(row * height), rgb(below.size());
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, below.data());
+  glReadPixels(left, bottom, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, below.data());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
   for (std::size_t i = 0; i < height; ++i)
@@ -293,8 +302,9 @@ Status ScenePicture::save(const std::string& path) {
   return written;
 }
 
-Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path) {
-  return write_picture(path, encode_png(size, pixels_of(framebuffer, size)));
+Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path, int left,
+                   int bottom) {
+  return write_picture(path, encode_png(size, pixels_of(framebuffer, size, left, bottom)));
 }
 
 }  // namespace aspic::app

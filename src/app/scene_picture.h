@@ -40,6 +40,7 @@ class ScenePicture {
   bool shadows = true;           ///< on terrain
   std::optional<FilmLook> film;  ///< while a film is made
   SavedLook saved;               ///< of the next save()
+  bool ghost = false;            ///< its bodies alone, pale and translucent over what the window shows
 
   /// Everything of OpenGL, in a context that must outlive it or be detached. Errors: of Renderer::create.
   Status attach(gl::Context& context);
@@ -140,7 +141,9 @@ class ScenePicture {
   int rate_pictures_ = 0;
 };
 
-/// Saves the pixels of a framebuffer (0: the window's) as a new PNG file. Error (io).
-Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path);
+/// Saves the pixels of a framebuffer (0: the window's), from (left, bottom) on, as a new PNG file. Error
+/// (io).
+Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path, int left = 0,
+                   int bottom = 0);
 
 }  // namespace aspic::app

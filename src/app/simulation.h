@@ -107,6 +107,9 @@ class Simulation {
   /// simulated from there on makes the history end there.
   Status seek(const Moment& moment);
   bool seeking() const { return seek_.has_value(); }
+  /// Takes over the history of another run, which is not empty, and goes to its beginning. Errors: those of
+  /// change().
+  Status replay(History history);
   /// One step back; does nothing at the beginning.
   Status step_back();
   /// Where to start again after a divergence: well before the present state.

@@ -337,6 +337,17 @@ Status Simulation::seek(const Moment& moment) {
   return {};
 }
 
+Status Simulation::replay(History history) {
+  ASPIC_CHECK(halt(true));
+  const Moment first = history.begin_moment();
+  const Setup setup = history.stretch(first.stretch).setup;
+  ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
+  history_ = std::move(history);
+  samples_.clear();
+  stretch_ = first.stretch;
+  return load(unpack(history_.keyframe(first)));
+}
+
 Status Simulation::seek_on(double budget) {
   const auto start = Clock::now();
   while (seek_ && step_ < *seek_) {

@@ -41,6 +41,7 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   ASPIC_TRY(p.solid, drawing({"render/terrain.vert", "render/terrain.frag"}));
   ASPIC_TRY(p.glass, drawing({"render/terrain.vert", "render/glass.frag"}));
   ASPIC_TRY(p.sky, drawing({"render/screen.vert", "render/sky.frag"}));
+  ASPIC_TRY(p.ghost, drawing({"render/screen.vert", "render/ghost.frag"}));
   ASPIC_TRY(p.present, drawing({"render/screen.vert", "render/present.frag"}));
   return p;
 }

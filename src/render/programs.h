@@ -12,7 +12,7 @@ struct RenderPrograms {
   gl::Program rods, sheet;                                                 ///< more of them
   std::array<gl::Program, 2> plane, cut_plane;                             ///< flat ground: plain, shadowed
   gl::Program solid, glass, sky;                                           ///< other surroundings
-  gl::Program present;                                                     ///< into a window
+  gl::Program present, ghost;                                                     ///< into a window
 
   /// Errors: those of Program::compute and Program::graphics.
   static Result<RenderPrograms> create(gl::Context& context, const gl::ShaderLibrary& library);

@@ -225,7 +225,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
-  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with_alpha(*c, 1.0).data());
+  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with_alpha(*c, 0.0).data());
   p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
   bodies.draw_rods_and_balls();
   bodies.draw_springs();
@@ -296,6 +296,20 @@ void Renderer::present(std::uint32_t framebuffer, int width, int height, int lef
   glViewport(left, bottom, width, height);
   parts_->targets->picture.colour.bind(UNIT_FRAME);
   parts_->fill(parts_->programs.present);
+  glUseProgram(0);
+  glBindVertexArray(0);
+}
+
+void Renderer::present_ghost(const Colour& background, std::uint32_t framebuffer, int width, int height,
+                             int left, int bottom) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(left, bottom, width, height);
+  parts_->targets->picture.colour.bind(UNIT_FRAME);
+  parts_->programs.ghost.set(LOCATION_BASE_COLOUR, with_alpha(background, 1.0));
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  parts_->fill(parts_->programs.ghost);
+  glDisable(GL_BLEND);
   glUseProgram(0);
   glBindVertexArray(0);
 }

@@ -34,7 +34,7 @@ struct PictureOptions {
   std::vector<OverlayLine> text;              ///< empty: no panel
   int text_height = 0;                        ///< [pixels], at most 256; 0: a share of the picture's height
   bool legend = true;                         ///< of colours, where they mean something
-  std::optional<Colour> background;           ///< instead of terrain and sky, linear light
+  std::optional<Colour> background;           ///< instead of terrain and sky, linear light; its alpha is 0
   bool shadows = true;                        ///< on terrain; without them light maps are left out
   int samples = 0;                            ///< per pixel, at most the renderer's; 0: those
   bool coarse_skin = false;                   ///< fewer triangles for large bodies: for software rasterisers
@@ -84,6 +84,11 @@ class Renderer {
   /// width × height pixels whose lower left corner is (left, bottom). The framebuffer takes encoded values as
   /// they are.
   void present(std::uint32_t framebuffer, int width, int height, int left = 0, int bottom = 0) const;
+
+  /// Lays what the bodies of the picture last drawn cover over a window's framebuffer, pale and translucent;
+  /// the picture was drawn with this background.
+  void present_ghost(const Colour& background, std::uint32_t framebuffer, int width, int height, int left,
+                     int bottom) const;
 
   /// Marks particles on top of the picture last drawn where it was presented, without redrawing it; its
   /// state must still lie where it was. Error: scene_rejected, no_device or io.

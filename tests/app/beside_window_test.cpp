@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 
 #include "app/stage.h"
+#include "support/projection.h"
 
 namespace aspic::test {
 namespace {
@@ -239,6 +242,86 @@ TEST_F(Beside, PlotsShowAQuantityOfAllRuns) {
   EXPECT_TRUE(has("energy/plot/run 1"));
   EXPECT_FALSE(has("energy/plot/kinetic"));
   EXPECT_TRUE(has("energy/momentum/run 2"));
+}
+
+TEST_F(Beside, AGhostShowsAnEarlierRunAtTheSameTime) {
+  open("cube-plane", {small, low});
+  const Scene earlier = app().scene.scene();
+  run_to(60);
+  const std::uint32_t particle = 63;
+  simulation().set_hand(
+      Pull{particle, simulation().snapshot().position[particle] + Vec3{0.5, 0.5, 0.0}, 500.0, 5.0});
+  run_to(100);
+  simulation().set_hand(std::nullopt);
+  const std::uint64_t pulled_to = simulation().step();
+  const std::string pulled = hash(0);
+  run_to(pulled_to + 50);
+  const std::uint64_t end = simulation().step();
+  EXPECT_EQ(beside().ghost(), nullptr);
+  press(GLFW_KEY_G, GLFW_MOD_CONTROL);
+  settled();
+  ASSERT_NE(beside().ghost(), nullptr);
+  EXPECT_EQ(beside().count(), 1u);
+  app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}));
+  press(GLFW_KEY_R);
+  settled();
+  EXPECT_EQ(beside().ghost()->step(), 0u);
+  const auto to = [&](std::uint64_t step) {
+    while (simulation().step() < step && !HasFailure()) {
+      type(U'.');
+      settled();
+    }
+  };
+  to(30);
+  EXPECT_EQ(state_hash_text(beside().ghost()->snapshot()), reference_hash(earlier, 30));
+  EXPECT_NE(hash(0), reference_hash(earlier, 30));
+  frames(1);
+  EXPECT_TRUE(has("ghost/label"));
+  run_to(end + 40);
+  EXPECT_EQ(beside().ghost()->step(), end) << "its run goes no further";
+  app().run.go_to(static_cast<double>(pulled_to) * earlier.model.simulation.timestep);
+  settled();
+  EXPECT_EQ(state_hash_text(beside().ghost()->snapshot()), pulled) << "hands are part of it";
+  press(GLFW_KEY_G, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+  frames(2);
+  EXPECT_EQ(beside().ghost(), nullptr);
+  EXPECT_FALSE(has("ghost/label"));
+}
+
+TEST_F(Beside, AGhostIsSeenOverThePicture) {
+  open("cube-plane", {small});
+  run_to(400);
+  press(GLFW_KEY_G, GLFW_MOD_CONTROL);
+  settled();
+  app().messages.dismiss();
+  // The run turns back by itself: what is seen elsewhere is the ghost.
+  app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, 9.8, 0.0}));
+  press(GLFW_KEY_R);
+  run_to(400);
+  frames(3);
+  const Image with = image();
+  press(GLFW_KEY_G, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+  frames(3);
+  const Image without = image();
+  const auto seen = test::project(app().view.lens(), {0.0, 9.0 - 0.5 * 9.8 * 0.16, 0.0});
+  ASSERT_TRUE(seen.has_value());
+  const auto x = static_cast<int>(app().view.box.left + seen->x),
+             y = static_cast<int>(app().view.box.top + seen->y);
+  int differs = 0;
+  for (int c = 0; c < 3; ++c) differs += std::abs(with.channel(x, y, c) - without.channel(x, y, c));
+  EXPECT_GT(differs, 30);
+}
+
+TEST_F(Beside, TheSavedPictureHasAllRuns) {
+  open("cube-plane", {small});
+  compare({"h", "0.002"});
+  press(GLFW_KEY_F12);
+  frames(2);
+  bool found = false;
+  for (const auto& entry : std::filesystem::directory_iterator(directory()))
+    found = found || entry.path().extension() == ".png";
+  EXPECT_TRUE(found);
+  EXPECT_EQ(error(), "");
 }
 
 TEST_F(Beside, TheCameraTurnsInEveryPicture) {
