@@ -15,9 +15,13 @@ using Tag = hn::ScalableTag<float>;
 using Float = hn::Vec<Tag>;
 constexpr Tag tag;
 
-/// Keeps a register's value from being known or left out.
+/// Keeps a value from being known or left out.
 HWY_INLINE void used(Float& value) {
+#if HWY_TARGET == HWY_EMU128
+  asm volatile("" : "+m"(value.raw));
+#else
   asm volatile("" : "+x"(value.raw));
+#endif
 }
 
 template <class Apply>

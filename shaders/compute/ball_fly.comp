@@ -1,20 +1,23 @@
-// Balls, first of a step: free flight by all stages of the integrator at once (backward Euler of free flight is
-// symplectic Euler, whose stages stand in the table then), and the terrain's response. Start slot to the slot between.
+// Balls, first of a step: flight by all stages of the integrator at once, under gravity and a hand's pull (backward
+// Euler of free flight is symplectic Euler, whose stages stand in the table then), and the terrain's response. Start
+// slot to the slot between.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/ball_blocks.glsl"
 #include "compute/ball_contact.glsl"
 #include "compute/ball_terrain.glsl"
+#include "compute/pull.glsl"
 
 layout(std430, binding = BINDING_BALL_BODIES) restrict readonly buffer BallBodies { BallBody bodies[]; };
 
-void fly(Ball ball, BallBody body, out precise vec3 end_x, out precise vec3 end_v) {
+// f_held [N] acts throughout the step.
+void fly(Ball ball, BallBody body, vec3 f_held, out precise vec3 end_x, out precise vec3 end_v) {
   precise vec3 x_0 = ball.position.xyz, v_0 = ball.velocity.xyz;
   precise vec3 x = x_0, v = v_0;
   precise vec3 sum_x = vec3(0.0), sum_v = vec3(0.0);
   for (uint s = 0u; s < MAX_STAGES; ++s) {
     Stage stage = stages[s];
-    precise vec3 f = body.ball_mass * gravity.xyz;
+    precise vec3 f = f_held;
     for (uint t = 0u; t < terrain_count; ++t) {
       if (contact_model == CONTACT_COURSE) {
         f = resisted(t, ball_gap(t, AT_START, ball.position.w, x), v, f);
@@ -51,8 +54,10 @@ void main() {
   precise float w = 0.0;
   if (body.launch_step <= steps_done()) {
     w = body.ball_inverse_mass;
-    fly(start, body, x, v);
-    precise vec3 f = body.ball_mass * gravity.xyz;
+    precise vec3 weight = body.ball_mass * gravity.xyz;
+    uint number = particle_count + b;
+    precise vec3 f = with_pull(number, x, v, weight);
+    fly(start, body, f, x, v);
     for (uint t = 0u; t < terrain_count; ++t) {
       if (contact_model == CONTACT_COURSE) {
         respond_ball_course(t, start, body, x, v, omega);

@@ -189,7 +189,7 @@ struct Pull {
   vec4 anchor;      // [m]; w: unused
   float stiffness;  // k [N/m]
   float damping;    // c [N·s/m]
-  uint particle;    // NO_BODY: nobody is pulled
+  uint particle;    // balls count on after the particles; NO_BODY: nobody is pulled
   uint pull_padding;
 };
 

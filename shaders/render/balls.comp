@@ -27,7 +27,8 @@ void main() {
   }
 
   // One ball that flies off must not take the maps' texels from the others.
-  if (distance(ball.position.xyz, eye.xyz) > far_share * eye.w) return;
+  vec3 camera = eye.xyz - (viewer.w > 0.0 ? 0.0 : (ORTHOGRAPHIC_DISTANCE - 1.0) * eye.w) * viewer.xyz;
+  if (distance(ball.position.xyz, camera) > far_share * eye.w) return;
   for (int light = 0; light < LIGHTS; ++light) {
     vec3 p = mat3(lights[light]) * ball.position.xyz;
     widen(light, ordered(p - ball.position.w), ordered(p + ball.position.w));

@@ -1,5 +1,6 @@
 // Balls by ray and sphere, patched like footballs so that their spin is seen.
 #include "render/frame.glsl"
+#include "render/sight.glsl"
 #include "render/shadow.glsl"
 
 layout(binding = UNIT_COLOUR_MAP) uniform sampler2D colour_map;
@@ -23,9 +24,10 @@ float patches(vec3 direction) {
 }
 
 void main() {
-  vec3 ray = normalize(on_square);
-  float along = dot(centre, ray);
-  vec3 beside = along * ray - centre;
+  vec3 ray = sight_of(on_square);
+  vec3 start = vec3((1.0 - viewer.w) * on_square.xy, 0.0);
+  float along = dot(centre - start, ray);
+  vec3 beside = start + along * ray - centre;
   float off = length(beside) / size;
   float coverage = clamp((1.0 - off) / fwidth(off) + 0.5, 0.0, 1.0);
   if (coverage <= 0.0) discard;

@@ -1,6 +1,7 @@
 // A bowl: a glass ball seen from outside (LOCATION_SIDE 0, blended over its content) or its far wall (1), whose inside
 // also catches the shadows of what it holds.
 #include "render/frame.glsl"
+#include "render/sight.glsl"
 #include "render/shadow.glsl"
 
 layout(location = LOCATION_SIDE) uniform int side;
@@ -16,7 +17,7 @@ float lines(float coordinate, float step_size, float width) {
 
 void main() {
   vec3 n = normalize(local);
-  vec3 v = normalize(eye.xyz - world);
+  vec3 v = to_eye(world);
   float nv = abs(dot(n, v));
   float latitude = degrees(asin(clamp(n.y, -1.0, 1.0)));
   float meridian = degrees(atan(n.z, n.x));

@@ -1,6 +1,7 @@
 // A translucent body: what lies behind it, bent and tinted by the thickness crossed; sunlight that has travelled inside
 // it; skylight; reflection at the surface.
 #include "render/frame.glsl"
+#include "render/sight.glsl"
 #include "render/light.glsl"
 
 layout(binding = UNIT_SUN_MAP) uniform sampler2D sun_map;
@@ -15,7 +16,7 @@ layout(location = 0) out vec4 colour;
 
 void main() {
   vec3 n = normalize(surface_normal);
-  vec3 v = normalize(eye.xyz - world);
+  vec3 v = to_eye(world);
   if (!gl_FrontFacing) n = -n;
   // On an outline between flat faces the smooth normal turns from the eye before the surface does.
   float nv = max(dot(n, v), 0.2);
@@ -37,10 +38,11 @@ void main() {
   float through = max(dot(-v, sun.xyz), 0.0);
   sunlit += sun_light * exp(-0.9 * absorbed * inside) * 0.35 * through * through;
 
-  // Near the outline a straight sight line crosses next to nothing, but a bent one still goes some way inside.
+  // Beside an edge a straight sight line crosses next to nothing, but a bent one meets the other face from inside so
+  // slantingly that all of it stays in the body, and goes on for about half the size of it.
   vec2 at = gl_FragCoord.xy * viewport.zw;
   float crossed = max(textureLod(thickness_map, at, 0.0).r, 0.0);
-  float thickness = sqrt(crossed * crossed + 0.25 * reach * reach);
+  float thickness = sqrt(crossed * crossed + 4.0 * reach * reach);
   float opacity = mapped ? 0.94 : 1.0 - exp(-0.34 * thickness / reach);
   opacity *= 1.0 - 0.72 * see_through;
   vec3 bent = mat3(view) * n;

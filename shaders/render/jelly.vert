@@ -1,4 +1,5 @@
 #include "render/layout.glsl"
+#include "render/cut.glsl"
 
 layout(location = ATTRIBUTE_POSITION) in vec4 position;
 layout(location = ATTRIBUTE_NORMAL) in vec4 normal;
@@ -12,4 +13,5 @@ void main() {
   surface_normal = normal.xyz;
   shown = (quantity - quantity_range.x) * quantity_range.y;
   gl_Position = view_projection * vec4(world, 1.0);
+  gl_ClipDistance[0] = kept(position.xyz);
 }

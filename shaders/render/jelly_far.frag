@@ -1,5 +1,6 @@
 // The far walls of a translucent body, seen from inside through its flesh: they catch light at their edges.
 #include "render/frame.glsl"
+#include "render/sight.glsl"
 
 layout(location = LOCATION_BASE_COLOUR) uniform vec4 base_colour;
 in vec3 world;
@@ -9,7 +10,7 @@ layout(location = 0) out vec4 colour;
 
 void main() {
   vec3 n = -normalize(surface_normal);
-  vec3 v = normalize(eye.xyz - world);
+  vec3 v = to_eye(world);
   float edge = 1.0 - max(dot(n, v), 0.0);
   float lit = clamp(0.5 - 0.5 * dot(n, sun.xyz), 0.0, 1.0);
   vec3 base = colour_mode >= COLOUR_STRAIN ? vec3(0.5) : base_colour.rgb;

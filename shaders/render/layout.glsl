@@ -32,12 +32,18 @@
 #define LOCATION_PLANE_POINT 4
 #define LOCATION_PLANE_NORMAL 5
 #define LOCATION_SIDE 7
+#define LOCATION_FADES 7          // of springs: 1 where those thinner than a pixel fade
 #define LOCATION_FIRST 8          // of balls, particles or terrains: the first
 #define LOCATION_ELAPSED 9        // since the picture before [s]
 #define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it stands for the particle
 #define LOCATION_TERRAIN 12       // DrawnTerrain: its geometry, three vec4, and shape
 #define LOCATION_OFFSET 6         // of terrain that moves [m]
+#define LOCATION_EDGE 16          // of a lattice: particles along it
+#define LOCATION_CELL 17          // of a lattice: the first of a run of cells
 #define LOCATION_MARK 11          // MARK_…, least radius [pixels], opacity, whether to encode as sRGB
+
+// An orthographic picture's eye, in distances of the target: as far as is seen before the target, and behind it.
+#define ORTHOGRAPHIC_DISTANCE 40.0f
 
 // Lights that the bodies keep off: the sun, and the sky straight above.
 #define LIGHT_SUN 0
@@ -63,6 +69,13 @@
 #define COLOUR_STRAIN 2u
 #define COLOUR_FORCE 3u
 #define COLOUR_SPEED 4u
+#define COLOUR_SIGNED_STRAIN 5u
+#define COLOUR_ENERGY 6u
+
+// Places in the list of extremes of what colours show: least and largest, as ordered() integers.
+#define EXTREMES_BODIES 0
+#define EXTREMES_SPRINGS 2
+#define EXTREMES 4
 
 // Light-space box of the particles; floats as unsigned integers in the same order, for atomicMin and atomicMax.
 struct Bounds {
@@ -70,10 +83,26 @@ struct Bounds {
   uvec4 upper;
 };
 
+// A vertex of a body's surface.
+struct SkinVertex {
+  vec4 position;  // [m]; w: 1
+  vec4 normal;    // unit; w: what colours show there
+};
+
 // The square map of a light, fitted to that box.
 struct LightBox {
   vec4 centre;  // in the light's space [m]; w: half side of the map [m]
   vec4 depth;   // half depth [m]; y: 1/half side [1/m]; z, w: unused
+};
+
+// Arguments of an indexed indirect draw, before the indices themselves.
+struct SectionDraw {
+  uint indices;
+  uint instances;
+  uint first_index;  // past this struct
+  uint base_vertex;
+  uint base_instance;
+  uint padding0, padding1, padding2;
 };
 
 #ifdef __cplusplus
@@ -86,11 +115,14 @@ layout(std140, binding = BINDING_FRAME) uniform Frame {
   mat4 view_projection;
   mat4 clip_to_world;
   mat4 lights[LIGHTS];        // rotations from the world to each light's space, +z away from the light
-  vec4 eye;                   // [m]; w: distance from the eye to the target
+  vec4 eye;                   // [m]; w: distance from the camera's position to the target
+  vec4 viewer;                // the eye and 1; of an orthographic picture, the unit vector towards it and 0
   vec4 sun;                   // unit, towards the sun
   vec4 viewport;              // width, height, 1/width, 1/height [pixels]
   vec4 shadow_tint;           // light that the bodies let through
   vec4 quantity_range;        // lower end, 1/(upper − lower) of the colour scale
+  vec4 cut;                   // unit normal and offset [m] of the plane beyond which bodies are not drawn; none: 0, 0, 0, 1
+  vec4 section;               // x: offset of the plane whose section of the bodies is filled [m]; y: 1 if it hides all springs behind it; z: 1 if it is their ground
   vec4 shadow_spheres[MAX_SHADOW_SPHERES];  // solid spheres of the terrain: centre, radius
   uint shadow_sphere_count;
   uint colour_mode;           // COLOUR_…

@@ -1,6 +1,7 @@
 // Springs into a light map, as ribbons that face the light.
 #include "render/layout.glsl"
 #include "render/light.glsl"
+#include "render/cut.glsl"
 
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -10,8 +11,11 @@ out float depth;
 out vec2 on_disc;
 
 void main() {
-  vec3 a = in_light(light, gl_in[0].gl_Position.xyz);
-  vec3 b = in_light(light, gl_in[1].gl_Position.xyz);
+  vec3 xa = gl_in[0].gl_Position.xyz;
+  vec3 xb = gl_in[1].gl_Position.xyz;
+  if (!cut_segment(xa, xb)) return;
+  vec3 a = in_light(light, xa);
+  vec3 b = in_light(light, xb);
   vec2 along = b.xy - a.xy;
   float size = length(along);
   if (size == 0.0) return;

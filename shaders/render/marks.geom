@@ -1,5 +1,7 @@
 // A square before a particle, or before a pull's anchor, that a mark is drawn on.
 #include "render/layout.glsl"
+#include "render/sight.glsl"
+#include "render/cut.glsl"
 
 layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -12,9 +14,10 @@ out vec2 at;           // −1…1 across the mark, a pixel more around it
 flat out float pixel;  // of the mark's radius
 
 void main() {
+  if (mark.x == MARK_PINNED && kept(gl_in[0].gl_Position.xyz) < 0.0) return;
   if (mark.x == MARK_PINNED && vertex_pinned[0] == 0.0) return;
   vec3 centre = (view * vec4(mix(gl_in[0].gl_Position.xyz, anchor.xyz, anchor.w), 1.0)).xyz;
-  float metres = -centre.z * 2.0 / (projection[1][1] * viewport.y);  // of a pixel
+  float metres = pixel_at(-centre.z);  // of a pixel
   if (metres <= 0.0) return;
   float r = max(radius, mark.y * metres);
   vec4 clip = projection * vec4(centre, 1.0);

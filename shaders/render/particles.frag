@@ -1,4 +1,5 @@
 #include "render/frame.glsl"
+#include "render/sight.glsl"
 
 layout(binding = UNIT_COLOUR_MAP) uniform sampler2D colour_map;
 layout(location = LOCATION_BASE_COLOUR) uniform vec4 base_colour;
@@ -15,7 +16,7 @@ void main() {
   float edge = 1.5 * fwidth(r);
   float coverage = clamp((1.0 - r) / edge + 0.5, 0.0, 1.0);
   if (coverage <= 0.0) discard;
-  vec3 forward = normalize(centre);
+  vec3 forward = sight_of(centre);
   vec3 right = normalize(cross(forward, vec3(0.0, 1.0, 0.0)));
   vec3 up = cross(right, forward);
   float depth = sqrt(max(1.0 - r2, 0.0));

@@ -1,5 +1,7 @@
 // A square before each particle, on which the fragment shader finds the ball.
 #include "render/layout.glsl"
+#include "render/sight.glsl"
+#include "render/cut.glsl"
 
 layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -13,11 +15,12 @@ flat out float pinned;
 flat out float size;
 
 void main() {
+  if (kept(gl_in[0].gl_Position.xyz) < 0.0) return;
   vec3 c = (view * vec4(gl_in[0].gl_Position.xyz, 1.0)).xyz;
   // Never smaller than a pixel and a half across.
-  float pixel = -c.z * 2.0 / (projection[1][1] * viewport.y);
+  float pixel = pixel_at(-c.z);
   float r = max(radius, 0.75 * pixel);
-  vec3 forward = normalize(c);
+  vec3 forward = sight_of(c);
   vec3 right = normalize(cross(forward, vec3(0.0, 1.0, 0.0)));
   vec3 up = cross(right, forward);
   for (int corner = 0; corner < 4; ++corner) {

@@ -1,5 +1,7 @@
 // A square before each particle that the ID image may show, for a disc a few pixels wide.
 #include "render/layout.glsl"
+#include "render/sight.glsl"
+#include "render/cut.glsl"
 
 layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -11,8 +13,9 @@ flat out float size;
 const float least = 3.0;  // radius [pixels]
 
 void main() {
+  if (kept(gl_in[0].gl_Position.xyz) < 0.0) return;
   vec4 at = view * vec4(gl_in[0].gl_Position.xyz, 1.0);
-  float pixel = -at.z * 2.0 / (projection[1][1] * viewport.y);
+  float pixel = pixel_at(-at.z);
   float r = max(radius, least * pixel);
   vec4 clip = projection * at;
   vec2 reach = r * vec2(projection[0][0], projection[1][1]);

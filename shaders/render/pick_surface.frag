@@ -4,10 +4,11 @@
 
 flat in uvec3 particles;
 in vec3 squares;
+in float along;
 layout(location = 0) out uvec2 picked;
 
 void main() {
   uint nearest = squares.y < squares.x ? particles.y : particles.x;
   if (squares.z < min(squares.x, squares.y)) nearest = particles.z;
-  picked = uvec2(pick_word(PICK_PARTICLE, nearest), floatBitsToUint(1.0 / gl_FragCoord.w));
+  picked = uvec2(pick_word(PICK_PARTICLE, nearest), floatBitsToUint(along));
 }

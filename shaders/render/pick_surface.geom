@@ -1,5 +1,6 @@
 // Triangles of the skin that the ID image may show, each with the three particles it joins.
 #include "render/layout.glsl"
+#include "render/cut.glsl"
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
@@ -7,6 +8,7 @@ flat in uint vertex_particle[];
 flat out uvec3 particles;
 // Squares of the distances to the three [m²]: their differences vary evenly over the triangle.
 out vec3 squares;
+out float along;  // the view [m]
 
 void main() {
   vec4 clip[3];
@@ -24,7 +26,9 @@ void main() {
       squares[corner] = dot(off, off);
     }
     particles = uvec3(vertex_particle[0], vertex_particle[1], vertex_particle[2]);
+    along = -(view * gl_in[i].gl_Position).z;
     gl_Position = clip[i];
+    gl_ClipDistance[0] = kept(here);
     EmitVertex();
   }
   EndPrimitive();

@@ -1,5 +1,6 @@
 // An opaque sheet, lit from both sides; some sunlight comes through. Where its inside is asked for it shows what lies behind.
 #include "render/frame.glsl"
+#include "render/sight.glsl"
 
 layout(binding = UNIT_COLOUR_MAP) uniform sampler2D colour_map;
 layout(location = LOCATION_BASE_COLOUR) uniform vec4 base_colour;
@@ -11,7 +12,7 @@ layout(location = 0) out vec4 colour;
 void main() {
   vec3 n = normalize(surface_normal);
   if (!gl_FrontFacing) n = -n;
-  vec3 v = normalize(eye.xyz - world);
+  vec3 v = to_eye(world);
   bool mapped = colour_mode >= COLOUR_STRAIN;
   vec3 base = mapped ? textureLod(colour_map, vec2(clamp(shown, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5), 0.0).rgb
                      : base_colour.rgb;

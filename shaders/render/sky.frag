@@ -1,9 +1,10 @@
 #include "render/frame.glsl"
+#include "render/sight.glsl"
 
 in vec2 on_screen;
 layout(location = 0) out vec4 colour;
 
 void main() {
   vec4 far = clip_to_world * vec4(on_screen, 1.0, 1.0);
-  colour = vec4(to_display(sky(normalize(far.xyz / far.w - eye.xyz))), 1.0);
+  colour = vec4(to_display(sky(-to_eye(far.xyz / far.w))), 1.0);
 }

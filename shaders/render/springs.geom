@@ -1,9 +1,14 @@
-// A ribbon along each spring that faces the eye, at least a pixel wide.
+// A ribbon along each spring that faces the eye, at least a pixel wide; where springs fade, with half a pixel more on
+// either side.
 #include "render/layout.glsl"
+#include "render/sight.glsl"
+#include "render/cut.glsl"
+#include "render/spring_quantity.glsl"
 
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
 layout(location = LOCATION_RADIUS) uniform float radius;
+layout(location = LOCATION_FADES) uniform int fades;
 layout(location = LOCATION_SPRING) uniform vec4 spring;  // k, c, r, cord
 in vec3 end_velocity[];
 in float end_quantity[];
@@ -11,17 +16,18 @@ out float across;
 out vec3 sideways;
 out vec3 towards_eye;
 out float shown;
+out vec2 reach;  // half width, of the ribbon and of the spring itself [pixels]
 
 void main() {
   vec3 xa = gl_in[0].gl_Position.xyz;
   vec3 xb = gl_in[1].gl_Position.xyz;
   vec3 e = xa - xb;
-  float L = length(e);
-  if (L == 0.0) return;
-  float strain = (L - spring.z) / spring.z;
-  float damped = spring.y * dot(end_velocity[0] - end_velocity[1], e) / L;
-  bool slack = spring.w > 0.0 && strain < 0.0;
-  float force = slack ? 0.0 : abs(spring.x * (L - spring.z) + damped);
+  if (e == vec3(0.0)) return;
+  float own = chosen_of(
+      spring_quantity(e, end_velocity[0] - end_velocity[1], spring.x, spring.y, spring.z, spring.w > 0.0));
+  if (!cut_segment(xa, xb)) return;
+  // What lies behind a filled section is not seen.
+  if (section.y > 0.0 && max(dot(cut.xyz, xa), dot(cut.xyz, xb)) < section.x) return;
   vec3 a = (view * vec4(xa, 1.0)).xyz;
   vec3 b = (view * vec4(xb, 1.0)).xyz;
   // What lies behind the eye would turn the ribbon inside out.
@@ -29,20 +35,20 @@ void main() {
   if (a.z > -nearest && b.z > -nearest) return;
   if (a.z > -nearest) a = mix(b, a, (b.z + nearest) / (b.z - a.z));
   if (b.z > -nearest) b = mix(a, b, (a.z + nearest) / (a.z - b.z));
-  float pixel = 2.0 / (projection[1][1] * viewport.y);
   for (int corner = 0; corner < 4; ++corner) {
     bool first = (corner & 1) == 0;
     vec3 end = first ? a : b;
     across = float((corner >> 1) * 2 - 1);
-    towards_eye = normalize(-end);
+    towards_eye = -sight_of(end);
     vec3 side = cross(normalize(b - a), towards_eye);
     side = dot(side, side) > 0.0 ? normalize(side) : vec3(1.0, 0.0, 0.0);
     sideways = side;
-    float value = colour_mode == COLOUR_STRAIN  ? abs(strain)
-                  : colour_mode == COLOUR_FORCE ? force
-                                                : end_quantity[first ? 0 : 1];
+    float value = colour_mode == COLOUR_SPEED ? end_quantity[first ? 0 : 1] : own;
     shown = (value - quantity_range.x) * quantity_range.y;
-    gl_Position = projection * vec4(end + across * max(radius, 0.6 * pixel * -end.z) * side, 1.0);
+    float pixel = pixel_at(-end.z);
+    float half_width = radius / pixel;
+    reach = vec2(fades == 0 ? max(half_width, 0.6) : max(half_width, 0.5) + 0.5, half_width);
+    gl_Position = projection * vec4(end + across * reach.x * pixel * side, 1.0);
     EmitVertex();
   }
   EndPrimitive();

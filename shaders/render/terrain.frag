@@ -1,6 +1,7 @@
 // Solid terrain: textured ground or another textured surface, in sun, sky and shadow. CUT_PLANE: ground with parts cut
 // out, which the shape's distance tells.
 #include "render/frame.glsl"
+#include "render/sight.glsl"
 #include "render/drawn_terrain.glsl"
 #ifdef UNSHADOWED_PLANE
 vec3 sunlight_at(vec3 position) { return vec3(sphere_shade(position)); }
@@ -24,8 +25,7 @@ void main() {
 #ifdef CUT_PLANE
   if (distance_to(0u, world) > 1e-4 * plane_point.w) discard;
 #endif
-  vec3 from_eye = world - eye.xyz;
-  vec3 v = -normalize(from_eye);
+  vec3 v = to_eye(world);
 #ifdef PLANE
   vec3 n = plane_normal.xyz;
   vec3 albedo = texture(ground, local.xy / texture_size).rgb;

@@ -32,11 +32,14 @@
 #define BINDING_FAN_START 1   // uint[surface vertices + 1]: where each vertex's fan begins
 #define BINDING_FAN 2         // uvec2[]: next and previous neighbour along each quad at the vertex
 #define BINDING_FAN_VERTEX 3  // uint[surface vertices]: the particle
-#define BINDING_NORMALS 4     // vec4[particles]
+#define BINDING_SKIN 4        // SkinVertex[surface vertices]
+#define BINDING_FAN_OWN 5     // uint[surface vertices]: where the quads of its own patch end
 #define BINDING_BOUNDS 5      // Bounds[LIGHTS]
 #define BINDING_QUANTITY 6    // float[particles]
 #define BINDING_LIGHT_BOXES_OUT 7  // LightBox[LIGHTS]
+#define BINDING_EXTREMES 7    // uint[EXTREMES]: of what colours show
 #define BINDING_SPRING_CLASSES 3   // SpringClass[]
+#define BINDING_SECTION 2     // Section, then uvec4[]: tetrahedra that a cut crosses
 #define BINDING_TURNS 1       // vec4[balls]: unit quaternions, from a ball's own frame to the world
 
 // Uniform blocks of the solvers' kernels, and of pictures.

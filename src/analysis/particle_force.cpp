@@ -27,6 +27,10 @@ std::vector<Spring> of_lattice(const Body& body, std::uint32_t particle) {
   return found;
 }
 
+SpringClass spring_of(const Pull& pull) {
+  return {SpringType::structural, pull.stiffness, pull.damping, 0.0, false};
+}
+
 }  // namespace
 
 SpringFinder::SpringFinder(const Model& model) {
@@ -67,9 +71,8 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
     net += f;
   }
   force.springs = back(sum);
-  if (pull && pull->particle == particle) {
-    const Vector f =
-        pulled({SpringType::structural, pull->stiffness, pull->damping, 0.0, false}, pull->anchor, {});
+  if (pull && !pull->ball && pull->particle == particle) {
+    const Vector f = pulled(spring_of(*pull), pull->anchor, {});
     force.pull = back(f);
     net += f;
   }
@@ -83,6 +86,22 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
   }
   force.contact = back(net - before);
   force.net = back(net);
+  return force;
+}
+
+ParticleForce ball_force(const Model& model, const State& state, std::uint32_t ball,
+                         const std::optional<Pull>& pull) {
+  assert(check_sizes(model, state) && ball < model.ball_count());
+  ParticleForce force;
+  force.gravity = model.balls[ball].mass * model.simulation.gravity;
+  if (pull && pull->ball && pull->particle == ball) {
+    const auto exact = [](const Vec3& v) { return reference::rounded<double>(v); };
+    const reference::Vector<double> f = reference::spring_force<double>(
+        reference::SpringConstants<double>(spring_of(*pull)), exact(state.ball_position[ball]),
+        exact(state.ball_velocity[ball]), exact(pull->anchor), exact({}));
+    force.pull = {f.x(), f.y(), f.z()};
+  }
+  force.net = force.gravity + force.pull;
   return force;
 }
 

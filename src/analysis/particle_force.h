@@ -37,4 +37,9 @@ struct ParticleForce {
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
                              std::uint32_t particle, const std::optional<Pull>& pull = {});
 
+/// Forces on one ball at a state [N]: gravity and the pull; terrain, particles and other balls act by
+/// impulses. The state must have the model's numbers; `ball` is one of them; `pull` is that of the solver.
+ParticleForce ball_force(const Model& model, const State& state, std::uint32_t ball,
+                         const std::optional<Pull>& pull = {});
+
 }  // namespace aspic

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "analysis/stability.h"
@@ -40,7 +41,10 @@ App::App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Simulati
       picture(simulation, scene.scene(), view, options.full_quality),
       hands(simulation, view, messages),
       film(simulation, scene.editor(), view, picture, messages),
-      pointer(simulation, view, picture, hands) {}
+      beside(simulation, scene, view, picture, messages, options.asked),
+      pointer(simulation, view, picture, hands) {
+  hands.refusal = [this] { return beside.hands_refused(); };
+}
 
 std::vector<Command> App::make_commands() {
   constexpr int ctrl = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
@@ -48,6 +52,9 @@ std::vector<Command> App::make_commands() {
     film.update();
     run.single_step();
     film.update();
+  };
+  const auto toggle = [this] {
+    if (!beside.toggle()) run.toggle();
   };
   const auto throw_ball = [this] {
     const auto [x, y] = pointer.aim(gui_->takes_mouse());
@@ -57,13 +64,21 @@ std::vector<Command> App::make_commands() {
     if (messages.check(simulation.refresh_snapshot()))
       view.frame_bodies(simulation.model(), simulation.snapshot());
   };
+  // Off, and in turn what there is to see.
+  const auto cut = [this] {
+    scene.change("view.cut", [](Scene& s) {
+      constexpr int kinds = std::size(cut_insides);
+      s.view.cut.inside = cut_insides[(static_cast<int>(s.view.cut.inside) + 1) % kinds].value;
+    });
+  };
+  const auto axes = [this] { scene.change("view.axes", [](Scene& s) { s.view.axes = !s.view.axes; }); };
   const auto full_screen = [this] {
     if (gui_->services().toggle_full_screen) gui_->services().toggle_full_screen();
   };
   const auto paste = [this] { paste_camera(view, scene.scene(), gui_->services(), messages); };
   return {
       {"", "Motion"},
-      {"Space", "start or pause", GLFW_KEY_SPACE, 0, 0, [this] { run.toggle(); }},
+      {"Space", "start or pause", GLFW_KEY_SPACE, 0, 0, toggle},
       {". (full stop)", "single step", -1, 0, U'.', step},
       {"R", "reset to the start", GLFW_KEY_R, 0, 0, [this] { run.reset(); }},
       {", (comma)", "step back", -1, 0, U',', [this] { run.step_back(); }},
@@ -73,7 +88,7 @@ std::vector<Command> App::make_commands() {
       {"G", "other backend", GLFW_KEY_G, 0, 0, [this] { run.switch_backend(); }},
       {"", "Hands"},
       {"B", "throw a ball", GLFW_KEY_B, 0, 0, throw_ball},
-      {"Ctrl+drag", "pull the particle under the mouse"},
+      {"Ctrl+drag", "pull the particle or ball under the mouse"},
       {"Ctrl+right click", "pin or free the particle"},
       {"", "Scenes"},
       {"[", "previous scene", -1, 0, U'[', [this] { scene.open_neighbour(-1); }},
@@ -85,19 +100,32 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, [this] { scene.undo(); }, true},
       {"Ctrl+Shift+Z", "redo", GLFW_KEY_Z, ctrl | shift, 0, [this] { scene.redo(); }, true},
       {"Ctrl+Y", "redo", GLFW_KEY_Y, ctrl, 0, [this] { scene.redo(); }, true},
+      {"", "Runs side by side"},
+      {"Ctrl+B", "add a run side by side", GLFW_KEY_B, ctrl, 0, [this] { beside.add(); }},
+      {"Ctrl+G", "keep this run as ghost", GLFW_KEY_G, ctrl, 0, [this] { beside.keep_ghost(); }},
+      {"Ctrl+Shift+G", "remove the ghost", GLFW_KEY_G, ctrl | shift, 0, [this] { beside.remove_ghost(); }},
+      {"Ctrl+Shift+B", "leave side by side", GLFW_KEY_B, ctrl | shift, 0, [this] { beside.leave(); }},
       {"", "Camera"},
       {"left drag", "turn the camera"},
       {"right or Shift drag", "move the camera"},
-      {"wheel", "zoom"},
+      {"wheel", "zoom to the point under the mouse"},
       {"double click", "look at the point under the mouse"},
       {"Home", "reset the camera", GLFW_KEY_HOME, 0, 0, [this] { view.camera.reset(); }},
       {"F", "frame the bodies", GLFW_KEY_F, 0, 0, frame_bodies},
       {"Ctrl+C", "copy the camera as text", GLFW_KEY_C, ctrl, 0,
        [this] { copy_camera(view, gui_->services(), messages); }},
       {"Ctrl+V", "paste a camera", GLFW_KEY_V, ctrl, 0, paste},
+      {"A", "axes in a corner of the picture", GLFW_KEY_A, 0, 0, axes},
+      {"O", "orthographic or perspective", GLFW_KEY_O, 0, 0, [this] { view.camera.change_projection(); }},
+      {"X", "cut the bodies open: section, springs, not at all", GLFW_KEY_X, 0, 0, cut},
       {"", "Window and files"},
+      {"L", "next layout", GLFW_KEY_L, 0, 0, [this] { layout.choose_next(); }},
       {"Tab", "hide or show the panels", GLFW_KEY_TAB, 0, 0, [this] { layout.panels = !layout.panels; }},
       {"Ctrl+P", "find an action, a scene or a value", GLFW_KEY_P, ctrl, 0, [this] { palette.open(); }},
+      {"Ctrl++", "larger text", GLFW_KEY_EQUAL, ctrl, 0, [this] { layout.scale_text(1.1); }, true,
+       GLFW_KEY_KP_ADD},
+      {"Ctrl+-", "smaller text", GLFW_KEY_MINUS, ctrl, 0, [this] { layout.scale_text(1.0 / 1.1); }, true,
+       GLFW_KEY_KP_SUBTRACT},
       {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { help_visible = !help_visible; }},
       {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
       {"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
@@ -122,13 +150,14 @@ void App::ask_where_to_save() {
 
 Status App::attach(gl::Context& context, double scale, WindowServices services) {
   ASPIC_CHECK(picture.attach(context));
+  beside.attach(context);
   ASPIC_TRY(gui_, Gui::create(scale, std::move(services), commands_, watcher_));
-  gui_->set_text_size(layout.text_size);
   return {};
 }
 
 Status App::release_context(const Error& why) {
   for (const std::string& line : film.finish()) messages.error(line);
+  beside.detach();
   ASPIC_CHECK(simulation.leave_context(why));
   // What the solver said when it noticed first says more.
   if (!messages.notice() || !messages.notice()->is_error) messages.error(why.message);
@@ -147,14 +176,20 @@ Status App::adopt_context(gl::Context& context, double scale, WindowServices ser
 
 void App::restore(const KeptState& kept, const std::vector<std::string>& overrides) {
   layout = kept.layout;
-  gui_->set_text_size(layout.text_size);
+  greeted_ = kept.greeted;
   simulation.pacer().pace = kept.pace;
   simulation.pacer().speed = kept.speed;
   film.settings = {kept.film_format, kept.film_fps, kept.film_text, ""};
   view.kept = kept.cameras;
   const auto sets_camera = [](const std::string& set) { return set.starts_with("view.camera"); };
   if (std::ranges::none_of(overrides, sets_camera)) view.recall_camera(scene.editor().source());
-  if (!layout.panels) messages.info("Tab shows the panels, F1 all keys.");
+  if (!std::exchange(greeted_, true))
+    messages.info(
+        "Space starts and pauses. Drag to turn the view, the wheel zooms. Ctrl+drag pulls a body, B throws a "
+        "ball. F1 shows all keys, Ctrl+P finds everything by name.",
+        20.0);
+  else if (!layout.panels)
+    messages.info("Tab shows the panels, F1 all keys.");
 }
 
 KeptState App::kept_state() const {
@@ -165,6 +200,7 @@ KeptState App::kept_state() const {
   kept.film_format = film.settings.format;
   kept.film_fps = film.settings.fps;
   kept.film_text = film.settings.text;
+  kept.greeted = greeted_;
   kept.cameras = view.kept_with(scene.editor().source());
   return kept;
 }
@@ -183,9 +219,25 @@ std::string App::title() const {
 }
 
 bool App::idle() const {
-  return !simulation.running() && std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
+  return !simulation.running() && !beside.running() && beside.settled() &&
+         std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
          shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() && !simulation.changing() &&
          !simulation.busy();
+}
+
+bool App::asleep() const {
+  constexpr double rest = 1.5;  // s, by when tooltips have come
+  return idle() && !touched_ && std::min(still_for_, mouse_still_for_) > rest && !gui_->takes_keyboard() &&
+         !gui_->awake() && !film.recording() && film.completing() == 0 &&
+         (!messages.notice() || messages.notice()->is_error);
+}
+
+bool App::doze(double dt) {
+  const auto said = messages.notice() ? messages.notice()->text : std::string();
+  scene.update(dt);
+  if (!scene.pending() && (messages.notice() ? messages.notice()->text : "") == said && idle()) return false;
+  touch();
+  return true;
 }
 
 double App::wait(double since) const {
@@ -194,7 +246,8 @@ double App::wait(double since) const {
   // Displays set the pace of hardware. A software rasteriser draws on the processors that simulate: it draws
   // at no more than that pace, only what is new, and where steps are late for a third of the time at most.
   if (!picture.context().info().is_software) return 0.0;
-  const bool nothing_new = simulation.busy() && !simulation.has_news() && !touched_ && !camera_moves_;
+  const bool nothing_new =
+      !beside.several() && simulation.busy() && !simulation.has_news() && !touched_ && !camera_moves_;
   const bool late = simulation.running() && simulation.pacer().late();
   const double interval = nothing_new ? longest
                           : late      ? std::clamp(3.0 * frame_seconds_, shortest, longest)
@@ -282,32 +335,51 @@ Status App::frame(const WindowSize& size, double dt) {
   // A picture of a software rasteriser takes longer anyway, so steps may too.
   const double budget = context.info().is_software ? 0.030 : 0.012;
   film.update();
+  beside.lead();
   ASPIC_CHECK(simulation.update(dt, budget));
   if (scene.finish_change()) picture.postpone();
   if (const auto message = simulation.take_message()) messages.error(*message);
   film.update();
+  ASPIC_CHECK(beside.follow(dt, budget));
   run.watch_divergence();
-  still_for_ = camera_moves_ || simulation.running() || simulation.seeking() ? 0.0 : still_for_ + dt;
+  const bool moves = simulation.running() || simulation.seeking() || beside.running() || !beside.settled();
+  still_for_ = camera_moves_ || moves ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
-  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25 || shot_wanted_ == Shot::window);
+  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25 || shot_wanted_ == Shot::window ||
+                      (shot_wanted_ == Shot::picture && beside.several()));
   const auto start = std::chrono::steady_clock::now();
   const Status made = make_picture(size, dt);
   frame_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return made;
 }
 
+/// Of several runs the picture is what the window shows of them, with their names.
+Status App::save_shot(Shot wanted, const WindowSize& size, const std::string& path) {
+  if (wanted == Shot::window) return save_pixels(0, {size.pixel_width, size.pixel_height}, path);
+  if (!beside.several()) return picture.save(path);
+  const auto pixels = [&](double length) {
+    return static_cast<int>(std::lround(length * view.pixels_per_unit));
+  };
+  const int left = pixels(view.whole.left), bottom = size.pixel_height - pixels(view.whole.bottom);
+  const PictureSize whole = {pixels(view.whole.right) - left,
+                             pixels(view.whole.bottom) - pixels(view.whole.top)};
+  return save_pixels(0, whole, path, left, bottom);
+}
+
 Status App::make_picture(const WindowSize& size, double dt) {
   pointer.find_hovered();
   view.pixels_per_unit = static_cast<double>(size.pixel_width) / size.width;
   picture.count(dt);
+  gui_->set_text_size(layout.text_size);
   gui_->begin(dt);
   view.text_scale = gui_->scale();
-  view.box = draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer,
-                          layout, files, palette, closing, help_visible},
-                         size.width, size.height);
+  draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, files,
+               palette, beside, closing, help_visible},
+              size.width, size.height);
   if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
     view.frame_bodies(simulation.model(), simulation.snapshot());
   ASPIC_CHECK(picture.show(size));
+  ASPIC_CHECK(beside.show(size, picture.at_rest()));
   if (const auto refusal = picture.take_refusal()) messages.error(*refusal);
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();
@@ -315,9 +387,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
   const Shot wanted = std::exchange(shot_wanted_, Shot::none);
   if (wanted == Shot::none) return {};
   const std::string path = free_name(scene.editor().source(), ".png");
-  if (messages.check(wanted == Shot::picture ? picture.save(path)
-                                             : save_pixels(0, {size.pixel_width, size.pixel_height}, path)))
-    messages.info(fmt::format("Saved as {}.", path));
+  if (messages.check(save_shot(wanted, size, path))) messages.info(fmt::format("Saved as {}.", path));
   return {};
 }
 

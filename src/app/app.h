@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/beside.h"
 #include "app/commands.h"
 #include "app/file_dialog.h"
 #include "app/film.h"
@@ -48,6 +49,7 @@ class App final : public EventReceiver {
   void cursor(double x, double y) override;
   void scroll(double dx, double dy) override;
   void drop(const std::vector<std::string>& paths) override;
+  void refresh() override { touch(); }
 
   /// One picture, `dt` ≥ 0 after the last [s]. Error (no_device): the context was lost; another window can
   /// take the app on then (replace_window).
@@ -60,6 +62,11 @@ class App final : public EventReceiver {
   Status adopt_context(gl::Context& context, double scale, WindowServices services);
   /// Nothing moves: the next picture would be the same but for events.
   bool idle() const;
+  /// The picture to come would be the last one once more: there is no need to make it. Then doze() instead,
+  /// `dt` ≥ 0 after the last call [s], which looks at the scene's file; true if there is something to show
+  /// again.
+  bool asleep() const;
+  bool doze(double dt);
   /// How long to wait for events before the next picture, `since` the last one [s]; 0: none, it is due.
   double wait(double since) const;
   std::string title() const;
@@ -87,8 +94,9 @@ class App final : public EventReceiver {
   ScenePicture picture;
   Hands hands;
   Film film;
+  Beside beside;
   Pointer pointer;
-  Layout layout;
+  Layouts layout;
   FileDialog files;
   Palette palette;
   Closing closing = Closing::no;
@@ -102,6 +110,8 @@ class App final : public EventReceiver {
   void ask_for_scene();
   void ask_where_to_save();
   Status make_picture(const WindowSize& size, double dt);
+  enum class Shot { none, picture, window };
+  Status save_shot(Shot wanted, const WindowSize& size, const std::string& path);
   void touch() {
     still_for_ = 0.0;
     touched_ = true;
@@ -109,10 +119,11 @@ class App final : public EventReceiver {
   void restore(const KeptState& kept, const std::vector<std::string>& overrides);
 
   std::deque<KeyEvent> keys_;  // that came and were not delivered
-  enum class Shot { none, picture, window } shot_wanted_ = Shot::none;
+  Shot shot_wanted_ = Shot::none;
   bool camera_moves_ = false;
   /// Since something moved, and since the mouse did [s].
   double still_for_ = 0.0, mouse_still_for_ = 0.0;
+  bool greeted_ = false;        // what the keys are was said
   double frame_seconds_ = 0.0;  // the last picture with its panels
   bool touched_ = false;        // by an event since then
 };

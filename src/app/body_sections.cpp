@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/new_body.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "base/memory.h"
@@ -64,6 +65,16 @@ bool add_button(Gui& gui, std::string_view key, std::string_view help) {
                 fmt::format("{}\n\nScene key: [[{}]]", help, key), true, -1.0f);
 }
 
+void add_body_button(Gui& gui, SceneControl& scene, const SettingsList& list) {
+  if (add_button(
+          gui, list.key,
+          fmt::format(
+              "Adds a {}, like the last one if there is one, beside the bodies that there are. Restarts "
+              "the simulation.",
+              spaced(list.key))))
+    add_body(scene, list);
+}
+
 /// Every body of one list with all its keys, straight from the table, and a button that adds one.
 void bodies_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
   const std::string prefix = fmt::format("{}[].", list.key);
@@ -74,24 +85,7 @@ void bodies_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
       edit(gui, scene, p.path, i, {capitalized(spaced(p.path.substr(prefix.size())))});
     }
   }
-  const std::string name = spaced(list.key);
-  if (add_button(gui, list.key, fmt::format("Adds a {} with default values. Restarts the simulation.", name)))
-    scene.change("add " + name, [&](Scene& s) { list.append(s.model); });
-}
-
-void add_cube(Gui& gui, SceneControl& scene) {
-  const bool any = !scene.scene().model.cubes.empty();
-  if (!add_button(
-          gui, "cube",
-          any ? "Adds a cube like the last one, beside it: bodies do not touch one another. Restarts the "
-                "simulation."
-              : "Adds a cube with default values. Restarts the simulation."))
-    return;
-  scene.change("add cube", [&](Scene& s) {
-    CubeSettings cube = any ? s.model.cubes.back() : CubeSettings();
-    if (any) cube.position.x += 1.5 * cube.edge_length;
-    s.model.cubes.push_back(cube);
-  });
+  add_body_button(gui, scene, list);
 }
 
 /// Which springs the picture shows: the words of view.draw, next to the springs' own values.
@@ -182,7 +176,7 @@ void bodies_section(Gui& gui, SceneControl& scene) {
     edit(gui, scene, "cube[].particle-mass", i);
     edit(gui, scene, "cube[].pinned", i);
   }
-  add_cube(gui, scene);
+  add_body_button(gui, scene, cubes);
   for (const BodyRow& row : body_rows().subspan(1)) bodies_of(gui, scene, row.list);
   if (body_count(scene.scene().model) > 1) ImGui::TextDisabled("Bodies do not touch one another.");
 }

@@ -26,6 +26,7 @@ CameraControl::Orbit CameraControl::orbit_of(const CameraSettings& settings) {
   orbit.azimuth = std::atan2(d.x, d.z);
   orbit.elevation = std::clamp(std::asin(std::clamp(d.y / orbit.distance, -1.0, 1.0)), -steepest, steepest);
   orbit.fov = settings.fov;
+  orbit.projection = settings.projection;
   orbit.exact = settings;
   return orbit;
 }
@@ -34,7 +35,7 @@ CameraSettings CameraControl::settings_of(const Orbit& o) {
   if (o.exact) return *o.exact;
   const Vec3 direction = {std::cos(o.elevation) * std::sin(o.azimuth), std::sin(o.elevation),
                           std::cos(o.elevation) * std::cos(o.azimuth)};
-  return {o.target + o.distance * direction, o.target, o.fov};
+  return {o.target + o.distance * direction, o.target, o.fov, o.projection};
 }
 
 void CameraControl::orbit(double dx, double dy) {
@@ -43,19 +44,26 @@ void CameraControl::orbit(double dx, double dy) {
   goal_.elevation = std::clamp(goal_.elevation + std::numbers::pi * dy, -steepest, steepest);
 }
 
-void CameraControl::pan(double dx, double dy) {
-  goal_.exact.reset();
+Vec3 CameraControl::across(double dx, double dy, double fov) const {
   // At the target's distance the view is this many metres high.
-  const double height = 2.0 * goal_.distance * std::tan(0.5 * radians(goal_.fov));
+  const double height = 2.0 * goal_.distance * std::tan(0.5 * radians(fov));
   const Vec3 right = {std::cos(goal_.azimuth), 0.0, -std::sin(goal_.azimuth)};
   const Vec3 up = {-std::sin(goal_.elevation) * std::sin(goal_.azimuth), std::cos(goal_.elevation),
                    -std::sin(goal_.elevation) * std::cos(goal_.azimuth)};
-  goal_.target = goal_.target + (-dx * height) * right + (dy * height) * up;
+  return (dx * height) * right + (-dy * height) * up;
 }
 
-void CameraControl::zoom(double notches) {
+void CameraControl::pan(double dx, double dy) {
   goal_.exact.reset();
-  goal_.distance = std::clamp(goal_.distance * std::pow(0.9, notches), nearest, farthest);
+  goal_.target = goal_.target - across(dx, dy, goal_.fov);
+}
+
+void CameraControl::zoom(double notches, double dx, double dy, double fov) {
+  goal_.exact.reset();
+  const Vec3 point = across(dx, dy, fov > 0.0 ? fov : goal_.fov);
+  const double before = goal_.distance;
+  goal_.distance = std::clamp(before * std::pow(0.9, notches), nearest, farthest);
+  goal_.target = goal_.target + (1.0 - goal_.distance / before) * point;
 }
 
 void CameraControl::come_round(double azimuth) {
@@ -69,7 +77,7 @@ void CameraControl::reset() {
 }
 
 void CameraControl::look_from(const Vec3& direction) {
-  const Orbit seen = orbit_of({goal_.target + direction, goal_.target, goal_.fov});
+  const Orbit seen = orbit_of({goal_.target + direction, goal_.target, goal_.fov, goal_.projection});
   come_round(seen.azimuth);
   goal_.exact.reset();
   goal_.azimuth = seen.azimuth;
@@ -82,6 +90,13 @@ void CameraControl::frame(const Vec3& centre, double radius, double aspect) {
   const double narrow = aspect < 1.0 ? std::atan(aspect * std::tan(half)) : half;
   goal_.target = centre;
   goal_.distance = std::clamp(1.1 * std::max(radius, 10.0 * nearest) / std::sin(narrow), nearest, farthest);
+}
+
+void CameraControl::change_projection() {
+  const bool parallel = goal_.projection == Projection::orthographic;
+  goal_.projection = shown_.projection = parallel ? Projection::perspective : Projection::orthographic;
+  for (Orbit* const orbit : {&goal_, &shown_})
+    if (orbit->exact) orbit->exact->projection = goal_.projection;
 }
 
 void CameraControl::centre(const Vec3& point) {
@@ -99,6 +114,7 @@ bool CameraControl::update(double dt) {
   shown_.azimuth = ease(shown_.azimuth, goal_.azimuth);
   shown_.elevation = ease(shown_.elevation, goal_.elevation);
   shown_.distance = std::exp(ease(std::log(shown_.distance), std::log(goal_.distance)));
+  shown_.projection = goal_.projection;
   shown_.fov = ease(shown_.fov, goal_.fov);
   if (length(shown_.target - goal_.target) < 1e-4 * goal_.distance &&
       near(shown_.azimuth, goal_.azimuth, 1) && near(shown_.elevation, goal_.elevation, 1) &&

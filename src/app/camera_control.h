@@ -16,8 +16,10 @@ class CameraControl {
   void orbit(double dx, double dy);
   /// Moves the target with the mouse: dx, dy in heights of the view, to the right and down.
   void pan(double dx, double dy);
-  /// Comes nearer by a tenth for each notch, or goes away for negative ones.
-  void zoom(double notches);
+  /// Comes nearer by a tenth for each notch, or goes away for negative ones. What is seen at the target's
+  /// distance at (dx, dy) stays where it is: heights of the view to the right and down from its middle, of a
+  /// view with this field of view (0: the camera's own) [degrees].
+  void zoom(double notches, double dx = 0.0, double dy = 0.0, double fov = 0.0);
   void reset();
   /// Turns to a sphere and backs off until it fits; direction and field of view stay. `aspect` is
   /// width/height of the view, > 0; a radius of 0 [m] is taken as a small one.
@@ -29,6 +31,8 @@ class CameraControl {
   void look_from(const Vec3& direction);
   /// Takes on a camera at once, without easing.
   void jump_to(const CameraSettings& settings) { goal_ = shown_ = orbit_of(settings); }
+  /// From perspective to orthographic and back, at once; what is at the target's distance stays as large.
+  void change_projection();
   /// A new home, which the camera does not go to by itself.
   void set_home(const CameraSettings& home) { home_ = home; }
 
@@ -45,11 +49,14 @@ class CameraControl {
   struct Orbit {
     Vec3 target;
     double azimuth = 0.0, elevation = 0.0, distance = 1.0, fov = 45.0;
+    Projection projection = Projection::perspective;
     std::optional<CameraSettings> exact = {};  ///< until moved: what the angles would round
     friend bool operator==(const Orbit&, const Orbit&) = default;
   };
   static Orbit orbit_of(const CameraSettings& settings);
   static CameraSettings settings_of(const Orbit& orbit);
+  /// To the point at (dx, dy) of the goal's view from the target [m].
+  Vec3 across(double dx, double dy, double fov) const;
   /// The shown camera as many whole turns away as brings it nearest to an azimuth [radians].
   void come_round(double azimuth);
 

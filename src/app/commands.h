@@ -15,6 +15,7 @@ struct Command {
   char32_t character = 0;       ///< for keys whose place depends on the keyboard's layout; 0: none
   std::function<void()> act{};  ///< empty for what the mouse does, which only the help page lists
   bool repeats = false;         ///< while the key is held
+  int other_key = -1;           ///< another GLFW key that does the same
 };
 
 class Commands {

@@ -29,6 +29,10 @@ std::string film_path(const std::string& path, const FilmFormat& format) {
 
 void Film::start() {
   stop();
+  if (!editor_.beside().empty())
+    return messages_.error(
+        "The window films one run alone. Leave side by side first, or film all runs with aspic run … "
+        "--beside, which draws the same.");
   const FilmFormat& format = *settings.format;
   const auto pixels = [&](double length) {
     const int count = std::max(static_cast<int>(std::lround(length * view_.pixels_per_unit)), 16);

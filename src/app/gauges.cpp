@@ -7,6 +7,9 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
@@ -94,17 +97,29 @@ struct Pointed {
   bool pressed = false;  ///< or dragged to
 };
 
+/// A curve of a run.
+struct Line {
+  const std::deque<EnergySample>* samples;
+  ImU32 colour;
+  double (*value)(const Measures&);
+  bool counts = true;  ///< for the scale; one that does not may leave the plot
+};
+
 /// Curves over time with their scale.
-std::optional<Pointed> plot(Gui& gui, const char* name, const std::deque<EnergySample>& samples,
-                            std::span<const Curve> curves, const char* unit, std::string_view help,
-                            double now) {
-  const Plot plot(gui, name, 130.0, samples, help);
+std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> lines, const char* unit,
+                            std::string_view help, double now) {
+  const auto end_time = [](const Line& line) {
+    return line.samples->empty() ? 0.0 : line.samples->back().time;
+  };
+  const Plot plot(gui, name, 130.0, *std::ranges::max_element(lines, {}, end_time)->samples, help);
   if (!(plot.span > 0.0)) return std::nullopt;
   double low = 0.0, high = 0.0;
-  for (const EnergySample& s : samples) {
-    for (const Curve& c : curves) {
-      low = std::min(low, c.value(s.measures));
-      high = std::max(high, c.value(s.measures));
+  const bool all_count = std::ranges::none_of(lines, &Line::counts);
+  for (const Line& line : lines) {
+    if (!line.counts && !all_count) continue;
+    for (const EnergySample& s : *line.samples) {
+      low = std::min(low, line.value(s.measures));
+      high = std::max(high, line.value(s.measures));
     }
   }
   if (!(high > low) || !std::isfinite(high - low)) return std::nullopt;
@@ -112,8 +127,10 @@ std::optional<Pointed> plot(Gui& gui, const char* name, const std::deque<EnergyS
   const double start = plot.start, span = plot.span;
   const float pad = plot.pad;
   ImDrawList& draw = plot.draw;
-  const float line = ImGui::GetTextLineHeight();
-  const auto place = [&](double t, double e) { return plot.place(t, (e - low) / (high - low), line, line); };
+  const float text_height = ImGui::GetTextLineHeight();
+  const auto place = [&](double t, double e) {
+    return plot.place(t, (e - low) / (high - low), text_height, text_height);
+  };
   const double time_tick = tick_length(span), tick = tick_length(high - low);
   for (double t = std::ceil(start / time_tick) * time_tick; t <= start + span; t += time_tick)
     draw.AddLine(place(t, low), place(t, high), IM_COL32(38, 40, 43, 255));
@@ -121,14 +138,18 @@ std::optional<Pointed> plot(Gui& gui, const char* name, const std::deque<EnergyS
     draw.AddLine(place(start, e), place(start + span, e), IM_COL32(38, 40, 43, 255));
   draw.AddLine(place(start, 0.0), place(start + span, 0.0), IM_COL32(80, 84, 90, 255));
   // One point for each column is all that can be seen.
-  const std::size_t stride =
-      std::max<std::size_t>(samples.size() / static_cast<std::size_t>(std::max(size.x, 1.0f)), 1);
-  for (const Curve& c : curves) {
+  draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
+  for (const Line& line : lines) {
+    const std::deque<EnergySample>& samples = *line.samples;
+    if (samples.empty()) continue;
+    const std::size_t stride =
+        std::max<std::size_t>(samples.size() / static_cast<std::size_t>(std::max(size.x, 1.0f)), 1);
     for (std::size_t i = 0; i < samples.size(); i += stride)
-      draw.PathLineTo(place(samples[i].time, c.value(samples[i].measures)));
-    draw.PathLineTo(place(samples.back().time, c.value(samples.back().measures)));
-    draw.PathStroke(c.colour, 0, static_cast<float>(1.5 * plot.scale));
+      draw.PathLineTo(place(samples[i].time, line.value(samples[i].measures)));
+    draw.PathLineTo(place(samples.back().time, line.value(samples.back().measures)));
+    draw.PathStroke(line.colour, 0, static_cast<float>(1.5 * plot.scale));
   }
+  draw.PopClipRect();
   const double at = std::clamp(now, start, start + span);
   draw.AddLine(place(at, low), place(at, high), IM_COL32(242, 176, 92, 200), static_cast<float>(plot.scale));
   const std::string top =
@@ -208,6 +229,35 @@ void pass_times(Gui& gui, GpuSolver& solver) {
   ImGui::Text("%.3f ms", sum);
 }
 
+/// One quantity of all runs in their colours.
+void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, std::size_t& compared,
+                   const char* unit, std::string_view help, const Beside& beside, RunControl& run) {
+  std::vector<std::string_view> names;
+  for (const Curve& c : curves) names.emplace_back(c.name);
+  label_column("Compare");
+  choice(gui, fmt::format("{}/compared", name), names, names, compared,
+         "The quantity that the plot shows, of each run in the colour of its name.");
+  const Curve& curve = curves[compared];
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < beside.count(); ++i)
+    lines.push_back({&beside.run(i).samples().energies(), beside.packed_colour(i), curve.value,
+                     !beside.run(i).divergence().has_value()});
+  const double now = beside.run(0).time();
+  const auto pointed = plot(gui, name, lines, unit, help, now);
+  if (pointed && pointed->pressed) run.go_to(pointed->time);
+  const double time = pointed ? pointed->time : now;
+  figure("t", fmt::format("{:.4g} s{}", time, pointed ? " (under the mouse)" : ""), help);
+  for (std::size_t i = 0; i < beside.count(); ++i) {
+    const EnergySample* const sample = beside.run(i).samples().nearest(time);
+    if (!sample) continue;
+    std::string words;
+    for (const OverlayLine& line : beside.label(i)) words += (words.empty() ? "" : ", ") + line.value;
+    figure(words.c_str(), fmt::format("{:.5g} {}", curve.value(sample->measures), unit), help,
+           ImGui::ColorConvertU32ToFloat4(beside.packed_colour(i)));
+    gui.mark("{}/run {}", name, i + 1);
+  }
+}
+
 }  // namespace
 
 void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
@@ -234,11 +284,13 @@ void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
            "they "
            "are of full size.");
   }
-  if (s.gpu() && device.is_software)
+  if (s.gpu() && device.is_software) {
     figure("Passes of a step", "not timed",
            "A software device's time stamps do not say when its passes ran.");
-  else if (s.gpu())
+    gui.mark("performance/not-timed");
+  } else if (s.gpu()) {
     pass_times(gui, *s.gpu());
+  }
   const Model& model = s.model();
   figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
   figure("Springs", fmt::format("{}", spring_count(model)), "Springs of all types.");
@@ -250,10 +302,14 @@ void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
   tooltip(fmt::format("Draws the window: {}, OpenGL {}", device.renderer, device.version));
 }
 
-void energy_section(Gui& gui, const Simulation& s, RunControl& run) {
-  const auto show = [&](const char* name, std::span<const Curve> curves, const char* unit,
-                        std::string_view help) {
-    const auto pointed = plot(gui, name, s.samples().energies(), curves, unit, help, s.time());
+void energy_section(Gui& gui, Beside& beside, RunControl& run) {
+  const Simulation& s = beside.run(0);
+  const auto show = [&](const char* name, std::span<const Curve> curves, std::size_t& compared,
+                        const char* unit, std::string_view help) {
+    if (beside.active()) return compared_runs(gui, name, curves, compared, unit, help, beside, run);
+    std::vector<Line> lines;
+    for (const Curve& c : curves) lines.push_back({&s.samples().energies(), c.colour, c.value});
+    const auto pointed = plot(gui, name, lines, unit, help, s.time());
     if (pointed && pointed->pressed) run.go_to(pointed->time);
     const EnergySample* const sample = s.samples().nearest(pointed ? pointed->time : s.time());
     if (!sample) return;
@@ -264,12 +320,12 @@ void energy_section(Gui& gui, const Simulation& s, RunControl& run) {
       gui.mark("{}/{}", name, c.name);
     }
   };
-  show("energy/plot", energy_curves, "J",
+  show("energy/plot", energy_curves, beside.compared[0], "J",
        "Energies of the run over time [J]. The gravitational one is zero at the origin. A click goes to that "
        "moment. At rest explicit Euler keeps a little kinetic energy: within a step gravity and contact act "
        "one "
        "after the other.");
-  show("energy/momentum", momentum_curves, "N·s",
+  show("energy/momentum", momentum_curves, beside.compared[1], "N·s",
        "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude. A click goes to "
        "that "
        "moment.");

@@ -107,6 +107,9 @@ void Gui::set_look() {
   const float height = std::min(std::round(font_height * static_cast<float>(scale())), largest_font);
   fonts.AddFontFromMemoryTTF(const_cast<char*>(font.data()), static_cast<int>(font.size()), height, &config,
                              characters);
+  static constexpr ImWchar plain[] = {0x0020, 0x007e, 0};
+  large_font_ = fonts.AddFontFromMemoryTTF(const_cast<char*>(font.data()), static_cast<int>(font.size()),
+                                           std::min(3.0f * height, largest_font), &config, plain);
 }
 
 Gui::~Gui() {
@@ -174,7 +177,7 @@ void Gui::begin(double dt) {
   }
   ImGui::NewFrame();
   changed_.clear();
-  edited_ = false;
+  edited_ = awake_ = false;
 }
 
 void Gui::end() {

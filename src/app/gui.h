@@ -13,6 +13,7 @@
 #include "base/result.h"
 
 struct GLFWwindow;
+struct ImFont;
 
 namespace aspic::app {
 
@@ -84,6 +85,11 @@ class Gui {
   double scale() const { return display_scale_ * text_size_; }
   /// Another size of text and panels, a factor > 0 on the display's; takes effect with the next begin().
   void set_text_size(double size) { wanted_text_size_ = size; }
+  /// The picture that is made shows something under way: the next one will differ without an event.
+  void keep_awake() { awake_ = true; }
+  bool awake() const { return awake_; }
+  /// Three times as tall as the text, for figures and letters alone.
+  ImFont* large_font() const { return large_font_; }
   const WindowServices& services() const { return services_; }
 
   /// What keys do, and buttons that have a key.
@@ -109,9 +115,11 @@ class Gui {
   WindowServices services_;
   const Commands& commands_;
   WidgetWatcher* watcher_;
+  ImFont* large_font_ = nullptr;
   double mouse_x_ = -1e9, mouse_y_ = -1e9;
   bool pressed_[5] = {}, held_[5] = {};
-  std::vector<int> changed_;                       // keys that went down or came up since the last picture
+  std::vector<int> changed_;  // keys that went down or came up since the last picture
+  bool awake_ = false;
   bool edited_ = false;                            // one that went down edits text
   Box rested_on_;                                  // the widget under the mouse
   double rested_since_ = 0.0, rested_seen_ = 0.0;  // ImGui's time

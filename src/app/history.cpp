@@ -68,6 +68,19 @@ void History::set_pull(std::uint64_t step, const std::optional<Pull>& pull) {
   pulls.push_back({step, pull});
 }
 
+void History::thin(std::uint64_t bytes) {
+  most_bytes_ = bytes;
+  while (this->bytes() > bytes && keyframe_count() > stretches_.size()) {
+    for (Stretch& stretch : stretches_) {
+      std::deque<Keyframe> fewer;
+      for (std::size_t i = 0; i < stretch.keyframes.size(); i += 2)
+        fewer.push_back(std::move(stretch.keyframes[i]));
+      stretch.keyframes = std::move(fewer);
+    }
+  }
+  while (this->bytes() > bytes && keyframe_count() > 1) drop_oldest();
+}
+
 void History::drop_oldest() {
   Stretch& oldest = stretches_.front();
   oldest.keyframes.pop_front();

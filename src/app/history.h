@@ -63,6 +63,9 @@ class History {
   void add_keyframe(const State& state);
   /// From this step on the last stretch has this pull.
   void set_pull(std::uint64_t step, const std::optional<Pull>& pull);
+  /// Does with `bytes` if keyframes that lie between others suffice for that: the same steps can be had, some
+  /// after more steps from the keyframe before them. Else the oldest steps are dropped too.
+  void thin(std::uint64_t bytes);
   /// Forgets whatever came after `moment`, which becomes the end.
   void truncate(const Moment& moment);
 

@@ -1,12 +1,14 @@
-// What is known of the particle under the mouse.
+// What is known of the particle or ball under the mouse.
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "app/panels.h"
 #include "model/terrain.h"
+#include "render/camera.h"
 
 namespace aspic::app {
 namespace {
@@ -59,27 +61,66 @@ void particle_readout(const Gui& gui, const Simulation& simulation, const Hovere
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::BeginGroup();
-  ImGui::Text("particle %u", h.particle);
+  ImGui::Text("%s %u", h.ball ? "ball" : "particle", h.particle);
   ImGui::SameLine();
-  ImGui::TextDisabled("%s%.4g kg, step %llu", h.pinned ? "pinned, " : "", h.mass,
+  const std::string kind = h.pinned ? "pinned, " : h.ball ? fmt::format("radius {:.4g} m, ", h.radius) : "";
+  ImGui::TextDisabled("%s%.4g kg, step %llu", kind.c_str(), h.mass,
                       static_cast<unsigned long long>(simulation.snapshot().step));
   ImGui::Text("x  (%.4g, %.4g, %.4g) m", h.position.x, h.position.y, h.position.z);
   if (ImGui::BeginTable("values", components ? 6 : 3, ImGuiTableFlags_SizingFixedFit)) {
     row("v", h.velocity, "m/s", components);
+    if (h.ball) row("ω", h.angular_velocity, "rad/s", components);
     row("f", f.net, "N", components);
     row("  gravity", f.gravity, "N", components);
-    row("  springs", f.springs, "N", components);
+    if (!h.ball) row("  springs", f.springs, "N", components);
     if (f.pull != Vec3{}) row("  hand", f.pull, "N", components);
     if (f.contact != Vec3{}) row("  contact", f.contact, "N", components);
     ImGui::EndTable();
   }
   // The Coulomb model's contacts act on velocities at the end of a step.
-  if (simulation.model().contact.model == ContactModel::coulomb && touches(simulation, h.position))
+  if (h.ball)
+    ImGui::TextDisabled("%s", h.contact.empty() ? "touches nothing" : h.contact.c_str());
+  else if (simulation.model().contact.model == ContactModel::coulomb && touches(simulation, h.position))
     ImGui::TextDisabled("Contact acts on v at the end of a step: no part of f.");
   ImGui::EndGroup();
   gui.mark("particle");
   ImGui::End();
   ImGui::PopStyleVar();
+}
+
+void ball_mark(const Gui& gui, const std::optional<Pull>& hand, const Hovered& h, const View& view,
+               const Box& picture) {
+  if (!h.ball) return;
+  const Camera camera(view.seen(), static_cast<int>(picture.right - picture.left),
+                      static_cast<int>(picture.bottom - picture.top));
+  const glm::mat4 through = camera.projection() * camera.view();
+  const auto place = [&](const Vec3& x) -> std::optional<ImVec2> {
+    const glm::vec4 p = through * glm::vec4(to_glm(x), 1.0f);
+    if (!(p.w > 0.0f)) return std::nullopt;
+    return ImVec2(
+        static_cast<float>(picture.left) + 0.5f * (1.0f + p.x / p.w) * static_cast<float>(camera.width()),
+        static_cast<float>(picture.top) + 0.5f * (1.0f - p.y / p.w) * static_cast<float>(camera.height()));
+  };
+  const auto centre = place(h.position);
+  if (!centre) return;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const auto unit = static_cast<float>(gui.scale());
+  constexpr ImU32 bright = IM_COL32(255, 255, 255, 235), dark = IM_COL32(20, 24, 28, 150);
+  draw.PushClipRect({static_cast<float>(picture.left), static_cast<float>(picture.top)},
+                    {static_cast<float>(picture.right), static_cast<float>(picture.bottom)});
+  // A sphere is seen under the angle whose sine is R/distance.
+  const double away = length(h.position - view.seen().position), sine = std::min(h.radius / away, 0.99);
+  const auto radius =
+      static_cast<float>(0.5 * camera.height() * static_cast<double>(camera.projection()[1][1]) * sine /
+                         std::sqrt(1.0 - sine * sine));
+  draw.AddCircle(*centre, radius + 3.0f * unit, dark, 0, 4.0f * unit);
+  draw.AddCircle(*centre, radius + 3.0f * unit, bright, 0, 2.0f * unit);
+  if (const auto anchor = hand && hand->ball ? place(hand->anchor) : std::nullopt) {
+    draw.AddLine(*centre, *anchor, dark, 5.0f * unit);
+    draw.AddLine(*centre, *anchor, bright, 2.5f * unit);
+    draw.AddCircleFilled(*anchor, 5.0f * unit, bright);
+  }
+  draw.PopClipRect();
 }
 
 }  // namespace aspic::app

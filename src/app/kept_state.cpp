@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #define JSON_DIAGNOSTICS 1  // errors name the key
 #include <nlohmann/json.hpp>
@@ -17,12 +19,24 @@
 namespace aspic {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Vec3, x, y, z)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CameraSettings, position, target, fov)
+NLOHMANN_JSON_SERIALIZE_ENUM(Projection, {{Projection::perspective, "perspective"},
+                                          {Projection::orthographic, "orthographic"}})
+
+void to_json(nlohmann::json& json, const CameraSettings& c) {
+  json = {{"position", c.position}, {"target", c.target}, {"fov", c.fov}, {"projection", c.projection}};
+}
+void from_json(const nlohmann::json& json, CameraSettings& c) {
+  json.at("position").get_to(c.position);
+  json.at("target").get_to(c.target);
+  json.at("fov").get_to(c.fov);
+  c.projection = json.value("projection", Projection::perspective);
+}
 
 namespace app {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KeptCamera, scene, camera)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Layout, panels, left_width, right_width, text_size, sections)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Layout, panels, left_width, right_width, text_size, clock,
+                                                sections)
 
 namespace {
 
@@ -33,10 +47,13 @@ constexpr const char* paces[] = {"steps-per-frame", "real-time"};
 
 Json json_of(const KeptState& s) {
   Json json = {{"version", version},
-               {"layout", s.layout},
+               {"layout", s.layout.shown()},
+               {"layout_name", s.layout.row().name},
+               {"layouts", s.layout.left()},
                {"pace", paces[static_cast<std::size_t>(s.pace)]},
                {"speed", s.speed},
                {"film", {{"format", s.film_format->name}, {"fps", s.film_fps}, {"text", s.film_text}}},
+               {"greeted", s.greeted},
                {"cameras", s.cameras}};
   if (!s.window) return json;
   json["window"]["size"] = {s.window->width, s.window->height};
@@ -59,6 +76,14 @@ bool is_legal(const CameraSettings& c) {
          c.fov <= 179.0;
 }
 
+/// A layout within what the window allows.
+Layout legal(Layout layout) {
+  for (double* const width : {&layout.left_width, &layout.right_width})
+    *width = std::clamp(*width, Layout::narrowest, Layout::widest);
+  layout.text_size = std::clamp(layout.text_size, Layout::smallest_text, Layout::largest_text);
+  return layout;
+}
+
 /// What the window could have written of it. Exceptions of Json: something is of another type.
 KeptState state_of(const Json& json) {
   KeptState s;
@@ -68,16 +93,20 @@ KeptState state_of(const Json& json) {
     s.window = WindowPlace{size[0], size[1], std::nullopt};
     if (window.contains("position")) s.window->position = pair_of(window["position"], -1e6, 1e6);
   }
-  Layout& layout = s.layout = json.value("layout", s.layout);
-  for (double* const width : {&layout.left_width, &layout.right_width})
-    *width = std::clamp(*width, Layout::narrowest, Layout::widest);
-  layout.text_size = std::clamp(layout.text_size, Layout::smallest_text, Layout::largest_text);
+  const LayoutRow* const named = find_layout(json.value("layout_name", std::string(layouts().front().name)));
+  const LayoutRow& row = named ? *named : layouts().front();
+  std::map<std::string, Layout> left;
+  for (const auto& [name, layout] : json.value("layouts", left)) {
+    if (find_layout(name) && name != row.name) left[name] = legal(layout);
+  }
+  s.layout.restore(row, legal(json.value("layout", row.at_first())), std::move(left));
   s.pace = json.value("pace", "") == paces[0] ? Pace::steps_per_frame : Pace::real_time;
   s.speed = std::clamp(json.value("speed", s.speed), slowest_speed, fastest_speed);
   const Json film = json.value("film", Json::object());
   if (const auto* const format = find_film_format(film.value("format", ""))) s.film_format = format;
   s.film_fps = std::clamp(film.value("fps", s.film_fps), 1.0, s.film_format->most_fps);
   s.film_text = film.value("text", s.film_text);
+  s.greeted = json.value("greeted", s.greeted);
   for (const KeptCamera& kept : json.value("cameras", s.cameras)) {
     if (is_legal(kept.camera)) keep_camera(s.cameras, kept.scene, kept.camera);
   }

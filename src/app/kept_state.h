@@ -1,29 +1,17 @@
 #pragma once
 // What the window remembers from one time to the next: docs/files.md, "The window's own file".
 #include <array>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/layouts.h"
 #include "app/pacer.h"
 #include "base/result.h"
 #include "io/film_format.h"
 #include "scene/scene.h"
 
 namespace aspic::app {
-
-/// Where things stand in the window.
-struct Layout {
-  static constexpr double side_width = 322.0, narrowest = 240.0, widest = 800.0;
-  static constexpr double smallest_text = 0.75, largest_text = 2.5;
-
-  bool panels = true;                                        ///< visible
-  double left_width = side_width, right_width = side_width;  ///< of the panels at text size 1 [window units]
-  double text_size = 1.0;                                    ///< factor on the display's own scale
-  std::map<std::string, bool> sections;                      ///< open or not, by heading; absent: as at first
-  friend bool operator==(const Layout&, const Layout&) = default;
-};
 
 /// Place of the window on the desktop [screen units].
 struct WindowPlace {
@@ -41,12 +29,13 @@ struct KeptCamera {
 
 struct KeptState {
   std::optional<WindowPlace> window;
-  Layout layout;
+  Layouts layout;
   Pace pace = Pace::real_time;
   double speed = 1.0;
   const FilmFormat* film_format = &film_formats().front();
   double film_fps = 60.0;
   bool film_text = false;
+  bool greeted = false;             ///< what the keys are was said
   std::vector<KeptCamera> cameras;  ///< the one last used at the end
   friend bool operator==(const KeptState&, const KeptState&) = default;
 };

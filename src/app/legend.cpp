@@ -1,8 +1,10 @@
 // What the colours of the picture mean, in window pixels whatever the picture's own.
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "app/panels.h"
 #include "render/colour_map.h"
@@ -10,16 +12,11 @@
 namespace aspic::app {
 namespace {
 
-ImU32 display_colour(const Colour& linear) {
-  std::array<float, 3> c;
-  for (std::size_t i = 0; i < 3; ++i)
-    c[i] = static_cast<float>(linear_to_srgb(static_cast<double>(linear[i])));
-  return ImGui::ColorConvertFloat4ToU32({c[0], c[1], c[2], 1.0f});
-}
-
 /// The scale of colours from its lower to its upper end, with its marks below.
 void scale_bar(const Legend& legend) {
-  static const std::vector<std::byte> texels = colour_map_texels();
+  static ScaleMap kept = legend.map;
+  static std::vector<std::byte> texels = colour_map_texels(kept);
+  if (std::exchange(kept, legend.map) != legend.map) texels = colour_map_texels(legend.map);
   const float line = ImGui::GetTextLineHeight(), height = 0.7f * line;
   float marks = 2.0f * line;
   for (const std::string& mark : legend.marks) marks += ImGui::CalcTextSize(mark.c_str()).x;
@@ -48,14 +45,21 @@ void scale_bar(const Legend& legend) {
 
 }  // namespace
 
-double draw_legend(const Gui& gui, const Legend& legend, const Box& view) {
+ImU32 display_colour(const Colour& linear) {
+  std::array<float, 3> c;
+  for (std::size_t i = 0; i < 3; ++i)
+    c[i] = static_cast<float>(linear_to_srgb(static_cast<double>(linear[i])));
+  return ImGui::ColorConvertFloat4ToU32({c[0], c[1], c[2], 1.0f});
+}
+
+double draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view) {
   if (legend.empty()) return 0.0;
   const auto gap = static_cast<float>(16.0 * gui.scale());
   ImGui::SetNextWindowPos({static_cast<float>(view.right) - gap, static_cast<float>(view.bottom) - gap},
                           ImGuiCond_Always, {1.0f, 1.0f});
   ImGui::SetNextWindowBgAlpha(0.72f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);
-  ImGui::Begin("##legend", nullptr,
+  ImGui::Begin(fmt::format("##{}", name).c_str(), nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
@@ -73,7 +77,7 @@ double draw_legend(const Gui& gui, const Legend& legend, const Box& view) {
   }
   if (legend.entries.empty()) scale_bar(legend);
   ImGui::EndGroup();
-  gui.mark("legend");
+  gui.mark("{}", name);
   const float height = ImGui::GetWindowHeight();
   ImGui::End();
   ImGui::PopStyleVar();

@@ -39,6 +39,7 @@ int show(const ViewOptions& view) {
   if (!kept) print_message(kept.error().message);
   AppOptions options = options_from(view);
   if (kept) options.kept = *kept;
+  if (const LayoutRow* const row = find_layout(view.layout)) options.kept.layout.choose(*row);
   const WindowPlace place = options.kept.window.value_or(WindowPlace{1280, 720, std::nullopt});
   const PictureSize size = view.size.value_or(PictureSize{place.width, place.height});
   auto window = Window::create(size.width, size.height, "Aspic", place.position);
@@ -64,6 +65,7 @@ int show(const ViewOptions& view) {
     // After a pause of the program itself time goes on; it does not catch up.
     const double dt = std::min(std::chrono::duration<double>(now - last).count(), 0.25);
     last = now;
+    if ((*app)->asleep() && !(*app)->doze(dt)) continue;
     if (const Status drawn = (*app)->frame((*window)->size(), dt); !drawn) {
       error = drawn.error();
       if (!(*window)->context().lost()) continue;

@@ -12,13 +12,15 @@ namespace aspic::app {
 struct Notice {
   std::string text;
   bool is_error = false;
-  double age = 0.0;  ///< [s]
+  double left = 0.0;  ///< until it disappears, if it is no error [s]
 };
 
 /// The one message that is shown. One that is not an error disappears after a while.
 class Messages {
  public:
-  void info(const std::string& text) { notice_ = Notice{printable(text), false}; }
+  void info(const std::string& text, double seconds = 5.0) {
+    notice_ = Notice{printable(text), false, seconds};
+  }
   void error(const std::string& text) { notice_ = Notice{printable(text), true}; }
   /// Shows the error of a status or result, if it has one; true without.
   template <class Outcome>
@@ -32,8 +34,7 @@ class Messages {
   }
   /// Once for each picture, `dt` after the last [s].
   void update(double dt) {
-    constexpr double shown = 5.0;  // s
-    if (notice_ && !notice_->is_error && (notice_->age += dt) > shown) notice_.reset();
+    if (notice_ && !notice_->is_error && (notice_->left -= dt) < 0.0) notice_.reset();
   }
   const std::optional<Notice>& notice() const { return notice_; }
 

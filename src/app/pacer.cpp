@@ -29,6 +29,7 @@ void Pacer::restart() {
 }
 
 std::uint64_t Pacer::steps_due(double dt, const SimulationSettings& settings, std::uint64_t step) {
+  if (goal) return *goal > step ? *goal - step : 0;
   constexpr double rate_window = 0.5;  // s
   const double asked =
       pace == Pace::real_time ? speed * dt / settings.timestep : speed * settings.steps_per_frame;
@@ -47,6 +48,7 @@ std::uint64_t Pacer::steps_due(double dt, const SimulationSettings& settings, st
     rate_steps_ = 0;
   }
   const auto steps = static_cast<std::uint64_t>(due_);
+  if (waits) return 0;
   if (!pause_step) return steps;
   return std::min(steps, *pause_step > step ? *pause_step - step : 0);
 }

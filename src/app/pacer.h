@@ -27,6 +27,11 @@ class Pacer {
   /// A step that the run does not pass, however far the pace has come: a film wants its picture first.
   std::optional<std::uint64_t> pause_step;
 
+  /// Others are to catch up first: no step is due.
+  bool waits = false;
+  /// A step to go to as soon as can be, whatever the pace: the run follows another.
+  std::optional<std::uint64_t> goal;
+
   /// The run was started or paused: counts from now on.
   void restart();
   /// The run was put to another state: no step is owed.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/new_body.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "scene/load.h"
@@ -37,6 +38,17 @@ std::vector<Hit> find(const PanelParts& p, std::string_view query) {
     const std::string name(scene.name), help(scene.description);
     if (holds_words(fmt::format("open {} {}", name, help), query))
       hits.push_back({"open " + name, "", help, [&p, name] { p.scene.open(name); }, nullptr, 0});
+  }
+  for (const BodyRow& row : body_rows()) {
+    const std::string name = fmt::format("add a {}", spaced(row.list.key));
+    if (holds_words(name, query))
+      hits.push_back({name, "", "Beside the bodies that there are. Restarts the simulation.",
+                      [&p, &row] { add_body(p.scene, row.list); }, nullptr, 0});
+  }
+  for (const LayoutRow& row : layouts()) {
+    const std::string name = fmt::format("layout {}", row.name), help(row.summary);
+    if (holds_words(fmt::format("{} {}", name, help), query))
+      hits.push_back({name, "", help, [&p, &row] { p.layout.choose(row); }, nullptr, 0});
   }
   const Scene& scene = p.scene.scene();
   for (const Parameter& q : parameters()) {

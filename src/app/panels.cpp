@@ -28,25 +28,27 @@ constexpr ImGuiWindowFlags bar = behind | ImGuiWindowFlags_NoScrollbar;
 struct Heading {
   const char* name;
   void (*section)(const PanelParts&);
-  bool open;  ///< at first
   const char* help;
 };
 using Parts = const PanelParts&;
 constexpr Heading left_sections[] = {
-    {"Scene", [](Parts p) { scene_section(p.gui, p.scene); }, true,
+    {"Scene", [](Parts p) { scene_section(p.gui, p.scene); },
      "Scenes and terrain; opening, saving and reloading."},
-    {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene); }, true,
+    {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene, p.beside); },
      "Motion, integrator, time step, pace and gravity."},
-    {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene); }, false,
+    {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene); },
      "Cubes, nets, balls and launchers of the scene: place, size, mass, pins."},
-    {"Springs", [](Parts p) { springs_section(p.gui, p.scene); }, false,
+    {"Springs", [](Parts p) { springs_section(p.gui, p.scene); },
      "Stiffness and damping by type, or a material."},
-    {"Contact", [](Parts p) { contact_section(p.gui, p.scene); }, false,
+    {"Contact", [](Parts p) { contact_section(p.gui, p.scene); },
      "Contact model, restitution, friction, and the terrain's own values."},
-    {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); }, false,
+    {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); },
      "Balls thrown by hand, and the strength of pulls."}};
 constexpr Heading right_sections[] = {
-    {"View", [](Parts p) { view_section(p.gui, p.scene, p.view.camera, p.picture.shadows, p.layout); }, true,
+    {"View",
+     [](Parts p) {
+       view_section(p.gui, p.scene, p.view.camera, p.picture.range(), p.picture.shadows, p.layout);
+     },
      "What is drawn, its colours, the camera, and the size of text."},
     {"Recording",
      [](Parts p) {
@@ -56,14 +58,15 @@ constexpr Heading right_sections[] = {
        ImGui::Separator();
        state_files(p.gui, p.scene.editor(), p.simulation, p.messages, p.files);
      },
-     false, "Films of the scene; its states, energies and checkpoints as files."},
-    {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); }, true,
+     "Films of the scene; its states, energies and checkpoints as files."},
+    {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); },
      "Speed of simulation and drawing, and the devices used."},
-    {"Energy", [](Parts p) { energy_section(p.gui, p.simulation, p.run); }, true,
-     "Energies and momentum over time."},
-    {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); }, false,
+    {"Energy", [](Parts p) { energy_section(p.gui, p.beside, p.run); }, "Energies and momentum over time."},
+    {"Side by side", [](Parts p) { beside_section(p.gui, p.scene, p.beside); },
+     "Further runs of the scene, each with one difference, on the same clock."},
+    {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); },
      "A second backend on the same run, and how far the two differ."},
-    {"Stability", [](Parts p) { stability_section(p.gui, p.scene); }, false,
+    {"Stability", [](Parts p) { stability_section(p.gui, p.scene); },
      "Which time steps and stiffnesses are stable, and where the scene is among them."}};
 
 ImVec2 at(double x, double y) {
@@ -71,10 +74,14 @@ ImVec2 at(double x, double y) {
 }
 
 void sections(Parts parts, std::span<const Heading> headings) {
+  const LayoutRow& row = parts.layout.row();
   std::map<std::string, bool>& kept = parts.layout.sections;
   for (const Heading& heading : headings) {
+    if (!row.sections.empty() && std::ranges::find(row.sections, heading.name) == row.sections.end())
+      continue;
     const auto known = kept.find(heading.name);
-    const bool was_open = known == kept.end() ? heading.open : known->second;
+    const bool was_open =
+        known == kept.end() ? std::ranges::find(row.open, heading.name) != row.open.end() : known->second;
     ImGui::SetNextItemOpen(was_open);
     const bool open = ImGui::CollapsingHeader(heading.name);
     if (open != was_open) kept[heading.name] = open;
@@ -129,7 +136,10 @@ void status_line(Parts parts, const Box& box) {
   const Recording* const film = parts.film.recording();
   const Panel panel("##status", box, at(12.0 * scale, 6.0 * scale), bar);
   const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
-  const char* const motion = s.divergence() ? "Diverged" : s.running() ? "Running" : "Paused";
+  const bool others = parts.beside.others_go_on();
+  const char* const motion = s.divergence() && !others                           ? "Diverged"
+                             : s.running() || (others && parts.beside.running()) ? "Running"
+                                                                                 : "Paused";
   ImGui::TextColored(s.divergence() ? ImVec4(0.95f, 0.55f, 0.40f, 1.0f) : bright, "%s", motion);
   const bool software = parts.picture.context().info().is_software && s.backend().needs_context;
   std::vector<std::string> facts = {
@@ -207,7 +217,7 @@ void notice_text(std::string_view text, float width) {
 }
 
 /// As wide as its text needs. A film that writes on its pictures has that on the left: then it stands on the
-/// right.
+/// right; and below where runs have their names above.
 void notice_panel(Parts parts, const Box& view) {
   Messages& messages = parts.messages;
   if (!messages.notice()) return;
@@ -215,10 +225,10 @@ void notice_panel(Parts parts, const Box& view) {
   const double scale = parts.gui.scale();
   const double room = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
   if (room < 80.0 * scale) return;
-  const bool right = parts.picture.film && parts.picture.film->text;
-  ImGui::SetNextWindowPos(
-      at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale, view.top + 16.0 * scale),
-      ImGuiCond_Always, {right ? 1.0f : 0.0f, 0.0f});
+  const bool right = parts.picture.film && parts.picture.film->text, named = parts.beside.active();
+  ImGui::SetNextWindowPos(at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale,
+                             named ? view.bottom - 16.0 * scale : view.top + 16.0 * scale),
+                          ImGuiCond_Always, {right ? 1.0f : 0.0f, named ? 1.0f : 0.0f});
   const Panel panel("##notice", 6.0 * scale,
                     notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f),
                     ImGuiWindowFlags_AlwaysAutoResize);
@@ -260,6 +270,22 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
   ImGui::EndGroup();
   ImGui::Separator();
   if (button(gui, "help/close", "Close", "Close this page (F1 or Escape).")) visible = false;
+}
+
+/// The time in large figures, in the upper right corner of the view. Returns how much of its height is taken.
+double clock(const Gui& gui, const Simulation& simulation, const Box& view) {
+  const std::string text = fmt::format("t = {:.2f} s", simulation.time());
+  const auto gap = static_cast<float>(16.0 * gui.scale());
+  ImGui::SetNextWindowPos(at(view.right - 16.0 * gui.scale(), view.top + 16.0 * gui.scale()),
+                          ImGuiCond_Always, {1.0f, 0.0f});
+  const Panel panel("##clock", 0.5 * static_cast<double>(gap), ImVec4(0.08f, 0.082f, 0.09f, 0.72f),
+                    ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoScrollbar |
+                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PushFont(gui.large_font());
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopFont();
+  gui.mark("clock");
+  return static_cast<double>(ImGui::GetWindowSize().y + gap);
 }
 
 /// Asks before changes are lost.
@@ -330,14 +356,15 @@ void drag_edge(Gui& gui, const char* name, double place, double height, double i
 
 }  // namespace
 
-Box draw_panels(const PanelParts& p, double width, double height) {
+void draw_panels(const PanelParts& p, double width, double height) {
   const double scale = p.gui.scale();
-  Layout& layout = p.layout;
+  Layouts& layout = p.layout;
   Box view = {0.0, 0.0, width, height};
   if (layout.panels) {
     const double bottom = height - status_height * scale;
     const double left = std::min(layout.left_width * scale, most_of_width * width);
-    const bool two = width - (layout.left_width + layout.right_width) * scale >= least_view * scale;
+    const bool two = layout.row().sides == 2 &&
+                     width - (layout.left_width + layout.right_width) * scale >= least_view * scale;
     const double right = two ? layout.right_width * scale : 0.0;
     const ImVec2 padding = ImGui::GetStyle().WindowPadding;
     {
@@ -355,15 +382,19 @@ Box draw_panels(const PanelParts& p, double width, double height) {
     drag_edge(p.gui, "layout/left", left, bottom, 1.0, layout.left_width);
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
-  const double legend = draw_legend(p.gui, p.picture.legend(), view);
+  p.beside.place(view);
+  const double legend = draw_corners(p, view);
   notice_panel(p, view);
   help_panel(p.gui, p.help_visible, width, height);
   closing_panel(p.gui, p.closing, width, height);
   p.files.draw(p.gui, width, height);
   p.palette.draw(p, width, height);
   if (const auto& hovered = p.pointer.hovered())
-    particle_readout(p.gui, p.simulation, *hovered, view, legend > 0.0);
-  return view;
+    ball_mark(p.gui, p.simulation.hand(), *hovered, p.view, p.picture.shown());
+  const double taken = layout.clock ? clock(p.gui, p.simulation, view) : 0.0;
+  if (const auto& hovered = p.pointer.hovered(); hovered && layout.row().readout)
+    particle_readout(p.gui, p.simulation, *hovered, {view.left, view.top + taken, view.right, view.bottom},
+                     legend > 0.0);
 }
 
 }  // namespace aspic::app

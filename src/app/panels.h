@@ -1,7 +1,11 @@
 #pragma once
 // The panels around the scene. Widgets of scene values are made from the parameter table.
-#include <cstddef>
+#include <imgui.h>
 
+#include <cstddef>
+#include <optional>
+
+#include "app/beside.h"
 #include "app/file_dialog.h"
 #include "app/film.h"
 #include "app/gui.h"
@@ -33,27 +37,31 @@ struct PanelParts {
   Hands& hands;
   Film& film;
   const Pointer& pointer;
-  Layout& layout;
+  Layouts& layout;
   FileDialog& files;
   Palette& palette;
+  Beside& beside;
   Closing& closing;
   bool& help_visible;
 };
 
-/// Makes all panels of one picture, between Gui::begin and end; sizes in window units. Returns the place they
-/// leave to the scene.
-Box draw_panels(const PanelParts& parts, double width, double height);
+/// Makes all panels of one picture, between Gui::begin and end; sizes in window units. The runs get the place
+/// that they leave.
+void draw_panels(const PanelParts& parts, double width, double height);
 
 // ---- sections of the panels; each a heading with its widgets ----
 void scene_section(Gui& gui, SceneControl& scene);
-void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene);
+void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene, const Beside& beside);
 void bodies_section(Gui& gui, SceneControl& scene);
 /// Size, place and turn of a cube.
 void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube);
 void springs_section(Gui& gui, SceneControl& scene);
 void contact_section(Gui& gui, SceneControl& scene);
 void balls_section(Gui& gui, const Simulation& simulation, Hands& hands);
-void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout);
+/// `shown`: the ends of the scale of colours in the picture.
+void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const QuantityRange& shown,
+                  bool& shadows, Layouts& layout);
+void scale_rows(Gui& gui, SceneControl& scene, const QuantityRange& shown);
 void recording_section(Gui& gui, const std::string& source, Film& film);
 /// How pictures are saved; part of the recording section.
 void picture_files(Gui& gui, SavedLook& look);
@@ -61,7 +69,8 @@ void picture_files(Gui& gui, SavedLook& look);
 void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
                  FileDialog& files);
 void performance_section(Gui& gui, Simulation& simulation, const ScenePicture& picture);
-void energy_section(Gui& gui, const Simulation& simulation, RunControl& run);
+void energy_section(Gui& gui, Beside& beside, RunControl& run);
+void beside_section(Gui& gui, SceneControl& scene, Beside& beside);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void stability_section(Gui& gui, SceneControl& scene);
 
@@ -69,7 +78,16 @@ void stability_section(Gui& gui, SceneControl& scene);
 /// legend in the upper right one.
 void particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& hovered, const Box& view,
                       bool legend);
+/// A ring around the ball under the mouse, and the band by which `hand` pulls it, where the picture is.
+void ball_mark(const Gui& gui, const std::optional<Pull>& hand, const Hovered& hovered, const View& view,
+               const Box& picture);
 /// What the colours mean, in the lower right corner of the view. Returns how much of its height is taken.
-double draw_legend(const Gui& gui, const Legend& legend, const Box& view);
+/// `name` is that of its widget.
+double draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view);
+/// Labels of runs beside each other, what colours and arrows mean, one above the other, and the world's axes
+/// in the upper right corner, where the view asks for them. Returns how much of the height the legends take.
+double draw_corners(const PanelParts& parts, const Box& view);
+/// A colour as ImGui takes it, opaque.
+ImU32 display_colour(const Colour& linear);
 
 }  // namespace aspic::app

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <variant>
 
 namespace aspic::app {
@@ -16,13 +17,14 @@ constexpr float label_share = 0.40f, longest_label = 0.6f;
 constexpr ImGuiSliderFlags as_typed = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
 
 /// How fast a drag changes a number for each window unit: lengths by a centimetre, angles by half a degree,
-/// others by a two-hundredth of what they are.
+/// others by a two-hundredth of what they are, or of their default if that is more: a drag begins at 0 too.
 float drag_speed(double value, const Parameter& p) {
   if (p.unit == "m") return 0.01f;
   if (p.unit == "°" || p.unit == "degrees") return 0.5f;
   const bool bounded = std::isfinite(p.range.max) && p.range.max - p.range.min <= 1000.0;
   const double floor = bounded && p.range.max <= 1.0 ? 1e-5 : 1e-3;
-  return static_cast<float>(std::max(std::abs(value) / 200.0, floor));
+  const double usual = std::abs(std::strtod(default_text(p).c_str(), nullptr));
+  return static_cast<float>(std::max(std::max(std::abs(value), usual) / 200.0, floor));
 }
 
 bool is_dragged(const Parameter& p) {
@@ -34,6 +36,28 @@ std::string format_with_unit(const Parameter& p, double value) {
   const char* const format = std::abs(value) < 1e-3 && value != 0.0 ? "%.4g" : "%.6g";
   return p.unit.empty() ? format : fmt::format("{} {}", format, p.unit);
 }
+
+/// The ground of the slider to come, filled up to its knob at `share` of the way: it shows how far it goes,
+/// which a number that is dragged does not.
+class SliderTrack {
+ public:
+  explicit SliderTrack(double share) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size = {ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
+    const float rounding = ImGui::GetStyle().FrameRounding;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg),
+                       rounding);
+    const float end = size.x * static_cast<float>(std::clamp(share, 0.0, 1.0));
+    draw.AddRectFilled(corner, {corner.x + end, corner.y + size.y},
+                       ImGui::GetColorU32(ImGuiCol_SliderGrab, 0.45f), rounding);
+    for (const ImGuiCol colour : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})
+      ImGui::PushStyleColor(colour, ImVec4(1.0f, 1.0f, 1.0f, colour == ImGuiCol_FrameBg ? 0.0f : 0.05f));
+  }
+  ~SliderTrack() { ImGui::PopStyleColor(3); }
+  SliderTrack(const SliderTrack&) = delete;
+  SliderTrack& operator=(const SliderTrack&) = delete;
+};
 
 /// What a widget of a value needs; the overloads of `widget` return the value if it was changed.
 struct Field {
@@ -51,6 +75,7 @@ std::optional<Value> widget(const Field& f, double value) {
   bool changed = false;
   if (p.range.min == 0.0 && p.range.max == 1.0 && !p.range.min_excluded) {
     const double low = p.range.min, high = p.range.max;
+    const SliderTrack track(value);
     changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, "%.3g", as_typed);
   } else {
     const double low = std::max(p.range.min, -1e12), high = std::min(p.range.max, 1e12);
@@ -78,7 +103,7 @@ std::optional<Value> widget(const Field& f, std::vector<double> value) {
   for (const double x : value) size = std::max(size, std::abs(x));
   const bool changed =
       ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), static_cast<int>(value.size()),
-                         static_cast<float>(size / 200.0), &range.min, &range.max, "%.4g", as_typed);
+                         drag_speed(size, f.parameter), &range.min, &range.max, "%.4g", as_typed);
   // A drag that runs into an open end stops there instead of complaining.
   if (!changed || (range.min_excluded && std::ranges::min(value) <= range.min)) return std::nullopt;
   return Value(value);
@@ -143,6 +168,7 @@ Value first_value(const Parameter& p, const Scene& scene) {
   if (p.path == "terrain[].restitution") return scene.model.contact.restitution;
   if (p.path == "terrain[].friction") return scene.model.contact.friction;
   if (p.path == "terrain[].mass") return 10.0;  // the assignments' sphere and bowl
+  if (p.path == "view.arrow-scale") return 100.0;
   return std::clamp(1e-4, p.range.min, p.range.max);
 }
 
@@ -275,6 +301,8 @@ bool slider(Gui& gui, std::string_view label, std::string_view name, double& val
             const char* format, std::string_view help, bool logarithmic) {
   label_column(label);
   ImGui::PushID(name.data(), name.data() + name.size());
+  const SliderTrack track(logarithmic ? std::log(value / low) / std::log(high / low)
+                                      : (value - low) / (high - low));
   ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format,
                       ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
   const bool done = ImGui::IsItemDeactivated();

@@ -2,8 +2,13 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "model/terrain.h"
 
 namespace aspic::app {
 namespace {
@@ -11,14 +16,43 @@ namespace {
 /// Two presses are one double click if they come this close [s, window units].
 constexpr double double_click_time = 0.400, double_click_reach = 4.0;
 
+/// What a ball touches: terrain by name, other balls and particles by number.
+std::string touched_by(const Model& model, const State& state, std::uint32_t b) {
+  const Ball& ball = model.balls[b];
+  if (!ball.launched(state.step)) return "waits for its launch";
+  const Vec3 x = state.ball_position[b];
+  const double reach = ball.radius + model.contact.epsilon;
+  std::string words;
+  const auto add = [&](const std::string& what) { words += (words.empty() ? "touches " : ", ") + what; };
+  for (const Terrain& t : model.terrain) {
+    if (signed_distance(terrain_at(t, model.simulation.timestep, state.step), x) < reach)
+      add(std::string(name_of(t.shape)));
+  }
+  const auto count = [&](std::ptrdiff_t n, const char* what) {
+    if (n > 0) add(fmt::format("{} {}{}", n, what, n > 1 ? "s" : ""));
+  };
+  std::ptrdiff_t balls = 0;
+  for (std::uint32_t i = 0; i < model.ball_count(); ++i) {
+    if (i != b && model.balls[i].launched(state.step) &&
+        length(state.ball_position[i] - x) < reach + model.balls[i].radius)
+      ++balls;
+  }
+  count(balls, "ball");
+  count(std::ranges::count_if(state.position, [&](const Vec3& p) { return length(p - x) < reach; }),
+        "particle");
+  return words;
+}
+
 }  // namespace
 
 void Pointer::press(int button, int modifiers, bool on_panel) {
-  if (drag_button_ >= 0 || on_panel || !view_.box.contains(x_, y_)) return;
+  if (drag_button_ >= 0 || on_panel || !view_.whole.contains(x_, y_)) return;
   if (modifiers & GLFW_MOD_CONTROL) {
     if (!hovered_) return;
-    if (button == GLFW_MOUSE_BUTTON_LEFT) hands_.begin_pull(hovered_->particle, hovered_->position);
-    if (button == GLFW_MOUSE_BUTTON_RIGHT) hands_.toggle_pin(hovered_->particle);
+    const Hovered& h = *hovered_;
+    if (button == GLFW_MOUSE_BUTTON_LEFT)
+      h.ball ? hands_.begin_ball_pull(h.particle, h.position) : hands_.begin_pull(h.particle, h.position);
+    if (button == GLFW_MOUSE_BUTTON_RIGHT) h.ball ? hands_.refuse_pin() : hands_.toggle_pin(h.particle);
     return;
   }
   if (button == GLFW_MOUSE_BUTTON_LEFT && modifiers == 0) centre_wanted_ = is_double_click();
@@ -43,14 +77,16 @@ void Pointer::move(double x, double y) {
 }
 
 bool Pointer::scroll(double notches, bool on_panel) {
-  if (on_panel || !view_.box.contains(x_, y_)) return false;
-  view_.camera.zoom(notches);
+  if (on_panel || !view_.whole.contains(x_, y_)) return false;
+  const auto [x, y] = aim(on_panel);
+  view_.camera.zoom(notches, (x - 0.5 * view_.width()) / view_.height(),
+                    (y - 0.5 * view_.height()) / view_.height(), view_.seen().fov);
   return true;
 }
 
 std::array<double, 2> Pointer::aim(bool on_panel) const {
-  if (on_panel || !view_.box.contains(x_, y_)) return {0.5 * view_.width(), 0.5 * view_.height()};
-  return {x_ - view_.box.left, y_ - view_.box.top};
+  if (on_panel || !view_.whole.contains(x_, y_)) return {0.5 * view_.width(), 0.5 * view_.height()};
+  return view_.within(x_, y_);
 }
 
 void Pointer::describe(std::uint32_t particle) {
@@ -60,17 +96,37 @@ void Pointer::describe(std::uint32_t particle) {
     incident_.emplace(model);
     incident_model_ = simulation_.model_number();
   }
-  hovered_ = Hovered{particle,
-                     state.position[particle],
-                     state.velocity[particle],
-                     particle_force(model, *incident_, state, particle, simulation_.hand()),
-                     model.mass[particle],
-                     model.inverse_mass[particle] == 0.0};
+  Hovered h;
+  h.particle = particle;
+  h.position = state.position[particle];
+  h.velocity = state.velocity[particle];
+  h.force = particle_force(model, *incident_, state, particle, simulation_.hand());
+  h.mass = model.mass[particle];
+  h.pinned = model.inverse_mass[particle] == 0.0;
+  hovered_ = std::move(h);
+}
+
+void Pointer::describe_ball(std::uint32_t b) {
+  const Model& model = simulation_.model();
+  const State& state = simulation_.snapshot();
+  const Ball& ball = model.balls[b];
+  Hovered h;
+  h.ball = true;
+  h.particle = b;
+  h.position = state.ball_position[b];
+  h.velocity = state.ball_velocity[b];
+  h.angular_velocity = state.ball_angular_velocity[b];
+  h.force = ball_force(model, state, b, simulation_.hand());
+  h.mass = ball.mass;
+  h.radius = ball.radius;
+  h.contact = touched_by(model, state, b);
+  hovered_ = std::move(h);
 }
 
 void Pointer::find_hovered() {
   hovered_.reset();
-  if (simulation_.hand()) return describe(simulation_.hand()->particle);
+  if (const auto& hand = simulation_.hand())
+    return hand->ball ? describe_ball(hand->particle) : describe(hand->particle);
   if (!asked_ || !picture_.is_of_model()) return;
   const PickAnswer answer = picture_.picked();
   if (answer.request < asked_->first) return;
@@ -78,13 +134,15 @@ void Pointer::find_hovered() {
     centre_wanted_ = false;
     if (answer.what) centre_on(*answer.what);
   }
-  if (drag_button_ < 0 && answer.what && answer.what->kind == PickKind::particle)
-    describe(answer.what->index);
+  if (drag_button_ >= 0 || !answer.what) return;
+  if (answer.what->kind == PickKind::particle) describe(answer.what->index);
+  if (answer.what->kind == PickKind::ball && answer.what->index < simulation_.model().ball_count())
+    describe_ball(answer.what->index);
 }
 
 Status Pointer::mark_and_ask(bool on_panel) {
   if (!picture_.is_of_model()) return {};
-  if (hovered_) {
+  if (hovered_ && !hovered_->ball) {
     ASPIC_CHECK(picture_.mark(hovered_->particle));
   }
   const bool free = drag_button_ < 0 || centre_wanted_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "analysis/particle_force.h"
 #include "app/hands.h"
@@ -14,13 +15,17 @@
 
 namespace aspic::app {
 
-/// The particle under the mouse, or the one that is pulled.
+/// The particle or ball under the mouse, or the one that is pulled.
 struct Hovered {
-  std::uint32_t particle = 0;
-  Vec3 position, velocity;  ///< [m], [m/s] at the snapshot's step
-  ParticleForce force;      ///< [N] then
-  double mass = 0.0;        ///< [kg]
+  std::uint32_t particle = 0;  ///< of a ball its index among the model's
+  Vec3 position, velocity;     ///< [m], [m/s] at the snapshot's step
+  ParticleForce force;         ///< [N] then
+  double mass = 0.0;           ///< [kg]
   bool pinned = false;
+  bool ball = false;
+  double radius = 0.0;    ///< of a ball [m]
+  Vec3 angular_velocity;  ///< of a ball [rad/s]
+  std::string contact;    ///< what a ball touches, in words; empty: nothing
 };
 
 /// `on_panel`: a panel is under the mouse and takes the event.
@@ -62,6 +67,7 @@ class Pointer {
   };
   bool is_double_click();
   void describe(std::uint32_t particle);
+  void describe_ball(std::uint32_t ball);
   void centre_on(const Picked& picked);
 
   const Simulation& simulation_;

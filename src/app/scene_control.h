@@ -4,6 +4,8 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/messages.h"
 #include "app/scene_editor.h"
@@ -38,6 +40,11 @@ class SceneControl {
   void apply(Scene scene, const std::string& name, const std::string& gesture = "");
   void change(const std::string& name, const std::function<void(Scene&)>& make,
               const std::string& gesture = "");
+  /// Which runs go beside the scene's own: see SceneEditor.
+  void set_beside(std::vector<Variation> beside, const std::string& name) {
+    editor_.set_beside(std::move(beside), name);
+    unchanged_for_ = 0.0;
+  }
   /// The next change is another entry for undo.
   void end_gesture() { editor_.end_gesture(); }
   /// Goes back or forth in time with the simulation: the physics of the scene is part of the run. A change

@@ -100,6 +100,18 @@ Result<Effect> SceneEditor::apply(Scene changed, const std::string& name, const 
       message += (message.empty() ? "" : "\n") + complaint.message;
     return Error{ErrorCode::scene_rejected, message};
   }
+  begin_entry(name, gesture);
+  scene_ = std::move(changed);
+  return effect;
+}
+
+void SceneEditor::set_beside(std::vector<Variation> beside, const std::string& name) {
+  begin_entry(name, "");
+  beside_ = std::move(beside);
+}
+
+/// What is there now is what undo() comes back to, unless the gesture goes on.
+void SceneEditor::begin_entry(const std::string& name, const std::string& gesture) {
   if (gesture.empty() || gesture != gesture_ || undo_.empty()) {
     constexpr auto never = std::numeric_limits<std::size_t>::max();
     if (saved_ > undo_.size()) saved_ = never;
@@ -107,20 +119,19 @@ Result<Effect> SceneEditor::apply(Scene changed, const std::string& name, const 
       undo_.erase(undo_.begin());
       saved_ = saved_ == 0 ? never : saved_ - (saved_ == never ? 0 : 1);
     }
-    undo_.push_back({std::move(scene_), name});
+    undo_.push_back({scene_, beside_, name});
   }
   gesture_ = gesture;
   redo_.clear();
-  scene_ = std::move(changed);
-  return effect;
 }
 
 Effect SceneEditor::swap_with(std::vector<Entry>& from, std::vector<Entry>& to) {
   Entry entry = std::move(from.back());
   from.pop_back();
   const Effect effect = effect_between(scene_, entry.scene);
-  to.push_back({std::move(scene_), entry.name});
+  to.push_back({std::move(scene_), std::move(beside_), entry.name});
   scene_ = std::move(entry.scene);
+  beside_ = std::move(entry.beside);
   gesture_.clear();
   return effect;
 }

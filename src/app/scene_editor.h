@@ -8,6 +8,7 @@
 #include "base/result.h"
 #include "io/atomic_file.h"
 #include "model/state.h"
+#include "run/variation.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 
@@ -51,6 +52,10 @@ class SceneEditor {
                      const std::string& gesture);
   /// Replaces the scene, under a name for undo. Errors as set.
   Result<Effect> apply(Scene scene, const std::string& name, const std::string& gesture);
+  /// In what runs beside the scene's own differ from it; no part of the scene's file.
+  const std::vector<Variation>& beside() const { return beside_; }
+  /// Replaces that, under a name for undo.
+  void set_beside(std::vector<Variation> beside, const std::string& name);
   /// The next change begins a new entry, whatever its gesture.
   void end_gesture() { gesture_.clear(); }
 
@@ -75,11 +80,14 @@ class SceneEditor {
  private:
   struct Entry {
     Scene scene;
+    std::vector<Variation> beside;
     std::string name;
   };
+  void begin_entry(const std::string& name, const std::string& gesture);
   Effect swap_with(std::vector<Entry>& from, std::vector<Entry>& to);
 
   Scene scene_;
+  std::vector<Variation> beside_;
   std::string source_, gesture_;
   std::vector<std::string> overrides_;
   std::optional<State> state_;

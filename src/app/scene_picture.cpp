@@ -11,6 +11,7 @@
 #include "io/film_format.h"
 #include "render/colour_map.h"
 #include "render/overlay_text.h"
+#include "run/arrows.h"
 #include "run/backends.h"
 
 namespace aspic::app {
@@ -18,6 +19,9 @@ namespace {
 
 /// Particles from which on a first picture may take too long.
 constexpr std::uint32_t many_particles = 8000;
+
+/// Seen through a ghost's bodies, which take its brightness on.
+constexpr Colour behind_ghost = {0.55f, 0.60f, 0.66f};
 
 int rounded(double length) {
   return static_cast<int>(std::lround(length));
@@ -42,18 +46,20 @@ void ScenePicture::detach() {
 
 ScenePicture::Pixels ScenePicture::view_pixels(int window_height) const {
   const double ratio = view_.pixels_per_unit;
+  const Box& box = place_ ? *place_ : view_.box;
   Pixels p;
-  p.left = rounded(view_.box.left * ratio);
-  p.bottom = window_height - rounded(view_.box.bottom * ratio);
-  p.width = std::max(rounded(view_.box.right * ratio) - p.left, 1);
-  p.height = std::max(rounded((view_.box.bottom - view_.box.top) * ratio), 1);
+  p.left = rounded(box.left * ratio);
+  p.bottom = window_height - rounded(box.bottom * ratio);
+  p.width = std::max(rounded(box.right * ratio) - p.left, 1);
+  p.height = std::max(rounded((box.bottom - box.top) * ratio), 1);
   return p;
 }
 
 ScenePicture::Content ScenePicture::wanted(bool fine) const {
   Content c;
   c.model = simulation_.model_number();
-  c.state = simulation_.picture_number();
+  c.state = kept() ? 0 : simulation_.picture_number();
+  c.kept = kept() ? kept_number_ : 0;
   c.view = scene_.view;
   c.view.camera = view_.seen();
   c.shadows = shadows;
@@ -64,7 +70,8 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
   c.size =
       film ? film->size
            : PictureSize{std::max(rounded(scale * full.width), 1), std::max(rounded(scale * full.height), 1)};
-  if (const auto& hand = simulation_.hand()) c.marks.pull = {hand->particle, hand->anchor};
+  if (const auto& hand = simulation_.hand(); hand && !hand->ball)
+    c.marks.pull = {hand->particle, hand->anchor};
   for (const auto& [particle, pinned] : simulation_.setup().pinned)
     if (pinned) c.marks.marked.push_back(particle);
   c.marks.unit = view_.text_scale * c.size.width / view_.width();
@@ -74,7 +81,7 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
 Status ScenePicture::draw() {
   const Content content = wanted(at_rest_);
   if (drawn_ == content || (drawn_ && drawn_->fine && drawn_ == wanted(true))) return {};
-  return draw(content, film && film->text);
+  return draw(content, film && film->text, ghost ? std::optional(behind_ghost) : std::nullopt);
 }
 
 Status ScenePicture::draw(const Content& content, bool legend, const std::optional<Colour>& background) {
@@ -88,6 +95,13 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
   options.view = content.view;
   if (film && film->text) options.text = overlay_lines(scene_.model, simulation_.time());
   options.shadows = shadows;
+  options.axes = legend || film;
+  // Of the very state that is drawn.
+  if (options.view.arrows.any() && !kept() && simulation_.device_state())
+    ASPIC_CHECK(simulation_.refresh_snapshot());
+  const State& shown_state = kept() ? *kept() : simulation_.snapshot();
+  if (!ghost) arrows_ = arrows_of(simulation_.model(), shown_state, options.view.arrows, simulation_.hand());
+  options.arrows = arrows_;
   options.highlight = content.marks;
   options.coarse_skin = adapts && share < 1.0;
   if (new_model) {
@@ -97,13 +111,12 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
       resolution_.reset(model.particle_count() > many_particles);
     drawn_particles_ = model.particle_count();
   }
-  std::optional<DeviceState> state = simulation_.device_state();
+  std::optional<DeviceState> state = kept() ? std::nullopt : simulation_.device_state();
   if (!state) {
-    ASPIC_TRY(state, renderer_->upload(simulation_.snapshot()));
+    ASPIC_TRY(state, renderer_->upload(kept() ? *kept() : simulation_.snapshot()));
   }
   Status drawn = renderer_->draw(content.size.width, content.size.height, *state, options);
-  if (!drawn && drawn.error().code == ErrorCode::scene_rejected &&
-      options.view.colour >= ViewColour::strain) {
+  if (!drawn && drawn.error().code == ErrorCode::scene_rejected && has_scale(options.view.colour)) {
     // What a colour needs of the device may be more than it has: the scene goes on without.
     refusal_ = "This colour cannot be shown: " + drawn.error().message;
     options.view.colour = ViewColour::material;
@@ -121,16 +134,37 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
   return {};
 }
 
+void ScenePicture::keep(const State& state) {
+  kept_ = state;
+  ++kept_number_;
+}
+
+const State* ScenePicture::kept() const {
+  const Model& model = simulation_.model();
+  const bool fits = kept_ && kept_->position.size() == model.particle_count() &&
+                    kept_->ball_position.size() == model.ball_count();
+  return fits ? &*kept_ : nullptr;
+}
+
+Status ScenePicture::show(const WindowSize& window, const Box& place) {
+  place_ = place;
+  return present(window);
+}
+
 Status ScenePicture::show(const WindowSize& window) {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, window.pixel_width, window.pixel_height);
+  glClearColor(0.105f, 0.107f, 0.112f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+  return present(window);
+}
+
+Status ScenePicture::present(const WindowSize& window) {
   const Pixels view = view_pixels(window.pixel_height);
   // Nothing but the picture may be used of the renderer while it is postponed: its model is gone.
   if (!std::exchange(postponed_, false) || !drawn_ || film) {
     ASPIC_CHECK(draw());
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, window.pixel_width, window.pixel_height);
-  glClearColor(0.105f, 0.107f, 0.112f, 1.0f);
-  glClear(GL_COLOR_BUFFER_BIT);
   Pixels& p = shown_pixels_ = view;
   if (film) {
     // A film of another shape than the view is shown complete, between margins.
@@ -142,7 +176,10 @@ Status ScenePicture::show(const WindowSize& window) {
     p.left += (view.width - p.width) / 2;
     p.bottom += (view.height - p.height) / 2;
   }
-  renderer_->present(0, p.width, p.height, p.left, p.bottom);
+  if (ghost)
+    renderer_->present_ghost(behind_ghost, 0, p.width, p.height, p.left, p.bottom);
+  else
+    renderer_->present(0, p.width, p.height, p.left, p.bottom);
   const double ratio = view_.pixels_per_unit;
   shown_ = {p.left / ratio, (window.pixel_height - p.bottom - p.height) / ratio, (p.left + p.width) / ratio,
             (window.pixel_height - p.bottom) / ratio};
@@ -173,20 +210,33 @@ void ScenePicture::count(double dt) {
   rate_pictures_ = 0;
 }
 
+Legend ScenePicture::arrow_legend() const {
+  if (film && film->text) return {};
+  return aspic::arrow_legend(scene_.view, arrows_);
+}
+
+QuantityRange ScenePicture::range() const {
+  const bool drawn =
+      is_of_model() && drawn_->view.colour == scene_.view.colour && drawn_->view.scale == scene_.view.scale;
+  if (drawn) return renderer_->range();
+  return range_for(simulation_.model(), scene_.view, {});
+}
+
 Legend ScenePicture::legend() const {
   if (film && film->text) return {};
-  return legend_for(scene_.view, default_range(simulation_.model(), scene_.view.colour));
+  return legend_for(scene_.view, range());
 }
 
 namespace {
 
 /// RGB, rows from the top.
-std::vector<std::byte> pixels_of(std::uint32_t framebuffer, const PictureSize& size) {
+std::vector<std::byte> pixels_of(std::uint32_t framebuffer, const PictureSize& size, int left = 0,
+                                 int bottom = 0) {
   const auto row = 3 * static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
   std::vector<std::byte> below(row * height), rgb(below.size());
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, below.data());
+  glReadPixels(left, bottom, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, below.data());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
   for (std::size_t i = 0; i < height; ++i)
@@ -246,12 +296,15 @@ Status ScenePicture::save(const std::string& path) {
   else if (written = draw(content, true); written)
     written = save_pixels(renderer_->picture().id(), content.size, path);
   // The window's own has no legend, its own size and what is around the bodies.
-  if (content.size != own.size || saved.clear || !legend().empty()) ASPIC_CHECK(draw(own, false));
+  if (content.size != own.size || saved.clear || !legend().empty() || !arrow_legend().empty() ||
+      scene_.view.axes)
+    ASPIC_CHECK(draw(own, false));
   return written;
 }
 
-Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path) {
-  return write_picture(path, encode_png(size, pixels_of(framebuffer, size)));
+Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path, int left,
+                   int bottom) {
+  return write_picture(path, encode_png(size, pixels_of(framebuffer, size, left, bottom)));
 }
 
 }  // namespace aspic::app

@@ -33,13 +33,14 @@ struct SavedLook {
 class ScenePicture {
  public:
   /// The references must outlive it. `in_full_quality`: a software rasteriser draws as hardware does.
-  ScenePicture(const Simulation& simulation, const Scene& scene, const View& view, bool in_full_quality)
+  ScenePicture(Simulation& simulation, const Scene& scene, const View& view, bool in_full_quality)
       : full_quality(in_full_quality), simulation_(simulation), scene_(scene), view_(view) {}
 
   bool full_quality;
   bool shadows = true;           ///< on terrain
   std::optional<FilmLook> film;  ///< while a film is made
   SavedLook saved;               ///< of the next save()
+  bool ghost = false;            ///< its bodies alone, pale and translucent over what the window shows
 
   /// Everything of OpenGL, in a context that must outlive it or be detached. Errors: of Renderer::create.
   Status attach(gl::Context& context);
@@ -55,6 +56,12 @@ class ScenePicture {
   /// Draws it and puts it into the window; after postpone() the last one once more, so that events come
   /// first.
   Status show(const WindowSize& window);
+  /// The same for the picture of another run at a place of its own in the window, which keeps what else is
+  /// there.
+  Status show(const WindowSize& window, const Box& place);
+  /// From now on this state is shown, whatever becomes of the simulation, until the next one or release().
+  void keep(const State& state);
+  void release() { kept_.reset(); }
   void postpone() { postponed_ = true; }
   /// Why the last picture does not have the colour that was asked for, once.
   std::optional<std::string> take_refusal() { return std::exchange(refusal_, std::nullopt); }
@@ -78,8 +85,12 @@ class ScenePicture {
   /// The picture's share of the full resolution, 0 … 1: below 1 where a software rasteriser would be too
   /// slow.
   double resolution() const { return in_full() ? 1.0 : resolution_.share(); }
+  /// The ends of the scale of its colours.
+  QuantityRange range() const;
   /// What the colours of the picture mean; empty where they mean nothing, or the picture says so itself.
   Legend legend() const;
+  /// The same of its arrows.
+  Legend arrow_legend() const;
   /// How long the last picture took [s].
   double draw_seconds() const { return draw_seconds_; }
   /// Once for each picture of the window, `dt` after the last [s].
@@ -89,7 +100,7 @@ class ScenePicture {
  private:
   /// What the last picture shows, and how.
   struct Content {
-    std::uint64_t model = 0, state = 0;
+    std::uint64_t model = 0, state = 0, kept = 0;
     ViewSettings view;
     HighlightOptions marks;
     bool shadows = true, fine = true;
@@ -102,17 +113,24 @@ class ScenePicture {
   };
   bool in_full() const { return full_quality || !context_->info().is_software; }
   Pixels view_pixels(int window_height) const;
+  Status present(const WindowSize& window);
+  /// What is kept, if it is one of the simulation's model.
+  const State* kept() const;
   Content wanted(bool fine) const;
   Status draw(const Content& content, bool legend, const std::optional<Colour>& background = {});
   Status save_clear(const Content& content, const std::string& path);
 
-  const Simulation& simulation_;
+  Simulation& simulation_;
   const Scene& scene_;
   const View& view_;
   std::optional<std::string> refusal_;
+  std::optional<Box> place_;   // absent: the view's
+  std::optional<State> kept_;  // that is shown; absent: the simulation's
+  std::uint64_t kept_number_ = 0;
   gl::Context* context_ = nullptr;
   std::unique_ptr<Renderer> renderer_;
   std::optional<Content> drawn_;
+  ArrowSet arrows_;  // of the last picture
   bool at_rest_ = false, postponed_ = false;
   std::uint64_t number_ = 0;
   Box shown_;
@@ -123,7 +141,9 @@ class ScenePicture {
   int rate_pictures_ = 0;
 };
 
-/// Saves the pixels of a framebuffer (0: the window's) as a new PNG file. Error (io).
-Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path);
+/// Saves the pixels of a framebuffer (0: the window's), from (left, bottom) on, as a new PNG file. Error
+/// (io).
+Status save_pixels(std::uint32_t framebuffer, const PictureSize& size, const std::string& path, int left = 0,
+                   int bottom = 0);
 
 }  // namespace aspic::app

@@ -90,11 +90,12 @@ void scene_section(Gui& gui, SceneControl& scene) {
   scene_buttons(gui, scene.editor());
 }
 
-void simulation_section(Gui& gui, Simulation& s, SceneControl& scene) {
+void simulation_section(Gui& gui, Simulation& s, SceneControl& scene, const Beside& beside) {
   const float third = share_of_line(3), half = share_of_line(2);
   const bool diverged = s.divergence().has_value();
-  command_button(gui, "simulation/run", s.running() ? "Pause" : "Start", "Starts or pauses the motion.",
-                 "start or pause", !diverged, third);
+  const bool runs = s.running() || beside.running();
+  command_button(gui, "simulation/run", runs ? "Pause" : "Start", "Starts or pauses the motion.",
+                 "start or pause", !diverged || beside.others_go_on(), third);
   ImGui::SameLine();
   command_button(gui, "simulation/step", "Step", "Takes one time step; pauses first.", "single step",
                  !diverged, third);
@@ -154,8 +155,8 @@ void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
   slider(gui, "Speed", "balls/speed", hands.speed, 0.5, 200.0, "%.3g m/s",
          "Speed of the next ball to be thrown [m/s], 0.5 to 200.");
   slider(gui, "Pull", "balls/strength", hands.strength, 0.01, 100.0, "×%.3g",
-         "How hard Ctrl+drag pulls a particle: a factor on twice the stiffness of the stiffest spring, "
-         "0.01 to 100, limited by the time step.");
+         "How hard Ctrl+drag pulls, 0.01 to 100: a factor on twice the stiffness of the stiffest spring for "
+         "particles, on 200 N/m for each kilogram for balls; limited by the time step.");
   ImGui::TextDisabled("%zu of the scene, %zu thrown",
                       static_cast<std::size_t>(simulation.model().ball_count()) - thrown, thrown);
 }

@@ -36,7 +36,9 @@ Status Simulation::install(Setup setup, Result<Engines> engines) {
   engines_ = std::move(*engines);
   if (engines_.departure) message_ = engines_.departure;
   setup_ = std::move(setup);
-  batch_ = 1;
+  if (hand_ && hand_->particle >= (hand_->ball ? model().ball_count() : model().particle_count()))
+    hand_.reset();  // what it held is no more
+  batch_ = sample_stride_ = 1;
   ++model_number_;
   return {};
 }
@@ -144,6 +146,7 @@ Status Simulation::reset() {
     const Setup setup = {setup_.settings, {}, {}};
     ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
   }
+  ++run_number_;
   history_.clear();
   samples_.clear();
   pacer_.restart();
@@ -157,6 +160,7 @@ Status Simulation::reset() {
 
 Status Simulation::start_from(const State& state) {
   ASPIC_CHECK(halt(true));
+  ++run_number_;
   history_.clear();
   samples_.clear();
   pacer_.restart();

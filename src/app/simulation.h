@@ -59,6 +59,13 @@ class Simulation {
   /// start again.
   Status start_from(const State& state);
   const Setup& setup() const { return setup_; }
+  /// Changes whenever the run began anew, by reset() or start_from().
+  std::uint64_t run_number() const { return run_number_; }
+  /// Runs another setup from now on, as change() does; hands that are no part of it are undone.
+  Status adopt(Setup setup, bool keep_state) {
+    requested_.reset();
+    return change_setup(std::move(setup), keep_state);
+  }
   /// Before the context goes: what needs it goes on on the reference, from the last copy; take_message()
   /// tells `why`.
   Status leave_context(const Error& why) { return engines_.use_context() ? fall_back(why) : Status(); }
@@ -100,6 +107,9 @@ class Simulation {
   /// simulated from there on makes the history end there.
   Status seek(const Moment& moment);
   bool seeking() const { return seek_.has_value(); }
+  /// Takes over the history of another run, which is not empty, and goes to its beginning. Errors: those of
+  /// change().
+  Status replay(History history);
   /// One step back; does nothing at the beginning.
   Status step_back();
   /// Where to start again after a divergence: well before the present state.
@@ -174,6 +184,7 @@ class Simulation {
   Status start_steps(std::uint64_t to, double budget);
   void start_job(std::uint64_t to, double budget, bool alone, std::optional<Pull> pull);
   void start_measuring();
+  Status sample_here();
   Status collect();
   Status take(Outcome outcome);
   Status follow(Outcome outcome);
@@ -189,11 +200,15 @@ class Simulation {
   Engines engines_;
   Pacer pacer_;
   Samples samples_;
-  std::uint64_t model_number_ = 0, picture_number_ = 0, step_ = 0;
+  std::uint64_t model_number_ = 0, run_number_ = 0, picture_number_ = 0, step_ = 0;
   State snapshot_;
   Clock::time_point snapshot_time_ = {};
   bool running_ = false;
   std::uint64_t batch_ = 1;  // steps between two looks at the clock, of a backend in the context
+  /// Of a backend in the context: energies are those of steps that are multiples of sample_interval() times
+  /// this, a power of two that keeps the time for reading states back low.
+  std::uint64_t sample_stride_ = 1;
+  double read_seconds_ = 0.0;  // for the last energies
   std::optional<Divergence> divergence_;
   std::optional<std::string> message_;
 

@@ -12,7 +12,7 @@ namespace {
 
 /// Keyframes are this far apart in running time, farther where memory would not hold the last half minute.
 constexpr double keyframe_interval = 0.1, history_seconds = 30.0;  // s
-constexpr auto sample_every = std::chrono::milliseconds(100);
+constexpr auto copy_every = std::chrono::milliseconds(100);
 /// The window does not wait for a job, so it may take longer than a picture [s].
 constexpr double shortest_job = 0.030, longest_job = 0.1;
 
@@ -157,9 +157,11 @@ Status Simulation::start_steps(std::uint64_t to, double budget) {
 /// Steps of the leader, in the context, in batches.
 Status Simulation::advance_here(std::uint64_t steps, double budget) {
   const auto start = Clock::now();
+  const std::uint64_t interval = sample_interval(model().simulation.timestep);
   std::uint64_t done = 0;
   while (done < steps && !divergence_) {
-    const std::uint64_t count = std::min(batch_, steps - done);
+    const std::uint64_t apart = seek_ ? steps : interval * sample_stride_;
+    const std::uint64_t count = std::min({batch_, steps - done, apart - step_ % apart});
     const auto before = Clock::now();
     ASPIC_TRY(const auto advanced, engines_.leader().solver->advance(count));
     reach(advanced ? advanced->step - 1 : step_ + count, advanced);
@@ -169,13 +171,29 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
     if (count == batch_ && took < 0.125 * std::min(budget, shortest_job))
       batch_ = std::min<std::uint64_t>(2 * batch_, 256);
     if (took > 0.5 * budget) batch_ = std::max<std::uint64_t>(batch_ / 2, 1);
+    if (!seek_ && !divergence_ && step_ % apart == 0) ASPIC_CHECK(sample_here());
     if (seconds_since(start) > 0.75 * budget) break;
   }
-  if (seek_ || (!divergence_ && Clock::now() - last_sampled_ <= sample_every)) return {};
+  if (seek_ || (!divergence_ && Clock::now() - snapshot_time_ <= copy_every)) return {};
   ASPIC_CHECK(refresh_snapshot());
-  if (!idle()) return {};
+  remember(snapshot_, {});
+  return {};
+}
+
+/// The energies of a backend in the context, at the same steps in every run: as many as take a quarter of the
+/// time at most. Where they take more, every second one is left out from now on.
+Status Simulation::sample_here() {
+  const double since_last = seconds_since(last_sampled_);
+  if (worker_.jobs() > 3 || read_seconds_ > 0.25 * since_last)
+    sample_stride_ *= 2;
+  else if (sample_stride_ > 1 && read_seconds_ < 0.05 * since_last)
+    sample_stride_ /= 2;
+  if (worker_.jobs() > 3) return {};
   last_sampled_ = Clock::now();
+  ASPIC_CHECK(refresh_snapshot());
+  remember(snapshot_, {});
   start_measuring();
+  read_seconds_ = seconds_since(last_sampled_);
   return {};
 }
 
@@ -232,7 +250,12 @@ Status Simulation::take(Outcome outcome) {
     take_snapshot(std::move(outcome.leader.state));
     note(outcome.steps, outcome.leader.divergence);
   }
-  if (!seek_) remember(in_context || !stepped ? paced : snapshot_, outcome.energies);
+  if (seek_) return {};
+  // States of a backend in the context were kept when they were read: these are older.
+  if (in_context && !engines_.shadow_paces())
+    for (const EnergySample& sample : outcome.energies) samples_.add(sample);
+  else
+    remember(in_context || !stepped ? paced : snapshot_, outcome.energies);
   return {};
 }
 
@@ -276,7 +299,8 @@ bool Simulation::working() const {
 }
 
 Status Simulation::refresh_snapshot() {
-  if (!Engines::in_context(engines_.leader()) && worker_.busy()) return {};
+  // The solver may be further than what was taken up of it.
+  if (!Engines::in_context(engines_.leader()) && !idle()) return {};
   auto state = engines_.leader().solver->state();
   if (!state) return fall_back(state.error());
   take_snapshot(std::move(*state));
@@ -311,6 +335,17 @@ Status Simulation::seek(const Moment& moment) {
   divergence_.reset();
   seek_ = moment.step;
   return {};
+}
+
+Status Simulation::replay(History history) {
+  ASPIC_CHECK(halt(true));
+  const Moment first = history.begin_moment();
+  const Setup setup = history.stretch(first.stretch).setup;
+  ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
+  history_ = std::move(history);
+  samples_.clear();
+  stretch_ = first.stretch;
+  return load(unpack(history_.keyframe(first)));
 }
 
 Status Simulation::seek_on(double budget) {

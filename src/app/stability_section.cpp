@@ -144,6 +144,7 @@ void stability_section(Gui& gui, SceneControl& scenes) {
     ImGui::SameLine();
     ImGui::TextDisabled("   measuring…");
     gui.mark("stability/measuring");
+    gui.keep_awake();
     tooltip("Cells are run one after another by a thread of their own; grey ones are still to come.");
   }
   const ImVec2 corner = ImGui::GetCursorScreenPos();

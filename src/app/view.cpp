@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "scene/load.h"
@@ -13,20 +12,14 @@
 
 namespace aspic::app {
 
-namespace {
-
-/// Width/height below which a view shows more above and below, so that its sides are not cut.
-constexpr double narrow = 4.0 / 3.0;
-
-}  // namespace
-
 CameraSettings View::seen() const {
-  CameraSettings settings = camera.shown();
-  const double more = narrow * height() / width();
-  constexpr double degree = std::numbers::pi / 180.0;
-  if (more > 1.0)
-    settings.fov = std::min(2.0 * std::atan(more * std::tan(0.5 * degree * settings.fov)) / degree, 179.0);
-  return settings;
+  return fitted(camera.shown(), width(), height());
+}
+
+std::array<double, 2> View::within(double x, double y) const {
+  const auto other = std::ranges::find_if(others, [&](const Box& b) { return b.contains(x, y); });
+  const Box& picture = other == others.end() ? box : *other;
+  return {x - picture.left, y - picture.top};
 }
 
 bool View::sees_bodies(const State& state) const {
@@ -56,7 +49,7 @@ void View::frame_bodies(const Model& model, const State& state) {
   for (const Vec3& x : state.position) include(x, 0.0);
   for (std::size_t i = 0; i < state.ball_position.size(); ++i)
     include(state.ball_position[i], model.balls[i].radius);
-  camera.frame(0.5 * (low + high), 0.5 * length(high - low), std::max(width() / height(), narrow));
+  camera.frame(0.5 * (low + high), 0.5 * length(high - low), std::max(width() / height(), narrowest));
 }
 
 std::vector<KeptCamera> View::kept_with(const std::string& source) const {
@@ -74,8 +67,9 @@ void View::recall_camera(const std::string& source) {
 
 void copy_camera(const View& view, const WindowServices& services, Messages& messages) {
   const CameraSettings c = view.camera.goal();
-  const std::string text = fmt::format("camera = {{ position = {}, target = {}, fov = {} }}",
-                                       toml_value(c.position), toml_value(c.target), toml_value(c.fov));
+  const std::string text =
+      fmt::format("camera = {{ position = {}, target = {}, fov = {}, projection = \"{}\" }}",
+                  toml_value(c.position), toml_value(c.target), toml_value(c.fov), name_of(c.projection));
   if (services.set_clipboard) services.set_clipboard(text);
   messages.info("The camera is on the clipboard, as a line for [view] of a scene file.");
 }

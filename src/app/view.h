@@ -1,6 +1,7 @@
 #pragma once
 // Where the scene is seen from, and where in the window.
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct View {
 
   CameraControl camera;
   Box box;                       ///< where the scene is drawn [window units]
+  Box whole;                     ///< the same with all runs that are side by side
+  std::vector<Box> others;       ///< of the runs beside it, each as large as `box`
   double pixels_per_unit = 1.0;  ///< of the framebuffer
   double text_scale = 1.0;       ///< of the panels, see Gui::scale()
   std::vector<KeptCamera> kept;  ///< of scenes seen before
@@ -28,6 +31,9 @@ struct View {
 
   double width() const { return std::max(box.right - box.left, 1.0); }
   double height() const { return std::max(box.bottom - box.top, 1.0); }
+  /// A place in the window as one in `box`, from its left and top, where another run's picture has the same
+  /// place.
+  std::array<double, 2> within(double x, double y) const;
   /// The camera that is shown. A narrow view shows as much from side to side as one of 4 : 3.
   CameraSettings seen() const;
   /// Whether any particle or ball of a state is in the picture.

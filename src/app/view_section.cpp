@@ -1,5 +1,9 @@
 // The section of the picture: what is drawn, from where, and how large the words are.
+#include <fmt/format.h>
 #include <imgui.h>
+
+#include <string>
+#include <vector>
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
@@ -55,37 +59,93 @@ void camera_buttons(Gui& gui, CameraControl& camera) {
                  half);
 }
 
+struct CutPreset {
+  const char *name, *label, *help;
+  Vec3 normal;
+};
+const CutPreset cut_presets[] = {
+    {"cut/x", "X", "Cuts across the x axis: the side of larger x is taken away.", {1, 0, 0}},
+    {"cut/y", "Y", "Cuts across the y axis: the upper side is taken away.", {0, 1, 0}},
+    {"cut/z", "Z", "Cuts across the z axis: the side of larger z is taken away.", {0, 0, 1}},
+};
+
+void cut_widgets(Gui& gui, SceneControl& scene, const CameraSettings& camera) {
+  edit(gui, scene, "view.cut.inside", 0, {"Cut"});
+  if (!scene.scene().view.cut.on()) return;
+  const auto turn = [&](const Vec3& normal) {
+    scene.change("view.cut.normal", [&](Scene& changed) { changed.view.cut.normal = normal; });
+  };
+  const float quarter = share_of_line(4);
+  for (const CutPreset& p : cut_presets) {
+    if (button(gui, p.name, p.label, p.help, true, quarter)) turn(p.normal);
+    ImGui::SameLine();
+  }
+  if (button(gui, "cut/to-the-eye", "Eye", "Cuts across the view: what is nearer to the eye is taken away.",
+             true, quarter))
+    turn((1.0 / length(camera.position - camera.target)) * (camera.position - camera.target));
+  edit(gui, scene, "view.cut.normal", 0, {"Normal"});
+  edit(gui, scene, "view.cut.offset", 0, {"Offset"});
+}
+
 /// Applied when the mouse lets go: the slider would run away from under it.
 void text_size(Gui& gui, Layout& layout) {
+  static double dragged = 1.0;
+  static bool held = false;
+  if (!held) dragged = layout.text_size;
   if (slider(
-          gui, "Text size", "layout/text-size", layout.text_size, Layout::smallest_text, Layout::largest_text,
-          "×%.2f",
+          gui, "Text size", "layout/text-size", dragged, Layout::smallest_text, Layout::largest_text, "×%.2f",
           "Size of text and panels, a factor from 0.75 to 2.5 on that of the display: larger for a lecture "
           "hall. Remembered when the window is closed.\nDrag to change, Ctrl+click to type.",
           false))
-    gui.set_text_size(layout.text_size);
+    layout.text_size = dragged;
+  held = ImGui::IsItemActive();
+}
+
+void layout_widgets(Gui& gui, Layouts& layout) {
+  std::vector<std::string_view> names, titles;
+  std::string help = "How the window is arranged; each layout keeps what is changed in it.\n";
+  for (const LayoutRow& row : layouts()) {
+    names.push_back(row.name);
+    titles.push_back(row.title);
+    help += fmt::format("\n{}: {}", row.title, row.summary);
+  }
+  auto index = static_cast<std::size_t>(&layout.row() - layouts().data());
+  label_column("Layout");
+  if (choice(gui, "layout/name", names, titles, index,
+             fmt::format("{}\n\nKey: {}", help, gui.commands().keys_of("next layout"))))
+    layout.choose(layouts()[index]);
+  text_size(gui, layout);
+  check_box(gui, "large clock", "layout/clock", layout.clock,
+            "The time in large figures in a corner of the picture, as in a lecture. Not in films.");
+  if (button(gui, "layout/reset", "Reset layout",
+             "Resets this layout's panels, their widths and the size of text to their defaults. Scene and "
+             "camera are "
+             "unchanged.",
+             true, -1.0f))
+    layout.reset();
 }
 
 }  // namespace
 
-void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, bool& shadows, Layout& layout) {
+void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const QuantityRange& shown,
+                  bool& shadows, Layouts& layout) {
   edit(gui, scene, "view.draw");
   edit(gui, scene, "view.colour", 0, {"Colour by"});
+  scale_rows(gui, scene, shown);
+  cut_widgets(gui, scene, camera.goal());
+  edit(gui, scene, "view.arrows");
+  if (scene.scene().view.arrows.any()) edit(gui, scene, "view.arrow-scale", 0, {"Force per length"});
+  edit(gui, scene, "view.ground", 0, {"Grid at height"});
   check_box(gui, "shadows", "view/shadows", shadows,
             "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "
             "this window only; aspic run always draws them.");
+  edit(gui, scene, "view.axes");
   camera_buttons(gui, camera);
   edit_camera(gui, camera, "view.camera.position", "Camera");
   edit_camera(gui, camera, "view.camera.target", "Looks at");
   edit_camera(gui, camera, "view.camera.fov", "Field of view");
-  text_size(gui, layout);
-  if (button(gui, "layout/reset", "Reset layout",
-             "Resets panels, their widths and the size of text to their defaults. Scene and camera are "
-             "unchanged.",
-             true, -1.0f)) {
-    layout = Layout();
-    gui.set_text_size(1.0);
-  }
+  edit_camera(gui, camera, "view.camera.projection", "Projection");
+  layout_widgets(gui, layout);
 }
 
 }  // namespace aspic::app

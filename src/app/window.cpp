@@ -104,6 +104,12 @@ void Window::connect() {
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double dx, double dy) {
     if (EventReceiver* r = receiver_of(window)) r->scroll(dx, dy);
   });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) {
+    if (EventReceiver* r = receiver_of(window)) r->refresh();
+  });
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) {
+    if (EventReceiver* r = receiver_of(window)) r->refresh();
+  });
   glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
     if (EventReceiver* r = receiver_of(window)) r->drop({paths, paths + count});
   });

@@ -24,6 +24,8 @@ class EventReceiver {
   virtual void cursor(double x, double y) = 0;
   virtual void scroll(double dx, double dy) = 0;
   virtual void drop(const std::vector<std::string>& paths) = 0;
+  /// What the window shows was lost, or has another size.
+  virtual void refresh() = 0;
 };
 
 /// Sizes of a window: in its own units and in pixels.

@@ -9,6 +9,8 @@
 #include "analysis/stability.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/run_lane.h"
+#include "cli/run_summary.h"
 #include "io/checkpoint.h"
 #include "io/program.h"
 #include "model/springs.h"
@@ -94,224 +96,44 @@ Result<Start> load_start(const RunOptions& options) {
   return start;
 }
 
-/// What became of a run.
-struct Outcome {
-  State state;
-  std::uint64_t first_step = 0, last_step = 0;  ///< of this run; last: as planned
-  std::optional<Divergence> divergence;
-  std::optional<SolveStatistics> solves;  ///< implicit Euler only
-  Status pictured;                        ///< whether the pictures were completed
-  bool interrupted = false;
-  double wall_seconds = 0.0;
-  double steps_per_second() const {
-    return wall_seconds > 0.0 ? static_cast<double>(state.step - first_step) / wall_seconds : 0.0;
-  }
-};
-
-Json to_json(const SolveStatistics& s) {
-  return {{"converged", s.converged},         {"stagnated", s.stagnated},
-          {"not_converged", s.not_converged}, {"newton_iterations", s.newton_iterations},
-          {"cg_iterations", s.cg_iterations}, {"worst_residual", s.worst_residual}};
-}
-
-/// Steps between polls for Ctrl-C and redraws: as many as take about a twentieth of a second.
-class BatchSize {
- public:
-  std::uint64_t next() const { return size_; }
-  void took(std::uint64_t steps, double seconds) {
-    if (steps < size_) return;
-    if (seconds < 0.025) size_ = std::min<std::uint64_t>(2 * size_, 1u << 20);
-    if (seconds > 0.1) size_ = std::max<std::uint64_t>(size_ / 2, 1);
-  }
-
- private:
-  std::uint64_t size_ = 1;
-};
-
 /// `recorder` is null where no pictures are wanted.
-Result<Outcome> simulate(Solver& solver, RunFiles& files, Recorder* recorder, std::uint64_t first_step,
-                         std::uint64_t last_step, const InterruptGuard& interrupt) {
-  const Model& model = solver.model();
-  Outcome outcome;
-  outcome.first_step = first_step;
-  outcome.last_step = last_step;
-  // A State takes as much memory as all of a solver's: one is held where it is looked at, and none while
-  // steps are made.
-  const auto sample = [&]() -> Status {
-    ASPIC_TRY(const auto state, solver.state());
-    return files.take({model, state, solver.solve_statistics().value_or(SolveStatistics{})});
-  };
-  ASPIC_CHECK(sample());
-
+Result<Outcome> simulate(RunLane& lane, Recorder* recorder, std::uint64_t last_step,
+                         const InterruptGuard& interrupt) {
+  ASPIC_CHECK(lane.begin());
   ProgressBar bar(last_step);
-  BatchSize batch;
-  std::uint64_t step = first_step;
   const auto started = Clock::now();
-  if (recorder) ASPIC_CHECK(recorder->reach(solver, step));
-  while (step < last_step && !outcome.divergence && !(outcome.interrupted = interrupt.interrupted())) {
-    std::uint64_t count = std::min(batch.next(), last_step - step);
-    const std::uint64_t wanted = files.next_step(step);
-    count = std::min(count, wanted - step);
-    if (recorder) count = std::min(count, recorder->next_step() - step);
-    const auto before = Clock::now();
-    ASPIC_TRY(outcome.divergence, solver.advance(count));
-    if (outcome.divergence) break;
-    step += count;
-    if (step == wanted) ASPIC_CHECK(sample());
-    if (recorder) {
-      recorder->add_simulation(std::chrono::duration<double>(Clock::now() - before).count());
-      ASPIC_CHECK(recorder->reach(solver, step));
-    }
-    batch.took(count, std::chrono::duration<double>(Clock::now() - before).count());
-    bar.update(step);
+  if (recorder) ASPIC_CHECK(recorder->reach(lane.solver(), lane.step()));
+  while (lane.step() < last_step && !lane.stopped()) {
+    const double before = lane.seconds();
+    ASPIC_CHECK(lane.advance_to(recorder ? std::min(recorder->next_step(), last_step) : last_step, interrupt,
+                                [&](std::uint64_t step) { bar.update(step); }));
+    if (!recorder || lane.stopped()) continue;
+    recorder->add_simulation(lane.seconds() - before);
+    ASPIC_CHECK(recorder->reach(lane.solver(), lane.step()));
   }
-  ASPIC_TRY(auto state, solver.state());  // waits for the device: the time below is that of finished work
-  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started).count(); };
-  outcome.wall_seconds = seconds();
-  if (const auto bad = first_not_finite(measure(model, state))) {
-    return fail(ErrorCode::diverged, "{} of step {} is not a finite number; the outputs were not completed.",
-                *bad, state.step);
-  }
-  if (recorder) {
-    outcome.pictured = recorder->finish(solver, state.step);
-    outcome.wall_seconds = seconds();
-  }
-  outcome.state = std::move(state);
-  outcome.solves = solver.solve_statistics();
+  ASPIC_TRY(auto outcome, lane.outcome(last_step));
+  if (recorder) outcome.pictured = recorder->finish(lane.solver(), outcome.state.step);
+  outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - started).count();
   return outcome;
 }
 
-Json to_json(const Divergence& d, double timestep) {
-  Json json = {{"step", d.step}, {"time", static_cast<double>(d.step) * timestep}};
-  if (d.residual) {
-    json["residual"] = true;
-  } else {
-    json[d.ball ? "ball" : "particle"] = d.particle;
-  }
-  json["finite"] = d.finite;
-  return json;
-}
-
-Json to_json(const Recorder& recorder) {
-  const FrameTimes t = recorder.times();
-  return {{"count", t.frames},
-          {"device", recorder.device()},
-          {"seconds_per_frame",
-           {{"simulate", t.per_frame(t.simulate)},
-            {"draw", t.per_frame(t.draw)},
-            {"read", t.per_frame(t.read)},
-            {"encode", t.per_frame(t.encode)}}}};
-}
-
-/// One line on stderr: pictures are by the way, the summary on stdout is the run's.
-void print_frame_times(const Recorder& recorder) {
-  const FrameTimes t = recorder.times();
-  const auto ms = [&](double seconds) { return 1000.0 * t.per_frame(seconds); };
-  print_message(fmt::format(
-      "{} pictures on {}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, encode {:.1f} ms.",
-      t.frames, recorder.device(), ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
-}
-
-Status print_summary(const RunOptions& options, const Scene& scene, const Model& model,
-                     const Backend& backend, const Outcome& outcome, const std::vector<std::string>& files,
+Status print_summary(const RunOptions& options, const RunReport& run, const std::vector<std::string>& files,
                      const Recorder* recorder) {
-  const State& state = outcome.state;
-  const Measures m = measure(model, state);
-  const double time = static_cast<double>(state.step) * model.simulation.timestep;
-  const std::string hash = state_hash_text(state);
   if (options.json) {
-    // Not within the list: g++ 12 destroys what it has not made yet when memory runs out in a list with `?:`.
-    const Json diverged =
-        outcome.divergence ? to_json(*outcome.divergence, model.simulation.timestep) : Json();
-    const Json solves = outcome.solves ? to_json(*outcome.solves) : Json();
-    const Json pictures = recorder ? to_json(*recorder) : Json();
-    return print_data(to_text({
-        {"scene", scene.name},
-        {"backend", backend.row->name},
-        {"backend_reason", or_null(backend.reason)},
-        {"device", backend.device},
-        {"precision", name_of(state.precision)},
-        {"force_path", or_null(backend.force_path)},
-        {"arithmetic", name_of(backend.arithmetic)},
-        {"integrator", name_of(model.simulation.integrator)},
-        {"timestep", model.simulation.timestep},
-        {"particles", model.particle_count()},
-        {"springs", spring_count(model)},
-        {"balls", model.ball_count()},
-        {"first_step", outcome.first_step},
-        {"steps", state.step},
-        {"time", time},
-        {"wall_seconds", outcome.wall_seconds},
-        {"steps_per_second", outcome.steps_per_second()},
-        {"state_hash", hash},
-        {"diverged", diverged},
-        {"interrupted", outcome.interrupted},
-        {"implicit_solves", solves},
-        {"energies", Json{{"kinetic", m.kinetic},
-                          {"elastic", m.elastic},
-                          {"gravitational", m.gravitational},
-                          {"total", m.total()}}},
-        {"momentum", Json{m.momentum.x, m.momentum.y, m.momentum.z}},
-        {"max_speed", m.max_speed},
-        {"min_height", m.min_height},
-        {"pictures", pictures},
-        {"files", files},
-    }));
+    Json json = to_json(run);
+    json["pictures"] = recorder ? to_json(recorder->times(), recorder->device()) : Json();
+    json["files"] = files;
+    return print_data(to_text(json));
   }
-  std::string text = fmt::format("scene        {} ({} particles, {} springs{})\n", scene.name,
-                                 model.particle_count(), spring_count(model),
-                                 model.ball_count() > 0 ? fmt::format(", {} balls", model.ball_count()) : "");
-  text += fmt::format("backend      {}{}, {} precision{}\n", backend.row->name,
-                      backend.force_path.empty() ? "" : ", force path " + backend.force_path,
-                      name_of(state.precision),
-                      backend.reason.empty() ? "" : fmt::format(" (auto: {})", backend.reason));
-  text += fmt::format("device       {}\n", backend.device);
-  text += fmt::format("integrator   {}, time step {} s\n", name_of(model.simulation.integrator),
-                      model.simulation.timestep);
-  text += fmt::format("reached      step {} of {}, t = {:.6g} s\n", state.step, outcome.last_step, time);
-  text += fmt::format("took         {:.3g} s, {:.4g} steps/s\n", outcome.wall_seconds,
-                      outcome.steps_per_second());
-  text +=
-      fmt::format("energy       kinetic {:.6g} J, elastic {:.6g} J, gravitational {:.6g} J, total {:.6g} J\n",
-                  m.kinetic, m.elastic, m.gravitational, m.total());
-  text += fmt::format("extremes     fastest {:.6g} m/s, lowest y = {:.6g} m\n", m.max_speed, m.min_height);
-  if (outcome.solves) {
-    const SolveStatistics& s = *outcome.solves;
-    text += fmt::format(
-        "solves       {} converged, {} stagnated, {} not converged; worst residual {:.3g} m/s; {} Newton and "
-        "{} conjugate gradient iterations\n",
-        s.converged, s.stagnated, s.not_converged, s.worst_residual, s.newton_iterations, s.cg_iterations);
-  }
-  text += fmt::format("state hash   {}\n", hash);
+  std::string text = to_text(run);
   for (const std::string& file : files) text += fmt::format("wrote        {}\n", file);
   return print_text(text);
-}
-
-/// The infinite lattice clears most cubes at once; a large one's own spectrum takes seconds.
-void warn_if_unstable(const Model& model, const InterruptGuard& interrupt) {
-  const SimulationSettings& simulation = model.simulation;
-  if (certainly_stable(model, simulation.integrator, simulation.timestep)) return;
-  const StabilityLimit stable = stability_limit(model, simulation.integrator, StabilityEffort::quick,
-                                                [&](double) { return !interrupt.interrupted(); });
-  if (!interrupt.interrupted() && exceeds(simulation.timestep, stable))
-    print_warning(unstable_sentence(simulation.timestep, simulation.integrator, stable));
-}
-
-Error divergence_error(const Model& model, const Outcome& outcome, const InterruptGuard& interrupt) {
-  const Divergence& d = *outcome.divergence;
-  const StabilityLimit stable = stability_limit(model, model.simulation.integrator, StabilityEffort::quick,
-                                                [&](double) { return !interrupt.interrupted(); });
-  const double h = model.simulation.timestep;
-  return fail(ErrorCode::diverged,
-              "the simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is {} s; {}. The last "
-              "good step is {}; every output holds that state.",
-              d.step, static_cast<double>(d.step) * h, body_text(d), fault_text(d), h,
-              stability_sentence(model.simulation.integrator, stable), outcome.state.step);
 }
 
 }  // namespace
 
 Status execute(const RunOptions& options) {
+  if (!options.beside.empty()) return execute_beside(options);
   const InterruptGuard interrupt;
   ASPIC_TRY(auto start, load_start(options));
   ASPIC_TRY(const auto steps, steps_of(options.length, start.scene.model.simulation));
@@ -339,13 +161,14 @@ Status execute(const RunOptions& options) {
     ASPIC_TRY(recorder, Recorder::create(options.pictures, start.scene, backend, files.take_frame_sinks(),
                                          first_step, steps));
   }
-  ASPIC_TRY(auto outcome, simulate(*backend.solver, files, recorder.get(), first_step, steps, interrupt));
+  RunLane lane(*backend.solver, files, first_step);
+  ASPIC_TRY(auto outcome, simulate(lane, recorder.get(), steps, interrupt));
   const Status finished = files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
   std::vector<std::string> written = recorder ? recorder->written() : std::vector<std::string>{};
   written.insert(written.end(), files.written().begin(), files.written().end());
   const Status summary =
-      print_summary(options, start.scene, model, backend, outcome, written, recorder.get());
-  if (recorder) print_frame_times(*recorder);
+      print_summary(options, {start.scene, model, backend, outcome}, written, recorder.get());
+  if (recorder) print_frame_times(recorder->times(), recorder->device());
   if (!outcome.pictured) return outcome.pictured;
   if (!finished) return finished;
   if (!summary) return summary;

@@ -12,6 +12,7 @@
 #include "base/printable.h"
 #include "command_line/help_texts.h"
 #include "command_line/raw_options.h"
+#include "command_line/window_layouts.h"
 #include "scene/diagnostics.h"
 
 namespace aspic {
@@ -189,6 +190,9 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add_overrides(c, run.overrides);
   add_outputs(c, run.outputs);
   add_pictures(c, run, raw);
+  add(c, "--beside", "KEY=VALUE", run.beside,
+      "a run with this difference beside the scene's own, e.g. integrator=implicit-euler, h=0.002, k=500, "
+      "backend=reference or a key of --set; up to three");
   add(c, "--resume", "FILE", run.resume_file,
       "continue from a checkpoint; --steps and --duration count from its start");
   c->add_flag("--force", run.force, "overwrite files");
@@ -203,6 +207,8 @@ CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
   add_arithmetic(c, raw);
   add_overrides(c, view.overrides);
   add(c, "--size", "WxH", raw.window_size, "size of the window; default: its last size");
+  add(c, "--layout", "NAME", view.layout,
+      fmt::format("arrangement of the panels: {}; default: the last one", fmt::join(window_layouts, ", ")));
   return c;
 }
 

@@ -24,6 +24,7 @@ struct RunOptions {
   std::vector<StateOutput> outputs;  ///< one for each of state_options()
   PictureOutput pictures;
   std::vector<std::string> view;  ///< KEY=VALUE of the scene's view table, for the pictures
+  std::vector<std::string> beside;  ///< KEY=VALUE, one for each further run
   bool force = false;
   bool json = false;
 };
@@ -96,7 +97,8 @@ struct ViewOptions {
   std::vector<std::string> overrides;
   BackendChoice backend;
   std::optional<PictureSize>
-      size;  ///< of the window, in the display's units; absent: as it was last, or 1280 × 720
+      size;            ///< of the window, in the display's units; absent: as it was last, or 1280 × 720
+  std::string layout;  ///< one of window_layouts; empty: as it was last
   std::vector<std::string> words;  ///< the arguments after `view` as they were given
 };
 

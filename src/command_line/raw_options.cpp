@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/printable.h"
+#include "command_line/window_layouts.h"
 
 namespace aspic {
 namespace {
@@ -147,6 +148,9 @@ Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
   if (!raw.window_size.empty()) {
     ASPIC_TRY(view.size, parse_size(raw.window_size));
   }
+  if (!view.layout.empty() && std::ranges::find(window_layouts, view.layout) == std::end(window_layouts))
+    return usage("--layout must be one of {}, not \"{}\".", fmt::join(window_layouts, ", "),
+                 printable_line(view.layout));
   return Command(std::move(view));
 }
 

@@ -80,6 +80,7 @@ class CpuSolver final : public Solver {
   Status set_pull(const std::optional<Pull>& pull) override {
     ASPIC_TRY(const auto taken, rounded_pull(model_, pull, Precision::single));
     dynamics_.set_pull(taken);
+    balls_.set_pull(taken);
     return {};
   }
 

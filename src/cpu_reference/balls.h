@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,12 @@ class Balls {
       largest_radius_ = std::max(largest_radius_, static_cast<double>(bodies_.back().radius));
     }
     for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
+  }
+
+  /// Holds until it is set again. A ball must exist; particles feel theirs elsewhere (dynamics.h).
+  void set_pull(const std::optional<Pull>& pull) {
+    pull_.reset();
+    if (pull && pull->ball) pull_.emplace(*pull);
   }
 
   /// Bytes it holds on the heap, without contacts.
@@ -80,7 +87,15 @@ class Balls {
     Impulse<T> total() { return {linear.total(), turning.total()}; }
   };
 
-  /// The forces of one step from `start`: gravity, then what every terrain adds.
+  /// What acts on a ball throughout a step from `start`: gravity, and the pull as it is then [N].
+  Vector<T> constant_force(const BallPhase<T>& start, Eigen::Index b) const {
+    Vector<T> f = bodies_[static_cast<std::size_t>(b)].mass * gravity_;
+    if (pull_ && pull_->particle == b)
+      f += spring_force<T>(pull_->spring, start.x.col(b), start.v.col(b), pull_->anchor, Vector<T>::Zero());
+    return f;
+  }
+
+  /// The forces of one step from `start`: the constant one, then what every terrain adds.
   struct Flight {
     const Balls& balls;
     const BallPhase<T>& start;
@@ -91,7 +106,7 @@ class Balls {
       Field<T> a(3, x.cols());
       for (Eigen::Index b = 0; b < x.cols(); ++b) {
         const BallBody<T>& ball = balls.bodies_[static_cast<std::size_t>(b)];
-        Vector<T> f = ball.mass * balls.gravity_;
+        Vector<T> f = balls.constant_force(start, b);
         for (const Ground<T>& ground : balls.grounds_) {
           f = course ? with_contact_force<T>(ground, balls.rules_.contact.epsilon,
                                              ball_gap<T>(ground, ground.start, ball.radius, x.col(b)),
@@ -115,7 +130,7 @@ class Balls {
       const auto ball = static_cast<std::size_t>(b);
       if (!model_.balls[ball].launched(step)) continue;
       Vector<T> x = flown.x.col(b), v = flown.v.col(b), omega = start.omega.col(b);
-      Vector<T> f = bodies_[ball].mass * gravity_;
+      Vector<T> f = constant_force(start, b);
       for (const Ground<T>& ground : grounds_) {
         if (model_.contact.model == ContactModel::course) {
           respond_ball_course<T>(ground, rules_, bodies_[ball], x, v, omega);
@@ -175,6 +190,7 @@ class Balls {
   double largest_radius_ = 0.0;
   std::vector<BallBody<T>> bodies_;
   std::vector<Ground<T>> grounds_;
+  std::optional<PullConstants<T>> pull_;
   Runs<T> particle_weight_;  // w of every particle
   // Of the step under way.
   Contacts ball_ball_, ball_particle_, particle_ball_;

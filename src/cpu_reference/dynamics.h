@@ -83,10 +83,10 @@ class Dynamics {
     return f - before;
   }
 
-  /// Holds until it is set again. The particle must exist.
+  /// Holds until it is set again. The particle must exist; balls feel theirs elsewhere (balls.h).
   void set_pull(const std::optional<Pull>& pull) {
     pull_.reset();
-    if (pull) pull_.emplace(*pull);
+    if (pull && !pull->ball) pull_.emplace(*pull);
   }
   /// Bytes it holds on the heap.
   std::uint64_t bytes() const {

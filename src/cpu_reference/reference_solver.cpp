@@ -40,6 +40,7 @@ class ReferenceSolver final : public Solver {
   Status set_pull(const std::optional<Pull>& pull) override {
     ASPIC_TRY(const auto taken, rounded_pull(model_, pull, precision()));
     dynamics_.set_pull(taken);
+    balls_.set_pull(taken);
     return {};
   }
 

@@ -136,4 +136,17 @@ void Framebuffer::copy_colour_from(const Framebuffer& source) const {
                     same ? GL_NEAREST : GL_LINEAR);
 }
 
+void Framebuffer::place(const Framebuffer& source, int left, int bottom) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
+  glBlitFramebuffer(0, 0, source.width_, source.height_, left, bottom, left + source.width_,
+                    bottom + source.height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void Framebuffer::clear() const {
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
+  const GLfloat nothing[4] = {};
+  glClearBufferfv(GL_COLOR, 0, nothing);
+}
+
 }  // namespace aspic::gl

@@ -76,6 +76,12 @@ class Framebuffer {
   /// filters linearly where sizes differ. Does not bind.
   void copy_colour_from(const Framebuffer& source) const;
 
+  /// Copies the colour of `source`, of one sample, to a place within [pixels from left and bottom], values as
+  /// stored. Does not bind.
+  void place(const Framebuffer& source, int left, int bottom) const;
+  /// Fills the colour with zeros. Does not bind.
+  void clear() const;
+
   std::uint32_t id() const { return name_.id(); }
   int width() const { return width_; }
   int height() const { return height_; }

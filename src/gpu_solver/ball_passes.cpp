@@ -199,7 +199,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
   static_assert(BINDING_SOLVE == BINDING_CONTROL, "one place for either");
   for (std::size_t k = 0; k < kernel_count; ++k) {
     if (!wanted(static_cast<Kernel>(k))) continue;
-    const std::vector<Binding> bindings = {
+    std::vector<Binding> bindings = {
         {BINDING_SIMULATION, surroundings.simulation, gl::BufferKind::uniform},
         surroundings.poses,
         {BINDING_BALLS, &balls_},
@@ -208,6 +208,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
         {BINDING_BALL_GRID, &grid_words_},
         {BINDING_BALL_WORK, &work_},
         {BINDING_CONTROL, surroundings.control}};
+    if (k == fly) bindings.push_back(surroundings.pull);
     ASPIC_TRY(programs_[k], context.programs().compute(kernels.library, kernel_rows[k].path, defines));
     passes_[k].emplace(*programs_[k], bindings, ReadBy::compute_pass);
   }

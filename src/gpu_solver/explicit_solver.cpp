@@ -138,7 +138,8 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                            .spring = sizeof(layout::vec4)},
                                           seen_by_listed(model_, *springs_)));
   }
-  return balls_.build(context_, model_, kernels, {&simulation_, &control_, false, poses_.binding()},
+  return balls_.build(context_, model_, kernels,
+                      {&simulation_, &control_, false, poses_.binding(), pull_.binding()},
                       options.ball_search);
 }
 

@@ -121,7 +121,8 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                      seen_by_particles(model_, *springs_)));
     passes_.push_back(std::move(made));
   }
-  return balls_.build(context_, model_, kernels, {&simulation_, &solve_buffer_, true, poses_.binding()},
+  return balls_.build(context_, model_, kernels,
+                      {&simulation_, &solve_buffer_, true, poses_.binding(), pull_.binding()},
                       options.ball_search);
 }
 

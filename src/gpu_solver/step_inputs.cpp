@@ -9,14 +9,15 @@
 namespace aspic {
 namespace {
 
-layout::Pull block_of(const std::optional<Pull>& pull) {
+/// Balls count on after the particles.
+layout::Pull block_of(const std::optional<Pull>& pull, std::uint32_t particles) {
   layout::Pull block{};
   block.particle = NO_BODY;
   if (!pull) return block;
   block.anchor = rounded(pull->anchor, 0.0);
   block.stiffness = static_cast<float>(pull->stiffness);
   block.damping = static_cast<float>(pull->damping);
-  block.particle = pull->particle;
+  block.particle = pull->particle + (pull->ball ? particles : 0u);
   return block;
 }
 
@@ -32,7 +33,7 @@ static_assert(MAX_POSES >= 2 * MAX_TERRAINS);
 }  // namespace
 
 Status PullBuffer::build(gl::Context& context) {
-  const layout::Pull block = block_of(std::nullopt);
+  const layout::Pull block = block_of(std::nullopt, 0);
   ASPIC_TRY(buffer_, gl::Buffer::of(context, "pull", std::span(&block, 1), gl::BufferKind::uniform));
   return {};
 }
@@ -46,7 +47,7 @@ Status PullBuffer::set(const Model& model, const std::optional<Pull>& pull) {
   ASPIC_TRY(const std::optional<Pull> taken, rounded_pull(model, pull, Precision::single));
   if (taken == pull_) return {};
   pull_ = taken;
-  const layout::Pull block = block_of(pull_);
+  const layout::Pull block = block_of(pull_, model.particle_count());
   buffer_.upload_items(std::span(&block, 1));
   return {};
 }

@@ -21,9 +21,11 @@ double rounded(double value, Precision precision) {
 Result<std::optional<Pull>> rounded_pull(const Model& model, const std::optional<Pull>& pull,
                                          Precision precision) {
   if (!pull) return std::optional<Pull>();
-  if (pull->particle >= model.particle_count()) {
-    return fail(ErrorCode::usage, "particle {} cannot be pulled: the scene has {} particles, counted from 0",
-                pull->particle, model.particle_count());
+  const char* const kind = pull->ball ? "ball" : "particle";
+  const std::uint32_t count = pull->ball ? model.ball_count() : model.particle_count();
+  if (pull->particle >= count) {
+    return fail(ErrorCode::usage, "{0} {1} cannot be pulled: the scene has {2} {0}s, counted from 0", kind,
+                pull->particle, count);
   }
   Pull taken = *pull;
   for (int axis = 0; axis < 3; ++axis) taken.anchor[axis] = rounded(pull->anchor[axis], precision);
@@ -33,14 +35,14 @@ Result<std::optional<Pull>> rounded_pull(const Model& model, const std::optional
        {taken.anchor.x, taken.anchor.y, taken.anchor.z, taken.stiffness, taken.damping}) {
     if (std::isfinite(value)) continue;
     return fail(ErrorCode::usage,
-                "the pull on particle {} has a number that is not finite in {} precision: anchor ({}, {}, "
+                "the pull on {} {} has a number that is not finite in {} precision: anchor ({}, {}, "
                 "{}) m, stiffness {} N/m, damping {} N·s/m",
-                pull->particle, name_of(precision), pull->anchor.x, pull->anchor.y, pull->anchor.z,
+                kind, pull->particle, name_of(precision), pull->anchor.x, pull->anchor.y, pull->anchor.z,
                 pull->stiffness, pull->damping);
   }
   if (taken.stiffness < 0.0 || taken.damping < 0.0) {
     return fail(ErrorCode::usage,
-                "the pull on particle {} has stiffness {} N/m and damping {} N·s/m: neither may be negative",
+                "the pull on {} {} has stiffness {} N/m and damping {} N·s/m: neither may be negative", kind,
                 pull->particle, pull->stiffness, pull->damping);
   }
   return std::optional<Pull>(taken);

@@ -28,13 +28,14 @@ class BallBuffers {
   /// Draws what has been launched, as points that the program makes balls of.
   void draw(const gl::Program& program, const DeviceState& state) const;
 
+  /// Whether the state brings any.
+  bool shows(const DeviceState& state) const { return count_ > 0 && state.balls && state.balls->id() != 0; }
   std::uint32_t count() const { return count_; }
   /// Each ball's unit quaternion x, y, z, w, from its own frame to the world.
   const gl::Buffer& turns() const { return turns_; }
 
  private:
   BallBuffers() = default;
-  bool shows(const DeviceState& state) const { return count_ > 0 && state.balls && state.balls->id() != 0; }
 
   std::uint32_t count_ = 0;
   double timestep_ = 0.0;

@@ -10,8 +10,8 @@
 namespace aspic {
 namespace {
 
-/// Cords of nets.
-constexpr Colour net_colour = {0.98f, 0.98f, 0.98f};
+/// Cords of nets: dark, since grounds and sky are light.
+constexpr Colour net_colour = {0.035f, 0.040f, 0.055f};
 
 /// How deep light reaches into a body [m], as a share of its size.
 constexpr double reach_share = 0.30;
@@ -20,8 +20,7 @@ constexpr double reach_share = 0.30;
 
 template <class Prepare>
 void BodyPainter::draw_skins(SurfaceStyle style, const Prepare& prepare) const {
-  const gl::VertexArray skin = buffers.skin_array(*state.particles);
-  skin.bind();
+  const SkinsCut cut(view.cut);
   for (std::size_t i = 0; i < buffers.parts().size(); ++i) {
     if (buffers.parts()[i].index_count == 0 || model.bodies[i].style != style) continue;
     prepare(i);
@@ -38,7 +37,10 @@ void BodyPainter::draw_thickness() const {
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE);
   glUseProgram(programs.thickness.id());
+  const gl::VertexArray skin = buffers.skin_array(*state.particles);
+  skin.bind();
   draw_skins(SurfaceStyle::flesh, [](std::size_t) {});
+  if (section) section->draw(SectionUse::thickness, model, buffers, *state.particles, view.colour);
   glDisable(GL_BLEND);
   targets.thickness.colour.bind(UNIT_THICKNESS);
 }
@@ -65,22 +67,45 @@ void BodyPainter::draw_particles() const {
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
+void BodyPainter::draw_section() const {
+  if (section) section->draw(SectionUse::colour, model, buffers, *state.particles, view.colour);
+}
+
 void BodyPainter::draw_springs() const {
+  const DrawSettings draw = drawn_springs(view);
   glUseProgram(programs.springs.id());
+  programs.springs.set(LOCATION_FADES, 0);
   const gl::VertexArray lines = buffers.spring_array(*state.particles);
   lines.bind();
-  for (const SpringRun& run : buffers.springs()) {
-    const SpringClass& c = run.constants;
-    const bool cord = draws_as_cord(view.draw, run);
-    if (!(cord || draws(view.draw, c.type)) || run.index_count == 0) continue;
-    const Colour colour = cord && view.colour != ViewColour::type ? net_colour : spring_colour(c.type);
-    programs.springs.set(LOCATION_BASE_COLOUR, with_alpha(colour, 1.0));
-    programs.springs.set(LOCATION_SPRING,
-                         std::array{static_cast<float>(c.stiffness), static_cast<float>(c.damping),
-                                    static_cast<float>(c.rest_length), c.cord ? 1.0f : 0.0f});
-    programs.springs.set(LOCATION_RADIUS, static_cast<float>(spring_radius(buffers.spacing(), c.type)));
-    draw_lines(run);
-  }
+  for (const SpringRun& run : buffers.springs())
+    if (draws(draw, run.constants.type)) draw_run(run);
+}
+
+void BodyPainter::draw_cords() const {
+  glUseProgram(programs.springs.id());
+  programs.springs.set(LOCATION_FADES, 1);
+  const gl::VertexArray lines = buffers.spring_array(*state.particles);
+  lines.bind();
+  colour_map.bind(UNIT_COLOUR_MAP);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  for (const SpringRun& run : buffers.springs())
+    if (draws_as_cord(view.draw, run)) draw_run(run);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+void BodyPainter::draw_run(const SpringRun& run) const {
+  const SpringClass& c = run.constants;
+  if (run.index_count == 0) return;
+  const bool plain = draws_as_cord(view.draw, run) && view.colour != ViewColour::type;
+  programs.springs.set(LOCATION_BASE_COLOUR, with_alpha(plain ? net_colour : spring_colour(c.type), 1.0));
+  programs.springs.set(LOCATION_SPRING,
+                       std::array{static_cast<float>(c.stiffness), static_cast<float>(c.damping),
+                                  static_cast<float>(c.rest_length), c.cord ? 1.0f : 0.0f});
+  programs.springs.set(LOCATION_RADIUS, static_cast<float>(spring_radius(buffers.spacing(), c.type)));
+  draw_lines(run);
 }
 
 void BodyPainter::draw_jelly(JellySide side) const {
@@ -116,6 +141,8 @@ void BodyPainter::draw_sheets() const {
 
 void BodyPainter::draw_parts(const gl::Program& program, SurfaceStyle style) const {
   glUseProgram(program.id());
+  const gl::VertexArray skin = buffers.shaded_skin_array();
+  skin.bind();
   draw_skins(style, [&](std::size_t body) {
     const Colour colour = view.colour == ViewColour::material ? body_colour(body) : neutral_body_colour();
     program.set(LOCATION_BASE_COLOUR, with_alpha(colour, reach_share * model.bodies[body].size));

@@ -1,5 +1,5 @@
 #pragma once
-// A perspective camera over a picture: matrices, and the way between world and pixels.
+// A camera over a picture: matrices, and the way between world and pixels.
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -18,6 +18,13 @@ struct Ray {
   Vec3 direction;  ///< unit
 };
 
+/// Width/height below which a picture shows more above and below, so that its sides are not cut.
+inline constexpr double narrowest = 4.0 / 3.0;
+
+/// The settings for a picture of width × height, both > 0: a narrow one shows as much from side to side as
+/// one of 4 : 3.
+CameraSettings fitted(CameraSettings settings, double width, double height);
+
 class Camera {
  public:
   /// `settings` as a scene accepts them; a picture of width × height pixels, both ≥ 1. Up is +y, or −z where
@@ -26,14 +33,20 @@ class Camera {
 
   const glm::mat4& view() const { return view_; }
   const glm::mat4& projection() const { return projection_; }
+  /// Of an orthographic camera, ORTHOGRAPHIC_DISTANCE times as far from the target as the settings say: as
+  /// far before the target as it sees behind it.
   const glm::vec3& eye() const { return eye_; }
-  /// From the eye to the target [m].
+  bool orthographic() const { return orthographic_; }
+  /// From the eye to the target, unit.
+  glm::vec3 axis() const { return -glm::vec3(view_[0][2], view_[1][2], view_[2][2]); }
+  /// From the settings' position to the target [m].
   float target_distance() const { return target_distance_; }
 
   /// Of the picture [pixels].
   int width() const { return width_; }
   int height() const { return height_; }
-  /// The sight line through a place of the picture [pixels from left and top].
+  /// The sight line through a place of the picture [pixels from left and top], from the settings' position
+  /// or, of an orthographic camera, from beside it.
   Ray ray_through(double x, double y) const;
 
  private:
@@ -41,6 +54,7 @@ class Camera {
   glm::vec3 eye_;
   float target_distance_ = 1.0f;
   int width_, height_;
+  bool orthographic_;
 };
 
 }  // namespace aspic

@@ -13,15 +13,30 @@ bool in_gamut(const Colour& c) {
   return std::ranges::all_of(c, [](float v) { return v >= 0.0f && v <= 1.0f; });
 }
 
-/// The point of the scale's path at t in 0…1: lightness and hue run straight, chroma is as large as the sRGB
-/// gamut allows within a cap that keeps the path smooth.
-Oklab path(double t) {
-  const double lightness = 0.27 + 0.64 * t;
-  const double hue = (305.0 - 200.0 * t) * pi / 180.0;
-  double chroma = 0.085 + 0.05 * std::sin(pi * t) + 0.06 * t;
-  const auto at = [&](double c) { return Oklab{lightness, c * std::cos(hue), c * std::sin(hue)}; };
-  while (!in_gamut(from_oklab(at(chroma)))) chroma *= 0.995;
-  return at(chroma);
+Oklab polar(double lightness, double chroma, double hue_degrees) {
+  const double hue = hue_degrees * pi / 180.0;
+  return {lightness, chroma * std::cos(hue), chroma * std::sin(hue)};
+}
+
+/// The nearest colour of this lightness and hue that the sRGB gamut holds.
+Oklab within_gamut(double lightness, double chroma, double hue_degrees) {
+  while (!in_gamut(from_oklab(polar(lightness, chroma, hue_degrees)))) chroma *= 0.995;
+  return polar(lightness, chroma, hue_degrees);
+}
+
+/// The path of a scale from t = 0 to 1: lightness and hue run straight, chroma is as large as the gamut
+/// allows within a cap that keeps the path smooth.
+Oklab path(ScaleMap map, double t) {
+  if (map == ScaleMap::heat)
+    return within_gamut(0.13 + 0.80 * t, 0.20 * std::sin(pi * std::min(0.06 + 0.85 * t, 1.0)),
+                        15.0 + 90.0 * t);
+  if (map == ScaleMap::grey) return polar(0.16 + 0.78 * t, 0.0, 0.0);
+  if (map == ScaleMap::blue_red) {
+    // Each half runs straight between its end and the grey in the middle.
+    const double out = std::abs(2.0 * t - 1.0);
+    return polar(0.93 - 0.45 * out, 0.165 * out, t < 0.5 ? 258.0 : 27.0);
+  }
+  return within_gamut(0.27 + 0.64 * t, 0.085 + 0.05 * std::sin(pi * t) + 0.06 * t, 305.0 - 200.0 * t);
 }
 
 double distance(const Oklab& a, const Oklab& b) {
@@ -56,13 +71,13 @@ Colour from_oklab(const Oklab& lab) {
           static_cast<float>(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
 
-std::vector<std::byte> colour_map_texels() {
+std::vector<std::byte> colour_map_texels(ScaleMap map) {
   // Equal steps along the path's length, not along its parameter.
   constexpr int fine = 4096;
   std::vector<double> length(fine + 1, 0.0);
-  Oklab before = path(0.0);
+  Oklab before = path(map, 0.0);
   for (int i = 1; i <= fine; ++i) {
-    const Oklab here = path(static_cast<double>(i) / fine);
+    const Oklab here = path(map, static_cast<double>(i) / fine);
     length[static_cast<std::size_t>(i)] = length[static_cast<std::size_t>(i) - 1] + distance(before, here);
     before = here;
   }
@@ -71,7 +86,7 @@ std::vector<std::byte> colour_map_texels() {
     const double wanted = length.back() * i / (map_size - 1);
     const auto above = std::ranges::lower_bound(length, wanted);
     const double t = static_cast<double>(above - length.begin()) / fine;
-    const Colour colour = from_oklab(path(std::min(t, 1.0)));
+    const Colour colour = from_oklab(path(map, std::min(t, 1.0)));
     for (const float channel : colour) {
       const double value = linear_to_srgb(std::clamp(static_cast<double>(channel), 0.0, 1.0));
       texels.push_back(static_cast<std::byte>(std::lround(255.0 * value)));
@@ -79,6 +94,11 @@ std::vector<std::byte> colour_map_texels() {
     texels.push_back(std::byte{255});
   }
   return texels;
+}
+
+ScaleMap chosen_map(const ViewSettings& view) {
+  if (view.scale.map != ScaleMap::automatic) return view.scale.map;
+  return view.colour == ViewColour::signed_strain ? ScaleMap::blue_red : ScaleMap::violet_yellow;
 }
 
 Colour spring_colour(SpringType type) {

@@ -57,6 +57,7 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
   }
   block.lights[LIGHT_SKY] = light_rotation(above);
   block.eye = glm::vec4(camera.eye(), camera.target_distance());
+  block.viewer = camera.orthographic() ? glm::vec4(-camera.axis(), 0) : glm::vec4(camera.eye(), 1);
   block.sun = glm::vec4(to_sun, 0);
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
   block.viewport = glm::vec4(w, h, 1.0f / w, 1.0f / h);
@@ -64,19 +65,30 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
   const bool solid = content.view.draw.solid && content.has_flesh;
   for (std::size_t i = 0; i < 3; ++i)
     block.shadow_tint[static_cast<int>(i)] = solid ? 0.10f + 0.22f * tint[i] : 0.15f;
-  const double width_of_range = content.range[1] - content.range[0];
-  block.quantity_range = glm::vec4(content.range[0], width_of_range > 0.0 ? 1.0 / width_of_range : 0.0, 0, 0);
+  block.quantity_range = quantity_scale(content.range);
   for (const Terrain& t : model.terrain) {
     if (!content.shadows || !terrain_row(t.shape).ball || block.shadow_sphere_count == MAX_SHADOW_SPHERES)
       continue;
     const Geometry<double> ball = terrain_at(t, model.simulation.timestep, content.step).geometry;
     block.shadow_spheres[block.shadow_sphere_count++] = glm::vec4(to_glm(ball.vectors[0]), ball.numbers[0]);
   }
-  static_assert(COLOUR_SPEED == static_cast<std::uint32_t>(ViewColour::speed));
+  static_assert(COLOUR_ENERGY == static_cast<std::uint32_t>(ViewColour::energy));
   block.colour_mode = static_cast<std::uint32_t>(content.view.colour);
   block.particle_count = model.particle_count();
+  block.cut = glm::vec4(0, 0, 0, 1);
+  if (const CutSettings& cut = content.view.cut; cut.on()) {
+    block.cut = glm::vec4(to_glm((1.0 / length(cut.normal)) * cut.normal), cut.offset);
+    const bool alone = cut.inside == CutInside::springs && !draws_springs(content.view.draw);
+    block.section = glm::vec4(cut.offset - content.section_depth, alone ? 1.0 : 0.0,
+                              cut.inside == CutInside::springs ? 1.0 : 0.0, 0);
+  }
   block.see_through = content.view.draw.particles || draws_springs(content.view.draw) ? 1.0f : 0.0f;
   return block;
+}
+
+glm::vec4 quantity_scale(const QuantityRange& range) {
+  const double width = range[1] - range[0];
+  return {range[0], width != 0.0 ? 1.0 / width : 0.0, 0.0, 0.0};
 }
 
 render_layout::Frame frame_around(const render_layout::Frame& whole, double x, double y, double width,

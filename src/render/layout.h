@@ -18,7 +18,7 @@ using glm::vec4;
 
 static_assert(sizeof(Bounds) == 32 && sizeof(LightBox) == 32);
 static_assert(offsetof(Frame, lights) == 256 && offsetof(Frame, eye) == 256 + 64 * LIGHTS);
-static_assert(offsetof(Frame, shadow_spheres) == 256 + 64 * LIGHTS + 80);
-static_assert(sizeof(Frame) == 256 + 64 * LIGHTS + 80 + 16 * MAX_SHADOW_SPHERES + 16);
+static_assert(offsetof(Frame, shadow_spheres) == 256 + 64 * LIGHTS + 128);
+static_assert(sizeof(Frame) == 256 + 64 * LIGHTS + 128 + 16 * MAX_SHADOW_SPHERES + 16);
 
 }  // namespace aspic::render_layout

@@ -2,6 +2,8 @@
 
 #include <glad/gl.h>
 
+#include "render/section.h"
+
 namespace aspic {
 namespace {
 
@@ -56,7 +58,8 @@ void LightMaps::leave_out(const ModelBuffers& model) {
 }
 
 void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model, const DeviceState& state,
-                       const DrawSettings& draw) {
+                       const ViewSettings& view) {
+  const DrawSettings& draw = view.draw;
   model.light_boxes().bind(gl::BufferKind::uniform, BINDING_LIGHT_BOXES);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
@@ -79,7 +82,10 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
     if (draw.solid) {
       glUseProgram(programs.light_surface.id());
       skin.bind();
-      for (const Surface::Part& part : model.parts()) draw_triangles(part);
+      {
+        const SkinsCut cut(view.cut);
+        for (const Surface::Part& part : model.parts()) draw_triangles(part);
+      }
       model.rods().draw();
     }
     if (draws_balls(draw)) model.balls().draw(programs.light_balls, state);

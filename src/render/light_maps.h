@@ -29,10 +29,10 @@ class LightMaps {
   /// Error (scene_rejected, no_device): those of textures and framebuffers.
   static Result<LightMaps> create(gl::Context& context);
 
-  /// Draws what `draw` shows of the bodies into both maps. The frame block must be bound; binds the bounds'
+  /// Draws what a view shows of the bodies into both maps. The frame block must be bound; binds the bounds'
   /// block and both maps to their places.
   void render(const RenderPrograms& programs, const ModelBuffers& model, const DeviceState& state,
-              const DrawSettings& draw);
+              const ViewSettings& view);
   /// Puts empty maps in their places: nothing keeps any light off.
   void leave_out(const ModelBuffers& model);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "device/particles.h"
 #include "gpu/loop_bound.h"
@@ -15,6 +16,9 @@ namespace aspic {
 namespace {
 
 using gl::ReadBy;
+
+/// Extremes of no value at all.
+constexpr std::array<std::uint32_t, EXTREMES> no_extremes = {0xffffffffu, 0u, 0xffffffffu, 0u};
 
 /// Whether a state brings the words that name neighbours.
 bool has_neighbours(const DeviceState& state) {
@@ -60,7 +64,7 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   b.class_bits_ = class_bits(model);
   const Surface surface = make_surface(model);
   for (const Status& ok :
-       {gl::check_loop("normals", "the faces at one particle", longest(surface.fan_start)),
+       {gl::check_loop("skin", "the faces at one particle", longest(surface.fan_start)),
         gl::check_loop(
             "bounds", "particles",
             LIGHTS * (std::uint64_t{b.particle_count_} / software::most_bounding_invocations + 1))}) {
@@ -69,9 +73,13 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   b.parts_ = surface.parts;
   b.coarse_parts_ = surface.coarse_parts;
   b.skin_vertices_ = static_cast<std::uint32_t>(surface.fan_vertex.size());
+  ASPIC_TRY(b.skin_,
+            gl::Buffer::create(context, "skin", sizeof(render_layout::SkinVertex) * b.skin_vertices_));
   ASPIC_TRY(b.skin_indices_, gl::Buffer::of(context, "skin indices", surface.indices));
+  ASPIC_TRY(b.skin_corners_, gl::Buffer::of(context, "skin corners", surface.corners));
   ASPIC_TRY(b.fan_vertex_, gl::Buffer::of(context, "skin vertices", surface.fan_vertex));
   ASPIC_TRY(b.fan_start_, gl::Buffer::of(context, "skin fan starts", surface.fan_start));
+  ASPIC_TRY(b.fan_own_, gl::Buffer::of(context, "skin fans' own ends", surface.fan_own));
   ASPIC_TRY(b.fan_, gl::Buffer::of(context, "skin fans", surface.fan));
 
   double least = 0.0;
@@ -80,10 +88,9 @@ Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& mod
   }
   if (least > 0.0) b.spacing_ = least;
 
-  ASPIC_TRY(b.normals_,
-            gl::Buffer::of(context, "normals", std::vector<std::array<float, 4>>(b.particle_count_)));
   ASPIC_TRY(b.quantity_,
             gl::Buffer::of(context, "coloured quantity", std::vector<float>(b.particle_count_, 0.0f)));
+  ASPIC_TRY(b.extremes_, gl::Buffer::of(context, "extremes", no_extremes));
   ASPIC_TRY(b.bounds_, gl::Buffer::of(context, "light bounds", std::vector<render_layout::Bounds>(LIGHTS)));
   ASPIC_TRY(b.light_boxes_,
             gl::Buffer::of(context, "light boxes", std::vector<render_layout::LightBox>(LIGHTS)));
@@ -119,29 +126,54 @@ Status ModelBuffers::prepare_incident(gl::Context& context, const Model& model, 
   return {};
 }
 
-void ModelBuffers::compute_normals(const RenderPrograms& programs, const gl::Buffer& particles) {
-  programs.normals.set(LOCATION_COUNT, skin_vertices_);
-  gl::Pass(programs.normals,
+void ModelBuffers::compute_skin(const RenderPrograms& programs, const gl::Buffer& particles) {
+  programs.skin.set(LOCATION_COUNT, skin_vertices_);
+  gl::Pass(programs.skin,
            {{BINDING_PARTICLES, &particles},
             {BINDING_FAN_START, &fan_start_},
             {BINDING_FAN, &fan_},
             {BINDING_FAN_VERTEX, &fan_vertex_},
-            {BINDING_NORMALS, &normals_}},
+            {BINDING_FAN_OWN, &fan_own_},
+            {BINDING_QUANTITY, &quantity_},
+            {BINDING_SKIN, &skin_}},
            ReadBy::vertex_draw | ReadBy::read_back)
       .dispatch_for(skin_vertices_);
 }
 
 void ModelBuffers::compute_quantity(const RenderPrograms& programs, const DeviceState& state) {
+  extremes_.upload_items(no_extremes);
+  const std::uint32_t balls = balls_->shows(state) ? balls_->count() : 0;
   programs.quantity.set(LOCATION_CLASS_BITS, class_bits_);
-  std::vector<gl::Binding> bindings = {{BINDING_PARTICLES, state.particles}, {BINDING_QUANTITY, &quantity_}};
+  programs.quantity.set(LOCATION_COUNT, balls);
+  programs.quantity.set(LOCATION_FIRST, state.first_ball);
+  std::vector<gl::Binding> bindings = {
+      {BINDING_PARTICLES, state.particles}, {BINDING_QUANTITY, &quantity_}, {BINDING_EXTREMES, &extremes_}};
+  if (balls > 0) bindings.push_back({BINDING_BALLS, state.balls});
   if (const SpringBuffers* springs = has_neighbours(state) ? state.springs : own_springs_.get()) {
     bindings.push_back({BINDING_INCIDENT_START, &springs->incident_start});
     bindings.push_back({BINDING_INCIDENT, &springs->incident});
     bindings.push_back({BINDING_LATTICES, &springs->lattices, gl::BufferKind::uniform});
     bindings.push_back({BINDING_SPRING_CLASSES, &spring_classes_});
   }
-  gl::Pass(programs.quantity, std::move(bindings), ReadBy::vertex_draw | ReadBy::read_back)
-      .dispatch_for(particle_count_);
+  gl::Pass(programs.quantity, std::move(bindings),
+           ReadBy::compute_pass | ReadBy::vertex_draw | ReadBy::read_back)
+      .dispatch_for(std::max(particle_count_, balls));
+}
+
+std::array<double, 2> ModelBuffers::extremes(bool springs) const {
+  const auto found = extremes_.download_items<std::uint32_t>(EXTREMES);
+  // The inverse of ordered() in shaders/render/ordered.glsl.
+  const auto value = [](std::uint32_t bits) {
+    const bool negative = (bits & 0x80000000u) == 0u;
+    return static_cast<double>(std::bit_cast<float>(negative ? ~bits : bits & 0x7fffffffu));
+  };
+  std::uint32_t low = found[EXTREMES_BODIES], high = found[EXTREMES_BODIES + 1];
+  if (springs) {
+    low = std::min(low, found[EXTREMES_SPRINGS]);
+    high = std::max(high, found[EXTREMES_SPRINGS + 1]);
+  }
+  if (low > high) return {1.0, 0.0};
+  return {value(low), value(high)};
 }
 
 void ModelBuffers::compute_light_boxes(const RenderPrograms& programs, const DeviceState& state) {
@@ -174,11 +206,18 @@ void draw_lines(const SpringRun& run) {
   draw_elements(GL_LINES, run.first_index, run.index_count);
 }
 
+gl::VertexArray ModelBuffers::shaded_skin_array() const {
+  constexpr std::uint32_t stride = sizeof(render_layout::SkinVertex);
+  const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &skin_, 4, stride, 0},
+                                      {ATTRIBUTE_NORMAL, &skin_, 4, stride, 16},
+                                      {ATTRIBUTE_QUANTITY, &skin_, 1, stride, 28}};
+  return gl::VertexArray::create(attributes, &skin_corners_);
+}
+
 gl::VertexArray ModelBuffers::array(const gl::Buffer& particles, const gl::Buffer* indices) const {
   constexpr std::uint32_t stride = sizeof(layout::Particle);
   const gl::Attribute attributes[] = {{ATTRIBUTE_POSITION, &particles, 4, stride, 0},
                                       {ATTRIBUTE_VELOCITY, &particles, 4, stride, 16},
-                                      {ATTRIBUTE_NORMAL, &normals_, 4, 16, 0},
                                       {ATTRIBUTE_QUANTITY, &quantity_, 1, 4, 0}};
   return gl::VertexArray::create(attributes, indices);
 }

@@ -1,5 +1,6 @@
 #pragma once
 // What drawing needs of a model on the device, and what is derived from its particles for each picture.
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -41,16 +42,21 @@ class ModelBuffers {
   /// as make_spring_buffers; no_device (more springs at one particle than a kernel may loop over).
   Status prepare_incident(gl::Context& context, const Model& model, const DeviceState& state);
 
-  /// Normals of the skin at these particles' positions, readable as vertices afterwards.
-  void compute_normals(const RenderPrograms& programs, const gl::Buffer& particles);
+  /// The vertices of the skin at these particles' positions, with what compute_quantity() found before.
+  void compute_skin(const RenderPrograms& programs, const gl::Buffer& particles);
   /// The coloured quantity of each particle; the frame block must be bound. Strain and force want
   /// prepare_incident() with the same state before.
   void compute_quantity(const RenderPrograms& programs, const DeviceState& state);
+  /// Waits for the device: least and largest value that compute_quantity() found on particles and launched
+  /// balls, and on springs too if they are shown. The first is larger where there was none.
+  std::array<double, 2> extremes(bool springs) const;
   /// The map of each light, fitted to particles and balls, and the turn of each ball; the frame block must be
   /// bound.
   void compute_light_boxes(const RenderPrograms& programs, const DeviceState& state);
 
-  /// Inputs of the skin's, the particles' and the springs' shaders.
+  /// Inputs of the skin's shaders, of those that need positions of it alone, and of the particles' and the
+  /// springs'.
+  gl::VertexArray shaded_skin_array() const;
   gl::VertexArray skin_array(const gl::Buffer& particles) const { return array(particles, &skin_indices_); }
   gl::VertexArray particle_array(const gl::Buffer& particles) const { return array(particles, nullptr); }
   /// The particles that a buffer of 32-bit indices names.
@@ -74,7 +80,9 @@ class ModelBuffers {
   /// Typical distance between neighbours [m]; 1 without springs.
   double spacing() const { return spacing_; }
   const gl::Buffer& light_boxes() const { return light_boxes_; }
-  const gl::Buffer& normals() const { return normals_; }
+  /// SkinVertex each, in the order of Surface::fan_vertex.
+  const gl::Buffer& skin() const { return skin_; }
+  std::uint32_t skin_vertices() const { return skin_vertices_; }
   const gl::Buffer& quantity() const { return quantity_; }
 
  private:
@@ -88,10 +96,10 @@ class ModelBuffers {
   std::optional<BallBuffers> balls_;
   DeviceMesh rods_;
   std::vector<SpringRun> springs_;
-  gl::Buffer skin_indices_, fan_vertex_, fan_start_, fan_;
+  gl::Buffer skin_, skin_indices_, skin_corners_, fan_vertex_, fan_start_, fan_own_, fan_;
   gl::Buffer spring_indices_, spring_classes_;
   std::shared_ptr<const SpringBuffers> own_springs_;  // for states that bring none
-  gl::Buffer normals_, quantity_, bounds_, light_boxes_;
+  gl::Buffer quantity_, extremes_, bounds_, light_boxes_;
 };
 
 }  // namespace aspic

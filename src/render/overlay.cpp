@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gpu/vertex_array.h"
+#include "render/axes.h"
 #include "render/layout.h"
 
 namespace aspic {
@@ -21,6 +22,7 @@ constexpr float bar_height = 0.75f;
 
 constexpr std::array<float, 4> bright = {0.93f, 0.95f, 0.97f, 1.0f};
 constexpr std::array<float, 4> dim = {0.42f, 0.49f, 0.57f, 1.0f};
+constexpr std::array<float, 4> alarming = {0.95f, 0.30f, 0.12f, 1.0f};
 constexpr std::array<float, 4> backdrop = {0.006f, 0.009f, 0.014f, 0.66f};
 
 constexpr float glyph_shape = 0.0f, panel_shape = 1.0f, scale_shape = 2.0f;
@@ -97,13 +99,13 @@ void OverlayPainter::facts(const std::vector<OverlayLine>& lines) {
         static_cast<float>(lines.size()) * step + 2 * inset - (step - em));
   float y = top + inset;
   for (const OverlayLine& line : lines) {
-    text(left + inset, y, line.label, dim);
-    text(left + inset + labels, y, line.value, bright);
+    text(left + inset, y, line.label, line.alarm ? alarming : dim);
+    text(left + inset + labels, y, line.value, line.alarm ? alarming : bright);
     y += step;
   }
 }
 
-void OverlayPainter::scale(const Legend& legend, float picture_width, float picture_height) {
+float OverlayPainter::scale(const Legend& legend, float picture_width, float bottom) {
   const auto em = static_cast<float>(font_->pixel_height());
   const auto step = static_cast<float>(font_->line_height());
   const float inset = std::round(padding * em);
@@ -117,7 +119,7 @@ void OverlayPainter::scale(const Legend& legend, float picture_width, float pict
   const float height =
       rows * step + (bar ? std::round((bar_height + 0.3f) * em) : 0.0f) + 2 * inset - (step - em);
   const float left = std::round(picture_width - margin * em - width - 2 * inset);
-  const float top = std::round(picture_height - margin * em - height);
+  const float top = std::round(bottom - margin * em - height);
   panel(left, top, width + 2 * inset, height);
   const float x = left + inset;
   float y = top + inset;
@@ -132,23 +134,61 @@ void OverlayPainter::scale(const Legend& legend, float picture_width, float pict
     text(x + 1.6f * em, y, entry.name, bright);
     y += step;
   }
-  if (!bar) return;
+  const float taken = bottom - top;
+  if (!bar) return taken;
   rectangle(x, y, width, std::round(bar_height * em), {0, 0, 1, 0}, bright, {scale_shape, 0, 0, 0});
   y += std::round((bar_height + 0.3f) * em);
   text(x, y, legend.marks[0], bright);
   text(x + 0.5f * (width - font_->width_of(legend.marks[1])), y, legend.marks[1], bright);
   text(x + width - font_->width_of(legend.marks[2]), y, legend.marks[2], bright);
+  return taken;
+}
+
+void OverlayPainter::line(const std::array<float, 2>& from, const std::array<float, 2>& to, float width,
+                          const std::array<float, 4>& tint) {
+  const float dx = to[0] - from[0], dy = to[1] - from[1], size = std::hypot(dx, dy);
+  const float r = 0.5f * width, half = 0.5f * size + r;
+  const float ux = size > 0.0f ? dx / size : 1.0f, uy = size > 0.0f ? dy / size : 0.0f;
+  const float x = 0.5f * (from[0] + to[0]), y = 0.5f * (from[1] + to[1]);
+  // Turned about its middle, with a pixel around it to fade in.
+  const auto vertex = [&](float along, float aside) {
+    const float a = along * (half + 1.0f), b = aside * (r + 1.0f);
+    pending_.push_back({{x + a * ux - b * uy, y + a * uy + b * ux, a, b}, tint, {panel_shape, half, r, r}});
+  };
+  for (const auto& [along, aside] :
+       {std::pair(-1.0f, -1.0f), {-1.0f, 1.0f}, {1.0f, -1.0f}, {1.0f, -1.0f}, {-1.0f, 1.0f}, {1.0f, 1.0f}})
+    vertex(along, aside);
+}
+
+void OverlayPainter::axes(const Camera& camera, float picture_width) {
+  const auto em = static_cast<float>(font_->pixel_height());
+  const float reach = static_cast<float>(axes_reach) * em;
+  const std::array<float, 2> middle = {picture_width - margin * em - reach, margin * em + reach};
+  line(middle, middle, 2.0f * reach, {backdrop[0], backdrop[1], backdrop[2], 0.45f});
+  for (const AxisArm& arm : axes_seen(camera)) {
+    const auto at = [&](double share) {
+      const auto length = static_cast<float>(share * axis_length) * em;
+      return std::array{middle[0] + static_cast<float>(arm.right) * length,
+                        middle[1] + static_cast<float>(arm.down) * length};
+    };
+    line(middle, at(1.0), static_cast<float>(axis_width) * em, with_alpha(arm.colour, 1.0));
+    const std::array<float, 2> letter = at(axis_letter_at);
+    const std::string_view word(&arm.letter, 1);
+    text(letter[0] - 0.5f * font_->width_of(word), letter[1] - 0.5f * em, word, bright);
+  }
 }
 
 Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines,
-                            const Legend& legend) {
-  if (lines.empty() && legend.empty()) return {};
-  const int wanted = static_cast<int>(std::lround(picture.height() / 42.0));
+                            std::span<const Legend> legends, const Camera* camera, int text_height) {
+  if (lines.empty() && !camera && std::ranges::all_of(legends, &Legend::empty)) return {};
+  const int wanted = text_height > 0 ? text_height : static_cast<int>(std::lround(picture.height() / 42.0));
   ASPIC_CHECK(prepare_font(std::clamp(wanted, 11, 256)));
   pending_.clear();
   if (!lines.empty()) facts(lines);
-  if (!legend.empty())
-    scale(legend, static_cast<float>(picture.width()), static_cast<float>(picture.height()));
+  auto bottom = static_cast<float>(picture.height());
+  for (const Legend& legend : legends)
+    if (!legend.empty()) bottom -= scale(legend, static_cast<float>(picture.width()), bottom);
+  if (camera) axes(*camera, static_cast<float>(picture.width()));
 
   const std::uint64_t bytes = pending_.size() * sizeof(Vertex);
   if (vertices_.bytes() < bytes) {

@@ -9,6 +9,7 @@
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
+#include "render/camera.h"
 #include "render/colour_map.h"
 #include "render/font.h"
 
@@ -16,14 +17,16 @@ namespace aspic {
 
 /// One line of the panel.
 struct OverlayLine {
-  std::string label;  ///< in the left column, dimmer; may be empty
-  std::string value;  ///< in the right column
+  std::string label;   ///< in the left column, dimmer; may be empty
+  std::string value;   ///< in the right column
+  bool alarm = false;  ///< it tells of a failure
 };
 
 /// A scale of colours with its ends, or a key of named colours, bottom right.
 struct Legend {
   std::string title;
-  std::array<std::string, 3> marks;  ///< lower end, middle, upper end; all empty: no scale is drawn
+  ScaleMap map = ScaleMap::violet_yellow;  ///< colours of the scale
+  std::array<std::string, 3> marks;        ///< lower end, middle, upper end; all empty: no scale is drawn
   struct Entry {
     Colour colour;
     std::string name;
@@ -37,10 +40,14 @@ class OverlayPainter {
  public:
   static Result<OverlayPainter> create(gl::Context& context, const gl::ShaderLibrary& library);
 
-  /// Draws over `picture`, an sRGB image; text height is a fixed fraction of its height, 11 pixels at least.
+  /// Draws over `picture`, an sRGB image; text is `text_height` pixels high, if that is 0 a fixed fraction of
+  /// the picture's height, 11 pixels at least.
   /// The colour map must be bound to its unit and the frame block to its binding. Leaves blending off. Error
   /// (scene_rejected): no device memory.
-  Status draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines, const Legend& legend);
+  /// Legends stand one above the other; empty ones are left out. `camera`: that of axes in the upper right
+  /// corner; null: none.
+  Status draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines,
+              std::span<const Legend> legends, const Camera* camera = nullptr, int text_height = 0);
 
  private:
   struct Vertex {
@@ -53,7 +60,12 @@ class OverlayPainter {
   void panel(float x, float y, float width, float height);
   void text(float x, float y, std::string_view utf8, const std::array<float, 4>& tint);
   void facts(const std::vector<OverlayLine>& lines);
-  void scale(const Legend& legend, float picture_width, float picture_height);
+  /// Returns the height it takes, and the gap above it.
+  float scale(const Legend& legend, float picture_width, float bottom);
+  void axes(const Camera& camera, float picture_width);
+  /// A line with round ends.
+  void line(const std::array<float, 2>& from, const std::array<float, 2>& to, float width,
+            const std::array<float, 4>& tint);
 
   gl::Context* context_;
   gl::Program program_;

@@ -24,8 +24,11 @@ struct Word {
 Vec3 point_at(const render_layout::Frame& frame, int column, int row, int side, double distance) {
   const glm::dmat4 projection(frame.projection);
   const double x = 2.0 * (column + 0.5) / side - 1.0, y = 2.0 * (row + 0.5) / side - 1.0;
-  const glm::dvec4 in_view((x + projection[2][0]) * distance / projection[0][0],
-                           (y + projection[2][1]) * distance / projection[1][1], -distance, 1.0);
+  // Of clip space: the distance itself, or 1 in an orthographic picture.
+  const double w = projection[3][3] - projection[2][3] * distance;
+  const glm::dvec4 in_view((x * w + projection[2][0] * distance - projection[3][0]) / projection[0][0],
+                           (y * w + projection[2][1] * distance - projection[3][1]) / projection[1][1],
+                           -distance, 1.0);
   const glm::dvec4 world = glm::inverse(glm::dmat4(frame.view)) * in_view;
   return {world.x, world.y, world.z};
 }
@@ -72,10 +75,12 @@ void Picker::draw_terrain(const Model& model, std::uint64_t step) const {
 }
 
 void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const DeviceState& state,
-                        const DrawSettings& draw) const {
+                        const ViewSettings& view, const SectionPainter* section) const {
+  const DrawSettings& draw = view.draw;
   draw_terrain(model, state.step);
   if (draws_balls(draw)) buffers.balls().draw(balls_, state);
-  if (!draw.solid && !draw.particles && !draws_springs(draw)) return;
+  if (section) section->draw(SectionUse::identities, model, buffers, *state.particles, view.colour);
+  if (!draw.solid && !draw.particles && !draws_springs(drawn_springs(view))) return;
   const float radius =
       static_cast<float>(draw.particles ? particle_radius(buffers.spacing())
                                         : spring_radius(buffers.spacing(), SpringType::structural));
@@ -88,6 +93,7 @@ void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const D
     if (draw.solid && part.index_count > 0) {
       glUseProgram(surface_.id());
       skin.bind();
+      const SkinsCut cut(view.cut);
       draw_triangles(part);
     } else {
       particles_.set(LOCATION_FIRST, body.first_particle);
@@ -100,8 +106,8 @@ void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const D
 }
 
 void Picker::submit(std::uint64_t request, const Model& model, const ModelBuffers& buffers,
-                    const DeviceState& state, const DrawSettings& draw, const render_layout::Frame& frame,
-                    const PickPlace& place) {
+                    const DeviceState& state, const ViewSettings& view, const SectionPainter* section,
+                    const render_layout::Frame& frame, const PickPlace& place) {
   // With all of them under way the newest gives way: only the last place of the cursor counts.
   if (pending_ == capacity) --pending_;
   Slot& slot = slots_[(first_ + pending_) % capacity];
@@ -119,7 +125,7 @@ void Picker::submit(std::uint64_t request, const Model& model, const ModelBuffer
   glDisable(GL_BLEND);
   glClearBufferuiv(GL_COLOR, 0, none);
   glClearBufferfv(GL_DEPTH, 0, &far);
-  draw_image(model, buffers, state, draw);
+  draw_image(model, buffers, state, view, section);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
   glUseProgram(0);

@@ -12,6 +12,7 @@
 #include "gpu/program.h"
 #include "render/layout.h"
 #include "render/model_buffers.h"
+#include "render/section.h"
 #include "render/targets.h"
 #include "scene/scene.h"
 
@@ -52,11 +53,12 @@ class Picker {
 
   /// Queues the image around a place of a picture whose block was `frame`. Particles are discs at least three
   /// pixels in radius; a body that is drawn solid is its skin, each point of it standing for the nearest
-  /// particle there, and hides what lies behind it, as terrain and balls do; goal nets and glass do not.
-  /// Changes the frame block's binding and leaves OpenGL's state as Renderer::draw does.
+  /// particle there, and hides what lies behind it, as terrain and balls do; goal nets and glass do not. What
+  /// a cut takes away is not there; the section it leaves, if `section` is not null, is as the skin. Changes
+  /// the frame block's binding and leaves OpenGL's state as Renderer::draw does.
   void submit(std::uint64_t request, const Model& model, const ModelBuffers& buffers,
-              const DeviceState& state, const DrawSettings& draw, const render_layout::Frame& frame,
-              const PickPlace& place);
+              const DeviceState& state, const ViewSettings& view, const SectionPainter* section,
+              const render_layout::Frame& frame, const PickPlace& place);
 
   /// The newest answer that has arrived; never waits. The nearest particle or ball within pick_reach of the
   /// place, the nearer to the eye of two as near; else the terrain there; else nothing.
@@ -76,7 +78,7 @@ class Picker {
   };
   Picker() = default;
   void draw_image(const Model& model, const ModelBuffers& buffers, const DeviceState& state,
-                  const DrawSettings& draw) const;
+                  const ViewSettings& view, const SectionPainter* section) const;
   void draw_terrain(const Model& model, std::uint64_t step) const;
   void read(Slot& slot);
 

@@ -11,7 +11,7 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   ASPIC_TRY(p.bounds, kernel("render/bounds.comp"));
   ASPIC_TRY(p.balls_turn, kernel("render/balls.comp"));
   ASPIC_TRY(p.light_boxes, kernel("render/light_boxes.comp"));
-  ASPIC_TRY(p.normals, kernel("render/normals.comp"));
+  ASPIC_TRY(p.skin, kernel("render/skin.comp"));
   ASPIC_TRY(p.quantity, kernel("render/quantity.comp"));
   ASPIC_TRY(p.light_surface, drawing({"render/light_map.vert", "render/light_map.frag"}));
   ASPIC_TRY(p.light_particles,
@@ -41,6 +41,7 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
   ASPIC_TRY(p.solid, drawing({"render/terrain.vert", "render/terrain.frag"}));
   ASPIC_TRY(p.glass, drawing({"render/terrain.vert", "render/glass.frag"}));
   ASPIC_TRY(p.sky, drawing({"render/screen.vert", "render/sky.frag"}));
+  ASPIC_TRY(p.ghost, drawing({"render/screen.vert", "render/ghost.frag"}));
   ASPIC_TRY(p.present, drawing({"render/screen.vert", "render/present.frag"}));
   return p;
 }

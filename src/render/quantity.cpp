@@ -6,6 +6,7 @@
 #include "model/terrain.h"
 #include "render/light_maps.h"
 #include "render/overlay_text.h"
+#include "render/section.h"
 
 namespace aspic {
 namespace {
@@ -22,16 +23,39 @@ double fall_height(const Model& model) {
   return highest;
 }
 
-Legend scale(std::string title, const QuantityRange& range, double unit_size, std::string_view unit) {
+struct ScaleWords {
+  ViewColour colour;
+  std::string_view title, unit;
+  double unit_size;
+};
+constexpr ScaleWords scales[] = {{ViewColour::strain, "strain of the springs", " %", 0.01},
+                                 {ViewColour::signed_strain, "strain: − shortened, + stretched", " %", 0.01},
+                                 {ViewColour::force, "force of the springs", " N", 1.0},
+                                 {ViewColour::energy, "energy of the springs", " J", 1.0},
+                                 {ViewColour::speed, "speed", " m/s", 1.0}};
+
+Legend scale(const ScaleWords& words, const ViewSettings& view, const QuantityRange& range) {
   Legend legend;
-  legend.title = std::move(title);
+  legend.title = words.title;
+  legend.map = chosen_map(view);
   for (std::size_t i = 0; i < 3; ++i) {
     const double value = range[0] + 0.5 * static_cast<double>(i) * (range[1] - range[0]);
-    legend.marks[i] = short_number(value / unit_size) + std::string(unit);
+    legend.marks[i] = short_number(value / words.unit_size) + std::string(words.unit);
   }
-  // Values past the upper end take its colour.
-  legend.marks[2] = "≥ " + legend.marks[2];
+  if (follows_picture(view)) return legend;
+  // Values past an end take its colour.
+  const std::size_t low = range[1] < range[0] ? 1 : 0, high = 1 - low;
+  legend.marks[2 * high] = "≥ " + legend.marks[2 * high];
+  if (range[low] != 0.0 || view.colour == ViewColour::signed_strain)
+    legend.marks[2 * low] = "≤ " + legend.marks[2 * low];
   return legend;
+}
+
+/// The smallest round ends that hold both numbers, low < high.
+QuantityRange round_ends(double low, double high) {
+  const double step = round_up(0.1 * (high - low));
+  // Sums of steps miss round numbers by a few units of the last place.
+  return {step * std::floor(low / step + 1e-9), step * std::ceil(high / step - 1e-9)};
 }
 
 }  // namespace
@@ -46,26 +70,51 @@ double round_up(double value) {
 
 QuantityRange default_range(const Model& model, ViewColour colour) {
   if (colour == ViewColour::strain) return {0.0, 0.2};
-  double largest = 1.0;
+  if (colour == ViewColour::signed_strain) return {-0.1, 0.1};
+  double largest = colour == ViewColour::energy ? 1e-3 : 1.0;
   if (colour == ViewColour::speed) {
     largest = std::max(largest, std::sqrt(2.0 * length(model.simulation.gravity) * fall_height(model)));
     for (const Vec3& v : model.initial_velocity) largest = std::max(largest, length(v));
     for (const Ball& ball : model.balls) largest = std::max(largest, length(ball.initial_velocity));
   }
-  if (colour == ViewColour::force) {
-    for (const SpringClass& c : model.spring_classes)
-      largest = std::max(largest, 0.1 * c.stiffness * c.rest_length);
+  for (const SpringClass& c : model.spring_classes) {
+    const double stretch = 0.1 * c.rest_length;
+    if (colour == ViewColour::force) largest = std::max(largest, c.stiffness * stretch);
+    if (colour == ViewColour::energy) largest = std::max(largest, 0.5 * c.stiffness * stretch * stretch);
   }
   return {0.0, round_up(largest)};
 }
 
+bool follows_picture(const ViewSettings& view) {
+  return has_scale(view.colour) && view.scale.range != ScaleRange::fixed;
+}
+
+QuantityRange range_for(const Model& model, const ViewSettings& view, const QuantityRange& seen) {
+  const QuantityRange of_model = default_range(model, view.colour);
+  if (!has_scale(view.colour)) return of_model;
+  if (view.scale.range == ScaleRange::fixed)
+    return {view.scale.from.value_or(of_model[0]), view.scale.to.value_or(of_model[1])};
+  auto [low, high] = seen;
+  if (!std::isfinite(low) || !std::isfinite(high) || low > high) return of_model;
+  const double least = 1e-3 * (of_model[1] - of_model[0]);
+  if (view.scale.range == ScaleRange::symmetric) {
+    const double end = round_up(std::max({0.5 * least, std::abs(low), std::abs(high)}));
+    return {-end, end};
+  }
+  if (high - low < least) {
+    low = of_model[0] < 0.0 ? low - 0.5 * least : std::max(low - 0.5 * least, 0.0);
+    high = low + least;
+  }
+  return round_ends(low, high);
+}
+
 Legend legend_for(const ViewSettings& view, const QuantityRange& range) {
-  if (view.colour == ViewColour::strain) return scale("strain of the springs", range, 0.01, " %");
-  if (view.colour == ViewColour::force) return scale("force of the springs", range, 1.0, " N");
-  if (view.colour == ViewColour::speed) return scale("speed", range, 1.0, " m/s");
+  const auto words = std::ranges::find(scales, view.colour, &ScaleWords::colour);
+  if (words != std::end(scales)) return scale(*words, view, range);
+  const DrawSettings draw = drawn_springs(view);
   Legend legend;
   for (const SpringType type : {SpringType::structural, SpringType::shear, SpringType::bending})
-    if (draws(view.draw, type)) legend.entries.push_back({spring_colour(type), std::string(name_of(type))});
+    if (draws(draw, type)) legend.entries.push_back({spring_colour(type), std::string(name_of(type))});
   if (!legend.entries.empty()) legend.title = "springs";
   return legend;
 }

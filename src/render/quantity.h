@@ -12,10 +12,19 @@ namespace aspic {
 using QuantityRange = std::array<double, 2>;
 
 /// The range shown where none is asked for, a round number that suits the model and stays the same all
-/// through a run, so that colours can be compared between frames: strain 0…0.2; speed 0 to that of a free
-/// fall from the highest particle to the terrain (at least 1 m/s); force 0 to the one that stretches the
-/// stiffest spring by a tenth (at least 1 N). Other colourings have no range: (0, 1).
+/// through a run, so that colours can be compared between frames: strain 0…0.2, signed −0.1…0.1; speed 0 to
+/// that of a free fall from the highest particle to the terrain (at least 1 m/s); force and energy 0 to what
+/// stretches the stiffest spring by a tenth (at least 1 N, 10⁻³ J). Other colourings have no range: (0, 1).
 QuantityRange default_range(const Model& model, ViewColour colour);
+
+/// Whether the ends of a view's scale depend on what the picture shows.
+bool follows_picture(const ViewSettings& view);
+
+/// The range of a view's scale. `seen`: the least and largest value that the picture shows, of a view that
+/// follows it; with nothing to see, or none that is finite, that of the model. Automatic and symmetric ends
+/// are round and span a thousandth of the model's range at least, so that noise stays one colour; an upper
+/// end below the lower one is legal and turns the scale round.
+QuantityRange range_for(const Model& model, const ViewSettings& view, const QuantityRange& seen);
 
 /// The smallest of 1, 2, 5 times a power of ten that is not below `value` > 0.
 double round_up(double value);

@@ -13,6 +13,7 @@
 #include "render/light_maps.h"
 #include "render/model_buffers.h"
 #include "render/programs.h"
+#include "render/reference_ground.h"
 #include "render/targets.h"
 #include "render/terrain_painter.h"
 
@@ -20,7 +21,7 @@ namespace aspic {
 namespace {
 /// Whether a colour shows what a particle's springs do.
 bool shows_springs(ViewColour colour) {
-  return colour == ViewColour::strain || colour == ViewColour::force;
+  return has_scale(colour) && colour != ViewColour::speed;
 }
 
 /// Uploads into a buffer that is made, or made larger, as needed.
@@ -40,8 +41,11 @@ struct Renderer::Parts {
   RenderPrograms programs;
   std::optional<OverlayPainter> overlay;
   TerrainPainter terrain;
+  ReferenceGround reference_ground;
   LightMaps lights;
   gl::Texture colour_map;
+  ScaleMap uploaded_map = ScaleMap::automatic;  // that of colour_map; automatic: none yet
+  QuantityRange range = {0.0, 1.0};
   gl::Buffer frame;
   gl::VertexArray nothing;
   int samples = 4;
@@ -53,18 +57,24 @@ struct Renderer::Parts {
   // Of the picture last drawn, for what is asked about it afterwards.
   std::optional<DeviceState> drawn_state;
   render_layout::Frame drawn_frame = {};
-  DrawSettings drawn_settings;
+  ViewSettings drawn_view;
   std::unique_ptr<Picker> picker;
   std::unique_ptr<HighlightPainter> highlight;
+  std::unique_ptr<SectionPainter> section;
+  std::unique_ptr<ArrowPainter> arrows;
   std::uint64_t picks = 0;
 
   Status prepare_targets(int width, int height, int wanted_samples);
   Status prepare_highlight();
+  Status prepare_section();
+  Status draw_arrows(const ViewSettings& view, const ArrowSet& set);
   void bind_frame(const render_layout::Frame& block);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
+  void prepare_scale(const DeviceState& state, const ViewSettings& view);
   /// Of this picture.
   BodyPainter bodies(const DeviceState& state, const ViewSettings& view) const {
-    return {*model, programs, *buffers, *targets, colour_map, state, view};
+    return {*model,     programs, *buffers, *targets,
+            colour_map, state,    view,     view.cut.on() ? section.get() : nullptr};
   }
   /// The whole picture by one program.
   void fill(const gl::Program& program) const {
@@ -87,9 +97,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
   ASPIC_TRY(parts->programs, RenderPrograms::create(context, options.shaders));
   ASPIC_TRY(parts->overlay, OverlayPainter::create(context, options.shaders));
   ASPIC_TRY(parts->terrain, TerrainPainter::create(context));
+  ASPIC_TRY(parts->reference_ground, ReferenceGround::create(context, options.shaders));
   ASPIC_TRY(parts->lights, LightMaps::create(context));
   ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
-  parts->colour_map.upload(colour_map_texels());
   ASPIC_TRY(parts->frame,
             gl::Buffer::create(context, "frame", sizeof(render_layout::Frame), gl::BufferKind::uniform));
   parts->nothing = gl::VertexArray::create({});
@@ -134,6 +144,23 @@ Status Renderer::Parts::prepare_highlight() {
   return {};
 }
 
+Status Renderer::Parts::prepare_section() {
+  if (!section) {
+    ASPIC_TRY(section, SectionPainter::create(*context, shaders));
+  }
+  return section->prepare(*model);
+}
+
+Status Renderer::Parts::draw_arrows(const ViewSettings& view, const ArrowSet& set) {
+  if (set.arrows.empty()) return {};
+  if (!arrows) {
+    ASPIC_TRY(arrows, ArrowPainter::create(*context, shaders));
+  }
+  const Status drawn = arrows->draw(view, set);
+  glDepthFunc(GL_LEQUAL);
+  return drawn;
+}
+
 void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
   frame.upload_items(std::span(&block, 1));
   frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
@@ -142,12 +169,23 @@ void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
   const gl::Buffer& particles = *state.particles;
   buffers->compute_light_boxes(programs, state);
-  if (options.view.draw.solid && buffers->has_skin()) buffers->compute_normals(programs, particles);
-  if (options.view.colour >= ViewColour::strain) buffers->compute_quantity(programs, state);
+  if (options.view.draw.solid && buffers->has_skin()) buffers->compute_skin(programs, particles);
   if (options.shadows)
-    lights.render(programs, *buffers, state, options.view.draw);
+    lights.render(programs, *buffers, state, options.view);
   else
     lights.leave_out(*buffers);
+}
+
+void Renderer::Parts::prepare_scale(const DeviceState& state, const ViewSettings& view) {
+  const ScaleMap wanted = chosen_map(view);
+  if (std::exchange(uploaded_map, wanted) != wanted) colour_map.upload(colour_map_texels(wanted));
+  if (!has_scale(view.colour)) return;
+  buffers->compute_quantity(programs, state);
+  if (!follows_picture(view)) return;
+  const bool springs = draws_springs(drawn_springs(view)) || (view.draw.solid && has(SurfaceStyle::cords));
+  range = range_for(*model, view, buffers->extremes(springs && shows_springs(view.colour)));
+  drawn_frame.quantity_range = quantity_scale(range);
+  bind_frame(drawn_frame);
 }
 
 Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
@@ -158,23 +196,26 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   const ViewSettings& view = options.view;
   ASPIC_CHECK(p.prepare_targets(width, height, options.samples));
   if (options.highlight) ASPIC_CHECK(p.prepare_highlight());
-  if (p.has(SurfaceStyle::cords) || draws_springs(view.draw))
+  if (view.cut.on()) ASPIC_CHECK(p.prepare_section());
+  if (p.has(SurfaceStyle::cords) || draws_springs(drawn_springs(view)))
     ASPIC_CHECK(p.buffers->prepare_lines(*p.context, *p.model));
   if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
-  p.buffers->use_coarse_skin(options.coarse_skin);
+  p.buffers->use_coarse_skin(options.coarse_skin && !view.cut.on());
   const Camera camera(view.camera, width, height);
-  const QuantityRange range = options.range.value_or(default_range(*p.model, view.colour));
+  p.range = range_for(*p.model, view, {});
   const bool flesh = p.has(SurfaceStyle::flesh), solid = view.draw.solid && flesh;
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
-  p.drawn_frame =
-      frame_block(*p.model, camera, width, height, {view, range, flesh, options.shadows, state.step});
+  p.drawn_frame = frame_block(
+      *p.model, camera, width, height,
+      {view, p.range, flesh, options.shadows, state.step, section_depth(view.cut, p.buffers->spacing())});
   std::vector<Terrain> terrain;
   for (const Terrain& t : p.model->terrain)
     if (!options.background) terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
   p.drawn_state = state;
-  p.drawn_settings = view.draw;
+  p.drawn_view = view;
   p.bind_frame(p.drawn_frame);
+  p.prepare_scale(state, view);
   p.prepare_light(state, options);
   glEnable(GL_FRAMEBUFFER_SRGB);
   const BodyPainter bodies = p.bodies(state, view);
@@ -184,30 +225,38 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
-  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with_alpha(*c, 1.0).data());
+  if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with_alpha(*c, 0.0).data());
   p.terrain.draw_solid(p.programs, terrain, view.camera, camera, options.shadows);
   bodies.draw_rods_and_balls();
   bodies.draw_springs();
   bodies.draw_particles();
+  bodies.draw_section();
   // The last opaque part: only where there is nothing else.
   if (!options.background) p.fill(p.programs.sky);
   if (view.draw.solid && p.has(SurfaceStyle::sheet)) bodies.draw_sheets();
   p.terrain.draw_far_glass(p.programs, terrain);
+  if (!options.background) p.reference_ground.draw(view, camera);
+  bodies.draw_cords();
   if (solid) {
     bodies.draw_jelly(JellySide::far);
     p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
     p.targets->behind.framebuffer.copy_colour_from(p.targets->picture.framebuffer);
     p.targets->samples.framebuffer.bind();
     bodies.draw_jelly(JellySide::near);
+    bodies.draw_cords();
   }
+  if (!options.background) p.reference_ground.draw(view, camera);
   p.terrain.draw_before_bodies(p.programs, terrain, view.camera, camera);
-  Status written;
-  if (options.highlight)
+  Status written = p.draw_arrows(view, options.arrows);
+  if (written && options.highlight)
     written = p.highlight->draw_within(*p.buffers, particles, view.draw, *options.highlight);
   p.targets->picture.framebuffer.copy_colour_from(p.targets->samples.framebuffer);
-  if (written)
-    written = p.overlay->draw(p.targets->picture.framebuffer, options.text,
-                              options.legend ? legend_for(view, range) : Legend{});
+  if (written) {
+    std::vector<Legend> legends;
+    if (options.legend) legends = {legend_for(view, p.range), arrow_legend(view, options.arrows)};
+    written = p.overlay->draw(p.targets->picture.framebuffer, options.text, legends,
+                              options.axes && view.axes ? &camera : nullptr, options.text_height);
+  }
   glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDisable(GL_FRAMEBUFFER_SRGB);
@@ -223,12 +272,17 @@ Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
   if (!p.picker) {
     ASPIC_TRY(p.picker, Picker::create(*p.context, p.shaders));
   }
-  p.picker->submit(++p.picks, *p.model, *p.buffers, *p.drawn_state, p.drawn_settings, p.drawn_frame, place);
+  p.picker->submit(++p.picks, *p.model, *p.buffers, *p.drawn_state, p.drawn_view,
+                   p.drawn_view.cut.on() ? p.section.get() : nullptr, p.drawn_frame, place);
   return p.picks;
 }
 
 PickAnswer Renderer::picked() const {
   return parts_->picker ? parts_->picker->answer() : PickAnswer{};
+}
+
+QuantityRange Renderer::range() const {
+  return parts_->range;
 }
 
 const gl::Framebuffer& Renderer::picture() const {
@@ -242,6 +296,20 @@ void Renderer::present(std::uint32_t framebuffer, int width, int height, int lef
   glViewport(left, bottom, width, height);
   parts_->targets->picture.colour.bind(UNIT_FRAME);
   parts_->fill(parts_->programs.present);
+  glUseProgram(0);
+  glBindVertexArray(0);
+}
+
+void Renderer::present_ghost(const Colour& background, std::uint32_t framebuffer, int width, int height,
+                             int left, int bottom) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(left, bottom, width, height);
+  parts_->targets->picture.colour.bind(UNIT_FRAME);
+  parts_->programs.ghost.set(LOCATION_BASE_COLOUR, with_alpha(background, 1.0));
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  parts_->fill(parts_->programs.ghost);
+  glDisable(GL_BLEND);
   glUseProgram(0);
   glBindVertexArray(0);
 }
@@ -260,7 +328,7 @@ Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
   frame.viewport = glm::vec4(w, h, 1.0f / w, 1.0f / h);
   const Status drawn =
-      p.highlight->draw_over(*p.buffers, *p.drawn_state->particles, p.drawn_settings, options, frame);
+      p.highlight->draw_over(*p.buffers, *p.drawn_state->particles, p.drawn_view.draw, options, frame);
   glDisable(GL_SCISSOR_TEST);
   glUseProgram(0);
   glBindVertexArray(0);
@@ -269,9 +337,10 @@ Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_
 
 std::vector<Vec3> Renderer::normals() const {
   std::vector<Vec3> result;
-  for (const auto& n :
-       parts_->buffers->normals().download_items<std::array<float, 4>>(parts_->buffers->particle_count()))
-    result.push_back({static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
+  for (const render_layout::SkinVertex& v :
+       parts_->buffers->skin().download_items<render_layout::SkinVertex>(parts_->buffers->skin_vertices()))
+    result.push_back(
+        {static_cast<double>(v.normal.x), static_cast<double>(v.normal.y), static_cast<double>(v.normal.z)});
   return result;
 }
 

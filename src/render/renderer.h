@@ -12,6 +12,7 @@
 #include "gpu/texture.h"
 #include "model/model.h"
 #include "model/state.h"
+#include "render/arrows.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
 #include "render/highlight.h"
@@ -30,13 +31,15 @@ struct RendererOptions {
 /// What a picture shows besides the particles.
 struct PictureOptions {
   ViewSettings view;
-  std::optional<QuantityRange> range;  ///< of strain, force [N] or speed [m/s]; absent: default_range()
-  std::vector<OverlayLine> text;       ///< empty: no panel
-  bool legend = true;                  ///< of colours, where they mean something
-  std::optional<Colour> background;    ///< instead of terrain and sky, linear light
-  bool shadows = true;                 ///< on terrain; without them light maps are left out
-  int samples = 0;                     ///< per pixel, at most the renderer's; 0: those
-  bool coarse_skin = false;            ///< fewer triangles for large bodies: for software rasterisers
+  std::vector<OverlayLine> text;              ///< empty: no panel
+  int text_height = 0;                        ///< [pixels], at most 256; 0: a share of the picture's height
+  bool legend = true;                         ///< of colours, where they mean something
+  std::optional<Colour> background;           ///< instead of terrain and sky, linear light; its alpha is 0
+  bool shadows = true;                        ///< on terrain; without them light maps are left out
+  int samples = 0;                            ///< per pixel, at most the renderer's; 0: those
+  bool coarse_skin = false;                   ///< fewer triangles for large bodies: for software rasterisers
+  ArrowSet arrows;                            ///< of those that the view asks for
+  bool axes = true;                           ///< in a corner, where the view asks for them
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
 };
 
@@ -72,6 +75,9 @@ class Renderer {
   /// The newest answer that has come back, as a rule that of the picture before; never waits for the device.
   PickAnswer picked() const;
 
+  /// The ends of the colour scale of the picture last drawn. Legal after draw().
+  QuantityRange range() const;
+
   /// The picture last drawn: one sample, sRGB encoded values. Legal after draw().
   const gl::Framebuffer& picture() const;
   /// Puts the picture last drawn into a window's framebuffer (0: the default one), stretched to
@@ -79,12 +85,17 @@ class Renderer {
   /// they are.
   void present(std::uint32_t framebuffer, int width, int height, int left = 0, int bottom = 0) const;
 
+  /// Lays what the bodies of the picture last drawn cover over a window's framebuffer, pale and translucent;
+  /// the picture was drawn with this background.
+  void present_ghost(const Colour& background, std::uint32_t framebuffer, int width, int height, int left,
+                     int bottom) const;
+
   /// Marks particles on top of the picture last drawn where it was presented, without redrawing it; its
   /// state must still lie where it was. Error: scene_rejected, no_device or io.
   Status present_highlight(const HighlightOptions& options, std::uint32_t framebuffer, int width, int height,
                            int left = 0, int bottom = 0);
 
-  /// For tests and probes: normals as of the last draw of solid bodies, one by particle (zero inside bodies).
+  /// For tests and probes: normals as of the last draw of solid bodies, one by vertex of make_surface().
   std::vector<Vec3> normals() const;
 
  private:

@@ -1,11 +1,15 @@
 #include "render/surface.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "render/software_rasteriser.h"
 
 namespace aspic {
 namespace {
+
+constexpr std::uint32_t none = 0xffffffffu;
 
 /// Whether a coarse skin would differ.
 bool is_fine(const Body& body) {
@@ -14,46 +18,95 @@ bool is_fine(const Body& body) {
   });
 }
 
-Surface::Part add_triangles(const std::vector<Quad>& quads, std::vector<std::uint32_t>& indices) {
-  const auto first = static_cast<std::uint32_t>(indices.size());
-  for (const Quad& q : quads) indices.insert(indices.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
-  return {first, static_cast<std::uint32_t>(indices.size()) - first};
+/// Triangles over particles and over vertices.
+struct Triangles {
+  std::vector<std::uint32_t> particles, vertices;
+};
+
+/// Makes the vertices of one patch after another.
+class Vertices {
+ public:
+  explicit Vertices(std::uint32_t particles) : of_patch_(particles, none), latest_(particles, none) {}
+
+  void add(const std::vector<Quad>& quads, Triangles& into) {
+    for (const Quad& q : quads) {
+      for (const std::size_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) {
+        into.particles.push_back(q[corner]);
+        into.vertices.push_back(vertex(q[corner]));
+      }
+    }
+  }
+  void add_fans(const std::vector<Quad>& quads) {
+    for (const Quad& q : quads)
+      for (std::size_t corner = 0; corner < 4; ++corner)
+        own_[of_patch_[q[corner]]].push_back({q[(corner + 1) % 4], q[(corner + 3) % 4]});
+  }
+  void end_patch(const std::vector<Quad>& quads) {
+    for (const Quad& q : quads)
+      for (const std::uint32_t particle : q) of_patch_[particle] = none;
+  }
+
+  /// Fans in the order of the vertices, a vertex's own quads before those of other patches.
+  void write_fans(Surface& surface) const {
+    surface.fan_vertex = particle_;
+    for (std::size_t v = 0; v < own_.size(); ++v) {
+      const auto append = [&](std::size_t of) {
+        for (const auto& corner : own_[of])
+          surface.fan.insert(surface.fan.end(), corner.begin(), corner.end());
+        return static_cast<std::uint32_t>(surface.fan.size() / 2);
+      };
+      surface.fan_start.push_back(static_cast<std::uint32_t>(surface.fan.size() / 2));
+      surface.fan_own.push_back(append(v));
+      for (std::uint32_t other = latest_[particle_[v]]; other != none; other = before_[other])
+        if (other != v) append(other);
+    }
+    surface.fan_start.push_back(static_cast<std::uint32_t>(surface.fan.size() / 2));
+  }
+
+ private:
+  std::uint32_t vertex(std::uint32_t particle) {
+    std::uint32_t& known = of_patch_[particle];
+    if (known != none) return known;
+    known = static_cast<std::uint32_t>(particle_.size());
+    before_.push_back(std::exchange(latest_[particle], known));
+    particle_.push_back(particle);
+    own_.emplace_back();
+    return known;
+  }
+
+  std::vector<std::uint32_t> of_patch_;         // by particle: its vertex in the patch under way
+  std::vector<std::uint32_t> latest_, before_;  // the newest vertex of a particle; the one before a vertex
+  std::vector<std::uint32_t> particle_;         // by vertex
+  std::vector<std::vector<std::array<std::uint32_t, 2>>> own_;  // by vertex: next and previous neighbours
+};
+
+Surface::Part append(const Triangles& made, Surface& surface) {
+  const auto first = static_cast<std::uint32_t>(surface.indices.size());
+  surface.indices.insert(surface.indices.end(), made.particles.begin(), made.particles.end());
+  surface.corners.insert(surface.corners.end(), made.vertices.begin(), made.vertices.end());
+  return {first, static_cast<std::uint32_t>(made.particles.size())};
 }
 
 }  // namespace
 
 Surface make_surface(const Model& model) {
   Surface surface;
-  std::vector<Quad> all;
+  Vertices vertices(model.particle_count());
   for (const Body& body : model.bodies) {
-    const std::vector<Quad> quads = quads_of(body);
-    surface.parts.push_back(add_triangles(quads, surface.indices));
-    all.insert(all.end(), quads.begin(), quads.end());
-    surface.coarse_parts.push_back(
-        is_fine(body) ? add_triangles(quads_of(body, software::coarse_quads), surface.indices)
-                      : surface.parts.back());
-  }
-  std::vector<std::uint32_t> quads_at(model.particle_count(), 0);
-  for (const Quad& q : all)
-    for (const std::uint32_t vertex : q) ++quads_at[vertex];
-  std::vector<std::uint32_t> next(model.particle_count(), 0);
-  std::uint32_t total = 0;
-  for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
-    if (quads_at[i] == 0) continue;
-    surface.fan_vertex.push_back(i);
-    surface.fan_start.push_back(total);
-    next[i] = total;
-    total += quads_at[i];
-  }
-  surface.fan_start.push_back(total);
-  surface.fan.resize(2 * std::size_t{total});
-  for (const Quad& q : all) {
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      const std::size_t slot = 2 * std::size_t{next[q[corner]]++};
-      surface.fan[slot] = q[(corner + 1) % 4];
-      surface.fan[slot + 1] = q[(corner + 3) % 4];
+    Triangles fine, coarse;
+    for (const Patch& patch : body.surface) {
+      Body alone;
+      alone.surface = {patch};
+      const std::vector<Quad> quads = quads_of(alone);
+      vertices.add(quads, fine);
+      vertices.add_fans(quads);
+      if (is_fine(body)) vertices.add(quads_of(alone, software::coarse_quads), coarse);
+      vertices.end_patch(quads);
     }
+    surface.parts.push_back(append(fine, surface));
+    surface.coarse_parts.push_back(is_fine(body) ? append(coarse, surface) : surface.parts.back());
   }
+  vertices.write_fans(surface);
   return surface;
 }
 

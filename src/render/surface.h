@@ -8,20 +8,22 @@
 namespace aspic {
 
 /// Triangles over global particle indices. They turn anticlockwise seen from outside the undeformed
-/// body, or from the side that an open surface turns to.
+/// body, or from the side that an open surface turns to. Patches that meet have vertices of their own there,
+/// so that an edge can be sharp.
 struct Surface {
   struct Part {
     std::uint32_t first_index = 0, index_count = 0;  ///< of one body, into `indices`
   };
 
-  std::vector<std::uint32_t> indices;  ///< three per triangle
+  std::vector<std::uint32_t> indices;  ///< three per triangle: particles
+  std::vector<std::uint32_t> corners;  ///< the same triangles: vertices
   std::vector<Part> parts;             ///< by body, in the order of Model::bodies
   std::vector<Part> coarse_parts;  ///< the same skins with fewer triangles, over some of the same vertices
 
   /// The fans: vertex i of the skin is particle fan_vertex[i]; at it meet the quads
-  /// fan_start[i] … fan_start[i + 1] − 1, of each of which `fan` holds the vertex's next and previous
-  /// neighbour (two words).
-  std::vector<std::uint32_t> fan_vertex, fan_start, fan;
+  /// fan_start[i] … fan_start[i + 1] − 1, those of its own patch before fan_own[i], of each of which `fan`
+  /// holds the vertex's next and previous neighbour (two words: particles).
+  std::vector<std::uint32_t> fan_vertex, fan_start, fan_own, fan;
 };
 
 /// The patches of every body. A body without a surface has no triangles.

@@ -77,7 +77,9 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
     if (!row.flat) continue;
     const FlatPart flat = row.flat(t.geometry);
     const auto above = [&](const Vec3& x) { return dot(flat.normal, x - flat.point); };
-    if ((above(camera.position) < 0.0) != from_behind) continue;
+    const glm::vec3& far_eye = lens.eye();
+    const Vec3 eye = lens.orthographic() ? Vec3{far_eye.x, far_eye.y, far_eye.z} : camera.position;
+    if ((above(eye) < 0.0) != from_behind) continue;
     const bool cut = row.surface != nullptr;
     const auto& [plain, shadowed] = cut ? programs.cut_plane : programs.plane;
     if (from_behind) {

@@ -17,8 +17,6 @@
 namespace aspic::report {
 namespace {
 
-constexpr std::string_view backend_key = "backend";
-
 std::optional<double> number(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -166,22 +164,11 @@ Result<Grid> make_grid(Scene scene, const BackendChoice& backend, const RunLengt
   return grid;
 }
 
-Result<GridRun> grid_run(const Grid& grid, std::size_t index) {
-  GridRun run = {grid.scene, grid.backend};
+Result<Variant> grid_run(const Grid& grid, std::size_t index) {
   const std::vector<std::string> values = grid.values(index);
-  std::vector<std::string> overrides;
-  for (std::size_t a = 0; a < values.size(); ++a) {
-    if (grid.axes[a].key == backend_key) {
-      ASPIC_TRY(run.backend, parse_backend(values[a], grid.backend));
-      ASPIC_CHECK(check_choice(run.backend));
-      continue;
-    }
-    ASPIC_TRY(auto more, assignments(grid.scene, grid.axes[a].key, values[a]));
-    overrides.insert(overrides.end(), std::make_move_iterator(more.begin()),
-                     std::make_move_iterator(more.end()));
-  }
-  ASPIC_TRY(run.scene, with_overrides(std::move(run.scene), overrides));
-  return run;
+  std::vector<Variation> variations;
+  for (std::size_t a = 0; a < values.size(); ++a) variations.push_back({grid.axes[a].key, values[a]});
+  return varied(grid.scene, grid.backend, variations);
 }
 
 }  // namespace aspic::report

@@ -7,6 +7,7 @@
 
 #include "run/backends.h"
 #include "run/run_length.h"
+#include "run/variation.h"
 #include "scene/scene.h"
 
 namespace aspic::report {
@@ -46,10 +47,6 @@ Result<Grid> make_grid(Scene scene, const BackendChoice& backend, const RunLengt
                        const std::vector<std::string>& vary);
 
 /// What a run of the grid simulates, and with what. Errors: those of its scene and of its backend's name.
-struct GridRun {
-  Scene scene;
-  BackendChoice backend;
-};
-Result<GridRun> grid_run(const Grid& grid, std::size_t index);
+Result<Variant> grid_run(const Grid& grid, std::size_t index);
 
 }  // namespace aspic::report

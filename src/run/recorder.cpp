@@ -5,7 +5,9 @@
 #include <chrono>
 #include <limits>
 
+#include "render/camera.h"
 #include "render/overlay_text.h"
+#include "run/arrows.h"
 
 namespace aspic {
 namespace {
@@ -90,7 +92,12 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   }
   PictureOptions picture;
   picture.view = scene_.view;
+  picture.view.camera = fitted(scene_.view.camera, output_.size.width, output_.size.height);
   picture.legend = output_.text;
+  if (picture.view.arrows.any()) {
+    ASPIC_TRY(const auto state, solver.state());
+    picture.arrows = arrows_of(solver.model(), state, picture.view.arrows);
+  }
   if (output_.text)
     picture.text =
         overlay_lines(scene_.model, static_cast<double>(step) * solver.model().simulation.timestep);

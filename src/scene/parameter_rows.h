@@ -26,11 +26,22 @@ template <class T>
 std::optional<Value> to_value(const Parameter&, const std::optional<T>& field) {
   return field ? std::optional<Value>(*field) : std::nullopt;
 }
-inline std::optional<Value> to_value(const Parameter& p, const DrawSettings& field) {
-  const bool drawn[] = {field.solid, field.particles, field.structural, field.shear, field.bending};
+/// The members of a set of words, in the order in which its row names them.
+inline std::array<bool DrawSettings::*, 5> members_of(const DrawSettings&) {
+  return {&DrawSettings::solid, &DrawSettings::particles, &DrawSettings::structural, &DrawSettings::shear,
+          &DrawSettings::bending};
+}
+inline std::array<bool ArrowSettings::*, 4> members_of(const ArrowSettings&) {
+  return {&ArrowSettings::contacts, &ArrowSettings::springs, &ArrowSettings::external, &ArrowSettings::net};
+}
+template <class T>
+inline constexpr bool is_set_of_words = std::is_same_v<T, DrawSettings> || std::is_same_v<T, ArrowSettings>;
+
+template <class T>
+requires is_set_of_words<T> std::optional<Value> to_value(const Parameter& p, const T& field) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < p.words.size(); ++i) {
-    if (drawn[i]) words.emplace_back(p.words[i]);
+    if (field.*members_of(field)[i]) words.emplace_back(p.words[i]);
   }
   return Value(words);
 }
@@ -52,11 +63,12 @@ template <class T>
 void from_value(const Parameter&, std::optional<T>& field, const Value& value) {
   field = std::get<T>(value);
 }
-inline void from_value(const Parameter& p, DrawSettings& field, const Value& value) {
+template <class T>
+requires is_set_of_words<T>
+void from_value(const Parameter& p, T& field, const Value& value) {
   const auto& words = std::get<std::vector<std::string>>(value);
-  bool* const drawn[] = {&field.solid, &field.particles, &field.structural, &field.shear, &field.bending};
   for (std::size_t i = 0; i < p.words.size(); ++i) {
-    *drawn[i] = std::find(words.begin(), words.end(), p.words[i]) != words.end();
+    field.*members_of(field)[i] = std::find(words.begin(), words.end(), p.words[i]) != words.end();
   }
 }
 
@@ -89,7 +101,7 @@ constexpr ParameterType type_of() {
   if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, std::int64_t>)
     return ParameterType::integer;
   if constexpr (std::is_same_v<Field, std::string>) return ParameterType::text;
-  if constexpr (std::is_same_v<Field, DrawSettings>) return ParameterType::words;
+  if constexpr (is_set_of_words<Field>) return ParameterType::words;
   if constexpr (std::is_same_v<Field, Vec3>) return ParameterType::vector;
   if constexpr (is_array_of<int, Field>) return ParameterType::counts;
   if constexpr (is_array_of<double, Field>) return ParameterType::numbers;

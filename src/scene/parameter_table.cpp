@@ -141,13 +141,45 @@ Rows view_rows() {
   Parameter draw = row("view.draw", FIELD(view.draw),
                        "Parts of the bodies that are drawn: surface, particles, springs by type.");
   draw.words = {"solid", "particles", "structural", "shear", "bending"};
+  Parameter arrows = row("view.arrows", FIELD(view.arrows),
+                         "Arrows at particles: contact points with their normals and forces; the sum of the "
+                         "springs' forces; gravity and a hand's pull; all together.");
+  arrows.words = {"contacts", "springs", "external", "net"};
   return {
       row("view.camera.position", "m", within(far), FIELD(view.camera.position), "Position of the camera."),
       row("view.camera.target", "m", within(far), FIELD(view.camera.target),
           "Point at the centre of the picture."),
       row("view.camera.fov", "°", {1.0, 179.0}, FIELD(view.camera.fov), "Vertical field of view."),
+      word<projections>(
+          "view.camera.projection", FIELD(view.camera.projection),
+          "Perspective, or orthographic: parallel, as high as the field of view is at the target."),
       draw,
       word<view_colours>("view.colour", FIELD(view.colour), "What the colours of bodies mean."),
+      word<cut_insides>("view.cut.inside", FIELD(view.cut.inside),
+                        "What a cut shows of the bodies' inside: a filled section in their colours, or the "
+                        "springs before one; off: nothing is cut."),
+      direction(row("view.cut.normal", FIELD(view.cut.normal),
+                    "Normal of the cut's plane; the side that it points to is not drawn.")),
+      row("view.cut.offset", "m", within(far), FIELD(view.cut.offset),
+          "Distance of the cut's plane from the world's origin, along its normal."),
+      row("view.axes", FIELD(view.axes), "Whether the world's axes are drawn in a corner of the picture."),
+      arrows,
+      absent("as long as the picture has room for",
+             row("view.arrow-scale", "N/m", {0.0, 1e12, true}, FIELD(view.arrow_scale),
+                 "Force that an arrow of a metre stands for.")),
+      word<scale_maps>("view.scale.map", FIELD(view.scale.map),
+                       "Colours of the scale; automatic: blue-red for signed strain, else violet-yellow."),
+      word<scale_ranges>("view.scale.range", FIELD(view.scale.range),
+                         "Values at the ends of the scale: fixed for the run, those of each picture "
+                         "(automatic), or those of each picture with 0 in the middle (symmetric)."),
+      absent("suits the scene",
+             row("view.scale.from", "", within(1e12), FIELD(view.scale.from),
+                 "Value at the lower end of a fixed scale, in N, J or m/s; strain as a ratio.")),
+      absent("suits the scene",
+             row("view.scale.to", "", within(1e12), FIELD(view.scale.to),
+                 "Value at the upper end of a fixed scale, in N, J or m/s; strain as a ratio.")),
+      absent("none", row("view.ground", "m", within(far), FIELD(view.ground),
+                         "Height of a level grid that is drawn only: bodies fall through it.")),
   };
 }
 
@@ -155,6 +187,20 @@ Rows view_rows() {
 
 std::string_view name_of(ViewColour colour) {
   return std::ranges::find(view_colours, colour, &Named<ViewColour>::value)->name;
+}
+std::string_view name_of(ScaleMap map) {
+  return std::ranges::find(scale_maps, map, &Named<ScaleMap>::value)->name;
+}
+std::string_view name_of(ScaleRange range) {
+  return std::ranges::find(scale_ranges, range, &Named<ScaleRange>::value)->name;
+}
+
+std::string_view name_of(CutInside inside) {
+  return std::ranges::find(cut_insides, inside, &Named<CutInside>::value)->name;
+}
+
+std::string_view name_of(Projection projection) {
+  return std::ranges::find(projections, projection, &Named<Projection>::value)->name;
 }
 
 std::span<const Parameter> parameters() {

@@ -1,5 +1,6 @@
 #pragma once
 // A scene: what one TOML file says of physics and picture, as plain data.
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -7,11 +8,19 @@
 
 namespace aspic {
 
-/// A perspective camera. Position and target never coincide in a scene that was accepted.
+/// How a camera brings the world into the picture.
+enum class Projection { perspective, orthographic };
+
+inline constexpr Named<Projection> projections[] = {{Projection::perspective, "perspective"},
+                                                    {Projection::orthographic, "orthographic"}};
+
+/// A camera. Position and target never coincide in a scene that was accepted.
 struct CameraSettings {
   Vec3 position = {10.0, 6.0, 14.0};  ///< of the eye [m]
   Vec3 target = {0.0, 2.0, 0.0};      ///< point in the middle of the picture [m]
   double fov = 45.0;                  ///< vertical field of view [degrees], 1…179
+  /// Orthographic: parallel to the axis, with the height that the field of view has at the target.
+  Projection projection = Projection::perspective;
 
   friend bool operator==(const CameraSettings&, const CameraSettings&) = default;
 };
@@ -28,26 +37,93 @@ struct DrawSettings {
 };
 
 /// What the colours of bodies mean.
-enum class ViewColour { material, type, strain, force, speed };
+enum class ViewColour { material, type, strain, force, speed, signed_strain, energy };
 
 /// Every one, in the order in which they are listed for users.
-inline constexpr Named<ViewColour> view_colours[] = {{ViewColour::material, "material"},
-                                                     {ViewColour::type, "type"},
-                                                     {ViewColour::strain, "strain"},
-                                                     {ViewColour::force, "force"},
-                                                     {ViewColour::speed, "speed"}};
+inline constexpr Named<ViewColour> view_colours[] = {
+    {ViewColour::material, "material"}, {ViewColour::type, "type"},
+    {ViewColour::strain, "strain"},     {ViewColour::signed_strain, "signed-strain"},
+    {ViewColour::force, "force"},       {ViewColour::energy, "energy"},
+    {ViewColour::speed, "speed"}};
+
+/// Whether a colour stands for a number, on a scale.
+inline bool has_scale(ViewColour colour) {
+  return colour >= ViewColour::strain;
+}
+
+/// Colours of a scale.
+enum class ScaleMap { automatic, violet_yellow, heat, grey, blue_red };
+inline constexpr Named<ScaleMap> scale_maps[] = {{ScaleMap::automatic, "automatic"},
+                                                 {ScaleMap::violet_yellow, "violet-yellow"},
+                                                 {ScaleMap::heat, "heat"},
+                                                 {ScaleMap::grey, "grey"},
+                                                 {ScaleMap::blue_red, "blue-red"}};
+
+/// Which values the ends of a scale stand for.
+enum class ScaleRange { fixed, automatic, symmetric };
+inline constexpr Named<ScaleRange> scale_ranges[] = {
+    {ScaleRange::fixed, "fixed"}, {ScaleRange::automatic, "automatic"}, {ScaleRange::symmetric, "symmetric"}};
+
+/// The scale of a colour that stands for a number.
+struct ScaleSettings {
+  ScaleMap map = ScaleMap::automatic;
+  ScaleRange range = ScaleRange::fixed;
+  /// Ends of a fixed scale, in the quantity's SI unit, strain as a ratio; absent: what suits the model.
+  std::optional<double> from, to;
+
+  friend bool operator==(const ScaleSettings&, const ScaleSettings&) = default;
+};
+
+/// What a cut through the bodies shows of their inside.
+enum class CutInside { off, section, springs };
+
+/// Every one, in the order in which they are listed for users.
+inline constexpr Named<CutInside> cut_insides[] = {
+    {CutInside::off, "off"}, {CutInside::section, "section"}, {CutInside::springs, "springs"}};
+
+/// A plane of the world that bodies are cut along: what lies at normal·x > offset is not drawn, with the unit
+/// vector along `normal`.
+struct CutSettings {
+  CutInside inside = CutInside::off;  ///< off: nothing is cut
+  Vec3 normal = {0.0, 0.0, 1.0};      ///< of any length but zero, towards what is cut away
+  double offset = 0.0;                ///< from the world's origin along the normal [m]
+
+  bool on() const { return inside != CutInside::off; }
+  friend bool operator==(const CutSettings&, const CutSettings&) = default;
+};
+
+/// Which vectors are drawn as arrows; `arrows = ["contacts"]` in a file.
+struct ArrowSettings {
+  bool contacts = false;  ///< where particles touch terrain: normals, and the force of the contact
+  bool springs = false;   ///< the sum of each particle's springs
+  bool external = false;  ///< gravity, and a hand's pull
+  bool net = false;       ///< all of these: f
+
+  bool any() const { return contacts || springs || external || net; }
+  friend bool operator==(const ArrowSettings&, const ArrowSettings&) = default;
+};
 
 /// The `view` table of a scene.
 struct ViewSettings {
   CameraSettings camera;
   DrawSettings draw;
   ViewColour colour = ViewColour::material;
+  CutSettings cut;
+  bool axes = false;  ///< the world's axes are drawn in a corner
+  ArrowSettings arrows;
+  std::optional<double> arrow_scale = {};  ///< an arrow's force by its length [N/m]; absent: fits the picture
+  ScaleSettings scale;
+  std::optional<double> ground;  ///< height of a ground that is drawn only [m]; absent: none
 
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 
-/// Name in scene files.
+/// Names in scene files.
 std::string_view name_of(ViewColour colour);
+std::string_view name_of(CutInside inside);
+std::string_view name_of(Projection projection);
+std::string_view name_of(ScaleMap map);
+std::string_view name_of(ScaleRange range);
 
 /// Physics and picture of one scene. Default-constructed it has no terrain and no bodies, as an empty file
 /// would.

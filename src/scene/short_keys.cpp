@@ -63,16 +63,6 @@ constexpr ShortKey table[] = {
      [](const Scene& s) { return everywhere(s, "contact.friction", "terrain[].friction"); }},
 };
 
-/// The row of a path with its index, if it is in the table.
-const Parameter* row_of_path(std::string path, std::size_t* index = nullptr) {
-  const std::size_t open = path.find('['), close = path.find(']');
-  if (open != std::string::npos && close != std::string::npos && close > open) {
-    if (index) std::from_chars(path.data() + open + 1, path.data() + close, *index);
-    path.erase(open + 1, close - open - 1);
-  }
-  return find_parameter(path);
-}
-
 }  // namespace
 
 std::span<const ShortKey> short_keys() {
@@ -110,23 +100,33 @@ Result<std::vector<std::string>> assignments(const Scene& scene, std::string_vie
   return result;
 }
 
-std::optional<double> present_value(const Scene& scene, const ShortKey& key) {
+std::optional<KeyPlace> place_of(std::string_view path) {
+  KeyPlace place;
+  std::string row(path);
+  const std::size_t open = row.find('['), close = row.find(']');
+  if (open != std::string::npos && close != std::string::npos && close > open) {
+    std::from_chars(row.data() + open + 1, row.data() + close, place.index);
+    row.erase(open + 1, close - open - 1);
+  }
+  place.parameter = find_parameter(row);
+  if (!place.parameter) return std::nullopt;
+  return place;
+}
+
+std::optional<KeyPlace> place_of(const Scene& scene, const ShortKey& key) {
   const std::vector<ShortKeyTarget> targets = key.targets(scene);
-  if (targets.empty()) return std::nullopt;
-  std::size_t index = 0;
-  const Parameter* const row = row_of_path(targets.front().path, &index);
-  return row ? number_at(scene, *row, index) : std::nullopt;
+  return targets.empty() ? std::nullopt : place_of(targets.front().path);
+}
+
+std::optional<double> present_value(const Scene& scene, const ShortKey& key) {
+  const auto place = place_of(scene, key);
+  return place ? number_at(scene, *place->parameter, place->index) : std::nullopt;
 }
 
 bool takes_whole_numbers(const Scene& scene, std::string_view key) {
-  std::string path(key);
-  if (const ShortKey* const row = find_short_key(key)) {
-    const std::vector<ShortKeyTarget> targets = row->targets(scene);
-    if (targets.empty()) return false;
-    path = targets.front().path;
-  }
-  const Parameter* const row = row_of_path(path);
-  return row && row->type == ParameterType::integer;
+  const ShortKey* const short_key = find_short_key(key);
+  const auto place = short_key ? place_of(scene, *short_key) : place_of(key);
+  return place && place->parameter->type == ParameterType::integer;
 }
 
 }  // namespace aspic

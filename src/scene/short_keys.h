@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "scene/parameters.h"
 #include "scene/scene.h"
 
 namespace aspic {
@@ -34,6 +35,16 @@ const ShortKey* find_short_key(std::string_view name);
 /// has nothing that the short name stands for, or a number is needed.
 Result<std::vector<std::string>> assignments(const Scene& scene, std::string_view key,
                                              const std::string& value);
+
+/// A row of the parameter table with the element of its list that a key means.
+struct KeyPlace {
+  const Parameter* parameter = nullptr;
+  std::size_t index = 0;  ///< 0 for keys of no list; the scene may have no such element
+};
+/// Of a path such as `cube[1].shear.stiffness`; nothing where the table has no such row.
+std::optional<KeyPlace> place_of(std::string_view path);
+/// Of a short name's first target; nothing where the scene has none.
+std::optional<KeyPlace> place_of(const Scene& scene, const ShortKey& key);
 
 /// The present value of a short name's first target, if it has a number.
 std::optional<double> present_value(const Scene& scene, const ShortKey& key);

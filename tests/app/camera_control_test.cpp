@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/camera.h"
+
 namespace aspic::app {
 namespace {
 
@@ -116,6 +118,31 @@ TEST(CameraControl, LooksFromADirectionTheShortWayRound) {
   settle(camera);
   const Vec3 d = camera.shown().position - camera.shown().target;
   EXPECT_NEAR(std::asin(d.y / length(d)) * 180.0 / std::numbers::pi, 89.0, 1e-9);
+}
+
+TEST(CameraControl, ZoomKeepsThePointUnderTheMouse) {
+  const CameraSettings start = {{3.0, 4.0, 12.0}, {0.0, 1.0, 0.0}, 40.0};
+  const double dx = 0.4, dy = -0.3;
+  // Where the sight line through (dx, dy) meets the plane through the target that is square to the view.
+  const auto seen = [&](const CameraSettings& c) {
+    const int height = 1000;
+    const Camera camera(c, 2 * height, height);
+    const Ray ray = camera.ray_through(height + dx * height, 0.5 * height + dy * height);
+    const Ray axis = camera.ray_through(height, 0.5 * height);
+    return ray.origin +
+           (dot(start.target - ray.origin, axis.direction) / dot(ray.direction, axis.direction)) *
+               ray.direction;
+  };
+  CameraControl camera(start);
+  const Vec3 point = seen(start);
+  for (const double notches : {3.0, -5.0, 1.5}) {
+    const double distance = length(camera.goal().position - camera.goal().target);
+    camera.zoom(notches, dx, dy);
+    const CameraSettings goal = camera.goal();
+    EXPECT_NEAR(length(goal.position - goal.target), distance * std::pow(0.9, notches), 1e-12 * distance);
+    // The camera's matrices are of single precision.
+    EXPECT_LT(length(seen(goal) - point), 100.0 * 0x1p-23 * 12.0) << notches;
+  }
 }
 
 }  // namespace

@@ -240,6 +240,7 @@ TEST_F(Files, ACameraThatSeesNothingIsFramed) {
   app::KeptState kept;
   kept.cameras = {{"cube-plane", {{40.0, 1.0, 0.0}, {60.0, 1.0, 0.0}, 45.0}}};
   kept.layout.panels = false;
+  kept.greeted = true;
   open("cube-plane", {}, "reference", kept);
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("Tab"));
   frames_to_rest();
@@ -259,6 +260,39 @@ TEST_F(Files, ANarrowViewKeepsTheSidesOfTheScene) {
 
 TEST_F(Files, TheFirstPaceIsRealTime) {
   EXPECT_EQ(app::KeptState().pace, app::Pace::real_time);
+}
+
+// Nothing is drawn while nothing happens, and the file is looked at all the same.
+TEST_F(Files, AWindowAtRestSleepsUntilSomethingHappens) {
+  const std::string path = (directory() / "asleep.toml").string();
+  const std::string text(*builtin_scene_text("cube-plane"));
+  std::ofstream(path) << text;
+  open(path, {}, "reference");
+  EXPECT_FALSE(app().asleep());
+  frames(60 * 3);
+  ASSERT_TRUE(app().asleep());
+  EXPECT_FALSE(app().doze(0.6));
+  app().cursor(middle_x(), middle_y());
+  EXPECT_FALSE(app().asleep()) << "the mouse";
+  frames(60 * 3);
+  ASSERT_TRUE(app().asleep());
+  app().refresh();
+  EXPECT_FALSE(app().asleep()) << "another window went away";
+  frames(60 * 3);
+  ASSERT_TRUE(app().asleep());
+  press(GLFW_KEY_SPACE);
+  EXPECT_FALSE(app().asleep()) << "the motion";
+  press(GLFW_KEY_SPACE);
+  frames(60 * 3);
+  ASSERT_TRUE(app().asleep());
+  std::string changed = text;
+  changed.replace(changed.find("timestep = 0.001"), 16, "timestep = 0.002");
+  std::ofstream(path) << changed;
+  std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(2));
+  EXPECT_TRUE(app().doze(0.6)) << "the file";
+  EXPECT_FALSE(app().asleep());
+  frames(2);
+  EXPECT_EQ(simulation().model().simulation.timestep, 0.002);
 }
 
 }  // namespace

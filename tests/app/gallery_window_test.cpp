@@ -58,6 +58,23 @@ TEST_F(Gallery, CubeInABowlRuns) {
   take("window-cube-bowl");
 }
 
+TEST_F(Gallery, TwoIntegratorsSideBySide) {
+  open("cube-plane",
+       {"cube[0].structural.damping=1", "cube[0].shear.damping=1", "cube[0].bending.damping=1",
+        "simulation.steps-per-frame=20", "view.camera={position=[10,5,14], target=[0,2.4,0]}"},
+       "reference");
+  press(GLFW_KEY_B, GLFW_MOD_CONTROL);
+  click("section/Performance");
+  click("section/Side by side");
+  run_to(1700);
+  press(GLFW_KEY_SPACE);
+  frames_until([&] { return app().beside.settled(); });
+  app().messages.dismiss();
+  frames(3);
+  EXPECT_EQ(app().beside.count(), 2u);
+  take("window-beside");
+}
+
 TEST_F(Gallery, GoalNetCatchesAShot) {
   open("goal-net", {}, "reference");
   run_to(320);
@@ -86,9 +103,46 @@ TEST_F(Gallery, StrainOfACubeThatAHandPulls) {
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
 }
 
+TEST_F(Gallery, ABallThatAHandPulls) {
+  open("cube-and-balls", {"simulation.steps-per-frame=16"}, "reference");
+  run_to(600);
+  press(GLFW_KEY_SPACE);
+  frames(4);
+  const State& state = simulation().snapshot();
+  // Of the balls the one nearest to the eye, which nothing hides.
+  std::size_t nearest = 0;
+  const Vec3 eye = app().view.seen().position;
+  for (std::size_t b = 0; b < state.ball_position.size(); ++b)
+    if (length(state.ball_position[b] - eye) < length(state.ball_position[nearest] - eye)) nearest = b;
+  const Vec3 ball = state.ball_position[nearest];
+  point_at(ball);
+  frames(4);
+  ASSERT_TRUE(app().pointer.hovered() && app().pointer.hovered()->ball);
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
+  point_at(ball + Vec3{-1.5, 3.0, 0.0});
+  run_to(1000);
+  press(GLFW_KEY_SPACE);
+  frames(30);
+  EXPECT_NE(app().pointer.hovered()->force.pull, Vec3{});
+  take("window-ball");
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
+}
+
+TEST_F(Gallery, LectureLayout) {
+  open("cube-tilted-plane", {"simulation.steps-per-frame=20"}, "reference");
+  press(GLFW_KEY_L);
+  app().cursor(middle_x(), 900);
+  ASSERT_EQ(app().layout.row().name, "lecture");
+  run_to(1180);
+  press(GLFW_KEY_SPACE);
+  frames(30);
+  EXPECT_TRUE(has("clock"));
+  take("window-lecture");
+}
+
 TEST_F(Gallery, StabilityMapOfACube) {
   open("cube-plane", {"simulation.steps-per-frame=32"}, "reference");
-  for (const char* section : {"Scene", "View", "Performance", "Energy", "Stability"})
+  for (const char* section : {"Scene", "View", "Energy", "Stability"})
     click(std::string("section/") + section);
   app().cursor(middle_x(), middle_y());
   frames_until([&] { return has("stability/map") && !has("stability/measuring"); });

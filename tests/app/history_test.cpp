@@ -158,6 +158,22 @@ TEST(History, DropsTheOldestBeyondItsMemory) {
   EXPECT_EQ(h.begin_moment(), (Moment{2, 60}));
 }
 
+TEST(History, ThinningKeepsTheStepsAndOnlyThenDropsThem) {
+  History h = two_stretches();
+  const std::uint64_t all = h.bytes();
+  h.thin(all);
+  EXPECT_EQ(h.bytes(), all);
+  h.thin(all / 2);
+  EXPECT_LE(h.bytes(), all / 2);
+  EXPECT_GT(h.keyframe_count(), 1u);
+  EXPECT_EQ(h.begin_moment(), (Moment{0, 0}));
+  EXPECT_EQ(h.end_moment(), (Moment{1, 1040}));
+  EXPECT_EQ(h.keyframe({0, 100}).step % 40, 0u);
+  h.thin(1);
+  EXPECT_EQ(h.keyframe_count(), 1u);
+  EXPECT_EQ(h.begin_moment(), (Moment{1, 1000}));
+}
+
 TEST(History, MomentsOfAnOldRunAreNoneOfTheNew) {
   History h = two_stretches();
   const Moment old = h.end_moment();

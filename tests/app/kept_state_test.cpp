@@ -20,6 +20,9 @@ KeptState unusual() {
   s.layout.right_width = 411.25;
   s.layout.text_size = 1.35;
   s.layout.sections = {{"Scene", false}, {"Recording", true}};
+  s.layout.choose(*find_layout("lecture"));
+  s.layout.sections = {{"View", true}};
+  s.greeted = true;
   s.pace = Pace::real_time;
   s.speed = 0.125;
   s.film_format = find_film_format("gif");
@@ -62,6 +65,9 @@ TEST(KeptState, WhatTheWindowWouldNotWriteIsNamed) {
       {with(R"("layout": {"text_size": 99.0})"), "text_size"},
       {with(R"("layout": {"left_width": "wide"})"), "left_width"},
       {with(R"("layout": {"sections": {"Scene": 1}})"), "Scene"},
+      {with(R"("layout_name": "cinema")"), "layout_name"},
+      {with(R"("layouts": {"cinema": {}})"), "cinema"},
+      {with(R"("layouts": {"lab": {"text_size": 99.0}})"), "text_size"},
       {with(R"("pace": "sideways")"), "pace"},
       {with(R"("speed": null)"), "speed"},
       {with(R"("speed": 1e999)"), "1e999"},

@@ -15,6 +15,7 @@ class Layout : public Stage {
   /// As after a first start, with every section open or none.
   static app::KeptState with_sections(bool open) {
     app::KeptState kept;
+    kept.greeted = true;
     for (const char* name : {"Scene", "Simulation", "Bodies", "Springs", "Contact", "Balls", "View",
                              "Recording", "Performance", "Energy", "Compare backends"})
       kept.layout.sections[name] = open;
@@ -61,7 +62,7 @@ TEST_F(Layout, NothingIsCutOffAndNothingOverlaps) {
   for (const auto& [width, height] : {std::pair(1280, 720), std::pair(1920, 1080), std::pair(800, 600)}) {
     resize(width, height);
     for (const double size : {1.0, 1.5, 2.0}) {
-      app().gui().set_text_size(size);
+      app().layout.text_size = size;
       frames(3);
       const std::string at = fmt::format("{} x {}, text {}", width, height, size);
       const Box view = app().view.box;
@@ -135,6 +136,79 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   EXPECT_EQ(app().kept_state().layout, app::Layout());
 }
 
+TEST_F(Layout, AFirstStartOpensFourSectionsInRealTimeAndSaysTheKeysOnce) {
+  open("cube-plane", {}, "", app::KeptState());
+  EXPECT_EQ(simulation().pacer().pace, app::Pace::real_time);
+  for (const char* widget : {"scene/search", "simulation/run", "view/shadows", "energy/plot"})
+    EXPECT_TRUE(has(widget)) << widget;
+  for (const char* widget : {"cube[0].edge-length", "springs/together", "contact.model", "balls/throw",
+                             "record/format", "shadow/on", "stability/map"})
+    EXPECT_FALSE(has(widget)) << widget;
+  EXPECT_EQ(app().layout.row().open.size(), 4u);
+  ASSERT_TRUE(app().messages.notice().has_value());
+  for (const char* key : {"Space", "Ctrl+drag", "F1", "Ctrl+P"})
+    EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(key));
+  const app::KeptState kept = app().kept_state();
+  close();
+  open("cube-plane", {}, "", kept);
+  EXPECT_FALSE(app().messages.notice().has_value()) << "once is enough";
+}
+
+TEST_F(Layout, ComesBackAsItWasLeftHoweverItIsChosen) {
+  open("cube-plane", {}, "reference");
+  click("section/Contact");
+  app().layout.right_width = 400.0;
+  const app::Layout standard = app().layout;
+  std::map<std::string, app::Layout> seen;
+  for (const app::LayoutRow& row : app::layouts()) {
+    EXPECT_EQ(app().layout.row().name, row.name);
+    frames(2);
+    seen[std::string(row.name)] = app().layout;
+    for (const std::string_view section : row.open)
+      EXPECT_EQ(has(fmt::format("section/{}", section)), app().layout.panels)
+          << section << " of " << row.name;
+    EXPECT_EQ(has("clock"), row.clock) << row.name;
+    EXPECT_EQ(app().gui().scale(), row.text_size) << row.name;
+    press(GLFW_KEY_L);
+  }
+  EXPECT_EQ(app().layout.row().name, app::layouts().front().name) << "L goes round";
+  EXPECT_EQ(app().layout, standard);
+  frames(1);
+  EXPECT_TRUE(has("contact.model"));
+  const auto read = app::read_kept_state(app::to_text(app().kept_state()));
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(read->layout, app().layout);
+  bring_into_sight("layout/name");
+  click("layout/name");
+  click("layout/name/lab");
+  EXPECT_EQ(app().layout, seen.at("lab"));
+  press(GLFW_KEY_P, GLFW_MOD_CONTROL);
+  frames(2);
+  for (const char32_t c : U"layout lecture") {
+    if (c != 0) app().character(c);
+    frames(1);
+  }
+  press(GLFW_KEY_ENTER);
+  frames(2);
+  EXPECT_EQ(app().layout.row().name, "lecture");
+}
+
+TEST_F(Layout, OfAFilmIsThePictureAlone) {
+  app::KeptState kept;
+  kept.greeted = true;
+  kept.layout.choose(*app::find_layout("film"));
+  open("cube-plane", {"cube[0].position=[0,2.5,0]"}, "reference", kept);
+  EXPECT_EQ(app().view.box, (Box{0, 0, 1280, 720}));
+  app().messages.dismiss();
+  app().cursor(middle_x(), middle_y());
+  frames(4);
+  EXPECT_TRUE(app().pointer.hovered().has_value());
+  EXPECT_THAT(widgets(), testing::IsEmpty()) << "no readout, no panel";
+  press(GLFW_KEY_TAB);
+  frames(2);
+  EXPECT_TRUE(has("record/format"));
+}
+
 TEST_F(Layout, ACameraOfTheCommandLineGoesFirst) {
   app::KeptState kept;
   kept.cameras = {{"cube-plane", {{1, 2, 3}, {0, 0, 0}, 30}}};
@@ -146,13 +220,12 @@ TEST_F(Layout, TextAndPanelsGrowTogether) {
   open("cube-plane");
   const Box before = box("simulation/run");
   app().layout.text_size = 1.5;
-  app().gui().set_text_size(1.5);
   frames(2);
   const Box after = box("simulation/run");
   EXPECT_NEAR(after.bottom - after.top, 1.5 * (before.bottom - before.top), 2.0);
   EXPECT_NEAR(app().view.box.left, 1.5 * 322, 1.0);
   EXPECT_EQ(app().kept_state().layout.text_size, 1.5);
-  app().gui().set_text_size(1.0);
+  app().layout.text_size = 1.0;
   frames(2);
   const Box back = box("simulation/run");
   EXPECT_EQ(back, before);

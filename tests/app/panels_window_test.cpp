@@ -2,14 +2,17 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 
 #include "app/stage.h"
 #include "model/bodies.h"
+#include "model/terrain.h"
 #include "scene/load.h"
 
 namespace aspic::test {
 namespace {
 
+using app::Box;
 using app::Effect;
 
 class Panels : public Stage {
@@ -90,6 +93,29 @@ TEST_F(Panels, ADragOfANumberIsOneChangeForUndo) {
   frames(1);
   EXPECT_EQ(settings().simulation.timestep, 0.001);
   EXPECT_FALSE(app().scene.editor().can_undo());
+}
+
+TEST_F(Panels, LengthsAndAnglesAreDraggedAtAFixedSpeed) {
+  open("cube-plane", {}, "reference", only("Simulation"));
+  // What a drag of 50 units changes, from where the value is; ImGui takes the first of them to know a drag.
+  const auto drag_by = [&](const char* widget, double inwards, const std::function<double()>& value) {
+    bring_into_sight(widget);
+    frames(40);  // so that two presses are no double click
+    const Box box = widgets().at(widget);
+    const double before = value();
+    drag(GLFW_MOUSE_BUTTON_LEFT, box.left + inwards, box.centre_y(), 50, 0);
+    frames(2);
+    return value() - before;
+  };
+  const auto angle = [&] { return settings().cubes[0].rotation.angle; };
+  const double from_zero = drag_by("cube[0].rotation.angle", 20.0, angle);
+  EXPECT_GT(from_zero, 10.0);
+  EXPECT_LE(from_zero, 25.0) << "half a degree for each unit";
+  EXPECT_EQ(drag_by("cube[0].rotation.angle", 20.0, angle), from_zero) << "from there it goes on as fast";
+  const auto x = [&] { return settings().cubes[0].position.x; };
+  const double first = drag_by("cube[0].position", 10.0, x);
+  EXPECT_GT(first, 0.2);
+  EXPECT_LE(first, 0.5) << "a centimetre";
 }
 
 TEST_F(Panels, ConstantsKeepTheStateAndBodiesStartAnew) {
@@ -242,6 +268,61 @@ TEST_F(Panels, EveryKindOfBodyIsAddedAndRemoved) {
   }
 }
 
+TEST_F(Panels, NewBodiesStandBesideOthersAndAboveTheGroundAndAreSaved) {
+  open("cube-plane", {"cube[0].particles-per-edge=3", "cube[0].position=[0,0.5,0]"}, "reference",
+       only("Bodies"));
+  for (int round = 0; round < 2; ++round) {
+    for (const BodyRow& row : body_rows()) {
+      const Model before = simulation().model();
+      const State there = initial_state(before, Precision::double_);
+      click(std::string(row.list.key) + "/add");
+      const Model& model = simulation().model();
+      const State all = initial_state(model, Precision::double_);
+      // What came is what was not there: everything else is where it was.
+      const auto is_new = [&](const std::vector<Vec3>& known, const Vec3& x) {
+        return std::ranges::find(known, x) == known.end();
+      };
+      const auto above = [&](const Vec3& x) { return signed_distance(model.terrain.front(), x); };
+      std::size_t more = 0;
+      for (std::size_t i = 0; i < all.position.size(); ++i) {
+        EXPECT_TRUE(!is_new(there.position, all.position[i]) || above(all.position[i]) >= 0.0)
+            << row.list.key;
+        more += is_new(there.position, all.position[i]);
+      }
+      for (std::size_t b = 0; b < all.ball_position.size(); ++b) {
+        if (!is_new(there.ball_position, all.ball_position[b])) continue;
+        ++more;
+        EXPECT_GE(above(all.ball_position[b]), model.balls[b].radius) << row.list.key;
+        for (const Vec3& x : there.position)
+          EXPECT_GT(length(x - all.ball_position[b]), model.balls[b].radius) << row.list.key;
+      }
+      const ModelCounts own = row.counts(settings(), row.list.size(settings()) - 1);
+      EXPECT_EQ(more, own.particles + own.balls) << row.list.key << ": in one place with others";
+    }
+  }
+  const LauncherSettings& launcher = settings().launchers.front();
+  EXPECT_GT(launcher.from.min.x, launcher.towards.max.x) << "it throws at the bodies from beside";
+  const std::string path = (directory() / "bodies.toml").string();
+  app().scene.save_as(path);
+  const auto saved = load_scene(path);
+  ASSERT_TRUE(saved.ok()) << saved.error().message;
+  EXPECT_EQ(app::effect_between(*saved, app().scene.scene()), Effect::none);
+  for (int i = 0; i < 10; ++i) press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  EXPECT_EQ(settings().cubes.size(), 1u);
+  for (const BodyRow& row : body_rows().subspan(1)) EXPECT_EQ(row.list.size(settings()), 0u) << row.list.key;
+}
+
+TEST_F(Panels, ASecondBodyInABowlStandsAboveTheFirst) {
+  open("cube-bowl", {"cube[0].particles-per-edge=3", "cube[0].edge-length=2", "cube[0].position=[6,7.5,1]"},
+       "reference", only("Bodies"));
+  const Terrain bowl = simulation().model().terrain.front();
+  click("cube/add");
+  ASSERT_EQ(settings().cubes.size(), 2u);
+  const State state = initial_state(simulation().model(), Precision::double_);
+  for (std::size_t i = 27; i < 54; ++i) EXPECT_GE(signed_distance(bowl, state.position[i]), 0.0) << i;
+  EXPECT_GT(settings().cubes[1].position.y, settings().cubes[0].position.y);
+}
+
 TEST_F(Panels, SpringsAreShownAndHiddenByType) {
   open("cube-plane", {}, "reference", only("Springs"));
   click("springs/show/shear");
@@ -275,6 +356,14 @@ TEST_F(Panels, ACubeBeyondMemoryIsRefusedWithTheFigures) {
   EXPECT_EQ(simulation().step(), 3u) << "the old scene goes on where it was";
   type(U'.');
   EXPECT_EQ(simulation().step(), 4u);
+}
+
+TEST_F(Panels, PassTimesOfASoftwareDeviceAreNotShown) {
+  open("cube-plane", {}, "gpu", only("Performance"));
+  press(GLFW_KEY_SPACE);
+  frames_to_step(20);
+  EXPECT_NE(has("performance/not-timed"), has("performance/passes")) << "either it is timed or it says so";
+  EXPECT_EQ(has("performance/passes"), !context().info().is_software);
 }
 
 TEST_F(Panels, MomentumStandsBesideEnergy) {

@@ -1,4 +1,6 @@
 // The plots of energy and momentum in the real window.
+#include <map>
+
 #include "app/stage.h"
 
 namespace aspic::test {
@@ -38,6 +40,26 @@ TEST_F(Plots, PlotsOfTwoRunsHaveTheSamePoints) {
   const auto first = times("reference");
   EXPECT_EQ(first.size(), 11u) << "one for every twenty steps of a millisecond";
   EXPECT_EQ(first, times("reference"));
+}
+
+// Where reading states back takes long some points are left out, never moved.
+TEST_F(Plots, PlotsOfTheDeviceHaveNoOtherPoints) {
+  std::map<std::uint64_t, double> known;
+  for (int run = 0; run < 2; ++run) {
+    open("cube-plane", {"cube[0].position=[0,1.2,0]", "cube[0].particles-per-edge=5"}, "gpu");
+    simulation().set_running(true);
+    frames_to_step(403);
+    std::size_t points = 0;
+    for (const auto& sample : simulation().samples().energies()) {
+      if (sample.step > 400) continue;
+      ++points;
+      EXPECT_EQ(sample.step % 20, 0u);
+      const auto [before, is_new] = known.try_emplace(sample.step, sample.measures.total());
+      EXPECT_EQ(before->second, sample.measures.total()) << "step " << sample.step;
+    }
+    EXPECT_GE(points, 3u);
+    close();
+  }
 }
 
 }  // namespace

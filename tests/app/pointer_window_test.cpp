@@ -92,7 +92,51 @@ TEST_P(PointerOn, TellsForceMassAndPins) {
   }
   EXPECT_NE(model.inverse_mass[999], model.inverse_mass[909]) << "one of each";
 }
-INSTANTIATE_TEST_SUITE_P(Pointer, PointerOn, ::testing::Values("reference", "gpu"));
+INSTANTIATE_TEST_SUITE_P(Pointer, PointerOn, ::testing::Values("reference", "cpu", "gpu"));
+
+TEST_P(PointerOn, ReadsAndPullsABallAndTheRunComesBack) {
+  open("cube-plane", {"cube[0].position=[0,3,0]"}, GetParam());
+  app().scene.change("a ball", [](Scene& s) {
+    s.model.balls.push_back({0.5, 2.0, {1.0, -0.5, 5.0}, {}, {0.0, 1.0, 0.0}});
+  });
+  frames(3);
+  const Vec3 start = simulation().snapshot().ball_position[0];
+  point_at(start);
+  ASSERT_TRUE(app().pointer.hovered().has_value());
+  const app::Hovered h = *app().pointer.hovered();
+  EXPECT_TRUE(h.ball);
+  EXPECT_EQ(h.position, start);
+  EXPECT_EQ(h.mass, 2.0);
+  EXPECT_EQ(h.radius, 0.5);
+  EXPECT_EQ(h.angular_velocity, (Vec3{0.0, 1.0, 0.0}));
+  EXPECT_EQ(h.contact, "touches plane");
+  EXPECT_TRUE(has("particle")) << "the readout";
+  app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_PRESS, GLFW_MOD_CONTROL);
+  EXPECT_TRUE(simulation().setup().pinned.empty());
+  app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_RELEASE, GLFW_MOD_CONTROL);
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
+  ASSERT_TRUE(simulation().hand() && simulation().hand()->ball);
+  const test::Projected there = place(start + Vec3{1.0, 2.0, 0.0});
+  app().cursor(there.x, there.y);
+  press(GLFW_KEY_SPACE);
+  frames_to_step(300);
+  ASSERT_TRUE(app().pointer.hovered().has_value());
+  EXPECT_NE(app().pointer.hovered()->force.pull, Vec3{});
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, GLFW_MOD_CONTROL);
+  EXPECT_FALSE(simulation().hand().has_value());
+  frames_to_step(350);
+  press(GLFW_KEY_SPACE);
+  ASSERT_TRUE(simulation().settle().ok());
+  EXPECT_GT(simulation().snapshot().ball_position[0].y, 0.3) << "it hung in the air";
+  const std::string last = state_hash_text(simulation().snapshot());
+  const double end = simulation().time();
+  app().run.go_to(0.0);
+  ASSERT_TRUE(simulation().settle().ok());
+  EXPECT_EQ(simulation().snapshot().ball_position[0], start);
+  app().run.go_to(end);
+  ASSERT_TRUE(simulation().settle().ok());
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), last) << "the same hand did the same";
+}
 
 TEST_F(Pointer, SolidBodiesHideTheirInside) {
   open("cube-plane", {"cube[0].position=[0,3,0]"});

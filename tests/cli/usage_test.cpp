@@ -83,6 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{}, 2, "Examples:"}, Failure{{"rnu", "cube-plane"}, 2, "Did you mean run?"},
         Failure{{"frobnicate"}, 2, "no command \"frobnicate\""},
         Failure{{"view", "--size", "huge"}, 2, "--size must be"},
+        Failure{{"view", "--layout", "cinema"}, 2, "standard, lecture, lab, film"},
         Failure{{"view", "--backend", "tpu"}, 2, "auto, gpu"},
         Failure{{"verify", "--only", "odrer"}, 2, "order/midpoint"},
         Failure{{"bench", "--repeats", "0"}, 2, "--repeats"}, Failure{{"report"}, 2, "--out is required"},

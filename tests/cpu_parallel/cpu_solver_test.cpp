@@ -207,6 +207,23 @@ TEST(CpuSolver, PullsAsTheReferenceDoes) {
   }
 }
 
+TEST(CpuSolver, PullsBallsAsTheReferenceDoes) {
+  for (const Integrator integrator : all_integrators) {
+    SCOPED_TRACE(name_of(integrator));
+    ModelSettings settings = test::low_cube(6, integrator, ContactModel::coulomb);
+    settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
+    const Model model = test::build(settings);
+    const auto expected = reference(model), solver = cpu(model, 2), untouched = reference(model);
+    for (Solver* const each : {expected.get(), solver.get()}) {
+      ASSERT_TRUE(each->set_pull(Pull{0, {0.3, 4.0, 0.1}, 300.0, 20.0, true}).ok());
+      ASSERT_TRUE(each->advance(200).ok());
+    }
+    EXPECT_EQ(*expected->state(), *solver->state());
+    ASSERT_TRUE(untouched->advance(200).ok());
+    EXPECT_GT(length(expected->state()->ball_position[0] - untouched->state()->ball_position[0]), 0.1);
+  }
+}
+
 TEST(CpuSolver, NamesTheSameDivergence) {
   ModelSettings settings = test::low_cube(6, Integrator::explicit_euler, ContactModel::coulomb);
   settings.simulation.timestep = 0.02;

@@ -212,5 +212,40 @@ TEST(Pull, RefusedLeavesTheOneBefore) {
   EXPECT_EQ(*one->state(), *other->state());
 }
 
+// Damped critically it comes to rest where the pull carries its weight. A place x moves while h·|v| exceeds
+// half a unit of x, and the damper lets v be that large where k·δ = c·v: δ ≤ ε·|x|·c/(k·h).
+TEST(PullOnABall, HangsAtMgOverK) {
+  for (const Integrator integrator : all_integrators) {
+    const double k = 200.0, m = 2.0, c = 40.0, h = 0.002;
+    ModelSettings settings;
+    settings.balls.push_back({0.3, m, {1.0, 3.0, 0.0}, {0.0, 0.5, 0.0}, {1.0, 2.0, 3.0}});
+    settings.balls.push_back({0.3, m, {5.0, 3.0, 0.0}, {}, {}});
+    settings.simulation.timestep = h;
+    settings.simulation.integrator = integrator;
+    const Model model = test::build(settings);
+    auto solver = solver_for(model, Precision::double_);
+    ASSERT_TRUE(solver->set_pull(Pull{0, {1.0, 4.0, 0.0}, k, c, true}).ok());
+    ASSERT_FALSE((*solver->advance(5000)).has_value());
+    const State state = *solver->state();
+    const double height = 4.0 - m * 9.8 / k;
+    EXPECT_NEAR(state.ball_position[0].y, height, 4.0 * eps * height * (1.0 + c / (k * h)))
+        << name_of(integrator);
+    EXPECT_EQ(state.ball_position[0].x, 1.0);
+    EXPECT_EQ(state.ball_angular_velocity[0], (Vec3{1.0, 2.0, 3.0})) << "it acts at the centre";
+    EXPECT_LT(state.ball_position[1].y, -400.0) << "nobody pulls the other";
+  }
+}
+
+TEST(PullOnABall, DoesNothingToOneThatWaitsForItsLaunch) {
+  ModelSettings settings;
+  settings.launchers.emplace_back().count = 3;
+  const Model model = test::build(settings);
+  auto solver = solver_for(model, Precision::double_);
+  ASSERT_TRUE(solver->set_pull(Pull{2, {0.0, 50.0, 0.0}, 100.0, 1.0, true}).ok());
+  ASSERT_FALSE((*solver->advance(100)).has_value());
+  EXPECT_EQ(solver->state()->ball_position[2], model.balls[2].initial_position);
+  EXPECT_EQ(solver->set_pull(Pull{3, {}, 1.0, 1.0, true}).error().code, ErrorCode::usage);
+}
+
 }  // namespace
 }  // namespace aspic

@@ -86,6 +86,35 @@ TEST_F(PullOnTheDevice, EveryIntegratorContactModelAndForcePath) {
   }
 }
 
+TEST_F(PullOnTheDevice, BallsFeelItToo) {
+  for (const Integrator integrator : all_integrators) {
+    for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
+      for (const bool spin : {true, false}) {
+        ModelSettings settings = low_cube(integrator, contact);
+        settings.contact.spin = spin;
+        settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
+        settings.balls.push_back({0.5, 1.0, {3.2, 1.6, 0.1}, {0.0, 0.0, 0.0}, {}});
+        const std::uint64_t s = integrator == Integrator::implicit_euler ? 10 : 50;
+        const std::vector<Input> inputs = {{0, Pull{0, {0.0, 3.0, 0.0}, 400.0, 20.0, true}},
+                                           {2 * s, Pull{0, {5.0, -1.0, 1.0}, 400.0, 20.0, true}},
+                                           {3 * s, Pull{1, {3.0, 2.0, 1.0 / 3.0}, 1e3 / 3.0, 0.0, true}},
+                                           {4 * s, Pull{1, {3.0, 4.0, 0.0}, 900.0, 20.0}},
+                                           {5 * s, std::nullopt}};
+        const Model model = test::build(settings);
+        auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+        const State expected = run(*reference, inputs, 6 * s);
+        auto solver = solver_for(model);
+        EXPECT_EQ(run(*solver, inputs, 6 * s), expected)
+            << name_of(integrator) << ", " << name_of(contact) << ", spin " << spin;
+        auto untouched = std::move(make_reference_solver(model, Precision::single)).value();
+        ASSERT_FALSE((*untouched->advance(6 * s)).has_value());
+        for (std::size_t b = 0; b < 2; ++b)
+          EXPECT_GT(length(expected.ball_position[b] - untouched->state()->ball_position[b]), 0.05);
+      }
+    }
+  }
+}
+
 // How the steps between two inputs are queued changes nothing, nor does a load in between.
 TEST_F(PullOnTheDevice, HoldsOverBatchesAndLoad) {
   for (const Integrator integrator : {Integrator::runge_kutta_4, Integrator::implicit_euler}) {

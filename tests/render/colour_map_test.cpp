@@ -46,22 +46,55 @@ TEST(ColourMap, OklabOfWhiteIsWhite) {
   EXPECT_NEAR(back[2], 0.1f, 1e-6f);
 }
 
-TEST(ColourMap, IsPerceptuallyUniform) {
-  const auto texels = colour_map_texels();
-  ASSERT_EQ(texels.size(), 4u * 256);
-  // Sixteen texels apart, so that rounding to 8 bits (half a step of 1/255 per channel, under 0.003 in Oklab)
-  // is small beside the distance.
+/// Whether texels from `first` to `last` are equally far apart, lightness going one way. Fifteen texels
+/// apart, so that rounding to 8 bits (half a step of 1/255 per channel, under 0.003 in Oklab) is small beside
+/// the distance.
+void expect_uniform(const std::vector<std::byte>& texels, std::size_t first, std::size_t last, bool rises) {
   std::vector<double> steps;
-  double lightness = -1.0;
-  for (std::size_t i = 0; i + 15 < 256; i += 15) {
+  for (std::size_t i = first; i + 15 <= last; i += 15) {
     const Oklab a = to_oklab(texel(texels, i)), b = to_oklab(texel(texels, i + 15));
     steps.push_back(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
-    EXPECT_GT(a[0], lightness) << "lightness falls at texel " << i;
-    lightness = a[0];
+    EXPECT_EQ(b[0] > a[0], rises) << "lightness turns at texel " << i;
   }
   double mean = 0.0;
   for (const double step : steps) mean += step / static_cast<double>(steps.size());
   for (const double step : steps) EXPECT_NEAR(step, mean, 0.1 * mean + 0.006);
+}
+
+TEST(ColourMap, EachIsPerceptuallyUniform) {
+  for (const ScaleMap map : {ScaleMap::violet_yellow, ScaleMap::heat, ScaleMap::grey}) {
+    const auto texels = colour_map_texels(map);
+    ASSERT_EQ(texels.size(), 4u * 256);
+    SCOPED_TRACE(name_of(map));
+    expect_uniform(texels, 0, 255, true);
+  }
+}
+
+TEST(ColourMap, BlueRedMeetsInLightGreyAndItsHalvesMatch) {
+  const auto texels = colour_map_texels(ScaleMap::blue_red);
+  expect_uniform(texels, 0, 120, true);
+  expect_uniform(texels, 135, 255, false);
+  for (const std::size_t i : {127u, 128u}) {
+    const Oklab middle = to_oklab(texel(texels, i));
+    EXPECT_GT(middle[0], 0.9);
+    EXPECT_LT(std::hypot(middle[1], middle[2]), 0.01);
+  }
+  for (std::size_t i = 0; i < 128; i += 16) {
+    const Oklab a = to_oklab(texel(texels, i)), b = to_oklab(texel(texels, 255 - i));
+    EXPECT_NEAR(a[0], b[0], 0.01) << "neither sign looks stronger";
+    EXPECT_LT(a[2], b[2]) << "blue to the left";
+  }
+}
+
+TEST(ColourMap, AutomaticKnowsWhatHasASign) {
+  ViewSettings view;
+  for (const auto& [colour, map] : {std::pair(ViewColour::strain, ScaleMap::violet_yellow),
+                                    {ViewColour::signed_strain, ScaleMap::blue_red}}) {
+    view.colour = colour;
+    EXPECT_EQ(chosen_map(view), map);
+  }
+  view.scale.map = ScaleMap::grey;
+  EXPECT_EQ(chosen_map(view), ScaleMap::grey);
 }
 
 TEST(Quantity, RoundsUpToOneTwoFive) {
@@ -81,6 +114,39 @@ TEST(Quantity, SpeedRangeIsThatOfTheFall) {
   EXPECT_DOUBLE_EQ(default_range(model, ViewColour::force)[1], 1000.0);
 }
 
+TEST(Quantity, EndsAreThoseOfTheViewOrOfThePicture) {
+  const Model model = test::build(test::cube_on_plane(4));
+  ViewSettings view;
+  view.colour = ViewColour::strain;
+  using Ends = QuantityRange;
+  const auto ends = [&](const Ends& seen) { return range_for(model, view, seen); };
+  const auto expect = [](const Ends& got, const Ends& wanted) {
+    // Sums and multiples of a step: a few roundings.
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(got[i], wanted[i], 1e-14);
+  };
+  expect(ends({0.01, 0.04}), {0.0, 0.2});
+  view.scale.to = 0.05;
+  expect(ends({0.01, 0.04}), {0.0, 0.05});
+  view.scale.from = 0.1;
+  expect(ends({0.01, 0.04}), {0.1, 0.05});
+  EXPECT_FALSE(follows_picture(view));
+
+  view.scale.range = ScaleRange::automatic;
+  EXPECT_TRUE(follows_picture(view));
+  expect(ends({0.0131, 0.0427}), {0.01, 0.045});
+  expect(ends({0.01, 0.03}), {0.01, 0.03});
+  expect(ends({0.0, 1e-7}), {0.0, 2e-4});         // noise: a thousandth of the model's range
+  expect(ends({1.0, 0.0}), {0.0, 0.2});           // nothing in the picture
+  expect(ends({0.0, std::nan("")}), {0.0, 0.2});  // after a divergence
+
+  view.scale.range = ScaleRange::symmetric;
+  view.colour = ViewColour::signed_strain;
+  expect(ends({-0.013, 0.004}), {-0.02, 0.02});
+  expect(ends({0.0, 0.0}), {-1e-4, 1e-4});
+  view.colour = ViewColour::material;
+  EXPECT_FALSE(follows_picture(view));
+}
+
 TEST(Quantity, LegendNamesUnitAndRange) {
   ViewSettings view;
   view.colour = ViewColour::strain;
@@ -88,6 +154,18 @@ TEST(Quantity, LegendNamesUnitAndRange) {
   EXPECT_EQ(legend.marks[0], "0 %");
   EXPECT_EQ(legend.marks[1], "10 %");
   EXPECT_EQ(legend.marks[2], "≥ 20 %");
+  EXPECT_EQ(legend_for(view, {0.02, 0.2}).marks[0], "≤ 2 %");
+  EXPECT_EQ(legend_for(view, {0.2, 0.0}).marks[0], "≥ 20 %");
+  EXPECT_EQ(legend_for(view, {0.2, 0.0}).marks[2], "0 %");
+  view.scale.range = ScaleRange::automatic;
+  EXPECT_EQ(legend_for(view, {0.0, 0.2}).marks[2], "20 %");
+  view.colour = ViewColour::signed_strain;
+  const Legend sign = legend_for(view, {-0.05, 0.05});
+  EXPECT_EQ(sign.map, ScaleMap::blue_red);
+  EXPECT_EQ(sign.marks[0], "−5 %");
+  EXPECT_EQ(sign.marks[1], "0 %");
+  view.colour = ViewColour::energy;
+  EXPECT_EQ(legend_for(view, {0.0, 2.0}).marks[2], "2 J");
   view.colour = ViewColour::material;
   EXPECT_TRUE(legend_for(view, {0.0, 1.0}).empty());
   view.draw.shear = true;

@@ -136,6 +136,9 @@ class Glslang : public aspic::testing::GlTest {
     options.view.draw = {
         .solid = true, .particles = true, .structural = true, .shear = true, .bending = true};
     options.view.colour = ViewColour::strain;
+    options.view.cut.inside = CutInside::section;
+    options.view.arrows.net = true;
+    options.arrows.arrows = {{{}, {0.0, 1.0, 0.0}, ArrowKind::net}};
     options.highlight.emplace().hovered = 0;
     options.text = {{"label", "value"}};
     ASSERT_TRUE((*renderer)->draw(64, 48, *state, options).ok());

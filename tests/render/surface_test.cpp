@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 #include <set>
 
 #include "render/software_rasteriser.h"
@@ -17,7 +18,11 @@ TEST(Surface, CubeHasAClosedSkinThatFacesOutwards) {
   const Model model = test::build(test::cube_on_plane(n));
   const Surface surface = make_surface(model);
   ASSERT_EQ(surface.indices.size(), 6u * 2 * 3 * (n - 1) * (n - 1));
-  ASSERT_EQ(surface.fan_vertex.size(), static_cast<std::size_t>(n * n * n - (n - 2) * (n - 2) * (n - 2)));
+  // Each of the six faces has its own.
+  ASSERT_EQ(surface.fan_vertex.size(), 6u * n * n);
+  ASSERT_EQ(surface.corners.size(), surface.indices.size());
+  for (std::size_t i = 0; i < surface.corners.size(); ++i)
+    ASSERT_EQ(surface.fan_vertex[surface.corners[i]], surface.indices[i]);
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   double volume = 0.0;
   for (std::size_t t = 0; t < surface.indices.size(); t += 3) {
@@ -34,18 +39,30 @@ TEST(Surface, CubeHasAClosedSkinThatFacesOutwards) {
   EXPECT_NEAR(volume, 64.0, 1e-9);  // edge 4 m, by the divergence theorem: positive means outwards
 }
 
-TEST(Surface, FansHoldThreeQuadsAtCornersFourElsewhere) {
-  const Surface surface = make_surface(test::build(test::cube_on_plane(4)));
-  int three = 0;
+TEST(Surface, FansHoldThreeQuadsAtCornersFourElsewhereTheirOwnFirst) {
+  const int n = 4;
+  const Model model = test::build(test::cube_on_plane(n));
+  const Surface surface = make_surface(model);
+  std::map<std::uint32_t, int> with;  // own quads → vertices
   for (std::size_t i = 0; i < surface.fan_vertex.size(); ++i) {
-    const std::uint32_t quads = surface.fan_start[i + 1] - surface.fan_start[i];
-    if (quads == 3) {
-      ++three;
-    } else {
-      EXPECT_EQ(quads, 4u);
+    const std::uint32_t quads = surface.fan_start[i + 1] - surface.fan_start[i],
+                        own = surface.fan_own[i] - surface.fan_start[i];
+    ++with[own];
+    EXPECT_EQ(quads, own == 1 ? 3u : 4u);
+    const auto& x = model.initial_position;
+    std::optional<Vec3> face;
+    for (std::uint32_t q = surface.fan_start[i]; q < surface.fan_start[i + 1]; ++q) {
+      const Vec3 at = x[surface.fan_vertex[i]];
+      const Vec3 normal = cross(x[surface.fan[2 * q]] - at, x[surface.fan[2 * q + 1]] - at);
+      const Vec3 unit = normal / length(normal);
+      if (!face) face = unit;
+      // Those of other patches stand square on it.
+      EXPECT_NEAR(dot(*face, unit), q < surface.fan_own[i] ? 1.0 : 0.0, 1e-12);
     }
   }
-  EXPECT_EQ(three, 8);
+  EXPECT_EQ(with[1], 6 * 4);
+  EXPECT_EQ(with[2], 6 * 4 * (n - 2));
+  EXPECT_EQ(with[4], 6 * (n - 2) * (n - 2));
 }
 
 TEST(Surface, ACoarseSkinIsClosedAndKeepsTheCorners) {

@@ -30,7 +30,7 @@ const std::string base = [] {
 Value other_value(const Parameter& p) {
   switch (p.type) {
     case ParameterType::boolean:
-      return p.path == "goal-net[].cord";
+      return p.path == "goal-net[].cord" || p.path == "view.axes";
     case ParameterType::integer:
       return p.path == "schema" ? std::int64_t{1} : std::int64_t{7};
     case ParameterType::number:
@@ -40,6 +40,7 @@ Value other_value(const Parameter& p) {
     case ParameterType::word:
       return std::string(p.words.back());
     case ParameterType::words:
+      if (p.path == "view.arrows") return std::vector<std::string>{"contacts", "net"};
       return std::vector<std::string>{"solid", "bending"};
     case ParameterType::vector:
       return Vec3{0.5, p.range.min < 0.0 ? -0.25 : 0.25, 2.0};

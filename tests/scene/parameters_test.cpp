@@ -63,7 +63,10 @@ std::vector<Wrong> wrong_types(const Parameter& p) {
       wrong = {{"1"}, {"1.5"}, {"true"}, {"[\"a\"]"}};
       break;
     case ParameterType::words:
-      wrong = {{"\"solid\""}, {"1"}, {"[1]", 1}, {"[\"solid\", true]", 10}};
+      wrong = {{"\"solid\""},
+               {"1"},
+               {"[1]", 1},
+               {fmt::format("[\"{}\", true]", p.words[0]), p.words[0].size() + 5}};
       break;
     case ParameterType::vector:
       wrong = {{"\"x\""},          {"1.0"}, {"[1.0, 2.0]"}, {"[]"}, {"[1, 2, 3, 4]"}, {"[0, \"a\", 1]", 4},
@@ -143,7 +146,9 @@ std::vector<Wrong> out_of_range(const Parameter& p) {
       wrong = {{"\"no-such-word\""}, {"\"\""}};
       break;
     case ParameterType::words:
-      wrong = {{"[\"solid\", \"no-such-word\"]", 10}, {"[\"solid\", \"shear\", \"solid\"]", 19}};
+      wrong = {{fmt::format("[\"{}\", \"no-such-word\"]", p.words[0]), p.words[0].size() + 5},
+               {fmt::format("[\"{0}\", \"{1}\", \"{0}\"]", p.words[0], p.words[1]),
+                p.words[0].size() + p.words[1].size() + 9}};
       break;
     case ParameterType::counts:
       wrong = {{"[1, 2, 2]", 1}, {"[2, 513, 2]", 4}, {"[2, 2, -9223372036854775808]", 7}};

@@ -1,0 +1,292 @@
+#include "app/beside.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "model/integrator.h"
+#include "scene/short_keys.h"
+
+namespace aspic::app {
+namespace {
+
+/// Differences that suggest themselves, those that are no difference left out.
+std::vector<Variation> suggestions(const Scene& scene) {
+  const bool solved = row_of(scene.model.simulation.integrator).solved();
+  std::vector<Variation> all = {{"integrator", solved ? "explicit-euler" : "implicit-euler"},
+                                {"h", fmt::format("{:g}", 0.5 * scene.model.simulation.timestep)}};
+  if (const auto stiffness = present_value(scene, *find_short_key("k")))
+    all.push_back({"k", fmt::format("{:g}", 4.0 * *stiffness)});
+  all.push_back({"h", fmt::format("{:g}", 0.25 * scene.model.simulation.timestep)});
+  return all;
+}
+
+/// What the keyframes of a ghost may take.
+constexpr std::uint64_t most_ghost_bytes = std::uint64_t{128} << 20;
+
+std::string words_of(const Variation& variation) {
+  return fmt::format("{} = {}", title_of(variation.key), variation.value);
+}
+
+}  // namespace
+
+void Beside::detach() {
+  companions_.clear();
+  ghost_.reset();
+  boxes_.clear();
+  shown_.clear();
+  picture_.release();
+  leader_.pacer().waits = false;
+  context_ = nullptr;
+}
+
+std::vector<OverlayLine> Beside::label(std::size_t i) const {
+  const Scene& scene = i == 0 ? scene_.scene() : companions_[i - 1]->scene();
+  return label_of(scene_.editor().beside(), scene, std::string(run(i).backend().title));
+}
+
+// ---- what runs there are ----
+
+void Beside::add() {
+  std::vector<Variation> beside = scene_.editor().beside();
+  if (beside.size() + 1 >= most_beside)
+    return messages_.error(fmt::format("There are {} runs side by side, which is the most.", most_beside));
+  for (const Variation& wanted : suggestions(scene_.scene())) {
+    const auto same = [&](const Variation& v) { return v.key == wanted.key && v.value == wanted.value; };
+    if (std::ranges::any_of(beside, same)) continue;
+    beside.push_back(wanted);
+    return scene_.set_beside(std::move(beside), "run beside: " + words_of(wanted));
+  }
+}
+
+void Beside::set(std::size_t i, const Variation& variation) {
+  std::vector<Variation> beside = scene_.editor().beside();
+  Variation& own = beside[i - 1];
+  if (own.key == variation.key && own.value == variation.value) return;
+  if (const auto run = varied(scene_.scene(), asked_, std::span(&variation, 1)); !run)
+    return messages_.error(run.error().message);
+  own = variation;
+  messages_.dismiss_error();
+  scene_.set_beside(std::move(beside), "run beside: " + words_of(variation));
+}
+
+void Beside::remove(std::size_t i) {
+  std::vector<Variation> beside = scene_.editor().beside();
+  beside.erase(beside.begin() + static_cast<std::ptrdiff_t>(i) - 1);
+  scene_.set_beside(std::move(beside), "fewer runs side by side");
+}
+
+void Beside::leave() {
+  if (!scene_.editor().beside().empty()) scene_.set_beside({}, "one run alone");
+}
+
+/// Makes and ends runs until they are those of the editor. A new one begins at the start, and so all do.
+void Beside::match_editor() {
+  const std::vector<Variation>& wanted = scene_.editor().beside();
+  const auto is = [](const auto& companion, const Variation& variation) {
+    return companion && companion->variation().key == variation.key &&
+           companion->variation().value == variation.value;
+  };
+  if (std::ranges::equal(companions_, wanted, is)) return;
+  std::vector<std::unique_ptr<Companion>> next;
+  bool any_new = false;
+  for (const Variation& variation : wanted) {
+    const auto known =
+        std::ranges::find_if(companions_, [&](const auto& companion) { return is(companion, variation); });
+    if (known != companions_.end()) {
+      next.push_back(std::move(*known));
+      continue;
+    }
+    auto made = Companion::create(*context_, scene_.scene(), leader_, view_, asked_, picture_.full_quality,
+                                  variation);
+    if (!made) {
+      // As if it had not been asked for.
+      messages_.error(made.error().message);
+      std::vector<Variation> rest = wanted;
+      std::erase_if(rest,
+                    [&](const Variation& v) { return v.key == variation.key && v.value == variation.value; });
+      companions_ = std::move(next);
+      return scene_.set_beside(std::move(rest), "fewer runs side by side");
+    }
+    next.push_back(std::move(*made));
+    any_new = true;
+  }
+  companions_ = std::move(next);
+  shown_.clear();
+  others_run_ = false;
+  if (any_new) messages_.check(leader_.reset());
+  if (!several()) end_waiting();
+}
+
+// ---- time ----
+
+/// The first that did not diverge.
+Companion* Beside::stand_in() const {
+  const auto found = std::ranges::find_if(
+      companions_, [](const auto& companion) { return !companion->simulation().divergence(); });
+  return found == companions_.end() ? nullptr : found->get();
+}
+
+bool Beside::toggle() {
+  if (!others_go_on()) return false;
+  others_run_ = !others_run_;
+  return true;
+}
+
+std::optional<std::string> Beside::hands_refused() const {
+  for (const auto& companion : companions_) {
+    if (!companion->has_particles_of(leader_))
+      return fmt::format(
+          "Pulls and pins act on all runs alike, and the one with {} has other particles: leave side by side "
+          "first, or choose another difference.",
+          words_of(companion->variation()));
+  }
+  return std::nullopt;
+}
+
+void Beside::lead() {
+  match_editor();
+  if (ghost_ && ghost_->source != scene_.editor().source()) remove_ghost();
+  if (!several()) return;
+  leader_.pacer().waits = !settled_;
+}
+
+Status Beside::follow(double dt, double budget) {
+  if (!several()) return {};
+  Companion* const ahead = leader_.divergence() ? stand_in() : nullptr;
+  // They go on where the window's own run did.
+  if (ahead && was_running_) others_run_ = true;
+  if (!ahead) others_run_ = false;
+  was_running_ = leader_.running();
+  const bool all_there = settled_;
+  settled_ = !leader_.seeking() && !leader_.changing();
+  if (ahead) ASPIC_CHECK(ahead->lead(leader_.pacer(), others_run_, !all_there, dt, budget));
+  for (const auto& companion : companions_) {
+    if (companion.get() == ahead) continue;
+    ASPIC_CHECK(ahead ? companion->go_on_to(ahead->simulation().time(), dt, budget)
+                      : companion->follow(scene_.scene(), leader_, dt, budget));
+    settled_ = settled_ && companion->arrived();
+    if (const auto message = companion->take_message()) messages_.error(*message);
+    if (const auto message = companion->simulation().take_message()) messages_.error(*message);
+  }
+  if (ghost_) ASPIC_CHECK(follow_with_ghost(ahead ? ahead->simulation().time() : leader_.time(), dt, budget));
+  if (settled_) keep_shown();
+  return {};
+}
+
+// ---- the ghost ----
+
+void Beside::keep_ghost() {
+  // Another gets what this one has.
+  ghost_.reset();
+  if (!messages_.check(leader_.halt(true))) return;
+  auto ghost = std::make_unique<Ghost>();
+  ghost->scene = scene_.scene();
+  ghost->source = scene_.editor().source();
+  auto made = Simulation::create(*context_, ghost->scene, leader_.backend(), asked_);
+  if (!messages_.check(made)) return;
+  ghost->simulation = std::move(*made);
+  History history = leader_.history();
+  history.thin(most_ghost_bytes);
+  if (!messages_.check(ghost->simulation->replay(std::move(history)))) return;
+  ghost->picture =
+      std::make_unique<ScenePicture>(*ghost->simulation, ghost->scene, view_, picture_.full_quality);
+  ghost->picture->ghost = true;
+  if (!messages_.check(ghost->picture->attach(*context_))) return;
+  ghost_ = std::move(ghost);
+  settled_ = false;
+  shown_.clear();
+  messages_.info(
+      fmt::format("This run is the ghost from now on, up to t = {:.3f} s. Change something and press Reset.",
+                  ghost_end()));
+}
+
+void Beside::remove_ghost() {
+  ghost_.reset();
+  if (!several()) end_waiting();
+}
+
+double Beside::ghost_end() const {
+  const History& history = ghost_->simulation->history();
+  return history.time(history.end_moment());
+}
+
+/// To the time that is shown, or as near as its run has come to.
+Status Beside::follow_with_ghost(double time, double dt, double budget) {
+  Simulation& run = *ghost_->simulation;
+  ghost_->scene.view = scene_.scene().view;
+  const Moment moment = run.history().nearest(time);
+  if (!run.seeking() && moment != run.here()) ASPIC_CHECK(run.seek(moment));
+  ASPIC_CHECK(run.update(dt, budget));
+  ghost_->arrived = !run.seeking() && run.here() == moment;
+  settled_ = settled_ && ghost_->arrived;
+  return {};
+}
+
+void Beside::end_waiting() {
+  picture_.release();
+  leader_.pacer().waits = false;
+  settled_ = true;
+}
+
+/// The states of one time are those that are shown until the next ones are complete.
+void Beside::keep_shown() {
+  std::vector<Shown> now;
+  bool changed = shown_.size() != count();
+  for (std::size_t i = 0; i < count(); ++i) {
+    now.push_back({run(i).picture_number(), run(i).time(), run(i).divergence()});
+    changed = changed || now[i].picture != shown_[i].picture ||
+              now[i].divergence.has_value() != shown_[i].divergence.has_value();
+  }
+  if (ghost_) changed = changed || ghost_->shown != ghost_->simulation->picture_number();
+  if (!changed) return;
+  if (!messages_.check(leader_.refresh_snapshot())) return;
+  picture_.keep(leader_.snapshot());
+  for (const auto& companion : companions_) {
+    if (!messages_.check(companion->simulation().refresh_snapshot())) return;
+    companion->picture().keep(companion->simulation().snapshot());
+  }
+  if (ghost_) {
+    if (!messages_.check(ghost_->simulation->refresh_snapshot())) return;
+    ghost_->picture->keep(ghost_->simulation->snapshot());
+    ghost_->shown = ghost_->simulation->picture_number();
+  }
+  shown_ = std::move(now);
+}
+
+// ---- pictures ----
+
+void Beside::place(const Box& whole) {
+  const std::vector<Tile> tiles = tiles_of({std::max(static_cast<int>(whole.right - whole.left), 1),
+                                            std::max(static_cast<int>(whole.bottom - whole.top), 1)},
+                                           count());
+  boxes_.clear();
+  for (const Tile& tile : tiles)
+    boxes_.push_back({whole.left + tile.left, whole.top + tile.top, whole.left + tile.left + tile.width,
+                      whole.top + tile.top + tile.height});
+  if (!active()) boxes_ = {whole};
+  view_.whole = whole;
+  view_.box = boxes_.front();
+  view_.others.assign(boxes_.begin() + 1, boxes_.end());
+}
+
+Status Beside::show(const WindowSize& window, bool at_rest) {
+  if (ghost_) {
+    ghost_->picture->shadows = false;
+    ghost_->picture->set_at_rest(at_rest);
+    ASPIC_CHECK(ghost_->picture->show(window, boxes_.front()));
+  }
+  for (std::size_t i = 0; i < companions_.size(); ++i) {
+    ScenePicture& picture = companions_[i]->picture();
+    picture.shadows = picture_.shadows;
+    picture.full_quality = picture_.full_quality;
+    picture.set_at_rest(at_rest);
+    ASPIC_CHECK(picture.show(window, boxes_[i + 1]));
+    if (const auto refusal = picture.take_refusal()) messages_.error(*refusal);
+  }
+  return {};
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,206 @@
+// The section of runs side by side, and the names on their pictures.
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/beside.h"
+#include "app/panels.h"
+#include "app/parameter_widget.h"
+#include "base/printable.h"
+#include "model/integrator.h"
+#include "run/backends.h"
+#include "scene/parameters.h"
+#include "scene/short_keys.h"
+#include "scene/write.h"
+
+namespace aspic::app {
+namespace {
+
+/// What can differ: short names and the backend first, then every key of the scene.
+std::vector<std::string> keys_of(const Scene& scene) {
+  std::vector<std::string> keys;
+  for (const ShortKey& key : short_keys())
+    if (!key.targets(scene).empty()) keys.emplace_back(key.name);
+  keys.emplace_back(backend_key);
+  for (const Parameter& p : parameters()) {
+    if (p.path == "name" || p.path.starts_with("view.")) continue;
+    for (std::size_t i = 0; i < index_count(p, scene); ++i)
+      if (applies(p, scene, i)) keys.push_back(path_text(p.path, i));
+  }
+  return keys;
+}
+
+/// The words a key takes; none: it takes numbers and the like.
+std::vector<std::string_view> words_for(std::string_view key, const Scene& scene) {
+  std::vector<std::string_view> words;
+  if (key == backend_key) {
+    for (const BackendRow& row : backends()) words.push_back(row.name);
+    return words;
+  }
+  const ShortKey* const row = find_short_key(key);
+  const auto place = row ? place_of(scene, *row) : place_of(key);
+  if (place && place->parameter->type == ParameterType::word) return place->parameter->words;
+  return words;
+}
+
+/// The present value as text that a difference takes.
+std::string present(std::string_view key, const Scene& scene, const Simulation& leader) {
+  if (key == backend_key) return std::string(next_backend(leader.backend()).name);
+  const ShortKey* const row = find_short_key(key);
+  const auto place = row ? place_of(scene, *row) : place_of(key);
+  const auto value = place ? place->parameter->get(scene, place->index) : std::nullopt;
+  if (!value) return "0";
+  if (const auto* word = std::get_if<std::string>(&*value)) return *word;
+  return toml_value(*value);
+}
+
+/// Key and value of run i ≥ 1.
+void difference_widget(Gui& gui, Beside& beside, const Scene& scene, std::size_t i, const Variation& own) {
+  const std::vector<std::string> keys = keys_of(scene);
+  std::vector<std::string> titles;
+  for (const std::string& key : keys) titles.push_back(title_of(key));
+  const std::vector<std::string_view> names(keys.begin(), keys.end()), labels(titles.begin(), titles.end());
+  auto index = static_cast<std::size_t>(std::ranges::find(keys, own.key) - keys.begin());
+  label_column("Differs in");
+  if (choice(gui, fmt::format("beside/{}/key", i), names, labels, index,
+             "The one value in which this run differs from the scene's own. Another one starts all runs "
+             "anew."))
+    return beside.set(i, {keys[index], present(keys[index], scene, beside.run(0))});
+  label_column("Value");
+  const std::string name = fmt::format("beside/{}/value", i);
+  if (const std::vector<std::string_view> words = words_for(own.key, scene); !words.empty()) {
+    auto word = static_cast<std::size_t>(std::ranges::find(words, own.value) - words.begin());
+    if (choice(gui, name, words, words, word, "The value of this run. Another one starts all runs anew."))
+      beside.set(i, {own.key, std::string(words[word])});
+    return;
+  }
+  std::string text = own.value;
+  const bool entered = ImGui::InputText("##value", &text, ImGuiInputTextFlags_EnterReturnsTrue);
+  named(gui, name, "The value of this run, as --set takes it. Enter starts all runs anew with it.");
+  if (entered) beside.set(i, {own.key, text});
+}
+
+constexpr ImGuiWindowFlags label_flags =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
+    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+    ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+}  // namespace
+
+void beside_section(Gui& gui, SceneControl& scene, Beside& beside) {
+  const std::vector<Variation> differences = scene.editor().beside();
+  for (std::size_t i = 1; i <= differences.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(Beside::packed_colour(i)), "Run %zu", i + 1);
+    ImGui::SameLine();
+    const bool removed =
+        button(gui, fmt::format("beside/{}/remove", i).c_str(), "Remove", "Ends this run. The others go on.");
+    if (removed)
+      beside.remove(i);
+    else
+      difference_widget(gui, beside, scene.scene(), i, differences[i - 1]);
+    ImGui::PopID();
+    if (removed) return;
+  }
+  const float half = share_of_line(2);
+  command_button(gui, "beside/add", differences.empty() ? "Compare side by side" : "Add a run",
+                 "Shows a further run of the scene beside its own, with one value that differs, on the same "
+                 "clock; up to four runs. All start anew.",
+                 "add a run side by side", differences.size() + 1 < most_beside,
+                 differences.empty() ? 0.0f : half);
+  if (!differences.empty()) {
+    ImGui::SameLine();
+    command_button(gui, "beside/leave", "Leave", "Goes back to the scene's own run alone, which goes on.",
+                   "leave side by side", true, half);
+  }
+  if (beside.others_go_on())
+    ImGui::TextWrapped("The scene's own run diverged; the others go on. Space pauses them.");
+  command_button(gui, "beside/ghost", "Keep as ghost",
+                 "The run so far is shown pale over the scene's own from now on, at the same time: change a "
+                 "value, press Reset, and see both. At most 128 MiB; what is not kept is simulated again.",
+                 "keep this run as ghost", true, half);
+  ImGui::SameLine();
+  command_button(gui, "beside/no-ghost", "Remove ghost", "Shows the run without its ghost.",
+                 "remove the ghost", beside.ghost() != nullptr, half);
+  if (const Simulation* const ghost = beside.ghost()) {
+    const History& history = ghost->history();
+    ImGui::TextDisabled("Ghost: %.3f to %.3f s, %s", history.time(history.begin_moment()), beside.ghost_end(),
+                        human_bytes(history.bytes()).c_str());
+    gui.mark("beside/ghost-reach");
+  }
+}
+
+std::uint32_t Beside::packed_colour(std::size_t i) {
+  constexpr ImU32 colours[most_beside] = {IM_COL32(242, 176, 92, 255), IM_COL32(110, 165, 240, 255),
+                                          IM_COL32(120, 205, 140, 255), IM_COL32(224, 130, 200, 255)};
+  return colours[i];
+}
+
+/// Tells where the ghost stands still, in the lower part of the picture.
+void Beside::draw_ghost_label(const Gui& gui) const {
+  if (!ghost_) return;
+  const History& history = ghost_->simulation->history();
+  const double begin = history.time(history.begin_moment()), end = ghost_end(), now = shown_time(0);
+  const double half = 0.5 * ghost_->simulation->model().simulation.timestep;
+  const std::string text = now > end + half     ? fmt::format("ghost: its run ends at {:.3f} s", end)
+                           : now < begin - half ? fmt::format("ghost: kept from {:.3f} s on", begin)
+                                                : std::string("ghost: an earlier run");
+  const auto scale = static_cast<float>(gui.scale());
+  const Box& box = boxes_.front();
+  ImGui::SetNextWindowPos(
+      {static_cast<float>(box.right) - 14.0f * scale, static_cast<float>(box.top) + 14.0f * scale},
+      ImGuiCond_Always, {1.0f, 0.0f});
+  ImGui::SetNextWindowBgAlpha(0.72f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 7.0f * scale);
+  ImGui::Begin("##ghost", nullptr, label_flags);
+  ImGui::TextColored(ImVec4(0.72f, 0.84f, 1.0f, 1.0f), "%s", text.c_str());
+  gui.mark("ghost/label");
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+void Beside::draw_labels(const Gui& gui) const {
+  draw_ghost_label(gui);
+  if (!active()) return;
+  const auto scale = static_cast<float>(gui.scale());
+  const float gap = 14.0f * scale;
+  for (std::size_t i = 0; i < count(); ++i) {
+    const Simulation& s = run(i);
+    const auto divergence = shown_divergence(i);
+    const std::vector<OverlayLine> lines =
+        beside_text(label(i), shown_time(i), s.model().simulation.timestep, divergence);
+    ImGui::SetNextWindowPos(
+        {static_cast<float>(boxes_[i].left) + gap, static_cast<float>(boxes_[i].top) + gap});
+    ImGui::SetNextWindowBgAlpha(0.72f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);
+    ImGui::Begin(fmt::format("##beside{}", i).c_str(), nullptr, label_flags);
+    // To be read from the last row.
+    ImGui::SetWindowFontScale(1.35f);
+    float column = 0.0f;
+    for (const OverlayLine& line : lines)
+      column = std::max(column, ImGui::CalcTextSize(line.label.c_str()).x + 1.5f * gap);
+    ImGui::BeginGroup();
+    for (const OverlayLine& line : lines) {
+      const ImVec4 alarm(0.98f, 0.55f, 0.38f, 1.0f);
+      const bool names = &line < &lines[lines.size() - (divergence ? 2 : 1)];
+      const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+      const ImVec4 own = ImGui::ColorConvertU32ToFloat4(Beside::packed_colour(i));
+      const float left = ImGui::GetCursorPosX();
+      ImGui::TextColored(line.alarm ? alarm : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled), "%s",
+                         line.label.c_str());
+      ImGui::SameLine(left + column);
+      ImGui::TextColored(line.alarm ? alarm : names ? own : bright, "%s", line.value.c_str());
+    }
+    ImGui::EndGroup();
+    gui.mark("beside/{}/label", i);
+    ImGui::End();
+    ImGui::PopStyleVar();
+  }
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,175 @@
+#include "app/companion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "app/scene_editor.h"
+
+namespace aspic::app {
+namespace {
+
+std::uint64_t nearest_step(double time, double timestep) {
+  return static_cast<std::uint64_t>(std::llround(std::clamp(time / timestep, 0.0, 0x1p62)));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Companion>> Companion::create(gl::Context& context, const Scene& scene,
+                                                     const Simulation& leader, const View& view,
+                                                     const BackendChoice& asked, bool full_quality,
+                                                     const Variation& variation) {
+  std::unique_ptr<Companion> c(new Companion(variation, asked));
+  BackendChoice choice = asked;
+  choice.row = &leader.backend();
+  ASPIC_TRY(auto run, varied(scene, choice, std::span(&variation, 1)));
+  c->own_backend_ = variation.key == backend_key;
+  c->scene_ = std::move(run.scene);
+  ASPIC_TRY(c->simulation_,
+            Simulation::create(context, c->scene_, run.backend.row ? *run.backend.row : leader.backend(),
+                               run.backend));
+  c->picture_ = std::make_unique<ScenePicture>(*c->simulation_, c->scene_, view, full_quality);
+  ASPIC_CHECK(c->picture_->attach(context));
+  c->leader_run_ = leader.run_number();
+  c->leader_view_ = scene.view;
+  c->adopted_ = false;
+  return c;
+}
+
+/// What is pulled is here too.
+bool Companion::can_pull(const Simulation& leader, const Pull& pull) const {
+  return pull.ball ? simulation_->model().ball_count() == leader.model().ball_count()
+                   : has_particles_of(leader);
+}
+
+std::uint64_t Companion::step_at(double time) const {
+  return nearest_step(time, simulation_->model().simulation.timestep);
+}
+
+/// The run began anew, or is another: so is this one.
+Status Companion::take_over(const Scene& scene, const Simulation& leader) {
+  Simulation& own = *simulation_;
+  if (!own_backend_ && &leader.backend() != &own.backend()) ASPIC_CHECK(own.set_backend(leader.backend()));
+  if (adopted_model_ != leader.model_number()) {
+    adopted_model_ = leader.model_number();
+    adopted_ = false;
+  }
+  if (leader_run_ != leader.run_number()) {
+    leader_run_ = leader.run_number();
+    ASPIC_CHECK(own.reset());
+  }
+  // A change of the view needs no other solver.
+  if (scene.view == leader_view_) return {};
+  leader_view_ = scene.view;
+  const auto run = varied(scene, asked_, std::span(&variation_, 1));
+  if (run) scene_.view = run->scene.view;
+  return {};
+}
+
+/// The leader's scene with the difference, and its hands, from the time at which it got them.
+Status Companion::adopt_setup(const Simulation& leader) {
+  Simulation& own = *simulation_;
+  adopted_ = true;
+  Scene base = scene_;
+  base.model = leader.setup().settings;
+  auto run = varied(base, asked_, std::span(&variation_, 1));
+  if (!run) {
+    message_ = run.error().message;
+    return {};
+  }
+  const Effect effect = effect_between(scene_, run->scene);
+  Setup setup = {run->scene.model, leader.setup().thrown, leader.setup().pinned};
+  const double ratio = leader.model().simulation.timestep / setup.settings.simulation.timestep;
+  for (Ball& ball : setup.thrown)
+    ball.launch_step =
+        static_cast<std::uint64_t>(std::llround(static_cast<double>(ball.launch_step) * ratio));
+  if (!has_particles_of(leader)) setup.pinned.clear();
+  const bool hands = setup.pinned != own.setup().pinned || setup.thrown.size() != own.setup().thrown.size();
+  scene_ = std::move(run->scene);
+  return effect >= Effect::constants || hands ? own.adopt(std::move(setup), effect < Effect::restart)
+                                              : Status();
+}
+
+/// Where the history has it, there; else forward from the end, or from here if nothing was before.
+Status Companion::go_to(std::uint64_t step) {
+  Simulation& own = *simulation_;
+  stuck_ = false;
+  if (own.seeking()) return {};
+  if (step < own.step()) {
+    own.pacer().goal.reset();
+    const Moment moment = own.history().nearest(static_cast<double>(step) * own.model().simulation.timestep);
+    stuck_ = moment == own.here();
+    return stuck_ ? Status() : own.seek(moment);
+  }
+  // A job on its way goes where it was sent, with the pull of that time.
+  if (own.running() && own.busy() && own.pacer().goal) return {};
+  own.pacer().goal = step;
+  if (step > own.step() && !own.running() && !own.divergence()) own.set_running(true);
+  return {};
+}
+
+Status Companion::follow(const Scene& scene, const Simulation& leader, double dt, double budget) {
+  Simulation& own = *simulation_;
+  arrived_ = false;
+  ASPIC_CHECK(take_over(scene, leader));
+  const History& history = leader.history();
+  const Moment here = leader.here();
+  if (!leader.at_end()) {
+    // In the past every run follows its own history.
+    own.set_hand(std::nullopt);
+    const Moment moment = own.history().nearest(leader.time());
+    if (!own.seeking() && moment != own.here()) ASPIC_CHECK(own.seek(moment));
+    ASPIC_CHECK(own.update(dt, budget));
+    arrived_ = !own.seeking() && !leader.seeking() && own.here() == moment;
+    return {};
+  }
+  std::uint64_t wanted = step_at(leader.time());
+  if (!adopted_ && !leader.seeking()) {
+    const std::uint64_t begins = step_at(history.time({here.stretch, history.stretch(here.stretch).first}));
+    if (own.step() == begins || own.divergence())
+      ASPIC_CHECK(adopt_setup(leader));
+    else
+      wanted = begins;
+  }
+  if (adopted_) {
+    // What pulls the leader pulls here, from the same time to the same time.
+    const Moment then = {here.stretch,
+                         std::clamp(nearest_step(own.time(), leader.model().simulation.timestep),
+                                    history.stretch(here.stretch).first, here.step)};
+    const auto pull = history.pull_at(then);
+    own.set_hand(pull && can_pull(leader, *pull) ? pull : std::nullopt);
+    if (const auto next = history.next_pull_change(then))
+      wanted = std::min(wanted, std::max(step_at(history.time({here.stretch, *next})), own.step() + 1));
+  }
+  ASPIC_CHECK(go_to(wanted));
+  ASPIC_CHECK(own.update(dt, budget));
+  const bool there = own.step() == step_at(leader.time()) && !own.seeking();
+  arrived_ = adopted_ && (there || stuck_ || own.divergence());
+  return {};
+}
+
+Status Companion::go_on_to(double time, double dt, double budget) {
+  Simulation& own = *simulation_;
+  own.set_hand(std::nullopt);
+  const std::uint64_t wanted = step_at(time);
+  ASPIC_CHECK(go_to(wanted));
+  ASPIC_CHECK(own.update(dt, budget));
+  arrived_ = (own.step() == wanted && !own.seeking()) || stuck_ || own.divergence();
+  return {};
+}
+
+Status Companion::lead(const Pacer& pace, bool running, bool waits, double dt, double budget) {
+  Simulation& own = *simulation_;
+  own.set_hand(std::nullopt);
+  own.pacer().goal.reset();
+  own.pacer().pace = pace.pace;
+  own.pacer().speed = pace.speed;
+  own.pacer().waits = waits;
+  if (own.running() != running) own.set_running(running);
+  ASPIC_CHECK(own.update(dt, budget));
+  arrived_ = true;
+  return {};
+}
+
+}  // namespace aspic::app

@@ -1,0 +1,71 @@
+#pragma once
+// A run beside the window's own: the same scene with one difference, on the same clock.
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/scene_picture.h"
+#include "app/simulation.h"
+#include "app/view.h"
+#include "base/result.h"
+#include "run/variation.h"
+#include "scene/scene.h"
+
+namespace aspic::app {
+
+class Companion {
+ public:
+  /// `scene` is that of the window's own run, `leader`; all but the variation is taken from them. The
+  /// references must outlive it. Errors: those of varied() and of Simulation::create().
+  static Result<std::unique_ptr<Companion>> create(gl::Context& context, const Scene& scene,
+                                                   const Simulation& leader, const View& view,
+                                                   const BackendChoice& asked, bool full_quality,
+                                                   const Variation& variation);
+
+  const Variation& variation() const { return variation_; }
+  const Scene& scene() const { return scene_; }
+  const Simulation& simulation() const { return *simulation_; }
+  Simulation& simulation() { return *simulation_; }
+  ScenePicture& picture() { return *picture_; }
+
+  /// Once for each picture: takes on what became of the window's own run, and goes to its time. `dt` and
+  /// `budget` as of Simulation::update(). Errors: those of Simulation.
+  Status follow(const Scene& scene, const Simulation& leader, double dt, double budget);
+  /// Goes to a time [s] that only runs like this one have come to.
+  Status go_on_to(double time, double dt, double budget);
+  /// Sets the pace itself.
+  Status lead(const Pacer& pace, bool running, bool waits, double dt, double budget);
+  /// It shows the time it was last asked for, or diverged on the way there.
+  bool arrived() const { return arrived_; }
+  /// Its bodies have the particles of the leader's: what hands do to one can be done to it.
+  bool has_particles_of(const Simulation& leader) const {
+    return simulation_->model().particle_count() == leader.model().particle_count();
+  }
+  /// Why it does not do what its leader does, once.
+  std::optional<std::string> take_message() { return std::exchange(message_, std::nullopt); }
+
+ private:
+  Companion(const Variation& variation, const BackendChoice& asked) : variation_(variation), asked_(asked) {}
+  Status take_over(const Scene& scene, const Simulation& leader);
+  Status adopt_setup(const Simulation& leader);
+  Status go_to(std::uint64_t step);
+  bool can_pull(const Simulation& leader, const Pull& pull) const;
+  std::uint64_t step_at(double time) const;
+
+  Variation variation_;
+  BackendChoice asked_;
+  Scene scene_;  // the variation's
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<ScenePicture> picture_;
+  bool own_backend_ = false;  // the variation says which
+  bool arrived_ = false;
+  bool stuck_ = false;   // its history does not reach the time it was asked for
+  bool adopted_ = true;  // the leader's setup of adopted_model_
+  ViewSettings leader_view_;
+  std::uint64_t leader_run_ = 0, adopted_model_ = 0;
+  std::optional<std::string> message_;
+};
+
+}  // namespace aspic::app

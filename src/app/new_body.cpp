@@ -1,0 +1,143 @@
+#include "app/new_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "app/parameter_widget.h"
+#include "model/terrain.h"
+
+namespace aspic::app {
+namespace {
+
+/// A box around bodies [m].
+struct Extent {
+  Vec3 low, high;
+  Vec3 centre() const { return 0.5 * (low + high); }
+  bool meets(const Extent& other) const {
+    for (int axis = 0; axis < 3; ++axis)
+      if (low[axis] >= other.high[axis] || high[axis] <= other.low[axis]) return false;
+    return true;
+  }
+};
+
+/// Bodies as a run of these settings starts with them.
+struct Bodies {
+  Model model;
+  State state;
+
+  static std::optional<Bodies> of(const ModelSettings& settings) {
+    auto model = build_model(settings);
+    if (!model || (model->particle_count() == 0 && model->ball_count() == 0)) return std::nullopt;
+    Bodies bodies{std::move(*model), {}};
+    bodies.state = initial_state(bodies.model, Precision::double_);
+    return bodies;
+  }
+  /// act(centre, radius) of every particle and ball.
+  template <class Act>
+  void for_each(const Act& act) const {
+    for (const Vec3& x : state.position) act(x, 0.0);
+    for (std::size_t b = 0; b < state.ball_position.size(); ++b)
+      act(state.ball_position[b], model.balls[b].radius);
+  }
+  Extent extent() const {
+    const Vec3 first = state.position.empty() ? state.ball_position.front() : state.position.front();
+    Extent box = {first, first};
+    for_each([&](const Vec3& x, double radius) {
+      for (int axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], x[axis] - radius);
+        box.high[axis] = std::max(box.high[axis], x[axis] + radius);
+      }
+    });
+    return box;
+  }
+  /// How deep the deepest reaches into terrain once they are moved by `shift` [m]; 0 or less: it does not.
+  double depth(const Vec3& shift) const {
+    double deepest = 0.0;
+    for (const Terrain& terrain : model.terrain) {
+      const Terrain at_first = terrain_at(terrain, model.simulation.timestep, 0);
+      for_each([&](const Vec3& x, double radius) {
+        deepest = std::max(deepest, radius - signed_distance(at_first, x + shift));
+      });
+    }
+    return deepest;
+  }
+};
+
+/// The same shift, and as much higher as lifts the bodies out of terrain. Terrain that slopes or is round
+/// gives way bit by bit; where higher is deeper, as outside a bowl, it stays as it is.
+Vec3 raised(const Bodies& bodies, Vec3 shift) {
+  constexpr double clearance = 0.01;  // m
+  double depth = bodies.depth(shift);
+  for (int i = 0; i < 32 && depth > 0.0; ++i) {
+    const Vec3 higher = shift + Vec3{0.0, depth + clearance, 0.0};
+    const double left = bodies.depth(higher);
+    if (!(left < depth)) break;
+    shift = higher;
+    depth = left;
+  }
+  return shift;
+}
+
+std::string key_of(const SettingsList& list, std::string_view key) {
+  return fmt::format("{}[].{}", list.key, key);
+}
+
+void move(Scene& scene, const SettingsList& list, std::size_t i, const Vec3& shift) {
+  for (const char* const key : {"position", "from.min", "from.max"}) {
+    const Parameter* const p = find_parameter(key_of(list, key));
+    if (p) p->set(scene, i, Value(std::get<Vec3>(*p->get(scene, i)) + shift));
+  }
+}
+
+void aim(Scene& scene, const SettingsList& list, std::size_t i, const Extent& target) {
+  const Parameter* const least = find_parameter(key_of(list, "towards.min"));
+  if (!least) return;
+  const Vec3 half = 0.25 * (target.high - target.low);
+  least->set(scene, i, Value(target.centre() - half));
+  find_parameter(key_of(list, "towards.max"))->set(scene, i, Value(target.centre() + half));
+}
+
+/// The last element of a list goes where it is in nobody's way.
+void place(Scene& scene, const SettingsList& list) {
+  const std::size_t last = list.size(scene.model) - 1;
+  ModelSettings before = scene.model, alone = scene.model;
+  list.remove(before, last);
+  for (const BodyRow& row : body_rows()) {
+    const bool own = row.list.key == list.key;
+    while (row.list.size(alone) > (own ? 1u : 0u)) row.list.remove(alone, 0);
+  }
+  const auto body = Bodies::of(alone), others = Bodies::of(before);
+  if (!body) return;
+  const Extent box = body->extent();
+  Vec3 shift;
+  if (others && box.meets(others->extent())) {
+    const Extent there = others->extent();
+    const Vec3 beside = raised(*body, {there.high.x + 0.5 * (box.high.x - box.low.x) - box.low.x, 0.0, 0.0});
+    const Vec3 above = raised(*body, {0.0, there.high.y + 0.5 * (box.high.y - box.low.y) - box.low.y, 0.0});
+    // In a bowl there is no place beside.
+    shift = body->depth(beside) <= body->depth(above) ? beside : above;
+  } else {
+    shift = raised(*body, {});
+  }
+  move(scene, list, last, shift);
+  if (others) aim(scene, list, last, others->extent());
+}
+
+}  // namespace
+
+void add_body(SceneControl& scene, const SettingsList& list) {
+  scene.change("add " + spaced(list.key), [&](Scene& s) {
+    list.append(s.model);
+    const std::size_t last = list.size(s.model) - 1;
+    for (const Parameter& p : parameters()) {
+      if (last == 0 || !p.path.starts_with(key_of(list, ""))) continue;
+      if (const auto value = p.get(s, last - 1)) p.set(s, last, *value);
+    }
+    place(s, list);
+  });
+}
+
+}  // namespace aspic::app

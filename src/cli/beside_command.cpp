@@ -1,0 +1,221 @@
+// aspic run --beside: several runs of a scene on one clock.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/json.h"
+#include "cli/run_lane.h"
+#include "cli/run_summary.h"
+#include "io/program.h"
+#include "run/beside.h"
+#include "run/beside_recorder.h"
+#include "run/run_files.h"
+#include "scene/load.h"
+#include "scene/write.h"
+
+namespace aspic::cli {
+namespace {
+
+/// A run beside others, with all that it holds. Not movable: its parts refer to each other.
+struct Member {
+  Member(Variant variant, RunFiles opened) : run(std::move(variant)), files(std::move(opened)) {}
+  Member(const Member&) = delete;
+  Member& operator=(const Member&) = delete;
+
+  Variant run;
+  RunFiles files;
+  std::uint64_t last_step = 0;
+  std::string name;  ///< "run 2 (integrator implicit Euler)"
+  Model model;
+  Backend backend;
+  std::vector<OverlayLine> label;
+  std::optional<RunLane> lane;
+  std::optional<Outcome> outcome;
+};
+using Members = std::vector<std::unique_ptr<Member>>;
+
+Status refuse_what_needs_one_run(const RunOptions& options) {
+  if (!options.resume_file.empty())
+    return fail(ErrorCode::usage, "--beside starts every run at the scene's start: omit --resume.");
+  for (const StateOutput& output : options.outputs)
+    if (output.path.starts_with("/dev/"))
+      return fail(ErrorCode::usage,
+                  "--{} {}: with --beside every run writes a file of its own; name a file, such as out.csv, "
+                  "which becomes out-1.csv, out-2.csv and so on.",
+                  output.option, output.path);
+  return {};
+}
+
+/// The files of a run's states; those of pictures belong to all runs.
+Result<RunFiles> open_files(const RunOptions& options, const Scene& scene, std::size_t number,
+                            Overwrite overwrite) {
+  std::vector<StateOutput> outputs = options.outputs;
+  for (StateOutput& output : outputs)
+    if (!output.path.empty()) output.path = numbered_path(output.path, number);
+  return RunFiles::open(outputs, {}, {to_toml(scene), scene.model.simulation.integrator}, overwrite);
+}
+
+Result<Members> make_members(const RunOptions& options, const std::vector<Variation>& differences,
+                             Overwrite overwrite) {
+  ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides));
+  std::vector<std::string> view;
+  for (const std::string& argument : options.view) view.push_back("view." + argument);
+  ASPIC_TRY(scene, with_overrides(std::move(scene), view));
+  ASPIC_TRY(const auto steps, steps_of(options.length, scene.model.simulation));
+  ASPIC_TRY(auto runs, runs_beside(scene, options.backend, differences));
+  Members members;
+  for (Variant& run : runs) {
+    ASPIC_TRY(auto files, open_files(options, run.scene, members.size() + 1, overwrite));
+    auto member = std::make_unique<Member>(std::move(run), std::move(files));
+    const SimulationSettings& simulation = member->run.scene.model.simulation;
+    ASPIC_TRY(member->last_step, as_long_as(scene.model.simulation, steps, simulation));
+    ASPIC_TRY(member->model, build_model(member->run.scene.model));
+    members.push_back(std::move(member));
+  }
+  return members;
+}
+
+/// A context for all that needs one: pictures, and backends that may take it. Null where nothing must have
+/// one and there is none.
+Result<std::unique_ptr<gl::Context>> shared_context(const RunOptions& options, const Members& members) {
+  const bool needed = options.pictures.any() || std::ranges::any_of(members, [](const auto& member) {
+                        const BackendRow* const row = member->run.backend.row;
+                        return row && row->needs_context;
+                      });
+  auto context = gl::Context::create_headless();
+  if (context) return context;
+  if (!needed) return std::unique_ptr<gl::Context>();
+  return Error{context.error().code,
+               "pictures and the gpu backend need an OpenGL device. " + context.error().message};
+}
+
+Status prepare(Members& members, const std::vector<Variation>& differences, gl::Context* context,
+               const InterruptGuard& interrupt) {
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    Member& m = *members[i];
+    ASPIC_TRY(m.backend, make_backend(m.run.backend, m.model, {context, nullptr, {}}));
+    m.lane.emplace(*m.backend.solver, m.files, 0);
+    m.label = label_of(differences, m.run.scene, m.backend.variant());
+    m.name = fmt::format("run {}", i + 1);
+    for (const OverlayLine& line : m.label)
+      m.name += fmt::format("{}{} {}", &line == &m.label.front() ? " (" : ", ", line.label, line.value);
+    m.name += ")";
+    warn_if_unstable(m.model, interrupt, m.name + ": ");
+  }
+  return {};
+}
+
+Status draw(BesideRecorder& recorder, const Members& members) {
+  std::vector<std::uint64_t> steps;
+  std::vector<std::optional<Divergence>> divergences;
+  for (const auto& m : members) {
+    steps.push_back(m->lane->step());
+    divergences.push_back(m->lane->divergence());
+  }
+  return recorder.add(steps, divergences);
+}
+
+/// Picture by picture: a run that diverged stands still while the others go on.
+Status simulate(Members& members, const CommonClock& clock, BesideRecorder* recorder,
+                const InterruptGuard& interrupt) {
+  for (const auto& m : members) ASPIC_CHECK(m->lane->begin());
+  ProgressBar bar(clock.count(), "picture");
+  bool interrupted = false;
+  for (std::uint64_t frame = 0; frame < clock.count() && !interrupted; ++frame) {
+    for (std::size_t i = 0; i < members.size() && !interrupted; ++i) {
+      RunLane& lane = *members[i]->lane;
+      const double before = lane.seconds();
+      ASPIC_CHECK(lane.advance_to(std::max(clock.step_of(i, frame), lane.step()), interrupt));
+      if (recorder) recorder->add_simulation(lane.seconds() - before);
+      interrupted = lane.interrupted();
+    }
+    if (recorder) ASPIC_CHECK(draw(*recorder, members));
+    bar.update(frame + 1);
+    interrupted = interrupted || interrupt.interrupted();
+    if (std::ranges::all_of(members, [](const auto& m) { return m->lane->divergence().has_value(); })) break;
+  }
+  for (const auto& m : members) {
+    ASPIC_TRY(m->outcome, m->lane->outcome(m->last_step));
+    m->outcome->interrupted = interrupted;
+  }
+  return {};
+}
+
+Status print_summary(const RunOptions& options, const Members& members,
+                     const std::vector<std::string>& pictures, const BesideRecorder* recorder) {
+  if (options.json) {
+    Json runs = Json::array();
+    for (const auto& m : members) {
+      Json run = to_json({m->run.scene, m->model, m->backend, *m->outcome});
+      run["files"] = m->files.written();
+      runs.push_back(std::move(run));
+    }
+    const Json times = recorder ? to_json(recorder->times(), recorder->device()) : Json();
+    return print_data(to_text(Json{{"runs", runs}, {"pictures", times}, {"files", pictures}}));
+  }
+  std::string text;
+  for (const auto& m : members) {
+    text += fmt::format("{}\n{}", m->name, to_text({m->run.scene, m->model, m->backend, *m->outcome}));
+    for (const std::string& file : m->files.written()) text += fmt::format("wrote        {}\n", file);
+    text += "\n";
+  }
+  for (const std::string& file : pictures) text += fmt::format("wrote        {}\n", file);
+  return print_text(text);
+}
+
+}  // namespace
+
+Status execute_beside(const RunOptions& options) {
+  const InterruptGuard interrupt;
+  ASPIC_CHECK(refuse_what_needs_one_run(options));
+  std::vector<Variation> differences;
+  for (const std::string& text : options.beside) {
+    ASPIC_TRY(auto difference, parse_variation(text));
+    differences.push_back(std::move(difference));
+  }
+  const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
+  ASPIC_TRY(auto members, make_members(options, differences, overwrite));
+  ASPIC_TRY(auto film, RunFiles::open({}, options.pictures, {}, overwrite));
+  ASPIC_TRY(const auto context, shared_context(options, members));
+  ASPIC_CHECK(prepare(members, differences, context.get(), interrupt));
+
+  std::vector<Span> spans;
+  std::vector<PicturedRun> pictured;
+  for (const auto& m : members) {
+    spans.push_back({m->model.simulation.timestep, m->last_step});
+    pictured.push_back({&m->run.scene, &m->backend, m->label});
+  }
+  const CommonClock clock(std::move(spans), frames_per_second(options.pictures), options.pictures.speed);
+  std::unique_ptr<BesideRecorder> recorder;
+  if (options.pictures.any()) {
+    ASPIC_TRY(recorder, BesideRecorder::create(*context, options.pictures, std::move(pictured),
+                                               film.take_frame_sinks()));
+  }
+  ASPIC_CHECK(simulate(members, clock, recorder.get(), interrupt));
+
+  const Status pictured_all = recorder ? recorder->finish() : Status();
+  Status finished;
+  for (const auto& m : members) {
+    const Outcome& outcome = *m->outcome;
+    const Status status =
+        m->files.finish({m->model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
+    if (finished) finished = status;
+  }
+  const Status summary = print_summary(
+      options, members, recorder ? recorder->written() : std::vector<std::string>{}, recorder.get());
+  if (recorder) print_frame_times(recorder->times(), recorder->device());
+  if (!pictured_all) return pictured_all;
+  if (!finished) return finished;
+  if (!summary) return summary;
+  for (const auto& m : members)
+    if (m->outcome->divergence) return divergence_error(m->model, *m->outcome, interrupt, m->name);
+  if (members.front()->outcome->interrupted)
+    return fail(ErrorCode::interrupted, "interrupted at step {} of {}; all files were completed.",
+                members.front()->outcome->state.step, members.front()->last_step);
+  return {};
+}
+
+}  // namespace aspic::cli

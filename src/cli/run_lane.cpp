@@ -1,0 +1,71 @@
+#include "cli/run_lane.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "analysis/energy.h"
+
+namespace aspic::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+void BatchSize::took(std::uint64_t steps, double seconds) {
+  if (steps < size_) return;
+  if (seconds < 0.025) size_ = std::min<std::uint64_t>(2 * size_, 1u << 20);
+  if (seconds > 0.1) size_ = std::max<std::uint64_t>(size_ / 2, 1);
+}
+
+// A State takes as much memory as all of a solver's: one is held where it is looked at, and none while
+// steps are made.
+Status RunLane::sample() {
+  ASPIC_TRY(const auto state, solver_.state());
+  return files_.take({solver_.model(), state, solver_.solve_statistics().value_or(SolveStatistics{})});
+}
+
+Status RunLane::advance_to(std::uint64_t step, const InterruptGuard& interrupt,
+                           const std::function<void(std::uint64_t)>& did) {
+  const auto started = Clock::now();
+  while (step_ < step && !divergence_ && !(interrupted_ = interrupt.interrupted())) {
+    const std::uint64_t wanted = files_.next_step(step_);
+    const std::uint64_t count = std::min({batch_.next(), step - step_, wanted - step_});
+    const auto before = Clock::now();
+    ASPIC_TRY(divergence_, solver_.advance(count));
+    if (divergence_) {
+      step_ = divergence_->step - 1;
+      break;
+    }
+    step_ += count;
+    if (step_ == wanted) ASPIC_CHECK(sample());
+    batch_.took(count, seconds_since(before));
+    if (did) did(step_);
+  }
+  seconds_ += seconds_since(started);
+  return {};
+}
+
+Result<Outcome> RunLane::outcome(std::uint64_t last_step) {
+  const auto before = Clock::now();
+  Outcome outcome;
+  outcome.first_step = first_step_;
+  outcome.last_step = last_step;
+  outcome.divergence = divergence_;
+  outcome.interrupted = interrupted_;
+  ASPIC_TRY(outcome.state, solver_.state());  // the time below is that of finished work
+  outcome.wall_seconds = seconds_ + seconds_since(before);
+  if (const auto bad = first_not_finite(measure(solver_.model(), outcome.state))) {
+    return fail(ErrorCode::diverged, "{} of step {} is not a finite number; the outputs were not completed.",
+                *bad, outcome.state.step);
+  }
+  outcome.solves = solver_.solve_statistics();
+  return outcome;
+}
+
+}  // namespace aspic::cli

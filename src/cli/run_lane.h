@@ -1,0 +1,77 @@
+#pragma once
+// A run on its way to its end: what advances it, and what came of it.
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "base/result.h"
+#include "io/program.h"
+#include "model/solver.h"
+#include "model/state.h"
+#include "run/run_files.h"
+
+namespace aspic::cli {
+
+/// What became of a run.
+struct Outcome {
+  State state;
+  std::uint64_t first_step = 0, last_step = 0;  ///< of this run; last: as planned
+  std::optional<Divergence> divergence;
+  std::optional<SolveStatistics> solves;  ///< implicit Euler only
+  Status pictured;                        ///< whether the pictures were completed
+  bool interrupted = false;
+  double wall_seconds = 0.0;
+  double steps_per_second() const {
+    return wall_seconds > 0.0 ? static_cast<double>(state.step - first_step) / wall_seconds : 0.0;
+  }
+};
+
+/// Steps between polls for Ctrl-C and redraws: as many as take about a twentieth of a second.
+class BatchSize {
+ public:
+  std::uint64_t next() const { return size_; }
+  void took(std::uint64_t steps, double seconds);
+
+ private:
+  std::uint64_t size_ = 1;
+};
+
+/// A solver with the files that take its states. Both must outlive it.
+class RunLane {
+ public:
+  /// The solver is at `first_step`.
+  RunLane(Solver& solver, RunFiles& files, std::uint64_t first_step)
+      : solver_(solver), files_(files), first_step_(first_step), step_(first_step) {}
+
+  /// Hands the first state to the files.
+  Status begin() { return sample(); }
+  /// Advances to `step` ≥ step(); less far after a divergence, a step() of which is the last good one, and an
+  /// interrupt. Calls `did` with the step after each batch. Errors: of the solver and of the files.
+  Status advance_to(std::uint64_t step, const InterruptGuard& interrupt,
+                    const std::function<void(std::uint64_t)>& did = {});
+  std::uint64_t step() const { return step_; }
+  const std::optional<Divergence>& divergence() const { return divergence_; }
+  bool interrupted() const { return interrupted_; }
+  /// It goes no further.
+  bool stopped() const { return divergence_ || interrupted_; }
+  /// Spent in advance_to() [s].
+  double seconds() const { return seconds_; }
+  Solver& solver() const { return solver_; }
+
+  /// Where it ended; waits for the device. `wall_seconds` is that of its steps. Error (diverged): a sum over
+  /// the state is not a finite number.
+  Result<Outcome> outcome(std::uint64_t last_step);
+
+ private:
+  Status sample();
+
+  Solver& solver_;
+  RunFiles& files_;
+  std::uint64_t first_step_, step_;
+  std::optional<Divergence> divergence_;
+  bool interrupted_ = false;
+  double seconds_ = 0.0;
+  BatchSize batch_;
+};
+
+}  // namespace aspic::cli

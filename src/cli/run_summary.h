@@ -1,0 +1,40 @@
+#pragma once
+// What `aspic run` says of a run: beforehand, at its end, and where it diverged.
+#include <string>
+
+#include "base/result.h"
+#include "cli/json.h"
+#include "cli/run_lane.h"
+#include "io/program.h"
+#include "model/model.h"
+#include "run/backends.h"
+#include "run/recording.h"
+#include "scene/scene.h"
+
+namespace aspic::cli {
+
+/// A run that has ended, with all that a summary tells of.
+struct RunReport {
+  const Scene& scene;
+  const Model& model;
+  const Backend& backend;
+  const Outcome& outcome;
+};
+
+/// All of it but pictures and files.
+Json to_json(const RunReport& run);
+/// The same for people, a line each.
+std::string to_text(const RunReport& run);
+
+/// Pictures, and the time each took on `device`.
+Json to_json(const FrameTimes& times, const std::string& device);
+/// One line on stderr: pictures are by the way, the summary on stdout is the run's.
+void print_frame_times(const FrameTimes& times, const std::string& device);
+
+/// Warns where the time step is beyond the estimate of the largest stable one; `of` begins the sentence.
+void warn_if_unstable(const Model& model, const InterruptGuard& interrupt, const std::string& of = "");
+/// What to say of a run that diverged; `of` begins the sentence: "the simulation".
+Error divergence_error(const Model& model, const Outcome& outcome, const InterruptGuard& interrupt,
+                       const std::string& of = "the simulation");
+
+}  // namespace aspic::cli

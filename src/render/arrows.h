@@ -1,0 +1,62 @@
+#pragma once
+// Forces and normals as arrows at particles.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "gpu/vertex_array.h"
+#include "render/overlay.h"
+#include "scene/scene.h"
+
+namespace aspic {
+
+enum class ArrowKind { normal, contact, springs, external, net };
+
+struct Arrow {
+  Vec3 from;   ///< [m]
+  Vec3 value;  ///< [N]; of a normal, the unit vector
+  ArrowKind kind = ArrowKind::net;
+
+  friend bool operator==(const Arrow&, const Arrow&) = default;
+};
+
+/// The arrows of a picture.
+struct ArrowSet {
+  std::vector<Arrow> arrows;
+  double room = 1.0;  ///< how long the longest one may be [m], > 0
+
+  friend bool operator==(const ArrowSet&, const ArrowSet&) = default;
+};
+
+/// Force that an arrow of a metre stands for [N/m]: what the view says; else the smallest 1, 2 or 5 times a
+/// power of ten with which the longest arrow finds room; 0 where all forces are zero.
+double arrow_scale(const ViewSettings& view, const ArrowSet& set);
+
+/// What the arrows of a view mean, and the force that a round length stands for: "arrows: 1 cm = 0.2 N".
+/// Empty without arrows.
+Legend arrow_legend(const ViewSettings& view, const ArrowSet& set);
+
+/// Draws arrows. Its context must outlive it and be current.
+class ArrowPainter {
+ public:
+  /// Errors: those of Program.
+  static Result<std::unique_ptr<ArrowPainter>> create(gl::Context& context, const gl::ShaderLibrary& library);
+
+  /// Draws into an unfinished picture whose frame block is bound and whose depth is complete: arrows are
+  /// faint where something hides them, and those cut away are left out. Leaves blending off. Error
+  /// (scene_rejected): no device memory.
+  Status draw(const ViewSettings& view, const ArrowSet& set);
+
+ private:
+  explicit ArrowPainter(gl::Context& context) : context_(&context) {}
+
+  gl::Context* context_;
+  gl::Program program_;
+  gl::Buffer vertices_;
+};
+
+}  // namespace aspic

@@ -1,0 +1,35 @@
+#include "render/reference_ground.h"
+
+#include <glad/gl.h>
+
+#include "render/layout.h"
+#include "render/terrain_mesh.h"
+
+namespace aspic {
+
+Result<ReferenceGround> ReferenceGround::create(gl::Context& context, const gl::ShaderLibrary& library) {
+  ReferenceGround made;
+  const gl::Define plane[] = {{"PLANE", "1"}};
+  ASPIC_TRY(made.program_,
+            gl::Program::graphics(context, library, {"render/terrain.vert", "render/reference_ground.frag"},
+                                  plane));
+  ASPIC_TRY(made.square_, DeviceMesh::create(context, "reference ground", square_mesh()));
+  return made;
+}
+
+void ReferenceGround::draw(const ViewSettings& view, const Camera& lens) const {
+  if (!view.ground) return;
+  const Vec3& target = view.camera.target;
+  program_.set(LOCATION_PLANE_POINT,
+               four({target.x, *view.ground, target.z}, 8.0 * static_cast<double>(lens.target_distance())));
+  program_.set(LOCATION_PLANE_NORMAL, four({0.0, 1.0, 0.0}, 0.0));
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  glUseProgram(program_.id());
+  square_.draw();
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+}  // namespace aspic

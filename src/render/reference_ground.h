@@ -1,0 +1,26 @@
+#pragma once
+// A level ground that pictures show and physics knows nothing of.
+#include "base/result.h"
+#include "gpu/context.h"
+#include "gpu/program.h"
+#include "render/camera.h"
+#include "render/mesh.h"
+#include "scene/scene.h"
+
+namespace aspic {
+
+class ReferenceGround {
+ public:
+  /// Errors: those of Program::graphics; scene_rejected: no device memory.
+  static Result<ReferenceGround> create(gl::Context& context, const gl::ShaderLibrary& library);
+
+  /// Half of the ground at view.ground, if there is one: before the translucent bodies and again after them.
+  /// Frame block and light maps must be bound.
+  void draw(const ViewSettings& view, const Camera& lens) const;
+
+ private:
+  gl::Program program_;
+  DeviceMesh square_;
+};
+
+}  // namespace aspic

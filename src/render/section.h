@@ -1,0 +1,63 @@
+#pragma once
+// The inside of bodies where a plane cuts them.
+#include <memory>
+
+#include "base/result.h"
+#include "device/device_state.h"
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "model/model.h"
+#include "render/model_buffers.h"
+#include "scene/scene.h"
+
+namespace aspic {
+
+/// What a section is drawn into.
+enum class SectionUse { colour, thickness, identities };
+
+/// What a view draws of springs: the types that `draw` names, or where a cut shows springs and it names none,
+/// structural and shear ones.
+DrawSettings drawn_springs(const ViewSettings& view);
+
+/// How far behind the cut's plane its section is filled [m]: a spacing where springs stand before it.
+double section_depth(const CutSettings& cut, double spacing);
+
+/// While it lives, skins end at the frame block's cut, if `cut` is on.
+class SkinsCut {
+ public:
+  explicit SkinsCut(const CutSettings& cut);
+  ~SkinsCut();
+  SkinsCut(const SkinsCut&) = delete;
+  SkinsCut& operator=(const SkinsCut&) = delete;
+
+ private:
+  bool on_;
+};
+
+/// Fills what the frame block's section plane crosses of whole cubes, cell by cell as they are deformed. Its
+/// context must outlive it and be current.
+class SectionPainter {
+ public:
+  /// Errors: those of Program.
+  static Result<std::unique_ptr<SectionPainter>> create(gl::Context& context,
+                                                        const gl::ShaderLibrary& library);
+
+  /// Makes room for the cells of a model that are looked at together, at most 4 MiB. Error (scene_rejected):
+  /// no device memory.
+  Status prepare(const Model& model);
+  /// Draws the sections of all bodies with the program of that use, in the state of OpenGL as it is; the
+  /// frame block must be bound. `colour` of bodies: their own, as skins have it, or all neutral.
+  void draw(SectionUse use, const Model& model, const ModelBuffers& buffers, const gl::Buffer& particles,
+            ViewColour colour) const;
+
+ private:
+  explicit SectionPainter(gl::Context& context) : context_(&context) {}
+  void draw_body(const gl::Program& program, const Body& body, const gl::Buffer& particles) const;
+
+  gl::Context* context_;
+  gl::Program crossed_, colour_, thickness_, identities_;
+  mutable gl::Buffer tetrahedra_;
+  std::uint32_t cells_ = 0;  // that there is room for
+};
+
+}  // namespace aspic

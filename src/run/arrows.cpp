@@ -1,0 +1,80 @@
+#include "run/arrows.h"
+
+#include <algorithm>
+
+#include "analysis/particle_contact.h"
+#include "analysis/particle_force.h"
+
+namespace aspic {
+namespace {
+
+constexpr std::uint32_t most_along = 12, most_of_body = 1000;
+/// Length of the longest arrow, in distances between those that are drawn.
+constexpr double longest = 3.0;
+
+/// Which particles of a body have arrows.
+class Thinning {
+ public:
+  explicit Thinning(const Body& body)
+      : first_(body.first_particle),
+        edge_(body.lattice_edge),
+        stride_(edge_ > 0 ? (edge_ + most_along - 1) / most_along
+                          : (body.particle_count + most_of_body - 1) / most_of_body) {}
+
+  std::uint32_t stride() const { return stride_; }
+  /// `at_surface`: one of the three places in a lattice does not count, since all are on one face.
+  bool shows(std::uint32_t particle, bool at_surface) const {
+    const std::uint32_t local = particle - first_;
+    if (edge_ == 0) return local % stride_ == 0;
+    const std::uint32_t middle = (edge_ - 1) % stride_ / 2;
+    int places = 0;
+    for (const std::uint32_t at : {local / (edge_ * edge_), local / edge_ % edge_, local % edge_})
+      places += at % stride_ == middle;
+    return places >= (at_surface ? 2 : 3);
+  }
+
+ private:
+  std::uint32_t first_, edge_, stride_;
+};
+
+}  // namespace
+
+ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& wanted,
+                   const std::optional<Pull>& pull) {
+  ArrowSet set;
+  if (!wanted.any()) return set;
+  double spacing = 0.0;
+  for (const SpringClass& c : model.spring_classes)
+    if (c.rest_length > 0.0 && (spacing == 0.0 || c.rest_length < spacing)) spacing = c.rest_length;
+  std::uint32_t stride = 1;
+  std::vector<Thinning> bodies(model.bodies.begin(), model.bodies.end());
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (model.bodies[b].lattice_edge > 0) stride = std::max(stride, bodies[b].stride());
+  set.room = longest * (spacing > 0.0 ? spacing : 1.0) * stride;
+  const SpringFinder springs(model);
+  const auto add = [&](bool shown, std::uint32_t particle, const Vec3& value, ArrowKind kind) {
+    if (shown) set.arrows.push_back({state.position[particle], value, kind});
+  };
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    for (std::uint32_t i = body.first_particle; i < body.first_particle + body.particle_count; ++i) {
+      if (!(wanted.springs || wanted.external || wanted.net) || !bodies[b].shows(i, false)) continue;
+      const ParticleForce f = particle_force(model, springs, state, i, pull);
+      add(wanted.springs, i, f.springs, ArrowKind::springs);
+      add(wanted.external, i, f.gravity + f.pull, ArrowKind::external);
+      add(wanted.net, i, f.net, ArrowKind::net);
+    }
+  }
+  if (!wanted.contacts) return set;
+  std::size_t b = 0;
+  for (const ParticleContact& c : contacts_of(model, springs, state, pull)) {
+    while (b < bodies.size() && c.particle - model.bodies[b].first_particle >= model.bodies[b].particle_count)
+      ++b;
+    if (b < bodies.size() && !bodies[b].shows(c.particle, true)) continue;
+    add(true, c.particle, c.normal, ArrowKind::normal);
+    add(c.force != Vec3{}, c.particle, c.force, ArrowKind::contact);
+  }
+  return set;
+}
+
+}  // namespace aspic

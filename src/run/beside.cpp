@@ -1,0 +1,105 @@
+#include "run/beside.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "base/printable.h"
+#include "run/run_length.h"
+
+namespace aspic {
+
+Result<Variation> parse_variation(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    return fail(ErrorCode::usage,
+                "--beside {}: a difference is KEY=VALUE, such as integrator=implicit-euler, h=0.002, k=500, "
+                "backend=reference or any key of --set.",
+                printable_line(text));
+  return Variation{text.substr(0, equals), text.substr(equals + 1)};
+}
+
+Result<std::vector<Variant>> runs_beside(const Scene& scene, const BackendChoice& backend,
+                                         const std::vector<Variation>& differences) {
+  if (differences.size() >= most_beside)
+    return fail(ErrorCode::usage, "--beside is given {} times; at most {} runs go beside the scene's own.",
+                differences.size(), most_beside - 1);
+  std::vector<Variant> runs = {{scene, backend}};
+  for (const Variation& difference : differences) {
+    auto run = varied(scene, backend, std::span(&difference, 1));
+    if (!run) {
+      return fail(run.error().code, "--beside {}={} makes no run:\n{}", printable_line(difference.key),
+                  printable_line(difference.value), run.error().message);
+    }
+    runs.push_back(std::move(*run));
+  }
+  return runs;
+}
+
+std::vector<OverlayLine> label_of(const std::vector<Variation>& differences, const Scene& scene,
+                                  const std::string& backend) {
+  std::vector<OverlayLine> label;
+  for (const Variation& difference : differences) {
+    const std::string title = title_of(difference.key);
+    if (std::ranges::find(label, title, &OverlayLine::label) == label.end())
+      label.push_back({title, value_of(difference.key, scene, backend)});
+  }
+  return label;
+}
+
+std::vector<OverlayLine> beside_text(std::vector<OverlayLine> label, double time, double timestep,
+                                     const std::optional<Divergence>& divergence) {
+  label.push_back({"time", fmt::format("{:.3f} s", time)});
+  if (divergence) {
+    const double when = static_cast<double>(divergence->step) * timestep;
+    label.push_back({"diverged", fmt::format("at {:.3f} s", when), true});
+  }
+  return label;
+}
+
+int beside_text_height(int picture_height, std::size_t runs) {
+  return std::clamp(picture_height / (runs > 2 ? 40 : 32), 11, 256);
+}
+
+Result<std::uint64_t> as_long_as(const SimulationSettings& first, std::uint64_t steps,
+                                 const SimulationSettings& run) {
+  if (run.timestep == first.timestep) return steps;
+  return steps_of({{}, static_cast<double>(steps) * first.timestep}, run);
+}
+
+CommonClock::CommonClock(std::vector<Span> runs, double fps, double speed)
+    : runs_(std::move(runs)),
+      count_(FrameSchedule(runs_.front().timestep, 0, runs_.front().last_step, fps, speed).count()) {
+  for (const Span& run : runs_) schedules_.push_back(FrameSchedule::open_ended(run.timestep, 0, fps, speed));
+}
+
+std::uint64_t CommonClock::step_of(std::size_t run, std::uint64_t frame) const {
+  const std::uint64_t last = runs_[run].last_step;
+  return frame + 1 == count_ ? last : std::min(schedules_[run].step_of(frame), last);
+}
+
+std::vector<Tile> tiles_of(const PictureSize& picture, std::size_t runs) {
+  constexpr int gap = 2;
+  const bool wide = picture.width >= picture.height;
+  const int columns = runs > 2 || (runs == 2 && wide) ? 2 : 1;
+  const int rows = runs > 2 || (runs == 2 && !wide) ? 2 : 1;
+  const auto part = [](int whole, int parts) { return parts == 1 ? whole : std::max((whole - gap) / 2, 1); };
+  const int width = part(picture.width, columns), height = part(picture.height, rows);
+  std::vector<Tile> tiles;
+  for (int i = 0; i < static_cast<int>(runs); ++i) {
+    const bool right = i % columns == 1, low = i / columns == 1;
+    tiles.push_back({right ? picture.width - width : 0, low ? picture.height - height : 0, width, height});
+  }
+  return tiles;
+}
+
+std::string numbered_path(const std::string& path, std::size_t number) {
+  std::filesystem::path numbered(path);
+  const std::string name =
+      fmt::format("{}-{}{}", numbered.stem().string(), number, numbered.extension().string());
+  return numbered.replace_filename(name).string();
+}
+
+}  // namespace aspic

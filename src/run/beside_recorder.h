@@ -1,0 +1,73 @@
+#pragma once
+// Pictures of several runs side by side while they run, without a window.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "model/solver.h"
+#include "render/overlay.h"
+#include "render/quantity.h"
+#include "render/renderer.h"
+#include "render/targets.h"
+#include "run/backends.h"
+#include "run/beside.h"
+#include "run/recording.h"
+#include "run/run_files.h"
+#include "scene/scene.h"
+
+namespace aspic {
+
+/// A run as its picture needs it; what it names must outlive the recorder.
+struct PicturedRun {
+  const Scene* scene = nullptr;
+  const Backend* backend = nullptr;
+  std::vector<OverlayLine> label;  ///< what distinguishes it from the others
+};
+
+class BesideRecorder {
+ public:
+  /// Draws in `context`, the one of all backends that need one, current in every call. The sinks have the
+  /// size of `output`. One to most_beside runs. Errors: as Recorder::create().
+  static Result<std::unique_ptr<BesideRecorder>> create(gl::Context& context, const PictureOutput& output,
+                                                        std::vector<PicturedRun> runs,
+                                                        std::vector<std::unique_ptr<FrameSink>> sinks);
+
+  /// Adds a picture of the runs' states: run i is at `steps[i]`, and diverged in the step after if
+  /// `divergences[i]` says so. The part of a run that stands still is not drawn again. Error: also that of
+  /// the encoder, as soon as it is known.
+  Status add(const std::vector<std::uint64_t>& steps,
+             const std::vector<std::optional<Divergence>>& divergences);
+  /// Completes the outputs.
+  Status finish();
+  void abandon() { recording_->abandon(); }
+  /// After finish(): the names of the completed outputs.
+  std::vector<std::string> written() { return recording_->written(); }
+
+  void add_simulation(double seconds) { simulate_seconds_ += seconds; }
+  FrameTimes times() const;
+  /// GL_RENDERER of what draws.
+  const std::string& device() const { return context_->info().renderer; }
+
+ private:
+  struct Part {
+    PicturedRun run;
+    Tile tile;
+    std::unique_ptr<Renderer> renderer;
+    QuantityRange range = {};
+    std::optional<std::uint64_t> drawn_step = {};
+    bool drawn_diverged = false;
+  };
+  BesideRecorder() = default;
+  Status draw(Part& part, std::uint64_t step, const std::optional<Divergence>& divergence);
+
+  gl::Context* context_ = nullptr;
+  PictureOutput output_;
+  std::vector<Part> parts_;
+  DrawableImage picture_;
+  double simulate_seconds_ = 0.0, draw_seconds_ = 0.0;
+  std::unique_ptr<Recording> recording_;
+};
+
+}  // namespace aspic

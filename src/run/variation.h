@@ -1,0 +1,39 @@
+#pragma once
+// A run that differs from another in some values: of its scene, or what computes it.
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+#include "run/backends.h"
+#include "scene/scene.h"
+
+namespace aspic {
+
+/// The key of a variation that names a backend, with its options: "gpu:per-spring".
+inline constexpr std::string_view backend_key = "backend";
+
+/// A key with its value.
+struct Variation {
+  std::string key;    ///< a short name (scene/short_keys.h), a path of --set, or backend_key
+  std::string value;  ///< as --set or --backend takes it
+};
+
+/// What a run simulates, and with what.
+struct Variant {
+  Scene scene;
+  BackendChoice backend;
+};
+
+/// A scene and a backend with variations applied. Errors: those of assignments(), of with_overrides() and of
+/// the backend's name and options.
+Result<Variant> varied(const Scene& scene, const BackendChoice& backend,
+                       std::span<const Variation> variations);
+
+/// What a key is called on a picture: "integrator", "time step h", "cube[1].shear.stiffness".
+std::string title_of(std::string_view key);
+/// The value that a key has in a run, for people, with its unit: "implicit Euler", "2000 N/m". A dash where
+/// it has none. `backend`: what computes the run, for backend_key.
+std::string value_of(std::string_view key, const Scene& scene, std::string_view backend);
+
+}  // namespace aspic

@@ -1,0 +1,338 @@
+// Runs side by side in the real window.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/stage.h"
+#include "support/projection.h"
+
+namespace aspic::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Beside : public Stage {
+ protected:
+  app::Beside& beside() { return app().beside; }
+  const app::Simulation& run(std::size_t i) { return beside().run(i); }
+  void settled() {
+    frames(1);
+    frames_until([&] { return beside().settled(); });
+  }
+  /// A run beside the scene's own, whatever suggests itself replaced by this.
+  void compare(const Variation& variation) {
+    press(GLFW_KEY_B, GLFW_MOD_CONTROL);
+    frames(1);
+    ASSERT_EQ(beside().count(), 2u);
+    beside().set(1, variation);
+    settled();
+    ASSERT_EQ(beside().count(), 2u);
+  }
+  void run_to(std::uint64_t step) {
+    simulation().set_running(true);
+    frames_to_step(step);
+    simulation().set_running(false);
+    settled();
+  }
+  std::string hash(std::size_t i) { return state_hash_text(run(i).snapshot()); }
+  /// The state of a run as the reference alone comes to it.
+  std::string hash_alone(std::size_t i) {
+    Scene scene = app().scene.scene();
+    scene.model = run(i).setup().settings;
+    return reference_hash(scene, run(i).step());
+  }
+  std::string error() {
+    const auto& notice = app().messages.notice();
+    return notice && notice->is_error ? notice->text : std::string();
+  }
+  static constexpr const char* small = "cube[0].particles-per-edge=4";
+  static constexpr const char* low = "cube[0].position=[0,1.2,0]";
+};
+
+TEST_F(Beside, ARunIsAddedAndLeftAndComesBackByUndo) {
+  open("cube-plane", {small});
+  run_to(20);
+  EXPECT_FALSE(has("beside/0/label"));
+  press(GLFW_KEY_B, GLFW_MOD_CONTROL);
+  settled();
+  frames(1);
+  ASSERT_EQ(beside().count(), 2u);
+  EXPECT_EQ(simulation().step(), 0u) << "all runs start anew";
+  EXPECT_EQ(run(1).setup().settings.simulation.integrator, Integrator::implicit_euler);
+  EXPECT_TRUE(has("beside/0/label"));
+  EXPECT_TRUE(has("beside/1/label"));
+  const auto& boxes = beside().boxes();
+  ASSERT_EQ(boxes.size(), 2u);
+  EXPECT_DOUBLE_EQ(boxes[0].right - boxes[0].left, boxes[1].right - boxes[1].left);
+  EXPECT_TRUE(boxes[0].right < boxes[1].left || boxes[0].bottom < boxes[1].top);
+  EXPECT_EQ(app().view.box, boxes[0]);
+  press(GLFW_KEY_B, GLFW_MOD_CONTROL);
+  press(GLFW_KEY_B, GLFW_MOD_CONTROL);
+  settled();
+  EXPECT_EQ(beside().count(), 4u);
+  press(GLFW_KEY_B, GLFW_MOD_CONTROL);
+  EXPECT_THAT(error(), HasSubstr("4 runs"));
+  press(GLFW_KEY_B, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+  frames(2);
+  EXPECT_EQ(beside().count(), 1u);
+  EXPECT_FALSE(has("beside/0/label"));
+  app().scene.undo();
+  settled();
+  EXPECT_EQ(beside().count(), 4u);
+}
+
+TEST_F(Beside, EachRunHasTheBitsOfTheRunAloneAtTheSameTime) {
+  open("cube-plane", {small, low});
+  compare({"h", "0.0013"});
+  simulation().set_running(true);
+  int pictures = 0;
+  double last = 0.0;
+  frames_until([&] {
+    EXPECT_NEAR(beside().shown_time(1), beside().shown_time(0), 0.5 * 0.0013 * (1.0 + 1e-9));
+    EXPECT_GE(beside().shown_time(0), last);
+    if (beside().shown_time(0) > last) ++pictures;
+    last = beside().shown_time(0);
+    return last > 0.3;
+  });
+  EXPECT_GT(pictures, 2);
+  simulation().set_running(false);
+  settled();
+  EXPECT_EQ(hash(0), hash_alone(0));
+  EXPECT_EQ(hash(1), hash_alone(1));
+  EXPECT_NEAR(run(1).time(), run(0).time(), 0.5 * 0.0013 * (1.0 + 1e-9));
+}
+
+TEST_F(Beside, TimeTravelTakesAllRunsAlong) {
+  open("cube-plane", {small, low});
+  compare({"integrator", "midpoint"});
+  run_to(200);
+  app().run.go_to(0.1);
+  settled();
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(run(i).step(), 100u) << i;
+    EXPECT_EQ(hash(i), hash_alone(i)) << i;
+  }
+  run_to(150);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(hash(i), hash_alone(i)) << i;
+  EXPECT_EQ(run(0).step(), run(1).step());
+  type(U'.');
+  settled();
+  EXPECT_EQ(run(0).step(), run(1).step());
+  type(U',');
+  type(U',');
+  settled();
+  EXPECT_EQ(run(0).step(), run(1).step());
+  EXPECT_EQ(hash(1), hash_alone(1));
+  press(GLFW_KEY_R);
+  settled();
+  EXPECT_EQ(run(0).step(), 0u);
+  EXPECT_EQ(run(1).step(), 0u);
+}
+
+TEST_F(Beside, HandsAndValuesActOnAllRunsAlike) {
+  open("cube-plane", {small, low}, "reference");
+  compare({"backend", "cpu"});
+  run_to(30);
+  const std::uint32_t particle = 63;
+  Pull pull = {particle, simulation().snapshot().position[particle] + Vec3{0.5, 0.5, 0.0}, 500.0, 5.0};
+  simulation().set_hand(pull);
+  run_to(simulation().step() + 40);
+  pull.anchor = pull.anchor + Vec3{0.0, 0.5, 0.0};
+  simulation().set_hand(pull);
+  run_to(simulation().step() + 40);
+  simulation().set_hand(std::nullopt);
+  run_to(simulation().step() + 20);
+  EXPECT_EQ(hash(0), hash(1)) << "a pull";
+  EXPECT_NE(hash(0), hash_alone(0));
+  app().hands.toggle_pin(0);
+  run_to(simulation().step() + 30);
+  EXPECT_EQ(hash(0), hash(1)) << "a pin";
+  app().hands.throw_ball(app().view.width() / 2, app().view.height() / 2);
+  run_to(simulation().step() + 60);
+  EXPECT_EQ(run(1).model().ball_count(), 1u);
+  EXPECT_EQ(hash(0), hash(1)) << "a ball";
+  app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}));
+  run_to(simulation().step() + 60);
+  EXPECT_EQ(run(1).setup().settings.simulation.gravity, (Vec3{0.0, -3.0, 0.0}));
+  EXPECT_EQ(run(0).step(), run(1).step());
+  EXPECT_EQ(hash(0), hash(1)) << "a value";
+}
+
+TEST_F(Beside, ADivergenceOfOneRunLeavesTheOthersGoing) {
+  open("cube-plane", {small, "simulation.timestep=0.003", "cube[0].structural.stiffness=20000"});
+  compare({"integrator", "implicit-euler"});
+  simulation().set_running(true);
+  frames_until([&] { return run(0).divergence().has_value(); });
+  const double when = run(0).time();
+  frames_until([&] { return beside().shown_time(1) > when + 0.1; });
+  EXPECT_TRUE(beside().others_go_on());
+  EXPECT_TRUE(beside().shown_divergence(0).has_value());
+  EXPECT_FALSE(beside().shown_divergence(1).has_value());
+  press(GLFW_KEY_SPACE);
+  settled();
+  EXPECT_FALSE(beside().running());
+  EXPECT_EQ(hash(1), hash_alone(1));
+  const std::uint64_t paused = run(1).step();
+  frames(5);
+  EXPECT_EQ(run(1).step(), paused);
+  press(GLFW_KEY_SPACE);
+  frames_until([&] { return run(1).step() > paused; });
+  press(GLFW_KEY_R);
+  settled();
+  EXPECT_EQ(run(1).step(), 0u);
+  EXPECT_FALSE(run(0).divergence().has_value());
+}
+
+TEST_F(Beside, ADivergenceOfAnotherRunDoesNotHoldUpTheFirst) {
+  open("cube-plane", {small, "simulation.integrator=implicit-euler"});
+  compare({"h", "0.5"});
+  beside().set(1, {"integrator", "explicit-euler"});
+  settled();
+  app().scene.set_value(*find_parameter("cube[].structural.stiffness"), 0, Value(1e6));
+  run_to(300);
+  EXPECT_TRUE(run(1).divergence().has_value());
+  EXPECT_GE(run(0).step(), 300u);
+  EXPECT_EQ(hash(0), hash_alone(0));
+}
+
+TEST_F(Beside, WhatCannotBeIsRefusedAndChangesNothing) {
+  open("cube-plane", {small});
+  compare({"n", "5"});
+  EXPECT_EQ(run(1).model().particle_count(), 125u);
+  app().hands.toggle_pin(0);
+  EXPECT_THAT(error(), HasSubstr("other particles"));
+  app().hands.begin_pull(0, {});
+  EXPECT_FALSE(simulation().hand().has_value());
+  beside().set(1, {"h", "-1"});
+  EXPECT_THAT(error(), HasSubstr("simulation.timestep"));
+  frames(1);
+  EXPECT_EQ(run(1).model().particle_count(), 125u);
+  app().film.start();
+  EXPECT_THAT(error(), HasSubstr("--beside"));
+  EXPECT_EQ(app().film.recording(), nullptr);
+}
+
+TEST_F(Beside, TheSectionAndThePaletteAddEditAndRemove) {
+  open("cube-plane", {small});
+  click("section/Side by side");
+  click("beside/add");
+  settled();
+  frames(1);
+  ASSERT_EQ(beside().count(), 2u);
+  EXPECT_TRUE(has("beside/1/key"));
+  EXPECT_TRUE(has("beside/1/value"));
+  beside().set(1, {"k", "3000"});
+  settled();
+  EXPECT_EQ(run(1).setup().settings.cubes[0].structural.stiffness, 3000.0);
+  app().scene.undo();
+  settled();
+  EXPECT_EQ(run(1).setup().settings.simulation.integrator, Integrator::implicit_euler);
+  click("beside/1/remove");
+  frames(2);
+  EXPECT_EQ(beside().count(), 1u);
+}
+
+TEST_F(Beside, PlotsShowAQuantityOfAllRuns) {
+  open("cube-plane", {small, low});
+  compare({"h", "0.002"});
+  run_to(200);
+  bring_into_sight("energy/plot/run 2");
+  EXPECT_TRUE(has("energy/plot/run 1"));
+  EXPECT_FALSE(has("energy/plot/kinetic"));
+  EXPECT_TRUE(has("energy/momentum/run 2"));
+}
+
+TEST_F(Beside, AGhostShowsAnEarlierRunAtTheSameTime) {
+  open("cube-plane", {small, low});
+  const Scene earlier = app().scene.scene();
+  run_to(60);
+  const std::uint32_t particle = 63;
+  simulation().set_hand(
+      Pull{particle, simulation().snapshot().position[particle] + Vec3{0.5, 0.5, 0.0}, 500.0, 5.0});
+  run_to(100);
+  simulation().set_hand(std::nullopt);
+  const std::uint64_t pulled_to = simulation().step();
+  const std::string pulled = hash(0);
+  run_to(pulled_to + 50);
+  const std::uint64_t end = simulation().step();
+  EXPECT_EQ(beside().ghost(), nullptr);
+  press(GLFW_KEY_G, GLFW_MOD_CONTROL);
+  settled();
+  ASSERT_NE(beside().ghost(), nullptr);
+  EXPECT_EQ(beside().count(), 1u);
+  app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}));
+  press(GLFW_KEY_R);
+  settled();
+  EXPECT_EQ(beside().ghost()->step(), 0u);
+  const auto to = [&](std::uint64_t step) {
+    while (simulation().step() < step && !HasFailure()) {
+      type(U'.');
+      settled();
+    }
+  };
+  to(30);
+  EXPECT_EQ(state_hash_text(beside().ghost()->snapshot()), reference_hash(earlier, 30));
+  EXPECT_NE(hash(0), reference_hash(earlier, 30));
+  frames(1);
+  EXPECT_TRUE(has("ghost/label"));
+  run_to(end + 40);
+  EXPECT_EQ(beside().ghost()->step(), end) << "its run goes no further";
+  app().run.go_to(static_cast<double>(pulled_to) * earlier.model.simulation.timestep);
+  settled();
+  EXPECT_EQ(state_hash_text(beside().ghost()->snapshot()), pulled) << "hands are part of it";
+  press(GLFW_KEY_G, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+  frames(2);
+  EXPECT_EQ(beside().ghost(), nullptr);
+  EXPECT_FALSE(has("ghost/label"));
+}
+
+TEST_F(Beside, AGhostIsSeenOverThePicture) {
+  open("cube-plane", {small});
+  run_to(400);
+  press(GLFW_KEY_G, GLFW_MOD_CONTROL);
+  settled();
+  app().messages.dismiss();
+  // The run turns back by itself: what is seen elsewhere is the ghost.
+  app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, 9.8, 0.0}));
+  press(GLFW_KEY_R);
+  run_to(400);
+  frames(3);
+  const Image with = image();
+  press(GLFW_KEY_G, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+  frames(3);
+  const Image without = image();
+  const auto seen = test::project(app().view.lens(), {0.0, 9.0 - 0.5 * 9.8 * 0.16, 0.0});
+  ASSERT_TRUE(seen.has_value());
+  const auto x = static_cast<int>(app().view.box.left + seen->x),
+             y = static_cast<int>(app().view.box.top + seen->y);
+  int differs = 0;
+  for (int c = 0; c < 3; ++c) differs += std::abs(with.channel(x, y, c) - without.channel(x, y, c));
+  EXPECT_GT(differs, 30);
+}
+
+TEST_F(Beside, TheSavedPictureHasAllRuns) {
+  open("cube-plane", {small});
+  compare({"h", "0.002"});
+  press(GLFW_KEY_F12);
+  frames(2);
+  bool found = false;
+  for (const auto& entry : std::filesystem::directory_iterator(directory()))
+    found = found || entry.path().extension() == ".png";
+  EXPECT_TRUE(found);
+  EXPECT_EQ(error(), "");
+}
+
+TEST_F(Beside, TheCameraTurnsInEveryPicture) {
+  open("cube-plane", {small});
+  compare({"h", "0.002"});
+  frames_to_rest();
+  const CameraSettings before = app().view.camera.goal();
+  const app::Box& other = beside().boxes()[1];
+  drag(GLFW_MOUSE_BUTTON_LEFT, other.centre_x(), other.centre_y(), 40.0, 0.0);
+  EXPECT_NE(app().view.camera.goal(), before);
+}
+
+}  // namespace
+}  // namespace aspic::test

@@ -1,0 +1,83 @@
+#include "run/arrows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "analysis/particle_contact.h"
+#include "support/model_building.h"
+
+namespace aspic {
+namespace {
+
+std::size_t count(const ArrowSet& set, ArrowKind kind) {
+  return static_cast<std::size_t>(std::ranges::count(set.arrows, kind, &Arrow::kind));
+}
+
+TEST(Arrows, AreTheReferencesForces) {
+  const Model model = test::build(test::low_cube(5, Integrator::explicit_euler, ContactModel::coulomb));
+  State state = initial_state(model, Precision::single);
+  for (std::size_t i = 0; i < state.position.size(); i += 3) state.position[i].x += 0.05;
+  const Pull pull = {.particle = 7, .anchor = {1.0, 2.0, 3.0}, .stiffness = 50.0, .damping = 1.0};
+  const ArrowSet set = arrows_of(model, state, {.springs = true, .external = true, .net = true}, pull);
+  ASSERT_EQ(set.arrows.size(), 3u * 125u);
+  const SpringFinder springs(model);
+  for (std::uint32_t i = 0; i < 125; ++i) {
+    const ParticleForce f = particle_force(model, springs, state, i, pull);
+    EXPECT_EQ(set.arrows[3 * i], (Arrow{state.position[i], f.springs, ArrowKind::springs}));
+    EXPECT_EQ(set.arrows[3 * i + 1], (Arrow{state.position[i], f.gravity + f.pull, ArrowKind::external}));
+    EXPECT_EQ(set.arrows[3 * i + 2], (Arrow{state.position[i], f.net, ArrowKind::net}));
+  }
+  EXPECT_TRUE(arrows_of(model, state, {}).arrows.empty());
+}
+
+TEST(Arrows, OfContactsAreNormalsAndForces) {
+  ModelSettings settings = test::low_cube(4, Integrator::explicit_euler, ContactModel::coulomb);
+  settings.cubes[0].rotation.angle = 0.0;
+  settings.cubes[0].position = {0.0, 1.0, 0.0};
+  settings.cubes[0].velocity = {};
+  const Model model = test::build(settings);
+  const State state = initial_state(model, Precision::single);
+  const ArrowSet set = arrows_of(model, state, {.contacts = true});
+  EXPECT_EQ(count(set, ArrowKind::normal), 16u);
+  EXPECT_EQ(count(set, ArrowKind::contact), 16u);
+  const auto contacts = contacts_of(model, SpringFinder(model), state);
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    EXPECT_EQ(set.arrows[2 * k].value, contacts[k].normal);
+    EXPECT_EQ(set.arrows[2 * k + 1].value, contacts[k].force);
+  }
+}
+
+TEST(Arrows, OfLargeCubesAreThinnedEvenly) {
+  ModelSettings settings = test::cube_on_plane(30, 1.0);
+  const Model model = test::build(settings);
+  const State state = initial_state(model, Precision::single);
+  const ArrowSet net = arrows_of(model, state, {.net = true});
+  EXPECT_EQ(net.arrows.size(), 1000u);
+  std::set<double> heights;
+  for (const Arrow& arrow : net.arrows) heights.insert(arrow.from.y);
+  EXPECT_EQ(heights.size(), 10u);
+  EXPECT_EQ(count(arrows_of(model, state, {.contacts = true}), ArrowKind::normal), 100u);
+}
+
+TEST(Arrows, TheLegendSaysWhatALengthMeans) {
+  ViewSettings view;
+  EXPECT_TRUE(arrow_legend(view, {}).empty());
+  view.arrows.springs = true;
+  ArrowSet set{{{{}, {0.0, 3.0, 4.0}, ArrowKind::springs}}, 1.3};
+  // 5 N find room in 1.3 m with 5 N/m, not with 2.
+  EXPECT_EQ(arrow_scale(view, set), 5.0);
+  EXPECT_EQ(arrow_legend(view, set).title, "arrows: 1 m = 5 N");
+  set.room = 0.3;
+  EXPECT_EQ(arrow_legend(view, set).title, "arrows: 1 cm = 0.2 N");
+  ASSERT_EQ(arrow_legend(view, set).entries.size(), 1u);
+  EXPECT_EQ(arrow_legend(view, set).entries[0].name, "springs");
+  view.arrow_scale = 40.0;
+  EXPECT_EQ(arrow_legend(view, set).title, "arrows: 1 cm = 0.4 N");
+  // Normals have no length in newtons.
+  EXPECT_EQ(arrow_scale({}, {{{{}, {0.0, 1.0, 0.0}, ArrowKind::normal}}, 1.0}), 0.0);
+}
+
+}  // namespace
+}  // namespace aspic

@@ -1,0 +1,150 @@
+// Runs side by side as plain data: what differs, when each shows what, and where its picture lies.
+
+#include "run/beside.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/load.h"
+
+namespace aspic {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Scene small_scene() {
+  const std::vector<std::string> small = {"cube[0].particles-per-edge=3"};
+  return load_scene("cube-plane", small).value();
+}
+
+TEST(Beside, DifferenceIsKeyAndValue) {
+  const auto variation = parse_variation("cube[0].name-of=a=b");
+  ASSERT_TRUE(variation.ok());
+  EXPECT_EQ(variation->key, "cube[0].name-of");
+  EXPECT_EQ(variation->value, "a=b");
+  for (const char* text : {"", "k", "=5", "k="}) {
+    const auto bad = parse_variation(text);
+    ASSERT_FALSE(bad.ok()) << text;
+    EXPECT_EQ(bad.error().code, ErrorCode::usage);
+    EXPECT_THAT(bad.error().message, HasSubstr("KEY=VALUE"));
+  }
+}
+
+TEST(Beside, EachRunHasItsOwnDifferenceAlone) {
+  const Scene scene = small_scene();
+  const auto runs =
+      runs_beside(scene, {}, {{"integrator", "implicit-euler"}, {"h", "0.002"}, {"backend", "cpu"}});
+  ASSERT_TRUE(runs.ok()) << runs.error().message;
+  ASSERT_EQ(runs->size(), 4u);
+  const auto simulation = [&](std::size_t i) { return (*runs)[i].scene.model.simulation; };
+  EXPECT_EQ(simulation(0).integrator, scene.model.simulation.integrator);
+  EXPECT_EQ(simulation(1).integrator, Integrator::implicit_euler);
+  EXPECT_EQ(simulation(1).timestep, scene.model.simulation.timestep);
+  EXPECT_EQ(simulation(2).integrator, scene.model.simulation.integrator);
+  EXPECT_EQ(simulation(2).timestep, 0.002);
+  EXPECT_EQ((*runs)[0].backend.row, nullptr);
+  ASSERT_NE((*runs)[3].backend.row, nullptr);
+  EXPECT_EQ((*runs)[3].backend.row->name, "cpu");
+}
+
+TEST(Beside, WrongDifferencesSayWhichAndWhy) {
+  const auto message = [](const std::vector<Variation>& differences) {
+    const auto runs = runs_beside(small_scene(), {}, differences);
+    EXPECT_FALSE(runs.ok());
+    return runs.ok() ? std::string() : runs.error().message;
+  };
+  EXPECT_THAT(
+      message({{"simulation.integratr", "x"}}),
+      testing::AllOf(HasSubstr("--beside simulation.integratr=x"), HasSubstr("did you mean 'integrator'")));
+  EXPECT_THAT(message({{"h", "-1"}}), HasSubstr("--beside h=-1"));
+  EXPECT_THAT(message({{"backend", "xpu"}}), HasSubstr("auto, gpu, cpu, reference"));
+  EXPECT_THAT(message({{"k", "stiff"}}), HasSubstr("--beside k=stiff"));
+  EXPECT_THAT(message({{"h", "0.1"}, {"h", "0.2"}, {"h", "0.3"}, {"h", "0.4"}}), HasSubstr("at most 3"));
+}
+
+TEST(Beside, LabelHasALineForEachKeyOnce) {
+  const std::vector<Variation> differences = {{"integrator", "implicit-euler"},
+                                              {"h", "0.002"},
+                                              {"h", "0.004"},
+                                              {"backend", "cpu"},
+                                              {"cube[0].shear.stiffness", "10"}};
+  const auto label = label_of(differences, small_scene(), "reference");
+  std::vector<std::string> keys, values;
+  for (const OverlayLine& line : label) {
+    keys.push_back(line.label);
+    values.push_back(line.value);
+  }
+  EXPECT_THAT(keys, ElementsAre("integrator", "time step h", "backend", "cube[0].shear.stiffness"));
+  EXPECT_THAT(values, ElementsAre("explicit Euler", "0.001 s", "reference", testing::EndsWith(" N/m")));
+}
+
+TEST(Beside, TextTellsOfADivergence) {
+  Divergence divergence;
+  divergence.step = 40;
+  const auto lines = beside_text({{"k", "1"}}, 0.039, 0.001, divergence);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[1].value, "0.039 s");
+  EXPECT_FALSE(lines[1].alarm);
+  EXPECT_EQ(lines[2].value, "at 0.040 s");
+  EXPECT_TRUE(lines[2].alarm);
+  EXPECT_EQ(beside_text({{"k", "1"}}, 0.039, 0.001, {}).size(), 2u);
+}
+
+TEST(Beside, ClockShowsTheNearestStepOfEachRun) {
+  const double steps[] = {0.001, 0.0015, 0.0007, 0.016};
+  std::vector<Span> runs;
+  for (const double h : steps) runs.push_back({h, static_cast<std::uint64_t>(std::llround(1.0 / h))});
+  const double fps = 60.0, speed = 0.5;
+  const CommonClock clock(runs, fps, speed);
+  EXPECT_EQ(clock.count(), 121u);  // 2 s shown at 60 a second
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    std::uint64_t before = 0;
+    for (std::uint64_t f = 0; f < clock.count(); ++f) {
+      const std::uint64_t step = clock.step_of(run, f);
+      EXPECT_GE(step, before);
+      EXPECT_LE(step, runs[run].last_step);
+      before = step;
+      const double off = static_cast<double>(step) * steps[run] - static_cast<double>(f) * speed / fps;
+      EXPECT_LE(std::abs(off), 0.5 * steps[run] * (1.0 + 1e-9)) << "run " << run << ", picture " << f;
+    }
+    EXPECT_EQ(before, runs[run].last_step);
+  }
+}
+
+TEST(Beside, ClockOfEqualStepsIsThatOfARunAlone) {
+  const FrameSchedule alone(0.001, 0, 503, 60.0, 1.0);
+  const CommonClock clock({{0.001, 503}, {0.001, 503}}, 60.0, 1.0);
+  ASSERT_EQ(clock.count(), alone.count());
+  for (std::uint64_t f = 0; f < alone.count(); ++f)
+    for (std::size_t run = 0; run < 2; ++run) EXPECT_EQ(clock.step_of(run, f), alone.step_of(f));
+}
+
+TEST(Beside, RunsLastAsLongAsTheFirst) {
+  SimulationSettings first, other;
+  first.timestep = 0.001;
+  other.timestep = 0.003;
+  EXPECT_EQ(as_long_as(first, 4000, first).value(), 4000u);
+  EXPECT_EQ(as_long_as(first, 4000, other).value(), 1333u);
+  other.timestep = 1e-300;
+  EXPECT_FALSE(as_long_as(first, 4000, other).ok());
+}
+
+TEST(Beside, TilesAreEqualAndApart) {
+  EXPECT_THAT(tiles_of({640, 360}, 1), ElementsAre(Tile{0, 0, 640, 360}));
+  EXPECT_THAT(tiles_of({640, 360}, 2), ElementsAre(Tile{0, 0, 319, 360}, Tile{321, 0, 319, 360}));
+  EXPECT_THAT(tiles_of({360, 640}, 2), ElementsAre(Tile{0, 0, 360, 319}, Tile{0, 321, 360, 319}));
+  EXPECT_THAT(tiles_of({641, 361}, 4), ElementsAre(Tile{0, 0, 319, 179}, Tile{322, 0, 319, 179},
+                                                   Tile{0, 182, 319, 179}, Tile{322, 182, 319, 179}));
+  EXPECT_EQ(tiles_of({640, 360}, 3).size(), 3u);
+}
+
+TEST(Beside, FilesAreNumberedBeforeTheirEnding) {
+  EXPECT_EQ(numbered_path("energy.csv", 2), "energy-2.csv");
+  EXPECT_EQ(numbered_path("out.d/states", 1), "out.d/states-1");
+}
+
+}  // namespace
+}  // namespace aspic
