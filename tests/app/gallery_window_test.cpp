@@ -70,6 +70,8 @@ TEST_F(Gallery, TwoIntegratorsSideBySide) {
   press(GLFW_KEY_SPACE);
   frames_until([&] { return app().beside.settled(); });
   app().messages.dismiss();
+  // Into the sky, where the mouse points at nothing.
+  app().cursor(middle_x(), app().view.box.top + 150.0);
   frames(3);
   EXPECT_EQ(app().beside.count(), 2u);
   take("window-beside");
