@@ -9,8 +9,8 @@ in vec3 vertex_colour[];
 out float across;  // −1…1 over the shaft, and over the head
 out vec3 own_colour;
 
-vec4 from;
-vec4 to;
+vec4 from = vec4(0.0);
+vec4 to = vec4(0.0);
 
 // A corner at a place between the ends, so many pixels aside.
 void corner(float share, vec2 side, float at) {
