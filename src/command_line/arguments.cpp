@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string_view>
 #include <type_traits>
 
 #include "base/printable.h"
+#include "command_line/checked_words.h"
 #include "command_line/help_texts.h"
 #include "command_line/raw_options.h"
 #include "command_line/window_layouts.h"
@@ -58,39 +58,6 @@ Error unexpected_word(const CLI::App& command, const std::string& word) {
   const std::string_view near = diagnostics::nearest(name, candidates);
   if (!near.empty()) message += fmt::format(" Did you mean {}?", near);
   return usage("{} See {} --help.", message, full_name(command));
-}
-
-/// Whether the text is a whole number from 0 to `most`, digits alone; if so it is left without leading zeros.
-/// Otherwise a sentence: the parser itself would take `-1` for the largest number there is and 2⁶⁴ for 2⁶⁴
-/// − 1.
-std::string check_whole(std::string& text, std::uint64_t most) {
-  const std::string shown = excerpt(text, 40);
-  const auto digits = [](std::string_view t) {
-    return !t.empty() && std::ranges::all_of(t, [](char c) { return c >= '0' && c <= '9'; });
-  };
-  if (text.starts_with('-') && digits(std::string_view(text).substr(1)))
-    return fmt::format("{} is negative; give 0 or more", shown);
-  if (!digits(text)) return fmt::format("\"{}\" is not a whole number", shown);
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || value > most)
-    return fmt::format("{} is too large; the largest is {}", shown, most);
-  text = fmt::format("{}", value);
-  return "";
-}
-
-/// Whether the text is a number that double precision holds, infinite and NaN included: those are refused
-/// where the option's range is known. Otherwise a sentence.
-std::string check_number(const std::string& text) {
-  const std::string shown = excerpt(text, 40);
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-  if (error == std::errc::result_out_of_range)
-    return fmt::format("{} is too large or too small: the largest number is 1.8e308", shown);
-  if (error != std::errc() || end != text.data() + text.size())
-    return fmt::format("\"{}\" is not a number", shown);
-  return "";
 }
 
 template <class T>

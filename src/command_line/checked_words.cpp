@@ -1,0 +1,41 @@
+#include "command_line/checked_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "base/printable.h"
+
+namespace aspic {
+
+std::string check_whole(std::string& text, std::uint64_t most) {
+  const std::string shown = excerpt(text, 40);
+  const auto digits = [](std::string_view t) {
+    return !t.empty() && std::ranges::all_of(t, [](char c) { return c >= '0' && c <= '9'; });
+  };
+  if (text.starts_with('-') && digits(std::string_view(text).substr(1)))
+    return fmt::format("{} is negative; give 0 or more", shown);
+  if (!digits(text)) return fmt::format("\"{}\" is not a whole number", shown);
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || value > most)
+    return fmt::format("{} is too large; the largest is {}", shown, most);
+  text = fmt::format("{}", value);
+  return "";
+}
+
+std::string check_number(const std::string& text) {
+  const std::string shown = excerpt(text, 40);
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range)
+    return fmt::format("{} is too large or too small: the largest number is 1.8e308", shown);
+  if (error != std::errc() || end != text.data() + text.size())
+    return fmt::format("\"{}\" is not a number", shown);
+  return "";
+}
+
+}  // namespace aspic

@@ -1,0 +1,17 @@
+#pragma once
+// Words of a command line that stand for numbers, checked before they are converted.
+#include <cstdint>
+#include <string>
+
+namespace aspic {
+
+/// Whether the text is a whole number from 0 to `most`, digits alone; if so it is left without leading zeros
+/// and the answer is empty. Otherwise a sentence: the parser itself would take `-1` for the largest number
+/// there is and 2⁶⁴ for 2⁶⁴ − 1.
+std::string check_whole(std::string& text, std::uint64_t most);
+
+/// Whether the text is a number that double precision holds, infinite and NaN included: those are refused
+/// where the option's range is known. Otherwise a sentence.
+std::string check_number(const std::string& text);
+
+}  // namespace aspic
