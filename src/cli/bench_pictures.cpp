@@ -32,9 +32,9 @@ Json json_of_cost(const BenchOptions& options, const Scene& scene, const Picture
 
 std::string table_of_cost(const BenchOptions& options, const Scene& scene, const PictureCost& cost) {
   std::string text = fmt::format(
-      "{}, pictures of {} x {} on {}\n{:.2f} ms a picture, {:.2f} ms of processor time; medians of {}, "
-      "{:.2f} to "
-      "{:.2f} ms\n\n{:<24} {:>10} {:>14}\n",
+      "{}, pictures of {} x {} on {}\n"
+      "{:.2f} ms a picture, {:.2f} ms of processor time; medians of {}, {:.2f} to {:.2f} ms\n\n"
+      "{:<24} {:>10} {:>14}\n",
       scene.name, options.pictures->width, options.pictures->height, cost.device,
       1e3 * quantile_of(cost.seconds, 0.5), 1e3 * quantile_of(cost.processor_seconds, 0.5),
       cost.seconds.size(), 1e3 * quantile_of(cost.seconds, 0.0), 1e3 * quantile_of(cost.seconds, 1.0),

@@ -235,8 +235,7 @@ CLI::App* add_sweep(CLI::App& app, SweepOptions& sweep, RawOptions& raw) {
   add(c, "scene", "SCENE", sweep.scene, "scene file or built-in name")->required();
   add(c, "--vary", "KEY=VALUES", sweep.vary,
       "from:to:count, from:to:count:log or a,b,c; KEY as for --set, or integrator, h, k, c, n, e, mu, "
-      "backend; "
-      "repeatable")
+      "backend; repeatable")
       ->required();
   add(c, "--out", "FILE", sweep.out, "the CSV file; until it is complete, FILE.partial")->required();
   add_backend(c, raw);

@@ -3,7 +3,7 @@
 namespace aspic {
 
 std::vector<std::string> picture_pass_names() {
-  return {"backdrop",  "bounds and turns", "normals",   "colours by value",  "light maps",
+  return {"backdrop",  "bounds and turns", "skin",      "colours by value",  "light maps",
           "thickness", "terrain",          "balls",     "springs",           "particles",
           "sky",       "sheets",           "far glass", "far walls",         "behind",
           "jelly",     "near glass",       "marks",     "samples to pixels", "text"};

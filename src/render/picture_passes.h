@@ -10,7 +10,7 @@ namespace aspic {
 enum class PicturePass {
   backdrop,
   bounds,
-  normals,
+  skin,
   quantity,
   light_maps,
   thickness,

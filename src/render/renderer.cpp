@@ -123,7 +123,7 @@ void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptio
   buffers->compute_light_boxes(programs, state);
   mark(PicturePass::bounds);
   if (options.view.draw.solid && buffers->has_skin()) buffers->compute_skin(programs, particles);
-  mark(PicturePass::normals);
+  mark(PicturePass::skin);
   if (options.shadows)
     lights.render(programs, *buffers, state, options.view);
   else

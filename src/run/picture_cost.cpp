@@ -1,5 +1,7 @@
 #include "run/picture_cost.h"
 
+#include <glad/gl.h>
+
 #include <algorithm>
 #include <chrono>
 #include <ctime>
@@ -84,9 +86,10 @@ class PictureCostMeter {
     std::vector<gl::PassTime> all = {uploading.pass("state to the device")};
     renderer_->set_profiling(true);
     ASPIC_CHECK(draw(state));
-    std::vector<gl::PassTime> drawn = renderer_->pass_times();
-    while (drawn.empty()) drawn = renderer_->pass_times();  // the device has not got there
+    glFinish();  // so that the device's stamps are there
+    const std::vector<gl::PassTime> drawn = renderer_->pass_times();
     renderer_->set_profiling(false);
+    if (drawn.empty()) return fail(ErrorCode::no_device, "{} gives no times of passes.", device());
     all.insert(all.end(), drawn.begin(), drawn.end());
     const Stopwatch reading;
     ring_->submit(renderer_->picture());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "scene/diagnostics.h"
 #include "scene/parameters.h"
 
 namespace aspic {
@@ -77,7 +78,16 @@ const ShortKey* find_short_key(std::string_view name) {
 Result<std::vector<std::string>> assignments(const Scene& scene, std::string_view key,
                                              const std::string& value) {
   const ShortKey* const row = find_short_key(key);
-  if (!row) return std::vector<std::string>{fmt::format("{}={}", key, value)};
+  if (!row) {
+    // A word that is no key of a scene at all may be a short name mistyped.
+    if (key.find_first_of(".[") == std::string_view::npos && !place_of(key)) {
+      std::vector<std::string_view> names;
+      for (const ShortKey& known : table) names.push_back(known.name);
+      if (const std::string_view near = diagnostics::nearest(key, names); !near.empty())
+        return fail(ErrorCode::usage, "unknown key '{}'{}", key, diagnostics::did_you_mean(near));
+    }
+    return std::vector<std::string>{fmt::format("{}={}", key, value)};
+  }
   const std::vector<ShortKeyTarget> targets = row->targets(scene);
   if (targets.empty()) {
     return fail(

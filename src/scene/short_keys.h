@@ -32,7 +32,7 @@ const ShortKey* find_short_key(std::string_view name);
 
 /// KEY=VALUE arguments that set `key`, a short name or a path of the parameter table, in a scene. Of a short
 /// name with several targets that are numbers, each keeps its ratio to the first. Error (usage): the scene
-/// has nothing that the short name stands for, or a number is needed.
+/// has nothing that the short name stands for, a number is needed, or a short name is mistyped.
 Result<std::vector<std::string>> assignments(const Scene& scene, std::string_view key,
                                              const std::string& value);
 

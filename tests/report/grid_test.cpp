@@ -83,6 +83,14 @@ TEST(ShortKeys, KeepRatiosOfStiffness) {
   EXPECT_EQ(present_value(scene("ball-pit"), *row), std::nullopt);
 }
 
+TEST(ShortKeys, AMistypedShortNameIsFoundOut) {
+  const auto set = assignments(scene(), "integratr", "heun-3");
+  ASSERT_FALSE(set.ok());
+  EXPECT_EQ(set.error().code, ErrorCode::usage);
+  EXPECT_EQ(set.error().message, "unknown key 'integratr'; did you mean 'integrator'?");
+  EXPECT_TRUE(assignments(scene(), "name", "other").ok()) << "a key of the scene itself";
+}
+
 TEST(ShortKeys, ReachEveryTerrain) {
   const auto set = assignments(scene(), "mu", "0.5");
   ASSERT_TRUE(set.ok());
