@@ -15,7 +15,7 @@ AssembledSystem::AssembledSystem(const Model& model)
       dynamics_(model),
       limits_(model.simulation.implicit),
       h_(static_cast<float>(model.simulation.timestep)) {
-  const auto rows = static_cast<Eigen::Index>(3 * model.particle_count());
+  const auto rows = 3 * static_cast<Eigen::Index>(model.particle_count());
   std::vector<Eigen::Triplet<float>> entries;
   const auto block = [&](std::uint32_t i, std::uint32_t j) {
     for (int r = 0; r < 3; ++r) {
@@ -30,17 +30,19 @@ AssembledSystem::AssembledSystem(const Model& model)
   }
   matrix_.resize(rows, rows);
   matrix_.setFromTriplets(entries.begin(), entries.end());
-  for (std::uint32_t i = 0; i < model.particle_count(); ++i)
-    row_size_.push_back(
-        static_cast<std::size_t>(matrix_.outerIndexPtr()[3 * i + 1] - matrix_.outerIndexPtr()[3 * i]));
+  for (std::size_t i = 0; i < model.particle_count(); ++i) {
+    const int* const outer = matrix_.outerIndexPtr() + 3 * i;
+    row_size_.push_back(static_cast<std::size_t>(outer[1] - outer[0]));
+  }
   for (const Spring& s : springs_)
     places_.push_back({place(s.a, s.a), place(s.a, s.b), place(s.b, s.a), place(s.b, s.b)});
 }
 
 std::size_t AssembledSystem::place(std::uint32_t row, std::uint32_t column) const {
   const int* const columns = matrix_.innerIndexPtr();
-  const int from = matrix_.outerIndexPtr()[3 * row], to = matrix_.outerIndexPtr()[3 * row + 1];
-  const int* const at = std::lower_bound(columns + from, columns + to, static_cast<int>(3 * column));
+  const int* const outer = matrix_.outerIndexPtr() + 3 * std::size_t{row};
+  const int* const at =
+      std::lower_bound(columns + outer[0], columns + outer[1], static_cast<int>(3 * column));
   return static_cast<std::size_t>(at - columns);
 }
 

@@ -72,28 +72,28 @@ void report(benchmark::State& state, const SolveStatistics& solves) {
 
 /// The same steps again and again.
 void run(benchmark::State& state, Solver& solver, const aspic::State& start, std::uint64_t steps) {
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     if (!solver.load(start).ok() || !solver.advance(steps).ok()) return state.SkipWithError("no result");
   }
   report(state, *solver.solve_statistics());
 }
 
-void LandingReference(benchmark::State& state) {
+void landing_reference(benchmark::State& state) {
   const Model model = landing(static_cast<int>(state.range(0)));
   run(state, *taken(make_reference_solver(model, Precision::single)), initial_state(model, Precision::single),
       landing_steps);
 }
-void LandingCpu(benchmark::State& state) {
+void landing_cpu(benchmark::State& state) {
   const Model model = landing(static_cast<int>(state.range(0)));
   run(state, *taken(make_cpu_solver(model, {static_cast<unsigned>(state.range(1))})),
       initial_state(model, Precision::single), landing_steps);
 }
 
-void FreeReference(benchmark::State& state) {
+void free_reference(benchmark::State& state) {
   const Model model = free_cube(static_cast<int>(state.range(0)));
   run(state, *taken(make_reference_solver(model, Precision::single)), wobbling(model), free_steps);
 }
-void FreeCpu(benchmark::State& state) {
+void free_cpu(benchmark::State& state) {
   const Model model = free_cube(static_cast<int>(state.range(0)));
   run(state, *taken(make_cpu_solver(model, {static_cast<unsigned>(state.range(1))})), wobbling(model),
       free_steps);
@@ -101,13 +101,13 @@ void FreeCpu(benchmark::State& state) {
 
 /// Its end must be the cpu solver's but for the tolerance: a particle's error grows by at most that in a
 /// step.
-void FreeAssembled(benchmark::State& state) {
+void free_assembled(benchmark::State& state) {
   const Model model = free_cube(static_cast<int>(state.range(0)));
   bench::AssembledSystem system(model);
   const aspic::State start = wobbling(model);
   reference::Phase<float> s;
   SolveStatistics solves;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     s = {reference::field<float>(start.position), reference::field<float>(start.velocity)};
     solves = {};
     for (std::uint64_t n = 0; n < free_steps; ++n) {
@@ -139,11 +139,11 @@ void each_size_and_thread(benchmark::internal::Benchmark* benchmark) {
   benchmark->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 }
 
-BENCHMARK(LandingReference)->Apply(each_size);
-BENCHMARK(LandingCpu)->Apply(each_size_and_thread);
-BENCHMARK(FreeReference)->Apply(each_size);
-BENCHMARK(FreeAssembled)->Apply(each_size);
-BENCHMARK(FreeCpu)->Apply(each_size_and_thread);
+BENCHMARK(landing_reference)->Apply(each_size);
+BENCHMARK(landing_cpu)->Apply(each_size_and_thread);
+BENCHMARK(free_reference)->Apply(each_size);
+BENCHMARK(free_assembled)->Apply(each_size);
+BENCHMARK(free_cpu)->Apply(each_size_and_thread);
 
 }  // namespace
 }  // namespace aspic

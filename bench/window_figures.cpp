@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -190,6 +191,13 @@ void largest(std::string_view backend, Integrator integrator) {
 int main(int argc, char** argv) {
   const std::string_view what = argc > 1 ? argv[1] : "", only = argc > 2 ? argv[2] : "";
   const bool all = what == "all";
+  int n = 0;
+  if (argc > 3) {
+    const std::string_view word = argv[3];
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), n);
+    if (error != std::errc() || end != word.data() + word.size() || n < 2)
+      fail("PARTICLES-PER-EDGE is a whole number from 2 on.");
+  }
   if (!all && what != "default" && what != "large" && what != "sizes")
     fail(
         "usage: window_figures default | large | sizes [BACKEND/INTEGRATOR [PARTICLES-PER-EDGE]] | "
@@ -214,7 +222,7 @@ int main(int argc, char** argv) {
       for (const Integrator integrator : all_integrators) {
         const std::string name = fmt::format("{}/{}", backend, name_of(integrator));
         if (!only.empty() && only != name && only != backend) continue;
-        if (const int n = argc > 3 ? std::atoi(argv[3]) : 0; n >= 2) {
+        if (n >= 2) {
           const Case c = cube_of(n, backend, integrator);
           report("size", c, median_of(c, 4.0, 5));
         } else {

@@ -49,6 +49,14 @@ function(aspic_program_part name)
   target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS} aspic::aspic)
 endfunction()
 
+# aspic_computes(NAME): a target that computes at length. Below -O2 clang inlines nothing of Eigen and Highway: minutes become
+# hours under the sanitizers.
+function(aspic_computes name)
+  if(ASPIC_SANITIZE)
+    target_compile_options(${name} PRIVATE -O2)
+  endif()
+endfunction()
+
 # aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each of its tests known to ctest. Rooms among the
 # targets say what is tested; they come from the library. SOFTWARE pattern: those of its tests that mean software
 # rasterisers alone, in the words of --gtest_filter, get the label software besides.
@@ -59,6 +67,9 @@ function(aspic_test name)
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE aspic_rules ${arg_DEPENDS} aspic::aspic GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  if("threads" IN_LIST ASPIC_TEST_PROPERTIES)
+    set_property(GLOBAL APPEND PROPERTY ASPIC_THREADED_TESTS ${name})
+  endif()
   set(discovery DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
   set(properties PROPERTIES TIMEOUT 600 ${ASPIC_TEST_PROPERTIES})
   if(NOT arg_SOFTWARE)

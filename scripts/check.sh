@@ -11,14 +11,14 @@ declare -A meaning=(
   [clang]="everything compiles with clang without a warning"
   [tidy]="clang-tidy finds nothing (.clang-tidy)"
   [odr]="no name has two definitions in a program (g++ -flto -Wodr)"
-  [asan]="the tests under address and undefined-behaviour sanitizers"
+  [asan]="the tests under address and undefined-behaviour sanitizers, on one driver"
   [tsan]="the tests with threads, child processes and signals under the thread sanitizer"
 )
 
 if [[ " $* " == *" --help "* || " $* " == *" -h "* ]]; then
   echo "scripts/check.sh [STEP …]   runs the steps named, or all in this order:"
   for step in "${steps[@]}"; do printf '  %-8s %s\n' "$step" "${meaning[$step]}"; done
-  echo "Builds are kept in build/; the first run takes an hour or more on two cores."
+  echo "Builds are kept in build/; the first run takes three hours on two cores, later ones somewhat more than one."
   exit
 fi
 chosen=("${@:-${steps[@]}}")
@@ -58,13 +58,14 @@ step_lints() {
 
 # tidy_one FILE: what was found clean is checked again once it changes. build/check/tidy keeps check sums of the file and of the
 # project's headers that it includes, under a name made from its command and the checks.
+# Ninja may tidy up its own log when it opens it, so one asks at a time.
 tidy_one() {
   local commands object stamp
   commands=$(grep -F -B 1 "\"file\": \"$aspic_root/$1\"" build/asan/compile_commands.json) || return 0 # not compiled here
   object=$(sed -n 's/.* -o \([^ ]*\) .*/\1/p' <<<"$commands" | head -n 1)
-  stamp=$logs/tidy/$({ clang-tidy --version; cat .clang-tidy; echo "$commands"; } | sha256sum | cut -c 1-32)
+  stamp=$logs/tidy/$({ clang-tidy --version; cat .clang-tidy "${1%/*}/.clang-tidy" 2>/dev/null; echo "$commands"; } | sha256sum | cut -c 1-32)
   if [ -f "$stamp" ] && sha256sum --check --status "$stamp"; then return 0; fi
-  ninja -C build/asan -t deps "$object" | sed -n 's/^    //p' | grep -v '^/usr/' | (cd build/asan && xargs realpath) |
+  flock "$logs/tidy/lock" ninja -C build/asan -t deps "$object" | sed -n 's/^    //p' | grep -v '^/usr/' | (cd build/asan && xargs realpath) |
     xargs sha256sum >"$stamp.new" || return 1
   clang-tidy -p build/asan --quiet "$1" && mv "$stamp.new" "$stamp"
 }

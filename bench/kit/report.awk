@@ -56,7 +56,7 @@ END {
   for (i = 1; i <= sentences; ++i) print "- " arithmetic[i]
   print "\n## Verification\n"
   for (v in verdicts) printf "%s%s %d", separator++ ? ", " : "", v, verdicts[v]
-  print "."
+  print separator ? "." : "No result: see the steps that failed."
   if (failures != "") printf "\nFailed:\n\n%s", failures
   print "\n## The GPU against the reference\n"
   for (i = 1; i <= comparisons; ++i) {

@@ -105,16 +105,21 @@ for scene in $("$aspic" scene list | awk '{ print $1 }'); do
   done
 done
 
+step picture picture.json "$aspic" run cube-bowl --backend gpu --duration 1.5 --frames "$out/frames" --fps 2 \
+  --size 640x360 --force --json
+pictures=("$out"/frames/*.png)
+[ ${#pictures[@]} -gt 0 ] && cp "${pictures[-1]}" "$out/picture.png"
+
 declare -A slow=()
 bench() {  # bench NAME size integrator options …: none of a larger size after one that took longer than $patience
   local name=$1 size=$2 integrator=$3 file
   shift 3
+  file=bench/$name-$integrator-$(printf %03d "$size").json
+  [ -s "$out/$file" ] && return  # once is enough
   if [ -n "${slow[$name-$integrator]-}" ]; then
     leave_out "bench $name, $size, $integrator" "${slow[$name-$integrator]}"
     return
   fi
-  file=bench/$name-$integrator-$(printf %03d "$size").json
-  [ -s "$out/$file" ] && return  # once is enough
   step "bench $name, $size, $integrator" "$file" \
     "$aspic" bench --size "$size" --integrator "$integrator" --seconds $seconds --repeats $repeats --json "$@"
   [ "$took" -gt $patience ] && slow[$name-$integrator]="$size particles per edge took $took s"
@@ -146,17 +151,13 @@ if command -v nvcc >/dev/null || [ -x /usr/local/cuda/bin/nvcc ]; then
   fi
 fi
 
-step picture picture.json "$aspic" run cube-bowl --backend gpu --duration 1.5 --frames "$out/frames" --fps 2 \
-  --size 640x360 --force --json
-pictures=("$out"/frames/*.png)
-[ ${#pictures[@]} -gt 0 ] && cp "${pictures[-1]}" "$out/picture.png"
-
 { printf '[\n'; separator=; for file in "$out"/bench/*.json; do
     [ -s "$file" ] && printf '%s' "$separator" && cat "$file" && separator=$',\n'
   done; printf ']\n'; } >"$out/bench.json"
 LC_ALL=C awk -f "$here/bench/kit/report.awk" -v out="$out" "$out/info.json" "$out/verify.json" "$out"/compare/*.json \
   "$out"/bench/*.json >"$out/report.md"
 LC_ALL=C awk -F'\t' '$1 != 0 { print "- " $3 ": " ($1 == 124 ? "did not end within " $2 " s" : "exit code " $1) }' "$out/steps.tsv" >"$out/failed.txt"
+[ -s "$out/picture.png" ] && printf '\n## A picture\n\n![a cube in a bowl, drawn by the device](picture.png)\n' >>"$out/report.md"
 for part in "Steps that failed:failed" "Left out:left-out"; do
   printf '\n## %s\n\n' "${part%:*}"
   if [ -s "$out/${part#*:}.txt" ]; then sort -u "$out/${part#*:}.txt"; else echo none; fi

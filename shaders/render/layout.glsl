@@ -13,6 +13,7 @@
 #define UNIT_COLOUR_MAP 5
 #define UNIT_GLYPHS 6
 #define UNIT_FRAME 7
+#define UNIT_SHADE 8
 
 // Vertex attributes.
 #define ATTRIBUTE_POSITION 0

@@ -6,7 +6,8 @@ layout(binding = UNIT_SKY_MAP) uniform sampler2D sky_map;
 
 // One level of a map through a cubic B-spline: four bilinear reads at the places that give sixteen texels their weights.
 vec2 smooth_level(sampler2D map, vec2 uv, float level) {
-  vec2 size = vec2(textureSize(map, int(level)));
+  // Not textureSize() of the level: where neighbours' levels differ, llvmpipe answers all of them for one.
+  vec2 size = vec2(textureSize(map, 0)) * exp2(-level);
   vec2 p = uv * size - 0.5;
   vec2 f = fract(p);
   vec2 base = p - f;
@@ -37,8 +38,10 @@ vec2 covered(int light, sampler2D map, vec3 world, float spread, float soft) {
   vec3 p = in_light(light, world);
   if (abs(p.x) >= 1.0 || abs(p.y) >= 1.0) return vec2(0.0);
   vec2 uv = 0.5 + 0.5 * p.xy;
-  vec2 around = textureLod(map, uv, 5.0).xy;
-  if (around.x < 0.002) return vec2(0.0);
+  // The depth of what is near counts most, and that of what is far alone where nothing is near: no edge in between.
+  vec2 around = textureLod(map, uv, 5.0).xy + 0.05 * textureLod(map, uv, 7.0).xy +
+                0.001 * textureLod(map, vec2(0.5), 9.0).xy;
+  if (around.x == 0.0) return vec2(0.0);
   float above = p.z - around.y / around.x;
   if (above <= 0.0) return vec2(0.0);
   float texels = above * spread * light_boxes[light].depth.y * 0.5 * float(textureSize(map, 0).x);
@@ -49,18 +52,19 @@ vec2 covered(int light, sampler2D map, vec3 world, float spread, float soft) {
   return vec2(clamp(smooth_map(map, uv, level).x, 0.0, 1.0) * border.x * border.y * near, above);
 }
 
-// Light of the sun that reaches a point of the terrain, by colour.
-vec3 sunlight_at(vec3 world) {
-  vec2 c = covered(LIGHT_SUN, sun_map, world, 0.10, 1e-6);
-  return mix(vec3(1.0), shadow_tint.rgb, c.x) * sphere_shade(world);
-}
-
-// Light of the sky that reaches a point of the terrain, 0…1: less close under a body.
-float skylight_at(vec3 world, float soft) {
+// Shares of the sun's and of the sky's light that bodies keep from a point of the terrain: of the sky's, more close under
+// a body.
+float sun_kept_off(vec3 world) { return covered(LIGHT_SUN, sun_map, world, 0.10, 1e-6).x; }
+float sky_kept_off(vec3 world, float soft) {
   vec2 c = covered(LIGHT_SKY, sky_map, world, 0.9, soft);
   float size = light_boxes[LIGHT_SKY].centre.w;
   float near = size * 0.5 / (size * 0.5 + c.y);
-  return 1.0 - 0.75 * c.x * near * near;
+  return 0.75 * c.x * near * near;
 }
 
+// Light of the sun that reaches a point of the terrain, by colour.
+vec3 sunlight_at(vec3 world) { return mix(vec3(1.0), shadow_tint.rgb, sun_kept_off(world)) * sphere_shade(world); }
+
+// Light of the sky that reaches a point of the terrain, 0…1.
+float skylight_at(vec3 world, float soft) { return 1.0 - sky_kept_off(world, soft); }
 float skylight_at(vec3 world) { return skylight_at(world, 1e-6); }

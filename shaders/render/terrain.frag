@@ -6,6 +6,12 @@
 #ifdef UNSHADOWED_PLANE
 vec3 sunlight_at(vec3 position) { return vec3(sphere_shade(position)); }
 float skylight_at(vec3 position) { return 1.0; }
+#elif defined(SHADOWED_PLANE)
+layout(binding = UNIT_SHADE) uniform sampler2D shade;
+// From the point that is drawn, of the sun's light and of the sky's.
+vec2 kept_off() { return textureLod(shade, gl_FragCoord.xy * viewport.zw, 0.0).xy; }
+vec3 sunlight_at(vec3 position) { return mix(vec3(1.0), shadow_tint.rgb, kept_off().x) * sphere_shade(position); }
+float skylight_at(vec3 position) { return 1.0 - kept_off().y; }
 #else
 #include "render/shadow.glsl"
 #endif
@@ -22,6 +28,9 @@ layout(location = 0) out vec4 colour;
 const float texture_size = 4.0;  // one repeat of the ground's texture [m]
 
 void main() {
+#ifdef SHADOWED_PLANE
+  if (kept_off() == vec2(0.0)) discard;  // the plain ground is there
+#endif
 #ifdef CUT_PLANE
   if (distance_to(0u, world) > 1e-4 * plane_point.w) discard;
 #endif

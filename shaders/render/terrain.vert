@@ -1,8 +1,9 @@
 // Planes as large squares, made of the unit square, and other surfaces as meshes. The shadowed variant of a plane covers
-// only where the light maps fall on it, one square for each light (the instance).
+// only where a light's map falls on it.
 #include "render/frame.glsl"
 #ifdef SHADOWED_PLANE
 #include "render/light.glsl"
+layout(location = LOCATION_LIGHT) uniform int light;
 #endif
 
 layout(location = ATTRIBUTE_POSITION) in vec4 position;
@@ -23,8 +24,8 @@ void main() {
   vec3 across = abs(n.y) > 0.9999 ? vec3(0.0, 0.0, 1.0) : normalize(cross(n, vec3(0.0, 1.0, 0.0)));
   vec3 along = cross(n, across);
 #ifdef SHADOWED_PLANE
-  mat3 to_light = mat3(lights[gl_InstanceID]);
-  vec4 centre = light_boxes[gl_InstanceID].centre;
+  mat3 to_light = mat3(lights[light]);
+  vec4 centre = light_boxes[light].centre;
   vec3 start = (centre.xyz + vec3(centre.w * position.xy, 0.0)) * to_light;
   vec3 towards_light = vec3(0.0, 0.0, -1.0) * to_light;
   float slant = dot(n, towards_light);

@@ -56,12 +56,9 @@ std::vector<Command> App::make_commands() {
   const auto toggle = [this] {
     if (!beside.toggle()) run.toggle();
   };
-  const auto throw_ball = [this] {
-    const auto [x, y] = pointer.aim(gui_->takes_mouse());
-    hands.throw_ball(x, y);
-  };
+  const auto throw_ball = [this] { hands.throw_ball(pointer.sight(gui_->takes_mouse())); };
   const auto frame_bodies = [this] {
-    if (messages.check(simulation.refresh_snapshot()))
+    if (messages.check(simulation.refresh_snapshot()) && messages.check(picture.follow()))
       view.frame_bodies(simulation.model(), simulation.snapshot());
   };
   // Off, and in turn what there is to see.
@@ -72,6 +69,7 @@ std::vector<Command> App::make_commands() {
     });
   };
   const auto axes = [this] { scene.change("view.axes", [](Scene& s) { s.view.axes = !s.view.axes; }); };
+  const auto follow = [this] { follow_hovered(); };
   const auto full_screen = [this] {
     if (gui_->services().toggle_full_screen) gui_->services().toggle_full_screen();
   };
@@ -112,6 +110,7 @@ std::vector<Command> App::make_commands() {
       {"double click", "look at the point under the mouse"},
       {"Home", "reset the camera", GLFW_KEY_HOME, 0, 0, [this] { view.camera.reset(); }},
       {"F", "frame the bodies", GLFW_KEY_F, 0, 0, frame_bodies},
+      {"C", "follow the body under the mouse", GLFW_KEY_C, 0, 0, follow},
       {"Ctrl+C", "copy the camera as text", GLFW_KEY_C, ctrl, 0,
        [this] { copy_camera(view, gui_->services(), messages); }},
       {"Ctrl+V", "paste a camera", GLFW_KEY_V, ctrl, 0, paste},
@@ -367,6 +366,7 @@ Status App::save_shot(Shot wanted, const WindowSize& size, const std::string& pa
 }
 
 Status App::make_picture(const WindowSize& size, double dt) {
+  ASPIC_CHECK(picture.follow());
   pointer.find_hovered();
   view.pixels_per_unit = static_cast<double>(size.pixel_width) / size.width;
   picture.count(dt);
@@ -378,6 +378,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
               size.width, size.height);
   if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
     view.frame_bodies(simulation.model(), simulation.snapshot());
+  beside.share_colours();
   ASPIC_CHECK(picture.show(size));
   ASPIC_CHECK(beside.show(size, picture.at_rest()));
   if (const auto refusal = picture.take_refusal()) messages.error(*refusal);

@@ -107,6 +107,7 @@ class App final : public EventReceiver {
   Status attach(gl::Context& context, double scale, WindowServices services);
   std::vector<Command> make_commands();
   void deliver_keys();
+  void follow_hovered();
   void ask_for_scene();
   void ask_where_to_save();
   Status make_picture(const WindowSize& size, double dt);

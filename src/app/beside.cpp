@@ -269,7 +269,22 @@ void Beside::place(const Box& whole) {
   if (!active()) boxes_ = {whole};
   view_.whole = whole;
   view_.box = boxes_.front();
-  view_.others.assign(boxes_.begin() + 1, boxes_.end());
+  view_.others.clear();
+  for (std::size_t i = 0; i < companions_.size(); ++i)
+    view_.others.push_back({boxes_[i + 1], companions_[i]->picture().offset()});
+}
+
+void Beside::share_colours() {
+  picture_.common_range.reset();
+  const ViewSettings& view = scene_.scene().view;
+  if (!active() || !has_scale(view.colour)) return;
+  QuantityRange range = picture_.own_range();
+  const auto shares = [&](const auto& companion) { return share_scale(companion->scene().view, view); };
+  for (const auto& companion : companions_)
+    if (shares(companion)) range = widest(range, companion->picture().own_range());
+  picture_.common_range = range;
+  for (const auto& companion : companions_)
+    companion->picture().common_range = shares(companion) ? std::optional(range) : std::nullopt;
 }
 
 Status Beside::show(const WindowSize& window, bool at_rest) {

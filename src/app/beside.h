@@ -42,6 +42,7 @@ class Beside {
   /// Runs in all, the window's own included.
   std::size_t count() const { return companions_.size() + 1; }
   const Simulation& run(std::size_t i) const { return i == 0 ? leader_ : companions_[i - 1]->simulation(); }
+  ScenePicture& picture(std::size_t i) { return i == 0 ? picture_ : companions_[i - 1]->picture(); }
   /// What distinguishes a run from the others.
   std::vector<OverlayLine> label(std::size_t i) const;
   /// The colour of a run's curves and label, as ImGui packs it.
@@ -88,6 +89,9 @@ class Beside {
   void place(const Box& whole);
   /// The places of all runs [window units]; one if there is only the window's own.
   const std::vector<Box>& boxes() const { return boxes_; }
+  /// Before pictures are drawn: those of one colour and scale get the widest of their ranges, so that colours
+  /// can be compared.
+  void share_colours();
   /// Draws the other runs' pictures, after ScenePicture::show() did the window's own.
   Status show(const WindowSize& window, bool at_rest);
   /// Names the runs on their pictures, between Gui::begin and end.

@@ -9,6 +9,7 @@
 #include "base/printable.h"
 #include "model/bodies.h"
 #include "model/springs.h"
+#include "scene/follow.h"
 
 namespace aspic::app {
 namespace {
@@ -55,7 +56,10 @@ bool body_line(Gui& gui, SceneControl& scene, const SettingsList& list, std::siz
   if (!element_line(gui, fmt::format("{} {}", name, i), fmt::format("{}/{}/remove", list.key, i), help,
                     !last_body))
     return false;
-  scene.change("remove " + name, [&](Scene& s) { list.remove(s.model, i); });
+  scene.change("remove " + name, [&](Scene& s) {
+    list.remove(s.model, i);
+    if (s.view.follow) s.view.follow = followed_without(*s.view.follow, list.key, i);
+  });
   return true;
 }
 

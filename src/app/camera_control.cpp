@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/follow.h"
+
 namespace aspic::app {
 namespace {
 
@@ -102,6 +104,13 @@ void CameraControl::change_projection() {
 void CameraControl::centre(const Vec3& point) {
   goal_.exact.reset();
   goal_.target = point;
+}
+
+void CameraControl::shift(const Vec3& by) {
+  for (Orbit* const o : {&goal_, &shown_}) {
+    o->target = o->target + by;
+    if (o->exact) o->exact = moved(*o->exact, by);
+  }
 }
 
 bool CameraControl::update(double dt) {

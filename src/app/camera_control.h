@@ -29,6 +29,8 @@ class CameraControl {
   /// Turns to where the eye sees the target along −direction, by the short way; target and distance stay. The
   /// length of `direction` does not matter; straight above is 89° up, with −z away from the eye.
   void look_from(const Vec3& direction);
+  /// Goes elsewhere at once, with its target.
+  void shift(const Vec3& by);
   /// Takes on a camera at once, without easing.
   void jump_to(const CameraSettings& settings) { goal_ = shown_ = orbit_of(settings); }
   /// From perspective to orthographic and back, at once; what is at the target's distance stays as large.

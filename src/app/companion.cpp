@@ -17,7 +17,7 @@ std::uint64_t nearest_step(double time, double timestep) {
 }  // namespace
 
 Result<std::unique_ptr<Companion>> Companion::create(gl::Context& context, const Scene& scene,
-                                                     const Simulation& leader, const View& view,
+                                                     const Simulation& leader, View& view,
                                                      const BackendChoice& asked, bool full_quality,
                                                      const Variation& variation) {
   std::unique_ptr<Companion> c(new Companion(variation, asked));

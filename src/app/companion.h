@@ -20,7 +20,7 @@ class Companion {
   /// `scene` is that of the window's own run, `leader`; all but the variation is taken from them. The
   /// references must outlive it. Errors: those of varied() and of Simulation::create().
   static Result<std::unique_ptr<Companion>> create(gl::Context& context, const Scene& scene,
-                                                   const Simulation& leader, const View& view,
+                                                   const Simulation& leader, View& view,
                                                    const BackendChoice& asked, bool full_quality,
                                                    const Variation& variation);
 

@@ -91,6 +91,15 @@ double tick_length(double span) {
   return (rest > 5.0 ? 10.0 : rest > 2.0 ? 5.0 : rest > 1.0 ? 2.0 : 1.0) * power;
 }
 
+/// Its multiples from `low` to `high`.
+std::vector<double> ticks(double low, double high, double length) {
+  std::vector<double> places;
+  const auto last = static_cast<std::int64_t>(std::floor(high / length));
+  for (auto n = static_cast<std::int64_t>(std::ceil(low / length)); n <= last; ++n)
+    places.push_back(static_cast<double>(n) * length);
+  return places;
+}
+
 /// A time in a plot that the mouse points at [s].
 struct Pointed {
   double time = 0.0;
@@ -111,7 +120,7 @@ std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> li
   const auto end_time = [](const Line& line) {
     return line.samples->empty() ? 0.0 : line.samples->back().time;
   };
-  const Plot plot(gui, name, 130.0, *std::ranges::max_element(lines, {}, end_time)->samples, help);
+  const Plot plot(gui, name, 145.0, *std::ranges::max_element(lines, {}, end_time)->samples, help);
   if (!(plot.span > 0.0)) return std::nullopt;
   double low = 0.0, high = 0.0;
   const bool all_count = std::ranges::none_of(lines, &Line::counts);
@@ -128,13 +137,20 @@ std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> li
   const float pad = plot.pad;
   ImDrawList& draw = plot.draw;
   const float text_height = ImGui::GetTextLineHeight();
-  const auto place = [&](double t, double e) {
-    return plot.place(t, (e - low) / (high - low), text_height, text_height);
-  };
   const double time_tick = tick_length(span), tick = tick_length(high - low);
-  for (double t = std::ceil(start / time_tick) * time_tick; t <= start + span; t += time_tick)
+  const std::string top = fmt::format("{:.4g} {}", high, unit), bottom = fmt::format("{:.4g} {}", low, unit),
+                    each = fmt::format("lines every {:.4g} {}, {:.3g} s", tick, unit, time_tick),
+                    end = fmt::format("{:.3g} s", start + span);
+  const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  // Beside the upper end where both fit, else in a line of its own.
+  const bool beside = width(top) + width(each) + 4.0f * pad < size.x;
+  const float above = beside ? text_height : 2.0f * text_height;
+  const auto place = [&](double t, double e) {
+    return plot.place(t, (e - low) / (high - low), above, text_height);
+  };
+  for (const double t : ticks(start, start + span, time_tick))
     draw.AddLine(place(t, low), place(t, high), IM_COL32(38, 40, 43, 255));
-  for (double e = std::ceil(low / tick) * tick; e <= high; e += tick)
+  for (const double e : ticks(low, high, tick))
     draw.AddLine(place(start, e), place(start + span, e), IM_COL32(38, 40, 43, 255));
   draw.AddLine(place(start, 0.0), place(start + span, 0.0), IM_COL32(80, 84, 90, 255));
   // One point for each column is all that can be seen.
@@ -152,15 +168,16 @@ std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> li
   draw.PopClipRect();
   const double at = std::clamp(now, start, start + span);
   draw.AddLine(place(at, low), place(at, high), IM_COL32(242, 176, 92, 200), static_cast<float>(plot.scale));
-  const std::string top =
-      fmt::format("{:.4g} {}, a line each {:.4g} {} and {:.3g} s", high, unit, tick, unit, time_tick);
-  const std::string bottom = fmt::format("{:.4g} {}", low, unit), end = fmt::format("{:.3g} s", start + span);
-  draw.AddText({corner.x + pad, corner.y + 2.0f}, IM_COL32(140, 145, 152, 255), top.c_str());
-  const ImVec2 text = ImGui::CalcTextSize(end.c_str());
-  draw.AddText({corner.x + pad, corner.y + size.y - text.y - 2.0f}, IM_COL32(140, 145, 152, 255),
-               bottom.c_str());
-  draw.AddText({corner.x + size.x - pad - text.x, corner.y + size.y - text.y - 2.0f},
-               IM_COL32(140, 145, 152, 255), end.c_str());
+  const auto write = [&](const std::string& text, float right, float down) {
+    draw.AddText({corner.x + pad + right, corner.y + 2.0f + down}, IM_COL32(140, 145, 152, 255),
+                 text.c_str());
+  };
+  const auto flush = [&](const std::string& text) { return size.x - 2.0f * pad - width(text); };
+  const float foot = size.y - text_height - 4.0f;
+  write(top, 0.0f, 0.0f);
+  write(each, beside ? flush(each) : 0.0f, beside ? 0.0f : text_height);
+  write(bottom, 0.0f, foot);
+  write(end, flush(end), foot);
   if (!plot.held && !plot.hovered) return std::nullopt;
   const double share =
       static_cast<double>((ImGui::GetIO().MousePos.x - corner.x - pad) / (size.x - 2.0f * pad));
@@ -240,7 +257,7 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
   const Curve& curve = curves[compared];
   std::vector<Line> lines;
   for (std::size_t i = 0; i < beside.count(); ++i)
-    lines.push_back({&beside.run(i).samples().energies(), beside.packed_colour(i), curve.value,
+    lines.push_back({&beside.run(i).samples().energies(), Beside::packed_colour(i), curve.value,
                      !beside.run(i).divergence().has_value()});
   const double now = beside.run(0).time();
   const auto pointed = plot(gui, name, lines, unit, help, now);
@@ -253,7 +270,7 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
     std::string words;
     for (const OverlayLine& line : beside.label(i)) words += (words.empty() ? "" : ", ") + line.value;
     figure(words.c_str(), fmt::format("{:.5g} {}", curve.value(sample->measures), unit), help,
-           ImGui::ColorConvertU32ToFloat4(beside.packed_colour(i)));
+           ImGui::ColorConvertU32ToFloat4(Beside::packed_colour(i)));
     gui.mark("{}/run {}", name, i + 1);
   }
 }

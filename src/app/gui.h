@@ -100,6 +100,10 @@ class Gui {
   void mark(fmt::format_string<Arguments...> name, Arguments&&... arguments) const {
     if (watcher_) watcher_->widget(fmt::format(name, std::forward<Arguments>(arguments)...), last_item());
   }
+  /// The same of what is no widget of ImGui's.
+  void mark_box(const std::string& name, const Box& box) const {
+    if (watcher_) watcher_->widget(name, box);
+  }
   /// Tells the watcher what the tooltip of the widget just made says. True if it is time to show it: the
   /// mouse has rested on the widget and nothing is held or typed.
   bool explain(std::string_view text, std::string_view keys);

@@ -19,8 +19,8 @@ BallSettings Hands::thrown_ball(const Ray& sight) const {
   return ball;
 }
 
-void Hands::throw_ball(double x, double y) {
-  messages_.check(simulation_.throw_balls({thrown_ball(view_.lens().ray_through(x, y))}));
+void Hands::throw_ball(const Ray& sight) {
+  messages_.check(simulation_.throw_balls({thrown_ball(sight)}));
 }
 
 void Hands::throw_many() {

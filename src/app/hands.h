@@ -25,7 +25,7 @@ class Hands {
   double strength = 1.0;  ///< factor on the stiffness of a pull, > 0
 
   /// Throws a ball from the camera at the place (x, y) of the view [window units].
-  void throw_ball(double x, double y);
+  void throw_ball(const Ray& sight);
   void throw_many();
   /// Removes all thrown balls.
   void clear_balls();

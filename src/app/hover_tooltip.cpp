@@ -43,8 +43,8 @@ bool touches(const Simulation& simulation, const Vec3& x) {
 
 }  // namespace
 
-void particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& h, const Box& view,
-                      bool legend) {
+Box particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& h, const Box& view,
+                     bool legend) {
   const ParticleForce& f = h.force;
   const auto gap = static_cast<float>(16.0 * gui.scale());
   const auto width = static_cast<float>(view.right - view.left);
@@ -84,8 +84,10 @@ void particle_readout(const Gui& gui, const Simulation& simulation, const Hovere
     ImGui::TextDisabled("Contact acts on v at the end of a step: no part of f.");
   ImGui::EndGroup();
   gui.mark("particle");
+  const Box place = window_box();
   ImGui::End();
   ImGui::PopStyleVar();
+  return place;
 }
 
 void ball_mark(const Gui& gui, const std::optional<Pull>& hand, const Hovered& h, const View& view,

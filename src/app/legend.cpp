@@ -52,8 +52,8 @@ ImU32 display_colour(const Colour& linear) {
   return ImGui::ColorConvertFloat4ToU32({c[0], c[1], c[2], 1.0f});
 }
 
-double draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view) {
-  if (legend.empty()) return 0.0;
+Box draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view) {
+  if (legend.empty()) return {view.right, view.bottom, view.right, view.bottom};
   const auto gap = static_cast<float>(16.0 * gui.scale());
   ImGui::SetNextWindowPos({static_cast<float>(view.right) - gap, static_cast<float>(view.bottom) - gap},
                           ImGuiCond_Always, {1.0f, 1.0f});
@@ -78,10 +78,10 @@ double draw_legend(const Gui& gui, const char* name, const Legend& legend, const
   if (legend.entries.empty()) scale_bar(legend);
   ImGui::EndGroup();
   gui.mark("{}", name);
-  const float height = ImGui::GetWindowHeight();
+  const ImVec2 corner = ImGui::GetWindowPos();
   ImGui::End();
   ImGui::PopStyleVar();
-  return static_cast<double>(height + gap);
+  return {static_cast<double>(corner.x), static_cast<double>(corner.y), view.right, view.bottom};
 }
 
 }  // namespace aspic::app

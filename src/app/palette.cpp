@@ -45,6 +45,12 @@ std::vector<Hit> find(const PanelParts& p, std::string_view query) {
       hits.push_back({name, "", "Beside the bodies that there are. Restarts the simulation.",
                       [&p, &row] { add_body(p.scene, row.list); }, nullptr, 0});
   }
+  for (const std::string& body : followed_names(p.scene.scene())) {
+    const std::string name = "follow " + body;
+    if (holds_words(name, query))
+      hits.push_back({name, "", "The camera moves along with it.",
+                      [&p, body] { set_followed(p.scene, body); }, nullptr, 0});
+  }
   for (const LayoutRow& row : layouts()) {
     const std::string name = fmt::format("layout {}", row.name), help(row.summary);
     if (holds_words(fmt::format("{} {}", name, help), query))

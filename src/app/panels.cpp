@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/number_field.h"
 #include "app/parameter_widget.h"
 #include "base/printable.h"
 
@@ -272,22 +273,6 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
   if (button(gui, "help/close", "Close", "Close this page (F1 or Escape).")) visible = false;
 }
 
-/// The time in large figures, in the upper right corner of the view. Returns how much of its height is taken.
-double clock(const Gui& gui, const Simulation& simulation, const Box& view) {
-  const std::string text = fmt::format("t = {:.2f} s", simulation.time());
-  const auto gap = static_cast<float>(16.0 * gui.scale());
-  ImGui::SetNextWindowPos(at(view.right - 16.0 * gui.scale(), view.top + 16.0 * gui.scale()),
-                          ImGuiCond_Always, {1.0f, 0.0f});
-  const Panel panel("##clock", 0.5 * static_cast<double>(gap), ImVec4(0.08f, 0.082f, 0.09f, 0.72f),
-                    ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoScrollbar |
-                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::PushFont(gui.large_font());
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopFont();
-  gui.mark("clock");
-  return static_cast<double>(ImGui::GetWindowSize().y + gap);
-}
-
 /// Asks before changes are lost.
 void closing_panel(Gui& gui, Closing& closing, double width, double height) {
   if (closing != Closing::asked) return;
@@ -382,8 +367,9 @@ void draw_panels(const PanelParts& p, double width, double height) {
     drag_edge(p.gui, "layout/left", left, bottom, 1.0, layout.left_width);
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
+  if (const auto error = take_typing_error()) p.messages.error(*error);
   p.beside.place(view);
-  const double legend = draw_corners(p, view);
+  draw_corners(p, view);
   notice_panel(p, view);
   help_panel(p.gui, p.help_visible, width, height);
   closing_panel(p.gui, p.closing, width, height);
@@ -391,10 +377,6 @@ void draw_panels(const PanelParts& p, double width, double height) {
   p.palette.draw(p, width, height);
   if (const auto& hovered = p.pointer.hovered())
     ball_mark(p.gui, p.simulation.hand(), *hovered, p.view, p.picture.shown());
-  const double taken = layout.clock ? clock(p.gui, p.simulation, view) : 0.0;
-  if (const auto& hovered = p.pointer.hovered(); hovered && layout.row().readout)
-    particle_readout(p.gui, p.simulation, *hovered, {view.left, view.top + taken, view.right, view.bottom},
-                     legend > 0.0);
 }
 
 }  // namespace aspic::app

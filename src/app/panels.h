@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/beside.h"
 #include "app/file_dialog.h"
@@ -62,6 +64,11 @@ void balls_section(Gui& gui, const Simulation& simulation, Hands& hands);
 void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const QuantityRange& shown,
                   bool& shadows, Layouts& layout);
 void scale_rows(Gui& gui, SceneControl& scene, const QuantityRange& shown);
+/// The camera moves along with a body or ball of the scene by name (scene/follow.h), or with none. Undo takes
+/// it back.
+void set_followed(SceneControl& scene, const std::optional<std::string>& name);
+/// The names there are to choose from.
+std::vector<std::string> followed_names(const Scene& scene);
 void recording_section(Gui& gui, const std::string& source, Film& film);
 /// How pictures are saved; part of the recording section.
 void picture_files(Gui& gui, SavedLook& look);
@@ -75,18 +82,21 @@ void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void stability_section(Gui& gui, SceneControl& scene);
 
 /// What is known of a particle, in the lower left corner of the view, or where that is narrow and has a
-/// legend in the upper right one.
-void particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& hovered, const Box& view,
-                      bool legend);
+/// legend in the upper right one. Returns its place.
+Box particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& hovered, const Box& view,
+                     bool legend);
 /// A ring around the ball under the mouse, and the band by which `hand` pulls it, where the picture is.
 void ball_mark(const Gui& gui, const std::optional<Pull>& hand, const Hovered& hovered, const View& view,
                const Box& picture);
-/// What the colours mean, in the lower right corner of the view. Returns how much of its height is taken.
-/// `name` is that of its widget.
-double draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view);
-/// Labels of runs beside each other, what colours and arrows mean, one above the other, and the world's axes
-/// in the upper right corner, where the view asks for them. Returns how much of the height the legends take.
-double draw_corners(const PanelParts& parts, const Box& view);
+/// What the colours mean, in the lower right corner of the view. Returns its place, with the gap below and
+/// beside it; empty if there is none. `name` is that of its widget.
+Box draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view);
+/// Labels of runs beside each other; what colours and arrows mean, one above the other; the time in large
+/// figures; what is under the mouse; and the world's axes where these leave room, in the upper right corner
+/// if they can.
+void draw_corners(const PanelParts& parts, const Box& view);
+/// Where ImGui's window is that is being made.
+Box window_box();
 /// A colour as ImGui takes it, opaque.
 ImU32 display_colour(const Colour& linear);
 

@@ -2,18 +2,20 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <variant>
+
+#include "app/number_field.h"
 
 namespace aspic::app {
 namespace {
 
-/// Share of a panel's width that labels take.
-constexpr float label_share = 0.40f, longest_label = 0.6f;
 constexpr ImGuiSliderFlags as_typed = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
 
 /// How fast a drag changes a number for each window unit: lengths by a centimetre, angles by half a degree,
@@ -37,27 +39,43 @@ std::string format_with_unit(const Parameter& p, double value) {
   return p.unit.empty() ? format : fmt::format("{} {}", format, p.unit);
 }
 
-/// The ground of the slider to come, filled up to its knob at `share` of the way: it shows how far it goes,
-/// which a number that is dragged does not.
-class SliderTrack {
- public:
-  explicit SliderTrack(double share) {
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const ImVec2 size = {ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
-    const float rounding = ImGui::GetStyle().FrameRounding;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg),
-                       rounding);
-    const float end = size.x * static_cast<float>(std::clamp(share, 0.0, 1.0));
-    draw.AddRectFilled(corner, {corner.x + end, corner.y + size.y},
-                       ImGui::GetColorU32(ImGuiCol_SliderGrab, 0.45f), rounding);
-    for (const ImGuiCol colour : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})
-      ImGui::PushStyleColor(colour, ImVec4(1.0f, 1.0f, 1.0f, colour == ImGuiCol_FrameBg ? 0.0f : 0.05f));
+double within(const Range& range, double value) {
+  return std::clamp(value, range.min, range.max);
+}
+
+/// Several numbers on a line, each by `field`, which tells whether it was changed. True if one was.
+template <class Number>
+bool on_one_line(std::vector<Number>& values, const std::function<bool(Number&)>& field) {
+  bool changed = false;
+  ImGui::BeginGroup();
+  ImGui::PushMultiItemsWidths(static_cast<int>(values.size()), ImGui::CalcItemWidth());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::PushID(static_cast<int>(i));
+    changed = field(values[i]) || changed;
+    ImGui::PopID();
+    ImGui::PopItemWidth();
   }
-  ~SliderTrack() { ImGui::PopStyleColor(3); }
-  SliderTrack(const SliderTrack&) = delete;
-  SliderTrack& operator=(const SliderTrack&) = delete;
-};
+  ImGui::EndGroup();
+  return changed;
+}
+
+/// What the scene's check says of a number of the parameter. A direction is checked whole once it is set.
+TypedCheck check_of(const Parameter& p) {
+  return [&p](double typed) -> std::optional<std::string> {
+    const auto wrong = p.direction ? std::nullopt : check_value(p, Value(typed));
+    return wrong ? std::optional(wrong->message) : std::nullopt;
+  };
+}
+
+/// A whole number, rounded where arithmetic makes a fraction of it.
+template <class Whole>
+bool whole_field(const Parameter& p, Whole& value) {
+  double typed = static_cast<double>(value);
+  if (!number_field("##value", fmt::format("{}", value), typed, check_of(p))) return false;
+  value = static_cast<Whole>(std::llround(within(p.range, typed)));
+  return true;
+}
 
 /// What a widget of a value needs; the overloads of `widget` return the value if it was changed.
 struct Field {
@@ -74,13 +92,11 @@ std::optional<Value> widget(const Field& f, double value) {
   const Parameter& p = f.parameter;
   bool changed = false;
   if (p.range.min == 0.0 && p.range.max == 1.0 && !p.range.min_excluded) {
-    const double low = p.range.min, high = p.range.max;
-    const SliderTrack track(value);
-    changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, "%.3g", as_typed);
+    changed = number_slider("##value", value, p.range.min, p.range.max, "%.3g", as_typed, check_of(p));
   } else {
     const double low = std::max(p.range.min, -1e12), high = std::min(p.range.max, 1e12);
-    changed = ImGui::DragScalar("##value", ImGuiDataType_Double, &value, drag_speed(value, p), &low, &high,
-                                format_with_unit(p, value).c_str(), as_typed);
+    changed = number_drag("##value", value, drag_speed(value, p), low, high,
+                          format_with_unit(p, value).c_str(), as_typed, check_of(p));
   }
   // A drag that runs into an open end stops there instead of complaining.
   if (!changed || (p.range.min_excluded && value <= p.range.min)) return std::nullopt;
@@ -88,22 +104,31 @@ std::optional<Value> widget(const Field& f, double value) {
 }
 
 std::optional<Value> widget(const Field& f, std::int64_t value) {
-  const Range& range = f.parameter.range;
-  const auto low = static_cast<std::int64_t>(range.min), high = static_cast<std::int64_t>(range.max);
-  const std::int64_t one = 1, ten = 10;
-  if (!ImGui::InputScalar("##value", ImGuiDataType_S64, &value, &one, &ten, "%lld",
-                          ImGuiInputTextFlags_EnterReturnsTrue))
-    return std::nullopt;
-  return Value(std::clamp(value, low, high));
+  const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::BeginGroup();
+  ImGui::SetNextItemWidth(std::max(ImGui::CalcItemWidth() - 2.0f * (side + gap), 1.0f));
+  bool changed = whole_field(f.parameter, value);
+  ImGui::PushButtonRepeat(true);
+  for (const int direction : {-1, 1}) {
+    ImGui::SameLine(0.0f, gap);
+    if (!ImGui::Button(direction < 0 ? "-" : "+", {side, side})) continue;
+    value += std::int64_t{direction} * (ImGui::GetIO().KeyCtrl ? 10 : 1);
+    changed = true;
+  }
+  ImGui::PopButtonRepeat();
+  ImGui::EndGroup();
+  if (!changed) return std::nullopt;
+  return Value(static_cast<std::int64_t>(within(f.parameter.range, static_cast<double>(value))));
 }
 
 std::optional<Value> widget(const Field& f, std::vector<double> value) {
   const Range& range = f.parameter.range;
   double size = 2.0;
   for (const double x : value) size = std::max(size, std::abs(x));
-  const bool changed =
-      ImGui::DragScalarN("##value", ImGuiDataType_Double, value.data(), static_cast<int>(value.size()),
-                         drag_speed(size, f.parameter), &range.min, &range.max, "%.4g", as_typed);
+  const bool changed = on_one_line<double>(value, [&](double& x) {
+    return number_drag("##value", x, drag_speed(size, f.parameter), range.min, range.max, "%.4g", as_typed,
+                       check_of(f.parameter));
+  });
   // A drag that runs into an open end stops there instead of complaining.
   if (!changed || (range.min_excluded && std::ranges::min(value) <= range.min)) return std::nullopt;
   return Value(value);
@@ -117,12 +142,8 @@ std::optional<Value> widget(const Field& f, const Vec3& value) {
 }
 
 std::optional<Value> widget(const Field& f, std::vector<int> value) {
-  if (!ImGui::InputScalarN("##value", ImGuiDataType_S32, value.data(), static_cast<int>(value.size()),
-                           nullptr, nullptr, "%d", ImGuiInputTextFlags_EnterReturnsTrue))
-    return std::nullopt;
-  const Range& range = f.parameter.range;
-  for (int& n : value) n = std::clamp(n, static_cast<int>(range.min), static_cast<int>(range.max));
-  return Value(value);
+  const auto field = [&](int& n) { return whole_field(f.parameter, n); };
+  return on_one_line<int>(value, field) ? std::optional<Value>(value) : std::nullopt;
 }
 
 /// A choice of words, or a text that is only shown.
@@ -178,7 +199,7 @@ std::string tooltip_of(const Parameter& p, std::size_t index) {
   if (!by_default.empty()) text += fmt::format("\nDefault: {}", by_default);
   text += fmt::format("\nScene key: {}", path_text(p.path, index));
   if (!p.live) text += "\nA change restarts the simulation.";
-  if (is_dragged(p)) text += "\nDrag to change, Ctrl+click to type.";
+  if (is_dragged(p)) text += "\nDrag to change, Ctrl+click to type: 2*9.8, 1/60.";
   return text;
 }
 
@@ -211,139 +232,6 @@ std::string spaced(std::string_view key) {
 std::string capitalized(std::string words) {
   words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
   return words;
-}
-
-void wrapped_text(std::string_view text, float width) {
-  while (!text.empty()) {
-    std::string_view line = text.substr(0, text.find('\n'));
-    std::size_t end = 0;
-    while (end < line.size()) {
-      const std::size_t next = std::min(line.find(' ', end + 1), line.size());
-      if (end > 0 && ImGui::CalcTextSize(line.data(), line.data() + next).x > width) break;
-      end = next;
-    }
-    ImGui::TextUnformatted(line.data(), line.data() + end);
-    text.remove_prefix(end);
-    if (!text.empty()) text.remove_prefix(1);
-  }
-}
-
-namespace {
-
-/// Beside the panel of the widget just made, so that it covers none of its neighbours; else below or above.
-void place_tooltip(float text_width) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize, pad = ImGui::GetStyle().WindowPadding;
-  const ImVec2 corner = ImGui::GetWindowPos(), low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  const float end = corner.x + ImGui::GetWindowSize().x, width = text_width + 2.0f * pad.x, gap = 6.0f;
-  const bool lower_half = low.y > 0.5f * display.y;
-  const float pivot = lower_half ? 1.0f : 0.0f;
-  if (end + gap + width < display.x)
-    ImGui::SetNextWindowPos({end + gap, lower_half ? high.y : low.y}, ImGuiCond_Always, {0.0f, pivot});
-  else if (corner.x - gap - width > 0.0f)
-    ImGui::SetNextWindowPos({corner.x - gap, lower_half ? high.y : low.y}, ImGuiCond_Always, {1.0f, pivot});
-  else
-    ImGui::SetNextWindowPos(
-        {std::min(low.x, std::max(display.x - width, 0.0f)), lower_half ? low.y - gap : high.y + gap},
-        ImGuiCond_Always, {0.0f, pivot});
-}
-
-}  // namespace
-
-void tooltip(std::string_view text, std::string_view command) {
-  const std::string keys(Gui::current().commands().keys_of(command));
-  if (!Gui::current().explain(text, keys)) return;
-  const float width = ImGui::GetFontSize() * 26.0f;
-  place_tooltip(width);
-  ImGui::BeginTooltip();
-  wrapped_text(text, width);
-  if (!keys.empty()) ImGui::TextDisabled("Key: %s", keys.c_str());
-  ImGui::EndTooltip();
-}
-
-void named(Gui& gui, std::string_view name, std::string_view help, std::string_view command) {
-  gui.mark("{}", name);
-  tooltip(help, command);
-}
-
-bool check_box(Gui& gui, std::string_view label, std::string_view name, bool& on, std::string_view help) {
-  const bool toggled = ImGui::Checkbox(std::string(label).c_str(), &on);
-  named(gui, name, help);
-  return toggled;
-}
-
-bool check_box(Gui& gui, std::string_view word, std::string_view name, std::vector<std::string>& ticked,
-               std::string_view help) {
-  bool on = std::ranges::find(ticked, word) != ticked.end();
-  if (!check_box(gui, word, name, on, help)) return false;
-  if (on)
-    ticked.emplace_back(word);
-  else
-    std::erase(ticked, word);
-  return true;
-}
-
-bool choice(Gui& gui, std::string_view name, std::span<const std::string_view> names,
-            std::span<const std::string_view> labels, std::size_t& index, std::string_view help) {
-  ImGui::PushID(name.data(), name.data() + name.size());
-  const bool open = ImGui::BeginCombo("##choice", std::string(labels[index]).c_str());
-  named(gui, name, help);
-  const std::size_t before = index;
-  for (std::size_t i = 0; open && i < names.size(); ++i) {
-    if (ImGui::Selectable(std::string(labels[i]).c_str(), i == before)) index = i;
-    named(gui, fmt::format("{}/{}", name, names[i]), help);
-  }
-  if (open) ImGui::EndCombo();
-  ImGui::PopID();
-  return index != before;
-}
-
-bool slider(Gui& gui, std::string_view label, std::string_view name, double& value, double low, double high,
-            const char* format, std::string_view help, bool logarithmic) {
-  label_column(label);
-  ImGui::PushID(name.data(), name.data() + name.size());
-  const SliderTrack track(logarithmic ? std::log(value / low) / std::log(high / low)
-                                      : (value - low) / (high - low));
-  ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format,
-                      ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
-  const bool done = ImGui::IsItemDeactivated();
-  ImGui::PopID();
-  named(gui, name, help);
-  return done;
-}
-
-float share_of_line(int count) {
-  const float gaps = static_cast<float>(count - 1) * ImGui::GetStyle().ItemSpacing.x;
-  return (ImGui::GetContentRegionAvail().x - gaps) / static_cast<float>(count);
-}
-
-void label_column(std::string_view label) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(label.data(), label.data() + label.size());
-  const float width = ImGui::GetWindowContentRegionMax().x;
-  const float end =
-      ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetStyle().ItemInnerSpacing.x;
-  // A long label has its widget in a second column, one that leaves too little of the line goes above it.
-  if (end < longest_label * width)
-    ImGui::SameLine((end < label_share * width ? label_share : longest_label) * width);
-  ImGui::SetNextItemWidth(-1.0f);
-}
-
-bool button(Gui& gui, const char* name, const char* label, std::string_view help, bool enabled, float width,
-            std::string_view command) {
-  ImGui::PushID(name);
-  ImGui::BeginDisabled(!enabled);
-  const bool pressed = ImGui::Button(label, {width, 0.0f});
-  ImGui::EndDisabled();
-  named(gui, name, help, command);
-  ImGui::PopID();
-  return pressed;
-}
-
-bool command_button(Gui& gui, const char* name, const char* label, std::string_view help,
-                    std::string_view command, bool enabled, float width) {
-  const bool pressed = button(gui, name, label, help, enabled, width, command);
-  if (pressed) gui.commands().run(command);
-  return pressed;
 }
 
 std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const Scene& scene,

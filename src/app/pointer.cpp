@@ -78,15 +78,16 @@ void Pointer::move(double x, double y) {
 
 bool Pointer::scroll(double notches, bool on_panel) {
   if (on_panel || !view_.whole.contains(x_, y_)) return false;
-  const auto [x, y] = aim(on_panel);
+  const auto [x, y] = view_.within(x_, y_);
   view_.camera.zoom(notches, (x - 0.5 * view_.width()) / view_.height(),
                     (y - 0.5 * view_.height()) / view_.height(), view_.seen().fov);
   return true;
 }
 
-std::array<double, 2> Pointer::aim(bool on_panel) const {
-  if (on_panel || !view_.whole.contains(x_, y_)) return {0.5 * view_.width(), 0.5 * view_.height()};
-  return view_.within(x_, y_);
+Ray Pointer::sight(bool on_panel) const {
+  if (on_panel || !view_.whole.contains(x_, y_))
+    return view_.sight(view_.box.centre_x(), view_.box.centre_y());
+  return view_.sight(x_, y_);
 }
 
 void Pointer::describe(std::uint32_t particle) {
@@ -175,7 +176,7 @@ void Pointer::centre_on(const Picked& picked) {
   if (picked.kind == PickKind::particle) point = state.position[picked.index];
   if (picked.kind == PickKind::ball && picked.index < state.ball_position.size())
     point = state.ball_position[picked.index];
-  view_.camera.centre(point);
+  view_.camera.centre(point - view_.offset());
 }
 
 void Pointer::forget() {

@@ -43,8 +43,8 @@ class Pointer {
   bool scroll(double notches, bool on_panel);
   /// A button that moves the camera is held, or a particle is pulled.
   bool drags() const { return drag_button_ >= 0 || simulation_.hand(); }
-  /// The mouse's place in the view, or the view's middle if it is elsewhere [window units].
-  std::array<double, 2> aim(bool on_panel) const;
+  /// What the mouse points at in its picture; elsewhere, what the middle of the first picture shows.
+  Ray sight(bool on_panel) const;
 
   /// Once for each picture, before it is drawn: finds what is under the mouse by what answers have come.
   void find_hovered();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/number_field.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "io/series_csv.h"
@@ -36,8 +37,8 @@ void format_widget(Gui& gui, FilmSettings& film) {
 void rate_widget(Gui& gui, FilmSettings& film) {
   label_column("Pictures");
   const double least = 1.0, most = film.format->most_fps;
-  ImGui::DragScalar("##fps", ImGuiDataType_Double, &film.fps, 0.2f, &least, &most, "%.4g a second",
-                    ImGuiSliderFlags_AlwaysClamp);
+  number_drag("##fps", film.fps, 0.2f, least, most, "%.4g a second", ImGuiSliderFlags_AlwaysClamp,
+              between(least, most));
   named(
       gui, "record/fps",
       fmt::format("Pictures per second of the film, 1 … {:g} in this format. Each shows the state speed/rate "

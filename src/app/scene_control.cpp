@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/follow.h"
 #include "scene/load.h"
 
 namespace aspic::app {
@@ -25,6 +26,7 @@ void SceneControl::open(const std::string& source) {
   messages_.check(simulation_.reset());
   if (editor_.state()) messages_.check(simulation_.start_from(*editor_.state()));
   view_.camera = CameraControl(editor_.scene().view.camera);
+  view_.forget_followed();
   view_.recall_camera(editor_.source());
 }
 
@@ -82,11 +84,22 @@ void SceneControl::redo() {
 
 void SceneControl::set_value(const Parameter& parameter, std::size_t index, const Value& value,
                              const std::string& gesture) {
+  const auto followed = scene().view.follow;
   take_effect(editor_.set(parameter, index, value, gesture));
+  say_if_gone(followed);
 }
 
 void SceneControl::apply(Scene scene, const std::string& name, const std::string& gesture) {
+  const auto followed = this->scene().view.follow;
   take_effect(editor_.apply(std::move(scene), name, gesture));
+  say_if_gone(followed);
+}
+
+/// The change removed what the camera followed.
+void SceneControl::say_if_gone(const std::optional<std::string>& followed) {
+  if (!followed || scene().view.follow || find_followed(scene().model, *followed)) return;
+  gone_ = fmt::format(" The scene has no {} any more: the camera follows nothing.", *followed);
+  messages_.info(gone_.substr(1));
 }
 
 void SceneControl::change(const std::string& name, const std::function<void(Scene&)>& make,
@@ -137,7 +150,7 @@ bool SceneControl::finish_change() {
   if (!messages_.check(*changed)) {
     if (editor_.can_undo()) editor_.undo();
   } else if (requested_ == Effect::restart) {
-    messages_.info("The bodies changed: the simulation was restarted.");
+    messages_.info("The bodies changed: the simulation was restarted." + std::exchange(gone_, ""));
   } else {
     messages_.dismiss_error();
   }

@@ -65,6 +65,7 @@ class SceneControl {
 
  private:
   void take_effect(Result<Effect> effect);
+  void say_if_gone(const std::optional<std::string>& followed);
   bool replace(Result<SceneEditor> loaded, bool keep_state);
   void reread_file();
 
@@ -72,6 +73,7 @@ class SceneControl {
   Simulation& simulation_;
   View& view_;
   Messages& messages_;
+  std::string gone_;  // what to say of a body that the camera followed
   Effect pending_ = Effect::none, requested_ = Effect::none;
   double rebuild_seconds_ = 0.0, since_rebuild_ = 0.0, since_file_look_ = 0.0, unchanged_for_ = 0.0;
   std::chrono::steady_clock::time_point requested_at_ = {};

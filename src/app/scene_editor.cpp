@@ -7,6 +7,7 @@
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
 #include "model/bodies.h"
+#include "scene/follow.h"
 #include "scene/load.h"
 #include "scene/scene_checks.h"
 #include "scene/write.h"
@@ -94,6 +95,8 @@ Result<Effect> SceneEditor::set(const Parameter& parameter, std::size_t index, c
 Result<Effect> SceneEditor::apply(Scene changed, const std::string& name, const std::string& gesture) {
   const Effect effect = effect_between(scene_, changed);
   if (effect == Effect::none) return effect;
+  auto& follow = changed.view.follow;
+  if (follow == scene_.view.follow && follow && !find_followed(changed.model, *follow)) follow.reset();
   if (const auto complaints = check_scene(changed, available_memory()); !complaints.empty()) {
     std::string message;
     for (const SceneComplaint& complaint : complaints)

@@ -47,7 +47,8 @@ class SceneEditor {
   bool file_changed();
 
   /// Sets one value. Changes with the same `gesture` (a slider under the mouse; not empty) are one for undo.
-  /// Error (scene_rejected): what the scene checks say; nothing changes.
+  /// Where the body or ball that the camera follows is no more, it follows nothing. Error (scene_rejected):
+  /// what the scene checks say; nothing changes.
   Result<Effect> set(const Parameter& parameter, std::size_t index, const Value& value,
                      const std::string& gesture);
   /// Replaces the scene, under a name for undo. Errors as set.

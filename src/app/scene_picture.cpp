@@ -61,8 +61,9 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
   c.state = kept() ? 0 : simulation_.picture_number();
   c.kept = kept() ? kept_number_ : 0;
   c.view = scene_.view;
-  c.view.camera = view_.seen();
+  c.view.camera = view_.seen(offset_);
   c.shadows = shadows;
+  c.range = common_range;
   c.film = film;
   c.fine = in_full() || (fine && !film);
   const double scale = c.fine ? 1.0 : resolution_.share();
@@ -78,7 +79,29 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
   return c;
 }
 
+Status ScenePicture::follow() {
+  if (ghost) {
+    // It is seen with the picture that it lies over.
+    offset_ = view_.offset();
+    return {};
+  }
+  const std::pair wanted(simulation_.model_number(), scene_.view.follow);
+  if (followed_ != wanted) following_ = Following(scene_, simulation_.model(), Precision::single);
+  followed_ = wanted;
+  if (following_.any() && !kept()) ASPIC_CHECK(refresh());
+  offset_ = following_.offset(simulation_.model(), shown_state());
+  if (!place_) view_.follow(scene_.view.follow, offset_);
+  return {};
+}
+
+/// The snapshot becomes the state that is drawn.
+Status ScenePicture::refresh() {
+  const bool old = simulation_.device_state() && simulation_.snapshot().step != simulation_.step();
+  return old ? simulation_.refresh_snapshot() : Status();
+}
+
 Status ScenePicture::draw() {
+  ASPIC_CHECK(follow());
   const Content content = wanted(at_rest_);
   if (drawn_ == content || (drawn_ && drawn_->fine && drawn_ == wanted(true))) return {};
   return draw(content, film && film->text, ghost ? std::optional(behind_ghost) : std::nullopt);
@@ -92,15 +115,15 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
   options.legend = legend;
   options.background = background;
   options.samples = content.fine ? 0 : 1;
+  options.range = content.range;
   options.view = content.view;
   if (film && film->text) options.text = overlay_lines(scene_.model, simulation_.time());
   options.shadows = shadows;
   options.axes = legend || film;
   // Of the very state that is drawn.
-  if (options.view.arrows.any() && !kept() && simulation_.device_state())
-    ASPIC_CHECK(simulation_.refresh_snapshot());
-  const State& shown_state = kept() ? *kept() : simulation_.snapshot();
-  if (!ghost) arrows_ = arrows_of(simulation_.model(), shown_state, options.view.arrows, simulation_.hand());
+  if (options.view.arrows.any() && !kept()) ASPIC_CHECK(refresh());
+  if (!ghost)
+    arrows_ = arrows_of(simulation_.model(), shown_state(), options.view.arrows, simulation_.hand());
   options.arrows = arrows_;
   options.highlight = content.marks;
   options.coarse_skin = adapts && share < 1.0;
@@ -111,18 +134,15 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
       resolution_.reset(model.particle_count() > many_particles);
     drawn_particles_ = model.particle_count();
   }
-  std::optional<DeviceState> state = kept() ? std::nullopt : simulation_.device_state();
-  if (!state) {
-    ASPIC_TRY(state, renderer_->upload(kept() ? *kept() : simulation_.snapshot()));
-  }
-  Status drawn = renderer_->draw(content.size.width, content.size.height, *state, options);
+  ASPIC_TRY(const DeviceState state, on_device());
+  Status drawn = renderer_->draw(content.size.width, content.size.height, state, options);
   if (!drawn && drawn.error().code == ErrorCode::scene_rejected && has_scale(options.view.colour)) {
     // What a colour needs of the device may be more than it has: the scene goes on without.
     refusal_ = "This colour cannot be shown: " + drawn.error().message;
     options.view.colour = ViewColour::material;
-    drawn = renderer_->draw(content.size.width, content.size.height, *state, options);
+    drawn = renderer_->draw(content.size.width, content.size.height, state, options);
   }
-  ASPIC_CHECK(drawn);
+  if (!drawn) return drawn.error();
   if (context_->info().is_software) glFinish();
   drawn_ = content;
   ++number_;
@@ -132,6 +152,12 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
     resolution_.took(share, draw_seconds_, late ? Resolution::hurried : Resolution::in_motion);
   }
   return {};
+}
+
+/// Where the state that is drawn lies.
+Result<DeviceState> ScenePicture::on_device() {
+  if (const auto state = kept() ? std::nullopt : simulation_.device_state()) return *state;
+  return renderer_->upload(shown_state());
 }
 
 void ScenePicture::keep(const State& state) {
@@ -220,6 +246,23 @@ QuantityRange ScenePicture::range() const {
       is_of_model() && drawn_->view.colour == scene_.view.colour && drawn_->view.scale == scene_.view.scale;
   if (drawn) return renderer_->range();
   return range_for(simulation_.model(), scene_.view, {});
+}
+
+QuantityRange ScenePicture::own_range() {
+  const QuantityRange alone = range_for(simulation_.model(), scene_.view, {});
+  if (!follows_picture(scene_.view) || !is_of_model()) return alone;
+  // Of what there is to measure: neither size nor camera.
+  Content content;
+  content.model = simulation_.model_number();
+  content.state = kept() ? 0 : simulation_.picture_number();
+  content.kept = kept() ? kept_number_ : 0;
+  content.view = scene_.view;
+  if (measured_ == content) return own_range_;
+  measured_ = content;
+  const auto state = on_device();
+  const auto range = state ? renderer_->range_of(*state, scene_.view) : Result<QuantityRange>(alone);
+  own_range_ = range ? *range : alone;
+  return own_range_;
 }
 
 Legend ScenePicture::legend() const {

@@ -12,6 +12,7 @@
 #include "app/view.h"
 #include "app/window.h"
 #include "render/renderer.h"
+#include "scene/follow.h"
 #include "scene/scene.h"
 
 namespace aspic::app {
@@ -33,14 +34,15 @@ struct SavedLook {
 class ScenePicture {
  public:
   /// The references must outlive it. `in_full_quality`: a software rasteriser draws as hardware does.
-  ScenePicture(Simulation& simulation, const Scene& scene, const View& view, bool in_full_quality)
+  ScenePicture(Simulation& simulation, const Scene& scene, View& view, bool in_full_quality)
       : full_quality(in_full_quality), simulation_(simulation), scene_(scene), view_(view) {}
 
   bool full_quality;
-  bool shadows = true;           ///< on terrain
-  std::optional<FilmLook> film;  ///< while a film is made
-  SavedLook saved;               ///< of the next save()
-  bool ghost = false;            ///< its bodies alone, pale and translucent over what the window shows
+  bool shadows = true;                        ///< on terrain
+  std::optional<FilmLook> film;               ///< while a film is made
+  SavedLook saved;                            ///< of the next save()
+  std::optional<QuantityRange> common_range;  ///< of colours, with runs beside it; absent: its own
+  bool ghost = false;  ///< its bodies alone, pale and translucent over what the window shows
 
   /// Everything of OpenGL, in a context that must outlive it or be detached. Errors: of Renderer::create.
   Status attach(gl::Context& context);
@@ -51,6 +53,11 @@ class ScenePicture {
   /// finely as hardware does, which stays until something in it changes.
   void set_at_rest(bool at_rest) { at_rest_ = at_rest; }
   bool at_rest() const { return at_rest_; }
+  /// Moves the camera along with what the scene's view follows, to the very state that draw() draws; draw()
+  /// does so itself. Error: the state cannot be read.
+  Status follow();
+  /// How far it was moved along [m].
+  const Vec3& offset() const { return offset_; }
   /// Draws the picture, if anything in it changed. Error: of Renderer.
   Status draw();
   /// Draws it and puts it into the window; after postpone() the last one once more, so that events come
@@ -87,6 +94,9 @@ class ScenePicture {
   double resolution() const { return in_full() ? 1.0 : resolution_.share(); }
   /// The ends of the scale of its colours.
   QuantityRange range() const;
+  /// Those that the picture to come would have if it were the only one; of one that has not been drawn since
+  /// the model became another those that suit the model.
+  QuantityRange own_range();
   /// What the colours of the picture mean; empty where they mean nothing, or the picture says so itself.
   Legend legend() const;
   /// The same of its arrows.
@@ -104,6 +114,7 @@ class ScenePicture {
     ViewSettings view;
     HighlightOptions marks;
     bool shadows = true, fine = true;
+    std::optional<QuantityRange> range;
     std::optional<FilmLook> film;
     PictureSize size;
     friend bool operator==(const Content&, const Content&) = default;
@@ -116,17 +127,28 @@ class ScenePicture {
   Status present(const WindowSize& window);
   /// What is kept, if it is one of the simulation's model.
   const State* kept() const;
+  const State& shown_state() const {
+    const State* const held = kept();
+    return held ? *held : simulation_.snapshot();
+  }
+  Status refresh();
+  Result<DeviceState> on_device();
   Content wanted(bool fine) const;
   Status draw(const Content& content, bool legend, const std::optional<Colour>& background = {});
   Status save_clear(const Content& content, const std::string& path);
 
   Simulation& simulation_;
   const Scene& scene_;
-  const View& view_;
+  View& view_;
   std::optional<std::string> refusal_;
   std::optional<Box> place_;   // absent: the view's
   std::optional<State> kept_;  // that is shown; absent: the simulation's
   std::uint64_t kept_number_ = 0;
+  Following following_;
+  std::optional<Content> measured_;  // what own_range_ is of
+  QuantityRange own_range_ = {};
+  std::pair<std::uint64_t, std::optional<std::string>> followed_;  // model and name of following_
+  Vec3 offset_;                                                    // of the camera [m]
   gl::Context* context_ = nullptr;
   std::unique_ptr<Renderer> renderer_;
   std::optional<Content> drawn_;

@@ -57,8 +57,9 @@ void draw_cells(ImDrawList& draw, const Place& place) {
   const float width = place.size.x / static_cast<float>(columns),
               height = place.size.y / static_cast<float>(rows);
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
-    const float left = place.corner.x + width * static_cast<float>(i % columns),
-                top = place.corner.y + place.size.y - height * static_cast<float>(i / columns + 1);
+    const std::size_t column = i % columns, row = i / columns;
+    const float left = place.corner.x + width * static_cast<float>(column),
+                top = place.corner.y + place.size.y - height * static_cast<float>(row + 1);
     const ImVec2 low = {left + 0.5f, top + 0.5f}, high = {left + width - 0.5f, top + height - 0.5f};
     const Stability cell = map.cells[i];
     draw.AddRectFilled(low, high,
@@ -82,8 +83,9 @@ void draw_theory(ImDrawList& draw, const Place& place, float thickness) {
 /// The decades of an axis along the bottom (0) or the left (1).
 void draw_decades(ImDrawList& draw, const Place& place, int axis) {
   const std::vector<double>& centres = axis == 0 ? place.map.steps : place.map.stiffness;
-  for (double decade = std::pow(10.0, std::ceil(std::log10(centres.front()))); decade <= centres.back();
-       decade *= 10.0) {
+  const int last = static_cast<int>(std::floor(std::log10(centres.back())));
+  for (int power = static_cast<int>(std::ceil(std::log10(centres.front()))); power <= last; ++power) {
+    const double decade = std::pow(10.0, power);
     const std::string text = fmt::format("{:g}", decade);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const float along = static_cast<float>(share(centres, decade));

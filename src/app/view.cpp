@@ -7,19 +7,38 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/follow.h"
 #include "scene/load.h"
 #include "scene/write.h"
 
 namespace aspic::app {
 
-CameraSettings View::seen() const {
-  return fitted(camera.shown(), width(), height());
+CameraSettings View::seen(const Vec3& offset) const {
+  return fitted(moved(camera.shown(), offset), width(), height());
+}
+
+const OtherPicture* View::other_at(double x, double y) const {
+  const auto found =
+      std::ranges::find_if(others, [&](const OtherPicture& other) { return other.box.contains(x, y); });
+  return found == others.end() ? nullptr : &*found;
 }
 
 std::array<double, 2> View::within(double x, double y) const {
-  const auto other = std::ranges::find_if(others, [&](const Box& b) { return b.contains(x, y); });
-  const Box& picture = other == others.end() ? box : *other;
+  const OtherPicture* const other = other_at(x, y);
+  const Box& picture = other ? other->box : box;
   return {x - picture.left, y - picture.top};
+}
+
+Ray View::sight(double x, double y) const {
+  const OtherPicture* const other = other_at(x, y);
+  const auto [right, down] = within(x, y);
+  return lens(other ? other->offset : offset_).ray_through(right, down);
+}
+
+void View::follow(const std::optional<std::string>& what, const Vec3& offset) {
+  if (followed_ && *followed_ != what) camera.shift(offset_ - offset);
+  followed_ = what;
+  offset_ = offset;
 }
 
 bool View::sees_bodies(const State& state) const {
@@ -33,8 +52,8 @@ bool View::sees_bodies(const State& state) const {
   return std::ranges::any_of(state.position, seen) || std::ranges::any_of(state.ball_position, seen);
 }
 
-Camera View::lens() const {
-  return {seen(), static_cast<int>(width()), static_cast<int>(height())};
+Camera View::lens(const Vec3& offset) const {
+  return {seen(offset), static_cast<int>(width()), static_cast<int>(height())};
 }
 
 void View::frame_bodies(const Model& model, const State& state) {
@@ -49,7 +68,8 @@ void View::frame_bodies(const Model& model, const State& state) {
   for (const Vec3& x : state.position) include(x, 0.0);
   for (std::size_t i = 0; i < state.ball_position.size(); ++i)
     include(state.ball_position[i], model.balls[i].radius);
-  camera.frame(0.5 * (low + high), 0.5 * length(high - low), std::max(width() / height(), narrowest));
+  camera.frame(0.5 * (low + high) - offset_, 0.5 * length(high - low),
+               std::max(width() / height(), narrowest));
 }
 
 std::vector<KeptCamera> View::kept_with(const std::string& source) const {

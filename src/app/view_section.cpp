@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "scene/follow.h"
 
 namespace aspic::app {
 namespace {
@@ -116,7 +119,8 @@ void layout_widgets(Gui& gui, Layouts& layout) {
     layout.choose(layouts()[index]);
   text_size(gui, layout);
   check_box(gui, "large clock", "layout/clock", layout.clock,
-            "The time in large figures in a corner of the picture, as in a lecture. Not in films.");
+            "The time in large figures in a corner of the picture, as in a lecture. Not in films, and not "
+            "with runs side by side, whose labels tell it.");
   if (button(gui, "layout/reset", "Reset layout",
              "Resets this layout's panels, their widths and the size of text to their defaults. Scene and "
              "camera are "
@@ -125,7 +129,31 @@ void layout_widgets(Gui& gui, Layouts& layout) {
     layout.reset();
 }
 
+void follow_choice(Gui& gui, SceneControl& scene) {
+  const std::vector<std::string> known = followed_names(scene.scene());
+  std::vector<std::string_view> names = {"nothing"};
+  names.insert(names.end(), known.begin(), known.end());
+  const std::string& now = scene.scene().view.follow.value_or("nothing");
+  auto index = static_cast<std::size_t>(std::ranges::find(names, now) - names.begin());
+  if (index == names.size()) names.push_back(now);
+  label_column("Follow");
+  const Parameter& p = *find_parameter("view.follow");
+  if (choice(gui, "view.follow", names, names, index,
+             fmt::format("{} The key {} follows what is under the mouse.\n\nScene key: view.follow",
+                         p.meaning, gui.commands().keys_of("follow the body under the mouse"))))
+    set_followed(scene, index == 0 ? std::nullopt : std::optional(std::string(names[index])));
+}
+
 }  // namespace
+
+void set_followed(SceneControl& scene, const std::optional<std::string>& name) {
+  scene.change("follow", [&](Scene& s) { s.view.follow = name; });
+}
+
+std::vector<std::string> followed_names(const Scene& scene) {
+  constexpr std::uint64_t most_balls = 24;  // any other is one that the mouse points at
+  return followable(scene.model, most_balls);
+}
 
 void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const QuantityRange& shown,
                   bool& shadows, Layouts& layout) {
@@ -141,6 +169,7 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const Qu
             "this window only; aspic run always draws them.");
   edit(gui, scene, "view.axes");
   camera_buttons(gui, camera);
+  follow_choice(gui, scene);
   edit_camera(gui, camera, "view.camera.position", "Camera");
   edit_camera(gui, camera, "view.camera.target", "Looks at");
   edit_camera(gui, camera, "view.camera.fov", "Field of view");

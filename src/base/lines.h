@@ -19,7 +19,8 @@ inline std::string_view take_line(std::string_view& text) {
 /// The text without blanks, tabs and carriage returns at its ends.
 inline std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+  return first == std::string_view::npos ? ""
+                                         : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 /// Line `number` ≥ 1 of a text; empty past its end.

@@ -177,9 +177,10 @@ Status execute_beside(const RunOptions& options) {
     differences.push_back(std::move(difference));
   }
   const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
+  std::unique_ptr<gl::Context> context;  // outlives the members' solvers
   ASPIC_TRY(auto members, make_members(options, differences, overwrite));
   ASPIC_TRY(auto film, RunFiles::open({}, options.pictures, {}, overwrite));
-  ASPIC_TRY(const auto context, shared_context(options, members));
+  ASPIC_TRY(context, shared_context(options, members));
   ASPIC_CHECK(prepare(members, differences, context.get(), interrupt));
 
   std::vector<Span> spans;

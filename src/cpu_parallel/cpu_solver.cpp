@@ -128,7 +128,7 @@ class CpuSolver final : public Solver {
 std::uint64_t CpuSolver::heap_bytes() const {
   std::uint64_t sum = bytes_of(state_) + bytes_of(next_) + bytes_of(mass_) + bytes_of(inverse_mass_) +
                       bytes_of(springs_) + dynamics_.bytes() + balls_.bytes() +
-                      model_.ball_count() * 18 * sizeof(float);
+                      std::uint64_t{model_.ball_count()} * 18 * sizeof(float);
   for (const Springs& springs : springs_)
     sum += std::visit([](const auto& each) { return each.bytes(); }, springs);
   return sum + (implicit_ ? sizeof(ImplicitEuler) + implicit_->bytes()

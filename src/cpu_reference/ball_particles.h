@@ -24,16 +24,21 @@ struct ParticleView {
   }
 };
 
+/// Of vectors one after the other; nullptr where there are none.
+template <class T>
+std::array<T*, 3> components(T* vectors) {
+  if (!vectors) return {};
+  return {vectors, vectors + 1, vectors + 2};
+}
+
 /// Of the columns of a phase.
 template <class T>
 ParticleView<T> view_of(Phase<T>& phase) {
-  T *const x = phase.x.data(), *const v = phase.v.data();
-  return {{x, x + 1, x + 2}, {v, v + 1, v + 2}, 3};
+  return {components(phase.x.data()), components(phase.v.data()), 3};
 }
 template <class T>
 ParticleView<const T> view_of(const Phase<T>& phase) {
-  const T *const x = phase.x.data(), *const v = phase.v.data();
-  return {{x, x + 1, x + 2}, {v, v + 1, v + 2}, 3};
+  return {components(phase.x.data()), components(phase.v.data()), 3};
 }
 
 /// A box around points [m]; around none at first.

@@ -1,4 +1,5 @@
 // The operands on which a device's arithmetic is judged.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -64,14 +65,18 @@ void add_notable(std::vector<CanaryOperands>& cases) {
     }
 }
 
+/// The 24 leading bits, as many as a float keeps.
+std::uint64_t leading_bits(std::uint64_t product) {
+  return product >> std::max(static_cast<int>(std::bit_width(product)) - 24, 0);
+}
+
 /// Quotients next to the middle of two floats: a ≈ M·b with an odd M of 25 bits.
 void add_hard_quotients(std::vector<CanaryOperands>& cases, Random& random) {
   for (int i = 0; i < 4096; ++i) {
     const std::uint64_t middle = (static_cast<std::uint64_t>(random.mantissa()) << 1) | 1;
     const std::uint64_t b = random.mantissa();
     const std::uint64_t product = middle * b;
-    const int shift = static_cast<int>(std::bit_width(product)) - 24;
-    const auto a = static_cast<float>((product >> shift) + (random.bits() & 1));
+    const auto a = static_cast<float>(leading_bits(product) + (random.bits() & 1));
     // Every eighth pair lies where the divisor's reciprocal is denormal, every eighth has a denormal
     // quotient.
     const int a_exponent = i % 8 == 0 ? 103 : i % 8 == 1 ? -110 : 0;
@@ -87,8 +92,7 @@ void add_hard_roots(std::vector<CanaryOperands>& cases, Random& random) {
     const std::uint64_t root =
         (static_cast<std::uint64_t>(random.mantissa()) << 1) | static_cast<std::uint64_t>(i & 1);
     const std::uint64_t square = root * root;
-    const int shift = static_cast<int>(std::bit_width(square)) - 24;
-    const auto rounded = static_cast<float>((square >> shift) + (random.bits() & 1));
+    const auto rounded = static_cast<float>(leading_bits(square) + (random.bits() & 1));
     const int exponent = static_cast<int>(random.below(240)) - 140;
     cases.push_back({std::ldexp(rounded, exponent), random.number(-3, 3), random.number(-3, 3)});
   }

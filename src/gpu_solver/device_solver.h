@@ -125,6 +125,6 @@ Result<std::unique_ptr<GpuSolver>> make_implicit_solver(gl::Context& context, co
 
 /// gpu_bytes() of each, but what they share.
 std::uint64_t explicit_bytes(const ModelCounts& counts, Integrator integrator);
-std::uint64_t implicit_bytes(const ModelCounts& counts);
+std::uint64_t implicit_bytes(const ModelCounts& counts, std::uint64_t block_bytes);
 
 }  // namespace aspic

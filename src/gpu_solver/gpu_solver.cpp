@@ -20,7 +20,7 @@ bool solves(Integrator integrator, std::uint64_t particles) {
 /// Springs that are shared are held already.
 Status check_free_memory(const gl::Context& context, const Model& model, const GpuOptions& options,
                          const ForcePathRow& path) {
-  const std::uint64_t needed = gpu_bytes(model, path.path),
+  const std::uint64_t needed = gpu_bytes(model, path.path, context.info().limits.storage_block_bytes),
                       shared =
                           options.share_springs_of ? options.share_springs_of->spring_buffers()->bytes() : 0;
   return context.check_memory(needed - std::min(needed, shared));
@@ -42,14 +42,14 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
                            implicit_path_words(" or "))};
 }
 
-std::uint64_t gpu_bytes(const Model& model, ForcePath path) {
+std::uint64_t gpu_bytes(const Model& model, ForcePath path, std::uint64_t block_bytes) {
   const ModelCounts counts = count(model);
   const Integrator integrator = model.simulation.integrator;
   const bool implicit = solves(integrator, counts.particles);
   const ForcePathRow& row =
       row_of(!implicit || works_with(path, integrator) ? path : ForcePath::automatic, model);
   return ball_bytes(counts) + sizeof(layout::Simulation) + sizeof(layout::Pull) +
-         (implicit ? implicit_bytes(counts) : explicit_bytes(counts, integrator)) +
+         (implicit ? implicit_bytes(counts, block_bytes) : explicit_bytes(counts, integrator)) +
          spring_buffer_bytes(model, row.words) + row.spring_bytes * counts.springs();
 }
 

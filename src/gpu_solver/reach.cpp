@@ -40,9 +40,9 @@ std::optional<ReachLimit> obstacle(const ForcePathRow& path, Integrator integrat
     return ReachLimit::words;
   ModelCounts counts;
   counts.particles = particles;
-  const std::uint64_t all = (solved ? implicit_bytes(counts) : explicit_bytes(counts, integrator)) +
-                            words * sizeof(std::uint32_t) + listed * sizeof(layout::uvec2) +
-                            springs * path.spring_bytes;
+  const std::uint64_t all =
+      (solved ? implicit_bytes(counts, limits.storage_block_bytes) : explicit_bytes(counts, integrator)) +
+      words * sizeof(std::uint32_t) + listed * sizeof(layout::uvec2) + springs * path.spring_bytes;
   if (free && all > *free) return ReachLimit::memory;
   return std::nullopt;
 }

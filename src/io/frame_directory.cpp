@@ -38,10 +38,13 @@ Result<std::vector<fs::path>> frames_in(const std::string& directory) {
   return frames;
 }
 
+/// Of pixels of `channels` bytes.
 template <class Write>
 Result<std::string> encoded(std::string_view format, const PictureSize& size,
-                            [[maybe_unused]] std::span<const std::byte> rgb, const Write& write) {
-  assert(rgb.size() == 3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+                            [[maybe_unused]] std::span<const std::byte> pixels,
+                            [[maybe_unused]] std::size_t channels, const Write& write) {
+  assert(pixels.size() ==
+         channels * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
   std::string content;
   const auto append = [](void* into, void* data, int bytes) {
     static_cast<std::string*>(into)->append(static_cast<const char*>(data), static_cast<std::size_t>(bytes));
@@ -80,19 +83,19 @@ class FrameDirectory : public FrameSink {
 }  // namespace
 
 Result<std::string> encode_png(const PictureSize& size, std::span<const std::byte> rgb) {
-  return encoded("PNG", size, rgb, [&](auto append, std::string& content) {
+  return encoded("PNG", size, rgb, 3, [&](auto append, std::string& content) {
     return stbi_write_png_to_func(append, &content, size.width, size.height, 3, rgb.data(), 3 * size.width);
   });
 }
 
 Result<std::string> encode_clear_png(const PictureSize& size, std::span<const std::byte> rgba) {
-  return encoded("PNG", size, rgba, [&](auto append, std::string& content) {
+  return encoded("PNG", size, rgba, 4, [&](auto append, std::string& content) {
     return stbi_write_png_to_func(append, &content, size.width, size.height, 4, rgba.data(), 4 * size.width);
   });
 }
 
 Result<std::string> encode_jpeg(const PictureSize& size, std::span<const std::byte> rgb) {
-  return encoded("JPEG", size, rgb, [&](auto append, std::string& content) {
+  return encoded("JPEG", size, rgb, 3, [&](auto append, std::string& content) {
     return stbi_write_jpg_to_func(append, &content, size.width, size.height, 3, rgb.data(), jpeg_quality);
   });
 }

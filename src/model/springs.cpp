@@ -123,9 +123,11 @@ std::vector<Spring> all_springs(const Model& model) {
 std::vector<std::uint64_t> springs_by_class(const Model& model) {
   std::vector<std::uint64_t> count(model.spring_classes.size(), 0);
   for (const Spring& spring : model.listed_springs) ++count[spring.spring_class];
-  for (const Body& body : model.bodies)
+  for (const Body& body : model.bodies) {
+    if (body.lattice_edge == 0) continue;
     for (const LatticeDirection& o : directions)
       count[body.first_class + o.spring_class] += springs_along(o, body.lattice_edge);
+  }
   return count;
 }
 

@@ -51,7 +51,7 @@ double arrow_scale(const ViewSettings& view, const ArrowSet& set) {
   double largest = 0.0;
   for (const Arrow& arrow : set.arrows)
     if (arrow.kind != ArrowKind::normal) largest = std::max(largest, length(arrow.value));
-  return largest > 0.0 && std::isfinite(largest) ? round_up(largest / set.room) : 0.0;
+  return largest > set.noise && std::isfinite(largest) ? round_up(largest / set.room) : 0.0;
 }
 
 Legend arrow_legend(const ViewSettings& view, const ArrowSet& set) {

@@ -27,13 +27,14 @@ struct Arrow {
 /// The arrows of a picture.
 struct ArrowSet {
   std::vector<Arrow> arrows;
-  double room = 1.0;  ///< how long the longest one may be [m], > 0
+  double room = 1.0;   ///< how long the longest one may be [m], > 0
+  double noise = 0.0;  ///< forces that rounding alone may bring about [N], ≥ 0
 
   friend bool operator==(const ArrowSet&, const ArrowSet&) = default;
 };
 
 /// Force that an arrow of a metre stands for [N/m]: what the view says; else the smallest 1, 2 or 5 times a
-/// power of ten with which the longest arrow finds room; 0 where all forces are zero.
+/// power of ten with which the longest arrow finds room; 0, for none, where no force is above the noise.
 double arrow_scale(const ViewSettings& view, const ArrowSet& set);
 
 /// What the arrows of a view mean, and the force that a round length stands for: "arrows: 1 cm = 0.2 N".

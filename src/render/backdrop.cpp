@@ -3,7 +3,8 @@
 #include <glad/gl.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cstddef>
+#include <span>
 
 namespace aspic {
 
@@ -21,7 +22,7 @@ bool operator==(const BackdropLook& a, const BackdropLook& b) {
            x.geometry.numbers == y.geometry.numbers;
   };
   return a.samples == b.samples && a.background == b.background &&
-         std::memcmp(&a.frame, &b.frame, sizeof(a.frame)) == 0 &&
+         std::ranges::equal(std::as_bytes(std::span(&a.frame, 1)), std::as_bytes(std::span(&b.frame, 1))) &&
          std::equal(a.terrain.begin(), a.terrain.end(), b.terrain.begin(), b.terrain.end(), same);
 }
 
@@ -47,10 +48,8 @@ Status Backdrop::begin(gl::Context& context, const PictureTargets& like) {
   return {};
 }
 
-void Backdrop::finish(const RenderPrograms& programs, const gl::VertexArray& nothing) {
-  const std::vector<gl::PixelBox> whole = {images_->box()};
-  halve_samples(programs, nothing, *images_, whole);
-  resolve_samples(*images_, whole);
+void Backdrop::finish() {
+  resolve_samples(*images_, {images_->box()});
   drawn_ = true;
 }
 
@@ -59,11 +58,6 @@ void Backdrop::put_samples(PictureTargets& targets, const std::vector<gl::PixelB
     targets.samples.colour.copy_from(images_->samples.colour, box);
     targets.samples.depth.copy_from(images_->samples.depth, box);
   }
-}
-
-void Backdrop::put_behind(PictureTargets& targets) const {
-  targets.behind.colour.copy_from(images_->behind.colour,
-                                  {0, 0, targets.behind.colour.width(), targets.behind.colour.height()});
 }
 
 void Backdrop::put_picture(PictureTargets& targets) const {

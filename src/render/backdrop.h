@@ -38,12 +38,10 @@ class Backdrop {
   /// Errors: those of PictureTargets.
   Status begin(gl::Context& context, const PictureTargets& like);
   /// They are drawn: makes the rest of them.
-  void finish(const RenderPrograms& programs, const gl::VertexArray& nothing);
+  void finish();
 
-  /// Puts samples and depth of these boxes, what is behind bodies everywhere, or the finished picture
-  /// everywhere, into a picture's images.
+  /// Puts samples and depth of these boxes, or the finished picture everywhere, into a picture's images.
   void put_samples(PictureTargets& targets, const std::vector<gl::PixelBox>& boxes) const;
-  void put_behind(PictureTargets& targets) const;
   void put_picture(PictureTargets& targets) const;
 
  private:

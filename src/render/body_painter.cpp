@@ -13,10 +13,11 @@ namespace {
 /// Cords of nets: dark, since grounds and sky are light.
 constexpr Colour net_colour = {0.035f, 0.040f, 0.055f};
 
-/// How deep light reaches into a body [m], as a share of its size.
-constexpr double reach_share = 0.30;
-
 }  // namespace
+
+double light_reach(const Body& body) {
+  return 0.30 * body.size;
+}
 
 template <class Prepare>
 void BodyPainter::draw_skins(SurfaceStyle style, const Prepare& prepare) const {
@@ -145,7 +146,7 @@ void BodyPainter::draw_parts(const gl::Program& program, SurfaceStyle style) con
   skin.bind();
   draw_skins(style, [&](std::size_t body) {
     const Colour colour = view.colour == ViewColour::material ? body_colour(body) : neutral_body_colour();
-    program.set(LOCATION_BASE_COLOUR, with_alpha(colour, reach_share * model.bodies[body].size));
+    program.set(LOCATION_BASE_COLOUR, with_alpha(colour, light_reach(model.bodies[body])));
   });
 }
 

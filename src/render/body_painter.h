@@ -13,6 +13,9 @@ namespace aspic {
 /// The walls of a translucent body that face away from the eye, or towards it.
 enum class JellySide { far, near };
 
+/// How deep light reaches into a body [m].
+double light_reach(const Body& body);
+
 /// Draws what one state of a model looks like, into the framebuffer that is bound. The frame block must be
 /// bound, and the buffers prepared for state and view.
 struct BodyPainter {

@@ -2,6 +2,8 @@
 
 #include <glad/gl.h>
 
+#include <utility>
+
 #include "render/section.h"
 
 namespace aspic {
@@ -49,6 +51,16 @@ Result<LightMaps> LightMaps::create(gl::Context& context) {
   glClear(GL_COLOR_BUFFER_BIT);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   return result;
+}
+
+bool LightMaps::hold(const std::optional<LightLook>& look) {
+  return std::exchange(look_, look) == look && look.has_value();
+}
+
+void LightMaps::bind(const ModelBuffers& model) const {
+  model.light_boxes().bind(gl::BufferKind::uniform, BINDING_LIGHT_BOXES);
+  maps_[LIGHT_SUN].colour.bind(UNIT_SUN_MAP);
+  maps_[LIGHT_SKY].colour.bind(UNIT_SKY_MAP);
 }
 
 void LightMaps::leave_out(const ModelBuffers& model) {
@@ -103,8 +115,8 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
       draw_lines(run);
     }
     map.colour.generate_mipmaps();
-    map.colour.bind(light == LIGHT_SUN ? UNIT_SUN_MAP : UNIT_SKY_MAP);
   }
+  bind(model);
   glBindVertexArray(0);
 }
 

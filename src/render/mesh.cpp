@@ -19,10 +19,10 @@ Result<DeviceMesh> DeviceMesh::create(gl::Context& context, const std::string& n
   return made;
 }
 
-void DeviceMesh::draw(int instances) const {
+void DeviceMesh::draw() const {
   if (empty()) return;
   array_.bind();
-  glDrawElementsInstanced(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr, instances);
+  glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace aspic

@@ -32,8 +32,8 @@ class DeviceMesh {
   static Result<DeviceMesh> create(gl::Context& context, const std::string& name, const Mesh& mesh);
 
   bool empty() const { return index_count_ == 0; }
-  /// Draws it so many times with the program in use.
-  void draw(int instances = 1) const;
+  /// Draws it with the program in use.
+  void draw() const;
 
  private:
   int index_count_ = 0;

@@ -1,5 +1,7 @@
 #include "render/programs.h"
 
+#include <string>
+
 namespace aspic {
 
 Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::ShaderLibrary& library) {
@@ -37,6 +39,12 @@ Result<RenderPrograms> RenderPrograms::create(gl::Context& context, const gl::Sh
       ASPIC_TRY((cut ? p.cut_plane : p.plane)[shadowed],
                 drawing({"render/terrain.vert", "render/terrain.frag"}, defines));
     }
+  }
+  for (int light = 0; light < LIGHTS; ++light) {
+    const gl::Define shaded[] = {
+        {"PLANE", "1"}, {"SHADOWED_PLANE", "1"}, {"SHADED_LIGHT", std::to_string(light)}};
+    ASPIC_TRY(p.shade[static_cast<std::size_t>(light)],
+              drawing({"render/terrain.vert", "render/shade.frag"}, shaded));
   }
   ASPIC_TRY(p.solid, drawing({"render/terrain.vert", "render/terrain.frag"}));
   ASPIC_TRY(p.glass, drawing({"render/terrain.vert", "render/glass.frag"}));

@@ -2,6 +2,7 @@
 // Every program of the picture, compiled once.
 #include "base/result.h"
 #include "gpu/program.h"
+#include "render/layout.h"
 
 namespace aspic {
 
@@ -11,6 +12,7 @@ struct RenderPrograms {
   gl::Program thickness, jelly_far, jelly, particles, springs, balls;      ///< bodies
   gl::Program rods, sheet;                                                 ///< more of them
   std::array<gl::Program, 2> plane, cut_plane;                             ///< flat ground: plain, shadowed
+  std::array<gl::Program, LIGHTS> shade;                                   ///< of flat ground
   gl::Program solid, glass, sky;                                           ///< other surroundings
   std::array<gl::Program, 2> halve;                                        ///< of one sample, of several
   gl::Program present, ghost;                                              ///< into a window

@@ -89,6 +89,14 @@ bool follows_picture(const ViewSettings& view) {
   return has_scale(view.colour) && view.scale.range != ScaleRange::fixed;
 }
 
+bool share_scale(const ViewSettings& a, const ViewSettings& b) {
+  return has_scale(a.colour) && a.colour == b.colour && a.scale == b.scale;
+}
+
+QuantityRange widest(const QuantityRange& a, const QuantityRange& b) {
+  return {std::min(a[0], b[0]), std::max(a[1], b[1])};
+}
+
 QuantityRange range_for(const Model& model, const ViewSettings& view, const QuantityRange& seen) {
   const QuantityRange of_model = default_range(model, view.colour);
   if (!has_scale(view.colour)) return of_model;

@@ -26,6 +26,13 @@ bool follows_picture(const ViewSettings& view);
 /// end below the lower one is legal and turns the scale round.
 QuantityRange range_for(const Model& model, const ViewSettings& view, const QuantityRange& seen);
 
+/// Whether pictures of two views are to have the same ends, so that their colours can be compared: of one
+/// colour and one way to choose its scale.
+bool share_scale(const ViewSettings& a, const ViewSettings& b);
+
+/// The ends that hold what two ranges of views that share a scale hold.
+QuantityRange widest(const QuantityRange& a, const QuantityRange& b);
+
 /// The smallest of 1, 2, 5 times a power of ten that is not below `value` > 0.
 double round_up(double value);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 
 #include "device/particles.h"
 #include "gpu/pass.h"
@@ -20,6 +21,11 @@ bool shows_springs(ViewColour colour) {
 
 /// Particles that are kept in memory too, so that a picture's moving part can be told.
 constexpr std::size_t most_followed = 100000;
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), sizeof(T) * a.size()) == 0);
+}
 
 /// Uploads into a buffer that is made, or made larger, as needed.
 template <class T>
@@ -62,6 +68,7 @@ Status Renderer::set_model(const Model& model) {
   parts_->buffers.emplace(std::move(buffers));
   parts_->rods = extent_of(rod_mesh(model));
   parts_->backdrop.forget();
+  parts_->lights.hold({});
   parts_->model = &model;
   parts_->drawn_state.reset();
   if (parts_->picker) parts_->picker->forget();
@@ -71,13 +78,22 @@ Status Renderer::set_model(const Model& model) {
 Result<DeviceState> Renderer::upload(const State& state) {
   Parts& p = *parts_;
   assert(p.model);
-  p.uploaded_particles = packed_particles(*p.model, state);
-  p.uploaded_ball_items = packed_balls(*p.model, state);
+  auto particles = packed_particles(*p.model, state);
+  auto balls = packed_balls(*p.model, state);
+  const DeviceState there = {&p.uploaded, &p.uploaded_balls, 0, state.step, nullptr};
+  if (p.upload_is_whole && same_bytes(particles, p.uploaded_particles) &&
+      same_bytes(balls, p.uploaded_ball_items))
+    return there;
+  p.upload_is_whole = false;
+  ++p.uploads;
+  p.uploaded_particles = std::move(particles);
+  p.uploaded_ball_items = std::move(balls);
   ASPIC_CHECK(refill(*p.context, p.uploaded, "particles to draw", p.uploaded_particles));
   ASPIC_CHECK(refill(*p.context, p.uploaded_balls, "balls to draw", p.uploaded_ball_items));
   // To look at all of very many would take longer than it saves.
   if (p.uploaded_particles.size() > most_followed) p.uploaded_particles = {};
-  return DeviceState{&p.uploaded, &p.uploaded_balls, 0, state.step, nullptr};
+  p.upload_is_whole = true;
+  return there;
 }
 
 Status Renderer::Parts::prepare_targets(int width, int height, int wanted_samples) {
@@ -119,26 +135,43 @@ void Renderer::Parts::bind_frame(const render_layout::Frame& block) {
 }
 
 void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptions& options) {
-  const gl::Buffer& particles = *state.particles;
-  buffers->compute_light_boxes(programs, state);
-  mark(PicturePass::bounds);
-  if (options.view.draw.solid && buffers->has_skin()) buffers->compute_skin(programs, particles);
+  const ViewSettings& view = options.view;
+  // Where other states come from, only the device knows whether they are the same.
+  std::optional<LightLook> look;
+  if (options.shadows && state.particles == &uploaded)
+    look = {uploads, state.step, view.draw, view.cut, options.coarse_skin};
+  const bool held = lights.hold(look);
+  if (!held) {
+    buffers->compute_light_boxes(programs, state);
+    mark(PicturePass::bounds);
+  }
+  if (view.draw.solid && buffers->has_skin()) buffers->compute_skin(programs, *state.particles);
   mark(PicturePass::skin);
+  if (held) {
+    lights.bind(*buffers);
+    return;
+  }
   if (options.shadows)
-    lights.render(programs, *buffers, state, options.view);
+    lights.render(programs, *buffers, state, view);
   else
     lights.leave_out(*buffers);
   mark(PicturePass::light_maps);
 }
 
-void Renderer::Parts::prepare_scale(const DeviceState& state, const ViewSettings& view) {
+/// After compute_quantity() of a view that follows the picture.
+QuantityRange Renderer::Parts::measured_range(const ViewSettings& view) const {
+  const bool springs = draws_springs(drawn_springs(view)) || (view.draw.solid && has(SurfaceStyle::cords));
+  return range_for(*model, view, buffers->extremes(springs && shows_springs(view.colour)));
+}
+
+void Renderer::Parts::prepare_scale(const DeviceState& state, const PictureOptions& options) {
+  const ViewSettings& view = options.view;
   const ScaleMap wanted = chosen_map(view);
   if (std::exchange(uploaded_map, wanted) != wanted) colour_map.upload(colour_map_texels(wanted));
   if (!has_scale(view.colour)) return;
   buffers->compute_quantity(programs, state);
-  if (!follows_picture(view)) return;
-  const bool springs = draws_springs(drawn_springs(view)) || (view.draw.solid && has(SurfaceStyle::cords));
-  range = range_for(*model, view, buffers->extremes(springs && shows_springs(view.colour)));
+  if (!follows_picture(view) || options.range) return;
+  range = measured_range(view);
   drawn_frame.quantity_range = quantity_scale(range);
   bind_frame(drawn_frame);
 }
@@ -157,7 +190,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
   p.buffers->use_coarse_skin(options.coarse_skin && !view.cut.on());
   const Camera camera(view.camera, width, height);
-  p.range = range_for(*p.model, view, {});
+  p.range = options.range.value_or(range_for(*p.model, view, {}));
   const bool flesh = p.has(SurfaceStyle::flesh), solid = view.draw.solid && flesh;
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
@@ -171,7 +204,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   p.drawn_view = view;
   if (p.profiler) p.profiler->begin();
   p.bind_frame(p.drawn_frame);
-  p.prepare_scale(state, view);
+  p.prepare_scale(state, options);
   p.mark(PicturePass::quantity);
   glEnable(GL_FRAMEBUFFER_SRGB);
   const bool kept = p.prepare_backdrop(terrain, camera, options);
@@ -192,7 +225,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   if (!kept) {
     p.draw_ground(terrain, camera, options, options.shadows);
   } else if (options.shadows) {
-    p.terrain.draw_shadows(p.programs, terrain, view.camera, camera);
+    p.terrain.draw_shadows(p.programs, terrain, view.camera, camera, *p.targets);
   }
   p.mark(PicturePass::surroundings);
   bodies.draw_rods_and_balls();
@@ -214,8 +247,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   if (solid) {
     bodies.draw_jelly(JellySide::far);
     p.mark(PicturePass::jelly_far);
-    if (kept) p.backdrop.put_behind(*p.targets);
-    halve_samples(p.programs, p.nothing, *p.targets, boxes);
+    halve_samples(p.programs, p.nothing, *p.targets, p.around_flesh(state));
     p.mark(PicturePass::behind);
     p.targets->samples.framebuffer.bind();
     bodies.draw_jelly(JellySide::near);
@@ -262,6 +294,18 @@ Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
 
 PickAnswer Renderer::picked() const {
   return parts_->picker ? parts_->picker->answer() : PickAnswer{};
+}
+
+Result<QuantityRange> Renderer::range_of(const DeviceState& state, const ViewSettings& view) {
+  Parts& p = *parts_;
+  const QuantityRange alone = range_for(*p.model, view, {});
+  if (!follows_picture(view)) return alone;
+  if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
+  gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
+  const FrameContent content = {view, alone, p.has(SurfaceStyle::flesh), false, state.step, 0.0f};
+  p.bind_frame(frame_block(*p.model, Camera(view.camera, 1, 1), 1, 1, content));
+  p.buffers->compute_quantity(p.programs, state);
+  return p.measured_range(view);
 }
 
 QuantityRange Renderer::range() const {

@@ -39,6 +39,7 @@ struct PictureOptions {
   bool shadows = true;                        ///< on terrain; without them light maps are left out
   int samples = 0;                            ///< per pixel, at most the renderer's; 0: those
   bool coarse_skin = false;                   ///< fewer triangles for large bodies: for software rasterisers
+  std::optional<QuantityRange> range;         ///< ends of the scale of colours; absent: the view's
   ArrowSet arrows;                            ///< of those that the view asks for
   bool axes = true;                           ///< in a corner, where the view asks for them
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
@@ -75,6 +76,10 @@ class Renderer {
   Result<std::uint64_t> request_pick(const PickPlace& place);
   /// The newest answer that has come back, as a rule that of the picture before; never waits for the device.
   PickAnswer picked() const;
+
+  /// The ends that a view's colour scale would have in a picture of this state of the model. Waits for the
+  /// device where they follow the picture. Legal after set_model. Errors: those of draw().
+  Result<QuantityRange> range_of(const DeviceState& state, const ViewSettings& view);
 
   /// The ends of the colour scale of the picture last drawn. Legal after draw().
   QuantityRange range() const;

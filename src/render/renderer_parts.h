@@ -37,6 +37,8 @@ struct Renderer::Parts {
   gl::Buffer uploaded, uploaded_balls;
   std::vector<layout::Particle> uploaded_particles;  // the same again, unless there are too many
   std::vector<layout::Ball> uploaded_ball_items;
+  std::uint64_t uploads = 0;     // of states that differ from the one before
+  bool upload_is_whole = false;  // what the device has is all of the last one
   Extent rods;
   Backdrop backdrop;
   gl::ShaderLibrary shaders;
@@ -64,10 +66,13 @@ struct Renderer::Parts {
                         const PictureOptions& options);
   void draw_ground(const std::vector<Terrain>& placed, const Camera& camera, const PictureOptions& options,
                    bool shadows) const;
+  bool knows(const DeviceState& state) const;
+  std::vector<gl::PixelBox> around_flesh(const DeviceState& state) const;
   std::vector<gl::PixelBox> changing(const DeviceState& state, const Camera& camera,
                                      const std::vector<Terrain>& placed, const PictureOptions& options) const;
   void prepare_light(const DeviceState& state, const PictureOptions& options);
-  void prepare_scale(const DeviceState& state, const ViewSettings& view);
+  void prepare_scale(const DeviceState& state, const PictureOptions& options);
+  QuantityRange measured_range(const ViewSettings& view) const;
   /// Of this picture.
   BodyPainter bodies(const DeviceState& state, const ViewSettings& view) const {
     return {*model,     programs, *buffers, *targets,

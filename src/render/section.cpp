@@ -15,7 +15,7 @@ using render_layout::SectionDraw;
 
 constexpr std::uint32_t tetrahedra_of_cell = 6, corners = 4;
 /// Cells that are looked at together at most: 4 MiB of tetrahedra if all are crossed.
-constexpr std::uint32_t most_cells = (4u << 20) / (tetrahedra_of_cell * corners * sizeof(std::uint32_t));
+constexpr std::uint32_t most_cells = (4u << 20) / (sizeof(std::uint32_t) * tetrahedra_of_cell * corners);
 
 /// Of a lattice; 0: the body has no inside, or is not a lattice.
 std::uint32_t cells_of(const Body& body) {

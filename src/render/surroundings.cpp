@@ -2,6 +2,12 @@
 #include "render/renderer_parts.h"
 
 namespace aspic {
+namespace {
+
+/// What is drawn of a thing may lie so far beside it: smoothing, and images of half the size [pixels].
+constexpr double edge_margin = 4.0;
+
+}  // namespace
 
 void Renderer::Parts::draw_ground(const std::vector<Terrain>& placed, const Camera& camera,
                                   const PictureOptions& options, bool shadows) const {
@@ -9,7 +15,7 @@ void Renderer::Parts::draw_ground(const std::vector<Terrain>& placed, const Came
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
   if (const auto& c = options.background) glClearBufferfv(GL_COLOR, 0, with_alpha(*c, 0.0).data());
-  terrain.draw_solid(programs, placed, options.view.camera, camera, shadows);
+  terrain.draw_solid(programs, placed, options.view.camera, camera, shadows, *targets);
 }
 
 /// Whether the picture may begin with the backdrop, which is drawn if need be. Hardware does without: what it
@@ -24,8 +30,27 @@ bool Renderer::Parts::prepare_backdrop(const std::vector<Terrain>& placed, const
   lights.leave_out(*buffers);
   draw_ground(placed, camera, options, false);
   if (!options.background) fill(programs.sky);
-  backdrop.finish(programs, nothing);
+  backdrop.finish();
   return true;
+}
+
+/// Whether what is in the state is known here: where other states are, only the device knows.
+bool Renderer::Parts::knows(const DeviceState& state) const {
+  return state.particles == &uploaded && uploaded_particles.size() == model->particle_count();
+}
+
+/// Where translucent bodies are, and as far beside them as they bend sight (shaders/render/jelly.frag).
+std::vector<gl::PixelBox> Renderer::Parts::around_flesh(const DeviceState& state) const {
+  if (!knows(state)) return {targets->box()};
+  double reach = 0.0;
+  for (const Body& body : model->bodies)
+    if (body.style == SurfaceStyle::flesh) reach = std::max(reach, light_reach(body));
+  MovingThings things;
+  things.particles = uploaded_particles;
+  things.particle_radius = 4.0 * particle_radius(buffers->spacing());
+  const double shift = 0.22 * reach / static_cast<double>(drawn_frame.eye.w);  // in heights of the picture
+  things.margin = edge_margin + shift * static_cast<double>(targets->picture.colour.height());
+  return moving_part(drawn_frame, things);
 }
 
 /// Where a picture differs from its backdrop.
@@ -33,15 +58,13 @@ std::vector<gl::PixelBox> Renderer::Parts::changing(const DeviceState& state, co
                                                     const std::vector<Terrain>& placed,
                                                     const PictureOptions& options) const {
   MovingThings things;
-  // Where other states are, only the device knows.
-  if (state.particles != &uploaded || uploaded_particles.size() != model->particle_count() ||
-      !options.arrows.arrows.empty() || options.view.cut.on() || options.view.ground ||
+  if (!knows(state) || !options.arrows.arrows.empty() || options.view.cut.on() || options.view.ground ||
       !terrain.add_changing(placed, options.view.camera, camera, options.shadows, things))
     return {targets->box()};
   things.particles = uploaded_particles;
   things.balls = uploaded_ball_items;
   things.particle_radius = 4.0 * particle_radius(buffers->spacing());
-  things.margin = 4.0;
+  things.margin = edge_margin;
   things.extents.push_back(rods);
   if (const auto& marks = options.highlight) {
     things.margin += 12.0 * marks->unit;

@@ -29,6 +29,8 @@ Result<PictureTargets> PictureTargets::create(gl::Context& context, int width, i
             make("picture samples", {.width = width, .height = height, .samples = samples}, true));
   ASPIC_TRY(targets.picture, make("picture", {.width = width, .height = height}));
   ASPIC_TRY(targets.behind, make("behind", {.width = half_width, .height = half_height}));
+  ASPIC_TRY(targets.shade,
+            make("shade", {.format = gl::TexelFormat::rg16f, .width = half_width, .height = half_height}));
   ASPIC_TRY(targets.thickness,
             make("thickness", {.format = gl::TexelFormat::r16f, .width = half_width, .height = half_height}));
   return targets;

@@ -20,6 +20,7 @@ struct PictureTargets {
   DrawableImage samples;    ///< several samples per pixel, with depth
   DrawableImage picture;    ///< one sample, the finished picture
   DrawableImage behind;     ///< half size: what is behind translucent bodies
+  DrawableImage shade;      ///< half size: shares of sun and sky that bodies keep from a plane
   DrawableImage thickness;  ///< half size: what a sight line crosses of bodies [m]
 
   /// Errors (scene_rejected, no_device): those of Texture and Framebuffer.

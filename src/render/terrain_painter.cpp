@@ -63,15 +63,17 @@ void TerrainPainter::draw_meshes(const gl::Program& program, const std::vector<T
 }
 
 void TerrainPainter::draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
-                                const CameraSettings& camera, const Camera& lens, bool shadows) const {
+                                const CameraSettings& camera, const Camera& lens, bool shadows,
+                                const PictureTargets& targets) const {
   draw_solid_meshes(programs, terrain);
-  draw_planes(programs, terrain, camera, lens, shadows ? Planes::shadowed : Planes::solid);
+  draw_planes(programs, terrain, camera, lens, shadows ? Planes::shadowed : Planes::solid, &targets);
 }
 
 void TerrainPainter::draw_shadows(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
-                                  const CameraSettings& camera, const Camera& lens) const {
+                                  const CameraSettings& camera, const Camera& lens,
+                                  const PictureTargets& targets) const {
   draw_solid_meshes(programs, terrain);
-  draw_planes(programs, terrain, camera, lens, Planes::shadows_alone);
+  draw_planes(programs, terrain, camera, lens, Planes::shadows_alone, &targets);
 }
 
 void TerrainPainter::draw_solid_meshes(const RenderPrograms& programs,
@@ -115,7 +117,8 @@ bool TerrainPainter::add_changing(const std::vector<Terrain>& terrain, const Cam
 }
 
 void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
-                                 const CameraSettings& camera, const Camera& lens, Planes planes) const {
+                                 const CameraSettings& camera, const Camera& lens, Planes planes,
+                                 const PictureTargets* targets) const {
   const bool from_behind = planes == Planes::from_behind;
   for (const Terrain& t : terrain) {
     const TerrainShapeRow& row = terrain_row(t.shape);
@@ -132,26 +135,53 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
     // The square lies around what the camera looks at and reaches as far as it sees.
     const Vec3 middle = camera.target - above(camera.target) * flat.normal;
     const double reach = 14.0 * static_cast<double>(lens.target_distance());
-    for (const gl::Program* program : {&plain, &shadowed}) {
+    for (const gl::Program* program : {&plain, &shadowed, &programs.shade[0], &programs.shade[1]}) {
       program->set(LOCATION_PLANE_POINT, four(middle, reach));
       program->set(LOCATION_PLANE_NORMAL, four(flat.normal, 0.0));
-      if (cut) aspic::set_terrain(*program, t);
     }
+    for (const gl::Program* program : {&plain, &shadowed})
+      if (cut) aspic::set_terrain(*program, t);
     if (planes != Planes::shadows_alone) {
       glUseProgram(plain.id());
       square_.draw();
     }
     glDisable(GL_BLEND);
     if (planes == Planes::solid || from_behind) continue;
-    // Shadows cost several times the plain ground, and cover little of it.
-    glUseProgram(shadowed.id());
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(-2.0f, -64.0f);
-    square_.draw(LIGHTS);
-    glPolygonOffset(0.0f, 0.0f);
-    glDisable(GL_POLYGON_OFFSET_FILL);
+    draw_shadowed(programs, shadowed, *targets);
   }
   glBindVertexArray(0);
+}
+
+void TerrainPainter::draw_shadowed(const RenderPrograms& programs, const gl::Program& shadowed,
+                                   const PictureTargets& targets) const {
+  // Shadows cost several times the plain ground, and cover little of it.
+  targets.shade.framebuffer.bind();
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  for (int light = 0; light < LIGHTS; ++light) {
+    const gl::Program& shade = programs.shade[static_cast<std::size_t>(light)];
+    shade.set(LOCATION_LIGHT, light);
+    glUseProgram(shade.id());
+    square_.draw();
+  }
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+  targets.samples.framebuffer.bind();
+  targets.shade.colour.bind(UNIT_SHADE);
+  glUseProgram(shadowed.id());
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  for (int light = 0; light < LIGHTS; ++light) {
+    // Each a little behind the one before: what both squares hold is drawn once.
+    const auto nearer = static_cast<float>(LIGHTS - light);
+    glPolygonOffset(-nearer, -32.0f * nearer);
+    shadowed.set(LOCATION_LIGHT, light);
+    square_.draw();
+  }
+  glPolygonOffset(0.0f, 0.0f);
+  glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
 void TerrainPainter::draw_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
@@ -179,7 +209,7 @@ void TerrainPainter::draw_far_glass(const RenderPrograms& programs,
 void TerrainPainter::draw_before_bodies(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
                                         const CameraSettings& camera, const Camera& lens) const {
   draw_glass(programs, terrain, false);
-  draw_planes(programs, terrain, camera, lens, Planes::from_behind);
+  draw_planes(programs, terrain, camera, lens, Planes::from_behind, nullptr);
 }
 
 }  // namespace aspic

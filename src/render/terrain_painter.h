@@ -8,6 +8,7 @@
 #include "render/mesh.h"
 #include "render/moving_part.h"
 #include "render/programs.h"
+#include "render/targets.h"
 
 namespace aspic {
 
@@ -23,13 +24,14 @@ class TerrainPainter {
   /// memory.
   Status set_terrain(gl::Context& context, const std::vector<Terrain>& terrain);
 
-  /// Solid surfaces, and planes as seen from their free side; with the shadows that light maps hold, or
-  /// without.
+  /// Into the samples of `targets`, which are bound: solid surfaces, and planes as seen from their free side;
+  /// with the shadows that light maps hold, or without.
   void draw_solid(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
-                  const CameraSettings& camera, const Camera& lens, bool shadows) const;
+                  const CameraSettings& camera, const Camera& lens, bool shadows,
+                  const PictureTargets& targets) const;
   /// Over the same without shadows: all of it that may have some.
   void draw_shadows(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
-                    const CameraSettings& camera, const Camera& lens) const;
+                    const CameraSettings& camera, const Camera& lens, const PictureTargets& targets) const;
   /// Tells what of the terrain a state may change: surfaces, glass alone without `shadows`, and the planes
   /// that have shadows then. Whether that is all: planes seen from behind lie over everything.
   bool add_changing(const std::vector<Terrain>& terrain, const CameraSettings& camera, const Camera& lens,
@@ -44,7 +46,11 @@ class TerrainPainter {
   /// Which planes, and how.
   enum class Planes { solid, shadowed, shadows_alone, from_behind };
   void draw_planes(const RenderPrograms& programs, const std::vector<Terrain>& terrain,
-                   const CameraSettings& camera, const Camera& lens, Planes planes) const;
+                   const CameraSettings& camera, const Camera& lens, Planes planes,
+                   const PictureTargets* targets) const;
+  /// The squares of a plane that shadows fall on. `shadowed` is one of the two programs for it, prepared.
+  void draw_shadowed(const RenderPrograms& programs, const gl::Program& shadowed,
+                     const PictureTargets& targets) const;
   void draw_solid_meshes(const RenderPrograms& programs, const std::vector<Terrain>& terrain) const;
   void draw_glass(const RenderPrograms& programs, const std::vector<Terrain>& terrain, bool far_side) const;
   /// The bounded surfaces of solid terrain, or of glass.

@@ -313,8 +313,9 @@ std::string svg_of(const Chart& chart, const std::string& id, bool alone) {
   double height = static_cast<double>(rows) * cell_height;
   std::string body;
   for (std::size_t i = 0; i < chart.panels.size(); ++i) {
-    const double x = static_cast<double>(i % columns) * cell_width + left,
-                 y = static_cast<double>(i / columns) * cell_height + top;
+    const std::size_t column = i % columns, row = i / columns;
+    const double x = static_cast<double>(column) * cell_width + left,
+                 y = static_cast<double>(row) * cell_height + top;
     body += fmt::format("<g transform=\"translate({} {})\">{}</g>", px(x), px(y),
                         PanelDrawing(chart.panels[i], chart, fmt::format("{}-{}", id, i)).draw());
   }

@@ -150,7 +150,7 @@ Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown&
   const ShortKey& key = *find_short_key(row.key);
   const bool step_varied = key.name == "h";
   const auto present = present_value(study.scene, key);
-  if (!present && !key.targets(study.scene).size()) return std::optional<Figure>();
+  if (!present && key.targets(study.scene).empty()) return std::optional<Figure>();
   ASPIC_TRY(const auto own, build_model(study.scene.model));
   const StabilityLimit limit = stability_limit(own, own.simulation.integrator, StabilityEffort::quick);
   const double stable = limit.step && std::isfinite(*limit.step) ? *limit.step : own.simulation.timestep;

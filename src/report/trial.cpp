@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 
 namespace aspic::report {
@@ -55,9 +56,9 @@ Result<TrialResult> run_trial(const Model& model, const TrialOptions& options) {
     if (options.stop && options.stop()) return Error{ErrorCode::interrupted, "interrupted."};
     std::uint64_t next = std::min(*steps, step + stride);
     if (result.pictures.size() < options.picture_times.size()) {
-      const double wanted = options.picture_times[result.pictures.size()] / h;
-      if (wanted + 0.5 > static_cast<double>(step + 1))
-        next = std::min(next, static_cast<std::uint64_t>(wanted + 0.5));
+      const auto wanted =
+          static_cast<std::uint64_t>(std::llround(options.picture_times[result.pictures.size()] / h));
+      if (wanted > step) next = std::min(next, wanted);
     }
     const auto before = std::chrono::steady_clock::now();
     const double thread_before = thread_time();

@@ -1,6 +1,8 @@
 #include "run/arrows.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "analysis/particle_contact.h"
 #include "analysis/particle_force.h"
@@ -11,6 +13,8 @@ namespace {
 constexpr std::uint32_t most_along = 12, most_of_body = 1000;
 /// Length of the longest arrow, in distances between those that are drawn.
 constexpr double longest = 3.0;
+/// Relative error of positions and velocities in single precision after many steps.
+constexpr double rounding = 64.0 * std::numeric_limits<float>::epsilon();
 
 /// Which particles of a body have arrows.
 class Thinning {
@@ -37,6 +41,22 @@ class Thinning {
   std::uint32_t first_, edge_, stride_;
 };
 
+double largest(const std::vector<Vec3>& vectors) {
+  double most = 0.0;
+  for (const Vec3& v : vectors) most = std::max({most, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return most;
+}
+
+/// What errors of positions and velocities mean for the stiffest springs [N].
+double noise_of(const Model& model, const State& state) {
+  double stiffness = 0.0, damping = 0.0;
+  for (const SpringClass& c : model.spring_classes) {
+    stiffness = std::max(stiffness, c.stiffness);
+    damping = std::max(damping, c.damping);
+  }
+  return rounding * (stiffness * largest(state.position) + damping * largest(state.velocity));
+}
+
 }  // namespace
 
 ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& wanted,
@@ -51,6 +71,7 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (model.bodies[b].lattice_edge > 0) stride = std::max(stride, bodies[b].stride());
   set.room = longest * (spacing > 0.0 ? spacing : 1.0) * stride;
+  set.noise = noise_of(model, state);
   const SpringFinder springs(model);
   const auto add = [&](bool shown, std::uint32_t particle, const Vec3& value, ArrowKind kind) {
     if (shown) set.arrows.push_back({state.position[particle], value, kind});

@@ -1,28 +1,12 @@
 #include "run/beside_recorder.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include "render/camera.h"
 #include "run/arrows.h"
 
 namespace aspic {
-namespace {
-
-/// Ends of the colour scale that suit all runs with the same colour: only so can colours be compared.
-QuantityRange common_range(const std::vector<PicturedRun>& runs, ViewColour colour) {
-  QuantityRange range = default_range(runs.front().backend->solver->model(), colour);
-  for (const PicturedRun& run : runs) {
-    if (run.scene->view.colour != colour) continue;
-    const QuantityRange own = default_range(run.backend->solver->model(), colour);
-    range = {std::min(range[0], own[0]), std::max(range[1], own[1])};
-  }
-  return range;
-}
-
-}  // namespace
 
 Result<std::unique_ptr<BesideRecorder>> BesideRecorder::create(
     gl::Context& context, const PictureOutput& output, std::vector<PicturedRun> runs,
@@ -37,10 +21,11 @@ Result<std::unique_ptr<BesideRecorder>> BesideRecorder::create(
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Part part;
     part.tile = tiles[i];
-    part.range = common_range(runs, runs[i].scene->view.colour);
     part.run = runs[i];
     ASPIC_TRY(part.renderer, Renderer::create(context, look));
-    ASPIC_CHECK(part.renderer->set_model(part.run.backend->solver->model()));
+    const Solver& solver = *part.run.backend->solver;
+    ASPIC_CHECK(part.renderer->set_model(solver.model()));
+    part.following = Following(*part.run.scene, solver.model(), solver.precision());
     r->parts_.push_back(std::move(part));
   }
   ASPIC_TRY(r->picture_,
@@ -65,47 +50,64 @@ Status BesideRecorder::add(const std::vector<std::uint64_t>& steps,
   // Nothing but an error completes the film before its end.
   if (recording_->completed()) return recording_->result();
   const auto before = std::chrono::steady_clock::now();
-  for (std::size_t i = 0; i < parts_.size(); ++i) ASPIC_CHECK(draw(parts_[i], steps[i], divergences[i]));
+  for (std::size_t i = 0; i < parts_.size(); ++i) ASPIC_CHECK(take_state(parts_[i], steps[i]));
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    ASPIC_CHECK(draw(parts_[i], common_range(parts_[i]), divergences[i]));
   draw_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   return recording_->add(picture_.framebuffer, 1);
 }
 
-Status BesideRecorder::draw(Part& part, std::uint64_t step, const std::optional<Divergence>& divergence) {
-  if (part.drawn_step == step && part.drawn_diverged == divergence.has_value()) return {};
+/// The state of a part's run, and the range of colours that it would have alone.
+Status BesideRecorder::take_state(Part& part, std::uint64_t step) {
+  if (part.step == step) return {};
+  const ViewSettings& view = part.run.scene->view;
   const Backend& backend = *part.run.backend;
-  DeviceState state;
-  if (backend.gpu) {
-    state = backend.gpu->device_state();
-  } else {
-    ASPIC_TRY(const auto copy, backend.solver->state());
-    ASPIC_TRY(state, part.renderer->upload(copy));
+  if (!backend.gpu || part.following.any() || view.arrows.any()) {
+    ASPIC_TRY(part.copy, backend.solver->state());
   }
-  const double timestep = backend.solver->model().simulation.timestep;
+  if (backend.gpu) {
+    part.state = backend.gpu->device_state();
+  } else {
+    ASPIC_TRY(part.state, part.renderer->upload(part.copy));
+  }
+  ASPIC_TRY(part.own_range, part.renderer->range_of(part.state, view));
+  part.step = step;
+  part.drawn_range.reset();
+  return {};
+}
+
+/// The widest range of all that share a part's scale: only so can colours be compared.
+QuantityRange BesideRecorder::common_range(const Part& part) const {
+  QuantityRange range = part.own_range;
+  for (const Part& other : parts_)
+    if (share_scale(part.run.scene->view, other.run.scene->view)) range = widest(range, other.own_range);
+  return range;
+}
+
+Status BesideRecorder::draw(Part& part, const QuantityRange& range,
+                            const std::optional<Divergence>& divergence) {
+  if (part.drawn_range == range && part.drawn_diverged == divergence.has_value()) return {};
+  const Model& model = part.run.backend->solver->model();
+  const double timestep = model.simulation.timestep;
   PictureOptions options;
   options.view = part.run.scene->view;
-  options.view.camera = fitted(options.view.camera, part.tile.width, part.tile.height);
-  ScaleSettings& scale = options.view.scale;
-  if (has_scale(options.view.colour) && scale.range == ScaleRange::fixed) {
-    scale.from = scale.from.value_or(part.range[0]);
-    scale.to = scale.to.value_or(part.range[1]);
-  }
+  options.view.camera = fitted(moved(options.view.camera, part.following.offset(model, part.copy)),
+                               part.tile.width, part.tile.height);
+  options.range = range;
   // One legend for all that share a scale.
   const ViewSettings& last = parts_.back().run.scene->view;
-  const bool own_scale = follows_picture(options.view) || part.run.scene->view.scale != last.scale ||
-                         options.view.colour != last.colour ||
+  const bool own_scale = options.view.scale != last.scale || options.view.colour != last.colour ||
                          (options.view.arrows.any() && !options.view.arrow_scale);
   options.legend = output_.text && (own_scale || &part == &parts_.back());
-  if (options.view.arrows.any()) {
-    ASPIC_TRY(const auto copy, backend.solver->state());
-    options.arrows = arrows_of(backend.solver->model(), copy, options.view.arrows);
-  }
+  if (options.view.arrows.any()) options.arrows = arrows_of(model, part.copy, options.view.arrows);
   options.text_height = beside_text_height(output_.size.height, parts_.size());
   if (output_.text)
-    options.text = beside_text(part.run.label, static_cast<double>(step) * timestep, timestep, divergence);
-  ASPIC_CHECK(part.renderer->draw(part.tile.width, part.tile.height, state, options));
+    options.text =
+        beside_text(part.run.label, static_cast<double>(*part.step) * timestep, timestep, divergence);
+  ASPIC_CHECK(part.renderer->draw(part.tile.width, part.tile.height, part.state, options));
   picture_.framebuffer.place(part.renderer->picture(), part.tile.left,
                              output_.size.height - part.tile.top - part.tile.height);
-  part.drawn_step = step;
+  part.drawn_range = range;
   part.drawn_diverged = divergence.has_value();
   return {};
 }

@@ -15,6 +15,7 @@
 #include "run/beside.h"
 #include "run/recording.h"
 #include "run/run_files.h"
+#include "scene/follow.h"
 #include "scene/scene.h"
 
 namespace aspic {
@@ -55,12 +56,18 @@ class BesideRecorder {
     PicturedRun run;
     Tile tile;
     std::unique_ptr<Renderer> renderer;
-    QuantityRange range = {};
-    std::optional<std::uint64_t> drawn_step = {};
+    Following following = {};
+    std::optional<std::uint64_t> step = {};  // of what follows
+    State copy = {};                         // where it is needed
+    DeviceState state = {};
+    QuantityRange own_range = {};
+    std::optional<QuantityRange> drawn_range = {};
     bool drawn_diverged = false;
   };
   BesideRecorder() = default;
-  Status draw(Part& part, std::uint64_t step, const std::optional<Divergence>& divergence);
+  Status take_state(Part& part, std::uint64_t step);
+  QuantityRange common_range(const Part& part) const;
+  Status draw(Part& part, const QuantityRange& range, const std::optional<Divergence>& divergence);
 
   gl::Context* context_ = nullptr;
   PictureOutput output_;

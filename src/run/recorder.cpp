@@ -51,6 +51,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
   look.shaders = gl::ShaderLibrary(directory);
   ASPIC_TRY(r->renderer_, Renderer::create(*r->context_, look));
   ASPIC_CHECK(r->renderer_->set_model(model));
+  r->following_ = Following(scene, model, backend.solver->precision());
   FilmOptions film = {sinks.front()->path(), fps, output.size};
   ASPIC_TRY(r->recording_, Recording::start(*r->context_, std::move(sinks), std::move(film)));
   return r;
@@ -83,21 +84,23 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   // Nothing but an error completes the film before its end.
   if (recording_->completed()) return recording_->result();
   const auto before = std::chrono::steady_clock::now();
+  const bool on_device = backend_.gpu && !own_context_;
+  State state;
+  if (!on_device || following_.any() || scene_.view.arrows.any()) {
+    ASPIC_TRY(state, solver.state());
+  }
   DeviceState drawn_state;
-  if (backend_.gpu && !own_context_) {
+  if (on_device) {
     drawn_state = backend_.gpu->device_state();
   } else {
-    ASPIC_TRY(const auto state, solver.state());
     ASPIC_TRY(drawn_state, renderer_->upload(state));
   }
   PictureOptions picture;
   picture.view = scene_.view;
-  picture.view.camera = fitted(scene_.view.camera, output_.size.width, output_.size.height);
+  picture.view.camera = fitted(moved(scene_.view.camera, following_.offset(solver.model(), state)),
+                               output_.size.width, output_.size.height);
   picture.legend = output_.text;
-  if (picture.view.arrows.any()) {
-    ASPIC_TRY(const auto state, solver.state());
-    picture.arrows = arrows_of(solver.model(), state, picture.view.arrows);
-  }
+  if (picture.view.arrows.any()) picture.arrows = arrows_of(solver.model(), state, picture.view.arrows);
   if (output_.text)
     picture.text =
         overlay_lines(scene_.model, static_cast<double>(step) * solver.model().simulation.timestep);

@@ -11,6 +11,7 @@
 #include "run/backends.h"
 #include "run/recording.h"
 #include "run/run_files.h"
+#include "scene/follow.h"
 #include "scene/scene.h"
 
 namespace aspic {
@@ -52,6 +53,7 @@ class Recorder {
   const Scene& scene_;
   const Backend& backend_;
   FrameSchedule schedule_;
+  Following following_;
   std::uint64_t next_frame_ = 0, last_shown_ = 0;
   double simulate_seconds_ = 0.0, draw_seconds_ = 0.0;
   std::unique_ptr<gl::Context> own_context_;

@@ -60,11 +60,12 @@ class Argument {
   bool parse_key(std::string_view key) {
     while (!key.empty() && key.back() == ' ') key.remove_suffix(1);
     std::size_t start = 0;
+    std::uint32_t column = 1;
     while (start <= key.size()) {
       const std::size_t end = std::min(key.find('.', start), key.size());
       const std::string_view part = key.substr(start, end - start);
       Segment segment;
-      segment.column = characters(key.substr(0, start)) + 1;
+      segment.column = column;
       segment.name = part.substr(0, part.find('['));
       if (const std::size_t bracket = part.find('['); bracket != std::string_view::npos) {
         const std::string_view digits = part.substr(bracket + 1);
@@ -84,6 +85,7 @@ class Argument {
       }
       segments_.push_back(segment);
       start = end + 1;
+      column += characters(part) + 1;
     }
     return true;
   }

@@ -154,6 +154,9 @@ Rows view_rows() {
           "view.camera.projection", FIELD(view.camera.projection),
           "Perspective, or orthographic: parallel, as high as the field of view is at the target."),
       draw,
+      absent("the camera stays where it is", row("view.follow", FIELD(view.follow),
+                                                 "Body or ball that the camera moves along with from its "
+                                                 "start, such as \"cube[0]\" or \"ball[2]\".")),
       word<view_colours>("view.colour", FIELD(view.colour), "What the colours of bodies mean."),
       word<cut_insides>("view.cut.inside", FIELD(view.cut.inside),
                         "What a cut shows of the bodies' inside: a filled section in their colours, or the "

@@ -67,7 +67,7 @@ struct Parameter {
 
   /// The table it stands in, `cube[]`, empty at the top of the file, and its key there, `shear.stiffness`.
   std::string_view section() const {
-    return path.substr(0, path.find('.') == path.npos ? 0 : path.find('.'));
+    return path.substr(0, path.find('.') == std::string_view::npos ? 0 : path.find('.'));
   }
   std::string_view key() const { return path.substr(path.find('.') + 1); }
   /// The value in a scene; `index` picks the element of its list (0 for other keys) and must exist. Absent

@@ -113,7 +113,8 @@ struct ViewSettings {
   ArrowSettings arrows;
   std::optional<double> arrow_scale = {};  ///< an arrow's force by its length [N/m]; absent: fits the picture
   ScaleSettings scale;
-  std::optional<double> ground;  ///< height of a ground that is drawn only [m]; absent: none
+  std::optional<double> ground;       ///< height of a ground that is drawn only [m]; absent: none
+  std::optional<std::string> follow;  ///< body or ball that the camera moves along with (scene/follow.h)
 
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };

@@ -7,6 +7,7 @@
 #include "base/printable.h"
 #include "model/bodies.h"
 #include "scene/diagnostics.h"
+#include "scene/follow.h"
 
 namespace aspic {
 namespace {
@@ -96,6 +97,16 @@ void check_camera(const Scene& scene, Complaints& complaints) {
                         "view.camera.position"});
 }
 
+void check_followed(const Scene& scene, Complaints& complaints) {
+  if (!scene.view.follow || find_followed(scene.model, *scene.view.follow)) return;
+  std::vector<std::string> names = followable(scene.model, 0);
+  if (const std::uint64_t balls = predict_counts(scene.model).balls; balls > 0)
+    names.push_back(balls == 1 ? "ball[0]" : fmt::format("ball[0] … ball[{}]", balls - 1));
+  complaints.push_back({{fmt::format("'view.follow' names {}, which the scene does not have; it has {}",
+                                     excerpt(*scene.view.follow, 40), fmt::join(names, ", "))},
+                        "view.follow"});
+}
+
 /// The key that decides the size of the scene's largest body.
 std::string largest_body(const Scene& scene) {
   std::string path;
@@ -155,6 +166,7 @@ std::vector<SceneComplaint> check_scene(const Scene& scene, std::optional<std::u
   // These compute with the numbers.
   check_boxes(scene, complaints);
   check_camera(scene, complaints);
+  check_followed(scene, complaints);
   check_size(scene, memory_bytes, complaints);
   return complaints;
 }

@@ -36,10 +36,10 @@ ModelSettings cube_on_terrain(int particles_per_edge, TerrainShape shape, Integr
   return settings;
 }
 
-Model loose_particles(std::vector<Vec3> positions, std::vector<Vec3> velocities, double mass) {
+Model loose_particles(std::vector<Vec3> positions, const std::vector<Vec3>& velocities, double mass) {
   Model model;
   model.initial_position = std::move(positions);
-  model.initial_velocity = std::move(velocities);
+  model.initial_velocity = velocities;
   model.mass.assign(model.initial_position.size(), mass);
   model.inverse_mass.assign(model.initial_position.size(), 1.0 / mass);
   return model;

@@ -25,7 +25,7 @@ ModelSettings cube_on_terrain(int particles_per_edge, TerrainShape shape, Integr
                               ContactModel contact);
 
 /// Loose particles of mass m without springs; gravity stays the default.
-Model loose_particles(std::vector<Vec3> positions, std::vector<Vec3> velocities, double mass = 1.0);
+Model loose_particles(std::vector<Vec3> positions, const std::vector<Vec3>& velocities, double mass = 1.0);
 
 /// Numbers in [−1, 1), the same on every machine.
 class Noise {

@@ -33,15 +33,15 @@ Model model_of(const CubeSettings& cube) {
 /// Spectral radius of the step matrix of an integrator for the whole linearised model, its stages applied to
 /// dense K and C.
 double spectral_radius(const Model& model, Integrator integrator, double h) {
-  const auto dof = static_cast<Eigen::Index>(3 * model.particle_count());
+  const auto dof = 3 * static_cast<Eigen::Index>(model.particle_count());
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(dof, dof), c = k;
   for (const Spring& spring : springs_of(model)) {
     const SpringClass& s = model.spring_classes[spring.spring_class];
     const Vec3 e = model.initial_position[spring.a] - model.initial_position[spring.b];
     const Eigen::Vector3d n = Eigen::Vector3d(e.x, e.y, e.z).normalized();
     Eigen::VectorXd g = Eigen::VectorXd::Zero(dof);
-    g.segment<3>(3 * spring.a) = n;
-    g.segment<3>(3 * spring.b) = -n;
+    g.segment<3>(3 * Eigen::Index{spring.a}) = n;
+    g.segment<3>(3 * Eigen::Index{spring.b}) = -n;
     k += s.stiffness * g * g.transpose();
     c += s.damping * g * g.transpose();
   }

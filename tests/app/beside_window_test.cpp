@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/stage.h"
+#include "scene/follow.h"
 #include "support/projection.h"
 
 namespace aspic::test {
@@ -104,6 +105,44 @@ TEST_F(Beside, EachRunHasTheBitsOfTheRunAloneAtTheSameTime) {
   EXPECT_NEAR(run(1).time(), run(0).time(), 0.5 * 0.0013 * (1.0 + 1e-9));
 }
 
+TEST_F(Beside, EachPictureFollowsItsOwnRunsBody) {
+  open("cube-plane", {small, "view.follow=cube"});
+  compare({"simulation.gravity", "[0,-3,0]"});
+  run_to(300);
+  frames(1);
+  const auto moved = [&](std::size_t i) {
+    const auto place = [&](const State& state) { return place_of(run(i).model(), state, {false, 0}); };
+    return place(run(i).snapshot()) - place(initial_state(run(i).model(), Precision::single));
+  };
+  EXPECT_LT(moved(0).y, 2.0 * moved(1).y) << "both fall, the first three times as far";
+  EXPECT_EQ(app().view.offset(), moved(0));
+  ASSERT_EQ(app().view.others.size(), 1u);
+  EXPECT_EQ(app().view.others[0].offset, moved(1));
+  // What the middles of both pictures show lies as far apart.
+  const auto& boxes = beside().boxes();
+  const Vec3 first = app().view.sight(boxes[0].centre_x(), boxes[0].centre_y()).origin;
+  const Vec3 second = app().view.sight(boxes[1].centre_x(), boxes[1].centre_y()).origin;
+  EXPECT_NEAR(second.y - first.y, moved(1).y - moved(0).y, 1e-4) << "matrices are of single precision";
+}
+
+TEST_F(Beside, ColoursHaveOneRangeInAllPictures) {
+  open("cube-plane", {small, low, "view.colour=strain", "view.scale.range=automatic"}, "reference");
+  compare({"k", "9000"});
+  run_to(250);
+  frames(3);
+  const QuantityRange own = app().picture.own_range(), shown = app().picture.range();
+  ASSERT_TRUE(app().picture.common_range.has_value());
+  EXPECT_EQ(shown, *app().picture.common_range);
+  EXPECT_EQ(beside().picture(1).range(), shown);
+  const QuantityRange other = beside().picture(1).own_range();
+  EXPECT_NE(own, other) << "else there is nothing to share";
+  EXPECT_EQ(shown, widest(own, other));
+  beside().leave();
+  frames(3);
+  EXPECT_FALSE(app().picture.common_range.has_value());
+  EXPECT_EQ(app().picture.range(), app().picture.own_range());
+}
+
 TEST_F(Beside, TimeTravelTakesAllRunsAlong) {
   open("cube-plane", {small, low});
   compare({"integrator", "midpoint"});
@@ -149,7 +188,7 @@ TEST_F(Beside, HandsAndValuesActOnAllRunsAlike) {
   app().hands.toggle_pin(0);
   run_to(simulation().step() + 30);
   EXPECT_EQ(hash(0), hash(1)) << "a pin";
-  app().hands.throw_ball(app().view.width() / 2, app().view.height() / 2);
+  app().hands.throw_ball(app().view.sight(middle_x(), middle_y()));
   run_to(simulation().step() + 60);
   EXPECT_EQ(run(1).model().ball_count(), 1u);
   EXPECT_EQ(hash(0), hash(1)) << "a ball";

@@ -16,6 +16,7 @@
 #include "app/close_window.h"
 #include "app/stage.h"
 #include "io/atomic_file.h"
+#include "support/environment.h"
 
 namespace aspic::test {
 namespace {
@@ -303,7 +304,7 @@ TEST_F(Events, ASignalWhileAFilmRunsLeavesItWhole) {
 
 TEST_F(Events, AnEncoderThatFailsLeavesTheWindowAtWork) {
   keep(one_picture_a_step(find_film_format("mp4")));
-  const std::string path = std::getenv("PATH");
+  const std::string path = test::variable("PATH");
   fs::create_directory(directory() / "bin");
   std::ofstream(directory() / "bin" / "ffmpeg")
       << "#!/bin/sh\nhead -c 1000 >/dev/null\necho no space >&2\nexit 1\n";

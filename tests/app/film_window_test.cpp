@@ -10,6 +10,7 @@
 
 #include "app/stage.h"
 #include "io/atomic_file.h"
+#include "support/environment.h"
 
 namespace aspic::test {
 namespace {
@@ -32,7 +33,7 @@ std::string output_of(const std::string& command) {
 /// PATH as a test wants it, for as long as it lives.
 class OtherPath {
  public:
-  explicit OtherPath(const std::string& path) : before_(std::getenv("PATH")) {
+  explicit OtherPath(const std::string& path) : before_(test::variable("PATH")) {
     ::setenv("PATH", path.c_str(), 1);
   }
   ~OtherPath() { ::setenv("PATH", before_.c_str(), 1); }
@@ -88,7 +89,7 @@ class Film : public Stage {
     fs::create_directory(bin);
     std::ofstream(bin / "ffmpeg") << "#!/bin/sh\nfor last; do :; done\nout=${last#file:}\n" << script;
     fs::permissions(bin / "ffmpeg", fs::perms::owner_all);
-    return bin.string() + ":" + std::getenv("PATH");
+    return bin.string() + ":" + test::variable("PATH");
   }
 };
 

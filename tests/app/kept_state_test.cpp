@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "support/environment.h"
 #include "support/temporary_directory.h"
 
 namespace aspic::app {
@@ -117,7 +118,7 @@ class KeptFile : public testing::Test {
 TEST_F(KeptFile, StandsWhereTheBaseDirectorySpecificationSays) {
   EXPECT_EQ(kept_state_path(), (directory_.path() / "aspic" / "window.json").string());
   ::setenv("XDG_STATE_HOME", "relative/paths/do/not/count", 1);
-  const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
+  const std::string home = test::variable("HOME");
   ::setenv("HOME", "/home/somebody", 1);
   EXPECT_EQ(kept_state_path(), "/home/somebody/.local/state/aspic/window.json");
   ::unsetenv("HOME");

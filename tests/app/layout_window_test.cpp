@@ -158,12 +158,16 @@ TEST_F(Layout, ComesBackAsItWasLeftHoweverItIsChosen) {
   open("cube-plane", {}, "reference");
   click("section/Contact");
   app().layout.right_width = 400.0;
-  const app::Layout standard = app().layout;
+  const auto shown = [&]() -> app::Layout {
+    const app::Layout& now = app().layout;
+    return now;
+  };
+  const app::Layout standard = shown();
   std::map<std::string, app::Layout> seen;
   for (const app::LayoutRow& row : app::layouts()) {
     EXPECT_EQ(app().layout.row().name, row.name);
     frames(2);
-    seen[std::string(row.name)] = app().layout;
+    seen[std::string(row.name)] = shown();
     for (const std::string_view section : row.open)
       EXPECT_EQ(has(fmt::format("section/{}", section)), app().layout.panels)
           << section << " of " << row.name;

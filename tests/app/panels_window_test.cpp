@@ -95,6 +95,59 @@ TEST_F(Panels, ADragOfANumberIsOneChangeForUndo) {
   EXPECT_FALSE(app().scene.editor().can_undo());
 }
 
+TEST_F(Panels, NumbersAreTypedAsArithmetic) {
+  open("cube-plane", {}, "reference", only("Simulation"));
+  // With Ctrl into a number that is dragged; one that stands there as text needs none.
+  const auto enter = [&](const std::string& widget, double share, const std::string& text, bool control) {
+    bring_into_sight(widget);
+    frames(2, 0.4);  // so that two presses are no double click
+    const Box box = widgets().at(widget);
+    if (control) app().key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS, 0);
+    app().cursor(box.left + share * (box.right - box.left), box.centre_y());
+    frames(1);
+    app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, control ? GLFW_MOD_CONTROL : 0);
+    frames(1);
+    app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, control ? GLFW_MOD_CONTROL : 0);
+    frames(1);
+    if (control) app().key(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE, GLFW_MOD_CONTROL);
+    frames(1);
+    for (const char c : text) app().character(static_cast<unsigned char>(c));
+    frames(3);
+    press(GLFW_KEY_ENTER);
+    frames(3);
+  };
+  enter("simulation.timestep", 0.5, "1/(2*600)", true);
+  EXPECT_EQ(settings().simulation.timestep, 1.0 / 1200.0);
+  enter("simulation.gravity", 0.5, "-2*9.8", true);
+  EXPECT_EQ(settings().simulation.gravity, (Vec3{0.0, -2 * 9.8, 0.0}));
+  enter("cube[0].particles-per-edge", 0.2, "2*(3+1)", false);
+  EXPECT_EQ(settings().cubes[0].particles_per_edge, 8);
+  EXPECT_FALSE(app().messages.notice() && app().messages.notice()->is_error);
+  enter("simulation.timestep", 0.5, "1/(2*600", true);
+  EXPECT_EQ(settings().simulation.timestep, 1.0 / 1200.0) << "unchanged";
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_THAT(app().messages.notice()->text,
+              testing::HasSubstr("closing parenthesis is missing.\n1/(2*600\n        ^"));
+  // So does a number that is not allowed, whether it is dragged, slid along or always text.
+  const auto refused = [&](const std::string& widget, const std::string& text, bool control,
+                           const std::string& why) {
+    app().messages.dismiss();
+    enter(widget, 0.2, text, control);
+    ASSERT_TRUE(app().messages.notice() && app().messages.notice()->is_error) << widget;
+    EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(why));
+  };
+  refused("simulation.timestep", "0", true, "out of range: 0; allowed: a number > 0 and ≤ 1 s");
+  EXPECT_EQ(settings().simulation.timestep, 1.0 / 1200.0);
+  refused("simulation.gravity", "1e9", true, "'simulation.gravity' is out of range");
+  EXPECT_EQ(settings().simulation.gravity, (Vec3{0.0, -2 * 9.8, 0.0}));
+  refused("cube[0].particles-per-edge", "1", false, "'cube.particles-per-edge' is out of range: 1;");
+  EXPECT_EQ(settings().cubes[0].particles_per_edge, 8);
+  refused("simulation/speed", "0", true, "0 is out of range; allowed: ");
+  app().messages.dismiss();
+  enter("simulation.timestep", 0.5, "", true);
+  EXPECT_EQ(settings().simulation.timestep, 1.0 / 1200.0) << "a number that nobody touched keeps its digits";
+}
+
 TEST_F(Panels, LengthsAndAnglesAreDraggedAtAFixedSpeed) {
   open("cube-plane", {}, "reference", only("Simulation"));
   // What a drag of 50 units changes, from where the value is; ImGui takes the first of them to know a drag.

@@ -26,20 +26,18 @@ class Picture : public Stage {
     const app::Box& box = app().view.box;
     Image view{static_cast<int>(box.right - box.left), static_cast<int>(box.bottom - box.top), {}};
     for (int y = 0; y < view.height; ++y) {
-      const auto row = window.rgb.begin() +
-                       3 * (static_cast<int>(box.left) + (static_cast<int>(box.top) + y) * window.width);
-      view.rgb.insert(view.rgb.end(), row, row + 3 * view.width);
+      const std::ptrdiff_t first =
+          static_cast<int>(box.left) + (static_cast<int>(box.top) + y) * window.width;
+      const auto row = window.rgb.begin() + 3 * first;
+      view.rgb.insert(view.rgb.end(), row, row + std::ptrdiff_t{3} * view.width);
     }
     return view;
   }
   Image saved(const std::string& name) {
-    const auto content = read_file((directory() / name).string());
-    EXPECT_TRUE(content.ok());
     Image image;
     int channels = 0;
     unsigned char* const rgb =
-        stbi_load_from_memory(reinterpret_cast<const unsigned char*>(content->data()),
-                              static_cast<int>(content->size()), &image.width, &image.height, &channels, 3);
+        stbi_load((directory() / name).c_str(), &image.width, &image.height, &channels, 3);
     EXPECT_TRUE(rgb);
     for (int i = 0; rgb && i < 3 * image.width * image.height; ++i)
       image.rgb.push_back(static_cast<std::byte>(rgb[i]));
@@ -132,18 +130,15 @@ TEST_F(Picture, SavedPicturesHaveTheSizeAndBackgroundThatWereChosen) {
   app().picture.saved = {1, true};
   press(GLFW_KEY_F12);
   frames(1);
-  const auto content = read_file((directory() / "aspic-cube-plane-0001.png").string());
-  ASSERT_TRUE(content.ok());
   int width = 0, height = 0, channels = 0;
   unsigned char* const rgba =
-      stbi_load_from_memory(reinterpret_cast<const unsigned char*>(content->data()),
-                            static_cast<int>(content->size()), &width, &height, &channels, 4);
+      stbi_load((directory() / "aspic-cube-plane-0001.png").c_str(), &width, &height, &channels, 4);
   ASSERT_TRUE(rgba);
   EXPECT_EQ(width, 2 * view_width());
   EXPECT_EQ(channels, 4);
   int clear = 0, covered = 0, red = 0;
   for (int i = 0; i < width * height; ++i) {
-    const unsigned char* const p = rgba + 4 * i;
+    const unsigned char* const p = rgba + std::ptrdiff_t{4} * i;
     clear += p[3] == 0 ? 1 : 0;
     covered += p[3] > 200 ? 1 : 0;
     red += p[3] > 200 && p[0] > p[2] ? 1 : 0;
@@ -208,6 +203,36 @@ TEST_F(SmallPicture, TheReadoutOfAParticleIsInTheView) {
   EXPECT_LE(readout.right, view.right);
   EXPECT_LE(readout.bottom, view.bottom);
   EXPECT_GE(readout.top, view.top);
+}
+
+TEST_F(SmallPicture, AxesGiveWayToTheReadout) {
+  open("goal-net", {"view.axes=true", "view.colour=speed"}, "reference");
+  for (const auto& [width, height] : {std::pair(800, 600), std::pair(600, 420), std::pair(420, 320)}) {
+    resize(width, height);
+    frames(2);
+    const app::Box view = app().view.box;
+    app().cursor(view.left - 1.0, view.top - 1.0);
+    frames(3);
+    for (double x = view.left + 10.0; x < view.right && !app().pointer.hovered(); x += 12.0) {
+      for (double y = view.centre_y(); y < view.bottom && !app().pointer.hovered(); y += 25.0) {
+        app().cursor(x, y);
+        frames(3);
+      }
+    }
+    ASSERT_TRUE(app().pointer.hovered()) << width;
+    frames(2);
+    if (width == 800) {
+      EXPECT_TRUE(has("axes")) << "here there is room";
+    }
+    if (!has("axes")) continue;
+    const app::Box axes = widgets().at("axes");
+    for (const char* name : {"particle", "legend"}) {
+      const app::Box box = widgets().at(name);
+      EXPECT_TRUE(axes.right <= box.left || box.right <= axes.left || axes.bottom <= box.top ||
+                  box.bottom <= axes.top)
+          << name << " at " << width;
+    }
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "app/stage.h"
 #include "model/terrain.h"
 #include "render/camera.h"
+#include "scene/follow.h"
 #include "support/projection.h"
 
 namespace aspic::test {
@@ -136,6 +137,63 @@ TEST_P(PointerOn, ReadsAndPullsABallAndTheRunComesBack) {
   app().run.go_to(end);
   ASSERT_TRUE(simulation().settle().ok());
   EXPECT_EQ(state_hash_text(simulation().snapshot()), last) << "the same hand did the same";
+}
+
+TEST_P(PointerOn, TheCameraFollowsWhatIsUnderTheMouse) {
+  open("cube-tilted-plane", {"cube[0].position=[0,3,0]"}, GetParam());
+  const auto centre = [&] { return place_of(simulation().model(), simulation().snapshot(), {false, 0}); };
+  const Vec3 start = centre();
+  const test::Projected before = place(start);
+  point_at(start);
+  ASSERT_TRUE(app().pointer.hovered().has_value());
+  press(GLFW_KEY_C);
+  EXPECT_EQ(app().scene.scene().view.follow, "cube[0]");
+  frames(1);  // from this picture on
+  app().cursor(5.0, 300.0);
+  press(GLFW_KEY_SPACE);
+  frames_to_step(250);
+  press(GLFW_KEY_SPACE);
+  ASSERT_TRUE(simulation().settle().ok());
+  frames(2);
+  EXPECT_GT(length(centre() - start), 0.2);
+  // Camera matrices are of single precision.
+  const test::Projected after = place(centre());
+  EXPECT_NEAR(after.x, before.x, 0.1);
+  EXPECT_NEAR(after.y, before.y, 0.1);
+  press(GLFW_KEY_C);
+  frames(2);
+  EXPECT_FALSE(app().scene.scene().view.follow.has_value());
+  const test::Projected left = place(centre());
+  EXPECT_NEAR(left.x, after.x, 0.1) << "the picture stays where it is";
+  EXPECT_NEAR(left.y, after.y, 0.1);
+  for (int i = 0; i < 2; ++i) press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  frames(1);
+  EXPECT_FALSE(app().scene.editor().changed());
+}
+
+TEST_F(Pointer, FollowingEndsWithWhatIsFollowed) {
+  open("cube-plane", {"view.follow=cube"}, "reference");
+  const auto& follow = [&]() -> const auto& {
+    return app().scene.scene().view.follow;
+  };
+  app().scene.change("another", [](Scene& s) {
+    s.model.cubes.push_back(s.model.cubes[0]);
+    s.model.cubes[1].position.x += 4.0;
+    s.view.follow = "cube[1]";
+  });
+  frames(2);
+  app().scene.change("one less", [](Scene& s) { s.model.cubes.pop_back(); });
+  EXPECT_FALSE(follow().has_value());
+  frames_until([&] { return !simulation().changing() && simulation().model().bodies.size() == 1; });
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_NE(app().messages.notice()->text.find("no cube[1] any more"), std::string::npos);
+  app().scene.undo();
+  EXPECT_EQ(follow(), "cube[1]");
+  frames(2);
+  app().cursor(5.0, 300.0);
+  frames(2);
+  press(GLFW_KEY_C);
+  EXPECT_FALSE(follow().has_value()) << "nothing is under the mouse";
 }
 
 TEST_F(Pointer, SolidBodiesHideTheirInside) {

@@ -72,9 +72,9 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
   frames(2);
 }
 
-void Stage::frames(int count) {
+void Stage::frames(int count, double apart) {
   for (int i = 0; i < count; ++i) {
-    const Status drawn = app_->frame(window_->size(), 1.0 / 60.0);
+    const Status drawn = app_->frame(window_->size(), apart);
     ASSERT_TRUE(drawn.ok()) << drawn.error().message;
     window_->show_picture();
   }

@@ -56,8 +56,8 @@ class Stage : public ::testing::Test {
 
   app::App& app() { return *app_; }
   app::Simulation& simulation() { return app_->simulation; }
-  /// Pictures, a sixtieth of a second apart.
-  void frames(int count);
+  /// Pictures, so many seconds apart.
+  void frames(int count, double apart = 1.0 / 60.0);
   /// Pictures until the run is at that step or beyond; a failure after ten thousand.
   void frames_to_step(std::uint64_t step) {
     frames_until([&] { return simulation().step() >= step; });

@@ -46,7 +46,7 @@ Pixels read_png(const std::string& bytes) {
                             &pixels.width, &pixels.height, &channels, 3);
   if (rgb)
     pixels.rgb.assign(reinterpret_cast<char*>(rgb),
-                      static_cast<std::size_t>(3 * pixels.width * pixels.height));
+                      std::size_t{3} * static_cast<std::size_t>(pixels.width * pixels.height));
   stbi_image_free(rgb);
   return pixels;
 }
@@ -55,8 +55,8 @@ Pixels read_png(const std::string& bytes) {
 std::string part(const Pixels& whole, int left, int top, int width, int height) {
   std::string rgb;
   for (int y = top; y < top + height; ++y)
-    rgb += whole.rgb.substr(static_cast<std::size_t>(3 * (y * whole.width + left)),
-                            static_cast<std::size_t>(3 * width));
+    rgb += whole.rgb.substr(std::size_t{3} * static_cast<std::size_t>(y * whole.width + left),
+                            std::size_t{3} * static_cast<std::size_t>(width));
   return rgb;
 }
 
@@ -107,7 +107,7 @@ TEST(Beside, PartsOfThePictureAreThoseOfTheRunsAlone) {
     EXPECT_TRUE(part(both, 66, 0, 64, 96) == read_png(dir.read(std::string("second") + name)).rgb) << name;
     EXPECT_TRUE(part(gpu, 0, 0, 64, 96) == first.rgb) << name;
     EXPECT_TRUE(part(gpu, 66, 0, 64, 96) == first.rgb) << name;
-    EXPECT_TRUE(part(both, 64, 0, 2, 96) == std::string(3 * 2 * 96, '\0')) << name;
+    EXPECT_TRUE(part(both, 64, 0, 2, 96) == std::string(std::size_t{3} * 2 * 96, '\0')) << name;
   }
 }
 

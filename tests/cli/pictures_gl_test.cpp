@@ -12,6 +12,9 @@
 
 #include "cli/process.h"
 
+// After the others: it is plain C.
+#include <stb_image.h>
+
 namespace aspic {
 namespace {
 
@@ -237,6 +240,40 @@ TEST(Frames, ViewChangesThePictureAndNotTheRun) {
   const auto wrong = aspic(run_words({"--frames", dir.file("c"), "--view", "colour=loud"}), software());
   EXPECT_EQ(wrong.exit_code, 3);
   EXPECT_THAT(wrong.err, HasSubstr("colour"));
+}
+
+// A cube that falls freely stands still before a camera that falls along.
+TEST(Frames, ACameraThatFollowsMovesAlong) {
+  const test::TemporaryDirectory dir;
+  dir.write("fall.toml",
+            "schema = 1\n[[cube]]\nparticles-per-edge = 3\nposition = [0.0, 0.0, 0.0]\n"
+            "[view]\ncamera = { position = [6.0, 3.0, 12.0], target = [0.0, 0.0, 0.0], fov = 40.0 }\n");
+  const auto film = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> words = {
+        "run",     dir.file("fall.toml"), "--duration", "0.5",         "--fps", "2", "--size",
+        "160x120", "--no-text",           "--frames",   dir.file(name)};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto run = aspic(words, software());
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  };
+  film("still", {});
+  film("along", {"--view", "follow=cube"});
+  const auto bytes_of = [&](const std::string& name) {
+    int width = 0, height = 0, channels = 0;
+    unsigned char* const pixels = stbi_load(dir.file(name).c_str(), &width, &height, &channels, 3);
+    const std::vector<unsigned char> bytes(pixels, pixels + (pixels ? 3 * 160 * 120 : 0));
+    stbi_image_free(pixels);
+    return bytes;
+  };
+  const auto first = bytes_of("along/frame-000000.png"), last = bytes_of("along/frame-000001.png");
+  EXPECT_EQ(dir.read("still/frame-000000.png"), dir.read("along/frame-000000.png"));
+  EXPECT_NE(dir.read("still/frame-000001.png"), dir.read("along/frame-000001.png"));
+  ASSERT_FALSE(first.empty());
+  ASSERT_EQ(first.size(), last.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < first.size(); ++i)
+    different += std::abs(static_cast<int>(first[i]) - static_cast<int>(last[i])) > 2;
+  EXPECT_LT(different, first.size() / 200) << "edges alone may differ by rounding";
 }
 
 TEST(Program, NeedsNeitherLibGlNorX11) {

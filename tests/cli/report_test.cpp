@@ -54,17 +54,17 @@ Row fields(const std::string& line) {
 class Report : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    directory_ = std::make_unique<test::TemporaryDirectory>();
-    made_ = std::make_unique<test::Finished>(aspic(
-        {"report", "cube-plane", "--set", "cube[0].particles-per-edge=4", "--out", directory_->file("r")}));
+    directory = std::make_unique<test::TemporaryDirectory>();
+    finished = std::make_unique<test::Finished>(aspic(
+        {"report", "cube-plane", "--set", "cube[0].particles-per-edge=4", "--out", directory->file("r")}));
   }
   static void TearDownTestSuite() {
-    directory_.reset();
-    made_.reset();
+    directory.reset();
+    finished.reset();
   }
-  void SetUp() override { ASSERT_EQ(made_->exit_code, 0) << made_->err; }
+  void SetUp() override { ASSERT_EQ(finished->exit_code, 0) << finished->err; }
 
-  static std::string path(const std::string& name) { return directory_->file("r/" + name); }
+  static std::string path(const std::string& name) { return directory->file("r/" + name); }
   static std::string read(const std::string& name) { return content(path(name)); }
   /// Rows of a CSV without its header.
   static std::vector<Row> table(const std::string& name) {
@@ -74,11 +74,11 @@ class Report : public testing::Test {
     return rows;
   }
 
-  static std::unique_ptr<test::TemporaryDirectory> directory_;
-  static std::unique_ptr<test::Finished> made_;
+  static std::unique_ptr<test::TemporaryDirectory> directory;
+  static std::unique_ptr<test::Finished> finished;
 };
-std::unique_ptr<test::TemporaryDirectory> Report::directory_;
-std::unique_ptr<test::Finished> Report::made_;
+std::unique_ptr<test::TemporaryDirectory> Report::directory;
+std::unique_ptr<test::Finished> Report::finished;
 
 TEST_F(Report, HasAllSectionsAndNoLinkElsewhere) {
   const std::string html = read("report.html"), markdown = read("report.md");
@@ -220,7 +220,7 @@ TEST_F(Report, EveryNumberIsInTheCsvOfItsFigure) {
 }
 
 TEST_F(Report, IsNotOverwrittenUnasked) {
-  const auto again = aspic({"report", "--out", directory_->file("r"), "--only", "contact"});
+  const auto again = aspic({"report", "--out", directory->file("r"), "--only", "contact"});
   EXPECT_EQ(again.exit_code, 6);
   EXPECT_THAT(again.err, HasSubstr("--force"));
 }
@@ -285,12 +285,12 @@ struct Screenshot {
 
 TEST_F(Report, OpensInABrowserInBothThemes) {
   for (const bool dark : {false, true}) {
-    const std::string picture = directory_->file(dark ? "dark.png" : "light.png");
+    const std::string picture = directory->file(dark ? "dark.png" : "light.png");
     test::ProcessOptions browser;
     browser.program = ASPIC_CHROMIUM;
     const auto shot =
         aspic({"--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--window-size=1200,3000",
-               fmt::format("--user-data-dir={}", directory_->file("profile")),
+               fmt::format("--user-data-dir={}", directory->file("profile")),
                fmt::format("--blink-settings=preferredColorScheme={}", dark ? 0 : 1),
                fmt::format("--screenshot={}", picture), fmt::format("file://{}", path("report.html"))},
               browser);

@@ -11,6 +11,7 @@
 
 #include "cpu_reference/reference_solver.h"
 #include "scene/load.h"
+#include "support/integrator_names.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -57,67 +58,68 @@ void with_every_instruction_set(const Test& test) {
   hwy::SetSupportedTargetsForTest(0);
 }
 
-TEST(CpuSolver, HasTheReferencesBitsInEveryBuiltInScene) {
+class EveryMethodOnTheCpu : public testing::TestWithParam<Integrator> {
+ protected:
+  /// Less for one that solves.
+  static std::uint64_t steps(std::uint64_t solved, std::uint64_t others) {
+    return row_of(GetParam()).solved() ? solved : others;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(CpuSolver, EveryMethodOnTheCpu, testing::ValuesIn(all_integrators),
+                         test::by_integrator);
+
+TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInEveryBuiltInScene) {
   for (const char* const name : {"cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "elevator",
                                  "goal-net", "penalty", "cube-and-balls", "curtain"}) {
-    for (const Integrator integrator : all_integrators) {
-      for (const ContactModel contact : both_models) {
-        SCOPED_TRACE(fmt::format("{}, {}, {}", name, name_of(integrator), name_of(contact)));
-        auto scene = load_scene(name);
-        ASSERT_TRUE(scene.ok());
-        scene->model.simulation.integrator = integrator;
-        scene->model.contact.model = contact;
-        for (CubeSettings& cube : scene->model.cubes) cube.position.y -= 4.0;  // contact soon
-        expect_equal(test::build(scene->model), row_of(integrator).solved() ? 10 : 300);
-      }
+    for (const ContactModel contact : both_models) {
+      SCOPED_TRACE(fmt::format("{}, {}", name, name_of(contact)));
+      auto scene = load_scene(name);
+      ASSERT_TRUE(scene.ok());
+      scene->model.simulation.integrator = GetParam();
+      scene->model.contact.model = contact;
+      for (CubeSettings& cube : scene->model.cubes) cube.position.y -= 4.0;  // contact soon
+      expect_equal(test::build(scene->model), steps(10, 300));
     }
   }
 }
 
-TEST(CpuSolver, HasTheReferencesBitsOnTerrainThatMovesSideways) {
-  for (const Integrator integrator : all_integrators) {
-    for (const ContactModel contact : both_models) {
-      SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
-      ModelSettings settings = test::low_cube(5, integrator, contact);
-      settings.terrain[0].motion = TerrainMotion{{1.0, 0.0, 0.4}, 0.3, 1.1, 0.2};
-      const std::uint64_t steps = row_of(integrator).solved() ? 60 : 400;
-      expect_equal(test::build(settings), steps, 2);
-      settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
-      expect_equal(test::build(settings), steps, 2);
-    }
+TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsOnTerrainThatMovesSideways) {
+  for (const ContactModel contact : both_models) {
+    SCOPED_TRACE(name_of(contact));
+    ModelSettings settings = test::low_cube(5, GetParam(), contact);
+    settings.terrain[0].motion = TerrainMotion{{1.0, 0.0, 0.4}, 0.3, 1.1, 0.2};
+    expect_equal(test::build(settings), steps(60, 400), 2);
+    settings.balls.push_back({0.3, 2.0, {3.0, 0.4, 0.2}, {-1.0, -2.0, 0.5}, {3.0, 1.0, -2.0}});
+    expect_equal(test::build(settings), steps(60, 400), 2);
   }
 }
 
 // A cube in the air and a wall whose place at rest is 18 m away: it meets the cube after about 40 steps.
-TEST(CpuSolver, SeesTerrainThatComesFromFar) {
-  for (const Integrator integrator : all_integrators) {
-    for (const ContactModel contact : both_models) {
-      SCOPED_TRACE(fmt::format("{}, {}", name_of(integrator), name_of(contact)));
-      ModelSettings settings = test::low_cube(5, integrator, contact);
-      settings.cubes[0].position.y = 50.0;
-      settings.cubes[0].velocity.x = -1.0;
-      settings.terrain.push_back(
-          {.geometry = {{"point", Vec3{-20.6, 0.0, 0.0}}, {"normal", Vec3{1.0, 0.0, 0.0}}}});
-      const Model still = test::build(settings);
-      settings.terrain[1].motion = TerrainMotion{{1.0, 0.0, 0.0}, 18.0, 0.1, 0.23};
-      const Model model = test::build(settings);
-      expect_equal(model, 400, 2);
-      const auto without = reference(still), with = reference(model);
-      ASSERT_FALSE((*without->advance(400)).has_value());
-      ASSERT_FALSE((*with->advance(400)).has_value());
-      EXPECT_FALSE(*without->state() == *with->state()) << "the wall does not reach the cube";
-    }
+TEST_P(EveryMethodOnTheCpu, SeesTerrainThatComesFromFar) {
+  for (const ContactModel contact : both_models) {
+    SCOPED_TRACE(name_of(contact));
+    ModelSettings settings = test::low_cube(5, GetParam(), contact);
+    settings.cubes[0].position.y = 50.0;
+    settings.cubes[0].velocity.x = -1.0;
+    settings.terrain.push_back(
+        {.geometry = {{"point", Vec3{-20.6, 0.0, 0.0}}, {"normal", Vec3{1.0, 0.0, 0.0}}}});
+    const Model still = test::build(settings);
+    settings.terrain[1].motion = TerrainMotion{{1.0, 0.0, 0.0}, 18.0, 0.1, 0.23};
+    const Model model = test::build(settings);
+    expect_equal(model, 400, 2);
+    const auto without = reference(still), with = reference(model);
+    ASSERT_FALSE((*without->advance(400)).has_value());
+    ASSERT_FALSE((*with->advance(400)).has_value());
+    EXPECT_FALSE(*without->state() == *with->state()) << "the wall does not reach the cube";
   }
 }
 
-TEST(CpuSolver, HasTheReferencesBitsWithAnyNumberOfThreads) {
-  for (const Integrator integrator : all_integrators) {
-    for (const ContactModel contact : both_models) {
-      const Model model = test::build(test::low_cube(9, integrator, contact));
-      for (const unsigned threads : {1u, 2u, 5u}) {
-        SCOPED_TRACE(fmt::format("{}, {}, {} threads", name_of(integrator), name_of(contact), threads));
-        expect_equal(model, row_of(integrator).solved() ? 40 : 400, threads);
-      }
+TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsWithAnyNumberOfThreads) {
+  for (const ContactModel contact : both_models) {
+    const Model model = test::build(test::low_cube(9, GetParam(), contact));
+    for (const unsigned threads : {1u, 2u, 5u}) {
+      SCOPED_TRACE(fmt::format("{}, {} threads", name_of(contact), threads));
+      expect_equal(model, steps(40, 400), threads);
     }
   }
 }

@@ -28,10 +28,10 @@ TEST_P(TwoBalls, FollowTheImpactFormula) {
   ModelSettings settings = weightless();
   settings.contact.ball_restitution = e;
   const Vec3 n = Vec3{2.0, -1.0, 2.0} / 3.0, v1 = {-3.0, 0.5, 1.0}, v2 = {1.0, 0.25, -2.0};
-  const double h = settings.simulation.timestep, R1 = 0.5, R2 = 0.3;
+  const double h = settings.simulation.timestep, r1 = 0.5, r2 = 0.3;
   // After the free flight the first centre stands at (R₁ + R₂ + 0.004)·n from the second.
-  settings.balls.push_back({R1, m1, (R1 + R2 + 0.004) * n - h * v1, v1, {}});
-  settings.balls.push_back({R2, m2, -h * v2, v2, {}});
+  settings.balls.push_back({r1, m1, (r1 + r2 + 0.004) * n - h * v1, v1, {}});
+  settings.balls.push_back({r2, m2, -h * v2, v2, {}});
   const State end = after(test::build(settings), 1);
   const double u = dot(v1 - v2, n), w1 = 1.0 / m1, w2 = 1.0 / m2;
   ASSERT_LT(u, 0.0);

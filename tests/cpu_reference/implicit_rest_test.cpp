@@ -52,9 +52,9 @@ ModelSettings cube_on_slope(double degrees, double mu, double gap) {
   return settings;
 }
 
-Model loose(std::vector<Vec3> positions, std::vector<Vec3> velocities, std::vector<TerrainSettings> terrain,
-            const ContactSettings& contact = {}) {
-  Model model = test::particles(std::move(positions), std::move(velocities));
+Model loose(std::vector<Vec3> positions, const std::vector<Vec3>& velocities,
+            std::vector<TerrainSettings> terrain, const ContactSettings& contact = {}) {
+  Model model = test::particles(std::move(positions), velocities);
   model.simulation.integrator = Integrator::implicit_euler;
   model.simulation.timestep = h;
   model.contact = contact;

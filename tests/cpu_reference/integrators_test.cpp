@@ -89,7 +89,8 @@ TEST_P(EveryMethod, ConvergesWithItsOrder) {
   };
   const Phase<double> exact = solve(Integrator::runge_kutta_4, 0.4 / 20000);
   double order = 0.0, coarse = 0.0;
-  for (double h = 0.004; h > 0.4 / 20000; h /= 2) {
+  for (int halvings = 0; halvings < 8; ++halvings) {
+    const double h = std::ldexp(0.004, -halvings);
     const Phase<double> s = solve(GetParam(), h);
     const double error =
         std::max((s.x - exact.x).cwiseAbs().maxCoeff(), (s.v - exact.v).cwiseAbs().maxCoeff());

@@ -38,9 +38,9 @@ Terrain plane(const Vec3& point, const Vec3& normal, double e, double mu) {
 
 class Rest : public testing::TestWithParam<Integrator> {
  protected:
-  static Model loose(std::vector<Vec3> positions, std::vector<Vec3> velocities,
+  static Model loose(std::vector<Vec3> positions, const std::vector<Vec3>& velocities,
                      std::vector<Terrain> terrain) {
-    Model model = test::particles(std::move(positions), std::move(velocities));
+    Model model = test::particles(std::move(positions), velocities);
     model.simulation.integrator = GetParam();
     model.terrain = std::move(terrain);
     return model;

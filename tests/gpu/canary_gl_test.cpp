@@ -125,7 +125,7 @@ TEST_F(CanaryGl, CorrectedFormsKeepTheMeaningOfSpecialValues) {
       Program::compute(context(), ShaderLibrary(ASPIC_TEST_SHADERS), "exact_pairs.comp", defines);
   ASSERT_TRUE(program.ok()) << program.error().message;
   const auto input = Buffer::of(context(), "pairs", pairs);
-  const auto output = Buffer::create(context(), "results", count * 8);
+  const auto output = Buffer::create(context(), "results", std::uint64_t{8} * count);
   ASSERT_TRUE(input.ok() && output.ok());
   program->set(0, count);
   Pass(*program, {{.binding = 0, .buffer = &*input}, {.binding = 1, .buffer = &*output}}, ReadBy::read_back)
@@ -154,7 +154,8 @@ TEST_F(CanaryGl, SaysWhenNothingHelps) {
   const Arithmetic choice = choose({{"FAULT_CONTRACTION", "1"}});
   EXPECT_FALSE(choice.exact());
   const auto sentences = choice.sentences();
-  EXPECT_TRUE(std::ranges::any_of(sentences, [](const auto& s) { return s.find("contracts") != s.npos; }));
+  EXPECT_TRUE(
+      std::ranges::any_of(sentences, [](const auto& s) { return s.find("contracts") != std::string::npos; }));
 }
 
 }  // namespace

@@ -74,8 +74,9 @@ TEST_F(ContextGl, DescribesTheDevice) {
   for (const std::uint32_t count : info.limits.group_count) EXPECT_GE(count, 65535u);
   EXPECT_GE(info.limits.shared_bytes, 32768u);
   const auto lines = describe(info);
-  EXPECT_TRUE(std::ranges::any_of(lines, [&](const auto& l) { return l.find(info.renderer) != l.npos; }));
-  EXPECT_TRUE(std::ranges::none_of(lines, [](const auto& l) { return l.find('\n') != l.npos; }));
+  EXPECT_TRUE(
+      std::ranges::any_of(lines, [&](const auto& l) { return l.find(info.renderer) != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::none_of(lines, [](const auto& l) { return l.find('\n') != std::string::npos; }));
   EXPECT_FALSE(context().lost());
 }
 
@@ -183,7 +184,7 @@ TEST_F(ContextGl, TheFixtureFailsOnGlErrorsAndOnValuesThatAreNotFinite) {
     const ::testing::ScopedFakeTestPartResultReporter reporter(
         ::testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &failures);
     glEnable(GL_FRAMEBUFFER);
-    GlTest::TearDown();
+    TearDown();
     const float values[] = {1.0f, std::numeric_limits<float>::quiet_NaN()};
     testing::expect_finite(values);
   }

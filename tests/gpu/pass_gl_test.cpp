@@ -50,8 +50,8 @@ TEST_F(PassGl, NextPassAndIndirectDispatchSeeWhatWasWritten) {
   constexpr std::uint32_t count = 1000;
   std::vector<std::uint32_t> numbers(count);
   std::iota(numbers.begin(), numbers.end(), 1u);
-  Buffer a = buffer(count * 4);
-  Buffer b = buffer(count * 4);
+  Buffer a = buffer(std::uint64_t{4} * count);
+  Buffer b = buffer(std::uint64_t{4} * count);
   a.upload_items(numbers);
   const Program twice = compile("double_items.comp", {{"ASPIC_GROUP_SIZE", "64"}});
   twice.set(0, count);

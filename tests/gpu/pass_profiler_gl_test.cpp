@@ -16,7 +16,7 @@ class PassProfilerGl : public testing::GlTest {
     auto program = Program::compute(context(), ShaderLibrary(ASPIC_TEST_SHADERS), "count.comp");
     ASSERT_TRUE(program.ok()) << program.error().message;
     program_ = std::move(*program);
-    auto visits = Buffer::create(context(), "visits", most * 4);
+    auto visits = Buffer::create(context(), "visits", std::uint64_t{4} * most);
     ASSERT_TRUE(visits.ok());
     visits_ = std::move(*visits);
     visits_.clear();

@@ -156,7 +156,7 @@ class Linter {
     // comma.
     int depth = 0;
     declare(at_ + 1, is_float, precise);
-    for (std::size_t i = at_ + 2; i < tokens_.size() && scopes_.size() > 0; ++i) {
+    for (std::size_t i = at_ + 2; i < tokens_.size() && !scopes_.empty(); ++i) {
       const std::string& t = tokens_[i].text;
       if (t == "(" || t == "[" || t == "{") ++depth;
       if ((t == ")" || t == "]" || t == "}") && --depth < 0) break;

@@ -110,7 +110,7 @@ TEST(ShaderLibrary, RefusesWithFileAndLine) {
 
 TEST(FlatShader, RewritesTheLogsOfFourDrivers) {
   const FlatShader flat = flatten("broken/kernel.comp");
-  const std::string text = flat.text();
+  const std::string& text = flat.text();
   const auto at = text.find("precise float x = misspelt");
   ASSERT_NE(at, std::string::npos);
   const auto line =

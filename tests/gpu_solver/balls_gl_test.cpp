@@ -214,8 +214,8 @@ TEST_F(BallsOnTheDevice, TheirBufferIsWhatItSays) {
   ASSERT_FALSE((*solver->advance(15)).has_value());
   const State state = *solver->state();
   const DeviceState where = solver->device_state();
-  const auto numbers =
-      where.balls->download_items<float>(16 * model.ball_count(), std::uint64_t{16} * where.first_ball);
+  const auto numbers = where.balls->download_items<float>(std::uint64_t{16} * model.ball_count(),
+                                                          std::uint64_t{16} * where.first_ball);
   for (std::size_t b = 0; b < model.balls.size(); ++b) {
     const float* ball = numbers.data() + 16 * b;
     for (int axis = 0; axis < 3; ++axis) {

@@ -235,6 +235,7 @@ TEST_F(EqualBits, ScenesLargerThanABlock) {
         options.lattice_run = run;
         auto solver = make_gpu_solver(context(), model, options);
         ASSERT_TRUE(solver.ok()) << solver.error().message;
+        EXPECT_EQ((*solver)->bytes(), gpu_bytes(model, path, small ? block : UINT64_MAX));
         const std::uint64_t before = context().dispatches();
         ASSERT_FALSE((*(*solver)->advance(1)).has_value());
         dispatches[small] = context().dispatches() - before;

@@ -61,12 +61,13 @@ TEST_F(LateGl, ADivergenceComesOutOfALaterAdvance) {
   const auto expected = *prompt->advance(100000);
   ASSERT_TRUE(expected.has_value());
   ASSERT_GT(expected->step, 3u);
-  ASSERT_FALSE((*late->advance(expected->step - 2)).has_value());
-  EXPECT_EQ(late->state()->step, expected->step - 2);
+  ASSERT_FALSE((*late->advance(expected->step - 1)).has_value());
+  EXPECT_EQ(late->state()->step, expected->step - 1);
 
   context().inject_fault(Fault::late);
-  ASSERT_FALSE((*late->advance(5)).has_value()) << "nothing has been heard of these steps";
-  EXPECT_EQ(late->device_state().step, expected->step + 3);
+  // One step is one queue; how many queues more would make depends on the time they take.
+  ASSERT_FALSE((*late->advance(1)).has_value()) << "nothing has been heard of this step";
+  EXPECT_EQ(late->device_state().step, expected->step);
   const auto found = *late->advance(1);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->step, expected->step);
@@ -77,6 +78,7 @@ TEST_F(LateGl, ADivergenceComesOutOfALaterAdvance) {
   // state() waits, and what it finds is told by the next call.
   ASSERT_TRUE(late->load(initial_state(model, Precision::single)).ok());
   ASSERT_FALSE((*late->advance(expected->step - 1)).has_value());
+  ASSERT_TRUE(late->state().ok());
   context().inject_fault(Fault::late);
   ASSERT_FALSE((*late->advance(1)).has_value());
   EXPECT_EQ(*late->state(), *prompt->state());
@@ -164,13 +166,12 @@ TEST_F(LateGl, NoMoreThanTwoQueuesAreUnderWay) {
   late->set_late(true);
   context().inject_fault(Fault::late);
   ASSERT_FALSE((*late->advance(1)).has_value());
-  // Three queues: the third waits for the first, which takes a wait that never ends.
+  // With a second one queued, the first is waited for, which takes a wait that never ends.
   context().inject_fault(Fault::late);
-  ASSERT_FALSE((*late->advance(1)).has_value());
   context().inject_fault(Fault::no_answer);
-  const auto third = late->advance(1);
-  ASSERT_FALSE(third.ok());
-  EXPECT_EQ(third.error().code, ErrorCode::no_device);
+  const auto second = late->advance(1);
+  ASSERT_FALSE(second.ok());
+  EXPECT_EQ(second.error().code, ErrorCode::no_device);
 }
 
 TEST_F(LateGl, ADeviceThatStopsAnsweringEndsTheRun) {

@@ -127,10 +127,11 @@ TEST_F(LimitsGl, ManyParticlesTakeTwoDimensionsOfGroups) {
   x.reserve(count);
   v.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    x.push_back({0.01 * (i % 2048), 0.01 * (i / 2048), 0.5});
+    const std::uint32_t row = i / 2048, column = i % 2048;
+    x.push_back({0.01 * column, 0.01 * row, 0.5});
     v.push_back({0.001 * (i % 7), -0.002 * (i % 11), 0.003 * (i % 5)});
   }
-  Model model = test::particles(std::move(x), std::move(v), 0.5);
+  Model model = test::particles(std::move(x), v, 0.5);
   model.spring_classes.push_back({SpringType::structural, 300.0, 2.0, 0.02, false});
   for (std::uint32_t a = 0; a + 5 < count; a += 4099) model.listed_springs.push_back({a, a + 5, 0});
   model.listed_springs.push_back({count - 3, count - 1, 0});

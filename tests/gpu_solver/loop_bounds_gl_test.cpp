@@ -100,7 +100,7 @@ void main() {
 )";
   const auto program = gl::Program::compute(context(), gl::ShaderLibrary(directory.path()), "rounds.comp");
   ASSERT_TRUE(program.ok()) << program.error().message;
-  auto counts = std::move(gl::Buffer::create(context(), "counts", 4 * 67)).value();
+  auto counts = std::move(gl::Buffer::create(context(), "counts", std::uint64_t{4} * 67)).value();
   const auto count = [&](std::uint32_t rounds) {
     counts.clear();
     program->set(0, rounds);
@@ -198,7 +198,7 @@ TEST_F(LoopBounds, OfReductions) {
     positions.push_back({0.01 * p, 0.0, 0.0});
     velocities.push_back({0.0, 0.001 * (p % 1000), 0.0});
   }
-  Model model = test::particles(std::move(positions), std::move(velocities));
+  Model model = test::particles(std::move(positions), velocities);
   model.simulation.integrator = Integrator::implicit_euler;
   auto reference = std::move(make_reference_solver(model, Precision::single)).value();
   auto solver = std::move(make_gpu_solver(context(), model)).value();

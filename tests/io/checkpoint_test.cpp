@@ -13,7 +13,6 @@
 namespace aspic {
 namespace {
 
-using testing::AnyOf;
 using testing::HasSubstr;
 
 Checkpoint example(Precision precision) {

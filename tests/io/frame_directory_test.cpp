@@ -11,7 +11,7 @@ using testing::HasSubstr;
 constexpr PictureSize size = {5, 3};
 
 std::vector<std::byte> grey(int level) {
-  return std::vector<std::byte>(3 * 5 * 3, static_cast<std::byte>(level));
+  return std::vector<std::byte>(std::size_t{3} * 5 * 3, static_cast<std::byte>(level));
 }
 
 /// Width and height from the header of a PNG file (ISO/IEC 15948, 11.2.2).

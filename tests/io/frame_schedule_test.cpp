@@ -50,7 +50,7 @@ TEST(FrameSchedule, AnOpenEndShowsTheSameSteps) {
   const FrameSchedule open = FrameSchedule::open_ended(0.001, 3, 60.0, 1.5);
   for (std::uint64_t f = 0; f + 1 < closed.count(); ++f) ASSERT_EQ(open.step_of(f), closed.step_of(f)) << f;
   // An hour on, picture and step still belong together: nothing adds up.
-  EXPECT_EQ(open.step_of(60 * 3600), 3u + 5'400'000u);
+  EXPECT_EQ(open.step_of(std::uint64_t{60} * 3600), 3u + 5'400'000u);
   EXPECT_GT(open.step_of(std::uint64_t{1} << 51), open.step_of(std::uint64_t{1} << 50));
 }
 

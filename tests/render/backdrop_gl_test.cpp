@@ -1,6 +1,7 @@
 // What stands still is drawn once: pictures are the same bytes as if everything were drawn anew.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "device/particles.h"
@@ -143,6 +144,74 @@ TEST_F(BackdropGl, NoChangeIsMissed) {
     change();
     expect_same(options, what);
   }
+}
+
+/// Light maps and what else depends on the state alone are kept while nothing moves: the camera and the look
+/// may change, and the pictures are those of a renderer that has just drawn another state.
+TEST_F(BackdropGl, StillLightChangesNoByte) {
+  const auto scene = load_scene("cube-and-balls", {});
+  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  const Model model = test::build(scene->model);
+  show(model);
+  PictureOptions options;
+  options.view = scene->view;
+  step_ = 3000;
+  State state = moved(0);
+  const auto expect_same_light = [&](const char* what) {
+    for (int n = 0; n < 2; ++n) {
+      options.view.camera.position.x += 0.3;
+      const auto warm = picture(renderer(), state, options);
+      picture(*cold_, moved(2), options);
+      EXPECT_TRUE(picture(*cold_, state, options) == warm) << what << ", picture " << n;
+    }
+  };
+  expect_same_light("at first");
+  const std::pair<const char*, std::function<void()>> changes[] = {
+      {"springs", [&] { options.view.draw.shear = true; }},
+      {"particles", [&] { options.view.draw = {.solid = false, .particles = true}; }},
+      {"bodies again", [&] { options.view.draw = scene->view.draw; }},
+      {"coarse skin", [&] { options.coarse_skin = true; }},
+      {"fine skin", [&] { options.coarse_skin = false; }},
+      {"cut", [&] { options.view.cut.inside = CutInside::springs; }},
+      {"cut elsewhere", [&] { options.view.cut.offset = 0.4; }},
+      {"whole", [&] { options.view.cut = {}; }},
+      {"strain", [&] { options.view.colour = ViewColour::strain; }},
+      {"one particle", [&] { state.position.back().y += 0.25; }},
+      {"one ball", [&] { state.ball_position.front().x += 0.5; }},
+      {"another state without shadows",
+       [&] {
+         options.shadows = false;
+         picture(renderer(), moved(1), options);
+         options.shadows = true;
+       }},
+      {"another state from elsewhere, then the same", [&] {
+         picture(renderer(), moved(1), options);
+         picture(renderer(), state, options);
+       }}};
+  for (const auto& [what, change] : changes) {
+    change();
+    expect_same_light(what);
+  }
+}
+
+TEST_F(BackdropGl, StillLightIsNotDrawnAgain) {
+  const auto scene = load_scene("cube-plane", {});
+  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  const Model model = test::build(scene->model);
+  show(model);
+  PictureOptions options;
+  options.view = scene->view;
+  const auto draws_maps = [&](const State& state) {
+    options.view.camera.position.x += 0.3;
+    renderer().set_profiling(true);
+    picture(renderer(), state, options);
+    const auto passes = renderer().pass_times();
+    renderer().set_profiling(false);
+    return std::ranges::any_of(passes, [](const gl::PassTime& pass) { return pass.name == "light maps"; });
+  };
+  EXPECT_TRUE(draws_maps(moved(0)));
+  EXPECT_FALSE(draws_maps(moved(0)));
+  EXPECT_TRUE(draws_maps(moved(1)));
 }
 
 TEST_F(BackdropGl, AnotherModelHasItsOwn) {

@@ -242,7 +242,7 @@ TEST_F(Picture, PresentsEncodedValues) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture, 0);
   renderer().present(framebuffer, 64, 48);
-  std::vector<unsigned char> rgba(4 * 64 * 48);
+  std::vector<unsigned char> rgba(std::size_t{4} * 64 * 48);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glReadPixels(0, 0, 64, 48, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   for (int y = 0; y < 48; ++y)

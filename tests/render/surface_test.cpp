@@ -53,7 +53,8 @@ TEST(Surface, FansHoldThreeQuadsAtCornersFourElsewhereTheirOwnFirst) {
     std::optional<Vec3> face;
     for (std::uint32_t q = surface.fan_start[i]; q < surface.fan_start[i + 1]; ++q) {
       const Vec3 at = x[surface.fan_vertex[i]];
-      const Vec3 normal = cross(x[surface.fan[2 * q]] - at, x[surface.fan[2 * q + 1]] - at);
+      const std::size_t pair = std::size_t{2} * q;
+      const Vec3 normal = cross(x[surface.fan[pair]] - at, x[surface.fan[pair + 1]] - at);
       const Vec3 unit = normal / length(normal);
       if (!face) face = unit;
       // Those of other patches stand square on it.

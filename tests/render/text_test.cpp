@@ -68,11 +68,10 @@ TEST(Font, GlyphsLieApartInTheAtlasAndHaveInk) {
   ASSERT_GT(g.width, 5);
   int ink = 0;
   for (int y = 0; y < g.height; ++y)
-    for (int x = 0; x < g.width; ++x)
-      ink +=
-          std::to_integer<int>(
-              font.atlas()[static_cast<std::size_t>((g.atlas_y + y) * font.atlas_width() + g.atlas_x + x)]) >
-          128;
+    for (int x = 0; x < g.width; ++x) {
+      const int pixel = (g.atlas_y + y) * font.atlas_width() + g.atlas_x + x;
+      ink += std::to_integer<int>(font.atlas()[static_cast<std::size_t>(pixel)]) > 128;
+    }
   // Two stems and a bar: some two fifths of the box.
   EXPECT_GT(ink, g.width * g.height / 5);
   EXPECT_LT(ink, g.width * g.height * 3 / 4);

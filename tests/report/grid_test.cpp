@@ -11,7 +11,6 @@ namespace aspic::report {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 Scene scene(const char* name = "cube-plane") {
   return load_scene(name).value();

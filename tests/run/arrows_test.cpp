@@ -7,6 +7,7 @@
 
 #include "analysis/particle_contact.h"
 #include "support/model_building.h"
+#include "support/reference_runs.h"
 
 namespace aspic {
 namespace {
@@ -25,9 +26,10 @@ TEST(Arrows, AreTheReferencesForces) {
   const SpringFinder springs(model);
   for (std::uint32_t i = 0; i < 125; ++i) {
     const ParticleForce f = particle_force(model, springs, state, i, pull);
-    EXPECT_EQ(set.arrows[3 * i], (Arrow{state.position[i], f.springs, ArrowKind::springs}));
-    EXPECT_EQ(set.arrows[3 * i + 1], (Arrow{state.position[i], f.gravity + f.pull, ArrowKind::external}));
-    EXPECT_EQ(set.arrows[3 * i + 2], (Arrow{state.position[i], f.net, ArrowKind::net}));
+    const std::size_t first = std::size_t{3} * i;
+    EXPECT_EQ(set.arrows[first], (Arrow{state.position[i], f.springs, ArrowKind::springs}));
+    EXPECT_EQ(set.arrows[first + 1], (Arrow{state.position[i], f.gravity + f.pull, ArrowKind::external}));
+    EXPECT_EQ(set.arrows[first + 2], (Arrow{state.position[i], f.net, ArrowKind::net}));
   }
   EXPECT_TRUE(arrows_of(model, state, {}).arrows.empty());
 }
@@ -59,6 +61,21 @@ TEST(Arrows, OfLargeCubesAreThinnedEvenly) {
   for (const Arrow& arrow : net.arrows) heights.insert(arrow.from.y);
   EXPECT_EQ(heights.size(), 10u);
   EXPECT_EQ(count(arrows_of(model, state, {.contacts = true}), ArrowKind::normal), 100u);
+}
+
+// A cube that falls turned has springs of their rest length but for rounding.
+TEST(Arrows, OfRoundingAloneAreNotEnlarged) {
+  ModelSettings settings = test::cube_on_plane(6, 9.0);
+  settings.cubes[0].rotation.angle = 33.0;
+  settings.cubes[0].velocity = {0.0, -4.0, 0.0};
+  const Model model = test::build(settings);
+  State state = test::after(model, 200, Precision::single);
+  const ArrowSet falling = arrows_of(model, state, {.springs = true});
+  EXPECT_TRUE(std::ranges::any_of(falling.arrows, [](const Arrow& a) { return a.value != Vec3{}; }));
+  EXPECT_EQ(arrow_scale({}, falling), 0.0);
+  EXPECT_GT(arrow_scale({}, arrows_of(model, state, {.external = true})), 0.0);
+  state.position[0].x += 0.01;
+  EXPECT_GT(arrow_scale({}, arrows_of(model, state, {.springs = true})), 0.0);
 }
 
 TEST(Arrows, TheLegendSaysWhatALengthMeans) {

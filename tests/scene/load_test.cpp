@@ -276,16 +276,16 @@ TEST(Parse, RefusesDeepNestingButNotDotsInStringsAndComments) {
   EXPECT_THAT(test::rejection(smallest + std::string(33, '[') + "\n"),
               HasSubstr("more than 32 arrays and tables"));
   for (const std::string& harmless :
-       {"# " + dots + "\n", "name = \"" + dots + " \\\" # " + dots + "\"\n", "name = '" + dots + "\\'\n",
-        "name = \"\"\"\n" + dots + "\n\"\"" + dots + "\"\"\"\"\n",
-        "name = '''" + dots + "'' " + dots + "'''''\n",
-        "name = \"" + std::string(100, '[') + "\" # " + std::string(100, '{') + "\n"}) {
+       {fmt::format("# {}\n", dots), fmt::format("name = \"{0} \\\" # {0}\"\n", dots),
+        fmt::format("name = '{}\\'\n", dots), fmt::format("name = \"\"\"\n{0}\n\"\"{0}\"\"\"\"\n", dots),
+        fmt::format("name = '''{0}'' {0}'''''\n", dots),
+        fmt::format("name = \"{}\" # {}\n", std::string(100, '['), std::string(100, '{'))}) {
     const auto scene = parse_scene("schema = 1\n" + harmless + "[[cube]]\n", "scene.toml");
     EXPECT_TRUE(scene.ok()) << harmless << (scene ? "" : scene.error().message);
   }
   // What ends a string or a comment for one parser and not for another hides nothing.
   for (const char* begin : {"# \r", "# \v", "name = \"\r", "name = '\f"})
-    EXPECT_THAT(test::rejection(smallest + begin + key + ".a = 1\n"),
+    EXPECT_THAT(test::rejection(fmt::format("{}{}{}.a = 1\n", smallest, begin, key)),
                 HasSubstr("a key has more than 32 parts"));
 }
 

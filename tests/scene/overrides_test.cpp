@@ -21,7 +21,7 @@ const std::string base = [] {
   for (const SettingsList& list : settings_lists()) {
     text += fmt::format("[[{}]]\n", list.key);
     if (list.key == "cube") text += "shear = { stiffness = 1000.0 }\n";
-    if (list.key == "launcher") text += "from" + box + "towards" + box;
+    if (list.key == "launcher") text += fmt::format("from{0}towards{0}", box);
   }
   return text;
 }();
@@ -36,7 +36,7 @@ Value other_value(const Parameter& p) {
     case ParameterType::number:
       return p.path == "view.camera.fov" ? 30.5 : 0.515625;
     case ParameterType::text:
-      return std::string("other name");
+      return std::string(p.path == "view.follow" ? "cube[0]" : "other name");
     case ParameterType::word:
       return std::string(p.words.back());
     case ParameterType::words:

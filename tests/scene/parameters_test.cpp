@@ -125,7 +125,7 @@ std::vector<Wrong> out_of_range(const Parameter& p) {
       figures.push_back(toml_value(Value(std::nextafter(r.min, -1e300))));
       if (r.min_excluded) {
         figures.push_back(toml_value(Value(r.min)));
-        figures.push_back("1e-60");  // zero in single precision
+        figures.emplace_back("1e-60");  // zero in single precision
       }
       for (const std::string& x : figures) {
         if (p.type == ParameterType::number) {

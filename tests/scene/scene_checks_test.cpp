@@ -161,5 +161,16 @@ TEST(WithOverrides, NamesAKeyThatNoArgumentWrote) {
             "made: cube[0].pinned: 'cube.pinned' index 1000 is not in the cube; allowed: 0 … 999");
 }
 
+TEST(CheckScene, NamesWhatCanBeFollowed) {
+  Scene scene = full_scene();
+  scene.view.follow = "cube[7]";
+  const auto complaints = check_scene(scene);
+  ASSERT_THAT(paths_of(complaints), ElementsAre("view.follow"));
+  EXPECT_THAT(complaints[0].message, HasSubstr("cube[7]"));
+  EXPECT_THAT(complaints[0].message, HasSubstr("cube[0], goal-net[0], cloth[0], ball[0] … ball[10]"));
+  scene.view.follow = "ball[10]";
+  EXPECT_TRUE(check_scene(scene).empty());
+}
+
 }  // namespace
 }  // namespace aspic

@@ -50,6 +50,7 @@ Value random_value(const Parameter& p, std::mt19937_64& random) {
     case ParameterType::number:
       return number();
     case ParameterType::text:
+      if (p.path == "view.follow") return std::string("cube[0]");  // there is always one
       return std::string("a \"name\" with \\ and \t and \x7f and é");
     case ParameterType::word: {
       const auto words = p.words;

@@ -45,10 +45,10 @@ Model build_alone(const Body& body) {
 }
 
 /// A model of loose particles without springs or terrain, for hand-made cases.
-inline Model particles(std::vector<Vec3> positions, std::vector<Vec3> velocities, double mass = 1.0) {
+inline Model particles(std::vector<Vec3> positions, const std::vector<Vec3>& velocities, double mass = 1.0) {
   Model model;
   model.initial_position = std::move(positions);
-  model.initial_velocity = std::move(velocities);
+  model.initial_velocity = velocities;
   model.mass.assign(model.initial_position.size(), mass);
   model.inverse_mass.assign(model.initial_position.size(), 1.0 / mass);
   return model;

@@ -68,14 +68,15 @@ Finding compared(const Subject& subject, Integrator integrator) {
 // are off.
 TEST_F(FaultyDevice, InexactArithmeticHasABound) {
   struct Fault {
-    const char *quotient, *root;
+    int quotient, root;  // units in the last place
   };
-  for (const auto& [quotient, root] : {Fault{"1", "0"}, {"1", "-1"}, {"-3", "2"}}) {
-    const std::vector<gl::Define> faults = {{"FAULT_DIV", quotient}, {"FAULT_SQRT", root}};
+  for (const auto& [quotient, root] : {Fault{1, 0}, {1, -1}, {-3, 2}}) {
+    const std::vector<gl::Define> faults = {{"FAULT_DIV", std::to_string(quotient)},
+                                            {"FAULT_SQRT", std::to_string(root)}};
     const auto report = gl::measure_arithmetic(context(), gl::ShaderLibrary(ASPIC_TEST_SHADERS), faults);
     ASSERT_TRUE(report.ok()) << report.error().message;
     const gl::Arithmetic inexact = {*report, std::nullopt, {}};
-    ASSERT_EQ(inexact.worst_ulps(), static_cast<std::uint32_t>(std::abs(std::atoi(quotient))));
+    ASSERT_EQ(inexact.worst_ulps(), static_cast<std::uint32_t>(std::abs(quotient)));
     Subject subject = product(&context(), ASPIC_PROGRAM);
     bool told = true;
     subject.gpu = [&, right = subject.gpu](const Model& model, GpuOptions options) {

@@ -1,0 +1,30 @@
+// What the key that follows does.
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+#include "app/app.h"
+#include "app/panels.h"
+#include "scene/follow.h"
+
+namespace aspic::app {
+
+void App::follow_hovered() {
+  const auto& h = pointer.hovered();
+  std::optional<std::string> name;
+  if (h && h->ball && h->particle >= simulation.model().ball_count() - simulation.setup().thrown.size())
+    return messages.error(
+        "The camera follows the scene's own bodies and balls; this one was thrown by hand.");
+  if (h)
+    name = h->ball ? name_of_ball(h->particle)
+                   : name_of_body(scene.scene().model, simulation.model(), h->particle);
+  const auto& now = scene.scene().view.follow;
+  if (!name && !now)
+    return messages.info("Point at a body or ball of the scene to follow it, or choose one under View.");
+  if (name == now) name.reset();
+  set_followed(scene, name);
+  messages.info(name ? fmt::format("The camera follows {}.", *name) : "The camera follows nothing.");
+}
+
+}  // namespace aspic::app
