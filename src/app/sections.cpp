@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <utility>
+
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "model/terrain.h"
@@ -46,6 +48,14 @@ void scene_buttons(Gui& gui, const SceneEditor& editor) {
                  redo ? "Redo " + editor.redo_name() : std::string("Nothing to redo."), "redo", redo, half);
 }
 
+/// At the right end of the row of its first scene: headings of their own would push what follows out of sight.
+void group_heading(std::string_view group) {
+  const std::string text(group);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x -
+                  ImGui::GetStyle().FramePadding.x);
+  ImGui::TextDisabled("%s", text.c_str());
+}
+
 }  // namespace
 
 void scene_section(Gui& gui, SceneControl& scene) {
@@ -64,6 +74,7 @@ void scene_section(Gui& gui, SceneControl& scene) {
       filter.Clear();
   }
   std::vector<std::string> hits;
+  std::string_view group;
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
     const std::string name(builtin.name), description(builtin.description);
     const bool hit = filter.PassFilter(name.c_str()) || filter.PassFilter(description.c_str());
@@ -72,6 +83,7 @@ void scene_section(Gui& gui, SceneControl& scene) {
     if (!hit && !open) continue;  // the one that is open stays in sight
     if (ImGui::Selectable(name.c_str(), open)) scene.open(name);
     named(gui, "scene/" + name, description);
+    if (std::exchange(group, builtin.group) != builtin.group) group_heading(builtin.group);
   }
   if (entered && hits.size() == 1) {
     scene.open(hits.front());

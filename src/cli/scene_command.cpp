@@ -20,7 +20,7 @@ Status execute(const SceneListOptions& options) {
   if (options.json) {
     Json array = Json::array();
     for (const BuiltinScene& scene : scenes)
-      array.push_back({{"name", scene.name}, {"description", scene.description}});
+      array.push_back({{"name", scene.name}, {"group", scene.group}, {"description", scene.description}});
     return print_data(to_text({{"scenes", array}}));
   }
   std::string text;

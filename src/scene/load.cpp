@@ -7,6 +7,7 @@
 
 #include "base/embedded_file.h"
 #include "base/files.h"
+#include "base/lines.h"
 #include "base/printable.h"
 #include "scene/diagnostics.h"
 #include "scene/document.h"
@@ -87,8 +88,13 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
 
 std::vector<BuiltinScene> list_builtin_scenes() {
   std::vector<BuiltinScene> scenes;
-  for (const EmbeddedFile& file : builtin_scene_files()) {
-    scenes.push_back({file.name.substr(0, file.name.size() - ending.size()), first_comment(file.text)});
+  std::string_view group;
+  for (std::string_view order = *find_embedded(builtin_scene_files(), "order.txt"); !order.empty();) {
+    const std::string_view line = take_line(order);
+    if (line.starts_with("# "))
+      group = line.substr(2);
+    else
+      scenes.push_back({line, first_comment(*builtin_scene_text(line)), group});
   }
   return scenes;
 }

@@ -41,6 +41,7 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
 struct BuiltinScene {
   std::string_view name;
   std::string_view description;  ///< one line: the file's first comment
+  std::string_view group;        ///< the heading that it is listed under
 };
 
 /// All built-in scenes, in the order in which they are listed for users.

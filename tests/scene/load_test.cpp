@@ -224,6 +224,13 @@ TEST(Builtin, ScenesLoadAndBuild) {
                                           "flag", "curtain", "ball-pit", "cube-and-balls", "large-cube"));
 }
 
+TEST(Builtin, ScenesOfAGroupFollowOneAnother) {
+  std::vector<std::string> groups;
+  for (const BuiltinScene& builtin : list_builtin_scenes())
+    if (groups.empty() || groups.back() != builtin.group) groups.emplace_back(builtin.group);
+  EXPECT_THAT(groups, testing::ElementsAre("Cubes", "Nets and cloth", "Balls", "Large"));
+}
+
 // Limit of symplectic Euler (−γ + √(γ² + 4κ))/κ at the largest operator eigenvalue 17.63.
 TEST(Builtin, LargeCubeStepsBelowItsStabilityLimit) {
   const auto scene = load_scene("large-cube");
