@@ -4,7 +4,11 @@ add_library(aspic_rules INTERFACE)
 target_include_directories(aspic_rules INTERFACE "${PROJECT_SOURCE_DIR}/src")
 # Contraction to fused multiply-add would change bits: see docs/determinism.md.
 target_compile_options(aspic_rules INTERFACE -ffp-contract=off)
-target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor>)
+target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wconversion -Wnon-virtual-dtor>)
+if(NOT CMAKE_UNITY_BUILD)
+  # Files that are compiled together see one another's names.
+  target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wshadow>)
+endif()
 if(ASPIC_WARNINGS_AS_ERRORS)
   target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
 endif()

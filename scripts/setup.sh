@@ -46,7 +46,8 @@ aspic_build() {
   cd "$aspic_root" || return 1
   if [ ! -f "$aspic_build_dir/build.ninja" ] ||
     { [ "$tests" = ON ] && ! grep -q '^ASPIC_BUILD_TESTS:BOOL=ON$' "$aspic_build_dir/CMakeCache.txt"; }; then
-    cmake --preset release -DASPIC_BUILD_TESTS="$tests" >&2 || return 1
+    # Eight files compiled together take little longer than one: half the time of a first build.
+    cmake --preset release -DASPIC_BUILD_TESTS="$tests" -DCMAKE_UNITY_BUILD=ON >&2 || return 1
   fi
   if ! ninja -C "$aspic_build_dir" --quiet "$@" | sed '/^ninja: no work to do/d' >&2; then
     echo "The build failed; the compiler's messages are above." >&2

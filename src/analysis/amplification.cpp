@@ -2,12 +2,10 @@
 
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace aspic {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t max_degree = max_stages;
 
 // Every method of the table loses stability well inside this |z|: a polynomial of degree 4 with R ≈ eᶻ cannot

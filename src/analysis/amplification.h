@@ -3,11 +3,15 @@
 // not grow.
 #include <array>
 #include <complex>
+#include <limits>
 #include <optional>
 
 #include "model/integrator.h"
 
 namespace aspic {
+
+/// Of steps and times that have no limit [s].
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Coefficients of R(z), lowest first: the stages applied to y' = λy, z = hλ. For velocities it holds for
 /// every staged method where forces do not depend on positions.

@@ -12,11 +12,11 @@
 namespace aspic {
 namespace {
 
-using Vector = Eigen::VectorXd;
+using DynamicVector = Eigen::VectorXd;
 
 /// A start vector with a share of every mode, the same on every run.
-Vector start_vector(std::size_t size) {
-  Vector v(static_cast<Eigen::Index>(size));
+DynamicVector start_vector(std::size_t size) {
+  DynamicVector v(static_cast<Eigen::Index>(size));
   SplitMix64 random(0);
   for (Eigen::Index i = 0; i < v.size(); ++i) v[i] = random.share() - 0.5;
   return v;
@@ -33,13 +33,13 @@ Eigen::VectorXd tridiagonal_eigenvalues(std::vector<double>& diagonal, std::vect
                                         Eigen::Index n) {
   if (n == 0) return {};
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(Eigen::Map<Vector>(diagonal.data(), n),
-                                Eigen::Map<Vector>(off_diagonal.data(), n - 1), Eigen::EigenvaluesOnly);
+  solver.computeFromTridiagonal(Eigen::Map<DynamicVector>(diagonal.data(), n),
+                                Eigen::Map<DynamicVector>(off_diagonal.data(), n - 1), Eigen::EigenvaluesOnly);
   return solver.eigenvalues();
 }
 TopOfTridiagonal top_of(std::vector<double>& diagonal, std::vector<double>& off_diagonal) {
   const auto n = static_cast<Eigen::Index>(diagonal.size());
-  const Vector all = tridiagonal_eigenvalues(diagonal, off_diagonal, n),
+  const DynamicVector all = tridiagonal_eigenvalues(diagonal, off_diagonal, n),
                inner = tridiagonal_eigenvalues(diagonal, off_diagonal, n - 1);
   const double top = all[n - 1];
   double squared = 1.0;
@@ -143,7 +143,7 @@ void LinearisedBody::multiply(double stiffness_factor, double damping_factor, co
 std::vector<Vec3> LinearisedBody::stiffest_mode(double stiffness_factor, double damping_factor,
                                                 int rounds) const {
   const std::size_t particles = root_inverse_mass_.size();
-  Vector mode = start_vector(3 * particles), image(mode.size());
+  DynamicVector mode = start_vector(3 * particles), image(mode.size());
   for (int round = 0; round < rounds; ++round) {
     multiply(stiffness_factor, damping_factor, mode.data(), image.data());
     const double size = image.norm();
@@ -172,7 +172,7 @@ LargestEigenvalue LinearisedBody::largest_eigenvalue(double stiffness_factor, do
   if (springs_.empty() || !std::isfinite(bound) || work.left() < least_iterations * work_of_iteration)
     return {bound, false};
   const std::size_t size = 3 * root_inverse_mass_.size();
-  Vector current = start_vector(size), previous = Vector::Zero(current.size()), image(current.size());
+  DynamicVector current = start_vector(size), previous = DynamicVector::Zero(current.size()), image(current.size());
   current.normalize();
   std::vector<double> diagonal, off_diagonal;
   double beta = 0.0;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,8 +14,6 @@
 
 namespace aspic {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Effort {
   double tolerance;  // of Lanczos' residual, relative

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t most_history_bytes = std::uint64_t{512} << 20;
 /// Models of so many particles are built on another thread.
-constexpr std::uint64_t many_particles = 20000;
+constexpr std::uint64_t long_to_build = 20000;
 
 }  // namespace
 
@@ -72,7 +72,7 @@ void Simulation::start_change() {
   requested_.reset();
   const std::uint64_t particles =
       std::max<std::uint64_t>(model().particle_count(), predict_counts(setup.settings).particles);
-  if (particles < many_particles || engines_.use_context()) {
+  if (particles < long_to_build || engines_.use_context()) {
     change_result_ = change_setup(std::move(setup), keep_state);
     return;
   }

@@ -15,7 +15,7 @@ using gl::Buffer;
 using gl::ReadBy;
 
 /// By BallPasses::Kernel.
-constexpr KernelRow kernel_rows[] = {{"compute/ball_fly.comp", "balls: flight and terrain"},
+constexpr KernelRow ball_kernels[] = {{"compute/ball_fly.comp", "balls: flight and terrain"},
                                      {"compute/ball_clear.comp", "balls: empty grid and marks"},
                                      {"compute/ball_insert.comp", "balls: fill the grid"},
                                      {"compute/ball_find.comp", "balls: find contacts"},
@@ -94,7 +94,7 @@ std::uint64_t ball_bytes(const ModelCounts& counts) {
 }
 
 std::vector<std::string> BallPasses::pass_names() {
-  return titles_of(kernel_rows);
+  return titles_of(ball_kernels);
 }
 
 /// Which kernels the scene needs. Only with more than LIST_SIZE other balls can a body be crowded.
@@ -209,7 +209,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
         {BINDING_BALL_WORK, &work_},
         {BINDING_CONTROL, surroundings.control}};
     if (k == fly) bindings.push_back(surroundings.pull);
-    ASPIC_TRY(programs_[k], context.programs().compute(kernels.library, kernel_rows[k].path, defines));
+    ASPIC_TRY(programs_[k], context.programs().compute(kernels.library, ball_kernels[k].path, defines));
     passes_[k].emplace(*programs_[k], bindings, ReadBy::compute_pass);
   }
   return {};

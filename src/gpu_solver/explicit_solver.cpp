@@ -18,11 +18,8 @@ using gl::ReadBy;
 
 using Clock = std::chrono::steady_clock;
 
-/// Steps queued between two looks at the control words, at most, and queues under way: one is carried out
-/// while the host hears of the one before.
+/// Steps queued between two looks at the control words, at most.
 constexpr std::uint32_t most_steps = 1024;
-constexpr std::size_t most_queues = 2;
-static_assert(most_queues <= gl::ReadRing::capacity);
 
 /// See GpuOptions::lattice_run.
 constexpr std::uint32_t software_run = 4;

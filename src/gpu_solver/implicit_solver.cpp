@@ -17,11 +17,8 @@ using gl::ReadBy;
 
 using Clock = std::chrono::steady_clock;
 
-/// Steps queued between two looks at the Solve block, at most, and queues under way: one is carried out while
-/// the host hears of the one before.
-constexpr std::uint32_t most_steps = 16;
-constexpr std::size_t most_queues = 2;
-static_assert(most_queues <= gl::ReadRing::capacity);
+/// Steps queued between two looks at the Solve block, at most.
+constexpr std::uint32_t most_solves = 16;
 /// Rounds queued for the first step, before there is one to learn from, and at least where a step needed more
 /// than was queued.
 constexpr std::uint32_t first_rounds = 8, more_rounds = 16;
@@ -29,7 +26,7 @@ constexpr std::uint32_t first_rounds = 8, more_rounds = 16;
 constexpr std::uint32_t most_queued_rounds = 4096;
 
 enum Kernel : std::size_t { begin, evaluate, apply, update, direction, finish, kernel_count };
-constexpr std::array<KernelRow, kernel_count> kernel_rows = {
+constexpr std::array<KernelRow, kernel_count> implicit_kernels = {
     {{"compute/implicit_begin.comp", "start of the step"},
      {"compute/implicit_evaluate.comp", "residual"},
      {"compute/implicit_apply.comp", "Jacobian times direction"},
@@ -45,7 +42,7 @@ std::uint64_t solve_bytes(std::uint64_t particles) {
 class ImplicitSolver final : public DeviceSolver {
  public:
   ImplicitSolver(gl::Context& context, const Model& model, const ForcePathRow& path)
-      : DeviceSolver(context, model, path, 2, titles_of(kernel_rows)) {}
+      : DeviceSolver(context, model, path, 2, titles_of(implicit_kernels)) {}
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   std::optional<SolveStatistics> solve_statistics() override { return statistics_; }
@@ -92,7 +89,7 @@ class ImplicitSolver final : public DeviceSolver {
   bool unheard_ = false;           // a look failed: the device has got further than solve_ says
   bool late_ = false;
   SolveStatistics statistics_;
-  QueueDepth depth_{most_steps}, round_depth_{most_queued_rounds, first_rounds};
+  QueueDepth depth_{most_solves}, round_depth_{most_queued_rounds, first_rounds};
 };
 
 Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptions& options) {
@@ -115,7 +112,7 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
              {BINDING_SEARCH, &search_, Over::particles, search_bytes},
              {BINDING_INCIDENT, &springs_->incident, Over::words, sizeof(std::uint32_t)},
              {BINDING_OWN, &own_, Over::items, own}};
-  for (const KernelRow& row : kernel_rows) {
+  for (const KernelRow& row : implicit_kernels) {
     ASPIC_TRY(auto made, sliced_pass(kernels, row.path, bindings, model_.particle_count(),
                                      {.item = own, .particle = particle, .word = sizeof(std::uint32_t)},
                                      seen_by_particles(model_, *springs_)));

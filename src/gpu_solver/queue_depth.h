@@ -1,9 +1,16 @@
 #pragma once
 // How much is queued on a device between two looks at it.
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
+#include "gpu/read_ring.h"
+
 namespace aspic {
+
+/// Queues under way: one is carried out while the host hears of the one before.
+constexpr std::size_t most_queues = 2;
+static_assert(most_queues <= gl::ReadRing::capacity);
 
 /// As many steps, or rounds of a solve, as take about a twentieth of a second by what was measured: enough to
 /// hide the wait, few enough to answer Ctrl-C and to stay far below what systems let a queue take. Begins

@@ -8,7 +8,7 @@ namespace aspic {
 namespace {
 
 constexpr Side edges[] = {{"top", 1, true}, {"bottom", 1, false}, {"left", 0, false}, {"right", 0, true}};
-constexpr PinNames pins = {"cloth", edges, "edge", "two edges joined by a hyphen, such as top-left",
+constexpr PinNames cloth_pins = {"cloth", edges, "edge", "two edges joined by a hyphen, such as top-left",
                            "w·h − 1"};
 
 /// Spring classes, counted from the cloth's first.
@@ -57,7 +57,7 @@ std::vector<Rod> rods_of(const Model& model, std::uint32_t first, std::uint32_t 
 Status add_cloth(Model& model, const ClothSettings& cloth) {
   const auto [w, h] = cloth.particles;
   const double sx = cloth.size[0] / (w - 1), sy = cloth.size[1] / (h - 1);
-  ASPIC_TRY(const std::vector<bool> pinned, pinned_particles(pins, cloth.pinned, {w, h, 1}));
+  ASPIC_TRY(const std::vector<bool> pinned, pinned_particles(cloth_pins, cloth.pinned, {w, h, 1}));
 
   Body body;
   body.first_particle = model.particle_count();
@@ -102,7 +102,7 @@ Status add_cloth(Model& model, const ClothSettings& cloth) {
 }  // namespace
 
 BodyRow ClothSettings::row() {
-  return body_row<&ModelSettings::cloths, counts_of, add_cloth>("cloth", "particles", &pins);
+  return body_row<&ModelSettings::cloths, counts_of, add_cloth>("cloth", "particles", &cloth_pins);
 }
 
 }  // namespace aspic

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Side faces[] = {{"top", 1, true},   {"bottom", 1, false}, {"left", 0, false},
                           {"right", 0, true}, {"front", 2, true},   {"back", 2, false}};
-constexpr PinNames pins = {"cube", faces, "face", "three faces joined by hyphens, such as left-top-front",
+constexpr PinNames cube_pins = {"cube", faces, "face", "three faces joined by hyphens, such as left-top-front",
                            "n³ − 1"};
 
 /// The six faces of n³ particles.
@@ -62,7 +62,7 @@ SpringSettings material_springs(const MaterialSettings& material, int particles_
 Status add_cube(Model& model, const CubeSettings& cube) {
   const int n = cube.particles_per_edge;
   const double s = cube.edge_length / (n - 1);
-  ASPIC_TRY(const auto pinned, pinned_particles(pins, cube.pinned, {n, n, n}));
+  ASPIC_TRY(const auto pinned, pinned_particles(cube_pins, cube.pinned, {n, n, n}));
 
   SpringSettings structural = cube.structural, shear = cube.shear, bending = cube.bending;
   double mass = cube.particle_mass;
@@ -102,7 +102,7 @@ Status add_cube(Model& model, const CubeSettings& cube) {
 
 BodyRow CubeSettings::row() {
   constexpr auto counts = [](const CubeSettings& cube) { return cube_counts(cube.particles_per_edge); };
-  return body_row<&ModelSettings::cubes, counts, add_cube>("cube", "particles-per-edge", &pins);
+  return body_row<&ModelSettings::cubes, counts, add_cube>("cube", "particles-per-edge", &cube_pins);
 }
 
 }  // namespace aspic

@@ -13,8 +13,8 @@
 namespace aspic::verify {
 namespace {
 
-constexpr double g = 9.8;
-constexpr double strong = 1.01 * g;                  // [N/m] of a pull 1 m long on 1 kg
+constexpr double gravity = 9.8;  // [m/s²]
+constexpr double strong = 1.01 * gravity;                  // [N/m] of a pull 1 m long on 1 kg
 constexpr double pull_bound = 1e-3 * 1e-3 * strong;  // h²·k/m
 
 constexpr int phases = 16;
@@ -38,7 +38,7 @@ Result<Apexes> apexes(const Subject& subject, Integrator integrator, double e) {
   model.terrain[0].restitution = e;
   ASPIC_TRY(auto solver, subject.reference(model, Precision::double_));
   // Past the first apex of all, and with e = 1 some twenty bounces.
-  const double fall = std::sqrt(2 * drop_height / g);
+  const double fall = std::sqrt(2 * drop_height / gravity);
   const double duration = fall * (e < 1.0 ? 1 + 2.2 * e : 41.0) + 0.05;
   const std::uint64_t steps = steps_of(model, duration);
   std::vector<int> bounces(phases, 0);
@@ -63,7 +63,7 @@ Result<Apexes> apexes(const Subject& subject, Integrator integrator, double e) {
 }
 
 Result<Finding> restitution(const Subject& subject, Integrator integrator) {
-  const double h = usual_step(integrator), bound = 0.5 * g * h * h;
+  const double h = usual_step(integrator), bound = 0.5 * gravity * h * h;
   Finding finding{true, ""};
   double above = -1.0;
   for (const double e : {0.2, 0.5, 0.8, 1.0}) {
@@ -109,7 +109,7 @@ Result<Finding> cone(const Subject& subject, Integrator integrator) {
   double worst = 0.0;
   for (const double degrees : {15.0, 25.0}) {
     const double angle = degrees * std::numbers::pi / 180;
-    const double expected = g * (std::sin(angle) - 0.2 * std::cos(angle));
+    const double expected = gravity * (std::sin(angle) - 0.2 * std::cos(angle));
     ASPIC_TRY(auto found, study_slide(subject, integrator, ContactModel::coulomb, degrees, 0.2, 3.0));
     worst = std::max(worst, std::abs(found.acceleration / expected - 1));
   }
@@ -140,7 +140,7 @@ Result<Finding> no_adhesion(const Subject& subject) {
     };
     ASPIC_TRY(auto free, pulled(airborne, strong));
     ASPIC_TRY(auto lifted, pulled(model, strong));
-    ASPIC_TRY(auto weak, pulled(model, 0.99 * g));
+    ASPIC_TRY(auto weak, pulled(model, 0.99 * gravity));
     lag = std::max({lag, length(lifted.position[0] - free.position[0]) / length(free.position[0]),
                     length(lifted.velocity[0] - free.velocity[0]) / length(free.velocity[0])});
     held = std::max({held, length(weak.position[0]), length(weak.velocity[0])});
@@ -156,7 +156,7 @@ void add_coulomb_checks(std::vector<Check>& checks) {
     checks.push_back({fmt::format("contact/restitution/{}", name_of(integrator)),
                       "16 phases of a drop from 1 m: first apex − e²·height for e = 0.2, 0.5, 0.8, 1; twenty "
                       "bounces at e = 1 never higher than the start",
-                      at_most_text(0.5 * g * usual_step(integrator) * usual_step(integrator), "m = ½gh²"),
+                      at_most_text(0.5 * gravity * usual_step(integrator) * usual_step(integrator), "m = ½gh²"),
                       true, false, [=](const Subject& subject) { return restitution(subject, integrator); }});
   }
   add_for_each_integrator(

@@ -7,9 +7,6 @@
 namespace aspic::test {
 namespace {
 
-// As in tests/render/golden_gl_test.cpp: this rasteriser's own; another build of it may round differently.
-constexpr int tolerance = 2;
-
 struct View {
   std::string scene;
   int steps;
@@ -31,14 +28,14 @@ TEST_P(Views, AreAsTheyWere) {
   press(GLFW_KEY_TAB);
   // Long enough for the full resolution.
   frames(30);
-  expect_golden(image(), "window/" + view.scene + "-start", tolerance);
+  expect_golden(image(), "window/" + view.scene + "-start");
   // Step by step and without pictures on the way: balls turn from one picture to the next.
   for (int i = 0; i < view.steps; ++i) type(U'.');
   ASSERT_TRUE(simulation().settle().ok());  // a large cube steps beside the pictures
   ASSERT_EQ(simulation().step(), static_cast<std::uint64_t>(view.steps));
   EXPECT_FALSE(app().messages.notice().has_value()) << app().messages.notice()->text;
   frames(30);
-  expect_golden(image(), "window/" + view.scene, tolerance);
+  expect_golden(image(), "window/" + view.scene);
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, Views,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "support/epsilon.h"
 #include "support/model_building.h"
 #include "support/reference_runs.h"
 
@@ -14,7 +15,7 @@ using test::expect_near;
 using test::solver_for;
 using test::weightless;
 
-constexpr double epsilon = 2.3e-16;
+using test::eps;
 
 /// A ball at rest on a slope of 30° that falls towards +x.
 ModelSettings on_slope(double friction) {
@@ -33,7 +34,7 @@ TEST(BallsOnTheGround, SlideWithoutFrictionAndRollAtFiveSeventhsWithEnough) {
   const std::uint64_t steps = 1000;
   // Each step adds h·g, takes the normal part away and, with friction, the slip: the sum is exact but for
   // rounding of speeds up to 5 m/s in every step.
-  const double tolerance = static_cast<double>(steps) * 16 * epsilon * 5.0;
+  const double tolerance = static_cast<double>(steps) * 16 * eps * 5.0;
   const State slid = after(test::build(on_slope(0.0)), steps);
   EXPECT_NEAR(length(slid.ball_velocity[0]), static_cast<double>(steps) * h * along, tolerance);
   EXPECT_EQ(slid.ball_angular_velocity[0], Vec3{});
@@ -59,9 +60,9 @@ TEST(BallsOnTheGround, WithoutSpinAreParticlesOfTheirRadius) {
   const Model model = test::build(settings);
   const State end = after(model, 500);
   expect_near(end.ball_position[0], initial_state(model, Precision::double_).ball_position[0],
-              4 * epsilon * 0.4);
+              4 * eps * 0.4);
   // It is let down by what rounding leaves between it and the surface.
-  expect_near(end.ball_velocity[0], Vec3{}, 4 * epsilon * 0.4 / model.simulation.timestep);
+  expect_near(end.ball_velocity[0], Vec3{}, 4 * eps * 0.4 / model.simulation.timestep);
   EXPECT_EQ(end.ball_angular_velocity[0], Vec3{});
 }
 
@@ -81,7 +82,7 @@ TEST(BallsOnTheGround, SpinTurnsABounce) {
     const double taken = std::min(2.0 / 7.0 * R * omega, mu * 1.5 * fall);
     // The bounce takes the speed from positions of up to 1 m, a step apart; friction takes up to μ times
     // that.
-    const double rounding = 64 * epsilon * 8.0 + (1.0 + mu) * 4 * epsilon / model.simulation.timestep;
+    const double rounding = 64 * eps * 8.0 + (1.0 + mu) * 4 * eps / model.simulation.timestep;
     expect_near(end.ball_velocity[0], {-taken, 0.5 * fall, 0.0}, rounding);
     expect_near(end.ball_angular_velocity[0], {0.0, 0.0, omega - 2.5 * taken / R}, 5.0 * rounding / R);
   }
@@ -111,7 +112,7 @@ TEST(BallsOnTheGround, BounceByRestitutionAndComeToRest) {
       ASSERT_FALSE((*solver->advance(6000)).has_value());
       const State rested = *solver->state();
       EXPECT_EQ(rested.ball_velocity[0], Vec3{}) << name_of(integrator) << ", spin " << spin;
-      EXPECT_NEAR(rested.ball_position[0].y, R, 4 * epsilon);
+      EXPECT_NEAR(rested.ball_position[0].y, R, 4 * eps);
       ASSERT_FALSE((*solver->advance(100)).has_value());
       EXPECT_EQ(solver->state()->ball_position[0], rested.ball_position[0]);
     }
@@ -122,7 +123,7 @@ TEST(BallsOnTheGround, BounceByRestitutionAndComeToRest) {
 // slope it gains 5/7·g·sin θ, as if the ground acted at the steps' ends alone.
 TEST(BallsOnTheGround, RollOnUnderEveryIntegrator) {
   const double R = 0.4, along = 9.8 * 0.5, t = 1.0;
-  const double rounding = 1000 * 16 * epsilon * 5.0;
+  const double rounding = 1000 * 16 * eps * 5.0;
   for (const Integrator integrator : all_integrators) {
     ModelSettings level;
     level.simulation.integrator = integrator;
@@ -170,7 +171,7 @@ TEST(BallsOnTheGround, CourseModelBouncesByTheSlidesFormula) {
   settings.terrain[0].restitution = 1.0;
   settings.balls.push_back({0.3, 1.0, {0.0, -0.7 + 0.005, 0.0}, {1.0, -2.0, 0.0}, {}});
   const State end = after(test::build(settings), 1);
-  expect_near(end.ball_velocity[0], {1.0, 18.0 / 11.0, 0.0}, 64 * epsilon);
+  expect_near(end.ball_velocity[0], {1.0, 18.0 / 11.0, 0.0}, 64 * eps);
 }
 
 }  // namespace

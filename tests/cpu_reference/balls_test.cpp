@@ -4,6 +4,7 @@
 #include <random>
 
 #include "analysis/energy.h"
+#include "support/epsilon.h"
 #include "support/model_building.h"
 #include "support/reference_runs.h"
 
@@ -15,7 +16,7 @@ using test::expect_near;
 using test::solver_for;
 using test::weightless;
 
-constexpr double epsilon = 2.3e-16;
+using test::eps;
 
 struct TwoBodies {
   double m1, m2, e;
@@ -37,7 +38,7 @@ TEST_P(TwoBalls, FollowTheImpactFormula) {
   ASSERT_LT(u, 0.0);
   const double J = -(1.0 + e) * u / (w1 + w2);
   // Velocities of a few m/s through about twenty operations; a light partner's impulse is w times as large.
-  const double tolerance = 64 * epsilon * (4.0 + J * std::max(w1, w2));
+  const double tolerance = 64 * eps * (4.0 + J * std::max(w1, w2));
   expect_near(end.ball_velocity[0], v1 + (w1 * J) * n, tolerance);
   expect_near(end.ball_velocity[1], v2 - (w2 * J) * n, tolerance);
 }
@@ -58,7 +59,7 @@ TEST(Balls, BounceFromAPinnedParticleAsFromAWall) {
   // The centre has moved by h·v when they meet: the normal is that of the meeting.
   const Vec3 meeting = {0.503 - 0.004, 0.001, 0.0};
   const Vec3 n = meeting / length(meeting), v = {-4.0, 1.0, 0.0};
-  expect_near(end.ball_velocity[0], v - (2.0 * dot(v, n)) * n, 64 * epsilon * 8.0);
+  expect_near(end.ball_velocity[0], v - (2.0 * dot(v, n)) * n, 64 * eps * 8.0);
   EXPECT_EQ(end.position[0], Vec3{});
   EXPECT_EQ(end.velocity[0], Vec3{});
 }
@@ -73,8 +74,8 @@ TEST(Balls, ExchangeVelocityWithAParticle) {
   model.inverse_mass = {1.0};
   const State end = after(model, 1);
   // (m₁ − m₂)/(m₁ + m₂)·v and 2m₁/(m₁ + m₂)·v
-  expect_near(end.ball_velocity[0], {0.0, -1.0, 0.0}, 64 * epsilon);
-  expect_near(end.velocity[0], {0.0, -3.0, 0.0}, 64 * epsilon);
+  expect_near(end.ball_velocity[0], {0.0, -1.0, 0.0}, 64 * eps);
+  expect_near(end.velocity[0], {0.0, -3.0, 0.0}, 64 * eps);
 }
 
 /// A crowd of balls and loose particles that press on each other in many places at once.
@@ -116,8 +117,8 @@ TEST(Balls, ManyContactsKeepMomentumAndNeverRaiseTheEnergy) {
       for (int step = 0; step < 200; ++step) {
         ASSERT_FALSE((*solver->advance(1)).has_value());
         const Measures now = measure(model, *solver->state());
-        expect_near(now.momentum, before.momentum, epsilon * momentum_scale);
-        ASSERT_LE(now.kinetic, before.kinetic * (1.0 + 1000 * epsilon)) << "step " << step;
+        expect_near(now.momentum, before.momentum, eps * momentum_scale);
+        ASSERT_LE(now.kinetic, before.kinetic * (1.0 + 1000 * eps)) << "step " << step;
         lost = (first - now.kinetic) / first;
         before = now;
       }
@@ -145,8 +146,8 @@ TEST(Balls, CrowdsKeepMomentumAndNeverRaiseTheEnergy) {
     for (int step = 0; step < 10; ++step) {
       ASSERT_FALSE((*solver->advance(1)).has_value());
       const Measures now = measure(model, *solver->state());
-      expect_near(now.momentum, before.momentum, 4 * epsilon * momentum_scale);
-      ASSERT_LE(now.kinetic, before.kinetic * (1.0 + 1000 * epsilon)) << balls << " balls, step " << step;
+      expect_near(now.momentum, before.momentum, 4 * eps * momentum_scale);
+      ASSERT_LE(now.kinetic, before.kinetic * (1.0 + 1000 * eps)) << balls << " balls, step " << step;
       before = now;
     }
   }
@@ -188,8 +189,8 @@ TEST(Balls, OverlapIsMendedAboutTheCentreOfMass) {
   settings.balls.push_back({0.5, 1.0, {0.0, 0.0, 0.0}, {}, {}});
   settings.balls.push_back({0.5, 3.0, {0.8, 0.0, 0.0}, {}, {}});
   const State end = after(test::build(settings), 1);
-  expect_near(end.ball_position[0], {-0.15, 0.0, 0.0}, 16 * epsilon);
-  expect_near(end.ball_position[1], {0.85, 0.0, 0.0}, 16 * epsilon);
+  expect_near(end.ball_position[0], {-0.15, 0.0, 0.0}, 16 * eps);
+  expect_near(end.ball_position[1], {0.85, 0.0, 0.0}, 16 * eps);
   EXPECT_EQ(end.ball_velocity[0], Vec3{});
 
   const Model many = crowd(1.0, true, 8);
@@ -204,15 +205,15 @@ TEST(Balls, OverlapIsMendedAboutTheCentreOfMass) {
                               (start.ball_position[b] + many.simulation.timestep * start.ball_velocity[b]);
     centre = centre + many.balls[b].mass * moved.ball_position[b];
   }
-  expect_near(centre, expected, epsilon * 260.0 * 55.0 * 5.0);
+  expect_near(centre, expected, eps * 260.0 * 55.0 * 5.0);
 }
 
 TEST(Balls, CentresThatCoincidePartAlongY) {
   ModelSettings settings = weightless();
   settings.balls.assign(2, {0.5, 1.0, {1.0, 2.0, 3.0}, {}, {}});
   const State end = after(test::build(settings), 1);
-  expect_near(end.ball_position[0], {1.0, 2.5, 3.0}, 16 * epsilon);
-  expect_near(end.ball_position[1], {1.0, 1.5, 3.0}, 16 * epsilon);
+  expect_near(end.ball_position[0], {1.0, 2.5, 3.0}, 16 * eps);
+  expect_near(end.ball_position[1], {1.0, 1.5, 3.0}, 16 * eps);
 }
 
 TEST(Balls, FlyByEveryIntegratorsFormula) {
@@ -224,8 +225,8 @@ TEST(Balls, FlyByEveryIntegratorsFormula) {
     const State end = after(test::build(settings), 100);
     // One second: y = 2 + 5 − g/2, and ±g·h/2 for methods of first order in x.
     const double shift = -(free_fall_lead(integrator) - 0.5) * 9.8 * 0.01;
-    expect_near(end.ball_position[0], {2.0, 7.0 - 4.9 + shift, 2.0}, 100 * 8 * epsilon * 8.0);
-    expect_near(end.ball_velocity[0], {1.0, 5.0 - 9.8, -1.0}, 100 * 4 * epsilon * 10.0);
+    expect_near(end.ball_position[0], {2.0, 7.0 - 4.9 + shift, 2.0}, 100 * 8 * eps * 8.0);
+    expect_near(end.ball_velocity[0], {1.0, 5.0 - 9.8, -1.0}, 100 * 4 * eps * 10.0);
     EXPECT_EQ(end.ball_angular_velocity[0], (Vec3{1.0, 2.0, 3.0}));
   }
 }

@@ -4,17 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <limits>
 #include <random>
 
 #include "cpu_reference/ground.h"
 #include "model/terrain.h"
+#include "support/epsilon.h"
 
 namespace aspic::reference {
 namespace {
 
 using V = Vector<double>;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 /// ε = 0.01, |g| = 9.8: v_rest = max(0.01, 19.6 h).
 ContactConstants<double> constants(double h = 0.001) {

@@ -6,19 +6,19 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "cpu_reference/implicit_euler.h"
 #include "cpu_reference/phase.h"
 #include "model/terrain.h"
+#include "support/epsilon.h"
 #include "support/model_building.h"
 
 namespace aspic::reference {
 namespace {
 
 using V = Vector<double>;
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 constexpr double h = 1.0 / 60.0, mass = 2.0;
 
 Terrain plane(const Vec3& point, const Vec3& normal, double mu, double e = 0.8) {

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "analysis/energy.h"
 #include "model/pull.h"
 #include "model/terrain.h"
+#include "support/epsilon.h"
 #include "support/model_building.h"
 #include "support/reference_runs.h"
 
@@ -23,7 +23,7 @@ using test::fastest;
 using test::layer;
 using test::solver_for;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 constexpr double h = 1.0 / 60.0, g = 9.8;
 constexpr double tolerance = 1e-9;  // of a solve in double precision [m/s]
 

@@ -13,13 +13,14 @@
 #include "cpu_reference/reference_solver.h"
 #include "model/integrator.h"
 #include "model/state.h"
+#include "support/epsilon.h"
 #include "support/integrator_names.h"
 #include "support/model_building.h"
 
 namespace aspic {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 class IntegratorTable : public testing::TestWithParam<Integrator> {
  protected:

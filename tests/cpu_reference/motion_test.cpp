@@ -8,12 +8,13 @@
 #include "cpu_reference/reference_solver.h"
 #include "model/integrator.h"
 #include "model/terrain.h"
+#include "support/epsilon.h"
 #include "support/model_building.h"
 
 namespace aspic {
 namespace {
 
-constexpr double eps = 2.3e-16;
+using test::eps;
 
 TEST(Pose, IsASineOfTimeAndItsDerivative) {
   const TerrainMotion motion = {{0.6, 0.8, 0.0}, 2.0, 0.3, 0.1};

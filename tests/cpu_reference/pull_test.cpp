@@ -4,26 +4,21 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cpu_reference/implicit_euler.h"
 #include "cpu_reference/phase.h"
 #include "cpu_reference/reference_solver.h"
 #include "model/integrator.h"
 #include "model/springs.h"
+#include "support/epsilon.h"
 #include "support/integrator_names.h"
 #include "support/model_building.h"
+#include "support/reference_runs.h"
 
 namespace aspic {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-std::unique_ptr<Solver> solver_for(const Model& model, Precision precision) {
-  auto solver = make_reference_solver(model, precision);
-  EXPECT_TRUE(solver.ok());
-  return std::move(solver).value();
-}
+using test::eps;
 
 /// What one step makes of (position, velocity) of a linear oscillator.
 Eigen::Matrix2d amplification(Integrator integrator, double h, double k, double c, double m) {
@@ -46,7 +41,7 @@ class PullClosedForm : public testing::TestWithParam<Integrator> {
     model.simulation.timestep = h;
     model.simulation.integrator = GetParam();
     model.simulation.implicit.tolerance = 1e-15;
-    auto solver = solver_for(model, Precision::double_);
+    auto solver = test::solver_for(model, Precision::double_);
     EXPECT_TRUE(solver->set_pull(Pull{0, anchor, k, c}).ok());
     const Eigen::Matrix2d R = amplification(GetParam(), h, k, c, m);
     Eigen::Matrix<double, 2, 3> y;
@@ -85,7 +80,7 @@ TEST(Pull, HangsWhereWeightAndPullBalance) {
     Model model = test::particles({{0.0, 1.0, 0.0}}, {{0.0, 2.0, 0.0}});  // below: damping acts along e
     model.simulation.integrator = integrator;
     model.simulation.timestep = h;
-    auto solver = solver_for(model, Precision::double_);
+    auto solver = test::solver_for(model, Precision::double_);
     ASSERT_TRUE(solver->set_pull(Pull{0, {0.0, 4.0, 0.0}, k, c}).ok());
     ASSERT_FALSE((*solver->advance(30000)).has_value());
     // It comes to rest where h·v, with c·v = k·(distance to the balance), no longer changes a position of 4
@@ -124,7 +119,7 @@ TEST(Pull, IsASpringToAPinnedParticleToTheBit) {
         const Model model = test::build(settings);
         const Pull pull{17, {2.0, 3.0, -1.0}, 700.0, 15.0};
         const Model other = with_spring_instead(model, pull);
-        auto pulled = solver_for(model, precision), sprung = solver_for(other, precision);
+        auto pulled = test::solver_for(model, precision), sprung = test::solver_for(other, precision);
         ASSERT_TRUE(pulled->set_pull(pull).ok());
         const std::uint64_t steps = integrator == Integrator::implicit_euler ? 40 : 200;
         ASSERT_FALSE((*pulled->advance(steps)).has_value());
@@ -182,7 +177,7 @@ TEST(Pull, IsPartOfTheEquationThatImplicitEulerSolves) {
 TEST(Pull, HoldsUntilChangedAndSurvivesALoad) {
   const Model model = test::build(test::cube_on_plane(3, 5.0));
   const Pull pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0};
-  auto whole = solver_for(model, Precision::single), split = solver_for(model, Precision::single);
+  auto whole = test::solver_for(model, Precision::single), split = test::solver_for(model, Precision::single);
   ASSERT_TRUE(whole->set_pull(pull).ok());
   ASSERT_TRUE(split->set_pull(pull).ok());
   ASSERT_FALSE((*whole->advance(40)).has_value());
@@ -193,7 +188,7 @@ TEST(Pull, HoldsUntilChangedAndSurvivesALoad) {
 
   // Let go: from here on as a new solver, which pulls nobody.
   ASSERT_TRUE(whole->set_pull(std::nullopt).ok());
-  auto fresh = solver_for(model, Precision::single);
+  auto fresh = test::solver_for(model, Precision::single);
   ASSERT_TRUE(fresh->load(*whole->state()).ok());
   ASSERT_FALSE((*whole->advance(20)).has_value());
   ASSERT_FALSE((*fresh->advance(20)).has_value());
@@ -202,7 +197,7 @@ TEST(Pull, HoldsUntilChangedAndSurvivesALoad) {
 
 TEST(Pull, RefusedLeavesTheOneBefore) {
   const Model model = test::build(test::cube_on_plane(3, 5.0));
-  auto one = solver_for(model, Precision::single), other = solver_for(model, Precision::single);
+  auto one = test::solver_for(model, Precision::single), other = test::solver_for(model, Precision::single);
   ASSERT_TRUE(one->set_pull(Pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0}).ok());
   ASSERT_TRUE(other->set_pull(Pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0}).ok());
   EXPECT_EQ(one->set_pull(Pull{27, {}, 1.0, 0.0}).error().code, ErrorCode::usage);
@@ -223,7 +218,7 @@ TEST(PullOnABall, HangsAtMgOverK) {
     settings.simulation.timestep = h;
     settings.simulation.integrator = integrator;
     const Model model = test::build(settings);
-    auto solver = solver_for(model, Precision::double_);
+    auto solver = test::solver_for(model, Precision::double_);
     ASSERT_TRUE(solver->set_pull(Pull{0, {1.0, 4.0, 0.0}, k, c, true}).ok());
     ASSERT_FALSE((*solver->advance(5000)).has_value());
     const State state = *solver->state();
@@ -240,7 +235,7 @@ TEST(PullOnABall, DoesNothingToOneThatWaitsForItsLaunch) {
   ModelSettings settings;
   settings.launchers.emplace_back().count = 3;
   const Model model = test::build(settings);
-  auto solver = solver_for(model, Precision::double_);
+  auto solver = test::solver_for(model, Precision::double_);
   ASSERT_TRUE(solver->set_pull(Pull{2, {0.0, 50.0, 0.0}, 100.0, 1.0, true}).ok());
   ASSERT_FALSE((*solver->advance(100)).has_value());
   EXPECT_EQ(solver->state()->ball_position[2], model.balls[2].initial_position);

@@ -3,20 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "support/model_building.h"
+#include "support/reference_runs.h"
 
 namespace aspic {
 namespace {
 
-std::unique_ptr<Solver> solver_for(const Model& model, Precision precision = Precision::single) {
-  auto solver = make_reference_solver(model, precision);
-  EXPECT_TRUE(solver.ok());
-  return std::move(solver).value();
-}
-
 TEST(ReferenceSolver, StartsAtTheModelsState) {
   const Model model = test::build(test::cube_on_plane(4));
   for (const Precision precision : {Precision::single, Precision::double_}) {
-    auto solver = solver_for(model, precision);
+    auto solver = test::solver_for(model, precision);
     EXPECT_EQ(*solver->state(), initial_state(model, precision));
   }
 }
@@ -25,11 +20,11 @@ TEST(ReferenceSolver, SplittingARunChangesNoBit) {
   ModelSettings settings = test::cube_on_plane(4, 1.5);
   settings.cubes[0].rotation = {{1, 2, 3}, 20};
   const Model model = test::build(settings);
-  auto whole = solver_for(model), split = solver_for(model);
+  auto whole = test::solver_for(model, Precision::single), split = test::solver_for(model, Precision::single);
   ASSERT_FALSE((*whole->advance(700)).has_value());
   ASSERT_FALSE((*split->advance(123)).has_value());
   const State middle = *split->state();
-  auto resumed = solver_for(model);
+  auto resumed = test::solver_for(model, Precision::single);
   ASSERT_TRUE(resumed->load(middle).ok());
   ASSERT_FALSE((*resumed->advance(577)).has_value());
   EXPECT_EQ(state_hash(*resumed->state()), state_hash(*whole->state()));
@@ -42,7 +37,7 @@ TEST(ReferenceSolver, DivergenceKeepsTheLastGoodState) {
   settings.cubes[0].rotation = {{1, 2, 3}, 20};
   settings.simulation.timestep = 0.05;
   const Model model = test::build(settings);
-  auto solver = solver_for(model);
+  auto solver = test::solver_for(model, Precision::single);
   const auto divergence = *solver->advance(100000);
   ASSERT_TRUE(divergence.has_value());
   const State last = *solver->state();
@@ -59,7 +54,7 @@ TEST(ReferenceSolver, DivergenceKeepsTheLastGoodState) {
 TEST(ReferenceSolver, TooFastIsDivergenceAndNamesTheLowestParticle) {
   const Model model =
       test::particles({{0, 0, 0}, {5, 0, 0}, {9, 0, 0}}, {{0, 0, 0}, {1001, 0, 0}, {2000, 0, 0}});
-  const auto divergence = *solver_for(model)->advance(1);
+  const auto divergence = *test::solver_for(model, Precision::single)->advance(1);
   ASSERT_TRUE(divergence.has_value());
   EXPECT_EQ(divergence->particle, 1u);
   EXPECT_EQ(divergence->step, 1u);
@@ -76,7 +71,7 @@ TEST(ReferenceSolver, ASolveWhoseResidualIsNotFiniteIsDivergence) {
   settings.cubes[0].structural.stiffness = 1e12;
   settings.cubes[0].rotation = {{1, 2, 3}, 20};
   const Model model = test::build(settings);
-  auto solver = solver_for(model);
+  auto solver = test::solver_for(model, Precision::single);
   const auto divergence = *solver->advance(10);
   ASSERT_TRUE(divergence.has_value());
   EXPECT_TRUE(divergence->residual);
@@ -93,7 +88,7 @@ TEST(ReferenceSolver, SpinWithoutAFiniteEnergyIsDivergence) {
   ModelSettings settings;
   settings.balls.emplace_back();
   const Model model = test::build(settings);
-  auto solver = solver_for(model, Precision::double_);
+  auto solver = test::solver_for(model, Precision::double_);
   State state = *solver->state();
   state.ball_angular_velocity[0] = {0.0, 1e160, 0.0};
   ASSERT_TRUE(solver->load(state).ok());
@@ -110,7 +105,7 @@ TEST(ReferenceSolver, PinnedParticlesStay) {
   for (const Integrator integrator : {Integrator::explicit_euler, Integrator::runge_kutta_4}) {
     Model copy = model;
     copy.simulation.integrator = integrator;
-    auto solver = solver_for(copy);
+    auto solver = test::solver_for(copy, Precision::single);
     ASSERT_FALSE((*solver->advance(500)).has_value());
     const State start = initial_state(copy, Precision::single), end = *solver->state();
     for (std::uint32_t i = 0; i < copy.particle_count(); ++i) {
@@ -126,7 +121,7 @@ TEST(ReferenceSolver, PinnedParticlesStay) {
 
 TEST(ReferenceSolver, RefusesAnotherScenesState) {
   const Model model = test::build(test::cube_on_plane(4));
-  auto solver = solver_for(model);
+  auto solver = test::solver_for(model, Precision::single);
   EXPECT_EQ(solver->load(State{}).error().code, ErrorCode::usage);
 }
 

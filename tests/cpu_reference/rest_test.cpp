@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "analysis/energy.h"
 #include "model/pull.h"
 #include "model/terrain.h"
+#include "support/epsilon.h"
 #include "support/integrator_names.h"
 #include "support/model_building.h"
 #include "support/reference_runs.h"
@@ -24,7 +24,7 @@ using test::fastest;
 using test::layer;
 using test::solver_for;
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 constexpr double h = 0.001, g = 9.8;
 
 Terrain plane(const Vec3& point, const Vec3& normal, double e, double mu) {
