@@ -218,8 +218,8 @@ std::string App::title() const {
 }
 
 bool App::idle() const {
-  return !simulation.running() && !beside.running() && beside.settled() &&
-         std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
+  return !simulation.running() && !beside.running() && beside.settled() && !picture.refining() &&
+         !beside.refining() && std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
          shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() && !simulation.changing() &&
          !simulation.busy();
 }
@@ -344,8 +344,8 @@ Status App::frame(const WindowSize& size, double dt) {
   const bool moves = simulation.running() || simulation.seeking() || beside.running() || !beside.settled();
   still_for_ = camera_moves_ || moves ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
-  picture.set_at_rest(std::min(still_for_, scene.unchanged_for()) > 0.25 || shot_wanted_ == Shot::window ||
-                      (shot_wanted_ == Shot::picture && beside.several()));
+  const bool taken = shot_wanted_ == Shot::window || (shot_wanted_ == Shot::picture && beside.several());
+  picture.set_at_rest(taken || std::min(still_for_, scene.unchanged_for()) > 0.25, taken);
   const auto start = std::chrono::steady_clock::now();
   const Status made = make_picture(size, dt);
   frame_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -380,7 +380,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
     view.frame_bodies(simulation.model(), simulation.snapshot());
   beside.share_colours();
   ASPIC_CHECK(picture.show(size));
-  ASPIC_CHECK(beside.show(size, picture.at_rest()));
+  ASPIC_CHECK(beside.show(size));
   if (const auto refusal = picture.take_refusal()) messages.error(*refusal);
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();

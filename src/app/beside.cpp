@@ -287,17 +287,22 @@ void Beside::share_colours() {
     companion->picture().common_range = shares(companion) ? std::optional(range) : std::nullopt;
 }
 
-Status Beside::show(const WindowSize& window, bool at_rest) {
+bool Beside::refining() const {
+  return (ghost_ && ghost_->picture->refining()) ||
+         std::ranges::any_of(companions_, [](const auto& c) { return c->picture().refining(); });
+}
+
+Status Beside::show(const WindowSize& window) {
   if (ghost_) {
     ghost_->picture->shadows = false;
-    ghost_->picture->set_at_rest(at_rest);
+    ghost_->picture->set_at_rest(picture_.at_rest(), picture_.at_once());
     ASPIC_CHECK(ghost_->picture->show(window, boxes_.front()));
   }
   for (std::size_t i = 0; i < companions_.size(); ++i) {
     ScenePicture& picture = companions_[i]->picture();
     picture.shadows = picture_.shadows;
     picture.full_quality = picture_.full_quality;
-    picture.set_at_rest(at_rest);
+    picture.set_at_rest(picture_.at_rest(), picture_.at_once());
     ASPIC_CHECK(picture.show(window, boxes_[i + 1]));
     if (const auto refusal = picture.take_refusal()) messages_.error(*refusal);
   }

@@ -93,7 +93,9 @@ class Beside {
   /// can be compared.
   void share_colours();
   /// Draws the other runs' pictures, after ScenePicture::show() did the window's own.
-  Status show(const WindowSize& window, bool at_rest);
+  Status show(const WindowSize& window);
+  /// Of one of them a fine picture is under way.
+  bool refining() const;
   /// Names the runs on their pictures, between Gui::begin and end.
   void draw_labels(const Gui& gui) const;
 

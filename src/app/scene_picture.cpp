@@ -20,8 +20,16 @@ namespace {
 /// Particles from which on a first picture may take too long.
 constexpr std::uint32_t many_particles = 8000;
 
+/// For how long the window draws parts of a fine picture before it looks at events again [s].
+constexpr double part_seconds = 0.02;
+
 /// Seen through a ghost's bodies, which take its brightness on.
 constexpr Colour behind_ghost = {0.55f, 0.60f, 0.66f};
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 int rounded(double length) {
   return static_cast<int>(std::lround(length));
@@ -40,6 +48,7 @@ Status ScenePicture::attach(gl::Context& context) {
 }
 
 void ScenePicture::detach() {
+  refined_.reset();
   renderer_.reset();
   context_ = nullptr;
 }
@@ -104,13 +113,39 @@ Status ScenePicture::draw() {
   ASPIC_CHECK(follow());
   const Content content = wanted(at_rest_);
   if (drawn_ == content || (drawn_ && drawn_->fine && drawn_ == wanted(true))) return {};
+  if (content.fine && !in_full() && !at_once_ && drawn_ == wanted(false)) return refine(content);
   return draw(content, film && film->text, ghost ? std::optional(behind_ghost) : std::nullopt);
 }
 
-Status ScenePicture::draw(const Content& content, bool legend, const std::optional<Colour>& background) {
-  const auto start = std::chrono::steady_clock::now();
-  const bool new_model = !is_of_model(), adapts = !content.fine && !film;
-  const double share = resolution_.share();
+/// Draws some parts of the fine picture, which takes the place of the coarse one once it is whole.
+Status ScenePicture::refine(const Content& content) {
+  const auto start = Clock::now();
+  const std::optional<Colour> background = ghost ? std::optional(behind_ghost) : std::nullopt;
+  if (refined_ != content) {
+    ASPIC_TRY(const PictureOptions options, options_of(content, false, background));
+    ASPIC_TRY(const DeviceState state, on_device());
+    // What the device has no room for draw() may draw otherwise.
+    if (!renderer_->begin(content.size.width, content.size.height, state, options))
+      return draw(content, false, background);
+    refined_ = content;
+    refined_seconds_ = 0.0;
+  }
+  bool finished = false;
+  while (!finished && seconds_since(start) < part_seconds) {
+    ASPIC_TRY(finished, renderer_->proceed());
+  }
+  refined_seconds_ += seconds_since(start);
+  if (!finished) return {};
+  refined_.reset();
+  drawn_ = content;
+  ++number_;
+  draw_seconds_ = refined_seconds_;
+  return {};
+}
+
+/// Also takes note of the arrows in it.
+Result<PictureOptions> ScenePicture::options_of(const Content& content, bool legend,
+                                                const std::optional<Colour>& background) {
   PictureOptions options;
   options.legend = legend;
   options.background = background;
@@ -126,6 +161,15 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
     arrows_ = arrows_of(simulation_.model(), shown_state(), options.view.arrows, simulation_.hand());
   options.arrows = arrows_;
   options.highlight = content.marks;
+  return options;
+}
+
+Status ScenePicture::draw(const Content& content, bool legend, const std::optional<Colour>& background) {
+  const auto start = Clock::now();
+  const bool new_model = !is_of_model(), adapts = !content.fine && !film;
+  const double share = resolution_.share();
+  refined_.reset();
+  ASPIC_TRY(PictureOptions options, options_of(content, legend, background));
   options.coarse_skin = adapts && share < 1.0;
   if (new_model) {
     const Model& model = simulation_.model();
@@ -146,7 +190,7 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
   if (context_->info().is_software) glFinish();
   drawn_ = content;
   ++number_;
-  draw_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  draw_seconds_ = seconds_since(start);
   if (adapts && !new_model) {
     const bool late = simulation_.running() && simulation_.pacer().late();
     resolution_.took(share, draw_seconds_, late ? Resolution::hurried : Resolution::in_motion);

@@ -50,9 +50,16 @@ class ScenePicture {
   gl::Context& context() const { return *context_; }
 
   /// Nothing has moved for a while, or something does: at rest a software rasteriser draws one picture as
-  /// finely as hardware does, which stays until something in it changes.
-  void set_at_rest(bool at_rest) { at_rest_ = at_rest; }
+  /// finely as hardware does, which stays until something in it changes. It does so a part at a time, between
+  /// which the window answers, and shows the picture before meanwhile; or `at_once`.
+  void set_at_rest(bool at_rest, bool at_once = false) {
+    at_rest_ = at_rest;
+    at_once_ = at_once;
+  }
   bool at_rest() const { return at_rest_; }
+  bool at_once() const { return at_once_; }
+  /// A part of the fine picture is drawn, and more is to come.
+  bool refining() const { return refined_.has_value(); }
   /// Moves the camera along with what the scene's view follows, to the very state that draw() draws; draw()
   /// does so itself. Error: the state cannot be read.
   Status follow();
@@ -134,6 +141,9 @@ class ScenePicture {
   Status refresh();
   Result<DeviceState> on_device();
   Content wanted(bool fine) const;
+  Result<PictureOptions> options_of(const Content& content, bool legend,
+                                    const std::optional<Colour>& background);
+  Status refine(const Content& content);
   Status draw(const Content& content, bool legend, const std::optional<Colour>& background = {});
   Status save_clear(const Content& content, const std::string& path);
 
@@ -152,8 +162,10 @@ class ScenePicture {
   gl::Context* context_ = nullptr;
   std::unique_ptr<Renderer> renderer_;
   std::optional<Content> drawn_;
-  ArrowSet arrows_;  // of the last picture
-  bool at_rest_ = false, postponed_ = false;
+  std::optional<Content> refined_;  // the fine picture that is drawn in parts
+  double refined_seconds_ = 0.0;    // what they took
+  ArrowSet arrows_;                 // of the last picture
+  bool at_rest_ = false, at_once_ = false, postponed_ = false;
   std::uint64_t number_ = 0;
   Box shown_;
   Pixels shown_pixels_;

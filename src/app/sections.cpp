@@ -48,7 +48,8 @@ void scene_buttons(Gui& gui, const SceneEditor& editor) {
                  redo ? "Redo " + editor.redo_name() : std::string("Nothing to redo."), "redo", redo, half);
 }
 
-/// At the right end of the row of its first scene: headings of their own would push what follows out of sight.
+/// At the right end of the row of its first scene: headings of their own would push what follows out of
+/// sight.
 void group_heading(std::string_view group) {
   const std::string text(group);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x -

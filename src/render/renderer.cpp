@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <span>
+#include <utility>
 
 #include "device/particles.h"
 #include "gpu/pass.h"
@@ -62,6 +64,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
 }
 
 Status Renderer::set_model(const Model& model) {
+  parts_->abandon();
   ASPIC_TRY(auto buffers, ModelBuffers::create(*parts_->context, model));
   ASPIC_CHECK(parts_->terrain.set_terrain(*parts_->context, model.terrain));
   parts_->buffers.reset();
@@ -176,109 +179,87 @@ void Renderer::Parts::prepare_scale(const DeviceState& state, const PictureOptio
   bind_frame(drawn_frame);
 }
 
-Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
-  Parts& p = *parts_;
-  assert(p.model && state.particles);
-  const gl::Buffer& particles = *state.particles;
-  assert(particles.bytes() >= sizeof(layout::Particle) * p.model->particle_count());
+/// Everything is ready for the steps of a picture, and the picture before is still there if that is not to
+/// be.
+Status Renderer::Parts::start(int width, int height, const DeviceState& state,
+                              const PictureOptions& options) {
+  assert(model && state.particles);
+  assert(state.particles->bytes() >= sizeof(layout::Particle) * model->particle_count());
   const ViewSettings& view = options.view;
-  ASPIC_CHECK(p.prepare_targets(width, height, options.samples));
-  if (options.highlight) ASPIC_CHECK(p.prepare_highlight());
-  if (view.cut.on()) ASPIC_CHECK(p.prepare_section());
-  if (p.has(SurfaceStyle::cords) || draws_springs(drawn_springs(view)))
-    ASPIC_CHECK(p.buffers->prepare_lines(*p.context, *p.model));
-  if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
-  p.buffers->use_coarse_skin(options.coarse_skin && !view.cut.on());
+  ASPIC_CHECK(prepare_targets(width, height, options.samples));
+  if (options.highlight) ASPIC_CHECK(prepare_highlight());
+  if (view.cut.on()) ASPIC_CHECK(prepare_section());
+  if (has(SurfaceStyle::cords) || draws_springs(drawn_springs(view)))
+    ASPIC_CHECK(buffers->prepare_lines(*context, *model));
+  if (shows_springs(view.colour)) ASPIC_CHECK(buffers->prepare_incident(*context, *model, state));
+  buffers->use_coarse_skin(options.coarse_skin && !view.cut.on());
   const Camera camera(view.camera, width, height);
-  p.range = options.range.value_or(range_for(*p.model, view, {}));
-  const bool flesh = p.has(SurfaceStyle::flesh), solid = view.draw.solid && flesh;
+  range = options.range.value_or(range_for(*model, view, {}));
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);
-  p.drawn_frame = frame_block(
-      *p.model, camera, width, height,
-      {view, p.range, flesh, options.shadows, state.step, section_depth(view.cut, p.buffers->spacing())});
-  std::vector<Terrain> terrain;
-  for (const Terrain& t : p.model->terrain)
-    if (!options.background) terrain.push_back(terrain_at(t, p.model->simulation.timestep, state.step));
-  p.drawn_state = state;
-  p.drawn_view = view;
-  if (p.profiler) p.profiler->begin();
-  p.bind_frame(p.drawn_frame);
-  p.prepare_scale(state, options);
-  p.mark(PicturePass::quantity);
-  glEnable(GL_FRAMEBUFFER_SRGB);
-  const bool kept = p.prepare_backdrop(terrain, camera, options);
-  const std::vector<gl::PixelBox> boxes =
-      kept ? p.changing(state, camera, terrain, options) : std::vector{p.targets->box()};
-  if (kept) p.backdrop.put_samples(*p.targets, boxes);
-  p.mark(PicturePass::backdrop);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  p.prepare_light(state, options);
-  glEnable(GL_FRAMEBUFFER_SRGB);
-  const BodyPainter bodies = p.bodies(state, view);
-  if (solid) bodies.draw_thickness();
-  p.mark(PicturePass::thickness);
-  p.targets->samples.framebuffer.bind();
-  p.colour_map.bind(UNIT_COLOUR_MAP);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  if (!kept) {
-    p.draw_ground(terrain, camera, options, options.shadows);
-  } else if (options.shadows) {
-    p.terrain.draw_shadows(p.programs, terrain, view.camera, camera, *p.targets);
-  }
-  p.mark(PicturePass::surroundings);
-  bodies.draw_rods_and_balls();
-  p.mark(PicturePass::balls);
-  bodies.draw_springs();
-  p.mark(PicturePass::springs);
-  bodies.draw_particles();
-  bodies.draw_section();
-  p.mark(PicturePass::particles);
-  // The last opaque part: only where there is nothing else.
-  if (!kept && !options.background) p.fill(p.programs.sky);
-  p.mark(PicturePass::sky);
-  if (view.draw.solid && p.has(SurfaceStyle::sheet)) bodies.draw_sheets();
-  p.mark(PicturePass::sheets);
-  p.terrain.draw_far_glass(p.programs, terrain);
-  p.mark(PicturePass::far_glass);
-  if (!options.background) p.reference_ground.draw(view, camera);
-  bodies.draw_cords();
-  if (solid) {
-    bodies.draw_jelly(JellySide::far);
-    p.mark(PicturePass::jelly_far);
-    halve_samples(p.programs, p.nothing, *p.targets, p.around_flesh(state));
-    p.mark(PicturePass::behind);
-    p.targets->samples.framebuffer.bind();
-    bodies.draw_jelly(JellySide::near);
-    bodies.draw_cords();
-    p.mark(PicturePass::jelly);
-  }
-  if (!options.background) p.reference_ground.draw(view, camera);
-  p.terrain.draw_before_bodies(p.programs, terrain, view.camera, camera);
-  p.mark(PicturePass::glass);
-  Status written = p.draw_arrows(view, options.arrows);
-  if (written && options.highlight)
-    written = p.highlight->draw_within(*p.buffers, particles, view.draw, *options.highlight);
-  p.mark(PicturePass::marks);
-  if (kept) p.backdrop.put_picture(*p.targets);
-  resolve_samples(*p.targets, boxes);
-  p.mark(PicturePass::resolve);
-  if (written) {
-    std::vector<Legend> legends;
-    if (options.legend) legends = {legend_for(view, p.range), arrow_legend(view, options.arrows)};
-    written = p.overlay->draw(p.targets->picture.framebuffer, options.text, legends,
-                              options.axes && view.axes ? &camera : nullptr, options.text_height);
-  }
-  p.mark(PicturePass::text);
-  if (p.profiler) p.profiler->end();
-  glDisable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  glBindVertexArray(0);
-  glUseProgram(0);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  drawn_frame = frame_block(*model, camera, width, height,
+                            {view, range, has(SurfaceStyle::flesh), options.shadows, state.step,
+                             section_depth(view.cut, buffers->spacing())});
+  drawn_state = state;
+  drawn_view = view;
+  drawing.emplace(Drawing{state, options, camera, {}, {}, {}, 0, false});
+  for (const Terrain& t : model->terrain)
+    if (!options.background)
+      drawing->terrain.push_back(terrain_at(t, model->simulation.timestep, state.step));
+  if (profiler) profiler->begin();
+  bind_frame(drawn_frame);
+  return {};
+}
+
+/// The picture is whole.
+Status Renderer::Parts::finish() {
+  if (profiler) profiler->end();
+  Status written = drawing->written;
+  drawing.reset();
+  earlier.reset();
+  leave();
   return written;
+}
+
+/// Gives up the picture that is being drawn.
+void Renderer::Parts::abandon() {
+  drawing.reset();
+  if (earlier) targets = std::move(earlier);
+  earlier.reset();
+}
+
+Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
+  Parts& p = *parts_;
+  p.abandon();
+  ASPIC_CHECK(p.start(width, height, state, options));
+  for (const Parts::Step& step : Parts::steps()) {
+    step.draw(p, *p.drawing);
+    p.mark(step.pass);
+  }
+  return p.finish();
+}
+
+Status Renderer::begin(int width, int height, const DeviceState& state, const PictureOptions& options) {
+  Parts& p = *parts_;
+  p.abandon();
+  std::swap(p.earlier, p.targets);
+  const Status started = p.start(width, height, state, options);
+  if (!started) p.abandon();
+  return started;
+}
+
+Result<bool> Renderer::proceed() {
+  Parts& p = *parts_;
+  assert(p.drawing);
+  Drawing& d = *p.drawing;
+  const std::span<const Parts::Step> steps = Parts::steps();
+  p.resume();
+  steps[d.step].draw(p, d);
+  p.leave();
+  if (p.context->info().is_software) glFinish();
+  if (++d.step < steps.size()) return false;
+  ASPIC_CHECK(p.finish());
+  return true;
 }
 
 Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
@@ -313,15 +294,13 @@ QuantityRange Renderer::range() const {
 }
 
 const gl::Framebuffer& Renderer::picture() const {
-  assert(parts_->targets);
-  return parts_->targets->picture.framebuffer;
+  return parts_->last().picture.framebuffer;
 }
 
 void Renderer::present(std::uint32_t framebuffer, int width, int height, int left, int bottom) const {
-  assert(parts_->targets);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(left, bottom, width, height);
-  parts_->targets->picture.colour.bind(UNIT_FRAME);
+  parts_->last().picture.colour.bind(UNIT_FRAME);
   parts_->fill(parts_->programs.present);
   glUseProgram(0);
   glBindVertexArray(0);
@@ -331,7 +310,7 @@ void Renderer::present_ghost(const Colour& background, std::uint32_t framebuffer
                              int left, int bottom) const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(left, bottom, width, height);
-  parts_->targets->picture.colour.bind(UNIT_FRAME);
+  parts_->last().picture.colour.bind(UNIT_FRAME);
   parts_->programs.ghost.set(LOCATION_BASE_COLOUR, with_alpha(background, 1.0));
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

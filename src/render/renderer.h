@@ -70,6 +70,14 @@ class Renderer {
   /// scene_rejected or no_device, a picture of this size cannot be made.
   Status draw(int width, int height, const DeviceState& state, const PictureOptions& options);
 
+  /// Begins to draw the same picture in parts, so that a window need not wait for all of it: the picture last
+  /// drawn is shown on until proceed() says that this one is finished. Everything must stay as it is till
+  /// then; draw() and set_model() give it up. Errors: those of draw().
+  Status begin(int width, int height, const DeviceState& state, const PictureOptions& options);
+  /// Draws the next part, and waits for it on a software rasteriser. Whether the picture is finished: it has
+  /// every byte that draw() would have given it. Legal after begin(). Errors: those of draw().
+  Result<bool> proceed();
+
   /// Asks what lies under a place of the picture last drawn, as it is shown in a view of place.width ×
   /// place.height pixels; its state must still lie where it was. Legal after draw() of the model. Returns the
   /// request's number, counted from 1. Errors: no_device (a shader is refused), io, scene_rejected.

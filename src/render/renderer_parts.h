@@ -3,6 +3,9 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <cassert>
+#include <span>
+#include <vector>
 
 #include "render/backdrop.h"
 #include "render/body_painter.h"
@@ -18,7 +21,27 @@
 
 namespace aspic {
 
+/// A picture that is being drawn.
+struct Drawing {
+  DeviceState state;
+  PictureOptions options;
+  Camera camera;
+  std::vector<Terrain> terrain;     ///< where it is
+  std::vector<gl::PixelBox> boxes;  ///< what is drawn, of a picture that began with the backdrop
+  Status written;                   ///< of what may fail on the way
+  std::size_t step = 0;             ///< that comes next, of Renderer::Parts::steps()
+  bool kept = false;                ///< it began with the backdrop
+};
+
 struct Renderer::Parts {
+  /// One part of drawing a picture.
+  struct Step {
+    PicturePass pass;
+    void (*draw)(Parts& parts, Drawing& drawing);
+  };
+  /// In their order; picture_steps.cpp.
+  static std::span<const Step> steps();
+
   gl::Context* context = nullptr;
   RenderPrograms programs;
   std::optional<OverlayPainter> overlay;
@@ -31,7 +54,9 @@ struct Renderer::Parts {
   gl::Buffer frame;
   gl::VertexArray nothing;
   int samples = 4;
-  std::optional<PictureTargets> targets;
+  std::optional<PictureTargets> targets;  // of the picture that is drawn, or was last
+  std::optional<PictureTargets> earlier;  // of the one before, while another is drawn in parts
+  std::optional<Drawing> drawing;
   const Model* model = nullptr;
   std::optional<ModelBuffers> buffers;
   gl::Buffer uploaded, uploaded_balls;
@@ -53,6 +78,17 @@ struct Renderer::Parts {
   std::uint64_t picks = 0;
   std::unique_ptr<gl::PassProfiler> profiler;
 
+  Status start(int width, int height, const DeviceState& state, const PictureOptions& options);
+  Status finish();
+  void abandon();
+  void ready_to_draw() const;
+  void resume();
+  void leave() const;
+  /// The images of the picture last drawn. Legal once there is one.
+  const PictureTargets& last() const {
+    assert(earlier || targets);
+    return earlier ? *earlier : *targets;
+  }
   Status prepare_targets(int width, int height, int wanted_samples);
   Status prepare_highlight();
   Status prepare_section();
@@ -70,14 +106,16 @@ struct Renderer::Parts {
   std::vector<gl::PixelBox> around_flesh(const DeviceState& state) const;
   std::vector<gl::PixelBox> changing(const DeviceState& state, const Camera& camera,
                                      const std::vector<Terrain>& placed, const PictureOptions& options) const;
+  void prepare_surroundings(Drawing& drawing);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
   void prepare_scale(const DeviceState& state, const PictureOptions& options);
   QuantityRange measured_range(const ViewSettings& view) const;
-  /// Of this picture.
-  BodyPainter bodies(const DeviceState& state, const ViewSettings& view) const {
+  BodyPainter bodies(const Drawing& d) const {
+    const ViewSettings& view = d.options.view;
     return {*model,     programs, *buffers, *targets,
-            colour_map, state,    view,     view.cut.on() ? section.get() : nullptr};
+            colour_map, d.state,  view,     view.cut.on() ? section.get() : nullptr};
   }
+  bool draws_flesh(const Drawing& d) const { return d.options.view.draw.solid && has(SurfaceStyle::flesh); }
   /// The whole picture by one program.
   void fill(const gl::Program& program) const {
     nothing.bind();

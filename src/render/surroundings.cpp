@@ -34,6 +34,14 @@ bool Renderer::Parts::prepare_backdrop(const std::vector<Terrain>& placed, const
   return true;
 }
 
+/// The picture begins with the backdrop, if it may.
+void Renderer::Parts::prepare_surroundings(Drawing& d) {
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  d.kept = prepare_backdrop(d.terrain, d.camera, d.options);
+  d.boxes = d.kept ? changing(d.state, d.camera, d.terrain, d.options) : std::vector{targets->box()};
+  if (d.kept) backdrop.put_samples(*targets, d.boxes);
+}
+
 /// Whether what is in the state is known here: where other states are, only the device knows.
 bool Renderer::Parts::knows(const DeviceState& state) const {
   return state.particles == &uploaded && uploaded_particles.size() == model->particle_count();

@@ -78,6 +78,12 @@ void Stage::frames(int count, double apart) {
     ASSERT_TRUE(drawn.ok()) << drawn.error().message;
     window_->show_picture();
   }
+  // As many more, in no time, as the fine picture of a window at rest needs.
+  while (app_->picture.refining() || app_->beside.refining()) {
+    const Status drawn = app_->frame(window_->size(), 0.0);
+    ASSERT_TRUE(drawn.ok()) << drawn.error().message;
+    window_->show_picture();
+  }
 }
 
 void Stage::lose_device(std::uint64_t chance) {
