@@ -156,6 +156,40 @@ Figures median_of(const Case& c, double seconds, int repeats) {
   return figures;
 }
 
+/// Pauses a scene after a second: how long its fine picture takes, and the longest time that the window does
+/// not answer meanwhile.
+void rest(const std::string& scene) {
+  auto window = app::Window::create(1600, 1000, "Aspic figures");
+  if (!window) fail(window.error().message);
+  app::AppOptions options;
+  options.scene = scene;
+  options.backend = find_backend("cpu");
+  auto app = app::App::create((*window)->context(), options, 1.0, (*window)->services());
+  if (!app) fail(app.error().message);
+  (*window)->set_receiver(app->get());
+  (*app)->simulation.set_running(true);
+  const auto start = Clock::now();
+  double longest = 0.0;
+  for (auto last = start; seconds_between(start, last) < 4.0;) {
+    (*window)->poll(0.0);
+    const auto now = Clock::now();
+    const double dt = seconds_between(last, now);
+    last = now;
+    // A new picture for each look at the events, as when the mouse moves.
+    if (seconds_between(start, now) > 1.0) (*app)->simulation.set_running(false);
+    if ((*app)->picture.at_rest()) longest = std::max(longest, dt);
+    if (const Status drawn = (*app)->frame((*window)->size(), std::min(dt, 0.25)); !drawn)
+      fail(drawn.error().message);
+    (*window)->show_picture();
+  }
+  fmt::print(
+      "{{\"case\": \"rest\", \"scene\": \"{}\", \"fine_picture_seconds\": {:.3f}, \"longest_gap_seconds\": "
+      "{:.3f}}}\n",
+      scene, (*app)->picture.draw_seconds(), longest);
+  std::fflush(stdout);
+  (*window)->set_receiver(nullptr);
+}
+
 /// A cube of so many particles an edge, in steps that its method bears.
 Case cube_of(int n, std::string_view backend, Integrator integrator) {
   // One-pass is stable up to 0.98 ms in large cubes; implicit Euler is for steps of a picture's length.
@@ -198,9 +232,9 @@ int main(int argc, char** argv) {
     if (error != std::errc() || end != word.data() + word.size() || n < 2)
       fail("PARTICLES-PER-EDGE is a whole number from 2 on.");
   }
-  if (!all && what != "default" && what != "large" && what != "sizes")
+  if (!all && what != "default" && what != "large" && what != "rest" && what != "sizes")
     fail(
-        "usage: window_figures default | large | sizes [BACKEND/INTEGRATOR [PARTICLES-PER-EDGE]] | "
+        "usage: window_figures default | large | rest | sizes [BACKEND/INTEGRATOR [PARTICLES-PER-EDGE]] | "
         "all\nPrints a JSON object a "
         "line; needs a display "
         "(xvfb-run).");
@@ -216,6 +250,9 @@ int main(int argc, char** argv) {
       report(edits ? "large, edited" : "large", c, median_of(c, 6.0, 3));
     }
   }
+  if (all || what == "rest")
+    for (const char* scene : {"cube-plane", "goal-net", "large-cube", "ball-pit"})
+      for (int i = 0; i < 3; ++i) rest(scene);
   if (all || what == "sizes") {
     for (const BackendRow& row : backends()) {
       const std::string_view backend = row.name;
