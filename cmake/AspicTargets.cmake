@@ -14,8 +14,9 @@ if(ASPIC_WARNINGS_AS_ERRORS)
 endif()
 if(ASPIC_FUZZ)
   # Coverage guides the fuzzer; every finding ends the program.
-  target_compile_options(aspic_rules INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
-                         -fno-omit-frame-pointer -g1 -w)  # warnings are the ordinary build's business
+  set(fuzzed -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1)
+  target_compile_options(aspic_rules INTERFACE "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:ASPIC_READS_NOTHING>>>:${fuzzed}>"
+                         -w)  # warnings are the ordinary build's business
   target_link_options(aspic_rules INTERFACE -fsanitize=address,undefined)
 endif()
 if(ASPIC_SANITIZE)
