@@ -13,8 +13,8 @@
 namespace aspic::verify {
 namespace {
 
-constexpr double gravity = 9.8;  // [m/s²]
-constexpr double strong = 1.01 * gravity;                  // [N/m] of a pull 1 m long on 1 kg
+constexpr double gravity = 9.8;                      // [m/s²]
+constexpr double strong = 1.01 * gravity;            // [N/m] of a pull 1 m long on 1 kg
 constexpr double pull_bound = 1e-3 * 1e-3 * strong;  // h²·k/m
 
 constexpr int phases = 16;
@@ -153,11 +153,12 @@ Result<Finding> no_adhesion(const Subject& subject) {
 
 void add_coulomb_checks(std::vector<Check>& checks) {
   for (const Integrator integrator : all_integrators) {
-    checks.push_back({fmt::format("contact/restitution/{}", name_of(integrator)),
-                      "16 phases of a drop from 1 m: first apex − e²·height for e = 0.2, 0.5, 0.8, 1; twenty "
-                      "bounces at e = 1 never higher than the start",
-                      at_most_text(0.5 * gravity * usual_step(integrator) * usual_step(integrator), "m = ½gh²"),
-                      true, false, [=](const Subject& subject) { return restitution(subject, integrator); }});
+    checks.push_back(
+        {fmt::format("contact/restitution/{}", name_of(integrator)),
+         "16 phases of a drop from 1 m: first apex − e²·height for e = 0.2, 0.5, 0.8, 1; twenty "
+         "bounces at e = 1 never higher than the start",
+         at_most_text(0.5 * gravity * usual_step(integrator) * usual_step(integrator), "m = ½gh²"), true,
+         false, [=](const Subject& subject) { return restitution(subject, integrator); }});
   }
   add_for_each_integrator(
       checks, "contact/cone",

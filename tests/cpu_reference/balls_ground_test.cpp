@@ -59,8 +59,7 @@ TEST(BallsOnTheGround, WithoutSpinAreParticlesOfTheirRadius) {
   settings.contact.spin = false;
   const Model model = test::build(settings);
   const State end = after(model, 500);
-  expect_near(end.ball_position[0], initial_state(model, Precision::double_).ball_position[0],
-              4 * eps * 0.4);
+  expect_near(end.ball_position[0], initial_state(model, Precision::double_).ball_position[0], 4 * eps * 0.4);
   // It is let down by what rounding leaves between it and the surface.
   expect_near(end.ball_velocity[0], Vec3{}, 4 * eps * 0.4 / model.simulation.timestep);
   EXPECT_EQ(end.ball_angular_velocity[0], Vec3{});
