@@ -34,13 +34,14 @@ Eigen::VectorXd tridiagonal_eigenvalues(std::vector<double>& diagonal, std::vect
   if (n == 0) return {};
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(Eigen::Map<DynamicVector>(diagonal.data(), n),
-                                Eigen::Map<DynamicVector>(off_diagonal.data(), n - 1), Eigen::EigenvaluesOnly);
+                                Eigen::Map<DynamicVector>(off_diagonal.data(), n - 1),
+                                Eigen::EigenvaluesOnly);
   return solver.eigenvalues();
 }
 TopOfTridiagonal top_of(std::vector<double>& diagonal, std::vector<double>& off_diagonal) {
   const auto n = static_cast<Eigen::Index>(diagonal.size());
   const DynamicVector all = tridiagonal_eigenvalues(diagonal, off_diagonal, n),
-               inner = tridiagonal_eigenvalues(diagonal, off_diagonal, n - 1);
+                      inner = tridiagonal_eigenvalues(diagonal, off_diagonal, n - 1);
   const double top = all[n - 1];
   double squared = 1.0;
   for (Eigen::Index j = 0; j + 1 < n; ++j) {
@@ -172,7 +173,8 @@ LargestEigenvalue LinearisedBody::largest_eigenvalue(double stiffness_factor, do
   if (springs_.empty() || !std::isfinite(bound) || work.left() < least_iterations * work_of_iteration)
     return {bound, false};
   const std::size_t size = 3 * root_inverse_mass_.size();
-  DynamicVector current = start_vector(size), previous = DynamicVector::Zero(current.size()), image(current.size());
+  DynamicVector current = start_vector(size), previous = DynamicVector::Zero(current.size()),
+                image(current.size());
   current.normalize();
   std::vector<double> diagonal, off_diagonal;
   double beta = 0.0;

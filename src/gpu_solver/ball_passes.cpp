@@ -16,16 +16,16 @@ using gl::ReadBy;
 
 /// By BallPasses::Kernel.
 constexpr KernelRow ball_kernels[] = {{"compute/ball_fly.comp", "balls: flight and terrain"},
-                                     {"compute/ball_clear.comp", "balls: empty grid and marks"},
-                                     {"compute/ball_insert.comp", "balls: fill the grid"},
-                                     {"compute/ball_find.comp", "balls: find contacts"},
-                                     {"compute/ball_gather.comp", "balls: find blocks of particles"},
-                                     {"compute/ball_near.comp", "balls: look into blocks"},
-                                     {"compute/ball_tally.comp", "balls: count contacts"},
-                                     {"compute/ball_partials.comp", "balls: sum blocks"},
-                                     {"compute/ball_exchange.comp", "balls: impulses on balls"},
-                                     {"compute/ball_particles.comp", "balls: impulses on particles"},
-                                     {"compute/ball_end.comp", "balls: end of the step"}};
+                                      {"compute/ball_clear.comp", "balls: empty grid and marks"},
+                                      {"compute/ball_insert.comp", "balls: fill the grid"},
+                                      {"compute/ball_find.comp", "balls: find contacts"},
+                                      {"compute/ball_gather.comp", "balls: find blocks of particles"},
+                                      {"compute/ball_near.comp", "balls: look into blocks"},
+                                      {"compute/ball_tally.comp", "balls: count contacts"},
+                                      {"compute/ball_partials.comp", "balls: sum blocks"},
+                                      {"compute/ball_exchange.comp", "balls: impulses on balls"},
+                                      {"compute/ball_particles.comp", "balls: impulses on particles"},
+                                      {"compute/ball_end.comp", "balls: end of the step"}};
 
 /// Words of marks that all balls may have: 16 MiB.
 constexpr std::uint64_t most_mark_words = std::uint64_t{1} << 22;

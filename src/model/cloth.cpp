@@ -9,7 +9,7 @@ namespace {
 
 constexpr Side edges[] = {{"top", 1, true}, {"bottom", 1, false}, {"left", 0, false}, {"right", 0, true}};
 constexpr PinNames cloth_pins = {"cloth", edges, "edge", "two edges joined by a hyphen, such as top-left",
-                           "w·h − 1"};
+                                 "w·h − 1"};
 
 /// Spring classes, counted from the cloth's first.
 enum ClassOfCloth : std::uint32_t { along_width, along_height, diagonal, two_along_width, two_along_height };

@@ -13,8 +13,8 @@ namespace {
 
 constexpr Side faces[] = {{"top", 1, true},   {"bottom", 1, false}, {"left", 0, false},
                           {"right", 0, true}, {"front", 2, true},   {"back", 2, false}};
-constexpr PinNames cube_pins = {"cube", faces, "face", "three faces joined by hyphens, such as left-top-front",
-                           "n³ − 1"};
+constexpr PinNames cube_pins = {"cube", faces, "face",
+                                "three faces joined by hyphens, such as left-top-front", "n³ − 1"};
 
 /// The six faces of n³ particles.
 std::vector<Patch> surface_of(std::uint32_t first, int n) {
