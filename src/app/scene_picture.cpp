@@ -20,9 +20,6 @@ namespace {
 /// Particles from which on a first picture may take too long.
 constexpr std::uint32_t many_particles = 8000;
 
-/// For how long the window draws parts of a fine picture before it looks at events again [s].
-constexpr double part_seconds = 0.02;
-
 /// Seen through a ghost's bodies, which take its brightness on.
 constexpr Colour behind_ghost = {0.55f, 0.60f, 0.66f};
 
@@ -131,9 +128,9 @@ Status ScenePicture::refine(const Content& content) {
     refined_seconds_ = 0.0;
   }
   bool finished = false;
-  while (!finished && seconds_since(start) < part_seconds) {
+  do {
     ASPIC_TRY(finished, renderer_->proceed());
-  }
+  } while (!finished && seconds_since(start) < part_seconds);
   refined_seconds_ += seconds_since(start);
   if (!finished) return {};
   refined_.reset();

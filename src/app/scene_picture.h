@@ -38,6 +38,7 @@ class ScenePicture {
       : full_quality(in_full_quality), simulation_(simulation), scene_(scene), view_(view) {}
 
   bool full_quality;
+  double part_seconds = 0.02;                 ///< of a fine picture, before events are looked at again [s]
   bool shadows = true;                        ///< on terrain
   std::optional<FilmLook> film;               ///< while a film is made
   SavedLook saved;                            ///< of the next save()

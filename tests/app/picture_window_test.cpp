@@ -72,6 +72,33 @@ TEST_F(Picture, HalfASecondAfterABusyMomentItIsFineAndStaysSo) {
   EXPECT_EQ(view().rgb, fine.rgb) << "as hardware draws it";
 }
 
+TEST_F(Picture, TheFineOneIsDrawnInPartsAndGivenUpWhenSomethingChanges) {
+  open_busy();
+  press(GLFW_KEY_SPACE);
+  ASSERT_TRUE(simulation().settle().ok());
+  app::ScenePicture& picture = app().picture;
+  picture.part_seconds = 0.0;  // one pass at a time
+  for (int i = 0; i < 60 && !picture.refining(); ++i) frame();
+  ASSERT_TRUE(picture.refining());
+  const std::uint64_t number = picture.number();
+  const int coarse = picture.pixels().width();
+  for (int i = 0; i < 5; ++i) {
+    frame();
+    ASSERT_TRUE(picture.refining());
+    EXPECT_FALSE(app().idle()) << "the next part is due";
+    EXPECT_EQ(picture.pixels().width(), coarse) << "shown meanwhile";
+  }
+  EXPECT_EQ(picture.number(), number);
+  type(U'.');
+  ASSERT_TRUE(simulation().settle().ok());
+  frame();
+  EXPECT_FALSE(picture.refining());
+  EXPECT_GT(picture.number(), number) << "another coarse one";
+  frames(30);
+  EXPECT_EQ(picture.pixels().width(), view_width());
+  EXPECT_FALSE(picture.refining());
+}
+
 TEST_F(Picture, AColourThatNeedsMoreThanABlockBecomesANotice) {
   open("flag", {"view.colour=material"},
        "reference");  // on which pictures hold the words of springs themselves

@@ -72,18 +72,15 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
   frames(2);
 }
 
+void Stage::frame(double apart) {
+  const Status drawn = app_->frame(window_->size(), apart);
+  ASSERT_TRUE(drawn.ok()) << drawn.error().message;
+  window_->show_picture();
+}
+
 void Stage::frames(int count, double apart) {
-  for (int i = 0; i < count; ++i) {
-    const Status drawn = app_->frame(window_->size(), apart);
-    ASSERT_TRUE(drawn.ok()) << drawn.error().message;
-    window_->show_picture();
-  }
-  // As many more, in no time, as the fine picture of a window at rest needs.
-  while (app_->picture.refining() || app_->beside.refining()) {
-    const Status drawn = app_->frame(window_->size(), 0.0);
-    ASSERT_TRUE(drawn.ok()) << drawn.error().message;
-    window_->show_picture();
-  }
+  for (int i = 0; i < count && !HasFatalFailure(); ++i) frame(apart);
+  while ((app_->picture.refining() || app_->beside.refining()) && !HasFatalFailure()) frame(0.0);
 }
 
 void Stage::lose_device(std::uint64_t chance) {

@@ -56,7 +56,9 @@ class Stage : public ::testing::Test {
 
   app::App& app() { return *app_; }
   app::Simulation& simulation() { return app_->simulation; }
-  /// Pictures, so many seconds apart.
+  /// One picture, so many seconds after the last.
+  void frame(double apart = 1.0 / 60.0);
+  /// Pictures, so many seconds apart; at rest as many more, in no time, as the fine picture needs.
   void frames(int count, double apart = 1.0 / 60.0);
   /// Pictures until the run is at that step or beyond; a failure after ten thousand.
   void frames_to_step(std::uint64_t step) {
