@@ -37,7 +37,8 @@ std::span<const Renderer::Parts::Step> Renderer::Parts::steps() {
   static constexpr Step all[] = {
       {PicturePass::quantity, [](Parts& p, Drawing& d) { p.prepare_scale(d.state, d.options); }},
       {PicturePass::backdrop, [](Parts& p, Drawing& d) { p.prepare_surroundings(d); }},
-      {PicturePass::light_maps,
+      // Bounds, skin and light maps, as far as they are not held.
+      {std::nullopt,
        [](Parts& p, Drawing& d) {
          glDisable(GL_FRAMEBUFFER_SRGB);
          p.prepare_light(d.state, d.options);

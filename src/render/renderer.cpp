@@ -234,7 +234,7 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
   ASPIC_CHECK(p.start(width, height, state, options));
   for (const Parts::Step& step : Parts::steps()) {
     step.draw(p, *p.drawing);
-    p.mark(step.pass);
+    if (step.pass) p.mark(*step.pass);
   }
   return p.finish();
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,7 @@ struct Drawing {
 struct Renderer::Parts {
   /// One part of drawing a picture.
   struct Step {
-    PicturePass pass;
+    std::optional<PicturePass> pass;  ///< that it is counted to; absent: it tells of several itself
     void (*draw)(Parts& parts, Drawing& drawing);
   };
   /// In their order; picture_steps.cpp.
