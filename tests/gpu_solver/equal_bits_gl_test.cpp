@@ -81,7 +81,7 @@ TEST_F(EqualBits, FiveOverEveryIntegratorAndTerrain) {
         ModelSettings settings = test::low_cube(5, integrator, contact);
         settings.terrain[0].shape = shape.value;
         settings.cubes[0].position = shape.drop;
-        expect_equal(settings, 700, {64});
+        expect_equal(settings, 1000, {64});
       }
     }
   }
