@@ -106,7 +106,7 @@ class HostileCheckpoint : public testing::Test {
   static Checkpoint checkpoint() {
     const auto scene = load_scene("cube-plane", std::vector<std::string>{"cube[0].particles-per-edge=3"});
     const auto model = build_model(scene->model);
-    return {"0.1.0", to_toml(*scene), scene->model.simulation.timestep,
+    return {"0.2.0", to_toml(*scene), scene->model.simulation.timestep,
             initial_state(*model, Precision::single)};
   }
   test::Finished resume(const Checkpoint& checkpoint) const {

@@ -83,7 +83,7 @@ std::vector<std::string> seeds() {
     if (!model) continue;
     for (const Precision precision : {Precision::single, Precision::double_})
       made.push_back(encode_checkpoint(
-          {"0.1.0", to_toml(*scene), model->simulation.timestep, initial_state(*model, precision)}));
+          {"0.2.0", to_toml(*scene), model->simulation.timestep, initial_state(*model, precision)}));
   }
   return made;
 }
