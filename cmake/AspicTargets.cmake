@@ -1,10 +1,16 @@
 # Every target of the project is made by one of these functions, so that the language rules are in one place.
 
 add_library(aspic_rules INTERFACE)
+# Whether a target is one of aspic_computes().
+set(computes "$<BOOL:$<TARGET_PROPERTY:ASPIC_COMPUTES>>")
 target_include_directories(aspic_rules INTERFACE "${PROJECT_SOURCE_DIR}/src")
 # Contraction to fused multiply-add would change bits: see docs/determinism.md.
 target_compile_options(aspic_rules INTERFACE -ffp-contract=off)
 target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wconversion -Wnon-virtual-dtor>)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND ASPIC_ASSERTIONS)
+  # GCC 12 at -O3 takes fmt's own assertions for a way past the end of its fill characters.
+  target_compile_options(aspic_rules INTERFACE $<${computes}:-Wno-stringop-overflow>)
+endif()
 if(NOT CMAKE_UNITY_BUILD)
   # Files that are compiled together see one another's names.
   target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wshadow>)
@@ -12,6 +18,9 @@ endif()
 if(ASPIC_WARNINGS_AS_ERRORS)
   target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
 endif()
+# The standard library's bounds are checked along with assertions, except where the program computes.
+target_compile_definitions(aspic_rules INTERFACE
+                           "$<$<AND:$<BOOL:${ASPIC_ASSERTIONS}>,$<NOT:${computes}>>:_GLIBCXX_ASSERTIONS>" $<${computes}:EIGEN_NO_DEBUG>)
 if(ASPIC_FUZZ)
   # Coverage guides the fuzzer; every finding ends the program.
   set(fuzzed -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1)
@@ -24,6 +33,34 @@ if(ASPIC_SANITIZE)
   target_link_options(aspic_rules INTERFACE -fsanitize=${ASPIC_SANITIZE})
 endif()
 
+# aspic_level(TARGET LEVEL): how far a Release build optimises a target that does not compute.
+function(aspic_level target level)
+  if(ASPIC_LEVELS)
+    target_compile_options(${target} PRIVATE "$<$<AND:$<CONFIG:Release>,$<NOT:$<BOOL:$<TARGET_PROPERTY:ASPIC_COMPUTES>>>>:${level}>")
+  endif()
+endfunction()
+
+# aspic_headers(NAME LEVEL TARGETS library … HEADERS <header> …): headers of other libraries, compiled once for all targets of one level,
+# which use them by aspic_precompiled(TARGET NAME). No file relies on them: `scripts/check.sh includes` compiles each by itself.
+function(aspic_headers name level)
+  cmake_parse_arguments(arg "" "" "TARGETS;HEADERS" ${ARGN})
+  set(source "${PROJECT_BINARY_DIR}/${name}.cpp")
+  file(CONFIGURE OUTPUT "${source}" CONTENT "// Compiled for its precompiled headers.\n")
+  add_library(${name} OBJECT "${source}")
+  target_link_libraries(${name} PRIVATE aspic_rules ${arg_TARGETS})
+  aspic_level(${name} ${level})
+  target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
+  set_target_properties(${name} PROPERTIES ASPIC_LEVEL ${level} UNITY_BUILD OFF)
+endfunction()
+
+function(aspic_precompiled target headers)
+  get_target_property(level ${headers} ASPIC_LEVEL)
+  aspic_level(${target} ${level})
+  if(ASPIC_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM ${headers})
+  endif()
+endfunction()
+
 # aspic_library(NAME SOURCES a.cpp … DEPENDS target …): one room of the library. Rooms name the rooms they use; their objects
 # are linked together into aspic::aspic by aspic_link_library(). Without SOURCES the room is every source file of its
 # folder: where a file is a kind of something, adding the file adds the kind.
@@ -35,6 +72,7 @@ function(aspic_library name)
   endif()
   add_library(${name} OBJECT ${arg_SOURCES})
   target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS})
+  aspic_precompiled(${name} aspic_room_headers)
   set_property(GLOBAL APPEND PROPERTY ASPIC_ROOMS ${name})
 endfunction()
 
@@ -52,26 +90,35 @@ function(aspic_program_part name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(${name} STATIC ${arg_SOURCES})
   target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS} aspic::aspic)
+  aspic_precompiled(${name} aspic_room_headers)
 endfunction()
 
-# aspic_computes(NAME): a target that computes at length. Below -O2 clang inlines nothing of Eigen and Highway: minutes become
-# hours under the sanitizers.
+# aspic_computes(NAME): a target that computes at length, optimised as far as the compiler can, without checks inside its loops.
+# Below -O2 clang inlines nothing of Eigen and Highway: minutes become hours under the sanitizers.
 function(aspic_computes name)
+  set_target_properties(${name} PROPERTIES ASPIC_COMPUTES ON DISABLE_PRECOMPILE_HEADERS ON)
   if(ASPIC_SANITIZE)
     target_compile_options(${name} PRIVATE -O2)
   endif()
 endfunction()
 
-# aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each of its tests known to ctest. Rooms among the
-# targets say what is tested; they come from the library. SOFTWARE pattern: those of its tests that mean software
-# rasterisers alone, in the words of --gtest_filter, get the label software besides.
-function(aspic_test name)
-  cmake_parse_arguments(arg "" "SOFTWARE" "SOURCES;DEPENDS" ${ARGN})
+# aspic_test_program(NAME SOURCES a_test.cpp … DEPENDS target …): a program of tests, which ctest does not know yet. Rooms among the targets
+# say what is tested; they come from the library.
+function(aspic_test_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
   get_property(rooms GLOBAL PROPERTY ASPIC_ROOMS)
   list(REMOVE_ITEM arg_DEPENDS ${rooms})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE aspic_rules ${arg_DEPENDS} aspic::aspic GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  aspic_precompiled(${name} aspic_test_headers)
+endfunction()
+
+# aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each of its tests known to ctest. SOFTWARE pattern: those of its tests that mean software
+# rasterisers alone, in the words of --gtest_filter, get the label software besides.
+function(aspic_test name)
+  cmake_parse_arguments(arg "" "SOFTWARE" "SOURCES;DEPENDS" ${ARGN})
+  aspic_test_program(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS})
   if("threads" IN_LIST ASPIC_TEST_PROPERTIES)
     set_property(GLOBAL APPEND PROPERTY ASPIC_THREADED_TESTS ${name})
   endif()

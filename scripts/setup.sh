@@ -1,5 +1,5 @@
 # Sourced by run.sh and test.sh: installs what is missing and builds Release. Everything it says goes to stderr.
-# Usage: source scripts/setup.sh; aspic_install run|all; aspic_install_packages name …; aspic_build ON|OFF [ninja target …]
+# Usage: source scripts/setup.sh; aspic_install run|all; aspic_install_packages name …; aspic_build ON|OFF|BENCH [ninja target …]
 
 aspic_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 aspic_build_dir=$aspic_root/build/release
@@ -39,16 +39,26 @@ aspic_install_packages() {
   } >&2
 }
 
-# aspic_build ON|OFF [target …]: ON has the tests built as well. Ninja configures again by itself when a CMake file changed.
+# aspic_build ON|OFF|BENCH [target …]: ON has the tests built as well, BENCH also what measures. Ninja configures again by itself when a
+# CMake file changed.
 aspic_build() {
-  local tests=$1
+  local wanted=(-DASPIC_BUILD_TESTS=OFF) option
+  case $1 in
+    ON) wanted=(-DASPIC_BUILD_TESTS=ON) ;;
+    BENCH) wanted=(-DASPIC_BUILD_TESTS=ON -DASPIC_BUILD_BENCH=ON) ;;
+  esac
   shift
   cd "$aspic_root" || return 1
-  if [ ! -f "$aspic_build_dir/build.ninja" ] ||
-    { [ "$tests" = ON ] && ! grep -q '^ASPIC_BUILD_TESTS:BOOL=ON$' "$aspic_build_dir/CMakeCache.txt"; }; then
+  for option in "${wanted[@]}"; do
+    if [ -f "$aspic_build_dir/build.ninja" ]; then
+      [[ $option == *=OFF ]] && continue # what is there already stays
+      option=${option#-D}
+      grep -qx "${option/=/:BOOL=}" "$aspic_build_dir/CMakeCache.txt" && continue
+    fi
     # Eight files compiled together take little longer than one: half the time of a first build.
-    cmake --preset release -DASPIC_BUILD_TESTS="$tests" -DCMAKE_UNITY_BUILD=ON >&2 || return 1
-  fi
+    cmake --preset release "${wanted[@]}" -DCMAKE_UNITY_BUILD=ON >&2 || return 1
+    break
+  done
   if ! ninja -C "$aspic_build_dir" --quiet "$@" | sed '/^ninja: no work to do/d' >&2; then
     echo "The build failed; the compiler's messages are above." >&2
     return 1
