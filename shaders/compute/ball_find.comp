@@ -27,7 +27,7 @@ void consider(Seeker seeker, uint b) {
 
 #ifdef ASPIC_BALL_GRID
 void search(Seeker seeker) {
-  // A particle reaches no further than half a cell, a ball no further than a whole one.
+  // A particle reaches no further than half a cell, a ball no further than a cell.
   bool ball = seeker.kind == KIND_BALL;
   precise vec3 lowest = in_cells(seeker.x) - (ball ? 1.0 : 0.5);
   ivec3 home = ivec3(floor(lowest));

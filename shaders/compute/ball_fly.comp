@@ -1,5 +1,5 @@
 // Balls, first of a step: flight by all stages of the integrator at once, under gravity and a hand's pull (backward
-// Euler of free flight is symplectic Euler, whose stages stand in the table then), and the terrain's response. Start
+// Euler of free flight is symplectic Euler, whose stages are in the table then), and the terrain's response. Start
 // slot to the slot between.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"

@@ -1,5 +1,5 @@
 // Puts balls into the grid where they are after flight and terrain; nobody moves again before the position phase has been
-// computed. What is not finite touches nobody.
+// computed. Bodies that are not finite touch nobody.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/ball_blocks.glsl"

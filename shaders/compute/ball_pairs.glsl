@@ -39,7 +39,7 @@ bool is_partner(Seeker seeker, uint kind, uint index) {
   return ball_in(slot_before(ball_phase), index).velocity.w != 0.0;
 }
 
-// Whether a partner may be nearer than ε: what is rejected, far beyond rounding, is not.
+// Whether a partner may be nearer than ε: a rejected one is further away, far beyond rounding.
 bool may_touch(Seeker seeker, uint kind, uint index) {
   precise vec3 x = vec3(0.0);
   precise float reach = 0.0;

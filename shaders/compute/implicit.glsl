@@ -34,7 +34,7 @@ Particle state(uint i) {
   return state_b[AT(i)];
 }
 
-// A window has its particles' vectors to itself. Beside the search direction lies what neighbours need of them.
+// A window has its particles' vectors to itself. Data that neighbours need of them lies with the search direction.
 #ifdef ASPIC_WINDOWS
 uint own_at(uint which, uint i) { return which * (window.y - window.x) + AT_ITEM(i); }
 #define AT_SEARCH(i) (2u * AT(i))

@@ -1,4 +1,4 @@
-// Implicit Euler, the end of a whole step, by one invocation: what the solve came to, and the states change places.
+// Implicit Euler, the end of a complete step, by one invocation: the solve's figures, and the states change places.
 void report() {
   solve.last_newton = solve.newton;
   solve.last_cg = solve.cg_total;

@@ -54,7 +54,7 @@ bool between_two(vec3 x, vec3 v, bool last, inout Reaction r) {
   precise float q = exact_div(1.0, exact_sqrt(sine2));
   precise vec3 axis = q * line;
   precise float slip = dot3(v, axis);
-  // The speed at which both stand still: the mean of theirs, weighed by their friction.
+  // The speed from which slip is counted: the mean of theirs, weighted by the slip that the friction of each can take.
   bool moving = moves(i) || moves(j);
   precise float still = 0.0;
   if (moving && loss > 0.0) {

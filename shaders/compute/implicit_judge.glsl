@@ -1,4 +1,4 @@
-// Implicit Euler: the last group judges the trial, and what comes next.
+// Implicit Euler: the last group judges the trial, and decides what comes next.
 
 void end_solve(uint how, uint use_trial) {
   solve.end = how;

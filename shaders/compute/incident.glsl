@@ -1,7 +1,7 @@
 // The springs of each particle in ascending neighbour index, and the walk over them:
 //   for (Walk w = walk(i); w.at < w.end; ++w.at) { Link link; if (!link_at(w, link)) continue; … }
 // A word is neighbour << class_bits | class; on the force path per-spring it is the spring's, see sum_springs.comp.
-// With ASPIC_LATTICES those of cubes follow from the indices; ASPIC_LISTED: there are particles beside cubes too.
+// With ASPIC_LATTICES those of cubes follow from the indices; ASPIC_LISTED: there are particles outside cubes too.
 layout(std430, binding = BINDING_INCIDENT_START) restrict readonly buffer IncidentStart { uint incident_start[]; };
 layout(std430, binding = BINDING_INCIDENT) restrict readonly buffer Incident { uint incident[]; };
 

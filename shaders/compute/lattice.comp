@@ -1,4 +1,4 @@
-// Force path `lattice`: gather for whole cubes, whose springs follow from the particles' indices. An invocation takes
+// Force path `lattice`: gather for complete cubes, whose springs follow from the particles' indices. An invocation takes
 // ASPIC_LATTICE_RUN particles that lie one after the other, so that each neighbour is read once for all of them. The
 // neighbours come in ascending index, so every particle adds its springs in that order; one that lies outside the lattice
 // is left out of the sum.

@@ -1,5 +1,5 @@
 // Force path `lattice-tiles`: as `lattice`, but a group takes a tile of a cube and keeps it, with all neighbours of its
-// particles, in shared memory, so that each is read once for the whole tile. Bits and order are those of lattice.comp.
+// particles, in shared memory, so that each is read once for the tile. Bits and order are those of lattice.comp.
 #include "compute/layout.glsl"
 #include "compute/common.glsl"
 #include "compute/control.glsl"

@@ -1,4 +1,4 @@
-// Cubes whose springs follow from the particles' indices, and the particles beside them, whose springs are listed.
+// Cubes whose springs follow from the particles' indices, and the particles outside them, whose springs are listed.
 uint particles_of(Lattice lattice) { return lattice.edge * lattice.edge * lattice.edge; }
 
 // The particle at this place among those outside lattices.

@@ -1,5 +1,5 @@
 // Moving terrain: where it is at both ends of the step under way, from the table that the host makes in double precision
-// (src/gpu_solver/step_inputs.h). Kernels of scenes in which nothing moves do without: what does not move keeps every bit.
+// (src/gpu_solver/step_inputs.h). Kernels of scenes in which nothing moves do without: terrain that does not move keeps every bit.
 #define AT_START 0u
 #define AT_END 1u
 

@@ -23,7 +23,7 @@ vec3 sky(vec3 direction) {
   return gradient + vec3(0.16, 0.13, 0.08) * glow;
 }
 
-// The sky with a large soft lamp beside the sun: what polished things mirror.
+// The sky with a large soft lamp next to the sun, as polished surfaces mirror it.
 vec3 studio(vec3 direction) {
   float lamp = smoothstep(0.80, 0.93, dot(direction, sun.xyz));
   vec3 floor_light = vec3(0.34, 0.33, 0.32);

@@ -38,8 +38,8 @@ void main() {
   float through = max(dot(-v, sun.xyz), 0.0);
   sunlit += sun_light * exp(-0.9 * absorbed * inside) * 0.35 * through * through;
 
-  // Beside an edge a straight sight line crosses next to nothing, but a bent one meets the other face from inside so
-  // slantingly that all of it stays in the body, and goes on for about half the size of it.
+  // Close to an edge a straight sight line crosses next to nothing, but a bent one meets the other face from inside so
+  // slantingly that all of it stays in the body, and continues for about half its size.
   vec2 at = gl_FragCoord.xy * viewport.zw;
   float crossed = max(textureLod(thickness_map, at, 0.0).r, 0.0);
   float thickness = sqrt(crossed * crossed + 4.0 * reach * reach);

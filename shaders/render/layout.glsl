@@ -36,7 +36,7 @@
 #define LOCATION_FADES 7          // of springs: 1 where those thinner than a pixel fade
 #define LOCATION_FIRST 8          // of balls, particles or terrains: the first
 #define LOCATION_ELAPSED 9        // since the picture before [s]
-#define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it stands for the particle
+#define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it represents the particle
 #define LOCATION_TERRAIN 12       // DrawnTerrain: its geometry, three vec4, and shape
 #define LOCATION_OFFSET 6         // of terrain that moves [m]
 #define LOCATION_EDGE 16          // of a lattice: particles along it
@@ -51,7 +51,7 @@
 #define LIGHT_SKY 1
 #define LIGHTS 2
 
-// Half sides of their maps, as shares of what they show, and in metres besides: room for penumbras, which are wider for
+// Half sides of their maps, as shares of the extent they show, plus metres: room for penumbras, which are wider for
 // the sky.
 #define SUN_MAP_MARGIN 0.65
 #define SKY_MAP_MARGIN 0.85

@@ -1,4 +1,4 @@
-// Balls into a light map: like particles, each with a radius of its own.
+// Balls into a light map: like particles, each with its own radius.
 #include "render/layout.glsl"
 
 layout(location = ATTRIBUTE_POSITION) in vec4 position;

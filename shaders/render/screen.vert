@@ -1,4 +1,4 @@
-// One triangle over the whole picture.
+// One triangle over the complete picture.
 out vec2 on_screen;
 
 void main() {

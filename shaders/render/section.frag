@@ -9,7 +9,7 @@ in vec3 place;
 in float shown;
 layout(location = 0) out vec4 colour;
 
-// Lines where a coordinate is whole, a pixel wide; none where they crowd, or where the plane runs along a face.
+// Lines where a coordinate is an integer, a pixel wide; none where they crowd, or where the plane runs along a face.
 float lines(float coordinate) {
   float pixel = max(fwidth(coordinate), 1e-5);
   float off = abs(fract(coordinate + 0.5) - 0.5);
@@ -19,7 +19,7 @@ float lines(float coordinate) {
 void main() {
   vec3 light;
   if (section.z > 0.0) {
-    // Springs stand before it: a quiet ground for their colours.
+    // Springs are drawn before it: a quiet ground for their colours.
     light = colour_mode >= COLOUR_STRAIN ? vec3(0.30) : 0.55 * mix(base_colour.rgb, vec3(0.2), 0.35);
   } else if (colour_mode >= COLOUR_STRAIN) {
     light = textureLod(colour_map, vec2(clamp(shown, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5), 0.0).rgb;

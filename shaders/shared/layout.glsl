@@ -62,7 +62,7 @@
 #define SPRING_SLICE 32u
 #define NO_SPRING 0xffffffffu  // the word where a particle has fewer springs than others of its slice
 
-// Springs of a particle inside a lattice; their classes; lattices of a model, each with classes of its own.
+// Springs of a particle inside a lattice; their classes; lattices of a model, each with its own classes.
 #define LATTICE_DIRECTIONS 32
 #define LATTICE_CLASSES 4
 #define MAX_LATTICES 64
@@ -93,7 +93,7 @@ struct Direction {
   uint direction_padding0, direction_padding1, direction_padding2;
 };
 
-// A whole cube: edge³ particles whose springs are not in memory.
+// A complete cube: edge³ particles whose springs are not in memory.
 struct Lattice {
   uint first_particle;
   uint edge;

@@ -9,8 +9,8 @@ namespace {
 constexpr std::size_t max_degree = max_stages;
 
 // Every method of the table loses stability well inside this |z|: a polynomial of degree 4 with R ≈ eᶻ cannot
-// stay bounded further out. Largest reach along any ray: 2.83 (fourth-order Runge–Kutta on the imaginary
-// axis) to 3.04 beside it.
+// stay bounded further out. The furthest stable point along any ray: 2.83 (fourth-order Runge–Kutta on the
+// imaginary axis) to 3.04 close to it.
 constexpr double search_radius = 4.0;
 constexpr int search_steps = 800;
 

@@ -162,7 +162,7 @@ StabilityLimit bounded_limit(BodyAnalysis& analysis, Integrator integrator) {
   const double gamma_max = analysis.gamma_max().value;
   const LinearisedBody& body = analysis.body();
   StabilityLimit least = {infinity, false};
-  // Without stiffness there is no ratio to it: κ = 0 stands for all of γ.
+  // Without stiffness there is no ratio to it: κ = 0 represents every γ.
   const auto gamma_of = [&](double ratio, double kappa) {
     return kappa > 0.0 ? std::min(ratio * kappa, gamma_max) : 0.0;
   };

@@ -15,8 +15,8 @@ constexpr double strain = 1e-3;  ///< of a probe's start: springs are linear to 
 constexpr double noise = 0.1;    ///< of it
 constexpr double ended = 30.0;   ///< times the start: it grows beyond doubt
 constexpr double margin = 1.02;  ///< growth above rounding's
-/// Of the start, below which nothing has grown: what a damped motion ends in is the noise of rounding, which
-/// a solve multiplies by a large step.
+/// Share of the start below which nothing counts as growth: a damped motion ends in the noise of rounding,
+/// which a solve multiplies by a large step.
 constexpr double staged_floor = 0.05, solved_floor = 0.5;
 
 /// Root of the mean square of all displacements [m].

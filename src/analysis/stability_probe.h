@@ -1,6 +1,6 @@
 #pragma once
 // Stability as a solver shows it: whether small motions of a body alone in space grow from step to step.
-// Beside it stands what the linearisation says (analysis/stability.h).
+// analysis/stability.h has the answer of the linearised equations.
 #include <functional>
 #include <memory>
 

@@ -223,7 +223,8 @@ void ExplicitSteps::add_contact(Task& task, const StageMove& stage, Range range,
   }
 }
 
-/// Terrain response at the end of the step. What it moves is looked at again, for the box and for divergence.
+/// Terrain response at the end of the step. Particles that it moves are checked again, for the box and for
+/// divergence.
 void ExplicitSteps::respond(Task& task, const StageMove& stage) {
   Particles& next = *stage.next;
   for (const Range& part : task.near) {

@@ -29,8 +29,8 @@ class ExplicitSteps {
   std::uint64_t bytes() const;
 
  private:
-  /// Consecutive particles of one body that one thread moves: whole planes of a cube, or a piece of any other
-  /// body.
+  /// Consecutive particles of one body that one thread moves: complete planes of a cube, or a piece of any
+  /// other body.
   struct Task {
     std::size_t body;
     Range range;  ///< within all particles

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace aspic::parallel::HWY_NAMESPACE {
 namespace {
 
-// Arrays have room for whole vectors behind the last block: these loops need no end of their own.
+// Arrays have room for complete vectors behind the last block: these loops need no separate remainder.
 
 HWY_INLINE Vector load(const BlockVectors& a, std::size_t i) {
   return {hn::Load(tag, a[0].of + i), hn::Load(tag, a[1].of + i), hn::Load(tag, a[2].of + i)};

@@ -28,7 +28,7 @@ struct Linearisation {
 };
 
 /// −h·∂f/∂v' of a body's springs: H·d = across·d + (along − across)·n(n·d). `along` is the springs' own; n
-/// and across of every spring are kept from one evaluation for the products that follow, or made anew in
+/// and across of every spring are kept from one evaluation for the products that follow, or recomputed in
 /// each.
 class Jacobians {
  public:

@@ -47,7 +47,7 @@ void ListedForces(const SpringLists& lists, const ForceInput& input, Range range
   listed_forces_in<Arithmetic::exact>(lists, input, range, forces);
 }
 
-/// One stage of up to `lanes` particles: what lies behind them is another thread's.
+/// One stage of up to `lanes` particles: those behind them belong to another thread.
 template <bool whole>
 HWY_INLINE void move_lanes(const StageMove& stage, std::size_t p, std::size_t count, const Forces& forces,
                            std::size_t n, Moved& moved) {
@@ -57,7 +57,7 @@ HWY_INLINE void move_lanes(const StageMove& stage, std::size_t p, std::size_t co
   };
   const auto put = [&](Float v, float* to) {
     if constexpr (whole) return hn::StoreU(v, tag, to);
-    // A masked store may write the other lanes too, with what was there before.
+    // A masked store may write the other lanes too, with the values that were there before.
     alignas(64) float all[slice];
     hn::Store(v, tag, all);
     std::copy_n(all, count, to);

@@ -12,7 +12,7 @@
 
 namespace aspic::parallel {
 
-/// Floats from an address that any vector register loads whole, zero at first, with room on both sides: a
+/// Floats aligned for any vector register, zero at first, with room on both sides: a
 /// register may be loaded from up to `margin` elements outside, whose values nobody uses.
 class FloatArray {
  public:

@@ -51,7 +51,7 @@ struct SearchBox {
   }
 };
 
-/// Around particles first … end − 1. What is not a number is not counted: it touches nothing.
+/// Around particles first … end − 1. NaNs are not counted: they touch nothing.
 template <class T>
 SearchBox<T> box_of(const ParticleView<T>& particles, std::uint32_t first, std::uint32_t end) {
   SearchBox<T> box;

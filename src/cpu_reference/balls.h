@@ -5,7 +5,7 @@
 // A phase is Jacobi's: all of its pairs are computed from the velocities the phase before left, with every
 // body's mass shared among its acting pairs; a body's impulses are summed in ascending partner index, in
 // blocks of 256 (cpu_reference/reductions.h). So many simultaneous contacts keep momentum and never raise the
-// energy: the outcome of a body is the mean of what its parts would do, each in a collision of its own.
+// energy: the outcome of a body is the mean of its parts' outcomes, each in a separate collision.
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -175,7 +175,7 @@ class Balls {
     return pair_gap<T>(e, body(b).radius, false);
   }
 
-  /// False only for what is further apart than ε, far beyond rounding.
+  /// False only for bodies that are further apart than ε, far beyond rounding.
   bool may_touch(const Vector<T>& e, T reach) const {
     const T limit = T(1.01) * (reach + rules_.contact.epsilon);
     return !(dot3<T>(e, e) > limit * limit);

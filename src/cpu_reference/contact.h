@@ -13,7 +13,7 @@ Vec<T> vec(const Vector<T>& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// Where a terrain is at one end of a step. What does not move keeps every bit.
+/// Where a terrain is at one end of a step. Terrain that does not move keeps every bit.
 template <class T>
 struct GroundPose {
   bool moves = false;
@@ -107,7 +107,7 @@ struct ContactConstants {
   T epsilon;        ///< ε: m for distances, m/s for speeds
   T resting_speed;  ///< v_rest = max(ε, 2|g|h) [m/s]
   T step;           ///< h [s]
-  T fall;           ///< |g|h: what a step of free fall gains [m/s]
+  T fall;           ///< |g|h: speed gained by a step of free fall [m/s]
 
   explicit ContactConstants(const Model& model)
       : epsilon(static_cast<T>(model.contact.epsilon)),

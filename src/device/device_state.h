@@ -20,13 +20,13 @@ struct IndexRange {
 /// Springs that SpringBuffers::spring_ends speaks of together.
 inline constexpr std::uint32_t spring_unit = 256;
 
-/// Nothing writes them once they are made, so solvers and pictures of one context may share them.
-/// Where the words of a slice of particles begin, and what they name.
+/// Where the words of a slice of particles begin, and the particles or springs they name.
 struct SliceWords {
   std::uint32_t first_word = 0;
   IndexRange named = {};  ///< particles, or springs
 };
 
+/// Nothing writes them once they are made, so solvers and pictures of one context may share them.
 struct SpringBuffers {
   const gl::Context* context = nullptr;
   IncidentWords kind = IncidentWords::neighbours;  ///< what the incident words mean
@@ -35,7 +35,7 @@ struct SpringBuffers {
   gl::Buffer springs;              ///< BINDING_SPRINGS: packed_springs(), with words that name springs alone
   std::vector<SliceWords> slices;  ///< of the words, and one past the last
   std::vector<IndexRange> spring_ends;  ///< particles that each spring_unit of `springs` join
-  gl::Buffer lattices;  ///< BINDING_LATTICES, with words beside lattices; else a table without any
+  gl::Buffer lattices;  ///< BINDING_LATTICES, if the words leave lattices out; else a table without any
 
   std::uint64_t bytes() const {
     return incident_start.bytes() + incident.bytes() + springs.bytes() + lattices.bytes();

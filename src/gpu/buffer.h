@@ -53,8 +53,8 @@ class Buffer {
 
   /// Writes `data` from byte `offset` on; must lie within bytes().
   void upload(std::span<const std::byte> data, std::uint64_t offset = 0);
-  /// Reads from byte `offset` on, waiting for the device. What a pass wrote is seen only if that pass, or one
-  /// after it, named ReadBy::read_back.
+  /// Reads from byte `offset` on, waiting for the device. A pass's output is visible only if that pass, or
+  /// one after it, named ReadBy::read_back.
   void download(std::span<std::byte> data, std::uint64_t offset = 0) const;
   /// Sets every byte to zero, on the device.
   void clear();
@@ -80,7 +80,7 @@ class Buffer {
   /// Binds it to an indexed binding point, where it stays for later passes and draws; nothing happens if it
   /// is there. `bytes` of it from byte `offset` on, a multiple of the device's offset alignment; 0: all of it
   /// (then offset must be 0). An empty handle leaves the point as it is. Nobody else may bind to these points
-  /// with GL calls of their own.
+  /// with separate GL calls.
   void bind(BufferKind kind, std::uint32_t binding, std::uint64_t offset = 0, std::uint64_t bytes = 0) const;
 
  private:

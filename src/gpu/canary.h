@@ -80,8 +80,8 @@ struct Arithmetic {
   std::uint32_t worst_ulps() const;
   /// Kernels compiled with `defines` give the reference's bits wherever no denormal occurs.
   bool exact() const { return corrected ? corrected->all_exact() : device.all_exact(); }
-  /// Complete sentences for `aspic info`: what is exact, what differs and with which operands, and what is
-  /// done about it.
+  /// Complete sentences for `aspic info`: which operations are exact, which differ and with which operands,
+  /// and what is done about it.
   std::vector<std::string> sentences() const;
 };
 

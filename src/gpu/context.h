@@ -79,7 +79,7 @@ using Loader = void (*(*)(const char* name))();
 /// the driver keeps its address for messages.
 class Context {
  public:
-  /// A context of its own, without a window, current on return.
+  /// A separate context, without a window, current on return.
   /// Error (no_device): says what was tried, what each attempt answered, and what to install.
   static Result<std::unique_ptr<Context>> create_headless(const ContextOptions& options = {});
 
@@ -117,7 +117,7 @@ class Context {
   /// of lost_context are calls of lost(); those of out_of_memory are the making of a buffer or a texture and
   /// calls of ran_out_of_memory(); those of lost_at_dispatch are the dispatches of passes, and what is
   /// downloaded once it has struck has all bits set; those of no_answer and late are calls of wait_for() and
-  /// passed(). No GL call is made for it, so that the context itself goes on working.
+  /// passed(). No GL call is made for it, so that the context itself keeps working.
   void inject_fault(Fault fault, std::uint64_t after = 0);
   /// For tests: faults that have not struck yet never will, and an injected loss is taken back.
   void take_back_faults();

@@ -1,5 +1,5 @@
 #pragma once
-// One dispatch: a program, what it is bound to, and who reads what it writes.
+// One dispatch: a program, its bindings, and the readers of its output.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,7 +26,7 @@ constexpr ReadBy operator|(ReadBy a, ReadBy b) {
 /// The bits glMemoryBarrier takes for these readers.
 std::uint32_t barrier_bits(ReadBy readers);
 
-/// Makes what passes before wrote visible to these readers: for one who did not dispatch them himself.
+/// Makes the output of earlier passes visible to these readers: for callers that did not dispatch them.
 void barrier(ReadBy readers);
 
 /// A buffer at a binding number of a program.
@@ -35,7 +35,7 @@ struct Binding {
   const Buffer* buffer = nullptr;  ///< not null at dispatch; must outlive it
   BufferKind kind = BufferKind::storage;
   std::uint64_t offset = 0;  ///< [bytes], a multiple of the device's offset alignment
-  std::uint64_t bytes = 0;   ///< 0: the whole buffer (then offset must be 0)
+  std::uint64_t bytes = 0;   ///< 0: the complete buffer (then offset must be 0)
 };
 
 /// Groups along x and y for `count` items.
@@ -58,7 +58,7 @@ GroupCount groups_for(std::uint32_t count, std::uint32_t group_size);
 /// in place already and three more.
 class Pass {
  public:
-  /// `program` and the bindings' buffers must outlive the pass. `readers` is what comes next as a rule.
+  /// `program` and the bindings' buffers must outlive the pass. `readers`: the usual next use of its output.
   Pass(const Program& program, std::vector<Binding> bindings, ReadBy readers)
       : program_(&program), bindings_(std::move(bindings)), readers_(readers) {}
 

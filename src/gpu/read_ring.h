@@ -11,7 +11,7 @@
 
 namespace aspic::gl {
 
-/// A ring of read buffers with fences. What the solver writes is never mapped or read itself: some drivers
+/// A ring of read buffers with fences. Buffers that the solver writes are never mapped or read: some drivers
 /// move a buffer that is (NVIDIA's message 131186) to the host's memory, and later passes with it. Its
 /// context must outlive it and be current.
 class ReadRing {
@@ -26,7 +26,7 @@ class ReadRing {
   std::size_t pending() const { return pending_; }
 
   /// Queues a copy of `bytes` bytes, at most the ring's, from byte `offset` of `source` on; legal unless
-  /// full(). What a pass wrote is seen only if that pass, or one after it, named ReadBy::read_back.
+  /// full(). A pass's output is visible only if that pass, or one after it, named ReadBy::read_back.
   void submit(const Buffer& source, std::uint64_t offset, std::uint64_t bytes);
   /// Whether the oldest copy has arrived; legal while pending() > 0. Never waits.
   bool ready();

@@ -81,7 +81,7 @@ class Framebuffer {
   /// Error (no_device): the driver cannot draw into this combination.
   static Result<Framebuffer> create(Context& context, const Texture& colour, const Texture* depth);
 
-  /// Draws go here from now on, to the whole of it.
+  /// Draws go here from now on, to all of it.
   void bind() const;
   /// Copies the colour of `source`: resolves samples where it has more than one (sizes must agree then),
   /// filters linearly where sizes differ. Does not bind.

@@ -130,7 +130,7 @@ Status BallPasses::build_buffers() {
   return {};
 }
 
-/// Gives the lists and the items this much room, where they have less. What they held is gone.
+/// Gives the lists and the items this much room, where they have less. Their contents are lost.
 Status BallPasses::allot(std::uint64_t list_words, std::uint64_t items) {
   if (list_words > list_capacity_) {
     ASPIC_TRY(work_,

@@ -36,7 +36,7 @@ std::uint64_t ball_bytes(const ModelCounts& counts);
 
 class BallPasses {
  public:
-  /// Where the particles are and what stops the kernels: bound to every pass.
+  /// The particles' states and the control block that stops the kernels: bound to every pass.
   struct Surroundings {
     const gl::Buffer* simulation = nullptr;
     const gl::Buffer* control = nullptr;  ///< Control, or Solve under implicit Euler

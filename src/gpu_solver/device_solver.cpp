@@ -31,7 +31,7 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
   ASPIC_TRY(const layout::Simulation block, simulation_block(model_));
   const std::uint64_t state_bytes = std::uint64_t{model_.particle_count()} * sizeof(layout::Particle);
   for (Buffer& state : states_) {
-    // Balls may meet any particle, so their passes see whole states.
+    // Balls may meet any particle, so their passes see complete states.
     if (model_.ball_count() > 0) {
       ASPIC_TRY(state, Buffer::create(context_, "particle state", state_bytes));
     } else {

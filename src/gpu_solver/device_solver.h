@@ -16,7 +16,7 @@
 
 namespace aspic {
 
-/// Readers of what is about to leave the solver.
+/// Readers of the data that is about to leave the solver.
 inline constexpr gl::ReadBy anyone =
     gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw | gl::ReadBy::read_back | gl::ReadBy::copy;
 
@@ -49,7 +49,7 @@ class DeviceSolver : public GpuSolver {
 
   /// Invocations per group of the kernels.
   virtual std::uint32_t group_size(const GpuOptions& options) const = 0;
-  /// Buffers and passes of its own, and the balls' passes.
+  /// The solver's own buffers and passes, and the balls' passes.
   virtual Status build_passes(const KernelOptions& kernels, const GpuOptions& options) = 0;
   /// The state was loaded: its own control words follow.
   virtual void restart() = 0;
@@ -74,7 +74,7 @@ class DeviceSolver : public GpuSolver {
   }
   /// Whether steps under way may be carried out after what the host says next.
   virtual bool repeats_steps() const { return balls_.any(); }
-  /// Waits for what is queued, so that state and step number are those of good steps.
+  /// Waits for the queued steps, so that state and step number are those of good steps.
   virtual Status settle() { return {}; }
   /// The kernels count steps in 32 bits: before those are full, counting begins again. No step may be under
   /// way when it does, which is where counts_far().
@@ -97,7 +97,7 @@ class DeviceSolver : public GpuSolver {
   gl::Buffer simulation_;
 
   std::uint64_t base_step_ = 0;    // step number of the loaded state
-  std::uint32_t steps_since_ = 0;  // steps since: what the kernels count in
+  std::uint32_t steps_since_ = 0;  // steps since then, which the kernels count in
   std::optional<Divergence> divergence_;
   bool fast_ = false;  // spring forces in fast arithmetic
   std::unique_ptr<gl::PassProfiler> profiler_;
@@ -123,7 +123,7 @@ Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, co
 Result<std::unique_ptr<GpuSolver>> make_implicit_solver(gl::Context& context, const Model& model,
                                                         const GpuOptions& options, const ForcePathRow& path);
 
-/// gpu_bytes() of each, but what they share.
+/// gpu_bytes() of each, without what both share.
 std::uint64_t explicit_bytes(const ModelCounts& counts, Integrator integrator);
 std::uint64_t implicit_bytes(const ModelCounts& counts, std::uint64_t block_bytes);
 

@@ -234,7 +234,7 @@ std::uint32_t ExplicitSolver::queue_steps(std::uint32_t count) {
   return count;
 }
 
-/// Waits for the oldest queue and takes in what came of it. Returns how many steps have to be queued again.
+/// Waits for the oldest queue and reads its outcome. Returns how many steps have to be queued again.
 Result<std::uint64_t> ExplicitSolver::take_look() {
   layout::Control control;
   looks_->take(std::as_writable_bytes(std::span(&control, 1)));

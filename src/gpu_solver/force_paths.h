@@ -11,8 +11,8 @@
 namespace aspic {
 
 enum class ForcePath {
-  automatic,  ///< lattice where the model has a whole cube, else gather
-  lattice,    ///< gather on whole cubes without connectivity in memory, and as below on all else
+  automatic,  ///< lattice where the model has a complete cube, else gather
+  lattice,    ///< gather on complete cubes without connectivity in memory, and as below on all else
   tiles,      ///< lattice, with tiles of a cube in shared memory
   gather,     ///< one invocation per particle evaluates its springs, everything fused
   per_spring  ///< one invocation per spring writes its force, a second pass sums
@@ -26,12 +26,12 @@ struct ForcePathRow {
   IncidentWords words = IncidentWords::neighbours;
   std::string_view spring_kernel = {};   ///< one invocation per spring, first in a stage; empty: none
   std::string_view spring_title = {};    ///< of that pass, in profiles
-  std::string_view lattice_kernel = {};  ///< whole cubes, to the end of the stage; empty: as all else
+  std::string_view lattice_kernel = {};  ///< complete cubes, to the end of the stage; empty: as all else
   std::string_view lattice_title = {};
   bool tiles = false;  ///< an item of that kernel is a place in a tile, else a run of particles
   std::string_view particle_kernel = {};  ///< one invocation per particle, to the end of the stage
   std::string_view particle_title = {};
-  std::uint64_t spring_bytes = 0;  ///< device memory that a spring takes beside SpringBuffers
+  std::uint64_t spring_bytes = 0;  ///< device memory that a spring takes in addition to SpringBuffers
 };
 
 /// All paths, the fastest first.

@@ -103,7 +103,7 @@ Error idle_device(const gl::Context& context, const Model& model, std::uint64_t 
 }
 
 Status check_overrun(std::uint32_t overrun) {
-  // By KERNEL_… of layout.glsl: the kernel, and what its loop goes over.
+  // By KERNEL_… of layout.glsl: the kernel, and the objects its loop runs over.
   constexpr std::array<std::array<std::string_view, 2>, KERNEL_COUNT> kernels = {
       {{},
        {"gather", "the springs of one particle"},

@@ -20,7 +20,7 @@ struct KernelOptions {
   std::vector<gl::Define> defines;  ///< of the arithmetic, the group size, the model and GpuOptions
 };
 
-/// A kernel, and what readers of a profile call its passes.
+/// A kernel, and the title of its passes in profiles.
 struct KernelRow {
   const char *path, *title;
 };

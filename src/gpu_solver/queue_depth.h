@@ -12,9 +12,9 @@ namespace aspic {
 constexpr std::size_t most_queues = 2;
 static_assert(most_queues <= gl::ReadRing::capacity);
 
-/// As many steps, or rounds of a solve, as take about a twentieth of a second by what was measured: enough to
-/// hide the wait, few enough to answer Ctrl-C and to stay far below what systems let a queue take. Begins
-/// with few, since a first step may take seconds; never affects the bits.
+/// As many steps, or rounds of a solve, as take about a twentieth of a second by the latest measurement:
+/// enough to hide the wait, few enough to answer Ctrl-C and to stay far below what systems let a queue take.
+/// Begins with few, since a first step may take seconds; never affects the bits.
 class QueueDepth {
  public:
   /// `most` ≥ 1: never more; `first`: before anything is known.

@@ -61,7 +61,7 @@ std::uint64_t listed_particle(const Model& model, std::uint64_t place) {
   return place;
 }
 
-/// Words of these places, and what they name.
+/// Words of these places, and the particles or springs they name.
 void take_words(const SpringBuffers& springs, const IndexRange& places, Window& window) {
   if (places.count() == 0) return;
   const bool names_springs = springs.kind == IncidentWords::springs;
@@ -133,7 +133,7 @@ Seen seen_by_lattice_tiles(const Model& model) {
                           first = std::max(items.first, begin), last = std::min(items.end, end);
       tiles_before += tiles.all();
       if (first >= last) continue;
-      // Whole layers of tiles: as many planes.
+      // Complete layers of tiles: as many planes.
       const std::uint64_t layer = std::uint64_t{tiles.j} * tiles.k * tile_particles,
                           plane = std::uint64_t{body.lattice_edge} * body.lattice_edge * TILE_I;
       window.particles.take(near(body, {body.first_particle + (first - begin) / layer * plane,

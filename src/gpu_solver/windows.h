@@ -15,7 +15,7 @@
 
 namespace aspic {
 
-/// Items of a pass, and what of the arrays over each kind they read and write.
+/// Items of a pass, and the parts of the arrays over each kind that they read and write.
 struct Window {
   IndexRange items = {}, particles = {}, words = {}, springs = {};
 };
@@ -69,7 +69,7 @@ Seen seen_by_particles(const Model& model, const SpringBuffers& springs);
 /// Items are springs.
 Seen seen_by_springs(const SpringBuffers& springs);
 
-/// A pass that is dispatched window by window, or whole where there are none.
+/// A pass that is dispatched window by window, or at once where there are none.
 class SlicedPass {
  public:
   /// `windows`: empty, or of a program compiled with ASPIC_WINDOWS.

@@ -1,5 +1,5 @@
 #pragma once
-// The table of bodies: what a scene may list, and what the model makes of each element.
+// The table of bodies: the kinds that a scene may list, and how the model is built from each.
 #include <cstddef>
 #include <span>
 #include <string_view>

@@ -75,7 +75,7 @@ ModelCounts goal_net_counts(const GoalNetSettings& net) {
              nl = static_cast<std::uint64_t>(net.particles[2]);
   ModelCounts counts;
   counts.particles = nh * nl + (nw - 1) * (nl + 2 * (nh - 1));
-  // Perimeter of the top, bottom row, and what of the posts lies between them.
+  // Perimeter of the top, bottom row, and the posts between them.
   counts.pinned = 2 * (nw + nl) - 4 + (nl + 2 * (nw - 1)) + 4 * (nh - 2);
   // Lines along each axis that lie in a face, times the springs of a line.
   const std::uint64_t along_x = nl + 2 * (nh - 1), along_y = nl + 2 * (nw - 1), along_z = nh + nw - 1;

@@ -8,7 +8,7 @@
 namespace aspic {
 namespace {
 
-/// Words that name neighbours, and no_spring beside them.
+/// Words that name neighbours, and no_spring as well.
 Status check_words(const Model& model) {
   const std::uint64_t limit = (std::uint64_t{1} << (32 - class_bits(model))) - 1;
   if (model.particle_count() <= limit) return {};

@@ -1,7 +1,7 @@
 #pragma once
 // The springs of a model as kernels walk them: per particle, in ascending neighbour index, one word a spring.
-// Particles stand in slices of spring_slice, whose words lie side by side: the first spring of each, then the
-// second, and so on, so that neighbouring invocations read neighbouring words.
+// Particles are grouped in slices of spring_slice, whose words are interleaved: the first spring of each
+// particle, then the second, and so on, so that neighbouring invocations read neighbouring words.
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -74,9 +74,9 @@ struct Rod {
 struct Body {
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
-  /// n of a whole cube: its n³ particles have the springs of lattice_directions() (model/springs.h), of the
-  /// classes from first_class on, none of them cords, and none in Model::listed_springs. 0: all its springs
-  /// are listed.
+  /// n of a complete cube: its n³ particles have the springs of lattice_directions() (model/springs.h), of
+  /// the classes from first_class on, none of them cords, and none in Model::listed_springs. 0: all its
+  /// springs are listed.
   std::uint32_t lattice_edge = 0;
 
   SurfaceStyle style = SurfaceStyle::flesh;
@@ -124,7 +124,7 @@ struct Model {
   std::uint32_t ball_count() const { return static_cast<std::uint32_t>(balls.size()); }
 };
 
-/// Particles and balls of a model together at most: what signed 32-bit indices name.
+/// Particles and balls of a model together at most: as many as signed 32-bit indices can name.
 inline constexpr std::uint64_t most_indices = 0x7fffffff;
 
 /// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
@@ -138,7 +138,7 @@ State initial_state(const Model& model, Precision precision);
 /// Approach speed below which a contact is at rest: max(ε, 2|g|h) [m/s].
 double resting_speed(const Model& model);
 
-/// |g|h: what a step of free fall gains [m/s].
+/// |g|h: speed gained by a step of free fall [m/s].
 double fall_speed(const Model& model);
 
 /// Error (usage): the state has another number of particles or balls than the model.

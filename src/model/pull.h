@@ -11,7 +11,7 @@
 
 namespace aspic {
 
-/// A damped spring of rest length 0 from a particle to a fixed anchor: what a hand does to the jelly. Its
+/// A damped spring of rest length 0 from a particle to a fixed anchor, as a hand pulls at the jelly. Its
 /// force is that of a spring (docs/physics.md, section 1) whose other end rests at the anchor,
 ///   e = x − anchor,  f = −[k·|e| + c(v·e)/|e|]·e/|e|,
 /// nothing where e = 0, and is added to the particle's sum after its springs and before contact. On a ball it

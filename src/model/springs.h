@@ -69,7 +69,8 @@ class SpringRange {
 
 /// All springs of a model.
 SpringRange springs_of(const Model& model);
-/// Those whose lower end is one of `count` particles from `first` on; bodies lie in them whole or not at all.
+/// Those whose lower end is one of `count` particles from `first` on; a body lies in this range completely or
+/// not at all.
 SpringRange springs_of(const Model& model, std::uint32_t first, std::uint32_t count);
 
 /// All springs as a list, 12 bytes each.

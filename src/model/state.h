@@ -1,5 +1,5 @@
 #pragma once
-// The State of a run: what changes from step to step, and nothing else.
+// The State of a run: everything that changes from step to step, and nothing else.
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -42,7 +42,7 @@ struct TerrainShapeRow {
   }
 };
 
-/// The distance alone; what its shape computes for the normal only is left out once all is inlined.
+/// The distance alone; once inlined, computations that only the normal needs are left out.
 template <class S, class T>
 [[gnu::flatten]] T distance_of(const Geometry<T>& g, const Vec<T>& x) {
   return S::template gap<T>(g, x).d;

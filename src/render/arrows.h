@@ -33,11 +33,11 @@ struct ArrowSet {
   friend bool operator==(const ArrowSet&, const ArrowSet&) = default;
 };
 
-/// Force that an arrow of a metre stands for [N/m]: what the view says; else the smallest 1, 2 or 5 times a
+/// Force that an arrow of a metre represents [N/m]: that of the view; else the smallest 1, 2 or 5 times a
 /// power of ten with which the longest arrow finds room; 0, for none, where no force is above the noise.
 double arrow_scale(const ViewSettings& view, const ArrowSet& set);
 
-/// What the arrows of a view mean, and the force that a round length stands for: "arrows: 1 cm = 0.2 N".
+/// What the arrows of a view mean, and the force that a round length represents: "arrows: 1 cm = 0.2 N".
 /// Empty without arrows.
 Legend arrow_legend(const ViewSettings& view, const ArrowSet& set);
 

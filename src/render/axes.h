@@ -19,7 +19,7 @@ struct AxisArm {
 /// Those that point away first, so that later ones are drawn over them.
 std::array<AxisArm, 3> axes_seen(const Camera& camera);
 
-/// Sizes of the drawing, in heights of the text beside it.
+/// Sizes of the drawing, in heights of its text.
 inline constexpr double axis_length = 2.2, axis_letter_at = 1.28, axes_reach = 3.4, axis_width = 0.16;
 
 }  // namespace aspic

@@ -1,5 +1,5 @@
 #pragma once
-// What stands still around the bodies, drawn once and kept while it looks the same.
+// Everything that does not move, drawn once and kept while it looks the same.
 #include <optional>
 #include <vector>
 

@@ -20,7 +20,7 @@ std::vector<Four> unturned(std::uint32_t count) {
   return std::vector<Four>(count, Four{0.0f, 0.0f, 0.0f, 1.0f});
 }
 
-/// White where they are footballs; else each a hue of its own, after those of the bodies.
+/// White where they are footballs; else each in its own hue, after those of the bodies.
 std::vector<Four> colours_of(const Model& model) {
   const bool football = std::ranges::any_of(model.bodies, &Body::footballs);
   std::vector<Four> colours;

@@ -23,14 +23,13 @@ using Oklab = std::array<double, 3>;
 Colour from_oklab(const Oklab& lab);
 
 /// A scale of colours: 256 of them, RGBA with 8 bits each, sRGB encoded. Neighbours are equally far apart in
-/// Oklab, up to the rounding to 8 bits, over the whole scale, or over each half of blue-red. Lightness rises
-/// evenly, so that a scale also reads in grey: from dark violet over blue and green to bright yellow; from
-/// black over red to bright yellow (heat); in grey. Blue-red rises from blue to light grey in the middle and
-/// falls to red.
-/// `map` is none but automatic.
+/// Oklab, up to the rounding to 8 bits, over the complete scale, or over each half of blue-red. Lightness
+/// rises evenly, so that a scale also reads in grey: from dark violet over blue and green to bright yellow;
+/// from black over red to bright yellow (heat); in grey. Blue-red rises from blue to light grey in the middle
+/// and falls to red. `map` is none but automatic.
 std::vector<std::byte> colour_map_texels(ScaleMap map);
 
-/// What `automatic` stands for with a colour; other maps are themselves.
+/// The map that `automatic` means for a colour; other maps are themselves.
 ScaleMap chosen_map(const ViewSettings& view);
 
 /// Structural cyan, shear yellow, bending green, as the course drew them.

@@ -18,7 +18,7 @@ constexpr std::array marked_colour = {1.0f, 0.62f, 0.08f, 1.0f};
 
 // Least radii, in units.
 constexpr double ring_size = 9.0, pinned_size = 4.5, marked_size = 7.5, anchor_size = 8.0, line_size = 2.2;
-/// Of what something else hides.
+/// Where something else hides it.
 constexpr double hidden_opacity = 0.15;
 
 }  // namespace

@@ -56,7 +56,7 @@ std::vector<std::uint32_t> spring_pairs(const Model& model, std::vector<SpringRu
 }  // namespace
 
 Result<ModelBuffers> ModelBuffers::create(gl::Context& context, const Model& model) {
-  // Passes over pictures see whole states.
+  // Passes over pictures see complete states.
   ASPIC_CHECK(gl::Buffer::check_size(context, "particle state",
                                      std::uint64_t{model.particle_count()} * sizeof(layout::Particle)));
   ModelBuffers b;

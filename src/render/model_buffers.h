@@ -1,5 +1,5 @@
 #pragma once
-// What drawing needs of a model on the device, and what is derived from its particles for each picture.
+// A model's data on the device for drawing, and the data derived from its particles for each picture.
 #include <array>
 #include <cstdint>
 #include <optional>

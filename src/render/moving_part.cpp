@@ -12,7 +12,7 @@
 namespace aspic {
 namespace {
 
-/// Shares of a whole picture, or of two boxes, from which on one box takes their place.
+/// Shares of a complete picture, or of two boxes, above which one box replaces them.
 constexpr double nearly_whole = 0.75, nearly_joined = 1.15;
 
 /// Looks at single points through a picture's camera.
@@ -28,7 +28,7 @@ class Lens {
 
   gl::PixelBox whole() const { return {0, 0, static_cast<int>(width_), static_cast<int>(height_)}; }
 
-  /// Widens the box by what is within `radius` [m] and `margin` [pixels] of the point.
+  /// Widens the box by everything within `radius` [m] and `margin` [pixels] of the point.
   void add(const glm::dvec3& point, double radius, double margin) {
     const glm::dvec4 clip = view_projection_ * glm::dvec4(point, 1.0);
     const double w = parallel_ ? clip.w : clip.w - radius;
@@ -44,7 +44,7 @@ class Lens {
     upper_ = glm::max(upper_, at + pad);
   }
 
-  /// What add() has widened, and begins anew.
+  /// The boxes that add() has widened; starts over.
   gl::PixelBox take() {
     const auto pixel = [](double at, double most) { return static_cast<int>(std::clamp(at, 0.0, most)); };
     const gl::PixelBox box =

@@ -44,7 +44,7 @@ class OverlayPainter {
   /// the picture's height, 11 pixels at least.
   /// The colour map must be bound to its unit and the frame block to its binding. Leaves blending off. Error
   /// (scene_rejected): no device memory.
-  /// Legends stand one above the other; empty ones are left out. `camera`: that of axes in the upper right
+  /// Legends are stacked; empty ones are left out. `camera`: that of axes in the upper right
   /// corner; null: none.
   Status draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines,
               std::span<const Legend> legends, const Camera* camera = nullptr, int text_height = 0);

@@ -6,7 +6,7 @@
 
 namespace aspic {
 
-/// In the order of drawing. What a picture does without takes next to no time.
+/// In the order of drawing. Passes that a picture does without take next to no time.
 enum class PicturePass {
   backdrop,
   bounds,

@@ -211,7 +211,7 @@ Status Renderer::Parts::start(int width, int height, const DeviceState& state,
   return {};
 }
 
-/// The picture is whole.
+/// The picture is complete.
 Status Renderer::Parts::finish() {
   if (profiler) profiler->end();
   Status written = drawing->written;

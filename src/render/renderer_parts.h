@@ -117,7 +117,7 @@ struct Renderer::Parts {
             colour_map, d.state,  view,     view.cut.on() ? section.get() : nullptr};
   }
   bool draws_flesh(const Drawing& d) const { return d.options.view.draw.solid && has(SurfaceStyle::flesh); }
-  /// The whole picture by one program.
+  /// The complete picture by one program.
   void fill(const gl::Program& program) const {
     nothing.bind();
     glUseProgram(program.id());

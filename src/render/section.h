@@ -19,7 +19,7 @@ enum class SectionUse { colour, thickness, identities };
 /// structural and shear ones.
 DrawSettings drawn_springs(const ViewSettings& view);
 
-/// How far behind the cut's plane its section is filled [m]: a spacing where springs stand before it.
+/// How far behind the cut's plane its section is filled [m]: a spacing where springs are drawn before it.
 double section_depth(const CutSettings& cut, double spacing);
 
 /// While it lives, skins end at the frame block's cut, if `cut` is on.
@@ -34,8 +34,8 @@ class SkinsCut {
   bool on_;
 };
 
-/// Fills what the frame block's section plane crosses of whole cubes, cell by cell as they are deformed. Its
-/// context must outlive it and be current.
+/// Fills the parts of complete cubes that the frame block's section plane crosses, cell by cell as deformed.
+/// Its context must outlive it and be current.
 class SectionPainter {
  public:
   /// Errors: those of Program.

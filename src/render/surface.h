@@ -8,7 +8,7 @@
 namespace aspic {
 
 /// Triangles over global particle indices. They turn anticlockwise seen from outside the undeformed
-/// body, or from the side that an open surface turns to. Patches that meet have vertices of their own there,
+/// body, or from the side that an open surface turns to. Patches that meet have separate vertices there,
 /// so that an edge can be sharp.
 struct Surface {
   struct Part {

@@ -1,10 +1,10 @@
-// What stands around the bodies of a picture, and what of it need not be drawn again.
+// The surroundings of the bodies in a picture, and which parts of them need not be drawn again.
 #include "render/renderer_parts.h"
 
 namespace aspic {
 namespace {
 
-/// What is drawn of a thing may lie so far beside it: smoothing, and images of half the size [pixels].
+/// A thing's pixels may lie this far outside of it: smoothing, and images of half the size [pixels].
 constexpr double edge_margin = 4.0;
 
 }  // namespace
@@ -47,7 +47,7 @@ bool Renderer::Parts::knows(const DeviceState& state) const {
   return state.particles == &uploaded && uploaded_particles.size() == model->particle_count();
 }
 
-/// Where translucent bodies are, and as far beside them as they bend sight (shaders/render/jelly.frag).
+/// Where translucent bodies are, and as far around them as they bend sight (shaders/render/jelly.frag).
 std::vector<gl::PixelBox> Renderer::Parts::around_flesh(const DeviceState& state) const {
   if (!knows(state)) return {targets->box()};
   double reach = 0.0;

@@ -19,9 +19,9 @@ struct DrawableImage {
 struct PictureTargets {
   DrawableImage samples;    ///< several samples per pixel, with depth
   DrawableImage picture;    ///< one sample, the finished picture
-  DrawableImage behind;     ///< half size: what is behind translucent bodies
+  DrawableImage behind;     ///< half size: the scene behind translucent bodies
   DrawableImage shade;      ///< half size: shares of sun and sky that bodies keep from a plane
-  DrawableImage thickness;  ///< half size: what a sight line crosses of bodies [m]
+  DrawableImage thickness;  ///< half size: length of the sight line within bodies [m]
 
   /// Errors (scene_rejected, no_device): those of Texture and Framebuffer.
   static Result<PictureTargets> create(gl::Context& context, int width, int height, int samples);
@@ -33,7 +33,7 @@ struct PictureTargets {
     return box() == other.box() &&
            samples.colour.settings().samples == other.samples.colour.settings().samples;
   }
-  /// The whole of the picture.
+  /// All of the picture.
   gl::PixelBox box() const { return {0, 0, picture.colour.width(), picture.colour.height()}; }
 };
 

@@ -1,4 +1,4 @@
-// The backends beside one another: equal bits, and speed by size.
+// The backends compared: equal bits, and speed by size.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The two contact models beside one another, and beside closed forms.
+// The two contact models compared with each other and with closed forms.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-// The report as plain data, and its forms: one HTML file, Markdown with its pictures beside it, CSV.
+// The report as plain data, and its forms: one HTML file, Markdown with separate pictures, CSV.
 #include <map>
 #include <optional>
 #include <string>
@@ -32,7 +32,7 @@ struct Table {
   std::vector<std::vector<Cell>> rows;
 };
 
-/// Pictures beside one another, rows below one another.
+/// Pictures in rows.
 struct Strip {
   std::vector<std::string> columns;  ///< "t = 1.5 s"
   struct Row {
@@ -72,7 +72,7 @@ std::string markdown_of(const Page& page);
 /// The CSV of a table.
 std::string csv_of(const Table& table);
 
-/// Everything beside the two pages: path in the report's directory, content.
+/// Every file besides the two pages: path in the report's directory, content.
 std::map<std::string, std::string> files_of(const Page& page);
 
 /// RFC 4648.

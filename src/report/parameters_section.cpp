@@ -15,9 +15,9 @@
 namespace aspic::report {
 namespace {
 
-constexpr double sideways = 5.0;  ///< [m/s], given to bodies that have no speed of their own
+constexpr double sideways = 5.0;  ///< [m/s], given to bodies that start at rest
 
-/// A parameter and what its values are from the scene's.
+/// A parameter, and its values relative to the scene's.
 struct Varied {
   std::string_view key;  ///< a short name
   std::vector<double> (*values)(double present, double stable_step);

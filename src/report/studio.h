@@ -13,7 +13,7 @@ namespace aspic::report {
 
 class Studio {
  public:
-  /// Draws in a headless context of its own. Errors: no_device, and those of Renderer::create.
+  /// Draws in its own headless context. Errors: no_device, and those of Renderer::create.
   static Result<std::unique_ptr<Studio>> open();
 
   /// The next pictures show this model, which outlives them.

@@ -54,7 +54,7 @@ class Study {
   /// `aspic report SCENE --only SECTION --out DIR`
   std::string command(std::string_view section) const;
 
-  /// A row of pictures, empty without a studio; with `follow` the camera moves sideways with what is shown.
+  /// A row of pictures, empty without a studio; with `follow` the camera moves sideways with the bodies.
   /// The model outlives the call.
   Result<std::vector<std::string>> pictures(const Model& model, std::span<const State> states,
                                             const ViewSettings& view, bool follow = false) const;

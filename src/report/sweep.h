@@ -1,5 +1,5 @@
 #pragma once
-// A sweep: the runs of a grid in processes of their own, their rows in a file.
+// A sweep: the runs of a grid in separate processes, their rows in a file.
 #include <cstddef>
 #include <string>
 #include <vector>

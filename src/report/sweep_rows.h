@@ -1,5 +1,5 @@
 #pragma once
-// The rows of a sweep, and the file that keeps them while it goes on.
+// The rows of a sweep, and the file that keeps them while it runs.
 #include <cstddef>
 #include <map>
 #include <string>
@@ -18,10 +18,10 @@ std::string sweep_header(const Grid& grid);
 std::string sweep_row(const Grid& grid, std::size_t index, const TrialResult& result);
 
 /// Finished rows of a sweep that is not complete, in FILE.partial: a line that says whose they are, then rows
-/// in the order of finishing. A row is appended by one write; what a kill leaves of one is dropped.
+/// in the order of finishing. A row is appended by one write; an incomplete one, left by a kill, is dropped.
 class SweepJournal {
  public:
-  /// Opens the journal beside the output `path`, or begins it, and reads its rows. `owner` is one line that
+  /// Opens the journal next to the output `path`, or creates it, and reads its rows. `owner` is one line that
   /// says which sweep it is. Errors: usage, it belongs to another sweep; io, another process is at it, it is
   /// damaged, or its place cannot be written.
   static Result<SweepJournal> open(const std::string& path, const std::string& owner);

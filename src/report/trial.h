@@ -1,5 +1,5 @@
 #pragma once
-// One run to its end, and what it came to: a row of a sweep, a curve of a report.
+// One run to its end, and its result: a row of a sweep, a curve of a report.
 #include <cstdint>
 #include <functional>
 #include <optional>

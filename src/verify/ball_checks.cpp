@@ -154,7 +154,7 @@ Result<Finding> pit_overlap(const Subject& subject) {
   return at_most(worst, 0.1, "of a radius");
 }
 
-/// 1,000 steps of three scenes on a backend, on the gpu by every search, beside the reference.
+/// 1,000 steps of three scenes on a backend, on the gpu by every search, compared with the reference.
 Result<Finding> same_bits(const Subject& subject, const BackendRow& row) {
   std::array<GpuOptions, 2> searches;
   searches[0].ball_search = BallSearch::all_pairs;

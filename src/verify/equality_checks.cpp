@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t explicit_steps = 2000, implicit_steps = 60, repeat_steps = 500;
 
-/// The force paths of a backend that have bits of their own to show with an integrator.
+/// The force paths of a backend that are worth comparing with an integrator.
 std::vector<GpuOptions> paths_of(const BackendRow& row, Integrator integrator) {
   std::vector<GpuOptions> paths;
   for (const ForcePathRow& path : row.force_paths())
@@ -163,7 +163,7 @@ Result<Finding> driver_threads(const Subject& subject) {
   for (const std::string& text : overrides) words.insert(words.end(), {"--set", text});
   std::set<std::string> hashes;
   for (const char* threads : {"1", "2", "8"}) {
-    // The driver reads its thread count once, at its start: each count is a process of its own.
+    // The driver reads its thread count once, at its start: each count runs in a separate process.
     ASPIC_TRY(auto output, output_of(subject.program, words, {{"LP_NUM_THREADS", threads}}));
     const std::string key = "\"state_hash\": \"";
     const std::size_t at = output.find(key);

@@ -51,7 +51,7 @@ Terrain plane_through_origin(const Model& model, const Vec3& normal);
 /// How far the deepest particle is inside a terrain [m]; negative if all are outside.
 double deepest(const Model& model, const State& state);
 
-/// The step of a row: the scene's default, or what implicit Euler is there for [s].
+/// The step of a row: the scene's default, or the large one that implicit Euler is meant for [s].
 double usual_step(Integrator integrator);
 
 /// Steps that a duration [s] takes, the nearest whole number.
@@ -65,7 +65,7 @@ Result<State> run(Solver& solver, std::uint64_t steps, const State* start = null
 Result<State> run_reference(const Subject& subject, const Model& model, Precision precision,
                             std::uint64_t steps, const State* start = nullptr);
 
-/// Runs of a backend beside the same runs of the reference in single precision.
+/// Runs of a backend compared with the same runs of the reference in single precision.
 class BitComparison {
  public:
   BitComparison(const Subject& subject, const BackendRow& row) : subject_(subject), row_(row) {}
@@ -76,7 +76,7 @@ class BitComparison {
 
   bool same() const { return ulp_ == 0; }
   /// Largest difference and number of runs. A device that the canary found to compute otherwise has a bound
-  /// on single steps, since whole runs through contact drive any two roundings apart: from states along the
+  /// on single steps, since long runs through contact drive any two roundings apart: from states along the
   /// reference's run, it may differ, at their median, by 1 + 2p·√n times what a step in single precision
   /// differs from one in double precision, with p = Arithmetic::worst_ulps() and n forces that act on a
   /// particle in a step. Of these, roundings of half a unit add up like √n; a device that is always wrong by

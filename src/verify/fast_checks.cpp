@@ -1,4 +1,4 @@
-// Fast arithmetic: how far it is from double precision, beside exact arithmetic in single precision.
+// Fast arithmetic: its distance from double precision, compared with that of exact single precision.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -40,7 +40,7 @@ Result<Finding> comes_to_rest(const Subject& subject, Integrator integrator) {
 }
 
 /// Turned by 30°, the cube lands on an edge and then rocks to and fro on another: most of its bottom layer
-/// rises and comes down again and again, which is what a rule of contact has to end.
+/// rises and comes down again and again, which a rule of contact has to end.
 Result<Finding> rocks_to_rest(const Subject& subject, Integrator integrator) {
   ASPIC_TRY(auto model, dropped_cube(10, {0, 4, 0}, integrator, 30.0));
   ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, steps_of(model, 12.0)));
