@@ -163,8 +163,10 @@ Status execute(const CompareOptions& options) {
 
   std::array<Backend, 2> backends;
   for (std::size_t i = 0; i < backends.size(); ++i) {
-    BackendChoice choice = i == 0 ? options.first : options.second;
-    ASPIC_TRY(backends[i], make_backend(choice, model));
+    // Solvers on a device work in one context, where their buffers have names of their own.
+    SolverHost host;
+    host.context = backends[0].context.get();
+    ASPIC_TRY(backends[i], make_backend(i == 0 ? options.first : options.second, model, host));
   }
   ASPIC_TRY(const auto result, compare_steps(backends, steps, interrupt));
   const bool within =
