@@ -67,7 +67,7 @@ Status check_film(const FilmFormat& format, const PictureSize& size, double fps)
 Result<std::unique_ptr<FrameSink>> open_film(const FilmFormat& format, const std::string& path,
                                              const PictureSize& size, double fps, Overwrite overwrite);
 
-/// One picture as the content of a file. JPEG has quality 92. Error (io): the encoder gave nothing.
+/// One picture as the content of a file. JPEG keeps colours at every pixel. Error (io): the encoder failed.
 Result<std::string> encode_png(const PictureSize& size, std::span<const std::byte> rgb);
 /// The same with a share of coverage behind each colour: height·width·4 bytes.
 Result<std::string> encode_clear_png(const PictureSize& size, std::span<const std::byte> rgba);

@@ -1,10 +1,8 @@
 #include <fmt/format.h>
-#include <stb_image_write.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
@@ -16,8 +14,6 @@ namespace aspic {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int jpeg_quality = 92;
 
 /// frame-, six digits or more, the ending of a picture format.
 bool is_frame_name(const std::string& name) {
@@ -36,23 +32,6 @@ Result<std::vector<fs::path>> frames_in(const std::string& directory) {
     if (is_frame_name(it->path().filename().string())) frames.push_back(it->path());
   if (failed) return file_error("read the directory", directory, failed.value());
   return frames;
-}
-
-/// Of pixels of `channels` bytes.
-template <class Write>
-Result<std::string> encoded(std::string_view format, const PictureSize& size,
-                            [[maybe_unused]] std::span<const std::byte> pixels,
-                            [[maybe_unused]] std::size_t channels, const Write& write) {
-  assert(pixels.size() ==
-         channels * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-  std::string content;
-  const auto append = [](void* into, void* data, int bytes) {
-    static_cast<std::string*>(into)->append(static_cast<const char*>(data), static_cast<std::size_t>(bytes));
-  };
-  if (write(append, content) == 0 || content.empty())
-    return fail(ErrorCode::io, "A picture of {} x {} pixels could not be encoded as {}: not enough memory.",
-                size.width, size.height, format);
-  return content;
 }
 
 class FrameDirectory : public FrameSink {
@@ -81,24 +60,6 @@ class FrameDirectory : public FrameSink {
 };
 
 }  // namespace
-
-Result<std::string> encode_png(const PictureSize& size, std::span<const std::byte> rgb) {
-  return encoded("PNG", size, rgb, 3, [&](auto append, std::string& content) {
-    return stbi_write_png_to_func(append, &content, size.width, size.height, 3, rgb.data(), 3 * size.width);
-  });
-}
-
-Result<std::string> encode_clear_png(const PictureSize& size, std::span<const std::byte> rgba) {
-  return encoded("PNG", size, rgba, 4, [&](auto append, std::string& content) {
-    return stbi_write_png_to_func(append, &content, size.width, size.height, 4, rgba.data(), 4 * size.width);
-  });
-}
-
-Result<std::string> encode_jpeg(const PictureSize& size, std::span<const std::byte> rgb) {
-  return encoded("JPEG", size, rgb, 3, [&](auto append, std::string& content) {
-    return stbi_write_jpg_to_func(append, &content, size.width, size.height, 3, rgb.data(), jpeg_quality);
-  });
-}
 
 Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& directory,
                                                         const FilmFormat& format, const PictureSize& size,
