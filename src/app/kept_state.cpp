@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/printable.h"
 #include "io/atomic_file.h"
 #include "scene/load.h"
 
@@ -165,12 +166,23 @@ std::string kept_state_path() {
   return home && home[0] == '/' ? fmt::format("{}/.local/state/aspic/window.json", home) : "";
 }
 
+namespace {
+
+/// Errors: io, it is larger than any that the window writes, or no regular file; as read_kept_state().
+Result<KeptState> read_kept_state_file(const std::string& path) {
+  constexpr std::uint64_t largest = std::uint64_t{1} << 20;
+  ASPIC_TRY(const auto file, read_regular_file(path, largest));
+  if (file.size > largest) return fail(ErrorCode::io, "it is larger than {}", human_bytes(largest));
+  return read_kept_state(file.content);
+}
+
+}  // namespace
+
 Result<KeptState> load_kept_state(const std::string& path) {
   std::error_code error;
   const std::string there = fs::exists(path, error) ? path : former_path(path);
   if (path.empty() || !fs::exists(there, error)) return KeptState();
-  ASPIC_TRY(const auto text, read_file(there));
-  auto state = read_kept_state(text);
+  auto state = read_kept_state_file(there);
   if (state) return state;
   return fail(ErrorCode::io,
               "{} cannot be used ({}), so the window opens with its defaults. "

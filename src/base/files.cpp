@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "base/end_request.h"
 #include "base/printable.h"
 
 namespace aspic {
@@ -52,44 +54,71 @@ Error file_error(std::string_view verb, const std::string& path, int error_numbe
 
 namespace {
 
-/// Reads until `most` bytes are there or the file ends; closes the descriptor.
+/// Waits for a pipe or a terminal to have something; false if the program is asked to end meanwhile. What
+/// cannot be waited for, such as a regular file, is ready.
+bool wait_for_input(int descriptor) {
+  pollfd input = {descriptor, POLLIN, 0};
+  for (;;) {
+    const int ready = ::poll(&input, 1, 100);
+    if (ready != 0 && !(ready < 0 && errno == EINTR)) return true;
+    if (end_requested) return false;
+  }
+}
+
+/// Reads until `most` bytes are there or the file ends; closes the descriptor, which is opened with
+/// O_NONBLOCK.
 Result<std::string> read_and_close(int descriptor, std::uint64_t most, const std::string& path) {
   std::string content;
   std::array<char, 65536> block;
   int reason = 0;
+  bool interrupted = false;
   while (reason == 0 && content.size() < most) {
+    if ((interrupted = !wait_for_input(descriptor))) break;
     const std::size_t wanted = std::min<std::uint64_t>(block.size(), most - content.size());
     const ssize_t got = ::read(descriptor, block.data(), wanted);
     if (got == 0) break;
     if (got > 0) {
       content.append(block.data(), static_cast<std::size_t>(got));
-    } else if (errno != EINTR) {
+    } else if (errno != EINTR && errno != EAGAIN) {
       reason = errno;
     }
   }
   ::close(descriptor);
+  if (interrupted)
+    return fail(ErrorCode::interrupted, "interrupted while {} was silent.", printable_line(path));
   if (reason != 0) return file_error("read", path, reason);
   return content;
+}
+
+Error too_large(const std::string& path, std::uint64_t most) {
+  return fail(ErrorCode::io, "{} is larger than {}, the limit for such a file.", printable_line(path),
+              human_bytes(most));
+}
+
+/// Opening a pipe without a writer would wait for one: reading does, and can be interrupted.
+int open_to_read(const std::string& path) {
+  return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
 }
 
 }  // namespace
 
 Result<std::string> read_file(const std::string& path, std::uint64_t most_bytes) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = open_to_read(path);
   if (descriptor < 0) return file_error("read", path, errno);
-  // One byte more reveals a file that is too large.
-  constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
-  auto content = read_and_close(descriptor, most_bytes == all ? all : most_bytes + 1, path);
-  if (content && content->size() > most_bytes) {
-    return fail(ErrorCode::io, "{} is larger than {}, the limit for such a file.", printable_line(path),
-                human_bytes(most_bytes));
+  struct stat present = {};
+  if (::fstat(descriptor, &present) == 0 && S_ISREG(present.st_mode) &&
+      static_cast<std::uint64_t>(present.st_size) > most_bytes) {
+    ::close(descriptor);
+    return too_large(path, most_bytes);
   }
+  // One byte more reveals what is too large and does not say so.
+  auto content = read_and_close(descriptor, most_bytes + 1, path);
+  if (content && content->size() > most_bytes) return too_large(path, most_bytes);
   return content;
 }
 
 Result<FileStart> read_regular_file(const std::string& path, std::uint64_t most) {
-  // Opening a pipe without a writer would wait for one.
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  const int descriptor = open_to_read(path);
   if (descriptor < 0) return file_error("read", path, errno);
   struct stat present = {};
   const bool known = ::fstat(descriptor, &present) == 0;

@@ -1,7 +1,6 @@
 #pragma once
 // Reading files, and what to say when the system refuses one.
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 
@@ -9,9 +8,13 @@
 
 namespace aspic {
 
-/// The bytes of a file. Error (io): missing, unreadable, a directory, or of more than `most_bytes`.
-Result<std::string> read_file(const std::string& path,
-                              std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
+/// What a text file may hold: no scene needs more, and a device or a pipe may have no end.
+inline constexpr std::uint64_t largest_text_file = std::uint64_t{64} << 20;  ///< [bytes]
+
+/// The bytes of a file, device or pipe. Errors: io, it is missing, unreadable, a directory, or of more than
+/// `most_bytes`, which is found out without reading it where it is a regular file; interrupted, the program
+/// was asked to end while a pipe was silent.
+Result<std::string> read_file(const std::string& path, std::uint64_t most_bytes = largest_text_file);
 
 /// The beginning of a file, and the size of all of it.
 struct FileStart {

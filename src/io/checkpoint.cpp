@@ -205,10 +205,37 @@ Status check_against_scene(const Checkpoint& checkpoint, const ModelSettings& sc
   return {};
 }
 
+namespace {
+
+/// Whether the file has the size that its own counts want, which is known without reading it. Error (io): it
+/// has not.
+Status check_size(const std::string& path, std::uint64_t size, std::uint64_t before_texts) {
+  ASPIC_TRY(const auto head, read_regular_file(path, before_texts + 8 + longest_program_version + 8));
+  Decoder in(head.content);
+  in.take(magic.size() + 4);
+  const std::uint64_t width = in.get(4);
+  in.take(before_texts - magic.size() - 8);
+  const std::uint64_t version = in.text().size(), scene = in.get(8);
+  if (in.failed() || scene > longest_scene) return error_in(path, damaged);
+  const std::uint64_t counts = before_texts + 8 + version + 8 + scene;
+  ASPIC_TRY(const auto start, read_regular_file(path, counts + 16));
+  Decoder numbers(std::string_view(start.content).substr(std::min(counts, start.content.size())));
+  const std::uint64_t particles = numbers.get(8), balls = numbers.get(8);
+  if (numbers.failed() || particles > size || balls > size ||
+      size != counts + 16 + (6 * particles + 9 * balls) * width + 8)
+    return error_in(path, damaged);
+  return {};
+}
+
+}  // namespace
+
 Result<Checkpoint> read_checkpoint(const std::string& path) {
   // The first bytes come first: what is no checkpoint needs no memory to be refused.
-  ASPIC_TRY(const auto start, read_regular_file(path, magic.size()));
-  ASPIC_CHECK(check_magic(start.content, path));
+  constexpr std::uint64_t before_texts = magic.size() + 4 + 4 + 3 * 8;  // as encode_checkpoint() writes them
+  ASPIC_TRY(const auto start, read_regular_file(path, before_texts));
+  Decoder in(start.content);
+  if (in.take(magic.size()) != magic || in.get(4) != checkpoint_version)
+    return decode_checkpoint(start.content, path);  // which says why not
   // Once as bytes, and as doubles whatever the precision in the file.
   const std::optional<std::uint64_t> memory = available_memory();
   if (memory && start.size > *memory / 3) {
@@ -216,6 +243,7 @@ Result<Checkpoint> read_checkpoint(const std::string& path) {
         path, fmt::format("the checkpoint has {} bytes, too many for the {} bytes of memory that are free.",
                           start.size, *memory));
   }
+  ASPIC_CHECK(check_size(path, start.size, before_texts));
   ASPIC_TRY(const auto bytes, read_regular_file(path, start.size));
   return decode_checkpoint(bytes.content, path);
 }

@@ -44,7 +44,7 @@ Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint);
 Status check_against_scene(const Checkpoint& checkpoint, const ModelSettings& scene, const std::string& name);
 
 /// Reads a file. Errors (io): as decode_checkpoint; it cannot be read, is no regular file (a device or pipe
-/// may never end), or is larger than free memory.
+/// may never end), has not the size that its counts want, or is larger than free memory.
 Result<Checkpoint> read_checkpoint(const std::string& path);
 
 }  // namespace aspic

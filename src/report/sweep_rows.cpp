@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -81,7 +82,8 @@ std::string journal_path(const std::string& path) {
 Result<SweepJournal> SweepJournal::open(const std::string& path, const std::string& owner) {
   SweepJournal journal;
   journal.path_ = journal_path(path);
-  journal.descriptor_ = ::open(journal.path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  journal.descriptor_ =
+      ::open(journal.path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY, 0666);
   if (journal.descriptor_ < 0) return file_error("write", journal.path_, errno);
   if (::flock(journal.descriptor_, LOCK_EX | LOCK_NB) != 0)
     return fail(ErrorCode::io, "another aspic sweep is writing {}; give this one another --out.",
@@ -90,34 +92,87 @@ Result<SweepJournal> SweepJournal::open(const std::string& path, const std::stri
   return journal;
 }
 
+namespace {
+
+/// Any row is far shorter: what is longer is no journal, and may have no end.
+constexpr std::size_t longest_line = std::size_t{1} << 20;
+
+/// The lines of a file from its beginning.
+class Lines {
+ public:
+  Lines(int descriptor, const std::string& path) : descriptor_(descriptor), path_(path) {}
+
+  /// The next line with its line end; without one where the file ends or the line is too long. Error (io).
+  Result<std::string> next() {
+    std::string line;
+    while (line.size() <= longest_line) {
+      const std::size_t end = held_.find('\n', at_);
+      const std::size_t stop = end == std::string::npos ? held_.size() : end + 1;
+      line.append(held_, at_, stop - at_);
+      at_ = stop;
+      if (end != std::string::npos) break;
+      ASPIC_TRY(const bool more, refill());
+      if (!more) break;
+    }
+    return line;
+  }
+
+ private:
+  Result<bool> refill() {
+    at_ = 0;
+    held_.resize(std::size_t{1} << 16);
+    ssize_t got = -1;
+    while ((got = ::pread(descriptor_, held_.data(), held_.size(), read_)) < 0 && errno == EINTR) {
+    }
+    const int reason = errno;
+    held_.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+    if (got < 0) return file_error("read", path_, reason);
+    read_ += got;
+    return got > 0;
+  }
+
+  int descriptor_;
+  const std::string& path_;
+  off_t read_ = 0;
+  std::string held_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
 Status SweepJournal::read(const std::string& owner) {
-  ASPIC_TRY(std::string text, read_file(path_));
+  struct stat present = {};
+  if (::fstat(descriptor_, &present) != 0) return file_error("read", path_, errno);
+  if (!S_ISREG(present.st_mode))
+    return fail(ErrorCode::io, "{}, where finished rows are kept, is a device or a pipe; give another --out.",
+                printable_line(path_));
   const std::string first = fmt::format("{}{}\n", mark, printable_line(owner));
-  const std::size_t end = text.rfind('\n');
-  const std::size_t whole = end == std::string::npos ? 0 : end + 1;
-  if (whole < text.size() && ::ftruncate(descriptor_, static_cast<off_t>(whole)) != 0)
-    return file_error("write", path_, errno);
-  text.resize(whole);
-  if (text.empty()) return append(descriptor_, path_, first);
-  if (!text.starts_with(first)) {
-    const std::string there = text.substr(0, text.find('\n'));
-    return fail(ErrorCode::usage,
-                "{} holds rows of another sweep:\n  there: {}\n  here:  {}\nComplete that sweep with its own "
-                "command, choose another --out, or begin anew with --force.",
-                path_, printable_line(there.starts_with(mark) ? there.substr(mark.size()) : there),
-                printable_line(owner));
-  }
-  std::size_t line = 2;
-  for (std::size_t at = first.size(); at < text.size(); ++line) {
-    const std::size_t next = text.find('\n', at) + 1;
+  Lines lines(descriptor_, path_);
+  off_t whole = 0;  // bytes of whole lines
+  for (std::size_t number = 1;; ++number) {
+    ASPIC_TRY(auto line, lines.next());
+    const bool ended = line.ends_with('\n');
+    if (!ended && line.size() <= longest_line) break;
     std::size_t index = 0;
-    const auto [stop, error] = std::from_chars(text.data() + at, text.data() + next, index);
-    if (error != std::errc() || *stop != ',')
-      return fail(ErrorCode::io, "{}:{}: this is no row of a sweep; begin anew with --force.", path_, line);
-    rows_[index] = text.substr(at, next - at);
-    at = next;
+    const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), index);
+    const bool row = ended && number > 1 && error == std::errc() && *stop == ',' && index < most_runs;
+    if (!row && !(ended && number == 1))
+      return fail(ErrorCode::io, "{}:{}: this is no row of a sweep; begin anew with --force.", path_, number);
+    if (number == 1 && line != first) {
+      line.pop_back();
+      return fail(
+          ErrorCode::usage,
+          "{} holds rows of another sweep:\n  there: {}\n  here:  {}\nComplete that sweep with its own "
+          "command, choose another --out, or begin anew with --force.",
+          path_, printable_line(line.starts_with(mark) ? line.substr(mark.size()) : line),
+          printable_line(owner));
+    }
+    whole += static_cast<off_t>(line.size());
+    if (row) rows_[index] = std::move(line);
   }
-  return {};
+  if (whole < present.st_size && ::ftruncate(descriptor_, whole) != 0)
+    return file_error("write", path_, errno);
+  return whole == 0 ? append(descriptor_, path_, first) : Status();
 }
 
 SweepJournal::SweepJournal(SweepJournal&& other) noexcept

@@ -19,9 +19,6 @@ std::span<const EmbeddedFile> builtin_scene_files();  // generated
 
 namespace {
 
-/// Far beyond any scene: keeps a device or a wrong file from filling the memory.
-constexpr std::uint64_t largest_file = 64 << 20;
-
 /// The end of every message about a name that leads nowhere.
 std::string known_scenes(std::string_view name) {
   std::vector<std::string_view> names;
@@ -82,7 +79,7 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
     return fail(ErrorCode::scene_rejected, "'{}' is neither a file nor a built-in scene; {}",
                 printable_line(file_or_builtin), known_scenes(file_or_builtin));
   }
-  ASPIC_TRY(auto text, read_file(file_or_builtin, largest_file));
+  ASPIC_TRY(auto text, read_file(file_or_builtin));
   return parse_scene(text, file_or_builtin, overrides, limits);
 }
 

@@ -138,6 +138,24 @@ TEST(Checkpoint, BelongsToItsScene) {
   EXPECT_THAT(check_against_scene(checkpoint, settings, "c").error().message, HasSubstr("time step"));
 }
 
+TEST(Checkpoint, FilesOfTheWrongSizeAreNotRead) {
+  const test::TemporaryDirectory dir;
+  Checkpoint checkpoint;
+  checkpoint.program_version = "1";
+  checkpoint.scene = "schema = 1\n";
+  checkpoint.timestep = 0.001;
+  checkpoint.state = test::random_bits_state(4, Precision::single);
+  const std::string whole = encode_checkpoint(checkpoint);
+  dir.write("c", whole);
+  EXPECT_TRUE(read_checkpoint(dir.file("c")).ok());
+  for (const std::size_t size : {whole.size() - 1, whole.size() + 1, std::size_t{60}, std::size_t{100}}) {
+    std::filesystem::resize_file(dir.file("c"), size);
+    const auto read = read_checkpoint(dir.file("c"));
+    ASSERT_FALSE(read.ok()) << size;
+    EXPECT_THAT(read.error().message, HasSubstr("damaged or cut short")) << size;
+  }
+}
+
 TEST(Checkpoint, OnlyRegularFilesAreRead) {
   const test::TemporaryDirectory dir;
   const std::string pipe = dir.file("pipe");
