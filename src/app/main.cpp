@@ -8,6 +8,7 @@
 #include "app/app.h"
 #include "app/revival.h"
 #include "app/window.h"
+#include "base/end_request.h"
 #include "command_line/arguments.h"
 #include "io/console.h"
 #include "io/program.h"
@@ -77,6 +78,8 @@ int show(const ViewOptions& view) {
     (*window)->show_picture();
     if ((*app)->title() != title) (*window)->set_title(title = (*app)->title());
   }
+  const bool interrupted = guard.interrupted();
+  end_requested = true;  // nobody waits for an encoder that has come to a halt
   for (const std::string& line : (*app)->film.finish()) print_message(line);
   (*window)->set_receiver(nullptr);
   if (!error) {
@@ -87,7 +90,7 @@ int show(const ViewOptions& view) {
     if (const Status saved = save_kept_state(left, kept_path); !saved) print_message(saved.error().message);
   }
   if (error) return fail(*error);
-  return guard.interrupted() ? static_cast<int>(ErrorCode::interrupted) : 0;
+  return interrupted ? static_cast<int>(ErrorCode::interrupted) : 0;
 }
 
 int start(int argc, char** argv) {

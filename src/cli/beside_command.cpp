@@ -97,7 +97,7 @@ Status prepare(Members& members, const std::vector<Variation>& differences, gl::
   for (std::size_t i = 0; i < members.size(); ++i) {
     Member& m = *members[i];
     ASPIC_TRY(m.backend, make_backend(m.run.backend, m.model, {context, nullptr, {}}));
-    m.lane.emplace(*m.backend.solver, m.files, 0);
+    m.lane.emplace(*m.backend.solver, m.files, 0, true);
     m.label = label_of(differences, m.run.scene, m.backend.variant());
     m.name = fmt::format("run {}", i + 1);
     for (const OverlayLine& line : m.label)
@@ -118,12 +118,14 @@ Status draw(BesideRecorder& recorder, const Members& members) {
   return recorder.add(steps, divergences);
 }
 
-/// Picture by picture: a run that diverged stands still while the others go on.
-Status simulate(Members& members, const CommonClock& clock, BesideRecorder* recorder,
-                const InterruptGuard& interrupt) {
+/// Picture by picture: a run that diverged stands still while the others go on, and all do without pictures
+/// if those fail and there are other files. The result says whether all pictures were drawn.
+Result<Status> simulate(Members& members, const CommonClock& clock, BesideRecorder* recorder,
+                        const InterruptGuard& interrupt) {
   for (const auto& m : members) ASPIC_CHECK(m->lane->begin());
   ProgressBar bar(clock.count(), "picture");
   bool interrupted = false;
+  Losses losses;
   for (std::uint64_t frame = 0; frame < clock.count() && !interrupted; ++frame) {
     for (std::size_t i = 0; i < members.size() && !interrupted; ++i) {
       RunLane& lane = *members[i]->lane;
@@ -132,7 +134,11 @@ Status simulate(Members& members, const CommonClock& clock, BesideRecorder* reco
       if (recorder) recorder->add_simulation(lane.seconds() - before);
       interrupted = lane.interrupted();
     }
-    if (recorder) ASPIC_CHECK(draw(*recorder, members));
+    if (recorder) {
+      const bool files = std::ranges::any_of(members, [](const auto& m) { return m->files.any_left(); });
+      ASPIC_CHECK(losses.after_picture(*recorder, draw(*recorder, members), files));
+      if (!losses.pictured()) recorder = nullptr;
+    }
     bar.update(frame + 1);
     interrupted = interrupted || interrupt.interrupted();
     if (std::ranges::all_of(members, [](const auto& m) { return m->lane->divergence().has_value(); })) break;
@@ -141,7 +147,7 @@ Status simulate(Members& members, const CommonClock& clock, BesideRecorder* reco
     ASPIC_TRY(m->outcome, m->lane->outcome(m->last_step));
     m->outcome->interrupted = interrupted;
   }
-  return {};
+  return losses.pictured();
 }
 
 Status print_summary(const RunOptions& options, const Members& members,
@@ -195,21 +201,25 @@ Status execute_beside(const RunOptions& options) {
     ASPIC_TRY(recorder, BesideRecorder::create(*context, options.pictures, std::move(pictured),
                                                film.take_frame_sinks()));
   }
-  ASPIC_CHECK(simulate(members, clock, recorder.get(), interrupt));
+  ASPIC_TRY(Status pictured_all, simulate(members, clock, recorder.get(), interrupt));
 
-  const Status pictured_all = recorder ? recorder->finish() : Status();
-  Status finished;
+  // Pictures last: an encoder may keep a run waiting.
   for (const auto& m : members) {
     const Outcome& outcome = *m->outcome;
-    const Status status =
-        m->files.finish({m->model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
-    if (finished) finished = status;
+    (void)m->files.finish({m->model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
+  }
+  if (recorder && pictured_all) pictured_all = recorder->finish();
+  std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};
+  if (!pictured_all && lost.empty()) lost.push_back(pictured_all.error());
+  bool others = recorder && !recorder->written().empty();
+  for (const auto& m : members) {
+    lost.insert(lost.end(), m->files.failures().begin(), m->files.failures().end());
+    others = others || !m->files.written().empty();
   }
   const Status summary = print_summary(
       options, members, recorder ? recorder->written() : std::vector<std::string>{}, recorder.get());
   if (recorder) print_frame_times(recorder->times(), recorder->device());
-  if (!pictured_all) return pictured_all;
-  if (!finished) return finished;
+  ASPIC_CHECK(lost_error(lost, others));
   if (!summary) return summary;
   for (const auto& m : members)
     if (m->outcome->divergence) return divergence_error(m->model, *m->outcome, interrupt, m->name);

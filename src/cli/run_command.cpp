@@ -96,25 +96,42 @@ Result<Start> load_start(const RunOptions& options) {
   return start;
 }
 
-/// `recorder` is null where no pictures are wanted.
+/// `recorder` is null where no pictures are wanted. A run that loses its pictures goes on if it writes
+/// anything else.
 Result<Outcome> simulate(RunLane& lane, Recorder* recorder, std::uint64_t last_step,
                          const InterruptGuard& interrupt) {
   ASPIC_CHECK(lane.begin());
   ProgressBar bar(last_step);
   const auto started = Clock::now();
-  if (recorder) ASPIC_CHECK(recorder->reach(lane.solver(), lane.step()));
+  Losses losses;
+  const auto take_picture = [&]() -> Status {
+    if (!recorder) return {};
+    const Status drawn = recorder->reach(lane.solver(), lane.step());
+    ASPIC_CHECK(losses.after_picture(*recorder, drawn, lane.files().any_left()));
+    if (!losses.pictured()) recorder = nullptr;
+    return {};
+  };
+  ASPIC_CHECK(take_picture());
   while (lane.step() < last_step && !lane.stopped()) {
     const double before = lane.seconds();
     ASPIC_CHECK(lane.advance_to(recorder ? std::min(recorder->next_step(), last_step) : last_step, interrupt,
                                 [&](std::uint64_t step) { bar.update(step); }));
     if (!recorder || lane.stopped()) continue;
     recorder->add_simulation(lane.seconds() - before);
-    ASPIC_CHECK(recorder->reach(lane.solver(), lane.step()));
+    ASPIC_CHECK(take_picture());
   }
   ASPIC_TRY(auto outcome, lane.outcome(last_step));
-  if (recorder) outcome.pictured = recorder->finish(lane.solver(), outcome.state.step);
+  outcome.pictured = losses.pictured();
   outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - started).count();
   return outcome;
+}
+
+/// The last pictures, after all other files: an encoder may keep a run waiting.
+void finish_pictures(Recorder& recorder, Solver& solver, Outcome& outcome) {
+  if (!outcome.pictured) return;
+  const auto started = Clock::now();
+  outcome.pictured = recorder.finish(solver, outcome.state.step);
+  outcome.wall_seconds += std::chrono::duration<double>(Clock::now() - started).count();
 }
 
 Status print_summary(const RunOptions& options, const RunReport& run, const std::vector<std::string>& files,
@@ -161,16 +178,20 @@ Status execute(const RunOptions& options) {
     ASPIC_TRY(recorder, Recorder::create(options.pictures, start.scene, backend, files.take_frame_sinks(),
                                          first_step, steps));
   }
-  RunLane lane(*backend.solver, files, first_step);
+  RunLane lane(*backend.solver, files, first_step, options.pictures.any());
   ASPIC_TRY(auto outcome, simulate(lane, recorder.get(), steps, interrupt));
-  const Status finished = files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
+  (void)files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
+  if (recorder) finish_pictures(*recorder, *backend.solver, outcome);
+  std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};
+  if (!outcome.pictured && lost.empty()) lost.push_back(outcome.pictured.error());
+  lost.insert(lost.end(), files.failures().begin(), files.failures().end());
   std::vector<std::string> written = recorder ? recorder->written() : std::vector<std::string>{};
   written.insert(written.end(), files.written().begin(), files.written().end());
   const Status summary =
       print_summary(options, {start.scene, model, backend, outcome}, written, recorder.get());
   if (recorder) print_frame_times(recorder->times(), recorder->device());
-  if (!outcome.pictured) return outcome.pictured;
-  if (!finished) return finished;
+  if (!lost.empty() && outcome.divergence) print_message(divergence_error(model, outcome, interrupt).message);
+  ASPIC_CHECK(lost_error(lost, !written.empty()));
   if (!summary) return summary;
   if (outcome.divergence) return divergence_error(model, outcome, interrupt);
   if (outcome.interrupted) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/energy.h"
+#include "io/console.h"
 
 namespace aspic::cli {
 namespace {
@@ -23,11 +24,28 @@ void BatchSize::took(std::uint64_t steps, double seconds) {
   if (seconds > 0.1) size_ = std::max<std::uint64_t>(size_ / 2, 1);
 }
 
+void Losses::tell(const std::vector<Error>& failures) {
+  for (; told_ < failures.size(); ++told_)
+    print_warning(failures[told_].message + " The run goes on with its other files.");
+}
+
+Status lost_error(const std::vector<Error>& failures, bool others) {
+  if (failures.empty()) return {};
+  Error error = failures.front();
+  for (std::size_t i = 1; i < failures.size(); ++i) error.message += "\n" + failures[i].message;
+  if (others) error.message += " All other files of the run were completed.";
+  return error;
+}
+
 // A State takes as much memory as all of a solver's: one is held where it is looked at, and none while
 // steps are made.
 Status RunLane::sample() {
   ASPIC_TRY(const auto state, solver_.state());
-  return files_.take({solver_.model(), state, solver_.solve_statistics().value_or(SolveStatistics{})});
+  ASPIC_CHECK(files_.take({solver_.model(), state, solver_.solve_statistics().value_or(SolveStatistics{})}));
+  const std::vector<Error>& failures = files_.failures();
+  if (!failures.empty() && !files_.any_left() && !others_) return failures.front();
+  losses_.tell(failures);
+  return {};
 }
 
 Status RunLane::advance_to(std::uint64_t step, const InterruptGuard& interrupt,

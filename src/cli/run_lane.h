@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "base/result.h"
 #include "io/program.h"
@@ -26,6 +27,36 @@ struct Outcome {
   }
 };
 
+/// Says at once what a run has lost and goes on without: its user may prefer to end it.
+class Losses {
+ public:
+  /// `failures`: all so far. Prints those that are new.
+  void tell(const std::vector<Error>& failures);
+  /// A recorder has drawn; `drawn`: how that went. Error: it is lost, and `files` have nothing to write
+  /// either. Otherwise pictured() says whether it is still worth calling.
+  template <class PictureRecorder>
+  Status after_picture(PictureRecorder& recorder, const Status& drawn, bool files) {
+    std::vector<Error> failures = recorder.failures();
+    if (!drawn) {
+      if (!files) return drawn;
+      recorder.abandon();
+      if (failures.empty()) failures.push_back(drawn.error());
+      pictured_ = drawn;
+    }
+    tell(failures);
+    return {};
+  }
+  const Status& pictured() const { return pictured_; }
+
+ private:
+  std::size_t told_ = 0;
+  Status pictured_;
+};
+
+/// The error of a run that lost outputs, none of them if `failures` is empty; `others`: it has completed
+/// some.
+Status lost_error(const std::vector<Error>& failures, bool others);
+
 /// Steps between polls for Ctrl-C and redraws: as many as take about a twentieth of a second.
 class BatchSize {
  public:
@@ -39,9 +70,10 @@ class BatchSize {
 /// A solver with the files that take its states. Both must outlive it.
 class RunLane {
  public:
-  /// The solver is at `first_step`.
-  RunLane(Solver& solver, RunFiles& files, std::uint64_t first_step)
-      : solver_(solver), files_(files), first_step_(first_step), step_(first_step) {}
+  /// The solver is at `first_step`. `others`: the run also writes what is not among these files, so that it
+  /// goes on when all of them are lost.
+  RunLane(Solver& solver, RunFiles& files, std::uint64_t first_step, bool others)
+      : solver_(solver), files_(files), others_(others), first_step_(first_step), step_(first_step) {}
 
   /// Hands the first state to the files.
   Status begin() { return sample(); }
@@ -57,6 +89,7 @@ class RunLane {
   /// Spent in advance_to() [s].
   double seconds() const { return seconds_; }
   Solver& solver() const { return solver_; }
+  const RunFiles& files() const { return files_; }
 
   /// Where it ended; waits for the device. `wall_seconds` is that of its steps. Error (diverged): a sum over
   /// the state is not a finite number.
@@ -67,11 +100,13 @@ class RunLane {
 
   Solver& solver_;
   RunFiles& files_;
+  bool others_;
   std::uint64_t first_step_, step_;
   std::optional<Divergence> divergence_;
   bool interrupted_ = false;
   double seconds_ = 0.0;
   BatchSize batch_;
+  Losses losses_;
 };
 
 }  // namespace aspic::cli

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,8 +12,10 @@
 #include <climits>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 #include <utility>
 
+#include "base/end_request.h"
 #include "base/printable.h"
 
 namespace aspic {
@@ -53,12 +56,21 @@ std::string directory_of(const std::string& path) {
   return directory.empty() ? "." : directory;
 }
 
-/// Where a symbolic link leads, so that renaming replaces what it points to and not the link.
-std::string follow_links(const std::string& path) {
-  std::error_code unresolved;
-  const fs::path resolved = fs::canonical(path, unresolved);
-  return unresolved ? path : resolved.string();
+/// Opens a device or a pipe. A pipe cannot be opened until it has a reader, which may never come.
+Result<int> open_directly(const std::string& path, bool pipe) {
+  for (;;) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    if (descriptor >= 0) return descriptor;
+    if (errno != EINTR && !(pipe && errno == ENXIO)) return file_error("write", path, errno);
+    if (end_requested)
+      return fail(ErrorCode::interrupted, "interrupted before anything read the pipe {}.",
+                  printable_line(path));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
 }
+
+/// How long a reader that has stopped is waited for once the program is to end.
+constexpr auto reader_patience = std::chrono::seconds(2);
 
 Error already_exists(const std::string& path) {
   return fail(ErrorCode::io,
@@ -67,6 +79,20 @@ Error already_exists(const std::string& path) {
 }
 
 }  // namespace
+
+std::string written_path(const std::string& path) {
+  std::error_code failed;
+  const fs::path resolved = fs::canonical(path, failed);
+  if (!failed) return resolved.string();
+  fs::path at = path;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(at, failed)); ++links) {
+    const fs::path target = fs::read_symlink(at, failed);
+    constexpr int most_links = 40;  // the system's own limit
+    if (failed || links == most_links) return path;
+    at = at.parent_path() / target;  // which is `target` alone if that is absolute
+  }
+  return at.string();
+}
 
 Result<AtomicFile> AtomicFile::create(const std::string& path, Overwrite overwrite) {
   AtomicFile file;
@@ -78,15 +104,15 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, Overwrite overwri
   const bool exists = ::stat(path.c_str(), &present) == 0;
   if (exists && S_ISDIR(present.st_mode)) return file_error("write", path, EISDIR);
   if (exists && !S_ISREG(present.st_mode)) {
-    file.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
-    if (file.descriptor_ < 0) return file_error("write", path, errno);
+    ASPIC_TRY(file.descriptor_, open_directly(path, S_ISFIFO(present.st_mode)));
     return file;
   }
+  if (!exists && errno == ELOOP) return file_error("write", path, errno);
   if (exists && overwrite == Overwrite::refuse) return already_exists(path);
   // Renaming would succeed over a file that is closed to writing: its owner's wish counts.
   if (exists && ::access(path.c_str(), W_OK) != 0) return file_error("write", path, errno);
 
-  file.target_ = follow_links(path);
+  file.target_ = written_path(path);
   static std::atomic<unsigned> counter{0};
   const std::string directory = directory_of(file.target_);
   for (int attempt = 0; file.descriptor_ < 0; ++attempt) {
@@ -94,8 +120,11 @@ Result<AtomicFile> AtomicFile::create(const std::string& path, Overwrite overwri
     file.descriptor_ = ::open(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file.descriptor_ < 0 && (errno != EEXIST || attempt == 1000)) {
       const int reason = errno;
+      std::error_code unread;
       file.temporary_.clear();
-      return file_error("write", path, reason);
+      const bool link = fs::is_symlink(fs::symlink_status(path, unread));
+      return file_error("write", link ? fmt::format("{} through the link {}", file.target_, path) : path,
+                        reason);
     }
   }
   file.slot_ = remember_temporary(file.temporary_);
@@ -149,10 +178,19 @@ Status AtomicFile::write(std::string_view text) {
 }
 
 Status AtomicFile::flush() {
+  Patience patience(reader_patience);
   for (std::size_t done = 0; done < buffer_.size();) {
     const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
     if (written >= 0) {
       done += static_cast<std::size_t>(written);
+      patience.renew();
+    } else if (errno == EAGAIN) {  // a full pipe
+      pollfd room = {descriptor_, POLLOUT, 0};
+      (void)::poll(&room, 1, 100);
+      if (!patience.over()) continue;
+      discard();
+      return fail(ErrorCode::io, "{} could not be completed: what reads it has stopped.",
+                  printable_line(path_));
     } else if (errno != EINTR) {
       return give_up(errno);
     }

@@ -12,15 +12,18 @@ namespace aspic {
 enum class Overwrite { refuse, allow };
 
 /// An output file being written. Until commit() nothing has the final name; a file that is never
-/// committed (an error, an exception, Ctrl-C) leaves nothing behind. A path that names a device or pipe, such
-/// as /dev/stdout, is written straight, since renaming would replace the device.
+/// committed (an error, an exception, Ctrl-C) leaves nothing behind. A symbolic link stays, and what it names
+/// is written, whether that exists or not. A path that names a device or pipe, such as /dev/stdout, is
+/// written directly, since renaming would replace the device; a reader that stops reading is waited for until
+/// the program is asked to end.
 ///
 /// Every error has ErrorCode::io and says the path, what the system said, and a remedy.
 class AtomicFile {
  public:
   /// Opens the temporary file, which proves that the directory exists and may be written to: call it before
-  /// the work whose result the file shall hold. Errors: the directory is missing or closed to us, the path is
-  /// a directory, or a file is there already and `overwrite` is refuse.
+  /// the work whose result the file shall hold. A pipe is waited for until it has a reader. Errors: the
+  /// directory is missing or closed to us, the path is a directory, a file is there already and `overwrite`
+  /// is refuse, or (interrupted) the program was asked to end before a pipe had a reader.
   static Result<AtomicFile> create(const std::string& path, Overwrite overwrite);
 
   AtomicFile(AtomicFile&& other) noexcept;
@@ -48,13 +51,17 @@ class AtomicFile {
   Status require_open() const;
 
   std::string path_;       ///< as the user gave it
-  std::string target_;     ///< the same with symbolic links followed
+  std::string target_;     ///< written_path() of it
   std::string temporary_;  ///< empty for devices
   std::string buffer_;
   int descriptor_ = -1;
   int slot_ = -1;  ///< in the list that remove_temporary_files() reads
   Overwrite overwrite_ = Overwrite::refuse;
 };
+
+/// The file that writing to `path` makes or replaces: symbolic links are followed, also to what does not
+/// exist yet. The path itself where a link leads in a circle.
+std::string written_path(const std::string& path);
 
 /// Removes the temporary files of this process that are not committed yet. Safe to call from a signal
 /// handler.

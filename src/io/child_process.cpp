@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -14,9 +15,81 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
 #include <utility>
 
+#include "base/end_request.h"
+
 namespace aspic {
+
+/// Whether a group of processes moves, once the program is asked to end.
+class Movement {
+ public:
+  explicit Movement(pid_t group) : group_(group) {}
+
+  /// It has taken or given something.
+  void seen() {
+    idle_.renew();
+    busy_.renew();
+  }
+  /// It is worth waiting for no longer. To be asked ten times a second.
+  bool over() {
+    if (!end_requested) return false;
+    const Work work = work_of(group_);
+    if (work.bytes != last_.bytes)
+      seen();
+    else if (work.ticks != last_.ticks)
+      idle_.renew();
+    last_ = work;
+    return idle_.over() || busy_.over();
+  }
+
+ private:
+  /// What a group of processes has done so far.
+  struct Work {
+    std::uint64_t ticks = 0;  // of processors
+    std::uint64_t bytes = 0;  // read and written
+  };
+  static Work work_of(pid_t group);
+
+  pid_t group_;
+  Work last_;
+  Patience idle_{std::chrono::seconds(4)};   // of one that does nothing
+  Patience busy_{std::chrono::seconds(30)};  // of one that computes, but neither reads nor writes
+};
+
+// proc(5): the fields of /proc/PID/stat behind the name, which may hold spaces and brackets.
+Movement::Work Movement::work_of(pid_t group) {
+  Work work;
+  std::error_code failed;
+  for (std::filesystem::directory_iterator it("/proc", failed), end; !failed && it != end;
+       it.increment(failed)) {
+    const std::string name = it->path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::ifstream stat(it->path() / "stat");
+    std::string line, state;
+    std::getline(stat, line);
+    const std::size_t bracket = line.rfind(')');
+    if (bracket == std::string::npos) continue;
+    std::istringstream fields(line.substr(bracket + 1));
+    std::int64_t parent = 0, of_group = 0, skipped = 0;
+    std::uint64_t user = 0, system = 0;
+    fields >> state >> parent >> of_group;
+    if (of_group != group) continue;
+    for (int field = 6; field <= 13; ++field) fields >> skipped;
+    fields >> user >> system;
+    work.ticks += user + system;
+    std::ifstream io(it->path() / "io");
+    std::string key;
+    for (std::uint64_t value = 0; io >> key >> value;)
+      if (key == "rchar:" || key == "wchar:") work.bytes += value;
+  }
+  return work;
+}
+
 namespace {
 
 // Readable by a signal handler: 0 is a free place.
@@ -76,12 +149,29 @@ int spawn(const std::vector<std::string>& arguments, const Streams& streams, cha
   return failed;
 }
 
-ChildProcess::End wait_for(pid_t pid) {
+/// All of a group; the first process alone where that is all there is.
+void kill_group(pid_t pid) {
+  if (::kill(-pid, SIGKILL) != 0) ::kill(pid, SIGKILL);
+}
+
+/// Ends it where `over` says so, which is asked ten times a second.
+template <class Over>
+ChildProcess::End wait_for(pid_t pid, const Over& over) {
+  using namespace std::chrono_literals;
+  ChildProcess::End end;
   int status = 0;
   pid_t waited = -1;
-  while ((waited = ::waitpid(pid, &status, 0)) < 0 && errno == EINTR) {
+  auto nap = 1ms, slept = 0ms;
+  while ((waited = ::waitpid(pid, &status, WNOHANG)) == 0 || (waited < 0 && errno == EINTR)) {
+    std::this_thread::sleep_for(nap);
+    slept += nap;
+    nap = std::min(2 * nap, 16ms);
+    if (slept < 100ms || end.stalled) continue;
+    slept = 0ms;
+    if (!over()) continue;
+    end.stalled = true;
+    kill_group(pid);
   }
-  ChildProcess::End end;
   if (waited < 0) return end;  // end_child_processes() has waited for it: how it ended is not known
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
@@ -110,6 +200,7 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     return start_error(arguments.front(), errno);
   child.input_ = ends[0];
+  child.output_ = output;
   child.errors_ = ::memfd_create("messages", MFD_CLOEXEC);
   const Streams streams = {ends[1], output == Output::answers ? ends[1] : -1, child.errors_};
   const int failed = child.errors_ < 0 ? errno : spawn(arguments, streams, environ, true, child.pid_);
@@ -126,6 +217,9 @@ ChildProcess::ChildProcess(ChildProcess&& other) noexcept
     : pid_(std::exchange(other.pid_, -1)),
       input_(std::exchange(other.input_, -1)),
       errors_(std::exchange(other.errors_, -1)),
+      output_(other.output_),
+      stalled_(other.stalled_),
+      stopped_reading_(other.stopped_reading_),
       answers_(std::move(other.answers_)) {}
 
 ChildProcess::~ChildProcess() {
@@ -134,23 +228,44 @@ ChildProcess::~ChildProcess() {
   if (errors_ >= 0) ::close(errors_);
 }
 
+/// Until the socket is ready; false if the program was ended, since it does not move.
+bool ChildProcess::wait(short events, Movement& movement) {
+  pollfd socket = {input_, events, 0};
+  (void)::poll(&socket, 1, 100);
+  if (socket.revents != 0 || !movement.over()) return true;
+  stalled_ = true;
+  kill();
+  return false;
+}
+
 bool ChildProcess::write(std::span<const std::byte> data) {
+  Movement movement(pid_);
   while (!data.empty()) {
-    const ssize_t sent = ::send(input_, data.data(), data.size(), MSG_NOSIGNAL);
-    if (sent >= 0)
+    const ssize_t sent = ::send(input_, data.data(), data.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent >= 0) {
       data = data.subspan(static_cast<std::size_t>(sent));
-    else if (errno != EINTR)
+      movement.seen();
+    } else if (errno == EAGAIN) {
+      if (!wait(POLLOUT, movement)) return false;
+    } else if (errno != EINTR) {
+      stopped_reading_ = true;
       return false;
+    }
   }
   return true;
 }
 
 std::optional<std::string> ChildProcess::line() {
   std::array<char, 4096> block = {};
+  Movement movement(pid_);
   std::size_t end = answers_.find('\n');
   while (end == std::string::npos) {
-    const ssize_t got = ::recv(input_, block.data(), block.size(), 0);
+    const ssize_t got = ::recv(input_, block.data(), block.size(), MSG_DONTWAIT);
     if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && errno == EAGAIN) {
+      if (!wait(POLLIN, movement)) return std::nullopt;
+      continue;
+    }
     if (got <= 0) return std::nullopt;
     const std::size_t before = answers_.size();
     answers_.append(block.data(), static_cast<std::size_t>(got));
@@ -162,14 +277,34 @@ std::optional<std::string> ChildProcess::line() {
 }
 
 void ChildProcess::kill() const {
-  if (pid_ > 0) ::kill(pid_, SIGKILL);
+  if (pid_ > 0) kill_group(pid_);
 }
 
-ChildProcess::End ChildProcess::finish() {
-  if (input_ >= 0) ::close(std::exchange(input_, -1));
-  if (pid_ <= 0) return {};
-  const End end = wait_for(pid_);
+ChildProcess::End ChildProcess::finish(std::optional<std::chrono::seconds> most) {
+  if (pid_ <= 0) {
+    if (input_ >= 0) ::close(std::exchange(input_, -1));
+    return {};
+  }
+  // A socket that stays open for reading tells whether its other end was closed with something unread. One
+  // that answers would wait for us to read the rest.
+  const bool listens = output_ == Output::dropped;
+  if (listens)
+    ::shutdown(input_, SHUT_WR);
+  else
+    ::close(std::exchange(input_, -1));
+  if (stopped_reading_ && !most) most = std::chrono::seconds(10);
+  const auto started = std::chrono::steady_clock::now();
+  Movement movement(pid_);
+  End end = wait_for(
+      pid_, [&] { return movement.over() || (most && std::chrono::steady_clock::now() - started > *most); });
   exchange_running(std::exchange(pid_, -1), 0);
+  end.stalled = end.stalled || stalled_;
+  if (!listens) return end;
+  int error = 0;
+  socklen_t size = sizeof error;
+  end.unread = stopped_reading_ ||
+               (::getsockopt(input_, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == ECONNRESET);
+  ::close(std::exchange(input_, -1));
   return end;
 }
 
@@ -177,7 +312,7 @@ void end_child_processes() noexcept {
   for (std::atomic<pid_t>& place : running) {
     const pid_t pid = place.load();
     if (pid <= 0) continue;
-    ::kill(pid, SIGKILL);
+    kill_group(pid);
     (void)::waitpid(pid, nullptr, 0);
   }
 }
@@ -212,7 +347,7 @@ Result<std::string> output_of(const std::string& program, const std::vector<std:
     if (got > 0) output.append(block.data(), static_cast<std::size_t>(got));
   ::close(ends[0]);
   if (failed != 0) return start_error(program, failed);
-  const ChildProcess::End end = wait_for(child);
+  const ChildProcess::End end = wait_for(child, [] { return false; });
   if (end.ok()) return output;
   return Error{ErrorCode::check_failed,
                end.signal != 0 ? fmt::format("signal {} ended the child process", end.signal)

@@ -2,6 +2,7 @@
 // Other programs: one fed through its standard input, one listened to.
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -13,9 +14,12 @@
 
 namespace aspic {
 
+class Movement;
+
 /// A program that reads what we write, found on PATH, started without a shell. It has a process group of its
 /// own, so that Ctrl-C reaches us alone and its input ends in good order. Its standard output goes nowhere
-/// unless it answers; its standard error is kept.
+/// unless it answers; its standard error is kept. Once we are asked to end (base/end_request.h), one that no
+/// longer moves, neither computing nor reading or writing, is ended after a few seconds.
 class ChildProcess {
  public:
   enum class Output { dropped, answers };
@@ -28,10 +32,10 @@ class ChildProcess {
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Writes all of it; raises no SIGPIPE. False: the program has stopped reading.
+  /// Writes all of it; raises no SIGPIPE. False: the program has stopped reading, or was ended as above.
   bool write(std::span<const std::byte> data);
   /// The next line of a program that answers, without its end; waits for it. Nothing: it has closed its
-  /// output.
+  /// output, or was ended as above.
   std::optional<std::string> line();
 
   /// Ends the program at once, from any thread while finish() is not called: line() then returns nothing.
@@ -41,19 +45,25 @@ class ChildProcess {
   struct End {
     int exit_code = -1;  ///< −1 if a signal ended it
     int signal = 0;
-    bool ok() const { return exit_code == 0; }
+    bool stalled = false;  ///< it did not end and was ended
+    bool unread = false;   ///< it left some of its input unread; not known of one that answers
+    bool ok() const { return exit_code == 0 && !unread; }
   };
-  /// Closes the input and waits for the end.
-  End finish();
+  /// Closes the input and waits for the end, `most` at most. One that had stopped reading has ten seconds.
+  End finish(std::optional<std::chrono::seconds> most = {});
 
   /// The last lines that it wrote to its standard error, at most `count`, each ended by a newline.
   std::string last_lines(std::size_t count) const;
 
  private:
   ChildProcess() = default;
+  bool wait(short events, Movement& movement);
+
   pid_t pid_ = -1;
   int input_ = -1;
   int errors_ = -1;
+  Output output_ = Output::dropped;
+  bool stalled_ = false, stopped_reading_ = false;
   std::string answers_;  // read and not yet handed on
 };
 

@@ -24,9 +24,9 @@ constexpr const char* gif[] = {
     "-f",    "gif"};
 
 constexpr FilmFormat table[] = {
-    {"mp4", "MP4 (H.264)", ".mp4", 60.0, 1000.0, true, mp4, nullptr},
-    {"webm", "WebM (VP9)", ".webm", 60.0, 1000.0, true, webm, nullptr},
-    {"gif", "GIF", ".gif", gif_fps, gif_fps, false, gif, nullptr},
+    {"mp4", "MP4 (H.264)", ".mp4", 60.0, 1000.0, true, mp4, nullptr, 4, "ftyp"},
+    {"webm", "WebM (VP9)", ".webm", 60.0, 1000.0, true, webm, nullptr, 0, "\x1a\x45\xdf\xa3"},
+    {"gif", "GIF", ".gif", gif_fps, gif_fps, false, gif, nullptr, 0, "GIF8"},
     {"png", "PNG pictures", ".png", 60.0, 1000.0, false, {}, encode_png},
     {"jpeg", "JPEG pictures", ".jpg", 60.0, 1000.0, false, {}, encode_jpeg},
 };

@@ -42,6 +42,8 @@ struct FilmFormat {
   /// One picture (FrameSink::write) as the content of a file; null for videos. Error (io): the encoder
   /// failed.
   Result<std::string> (*encode)(const PictureSize& size, std::span<const std::byte> rgb) = nullptr;
+  std::size_t mark_at = 0;     ///< where the video's mark begins [bytes]
+  std::string_view mark = {};  ///< what every video of the format has there
 
   bool is_directory() const { return encode != nullptr; }
 };
@@ -75,15 +77,16 @@ Result<std::string> encode_jpeg(const PictureSize& size, std::span<const std::by
 
 /// A sink of files frame-000000.png, … in `directory`, which is made if its parent exists. Every file appears
 /// complete or not at all. Errors (io): the directory cannot be made or written to; it has frame-… pictures
-/// already and `overwrite` is refuse. With allow, those are removed first, so that pictures of two runs never
-/// exist side by side.
+/// already and `overwrite` is refuse. With allow, those are removed once the first new one is there: a film
+/// that never begins costs nothing, and pictures of two runs are never taken for one.
 Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& directory,
                                                         const FilmFormat& format, const PictureSize& size,
                                                         Overwrite overwrite);
 
 /// A sink that pipes pictures to ffmpeg, which writes to a temporary file next to `path`; it gets its name
-/// when ffmpeg has ended well. The format is a video's. Errors (io): the file exists, its place cannot be
-/// written, it is no file, or ffmpeg is missing, which names the Debian package.
+/// when ffmpeg has ended well, has read every picture, and left a file that has the format's mark and that
+/// ffprobe, where it is installed, does not refuse. The format is a video's. Errors (io): the file exists,
+/// its place cannot be written, it is no file, or ffmpeg is missing, which names the Debian package.
 Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const FilmFormat& format,
                                               const PictureSize& size, double fps, Overwrite overwrite);
 

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "io/film_format.h"
@@ -36,16 +37,21 @@ Result<std::vector<fs::path>> frames_in(const std::string& directory) {
 
 class FrameDirectory : public FrameSink {
  public:
-  FrameDirectory(std::string directory, const FilmFormat& format, const PictureSize& size)
-      : directory_(std::move(directory)), format_(format), size_(size) {}
+  FrameDirectory(std::string directory, const FilmFormat& format, const PictureSize& size,
+                 std::vector<fs::path> earlier)
+      : directory_(std::move(directory)), format_(format), size_(size), earlier_(std::move(earlier)) {}
 
   Status write(std::span<const std::byte> rgb) override {
     ASPIC_TRY(const auto content, format_.encode(size_, rgb));
     const std::string name = fmt::format("{}/frame-{:06}{}", directory_, next_, format_.ending);
-    ASPIC_TRY(auto file, AtomicFile::create(name, Overwrite::refuse));
+    ASPIC_TRY(auto file, AtomicFile::create(name, earlier_.empty() ? Overwrite::refuse : Overwrite::allow));
     ASPIC_CHECK(file.write(content));
     ASPIC_CHECK(file.commit());
     ++next_;
+    // The first picture has replaced one of its name; the others go.
+    for (const fs::path& frame : std::exchange(earlier_, {}))
+      if (frame.filename() != fs::path(name).filename() && ::unlink(frame.c_str()) != 0)
+        return file_error("remove", frame.string(), errno);
     return {};
   }
 
@@ -56,6 +62,7 @@ class FrameDirectory : public FrameSink {
   std::string directory_;
   const FilmFormat& format_;
   PictureSize size_;
+  std::vector<fs::path> earlier_;  // pictures of another run
   std::uint64_t next_ = 0;
 };
 
@@ -78,9 +85,7 @@ Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& direc
                 "{} already contains pictures ({} and others) and was not changed. Choose another directory, "
                 "or replace them with --force.",
                 directory, std::min_element(frames.begin(), frames.end())->filename().string());
-  for (const fs::path& frame : frames)
-    if (::unlink(frame.c_str()) != 0) return file_error("remove", frame.string(), errno);
-  return std::unique_ptr<FrameSink>(std::make_unique<FrameDirectory>(directory, format, size));
+  return std::unique_ptr<FrameSink>(std::make_unique<FrameDirectory>(directory, format, size, frames));
 }
 
 }  // namespace aspic

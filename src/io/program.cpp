@@ -11,6 +11,7 @@
 #include <new>
 #include <string_view>
 
+#include "base/end_request.h"
 #include "base/result.h"
 #include "io/atomic_file.h"
 #include "io/child_process.h"
@@ -95,9 +96,11 @@ void handle_signals() {
 
 // A signal handler can reach nothing but static storage.
 volatile sig_atomic_t signal_count = 0;
-struct sigaction old_interrupt, old_terminate;
+struct sigaction old_interrupt, old_terminate, old_hangup;
 
 void on_signal(int number) {
+  end_requested = true;
+  if (number == SIGHUP) return;
   signal_count = signal_count + 1;
   if (signal_count < 2) return;
   end_child_processes();  // one that runs on could make its file after all
@@ -130,21 +133,26 @@ int run_program(const std::function<int()>& work) {
 
 InterruptGuard::InterruptGuard() {
   signal_count = 0;
+  end_requested = false;
   struct sigaction action = {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESTART;
   ::sigaction(SIGINT, &action, &old_interrupt);
   ::sigaction(SIGTERM, &action, &old_terminate);
+  ::sigaction(SIGHUP, nullptr, &old_hangup);
+  if (old_hangup.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
 }
 
 InterruptGuard::~InterruptGuard() {
   ::sigaction(SIGINT, &old_interrupt, nullptr);
   ::sigaction(SIGTERM, &old_terminate, nullptr);
+  ::sigaction(SIGHUP, &old_hangup, nullptr);
+  end_requested = false;
 }
 
 bool InterruptGuard::interrupted() const {
-  return signal_count > 0;
+  return end_requested;
 }
 
 }  // namespace aspic

@@ -14,9 +14,10 @@ namespace aspic {
 /// Call it once, first of all in main().
 int run_program(const std::function<int()>& work);
 
-/// While one lives, the first SIGINT or SIGTERM only raises the flag; a second one removes temporary files
-/// and ends the process at once, as the signal would have. At most one may live at a time; the old handlers
-/// return with its end.
+/// While one lives, SIGINT, SIGTERM and SIGHUP only set end_requested (base/end_request.h). A second SIGINT
+/// or SIGTERM removes temporary files and ends the process at once, as the signal would have; SIGHUP never
+/// does, since a terminal that closes may send several. A SIGHUP that is ignored, as under nohup, stays so.
+/// At most one may live at a time; the old handlers return with its end.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -24,7 +25,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Whether a signal has come since the guard was made.
+  /// Whether the program has been asked to end since the guard was made.
   bool interrupted() const;
 };
 

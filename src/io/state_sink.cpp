@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
+#include "base/printable.h"
 #include "io/checkpoint.h"
 #include "io/series_csv.h"
 #include "io/state_csv.h"
@@ -18,6 +20,30 @@ namespace {
 std::string numbered(const std::string& path, const std::string& step) {
   const std::string ending = std::filesystem::path(path).extension().string();
   return fmt::format("{}-{}{}", path.substr(0, path.size() - ending.size()), step, ending);
+}
+
+/// Files of an earlier run that this one would come to later, perhaps after hours. Error (io).
+Status refuse_later_files(const std::string& pattern, std::uint64_t step) {
+  const std::filesystem::path first = numbered(pattern, "");  // "end-.csv"
+  const std::string stem = first.stem().string(), ending = first.extension().string();
+  const std::filesystem::path directory = first.has_parent_path() ? first.parent_path() : ".";
+  std::error_code failed;
+  for (std::filesystem::directory_iterator it(directory, failed), end; !failed && it != end;
+       it.increment(failed)) {
+    const std::string name = it->path().filename().string();
+    if (name.size() < stem.size() + 8 + ending.size() || !name.starts_with(stem) || !name.ends_with(ending))
+      continue;
+    const std::string_view digits =
+        std::string_view(name).substr(stem.size(), name.size() - stem.size() - ending.size());
+    std::uint64_t found = 0;
+    const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), found);
+    if (error != std::errc() || rest != digits.data() + digits.size() || found < step) continue;
+    return fail(ErrorCode::io,
+                "{} already exists, and the run may come to that step. It was not changed. Choose another "
+                "name, or overwrite such files with --force.",
+                printable_line((directory / name).string()));
+  }
+  return {};
 }
 
 /// Writes one state to a file that is not committed yet. Error (diverged): a number is not finite.
@@ -52,23 +78,29 @@ class StateFiles final : public StateSink {
   Status take(const Sample& sample) override {
     // The newest state alone is of no use before the run has gone anywhere.
     const bool first = !std::exchange(begun_, true);
+    if (first && !pattern_.empty() && overwrite_ == Overwrite::refuse)
+      ASPIC_CHECK(refuse_later_files(pattern_, sample.state.step));
     return every() > 0 && !(first && pattern_.empty()) ? write(sample) : Status();
   }
   Status finish(const Sample& last) override { return write(last); }
 
  private:
+  /// After an error the next state is tried again.
   Status write(const Sample& sample) {
     if (last_step_ == sample.state.step) return {};
     if (!pattern_.empty()) {
       ASPIC_TRY(file_,
                 AtomicFile::create(numbered(pattern_, fmt::format("{:08}", sample.state.step)), overwrite_));
-    } else if (last_step_) {
-      // What is there now is our own.
-      ASPIC_TRY(file_, AtomicFile::create(path(), Overwrite::allow));
+    } else if (!file_) {
+      // What is there since the last one is our own.
+      ASPIC_TRY(file_, AtomicFile::create(path(), last_step_ ? Overwrite::allow : overwrite_));
     }
+    AtomicFile file = std::move(*file_);
+    file_.reset();
+    ASPIC_CHECK(writer_(file, {sample.model, sample.state, sample.solves, scene_toml_}));
+    ASPIC_CHECK(file.commit());
     last_step_ = sample.state.step;
-    ASPIC_CHECK(writer_(*file_, {sample.model, sample.state, sample.solves, scene_toml_}));
-    return file_->commit();
+    return {};
   }
   std::string pattern_;  // of the names of many files; empty: there is one
   Overwrite overwrite_ = Overwrite::refuse;

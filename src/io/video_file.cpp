@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <optional>
 
+#include "base/files.h"
 #include "io/child_process.h"
 #include "io/film_format.h"
 
@@ -13,45 +15,73 @@ constexpr const char* raw_input[] = {"ffmpeg",   "-hide_banner",  "-nostdin", "-
                                      "error",    "-xerror",       "-y",       "-f",
                                      "rawvideo", "-pixel_format", "rgb24",    "-video_size"};
 
+std::string message_of(const ChildProcess& program, std::size_t lines) {
+  const std::string said = program.last_lines(lines);
+  return said.empty() ? " without a message. " : fmt::format(" and said\n{}", said);
+}
+
+/// What became of an ffmpeg that did not do its work; a sentence.
+std::string failure_text(const ChildProcess& ffmpeg, const ChildProcess::End& end) {
+  if (end.stalled) return "ffmpeg had come to a halt and was ended. ";
+  const std::string how = end.signal != 0      ? fmt::format("was ended by signal {}", end.signal)
+                          : end.exit_code != 0 ? fmt::format("ended with exit code {}", end.exit_code)
+                                               : "ended before it had read all pictures";
+  return fmt::format("ffmpeg {}{}", how, message_of(ffmpeg, 6));
+}
+
+/// What is wrong with a video, as far as its beginning and ffprobe tell: a sentence, or nothing.
+std::string fault_of(const std::string& file, const FilmFormat& format) {
+  const auto start = read_regular_file(file, format.mark_at + format.mark.size());
+  if (!start) return start.error().message + " ";
+  if (start->size == 0) return "ffmpeg reported success, but wrote an empty file. ";
+  if (start->content.size() < format.mark_at || start->content.substr(format.mark_at) != format.mark)
+    return fmt::format("ffmpeg reported success, but what it wrote is no {} file. ", format.label);
+  auto probe = ChildProcess::start(
+      {"ffprobe", "-v", "error", "-show_entries", "stream=codec_type", "-i", "file:" + file});
+  if (!probe) return "";
+  const ChildProcess::End end = probe->finish(std::chrono::seconds(20));
+  if (end.exit_code != 1) return "";  // well, or ffprobe itself is broken, which tells nothing of the video
+  return "ffmpeg reported success, but ffprobe refuses the video" + message_of(*probe, 3);
+}
+
 class VideoFile : public FrameSink {
  public:
-  VideoFile(AtomicFile file, ChildProcess ffmpeg) : file_(std::move(file)), ffmpeg_(std::move(ffmpeg)) {}
+  VideoFile(AtomicFile file, ChildProcess ffmpeg, const FilmFormat& format)
+      : file_(std::move(file)), ffmpeg_(std::move(ffmpeg)), format_(format), path_(file_->path()) {}
 
   Status write(std::span<const std::byte> rgb) override {
-    if (!ffmpeg_) return failure({});
-    if (ffmpeg_->write(rgb)) return {};
-    return failure(ffmpeg_->finish());
+    if (ffmpeg_ && !ffmpeg_->write(rgb)) give_up(failure_text(*ffmpeg_, ffmpeg_->finish()));
+    return state();
   }
 
   Status finish() override {
-    if (!ffmpeg_) return failure({});
+    if (!ffmpeg_) return state();
     const ChildProcess::End end = ffmpeg_->finish();
-    if (!end.ok()) return failure(end);
-    return file_->commit();
+    const std::string fault =
+        end.ok() ? fault_of(file_->temporary_path(), format_) : failure_text(*ffmpeg_, end);
+    if (fault.empty()) return file_->commit();
+    give_up(fault);
+    return state();
   }
 
-  const std::string& path() const override { return file_ ? file_->path() : path_; }
+  const std::string& path() const override { return path_; }
 
  private:
-  Error failure(const ChildProcess::End& end) {
-    if (ffmpeg_) {
-      const std::string how = end.signal != 0 ? fmt::format("was ended by signal {}", end.signal)
-                                              : fmt::format("ended with exit code {}", end.exit_code);
-      const std::string said = ffmpeg_->last_lines(6);
-      path_ = file_->path();
-      reason_ = fmt::format(
-          "the video {} could not be made: ffmpeg {}{}{}Check the disk and that ffmpeg has the encoder (the "
-          "Debian package ffmpeg has it), or write numbered pictures instead (--frames).",
-          path_, how, said.empty() ? " without a message." : fmt::format(" and said\n{}", said),
-          said.empty() ? " " : "");
-      ffmpeg_.reset();
-      file_.reset();  // removes the temporary file
-    }
-    return {ErrorCode::io, reason_};
+  /// Leaves nothing.
+  void give_up(const std::string& why) {
+    reason_ = fmt::format(
+        "the video {} could not be made: {}Check the disk and that ffmpeg has the encoder (the Debian "
+        "package "
+        "ffmpeg has it), or write numbered pictures instead (--frames).",
+        path_, why);
+    ffmpeg_.reset();
+    file_.reset();  // removes the temporary file
   }
+  Status state() const { return ffmpeg_ ? Status() : Status(Error{ErrorCode::io, reason_}); }
 
   std::optional<AtomicFile> file_;
   std::optional<ChildProcess> ffmpeg_;
+  const FilmFormat& format_;
   std::string path_, reason_;
 };
 
@@ -80,7 +110,7 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Fil
                 "the video {} cannot be made: {} Videos need the program ffmpeg on PATH: install it with apt "
                 "install ffmpeg, or write numbered pictures instead (--frames).",
                 path, ffmpeg.error().message);
-  return std::unique_ptr<FrameSink>(std::make_unique<VideoFile>(std::move(file), std::move(*ffmpeg)));
+  return std::unique_ptr<FrameSink>(std::make_unique<VideoFile>(std::move(file), std::move(*ffmpeg), format));
 }
 
 }  // namespace aspic

@@ -37,12 +37,14 @@ class BesideRecorder {
 
   /// Adds a picture of the runs' states: run i is at `steps[i]`, and diverged in the step after if
   /// `divergences[i]` says so. The part of a run that stands still is not drawn again. Error: also that of
-  /// the encoder, as soon as it is known.
+  /// the encoder, as soon as all outputs are lost.
   Status add(const std::vector<std::uint64_t>& steps,
              const std::vector<std::optional<Divergence>>& divergences);
   /// Completes the outputs.
   Status finish();
   void abandon() { recording_->abandon(); }
+  /// Of the outputs that are lost so far; the others go on.
+  std::vector<Error> failures() const { return recording_->failures(); }
   /// After finish(): the names of the completed outputs.
   std::vector<std::string> written() { return recording_->written(); }
 

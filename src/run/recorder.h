@@ -32,10 +32,14 @@ class Recorder {
   /// The step that the next picture shows; after the last one, a step that no run reaches.
   std::uint64_t next_step() const;
   /// The solver is at `step` ≤ next_step(): draws every picture that shows it. Error: also that of the
-  /// encoder, as soon as it is known.
+  /// encoder, as soon as all outputs are lost.
   Status reach(Solver& solver, std::uint64_t step);
   /// The run ended at `step`, perhaps early: its state is in the last picture, and the outputs are completed.
   Status finish(Solver& solver, std::uint64_t step);
+  /// Ends without films, instead of finish(); pictures in directories stay.
+  void abandon() { recording_->abandon(); }
+  /// Of the outputs that are lost so far; the others go on.
+  std::vector<Error> failures() const { return recording_->failures(); }
   /// After finish(): the names of the completed outputs.
   std::vector<std::string> written() { return recording_->written(); }
 

@@ -16,16 +16,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What the encoder's thread does: an exception would end the program.
-template <class Work>
-Status guarded(const Work& work) {
-  try {
-    return work();
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::io, "The film could not be written: there is not enough memory."};
-  }
-}
-
 }  // namespace
 
 Result<std::unique_ptr<Recording>> Recording::start(gl::Context& context,
@@ -125,7 +115,12 @@ bool Recording::completed() const {
 Status Recording::result() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return completed_; });
-  return result_;
+  return failures_.empty() ? Status() : Status(failures_.front());
+}
+
+std::vector<Error> Recording::failures() const {
+  const std::lock_guard lock(mutex_);
+  return failures_;
 }
 
 std::vector<std::string> Recording::written() {
@@ -143,17 +138,35 @@ FrameTimes Recording::times() const {
   return times;
 }
 
-Status Recording::write(const Picture& picture) {
-  for (std::uint64_t i = 0; i < picture.copies; ++i) {
-    for (const auto& sink : sinks_) ASPIC_CHECK(sink->write(picture.pixels));
+/// What a sink does on the encoder's thread, where an exception would end the program. False: it is lost.
+template <class Work>
+bool Recording::carry_out(std::unique_ptr<FrameSink>& sink, const Work& work) {
+  Status done;
+  try {
+    done = work(*sink);
+  } catch (const std::bad_alloc&) {
+    done = Error{ErrorCode::io, "The film could not be written: there is not enough memory."};
   }
-  return {};
+  if (done) return true;
+  sink.reset();
+  const std::lock_guard lock(mutex_);
+  failures_.push_back(done.error());
+  return false;
+}
+
+void Recording::write(const Picture& picture) {
+  for (auto& sink : sinks_) {
+    for (std::uint64_t i = 0; sink && i < picture.copies; ++i)
+      carry_out(sink, [&](FrameSink& to) { return to.write(picture.pixels); });
+  }
 }
 
 void Recording::encode() {
-  Status result;
+  const auto any_left = [this] {
+    return std::ranges::any_of(sinks_, [](const auto& s) { return s != nullptr; });
+  };
   std::unique_lock lock(mutex_);
-  for (;;) {
+  while (any_left()) {
     changed_.wait(lock, [this] { return !waiting_.empty() || no_more_; });
     if (abandoned_ || waiting_.empty()) break;
     const Picture picture = std::move(waiting_.front());
@@ -161,27 +174,26 @@ void Recording::encode() {
     lock.unlock();
     changed_.notify_all();
     const auto before = Clock::now();
-    result = guarded([&] { return write(picture); });
+    write(picture);
     const double took = seconds_since(before);
     lock.lock();
     encode_seconds_ += took;
-    if (!result) break;
   }
-  const bool complete = result && !abandoned_;
+  const bool complete = !abandoned_;
   lock.unlock();
   std::vector<std::string> written;
-  for (std::size_t i = 0; complete && i < sinks_.size(); ++i) {
-    const Status finished = guarded([&]() -> Status {
-      ASPIC_CHECK(sinks_[i]->finish());
-      written.push_back(sinks_[i]->path());
+  for (auto& sink : sinks_) {
+    if (!complete || !sink) continue;
+    carry_out(sink, [&](FrameSink& to) -> Status {
+      const std::string path = to.path();
+      ASPIC_CHECK(to.finish());
+      written.push_back(path);
       return {};
     });
-    if (result) result = finished;
   }
   sinks_.clear();
   lock.lock();
   waiting_.clear();
-  result_ = result;
   written_ = std::move(written);
   completed_ = true;
   lock.unlock();

@@ -29,8 +29,9 @@ struct FrameTimes {
   double per_frame(double total) const { return frames > 0 ? total / static_cast<double>(frames) : 0.0; }
 };
 
-/// Takes pictures of one size. Nothing is dropped: while the encoder is behind, ready() is false. One that is
-/// destroyed before its end() leaves no film file, only the pictures of a directory.
+/// Takes pictures of one size. Nothing is dropped: while the encoder is behind, ready() is false. A sink that
+/// fails is lost alone; the others go on. One that is destroyed before its end() leaves no film file, only
+/// the pictures of a directory.
 class Recording {
  public:
   /// All sinks get every picture. Error (scene_rejected): no device memory. The context must outlive end().
@@ -66,9 +67,10 @@ class Recording {
   void abandon();
   /// The thread is through, be it with the film or with an error.
   bool completed() const;
-  /// Waits for that. Error (io): a sink could not be written. A picture that one of them refuses ends the
-  /// film; at the end each is completed whatever the others do. A film file that fails leaves nothing behind.
+  /// Waits for that. Error (io): the first of failures(). A film file that fails leaves nothing behind.
   Status result();
+  /// Of the sinks that could not be written so far. When all are lost, the recording is completed.
+  std::vector<Error> failures() const;
   /// Waits too; the paths of the sinks that were completed.
   std::vector<std::string> written();
   /// Seconds spent on reading back and, by the thread, on encoding.
@@ -82,7 +84,9 @@ class Recording {
   };
   Status hand_on();
   void encode();
-  Status write(const Picture& picture);
+  void write(const Picture& picture);
+  template <class Work>
+  bool carry_out(std::unique_ptr<FrameSink>& sink, const Work& work);
 
   FilmOptions options_;
   gl::PixelRing ring_;
@@ -96,10 +100,10 @@ class Recording {
   std::condition_variable changed_;
   std::deque<Picture> waiting_;  // guarded, as all below
   bool no_more_ = false, abandoned_ = false, completed_ = false;
-  Status result_;
+  std::vector<Error> failures_;
   std::vector<std::string> written_;
   double encode_seconds_ = 0.0;
-  std::vector<std::unique_ptr<FrameSink>> sinks_;  // the thread's own
+  std::vector<std::unique_ptr<FrameSink>> sinks_;  // the thread's own; null: lost
   std::thread thread_;
 };
 

@@ -17,8 +17,10 @@ Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOu
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t j = i + 1; j < files.size(); ++j) {
       std::error_code failed_a, failed_b;
-      const auto a = std::filesystem::weakly_canonical(std::filesystem::absolute(files[i].second), failed_a);
-      const auto b = std::filesystem::weakly_canonical(std::filesystem::absolute(files[j].second), failed_b);
+      const auto place = [](const std::string& path, std::error_code& failed) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(written_path(path)), failed);
+      };
+      const auto a = place(files[i].second, failed_a), b = place(files[j].second, failed_b);
       // Devices may take several outputs one after the other.
       if (failed_a || failed_b || a != b || a.native().starts_with("/dev/")) continue;
       return fail(ErrorCode::usage, "--{} and --{} both name {}: give each file its own name.",
@@ -39,7 +41,7 @@ Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const Pi
     const StateFormat& format = state_format_of(output.option, output.path);
     ASPIC_TRY(auto sink,
               format.open(output.path, output.every.value_or(format.default_every), overwrite, facts));
-    files.sinks_.push_back(std::move(sink));
+    files.outputs_.push_back({std::move(sink)});
   }
   const auto add = [&](const FilmFormat& format, const std::string& path) -> Status {
     ASPIC_TRY(auto sink, open_film(format, path, pictures.size, frames_per_second(pictures), overwrite));
@@ -56,32 +58,43 @@ Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const Pi
 
 std::uint64_t RunFiles::next_step(std::uint64_t step) const {
   std::uint64_t next = std::numeric_limits<std::uint64_t>::max();
-  for (const auto& sink : sinks_)
+  for (const auto& [sink, failed] : outputs_)
     if (sink->every() > 0) next = std::min(next, step + (sink->every() - step % sink->every()));
   return next;
 }
 
+void RunFiles::note_failure(Output& output, const Error& error) {
+  if (!std::exchange(output.failed, true)) failures_.push_back(error);
+}
+
+bool RunFiles::any_left() const {
+  return std::ranges::any_of(outputs_, [](const Output& output) { return !output.failed; });
+}
+
 Status RunFiles::take(const Sample& sample) {
   const bool first = !std::exchange(begun_, true);
-  for (const auto& sink : sinks_) {
-    if (!first && (sink->every() == 0 || sample.state.step % sink->every() != 0)) continue;
-    ASPIC_CHECK(sink->take(sample));
+  for (Output& output : outputs_) {
+    const std::uint64_t every = output.sink->every();
+    if (!first && (every == 0 || sample.state.step % every != 0)) continue;
+    const Status taken = output.sink->take(sample);
+    if (taken) continue;
+    // Before the first step a run loses nothing by ending.
+    if (first || taken.error().code != ErrorCode::io) return taken;
+    note_failure(output, taken.error());
   }
   return {};
 }
 
 Status RunFiles::finish(const Sample& last) {
-  Status first;
-  for (auto& sink : sinks_) {
-    const Status finished = sink->finish(last);
-    if (finished)
-      written_.push_back(sink->path());
-    else if (first)
-      first = finished;
-    sink.reset();
+  for (Output& output : outputs_) {
+    if (const Status finished = output.sink->finish(last); !finished)
+      note_failure(output, finished.error());
+    else
+      written_.push_back(output.sink->path());
+    output.sink.reset();
   }
-  sinks_.clear();
-  return first;
+  outputs_.clear();
+  return failures_.empty() ? Status() : Status(failures_.front());
 }
 
 double frames_per_second(const PictureOutput& output) {

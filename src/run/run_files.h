@@ -38,20 +38,26 @@ double frames_per_second(const PictureOutput& output);
 /// built-in name; the ending may be empty.
 std::string free_name(const std::string& scene, std::string_view ending);
 
-/// The files of a run: opened before it, completed after it.
+/// The files of a run: opened before it, completed after it. One that fails on the way does not keep the
+/// others from being written.
 class RunFiles {
  public:
-  /// Opens every file that is named. Errors: usage for one name given twice; io.
+  /// Opens every file that is named. Errors: usage for one name given twice; io; interrupted.
   static Result<RunFiles> open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
                                const RunFacts& facts, Overwrite overwrite);
 
   /// The first step after `step` at which a file wants the state; the largest number if none does.
   std::uint64_t next_step(std::uint64_t step) const;
-  /// Hands a state to the files that want it: the first of the run, and those of next_step().
+  /// Hands a state to the files that want it: the first of the run, and those of next_step(). Errors: a file
+  /// refused the first state; a number is not finite. Later failures are those of failures().
   Status take(const Sample& sample);
-  /// Completes all files with the last state. One that fails does not keep the others from being completed;
-  /// the first error is returned.
+  /// Completes all files with the last state. One that fails does not keep the others from being completed.
+  /// Error: the first of failures().
   Status finish(const Sample& last);
+  /// The first failure of each file so far. States in files of their own are tried again the next time.
+  const std::vector<Error>& failures() const { return failures_; }
+  /// Whether the run writes anything besides pictures that is not lost.
+  bool any_left() const;
 
   /// Hands over the sinks of the pictures.
   std::vector<std::unique_ptr<FrameSink>> take_frame_sinks() { return std::move(frame_sinks_); }
@@ -59,10 +65,17 @@ class RunFiles {
   const std::vector<std::string>& written() const { return written_; }
 
  private:
+  struct Output {
+    std::unique_ptr<StateSink> sink;
+    bool failed = false;
+  };
   RunFiles() = default;
-  std::vector<std::unique_ptr<StateSink>> sinks_;
+  void note_failure(Output& output, const Error& error);
+
+  std::vector<Output> outputs_;
   std::vector<std::unique_ptr<FrameSink>> frame_sinks_;
   std::vector<std::string> written_;
+  std::vector<Error> failures_;
   bool begun_ = false;
 };
 

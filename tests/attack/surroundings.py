@@ -135,12 +135,10 @@ def outputs(attack):
     there = attack.fresh()
     write(os.path.join(there, "target.csv"), "earlier")
     os.symlink("target.csv", os.path.join(there, "link.csv"))
-    os.symlink("nowhere.csv", os.path.join(there, "broken.csv"))
     os.symlink("loop.csv", os.path.join(there, "loop.csv"))
     os.mkfifo(os.path.join(there, "unread"))
     attack.judge(attack.run(*RUN, "--state", "link.csv", "--force", cwd=there), [OK], "through a link")
     attack.require(os.path.islink(os.path.join(there, "link.csv")) and read(os.path.join(there, "target.csv")) != b"earlier", "a link was replaced")
-    attack.judge(attack.run(*RUN, "--state", "broken.csv", cwd=there), [OK, IO], "through a link to nowhere")
     attack.judge(attack.run(*RUN, "--state", "loop.csv", cwd=there), [IO], "through a link to itself")
     attack.judge(attack.run(*RUN, "--state", "same.csv", "--series", "./same.csv", cwd=there), [USAGE], "two outputs of one name")
     os.chmod(os.path.join(there, "target.csv"), 0o640)
@@ -188,6 +186,8 @@ def kills(attack):
                 attack.require(probe.returncode == 0, f"{note}: the film is broken")
         else:
             attack.require(child.returncode == -number, note)
+            if number != signal.SIGKILL:
+                attack.leaves_nothing(there, note)
             attack.require(read(checkpoint) == b"earlier", f"{note}: the earlier checkpoint has changed")
             attack.require(not os.path.exists(os.path.join(there, "film.mp4")), f"{note}: a film was left")
 

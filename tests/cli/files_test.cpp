@@ -184,7 +184,7 @@ class Endless {
 };
 
 TEST(Files, InterruptClosesThemWhole) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     Endless run;
     run.process().send(signal);
     const auto finished = run.process().wait();

@@ -8,6 +8,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <thread>
+
+#include "base/end_request.h"
+#include "base/files.h"
 #include "io/program.h"
 #include "support/temporary_directory.h"
 
@@ -88,6 +92,55 @@ TEST(AtomicFile, FollowsASymbolicLink) {
   EXPECT_EQ(dir.read("target.txt"), "new");
 }
 
+TEST(AtomicFile, WritesThroughLinksToNothing) {
+  for (const Overwrite overwrite : {Overwrite::refuse, Overwrite::allow}) {
+    const test::TemporaryDirectory dir;
+    std::filesystem::create_directory(dir.file("far"));
+    std::filesystem::create_symlink("second", dir.file("link.txt"));
+    std::filesystem::create_symlink("far/target.txt", dir.file("second"));
+    EXPECT_EQ(std::filesystem::weakly_canonical(written_path(dir.file("link.txt"))),
+              std::filesystem::weakly_canonical(dir.file("far/target.txt")));
+    auto file = AtomicFile::create(dir.file("link.txt"), overwrite);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    ASSERT_TRUE(file->write("new").ok());
+    const Status committed = file->commit();
+    EXPECT_TRUE(committed.ok()) << committed.error().message;
+    EXPECT_TRUE(std::filesystem::is_symlink(dir.file("link.txt")));
+    EXPECT_EQ(dir.read("far/target.txt"), "new");
+    EXPECT_EQ(dir.entries(), 3u);
+  }
+}
+
+TEST(AtomicFile, RefusesLinksThatLeadNowhere) {
+  const test::TemporaryDirectory dir;
+  std::filesystem::create_symlink("circle", dir.file("circle"));
+  std::filesystem::create_symlink("none/target", dir.file("missing"));
+  for (const Overwrite overwrite : {Overwrite::refuse, Overwrite::allow}) {
+    EXPECT_FALSE(AtomicFile::create(dir.file("circle"), overwrite).ok());
+    const auto missing = AtomicFile::create(dir.file("missing"), overwrite);
+    ASSERT_FALSE(missing.ok());
+    EXPECT_THAT(missing.error().message, HasSubstr("none/target through the link"));
+  }
+  EXPECT_EQ(dir.entries(), 2u);
+}
+
+TEST(AtomicFile, AnEndIsNotHeldUpByAPipeWithoutAReader) {
+  const test::TemporaryDirectory dir;
+  ASSERT_EQ(::mkfifo(dir.file("pipe").c_str(), 0600), 0);
+  const InterruptGuard guard;
+  std::thread end([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    end_requested = true;
+  });
+  const auto unread = AtomicFile::create(dir.file("pipe"), Overwrite::refuse);
+  end.join();
+  ASSERT_FALSE(unread.ok());
+  EXPECT_EQ(unread.error().code, ErrorCode::interrupted);
+  const auto silent = read_file(dir.file("pipe"));
+  ASSERT_FALSE(silent.ok());
+  EXPECT_EQ(silent.error().code, ErrorCode::interrupted);
+}
+
 TEST(AtomicFile, ErrorsSayPathReasonAndRemedy) {
   const test::TemporaryDirectory dir;
   const auto missing = AtomicFile::create(dir.file("none/a.txt"), Overwrite::refuse);
@@ -150,6 +203,24 @@ TEST(Interrupt, FirstSignalRaisesTheFlagSecondEndsAndCleansUp) {
   ASSERT_TRUE(WIFSIGNALED(status)) << WEXITSTATUS(status);
   EXPECT_EQ(WTERMSIG(status), SIGINT);
   EXPECT_EQ(dir.entries(), 0u);
+}
+
+TEST(Interrupt, HangUpsRaiseTheFlagAndNeverEnd) {
+  const InterruptGuard guard;
+  ::raise(SIGHUP);
+  EXPECT_TRUE(guard.interrupted());
+  ::raise(SIGHUP);
+  ::raise(SIGHUP);
+}
+
+TEST(Interrupt, AnIgnoredHangUpStaysIgnored) {
+  const auto before = ::signal(SIGHUP, SIG_IGN);  // as nohup does
+  {
+    const InterruptGuard guard;
+    ::raise(SIGHUP);
+    EXPECT_FALSE(guard.interrupted());
+  }
+  EXPECT_EQ(::signal(SIGHUP, before), SIG_IGN);
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include "base/end_request.h"
+#include "io/program.h"
+
 namespace aspic {
 namespace {
 
@@ -56,6 +59,50 @@ TEST(ChildProcess, ReportsSignals) {
   EXPECT_EQ(end.signal, SIGTERM);
   EXPECT_FALSE(end.ok());
   EXPECT_EQ(child->last_lines(3), "");
+}
+
+TEST(ChildProcess, TellsWhetherAllWasRead) {
+  const std::string block(1 << 14, 'x');
+  auto all = ChildProcess::start({"sh", "-c", "cat > /dev/null"});
+  ASSERT_TRUE(all.ok() && all->write(bytes(block)));
+  EXPECT_TRUE(all->finish().ok());
+  // It reports success, and all that was written had room on the way to it.
+  auto some = ChildProcess::start({"sh", "-c", "head -c 1000 > /dev/null"});
+  ASSERT_TRUE(some.ok() && some->write(bytes(block)));
+  const ChildProcess::End end = some->finish();
+  EXPECT_EQ(end.exit_code, 0);
+  EXPECT_TRUE(end.unread);
+  EXPECT_FALSE(end.ok());
+}
+
+TEST(ChildProcess, HasAsLongAsItIsGiven) {
+  auto child = ChildProcess::start({"sh", "-c", "sleep 600; exit 0"});
+  ASSERT_TRUE(child.ok());
+  const ChildProcess::End end = child->finish(std::chrono::seconds(0));
+  EXPECT_TRUE(end.stalled);
+  EXPECT_EQ(end.signal, SIGKILL);
+}
+
+TEST(ChildProcess, OneThatHaltsDoesNotHoldUpTheEnd) {
+  const InterruptGuard guard;
+  end_requested = true;
+  auto silent = ChildProcess::start({"sh", "-c", "sleep 600"}, ChildProcess::Output::answers);
+  auto idle = ChildProcess::start({"sh", "-c", "sleep 600"});
+  ASSERT_TRUE(silent.ok() && idle.ok());
+  EXPECT_EQ(silent->line(), std::nullopt);
+  EXPECT_FALSE(idle->write(bytes(std::string(1 << 24, 'x'))));
+  EXPECT_TRUE(idle->finish().stalled);
+}
+
+TEST(ChildProcess, OneThatWorksIsWaitedForAtTheEnd) {
+  const InterruptGuard guard;
+  end_requested = true;
+  // Longer at work than one that does nothing is given.
+  auto child = ChildProcess::start(
+      {"sh", "-c", "for i in 1 2 3 4 5 6; do timeout 1 sh -c 'while :; do :; done'; done; exit 0"});
+  ASSERT_TRUE(child.ok());
+  const ChildProcess::End end = child->finish();
+  EXPECT_TRUE(end.ok()) << end.exit_code << ' ' << end.signal;
 }
 
 TEST(ChildProcess, AllEndWhereTheProcessIsAboutTo) {

@@ -53,11 +53,19 @@ TEST(FrameDirectory, RefusesPicturesOfAnEarlierRun) {
   EXPECT_THAT(refused.error().message, HasSubstr("--force"));
   EXPECT_EQ(dir.read("frame-000007.jpg"), "old");
 
+  dir.write("frame-000000.png", "old");
+  dir.write("frame-000001.png", "old");
   const auto allowed =
       open_frame_directory(dir.path().string(), *find_film_format("png"), size, Overwrite::allow);
   ASSERT_TRUE(allowed.ok());
-  EXPECT_EQ(dir.entries(), 1u) << "old pictures go, other files stay";
+  EXPECT_EQ(dir.entries(), 4u) << "a film that does not begin costs nothing";
+  ASSERT_TRUE((*allowed)->write(grey(10)).ok());
+  EXPECT_EQ(dir.entries(), 2u) << "old pictures go, other files stay";
+  EXPECT_EQ(png_size(dir.read("frame-000000.png")), (std::array{5, 3}));
   EXPECT_EQ(dir.read("notes.txt"), "mine");
+  ASSERT_TRUE((*allowed)->write(grey(20)).ok());
+  dir.write("frame-000002.png", "another's");
+  EXPECT_FALSE((*allowed)->write(grey(30)).ok()) << "what came in the meantime is not replaced";
 }
 
 TEST(FrameDirectory, RefusesWhatIsNoDirectory) {

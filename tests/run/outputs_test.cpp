@@ -89,11 +89,61 @@ TEST_F(Outputs, WithoutAnIntervalTheLastStateAloneIsWritten) {
   EXPECT_THAT(files->written(), testing::ElementsAre(dir_.file("s.csv"), dir_.file("c")));
 }
 
+TEST_F(Outputs, OneThatFailsOnTheWayCostsNoOther) {
+  std::filesystem::create_directory(dir_.file("far"));
+  auto files = open({{"state", dir_.file("far/s.csv"), 10},
+                     {"checkpoint", dir_.file("c"), 10},
+                     {"series", dir_.file("e.csv"), 10}});
+  ASSERT_TRUE(files.ok()) << files.error().message;
+  ASSERT_TRUE(run(*files, 0).ok());
+  std::filesystem::remove_all(dir_.file("far"));
+  const auto advance_and_take = [&] {
+    EXPECT_TRUE(solver_->advance(10).ok());
+    return files->take({model_, state()});
+  };
+  ASSERT_TRUE(advance_and_take().ok());
+  ASSERT_EQ(files->failures().size(), 1u);
+  EXPECT_THAT(files->failures()[0].message, testing::HasSubstr("far/s-00000010.csv"));
+  EXPECT_TRUE(files->any_left());
+  // The disk is back: the next state is written again, and what is lost stays told of.
+  std::filesystem::create_directory(dir_.file("far"));
+  ASSERT_TRUE(advance_and_take().ok());
+  EXPECT_FALSE(files->finish({model_, state()}).ok());
+  EXPECT_EQ(files->failures().size(), 1u);
+  EXPECT_TRUE(test::read_state_csv(dir_.file("far/s-00000020.csv"), Precision::single).ok());
+  EXPECT_EQ(read_checkpoint(dir_.file("c"))->state.step, 20u);
+  EXPECT_EQ(std::ranges::count(dir_.read("e.csv"), '\n'), 4);  // header, 0, 10, 20
+}
+
+TEST_F(Outputs, WhatRefusesTheFirstStateEndsTheRun) {
+  auto files = open({{"state", dir_.file("none/s.csv"), 10}, {"series", dir_.file("e.csv"), 10}});
+  ASSERT_TRUE(files.ok());
+  EXPECT_FALSE(run(*files, 0).ok());
+}
+
+TEST_F(Outputs, FilesOfLaterStepsAreFoundAtTheStart) {
+  dir_.write("s-00000010.csv", "earlier");
+  const auto first = [&](std::uint64_t step, Overwrite overwrite) {
+    auto files = open({{"state", dir_.file("s.csv"), 10}}, overwrite);
+    State at = state();
+    at.step = step;
+    return files->take({model_, at});
+  };
+  const Status refused = first(0, Overwrite::refuse);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("s-00000010.csv already exists"));
+  EXPECT_EQ(dir_.entries(), 1u);
+  EXPECT_TRUE(first(20, Overwrite::refuse).ok()) << "a run that is resumed later never comes to that step";
+  EXPECT_TRUE(first(0, Overwrite::allow).ok());
+}
+
 TEST_F(Outputs, OneNameForTwoFilesIsRefused) {
   const auto files = open({{"state", dir_.file("x"), {}}, {"series", dir_.file("x"), {}}});
   ASSERT_FALSE(files.ok());
   EXPECT_EQ(files.error().code, ErrorCode::usage);
   EXPECT_THAT(files.error().message, testing::HasSubstr("--state and --series"));
+  std::filesystem::create_symlink("x", dir_.file("link"));
+  EXPECT_FALSE(open({{"state", dir_.file("x"), {}}, {"series", dir_.file("link"), {}}}).ok());
 }
 
 TEST(FilmFormats, AreFoundByNameAndEnding) {
