@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/dense.h"
 #include "base/split_mix.h"
 #include "model/springs.h"
 
@@ -239,9 +240,7 @@ std::vector<std::complex<double>> LinearisedBody::eigenvalues() const {
     add(s.a, s.b, -1.0);
     add(s.b, s.a, -1.0);
   }
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(companion, false);
-  const auto& values = solver.eigenvalues();
-  return {values.data(), values.data() + values.size()};
+  return aspic::eigenvalues(companion);
 }
 
 }  // namespace aspic

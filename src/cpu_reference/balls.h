@@ -387,4 +387,8 @@ void Balls<T>::separate(BallPhase<T>& balls, const ParticleView<T>& particles) {
   for (const auto& [p, sum] : on_particle) particles.add_to(particles.x, p, particle_weight_[p] * sum);
 }
 
+// Compiled once, in balls.cpp.
+extern template class Balls<float>;
+extern template class Balls<double>;
+
 }  // namespace aspic::reference

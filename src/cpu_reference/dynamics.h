@@ -212,4 +212,10 @@ class StepDynamics {
   std::vector<RestingContact<T>> resting_;
 };
 
+// Compiled once, in dynamics.cpp.
+extern template class Dynamics<float>;
+extern template class Dynamics<double>;
+extern template class StepDynamics<float>;
+extern template class StepDynamics<double>;
+
 }  // namespace aspic::reference

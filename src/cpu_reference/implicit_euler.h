@@ -340,4 +340,8 @@ void ImplicitEuler<T>::respond(const Phase<T>& s, Phase<T>& end) const {
   }
 }
 
+// Compiled once, in implicit_euler.cpp.
+extern template class ImplicitEuler<float>;
+extern template class ImplicitEuler<double>;
+
 }  // namespace aspic::reference

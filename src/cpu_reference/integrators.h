@@ -121,4 +121,12 @@ Phase<T> explicit_step(Integrator integrator, const Forces& dynamics, const Phas
   return method->second(dynamics, s, step);
 }
 
+// Compiled once, in integrators.cpp.
+extern template Phase<float> explicit_step(Integrator, const StepDynamics<float>&, const Phase<float>&,
+                                           double);
+extern template Phase<double> explicit_step(Integrator, const StepDynamics<double>&, const Phase<double>&,
+                                            double);
+extern template Phase<double> explicit_step(Integrator, const Dynamics<double>&, const Phase<double>&,
+                                            double);
+
 }  // namespace aspic::reference

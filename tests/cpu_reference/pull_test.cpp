@@ -1,7 +1,7 @@
 // Pulling a particle: against closed forms, against the spring it stands for, and against its own definition.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 

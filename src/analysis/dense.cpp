@@ -1,0 +1,18 @@
+#include "analysis/dense.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace aspic {
+
+std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& a) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, false);
+  const auto& values = solver.eigenvalues();
+  return {values.data(), values.data() + values.size()};
+}
+
+Eigen::VectorXd solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  return a.partialPivLu().solve(b);
+}
+
+}  // namespace aspic
