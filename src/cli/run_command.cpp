@@ -96,7 +96,7 @@ Result<Start> load_start(const RunOptions& options) {
   return start;
 }
 
-/// `recorder` is null where no pictures are wanted. A run that loses its pictures goes on if it writes
+/// `recorder` is null where no pictures are wanted. A run that loses its pictures continues if it writes
 /// anything else.
 Result<Outcome> simulate(RunLane& lane, Recorder* recorder, std::uint64_t last_step,
                          const InterruptGuard& interrupt) {

@@ -26,7 +26,7 @@ void BatchSize::took(std::uint64_t steps, double seconds) {
 
 void Losses::tell(const std::vector<Error>& failures) {
   for (; told_ < failures.size(); ++told_)
-    print_warning(failures[told_].message + " The run goes on with its other files.");
+    print_warning(failures[told_].message + " The run continues with its other files.");
 }
 
 Status lost_error(const std::vector<Error>& failures, bool others) {

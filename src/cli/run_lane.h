@@ -27,7 +27,7 @@ struct Outcome {
   }
 };
 
-/// Says at once what a run has lost and goes on without: its user may prefer to end it.
+/// Says at once what a run has lost and continues without: its user may prefer to end it.
 class Losses {
  public:
   /// `failures`: all so far. Prints those that are new.

@@ -148,7 +148,7 @@ Status SweepJournal::read(const std::string& owner) {
                 printable_line(path_));
   const std::string first = fmt::format("{}{}\n", mark, printable_line(owner));
   Lines lines(descriptor_, path_);
-  off_t whole = 0;  // bytes of whole lines
+  off_t complete = 0;  // bytes of complete lines
   for (std::size_t number = 1;; ++number) {
     ASPIC_TRY(auto line, lines.next());
     const bool ended = line.ends_with('\n');
@@ -157,22 +157,22 @@ Status SweepJournal::read(const std::string& owner) {
     const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), index);
     const bool row = ended && number > 1 && error == std::errc() && *stop == ',' && index < most_runs;
     if (!row && !(ended && number == 1))
-      return fail(ErrorCode::io, "{}:{}: this is no row of a sweep; begin anew with --force.", path_, number);
+      return fail(ErrorCode::io, "{}:{}: this is no row of a sweep; start over with --force.", path_, number);
     if (number == 1 && line != first) {
       line.pop_back();
       return fail(
           ErrorCode::usage,
           "{} holds rows of another sweep:\n  there: {}\n  here:  {}\nComplete that sweep with its own "
-          "command, choose another --out, or begin anew with --force.",
+          "command, choose another --out, or start over with --force.",
           path_, printable_line(line.starts_with(mark) ? line.substr(mark.size()) : line),
           printable_line(owner));
     }
-    whole += static_cast<off_t>(line.size());
+    complete += static_cast<off_t>(line.size());
     if (row) rows_[index] = std::move(line);
   }
-  if (whole < present.st_size && ::ftruncate(descriptor_, whole) != 0)
+  if (complete < present.st_size && ::ftruncate(descriptor_, complete) != 0)
     return file_error("write", path_, errno);
-  return whole == 0 ? append(descriptor_, path_, first) : Status();
+  return complete == 0 ? append(descriptor_, path_, first) : Status();
 }
 
 SweepJournal::SweepJournal(SweepJournal&& other) noexcept

@@ -43,7 +43,7 @@ class BesideRecorder {
   /// Completes the outputs.
   Status finish();
   void abandon() { recording_->abandon(); }
-  /// Of the outputs that are lost so far; the others go on.
+  /// Of the outputs that are lost so far; the others continue.
   std::vector<Error> failures() const { return recording_->failures(); }
   /// After finish(): the names of the completed outputs.
   std::vector<std::string> written() { return recording_->written(); }

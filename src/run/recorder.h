@@ -38,7 +38,7 @@ class Recorder {
   Status finish(Solver& solver, std::uint64_t step);
   /// Ends without films, instead of finish(); pictures in directories stay.
   void abandon() { recording_->abandon(); }
-  /// Of the outputs that are lost so far; the others go on.
+  /// Of the outputs that are lost so far; the others continue.
   std::vector<Error> failures() const { return recording_->failures(); }
   /// After finish(): the names of the completed outputs.
   std::vector<std::string> written() { return recording_->written(); }

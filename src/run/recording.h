@@ -30,7 +30,7 @@ struct FrameTimes {
 };
 
 /// Takes pictures of one size. Nothing is dropped: while the encoder is behind, ready() is false. A sink that
-/// fails is lost alone; the others go on. One that is destroyed before its end() leaves no film file, only
+/// fails is lost alone; the others continue. One that is destroyed before its end() leaves no film file, only
 /// the pictures of a directory.
 class Recording {
  public:
