@@ -108,6 +108,16 @@ class Events : public Stage {
     id_ = id_.substr(0, id_.find('\n'));
     xdotool("windowfocus --sync " + id_);
   }
+  /// With an ffmpeg of our own, a shell script.
+  void start_with_ffmpeg(const std::string& script) {
+    const std::string path = test::variable("PATH");
+    fs::create_directory(directory() / "bin");
+    std::ofstream(directory() / "bin" / "ffmpeg") << "#!/bin/sh\n" << script;
+    fs::permissions(directory() / "bin" / "ffmpeg", fs::perms::owner_all);
+    ::setenv("PATH", ((directory() / "bin").string() + ":" + path).c_str(), 1);
+    start();
+    ::setenv("PATH", path.c_str(), 1);
+  }
   void xdotool(const std::string& what) {
     ASSERT_EQ(std::system(("timeout 30 xdotool " + what + " >/dev/null").c_str()), 0) << what << '\n'
                                                                                       << log();
@@ -290,7 +300,7 @@ TEST_F(Events, ClosingWhileAFilmRunsLeavesItWhole) {
 
 TEST_F(Events, ASignalWhileAFilmRunsLeavesItWhole) {
   int sent = 0;
-  for (const int signal : {SIGTERM, SIGINT}) {
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     keep(one_picture_a_step(find_film_format("webm")));
     start();
     key("ctrl+r");
@@ -302,16 +312,21 @@ TEST_F(Events, ASignalWhileAFilmRunsLeavesItWhole) {
   }
 }
 
+TEST_F(Events, AnEncoderThatHangsDoesNotHoldUpTheEnd) {
+  keep(one_picture_a_step(find_film_format("mp4")));
+  start_with_ffmpeg("exec sleep 600\n");
+  key("ctrl+r");
+  key("period period period");
+  catch_up();
+  ask_to_close();
+  EXPECT_EQ(exit_code(), 0) << log();
+  EXPECT_THAT(log(), testing::HasSubstr("aspic-cube-plane-0001.mp4 could not be made"));
+  EXPECT_FALSE(exists("aspic-cube-plane-0001.mp4"));
+}
+
 TEST_F(Events, AnEncoderThatFailsLeavesTheWindowAtWork) {
   keep(one_picture_a_step(find_film_format("mp4")));
-  const std::string path = test::variable("PATH");
-  fs::create_directory(directory() / "bin");
-  std::ofstream(directory() / "bin" / "ffmpeg")
-      << "#!/bin/sh\nhead -c 1000 >/dev/null\necho no space >&2\nexit 1\n";
-  fs::permissions(directory() / "bin" / "ffmpeg", fs::perms::owner_all);
-  ::setenv("PATH", ((directory() / "bin").string() + ":" + path).c_str(), 1);
-  start();
-  ::setenv("PATH", path.c_str(), 1);
+  start_with_ffmpeg("head -c 1000 >/dev/null\necho no space >&2\nexit 1\n");
   key("ctrl+r");
   key("space");
   catch_up();
