@@ -1,0 +1,16 @@
+// The main function of every test binary.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  const int code = RUN_ALL_TESTS();
+  // GoogleTest calls that a success: a misspelt filter would pass for ever.
+  if (!GTEST_FLAG_GET(list_tests) && testing::UnitTest::GetInstance()->test_to_run_count() == 0) {
+    std::fprintf(stderr, "No test of %s matches --gtest_filter=%s.\n", argv[0],
+                 GTEST_FLAG_GET(filter).c_str());
+    return 1;
+  }
+  return code;
+}
