@@ -1,5 +1,6 @@
 // What the window manages on this machine: real-time factor, pictures a second, longest gap between handled
-// events; and the largest cube that keeps up with time. To be run on a display, or under xvfb-run.
+// events; and the largest cube that keeps up with time. To be run on a display, or by
+// tests/support/on_display.sh.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -237,7 +238,7 @@ int main(int argc, char** argv) {
         "usage: window_figures default | large | rest | sizes [BACKEND/INTEGRATOR [PARTICLES-PER-EDGE]] | "
         "all\nPrints a JSON object a "
         "line; needs a display "
-        "(xvfb-run).");
+        "(tests/support/on_display.sh).");
   if (all || what == "default") {
     for (const BackendRow& backend : backends()) {
       const Case c = {"cube-plane", {}, backend.name};

@@ -48,7 +48,7 @@ chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --blink-setting
 ffmpeg -v error -y -i "$work/report.png" -vf scale=960:-1 -q:v 4 "$images/report.jpg"
 echo "docs/images/report.jpg" >&2
 
-ASPIC_WINDOW_PICTURES=$work xvfb-run -a -s "-screen 0 1920x1080x24 -noreset" \
+ASPIC_WINDOW_PICTURES=$work tests/support/on_display.sh 1920x1080 \
   "$aspic_build_dir/tests/app/app_window_tests" --gtest_filter='Gallery.*' >&2
 for picture in "$work"/window-*.jpg; do
   cp "$picture" "$images/"
