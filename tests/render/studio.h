@@ -1,9 +1,7 @@
 #pragma once
 // A test with a renderer.
 #include "cpu_reference/reference_solver.h"
-#include "gpu/pixel_ring.h"
-#include "render/image_comparison.h"
-#include "render/renderer.h"
+#include "render/read_back.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 
@@ -27,28 +25,14 @@ class Studio : public testing::GlTest {
   /// Draws a state and reads it back.
   Image draw(const Model& model, const State& state, const PictureOptions& options, int width = 640,
              int height = 360) {
-    Image image{width, height, {}};
     const Status taken = renderer_->set_model(model);
     EXPECT_TRUE(taken.ok());
-    const auto uploaded = renderer_->upload(state);
-    EXPECT_TRUE(uploaded.ok());
-    const Status drawn = renderer_->draw(width, height, *uploaded, options);
-    EXPECT_TRUE(drawn.ok()) << (drawn.ok() ? "" : drawn.error().message);
-    image.rgb = read();
-    return image;
+    return test::draw(context(), *renderer_, state, options, width, height);
   }
 
   /// The picture last drawn.
   std::vector<std::byte> read() { return read(*renderer_); }
-  std::vector<std::byte> read(const Renderer& by) {
-    const gl::Framebuffer& picture = by.picture();
-    auto ring = gl::PixelRing::create(context(), picture.width(), picture.height());
-    EXPECT_TRUE(ring.ok());
-    ring->submit(picture);
-    std::vector<std::byte> rgb;
-    EXPECT_TRUE(ring->take(rgb).ok());
-    return rgb;
-  }
+  std::vector<std::byte> read(const Renderer& by) { return test::read(context(), by); }
 
  private:
   std::unique_ptr<Renderer> renderer_;
