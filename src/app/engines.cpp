@@ -61,7 +61,7 @@ Result<Outcome> Engines::advance_outside(const JobLimits& limits, const std::ato
     ASPIC_TRY(other_start, shadow_.solver->state());
   }
   const std::uint64_t interval = sample_interval(model_->simulation.timestep);
-  first.heed(&hurry);
+  first.set_stop_flag(&hurry);
   for (std::uint64_t at = limits.from; at < limits.to && !hurry && !paced.divergence && Clock::now() < end;
        ++at) {
     ASPIC_TRY(paced.divergence, first.advance(1));
@@ -73,7 +73,7 @@ Result<Outcome> Engines::advance_outside(const JobLimits& limits, const std::ato
   ASPIC_TRY(paced.state, first.state());
   outcome.steps = paced.state.step - limits.from;
   if (both) {
-    shadow_.solver->heed(&hurry);
+    shadow_.solver->set_stop_flag(&hurry);
     ASPIC_CHECK(advance(shadow_, tried_steps(outcome, paced), outcome.shadow));
     // A hurry that the shadow heeds takes back the steps of both: they stay together.
     if (hurry && !outcome.shadow.divergence &&

@@ -114,7 +114,7 @@ void StabilityMap::begin(const Scene& scene) {
         const Model probed = with_constants(model, factors[row], 1.0, map.steps[column]);
         const auto backend = make_backend(choice, probed);
         if (!backend || hurry) return;
-        backend->solver->heed(&hurry);
+        backend->solver->set_stop_flag(&hurry);
         const auto grew = grows(*backend->solver, start, count);
         if (!grew || hurry) return;
         map.cells[row * columns + column] = *grew ? Stability::unstable : Stability::stable;

@@ -61,8 +61,9 @@ class Dynamics {
     for (Ground<T>& ground : grounds_) ground.begin_step(model_.simulation.timestep, step);
   }
 
-  /// While `*flag` is true forces are left incomplete, for a step that is dropped; see Solver::heed.
-  void heed(const std::atomic<bool>* flag) { flag_ = flag; }
+  /// While `*flag` is true forces are left incomplete, for a step that is cancelled; see
+  /// Solver::set_stop_flag.
+  void set_stop_flag(const std::atomic<bool>* flag) { flag_ = flag; }
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
 
   /// f(x, v) [N], one column per particle.
@@ -126,7 +127,7 @@ class Dynamics {
     }
   }
 
-  /// The course model: the force f [N] on a particle that is not pinned with what every terrain adds.
+  /// The course model: the force f [N] on a particle that is not pinned, with every terrain's part.
   Vector<T> with_contact(const Vector<T>& x, const Vector<T>& v, Vector<T> f) const {
     for (const Ground<T>& ground : grounds_) f = with_contact_force<T>(ground, contact_.epsilon, x, v, f);
     return f;

@@ -44,9 +44,9 @@ class ReferenceSolver final : public Solver {
     return {};
   }
 
-  void heed(const std::atomic<bool>* flag) override {
-    Solver::heed(flag);
-    dynamics_.heed(flag);
+  void set_stop_flag(const std::atomic<bool>* flag) override {
+    Solver::set_stop_flag(flag);
+    dynamics_.set_stop_flag(flag);
   }
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {

@@ -61,14 +61,14 @@ class Solver {
   /// nobody; load() leaves the pull as it is. Cheap enough for every picture, and ordered after the steps
   /// that advance() did. Errors as rounded_pull (usage): then the pull stays what it was.
   virtual Status set_pull(const std::optional<Pull>& pull) = 0;
-  /// Advances by `steps`, fewer only after a divergence, which is returned, and where heed() says so. Error
-  /// (no_device): the device was lost or ran out of memory; the solver is of no use from then on.
+  /// Advances by `steps`, fewer only after a divergence, which is returned, and while the stop flag is set.
+  /// Error (no_device): the device was lost or ran out of memory; the solver is of no use from then on.
   virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;
   /// While `*flag` is true advance() ends early, and the state is that at the start of the step it was in.
-  /// Null: never. Any thread may set the flag; it stays true until advance() has returned, and must outlive
-  /// the calls. A solver on a device, which queues its work, pays no heed.
-  virtual void heed(const std::atomic<bool>* flag) { flag_ = flag; }
-  /// What implicit Euler's solves came to since the last load(); nothing with other integrators.
+  /// Null: never. Any thread may set the flag; it must stay true until advance() has returned, and outlive
+  /// the calls. GPU solvers ignore it, since they queue their work.
+  virtual void set_stop_flag(const std::atomic<bool>* flag) { flag_ = flag; }
+  /// Figures of implicit Euler's solves since the last load(); nothing with other integrators.
   virtual std::optional<SolveStatistics> solve_statistics() { return std::nullopt; }
   /// A copy of the current state. Error (no_device): as advance().
   virtual Result<State> state() = 0;

@@ -131,7 +131,7 @@ TEST(Backends, AnInterruptedStepIsDroppedAndTheRunGoesOnWithItsBits) {
       Solver& solver = *backend->solver;
       std::atomic<bool> flag = false;
       std::atomic<int> begun = 0;
-      solver.heed(&flag);
+      solver.set_stop_flag(&flag);
       {
         const std::jthread hand([&] {
           while (begun < 1) std::this_thread::yield();
