@@ -74,9 +74,9 @@ CourseSummary Course::summary() const {
   CourseSummary summary;
   summary.end = samples_.back();
   summary.contact_time = contact_time_;
-  const double whole = samples_.front().extent;
+  const double start = samples_.front().extent;
   for (const CourseSample& sample : samples_) {
-    const double squash = whole > 0.0 ? 1.0 - sample.extent / whole : 0.0;
+    const double squash = start > 0.0 ? 1.0 - sample.extent / start : 0.0;
     if (squash > summary.squash) {
       summary.squash = squash;
       summary.squash_time = sample.time;

@@ -69,7 +69,7 @@ class ImplicitSolver final : public DeviceSolver {
   Status take_look();
   Status repeat_balls();
   void forget_queues();
-  void foretell();
+  void predict_state();
   /// More than a step can take.
   std::uint64_t most_rounds() const;
   std::uint32_t rounds_wanted() const;
@@ -86,7 +86,7 @@ class ImplicitSolver final : public DeviceSolver {
   std::optional<gl::ReadRing> looks_;     // the Solve block after each queue
   Clock::time_point last_look_ = {};
   std::optional<Error> unusable_;  // the device dropped passes
-  bool unheard_ = false;           // a look failed: the device has got further than solve_ says
+  bool look_failed_ = false;       // a look failed: the device has got further than solve_ says
   bool late_ = false;
   SolveStatistics statistics_;
   QueueDepth depth_{most_solves}, round_depth_{most_queued_rounds, first_rounds};
@@ -96,7 +96,7 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   const std::uint64_t particles = model_.particle_count(), vectors = particles * sizeof(layout::vec4);
   ASPIC_TRY(trial_, sliced("trial velocities", vectors));
   ASPIC_TRY(own_, sliced("solver vectors", OWN_VECTORS * vectors));
-  // In windows, what neighbours need beside it goes with it (shaders/compute/implicit.glsl).
+  // In windows, the other data that neighbours need goes with it (shaders/compute/implicit.glsl).
   const std::uint64_t search_bytes = (windowed() ? 2 : 1) * sizeof(layout::vec4);
   ASPIC_TRY(search_, sliced("search direction", particles * search_bytes));
   ASPIC_TRY(solve_buffer_, Buffer::create(context_, "solve control", solve_bytes(particles)));
@@ -129,7 +129,7 @@ void ImplicitSolver::restart() {
   target_ = 0;
   forget_queues();
   unusable_.reset();
-  unheard_ = false;
+  look_failed_ = false;
   write_solve();
   statistics_ = {};
 }
@@ -173,7 +173,7 @@ void ImplicitSolver::queue_rounds(std::uint32_t rounds) const {
 }
 
 Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
-  // A step that is measured is queued alone: what is queued behind it may turn out to belong to it.
+  // A step that is measured is queued alone: rounds queued behind it may turn out to belong to it.
   if (profiler_ && steps > 0) {
     ASPIC_CHECK(settle());
     if (!divergence_ && profiler_->begin()) {
@@ -194,11 +194,11 @@ std::uint32_t ImplicitSolver::rounds_wanted() const {
   return between ? learnt : std::max(more_rounds, learnt);
 }
 
-/// Queues steps, and hears of those before. No more rounds are queued for a step than take a moment; what is
-/// missing is queued on, what is too much does nothing. Neither changes a bit.
+/// Queues steps, and polls those before. No more rounds are queued for a step than take a moment; missing
+/// rounds are queued later, surplus ones do nothing. Neither changes a bit.
 Status ImplicitSolver::carry_out(std::uint64_t steps, bool wait) {
   if (unusable_) return *unusable_;
-  if (std::exchange(unheard_, false)) submit(0);
+  if (std::exchange(look_failed_, false)) submit(0);
   while (!divergence_) {
     const bool idle = queues_.empty() && !is_behind();
     const bool must = queues_.size() == most_queues || (steps == 0 ? wait : counts_far());
@@ -206,7 +206,7 @@ Status ImplicitSolver::carry_out(std::uint64_t steps, bool wait) {
     const auto queued = work_on(steps, must);
     if (!queued) {
       forget_queues();
-      unheard_ = true;
+      look_failed_ = true;
       return queued.error();
     }
     steps -= *queued;
@@ -214,7 +214,7 @@ Status ImplicitSolver::carry_out(std::uint64_t steps, bool wait) {
   return {};
 }
 
-/// Takes a look, or queues what is missing or new; returns how many steps are queued that were not.
+/// Polls the device, or queues missing rounds or new steps; returns how many new steps are queued.
 Result<std::uint32_t> ImplicitSolver::work_on(std::uint64_t steps, bool must) {
   std::uint32_t queued = 0;
   if (!queues_.empty() && (must || looks_->ready())) {
@@ -260,7 +260,7 @@ std::uint32_t ImplicitSolver::queue_steps(std::uint32_t wanted) {
   return steps;
 }
 
-/// What the steps of the queues before took more than was queued for them.
+/// Queues the rounds that steps of earlier queues still need.
 void ImplicitSolver::queue_more() {
   const std::uint32_t rounds = std::min(rounds_wanted(), round_depth_.next());
   std::uint32_t n = solve_.step;
@@ -279,16 +279,16 @@ void ImplicitSolver::submit(std::uint32_t rounds) {
   queued_rounds_ += rounds;
   queues_.push_back(Clock::now());
   looks_->submit(solve_buffer_, 0, sizeof(layout::Solve));
-  foretell();
+  predict_state();
 }
 
 /// Where the state will be once all queues have ended.
-void ImplicitSolver::foretell() {
+void ImplicitSolver::predict_state() {
   steps_since_ = target_;
   current_ = ball_slot_ = (solve_.parity + (target_ - solve_.step)) % 2;
 }
 
-/// Waits for the oldest queue and takes in what came of it.
+/// Waits for the oldest queue and reads its outcome.
 Status ImplicitSolver::take_look() {
   layout::Solve read;
   looks_->take(std::as_writable_bytes(std::span(&read, 1)));
@@ -305,9 +305,10 @@ Status ImplicitSolver::take_look() {
   const double seconds = std::chrono::duration<double>(now - std::max(queues_.front(), last_look_)).count();
   queues_.pop_front();
   last_look_ = now;
-  const bool anew = before.phase == PHASE_BEGIN || before.phase == PHASE_IDLE;
+  const bool restarted = before.phase == PHASE_BEGIN || before.phase == PHASE_IDLE;
   const std::uint32_t ended = solve_.step - before.step,
-                      worked = ended > 0 ? ended * solve_.ticks : solve_.ticks - (anew ? 0 : before.ticks);
+                      worked =
+                          ended > 0 ? ended * solve_.ticks : solve_.ticks - (restarted ? 0 : before.ticks);
   depth_.took(ended, seconds);
   round_depth_.took(std::max(worked, 1u), seconds);
   if (ended > 0) queued_rounds_ = 0;
@@ -317,12 +318,12 @@ Status ImplicitSolver::take_look() {
     target_ = solve_.step;
     divergence_ = divergence_from(solve_.bad_particle, solve_.step);
   }
-  foretell();
+  predict_state();
   return {};
 }
 
-/// The balls' part of a step is repeated, from the state it began with, where nothing was written. What is
-/// queued behind it has done nothing.
+/// The balls' part of a step is repeated, from the state it began with, where nothing was written. Steps
+/// queued behind it have done nothing.
 Status ImplicitSolver::repeat_balls() {
   forget_queues();
   ASPIC_CHECK(balls_.grow());

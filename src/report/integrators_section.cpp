@@ -1,4 +1,4 @@
-// The methods beside one another: order, stability, cost, energy, and the same drop.
+// The methods compared: order, stability, cost, energy, and the same drop.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ Result<Figure> order_figure(const Study& study) {
   return figure;
 }
 
-/// Stable steps as measured beside theory.
+/// Stable steps, measured and in theory.
 Result<Figure> limits_figure(const Study& study, const Model& model) {
   const auto limits = stability_limits(model, explicit_integrators, StabilityEffort::thorough);
   const ProbeStart start = probe_start(model);
@@ -75,7 +75,7 @@ Result<Figure> limits_figure(const Study& study, const Model& model) {
     std::vector<Cell> row = {title};
     row.push_back(limit.step && std::isfinite(*limit.step) ? Cell(*limit.step)
                                                            : Cell(stability_figure(limit)));
-    row.push_back(bracketed ? Cell(measured[i]) : Cell("none in reach"));
+    row.push_back(bracketed ? Cell(measured[i]) : Cell("none found"));
     row.push_back(bracketed && limit.step && std::isfinite(*limit.step) ? Cell(measured[i] / *limit.step)
                                                                         : Cell());
     figure.table->rows.push_back(std::move(row));
@@ -339,7 +339,7 @@ Result<Section> integrators_section(const Study& study) {
   section.paragraphs = {
       "A time integration method turns forces into motion step by step. Four things tell methods apart: how "
       "fast the error falls with the step (order), how large a step may be before motion "
-      "explodes (stability), what a step costs, and what becomes of the energy."};
+      "explodes (stability), its cost per step, and how it changes the energy."};
   ASPIC_TRY(auto order, order_figure(study));
   section.figures.push_back(std::move(order));
   ASPIC_TRY(auto smooth, smooth_body(study));

@@ -91,7 +91,7 @@ class Worker {
   std::optional<ChildProcess> child_;
 };
 
-/// Workers on threads of their own, and the rows that they bring.
+/// Workers, each on its own thread, and the rows that they deliver.
 class Crew {
  public:
   Crew(const SweepPlan& plan, const Greeting& greeting, unsigned jobs, std::deque<std::size_t> runs)
@@ -234,13 +234,13 @@ Result<SweepCounts> run_sweep(const SweepPlan& plan, const InterruptGuard& inter
 }
 
 Status serve_sweep(Grid grid) {
-  // Of what use is a run whose row nobody takes?
+  // A run whose parent is gone would compute a row that nobody reads.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   std::string identity, backend;
   unsigned threads = 0;
   std::cin >> identity >> backend >> threads;
   if (!std::cin || identity != grid.identity())
-    return fail(ErrorCode::usage, "the scene has changed since the sweep began; begin anew with --force.");
+    return fail(ErrorCode::usage, "the scene has changed since the sweep began; start over with --force.");
   if (!grid.backend.row) grid.backend = choice_for(find_backend(backend), grid.backend);
   const bool given = grid.backend.threads > 0;
   ASPIC_CHECK(print_data(fmt::format("{}\n", ready)));

@@ -157,7 +157,7 @@ Status SweepJournal::read(const std::string& owner) {
     const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), index);
     const bool row = ended && number > 1 && error == std::errc() && *stop == ',' && index < most_runs;
     if (!row && !(ended && number == 1))
-      return fail(ErrorCode::io, "{}:{}: this is no row of a sweep; start over with --force.", path_, number);
+      return fail(ErrorCode::io, "{}:{}: not a sweep row; start over with --force.", path_, number);
     if (number == 1 && line != first) {
       line.pop_back();
       return fail(
