@@ -1,6 +1,6 @@
 // The Coulomb contact rule: src/cpu_reference/coulomb.h in GLSL. Expects what terrain.glsl has before it.
 
-// |g|h: what a step of free fall gains [m/s].
+// |g|h: speed gained by a step of free fall [m/s].
 float fall_speed() {
   return gravity.w;
 }
@@ -48,7 +48,7 @@ vec3 projected(float friction, vec3 n, float c, vec3 v_1) {
   return left;
 }
 
-// The force f [N] with the ground's reaction: kept for a whole step it turns v_0 into P(v_0 + hw·f). hw = h·w; v_0 is
+// The force f [N] with the ground's reaction: kept for a complete step it turns v_0 into P(v_0 + hw·f). hw = h·w; v_0 is
 // relative to the ground's velocity at the step's end.
 vec3 with_reaction(float friction, vec3 n, float c, float hw, vec3 v_0, vec3 f) {
   precise vec3 v_1 = v_0 + hw * f;
@@ -68,7 +68,8 @@ float bounced_speed(uint t, float m, float d_0, float drop, float u_0, float du,
   precise float arrival = mean + (s - 0.5) * du;
   precise float lag = (u_0 + 0.5 * du) - mean;
   precise float u = bounce_speed(t, m, arrival < 0.0 ? arrival : 0.0) + lag;
-  precise float most = bounce_speed(t, m, u_0) + 2.0 * fall_speed();
+  precise float most = bounce_speed(t, m, u_0);
+  most = most > 0.0 ? most + 2.0 * fall_speed() : fall_speed();
   if (!(u > 0.0)) return 0.0;
   return u < most ? u : most;
 }

@@ -62,30 +62,17 @@ bool crosses(uint t, vec3 x, Reaction r) {
 }
 
 #include "compute/implicit_hold.glsl"
-
-// The fewest of those that hold the particle already, and terrain t, with which none is crossed and none pulls.
-Reaction joined(vec3 x, float m, vec3 v, Reaction so_far, uint t) {
-  if (so_far.count == 3u) return so_far;
-  uint subsets = 1u << so_far.count;
-  for (uint subset = 0u; subset < subsets; ++subset) {
-    Reaction next = no_reaction(v);
-    for (uint k = 0u; k < so_far.count; ++k) {
-      if (((subset >> k) & 1u) != 0u) next.held[next.count++] = so_far.held[k];
-    }
-    next.held[next.count++] = t;
-    bool crossing = !hold(x, m, v, subset + 1u == subsets, next);
-    for (uint k = 0u; k < so_far.count && !crossing; ++k) crossing = crosses(so_far.held[k], x, next);
-    if (!crossing) return next;
-  }
-  return so_far;
-}
+#include "compute/implicit_join.glsl"
 
 // P of a particle of mass m at x, with free velocity v.
 Reaction react(vec3 x, float m, vec3 v) {
   Reaction reaction = no_reaction(v);
   for (uint round = 0u; round < 2u; ++round) {
     for (uint t = 0u; t < terrain_count; ++t) {
-      if (crosses(t, x, reaction)) reaction = joined(x, m, v, reaction, t);
+      if (holds(reaction, t)) continue;
+      uint twin = twin_of(t, x, reaction);
+      bool joins = twin == NO_TWIN ? crosses(t, x, reaction) : outranks(t, twin);
+      if (joins) reaction = joined(x, m, v, reaction, t, twin);
     }
     if (reaction.count == 0u || terrain_count == 1u) break;
   }

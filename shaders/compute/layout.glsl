@@ -32,6 +32,9 @@
 #define FREE_LINE 2.0
 #define FREE_NONE 3.0
 
+// Share of ε that parallel terrains may lie apart and be one surface (src/model/implicit.h).
+#define SAME_SURFACE_SHARE 0.0009765625
+
 // Elements of one block of a reduction, and the group size of every kernel that takes part in one (docs/determinism.md).
 #define REDUCTION_BLOCK 256
 
@@ -91,7 +94,7 @@
 #define MAX_WALK 16384u
 #endif
 
-// Kernels that report loops over MAX_ROUNDS; their names stand in src/gpu_solver/kernels.cpp.
+// Kernels that report loops over MAX_ROUNDS; their names are in src/gpu_solver/kernels.cpp.
 #define KERNEL_GATHER 1u
 #define KERNEL_SUM_SPRINGS 2u
 #define KERNEL_IMPLICIT_BEGIN 3u
@@ -163,7 +166,7 @@ struct BallWork {
 struct Stage {
   float advance;    // h · advance: from the start of the step to the next stage [s]
   float weight;     // small integer
-  uint accumulate;  // 1: an earlier stage's slope stands in the sums already
+  uint accumulate;  // 1: an earlier stage's slope is in the sums already
   uint last;        // 1: the step ends after this stage
 };
 
@@ -253,7 +256,7 @@ struct Simulation {
 #else
 layout(std140, binding = BINDING_SIMULATION) uniform Simulation {
 #endif
-  vec4 gravity;               // g [m/s²]; w: |g|h, what a step of free fall gains [m/s]
+  vec4 gravity;               // g [m/s²]; w: |g|h, speed gained by a step of free fall [m/s]
   float epsilon;              // ε: m for distances, m/s for speeds
   float resting_speed;        // max(ε, 2|g|h) [m/s]
   float step_scale;           // h / divisor of the method [s]

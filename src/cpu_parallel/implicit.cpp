@@ -56,7 +56,7 @@ ImplicitEuler::ImplicitEuler(const Model& model, const reference::Dynamics<float
       mass_(mass),
       inverse_mass_(inverse_mass),
       workers_(workers),
-      ahead_(dynamics.grounds(), dynamics.contact().step, model.contact.model == ContactModel::coulomb),
+      ahead_(dynamics.grounds(), dynamics.contact(), model.contact.model == ContactModel::coulomb),
       limits_(model.simulation.implicit),
       h_(static_cast<float>(model.simulation.timestep)),
       system_(model.particle_count(), margin) {

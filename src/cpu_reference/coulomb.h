@@ -16,8 +16,8 @@ bool rests(const ContactConstants<T>& contact, T d0, T u0) {
 }
 
 /// Whether such a body, should it end the step in approach, is set down: it began near the ground and did not
-/// arrive fast. Also one that rose faster than what rests, which the load above it turned around within the
-/// step; left to its approach it would come back fast, and bounce for ever.
+/// arrive fast. Also a body that rose faster than a resting one does, and that the load above it turned
+/// around within the step; left to its approach it would come back fast, and bounce for ever.
 template <class T>
 bool set_down(const ContactConstants<T>& contact, T d0, T u0) {
   return d0 < contact.epsilon && !(-u0 > contact.resting_speed);
@@ -57,7 +57,7 @@ Vector<T> projected(T friction, const Vector<T>& n, T c, const Vector<T>& v1) {
   return rubbed<T>(v_t, friction * (c - u)) + c * n;
 }
 
-/// The force f [N] with the ground's reaction: kept for a whole step it turns v0 into P(v0 + (h·w)·f).
+/// The force f [N] with the ground's reaction: kept for a complete step it turns v0 into P(v0 + (h·w)·f).
 /// hw = h·w. Of ground that moves, v0 is relative to its velocity at the step's end.
 template <class T>
 Vector<T> with_reaction(T friction, const Vector<T>& n, T c, T hw, const Vector<T>& v0, const Vector<T>& f) {
@@ -71,7 +71,8 @@ Vector<T> with_reaction(T friction, const Vector<T>& n, T c, T hw, const Vector<
 /// during the step: B of its speed when it met the surface, and the change of speed after that. `du` is how
 /// much the step changed the normal speed, `mean` its mean over the step as the position shows it. How far an
 /// integrator's position lags behind its velocity, (u0 + du/2) − mean, is taken off before B and added after
-/// it.
+/// it. The result is at most B(u0) + 2|g|h; where B(u0) = 0 it is at most |g|h, half of v_rest or less, since
+/// rounding would decide whether a body at v_rest itself rests.
 template <class T>
 T bounced_speed(const Ground<T>& ground, const ContactConstants<T>& contact, T m, T d0, T drop, T u0, T du,
                 T mean) {
@@ -83,7 +84,8 @@ T bounced_speed(const Ground<T>& ground, const ContactConstants<T>& contact, T m
   const T arrival = mean + (s - T(0.5)) * du;
   const T lag = (u0 + T(0.5) * du) - mean;
   const T u = bounce_speed<T>(ground, m, arrival < T(0) ? arrival : T(0)) + lag;
-  const T most = bounce_speed<T>(ground, m, u0) + T(2) * contact.fall;
+  const T given_back = bounce_speed<T>(ground, m, u0);
+  const T most = given_back > T(0) ? given_back + T(2) * contact.fall : contact.fall;
   if (!(u > T(0))) return T(0);
   return u < most ? u : most;
 }
@@ -112,8 +114,9 @@ T undue_rise(const ContactConstants<T>& contact, T d0, T u0, T d, T u) {
   return rise > T(0) ? rise : T(0);
 }
 
-/// The end of a step that began at x0, v0: what rests or arrives gets the speed above, friction is bounded by
-/// the normal impulse, what rests rises no faster than it moves, and nothing stays below the surface.
+/// The end of a step that began at x0, v0: a body that rests or arrives gets the speed above, friction is
+/// bounded by the normal impulse, a resting body rises no faster than it moves, and nothing stays below the
+/// surface.
 template <class T>
 void respond_coulomb(const Ground<T>& ground, const ContactConstants<T>& contact, T m, const Vector<T>& x0,
                      const Vector<T>& v0, Vector<T>& x, Vector<T>& v) {

@@ -100,12 +100,12 @@ class ImplicitEuler {
   ImplicitEuler(const Dynamics<T>& dynamics, const Model& model)
       : dynamics_(dynamics),
         model_(model),
-        ahead_(dynamics.grounds(), dynamics.contact().step, model.contact.model == ContactModel::coulomb),
+        ahead_(dynamics.grounds(), dynamics.contact(), model.contact.model == ContactModel::coulomb),
         limits_(model.simulation.implicit),
         h_(static_cast<T>(model.simulation.timestep)) {}
 
   /// Bytes that the solve holds at most: nine fields and those of two products, a force and two copies of the
-  /// diagonal blocks, what the ground does to each particle, a Jacobian for each spring, three sums.
+  /// diagonal blocks, the ground's reaction on each particle, a Jacobian for each spring, three sums.
   static std::uint64_t bytes(const Model& model) {
     return model.particle_count() *
                (sizeof(T) * (3 * 12 + 3) + 2 * sizeof(DiagonalBlock<T>) + sizeof(GroundReaction<T>)) +

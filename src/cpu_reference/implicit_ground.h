@@ -1,7 +1,7 @@
 #pragma once
 // The ground inside the equation of implicit Euler (Coulomb model), v' = P(v + h·w·f(x + h·v', v')), for one
 // particle. P leaves a velocity as it is unless the step would end below a surface; then it stops the
-// particle there, within the friction cone. What the particle still may do is the space in which the linear
+// particle there, within the friction cone. The motion left to it is the space in which the linear
 // system is solved (docs/physics.md). Every expression has one order of operations, which the kernels follow
 // (shaders/compute/implicit_ground.glsl).
 #include <array>
@@ -85,8 +85,11 @@ template <class T>
 class GroundAhead {
  public:
   /// `grounds` must outlive this. Nothing reacts unless `acts`.
-  GroundAhead(const std::vector<Ground<T>>& grounds, T h, bool acts)
-      : grounds_(grounds), h_(h), acts_(acts && !grounds.empty()) {}
+  GroundAhead(const std::vector<Ground<T>>& grounds, const ContactConstants<T>& contact, bool acts)
+      : grounds_(grounds),
+        h_(contact.step),
+        same_surface_(static_cast<T>(same_surface_share) * contact.epsilon),
+        acts_(acts && !grounds.empty()) {}
 
   bool acts() const { return acts_; }
 
@@ -101,8 +104,9 @@ class GroundAhead {
 
   /// P of particle i, of mass m, with free velocity v [m/s]. Terrains take their turns in file order. One
   /// that the velocity left so far would cross joins the fewest of those that hold the particle already with
-  /// which none is crossed and none pulls: without friction, the nearest velocity that crosses none. One more
-  /// round looks whether a later terrain has pushed the particle through an earlier one.
+  /// which none is crossed and none pulls: without friction, the nearest velocity that crosses none. A second
+  /// round checks whether a later terrain has pushed the particle through an earlier one. Of terrains that
+  /// are one surface to the particle, the one that outranks the others holds it.
   GroundReaction<T> react(Eigen::Index i, T m, const Vector<T>& v) const {
     return react_to(&gaps_[static_cast<std::size_t>(i) * grounds_.size()], m, v);
   }
@@ -112,7 +116,10 @@ class GroundAhead {
     GroundReaction<T> reaction(v);
     for (int round = 0; round < 2; ++round) {
       for (std::size_t t = 0; t < grounds_.size(); ++t) {
-        if (crosses(gaps, t, reaction)) reaction = joined(gaps, m, v, reaction, t);
+        if (reaction.holds(t)) continue;
+        const std::size_t twin = twin_of(gaps, t, reaction);
+        const bool joins = twin == none ? crosses(gaps, t, reaction) : outranks(t, twin);
+        if (joins) reaction = joined(gaps, m, v, reaction, t, twin);
       }
       if (reaction.count == 0 || grounds_.size() == 1) break;
     }
@@ -120,6 +127,8 @@ class GroundAhead {
   }
 
  private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
   /// Normal speed [m/s] that brings a particle to the surface by the step's end, c, against still ground.
   T least_speed(const Gap<T>& at) const { return -((at.d > T(0) ? at.d : T(0)) / h_); }
 
@@ -130,8 +139,8 @@ class GroundAhead {
     return pose.moves ? c + dot3<T>(pose.velocity, gaps[t].n) : c;
   }
 
-  /// The speed along an axis at which two terrains stand still: the mean of theirs, weighed by their
-  /// friction.
+  /// The speed along an axis from which slip on two terrains is counted: the mean of theirs, weighted by the
+  /// slip that the friction of each can take.
   T speed_along(const Vector<T>& axis, std::size_t a, std::size_t b, T loss_a, T loss_b) const {
     const auto speed = [&](std::size_t t) {
       const GroundPose<T>& pose = grounds_[t].end;
@@ -145,14 +154,41 @@ class GroundAhead {
     return !reaction.holds(t) && dot3<T>(reaction.v, gaps[t].n) < least_speed(gaps, t);
   }
 
+  /// The terrain among those that hold the particle which is one surface with terrain t, or none: they face
+  /// the same way, and rounding may decide which of them the particle crosses.
+  std::size_t twin_of(const Gap<T>* gaps, std::size_t t, const GroundReaction<T>& reaction) const {
+    for (std::size_t k = 0; k < reaction.count; ++k) {
+      const std::size_t s = reaction.held[k];
+      const Vector<T> line = cross3<T>(gaps[t].n, gaps[s].n);
+      if (dot3<T>(line, line) > static_cast<T>(least_wedge)) continue;
+      if (!(dot3<T>(gaps[t].n, gaps[s].n) > T(0))) continue;
+      const T apart = h_ * std::abs(least_speed(gaps, t) - least_speed(gaps, s));
+      if (apart <= same_surface_) return s;
+    }
+    return none;
+  }
+
+  /// Which of two terrains that are one surface holds a particle: the one with more friction, then the lower
+  /// index.
+  bool outranks(std::size_t t, std::size_t s) const {
+    return grounds_[t].friction > grounds_[s].friction ||
+           (grounds_[t].friction == grounds_[s].friction && t < s);
+  }
+
+  /// Terrain t joins those that hold the particle so far, and takes the place of `twin` among them.
   GroundReaction<T> joined(const Gap<T>* gaps, T m, const Vector<T>& v, const GroundReaction<T>& so_far,
-                           std::size_t t) const {
-    if (so_far.count == 3) return so_far;
-    const std::size_t subsets = std::size_t{1} << so_far.count;
+                           std::size_t t, std::size_t twin) const {
+    std::array<std::size_t, 3> others{};
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < so_far.count; ++k) {
+      if (so_far.held[k] != twin) others[count++] = so_far.held[k];
+    }
+    if (count == 3) return so_far;
+    const std::size_t subsets = std::size_t{1} << count;
     for (std::size_t subset = 0; subset < subsets; ++subset) {
       GroundReaction<T> next(v);
-      for (std::size_t k = 0; k < so_far.count; ++k) {
-        if ((subset >> k) & 1) next.held[next.count++] = so_far.held[k];
+      for (std::size_t k = 0; k < count; ++k) {
+        if ((subset >> k) & 1) next.held[next.count++] = others[k];
       }
       next.held[next.count++] = t;
       const bool possible = next.count == 1   ? on_one(gaps, m, v, next)
@@ -160,8 +196,7 @@ class GroundAhead {
                                               : among_three(gaps, next);
       if (!possible) continue;
       bool crossing = false;
-      for (std::size_t k = 0; k < so_far.count; ++k)
-        crossing = crossing || crosses(gaps, so_far.held[k], next);
+      for (std::size_t k = 0; k < count; ++k) crossing = crossing || crosses(gaps, others[k], next);
       if (!crossing) return next;
     }
     return so_far;
@@ -234,6 +269,7 @@ class GroundAhead {
   const std::vector<Ground<T>>& grounds_;
   std::vector<Gap<T>> gaps_;  ///< at the step's start, every terrain of every particle
   T h_;
+  T same_surface_;  ///< distance [m] up to which parallel surfaces are one
   bool acts_;
 };
 

@@ -4,13 +4,14 @@
 #include <cstddef>
 
 #include "device/layout.h"
+#include "model/implicit.h"
 #include "model/shapes/shape.h"
 
 namespace aspic::layout {
 
 #include "compute/layout.glsl"
 
-static_assert(GEOMETRY_SIZE == geometry_size);
+static_assert(GEOMETRY_SIZE == geometry_size && SAME_SURFACE_SHARE == same_surface_share);
 static_assert(sizeof(BallTouches) == 32 && offsetof(BallTouches, items) == 28);
 static_assert(sizeof(BallItem) == 128 && offsetof(BallItem, acts) == 32 && offsetof(BallItem, linear) == 96);
 static_assert(sizeof(BallWork) == 64 && offsetof(BallWork, word_groups) == 16);

@@ -56,5 +56,8 @@ inline constexpr double least_turn = 1e-3;
 /// Terrain normals with a smaller sine² between two, or a smaller squared volume of three, count as one
 /// surface less: the direction they would leave is rounding.
 inline constexpr double least_wedge = 1e-6;
+/// Terrains that face the same way (least_wedge) and hold a particle at distances less than this share of ε
+/// apart are one surface to it. A power of two, so that the product is exact.
+inline constexpr double same_surface_share = 1.0 / 1024.0;
 
 }  // namespace aspic

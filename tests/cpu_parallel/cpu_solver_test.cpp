@@ -11,6 +11,7 @@
 
 #include "cpu_reference/reference_solver.h"
 #include "scene/load.h"
+#include "support/contact_rules.h"
 #include "support/integrator_names.h"
 #include "support/model_building.h"
 
@@ -361,6 +362,16 @@ TEST(CpuSolver, TakesOverAStateInMidRun) {
   ASSERT_TRUE(second->advance(200).ok());
   ASSERT_TRUE(complete->advance(323).ok());
   EXPECT_EQ(*second->state(), *complete->state());
+}
+
+TEST(CpuSolver, FollowsTheRulesThatKeepRoundingFromDecidingAboutContact) {
+  const auto make = [](const Model& model) { return cpu(model); };
+  test::expect_landing_to_rest(make);
+  test::expect_more_friction_to_hold(make);
+  expect_equal(test::cube_on_slope(std::array{0.1, 0.0, 0.5, 0.2}), 60);
+  ModelSettings settings = test::low_cube(4, Integrator::explicit_euler, ContactModel::coulomb);
+  settings.contact.restitution = 0.0;
+  expect_equal(test::build(settings), 400);
 }
 
 }  // namespace

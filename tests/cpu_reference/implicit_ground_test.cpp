@@ -33,11 +33,18 @@ Terrain plane(const Vec3& point, const Vec3& normal, double mu, double e = 0.8) 
   return make_terrain(settings, ContactSettings{});
 }
 
+/// ε = 0.01 m.
+ContactConstants<double> contact_constants() {
+  Model model;
+  model.simulation.timestep = h;
+  return ContactConstants<double>(model);
+}
+
 /// A particle of 2 kg at `x` in front of these terrains.
 class Ahead {
  public:
   Ahead(const std::vector<Terrain>& terrain, const V& x)
-      : grounds_(terrain.begin(), terrain.end()), ahead_(grounds_, h, true) {
+      : grounds_(terrain.begin(), terrain.end()), ahead_(grounds_, contact_constants(), true) {
     for (const Ground<double>& ground : grounds_) gaps.push_back(gap<double>(ground, x));
     ahead_.start(Field<double>(x));
   }
@@ -209,7 +216,7 @@ TEST(ImplicitGround, SolvesTheEquationWithTheGroundInIt) {
     const Model model = cube_in_a_corner(mu);
     const Dynamics<double> dynamics(model);
     ImplicitEuler<double> method(dynamics, model);
-    GroundAhead<double> ahead(dynamics.grounds(), h, true);
+    GroundAhead<double> ahead(dynamics.grounds(), dynamics.contact(), true);
     Phase<double> s = start_of(model);
     std::array<int, 4> seen{};
     for (int n = 0; n < 120; ++n) {

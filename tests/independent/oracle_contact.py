@@ -42,8 +42,8 @@ class CoulombStep:
 
     def __init__(self, world):
         self.world, self.x0, self.v0 = world, world.x, world.v
-        fall = np.linalg.norm(world.gravity) * world.h  # |g|h
-        self.slack, threshold = 2 * fall, max(world.epsilon, 2 * fall)
+        self.fall = fall = np.linalg.norm(world.gravity) * world.h  # |g|h
+        threshold = max(world.epsilon, 2 * fall)
         self.starts = []
         for terrain in world.terrains:
             d, n = terrain.distance_and_normal(self.x0)
@@ -69,7 +69,8 @@ class CoulombStep:
         step, `change` what forces added to it, `crossing` the share of the step gone when it met the surface."""
         met = np.minimum(mean + (crossing - 0.5) * change, 0.0)
         lag = start.u + 0.5 * change - mean  # of the position behind the velocity, or ahead of it
-        most = terrain.bounce_speed(np.minimum(start.u, 0.0), self.world.m) + self.slack
+        back = terrain.bounce_speed(np.minimum(start.u, 0.0), self.world.m)
+        most = np.where(back > 0, back + 2 * self.fall, self.fall)
         return np.clip(terrain.bounce_speed(met, self.world.m) + lag, 0.0, most)
 
     def crossing(self, d0, d1):
@@ -109,7 +110,8 @@ class CoulombStep:
         per particle, and by terrain the particles it holds.
 
         A terrain that would be crossed joins the fewest of those that hold a particle already with which none of them
-        is crossed; a second round looks whether a later one pushed it through an earlier one."""
+        is crossed; a second round checks whether a later one pushed it through an earlier one. Of surfaces in one place
+        the one with more friction holds, of equal ones the first in the file."""
         v, slope = free.copy(), np.tile(np.eye(3), (len(free), 1, 1))
         held = np.zeros((len(self.starts), len(free)), dtype=bool)
         crossed = np.array([dot(free, start.n) < start.reach for start in self.starts]).reshape(held.shape)
@@ -117,13 +119,28 @@ class CoulombStep:
             by = ()
             for _ in range(2):
                 for terrain in range(len(self.starts)):
-                    if terrain not in by and self.crosses(i, terrain, v[i]):
-                        by, v[i], slope[i] = self.joined(i, by, terrain, free[i]) or (by, v[i], slope[i])
+                    if terrain in by:
+                        continue
+                    same = [other for other in by if self.in_one_place(i, terrain, other)]
+                    joins = (self.rank(terrain) > self.rank(same[0]) if same else self.crosses(i, terrain, v[i]))
+                    if joins:
+                        others = tuple(other for other in by if other not in same)
+                        by, v[i], slope[i] = self.joined(i, others, terrain, free[i]) or (by, v[i], slope[i])
             held[list(by), i] = True
         return v, slope, held
 
     def crosses(self, i, terrain, v):
         return v @ self.starts[terrain].n[i] < self.starts[terrain].reach[i]
+
+    def in_one_place(self, i, a, b):
+        """Whether terrains a and b face the same way and are no further apart than epsilon/1024 at the step's end."""
+        n_a, n_b = self.starts[a].n[i], self.starts[b].n[i]
+        apart = self.world.h * abs(self.starts[a].reach[i] - self.starts[b].reach[i])
+        parallel = n_a @ n_b > 0 and np.sum(np.cross(n_a, n_b) ** 2) <= 1e-6
+        return parallel and apart <= self.world.epsilon / 1024
+
+    def rank(self, terrain):
+        return self.world.terrains[terrain].friction, -terrain
 
     def joined(self, i, by, terrain, free):
         for count in range(min(len(by), 2) + 1):

@@ -53,6 +53,14 @@ SCENES = {
     "stick": ("cube-tilted-plane", {"cube[0].position": "[0.519, 1.937, 0.0]", "cube[0].rotation.axis": "[0.0, 0.0, 1.0]",
                                     "cube[0].rotation.angle": -15.0, "terrain[0].normal": "[0.2679491924, 1.0, 0.0]",
                                     "contact.friction": 0.5}, "", 2),
+    # Nothing bounces: what the springs throw back up is limited.
+    "dead ground": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 2.1, 0.0]", "terrain[0].restitution": 0.0}, "", 1),
+    # Two planes in one, with different friction.
+    "double slope": ("cube-tilted-plane", {"cube[0].position": "[0.519, 1.937, 0.0]", "cube[0].rotation.axis": "[0.0, 0.0, 1.0]",
+                                           "cube[0].rotation.angle": -15.0, "terrain[0].normal": "[0.2679491924, 1.0, 0.0]",
+                                           "contact.friction": 0.05},
+                     SECOND_PLANE.format(normal="[0.2679491924, 1.0, 0.0]", mass=1e9)
+                     .replace("[0.0, -1.0, 0.0]", "[1.0, -0.2679491924, 0.0]").replace("friction = 0.1", "friction = 0.2"), 1),
     "cradle": ("cube-bowl", {"cube[0].position": "[2.1, 3.3, 1.2]", "terrain[0].friction": 0.6}, "", 1),
 }
 # Both programs work in double precision; what sets them apart is the order of sums and, for implicit-euler, where

@@ -1,0 +1,44 @@
+// The rules that keep rounding from deciding about contact, on the device.
+#include <gtest/gtest.h>
+
+#include "cpu_reference/reference_solver.h"
+#include "gpu_solver/gpu_solver.h"
+#include "support/contact_rules.h"
+#include "support/gl_fixture.h"
+
+namespace aspic {
+namespace {
+
+class ContactRules : public aspic::testing::GlTest {
+ protected:
+  std::unique_ptr<Solver> solver(const Model& model) {
+    auto made = make_gpu_solver(context(), model, {});
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
+    return std::move(made).value();
+  }
+};
+
+TEST_F(ContactRules, WithoutRestitutionALandingComesToRest) {
+  test::expect_landing_to_rest([this](const Model& model) { return solver(model); });
+}
+
+TEST_F(ContactRules, OfPlanesInOneTheOneWithMoreFrictionHolds) {
+  test::expect_more_friction_to_hold([this](const Model& model) { return solver(model); });
+}
+
+TEST_F(ContactRules, HaveTheReferencesBits) {
+  const auto expect_equal = [this](const Model& model, std::uint64_t steps) {
+    const auto gpu = solver(model);
+    const auto reference = std::move(make_reference_solver(model, Precision::single)).value();
+    ASSERT_FALSE((*gpu->advance(steps)).has_value());
+    ASSERT_FALSE((*reference->advance(steps)).has_value());
+    EXPECT_EQ(*gpu->state(), *reference->state());
+  };
+  expect_equal(test::cube_on_slope(std::array{0.1, 0.0, 0.5, 0.2}), 60);
+  ModelSettings settings = test::low_cube(4, Integrator::explicit_euler, ContactModel::coulomb);
+  settings.contact.restitution = 0.0;
+  expect_equal(test::build(settings), 400);
+}
+
+}  // namespace
+}  // namespace aspic
