@@ -46,7 +46,7 @@ std::size_t AssembledSystem::place(std::uint32_t row, std::uint32_t column) cons
   return static_cast<std::size_t>(at - columns);
 }
 
-/// H on the diagonal, −H beside it.
+/// H on the diagonal, −H off it.
 void AssembledSystem::add(const Spring& spring, const reference::SpringJacobian<float>& H,
                           std::size_t number) {
   const Eigen::Matrix3f part =

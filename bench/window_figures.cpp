@@ -67,7 +67,7 @@ struct Case {
   std::exit(1);
 }
 
-/// Runs a scene in real time for so long, in a window of its own, as aspic-view would.
+/// Runs a scene in real time for so long, in its own window, as aspic-view would.
 Figures measure(const Case& c, double seconds) {
   auto window = app::Window::create(1280, 720, "Aspic figures");
   if (!window) fail(window.error().message);

@@ -1,11 +1,11 @@
 #!/bin/bash
-# Runs Aspic beside other programs that simulate the same cube, and prints the ratios: docs/performance.md.
+# Compares Aspic with other programs that simulate the same cube, and prints the ratios: docs/performance.md.
 # Usage: scripts/peers.sh [option of aspic bench …]; default: --backend cpu,reference --size 10,20,40
-# Installs what is missing: Debian packages, and PyPI packages in an environment of their own, build/peers/venv.
+# Installs missing packages: Debian's, and PyPI's in a separate environment, build/peers/venv.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
-# What only peers need, beside scripts/packages.txt.
+# Packages that only peers need, besides scripts/packages.txt.
 peer_packages=(libbullet-dev python3-venv)
 
 aspic_install all

@@ -1,10 +1,10 @@
 #pragma once
-// What a program of one's own uses of libaspic: scenes, models and their solvers, measures, files. Link
+// Public headers of libaspic: scenes, models and their solvers, measures, files. Link
 // aspic::aspic. No window and no command line is part of it. Fallible calls return a Result (base/result.h).
 
 #include "base/result.h"  // Result, Status, Error
 
-// model: what is simulated, as plain data in SI units
+// model: the simulated bodies, as plain data in SI units
 #include "model/model.h"   // Model, build_model()
 #include "model/solver.h"  // Solver: load(), advance(), state(), set_pull()
 #include "model/state.h"   // State, initial_state(), state_hash_text()
@@ -17,9 +17,9 @@
 // run: backends and recording
 #include "run/backends.h"   // backends(), make_backend()
 #include "run/recorder.h"   // films without a window
-#include "run/run_files.h"  // what a run can write, and states, series and checkpoints while it goes on
+#include "run/run_files.h"  // output files of a run: states, series, checkpoints
 
-// analysis: what a state comes to
+// analysis: energies, comparison, stable steps
 #include "analysis/compare.h"    // compare_states()
 #include "analysis/energy.h"     // measure()
 #include "analysis/stability.h"  // stability_limit()

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Measures Aspic on this machine's GPU: what it is, whether it computes right, and how fast. No installation: it needs
 # a driver with EGL and OpenGL 4.3, the C library, and these files. Where nvcc is, the CUDA baseline is built and run too.
-# Usage: ./run.sh [--quick] [--minutes N] [DIRECTORY]     results go to DIRECTORY, by default results-DATE beside this file
+# Usage: ./run.sh [--quick] [--minutes N] [DIRECTORY]     results go to DIRECTORY, by default results-DATE next to this file
 #   --quick      small sizes and few steps, for software rasterisers and to try the kit: minutes instead of an hour
 #   --minutes N  what has not begun after so many minutes is left out, and the report names it; default: 120. A third at most
 #                is for verify, and the comparisons begin within two thirds
@@ -44,7 +44,7 @@ fi
 leave_out() { printf -- '- %s: %s\n' "$1" "$2" >>"$out/left-out.txt"; }
 
 # step NAME FILE command …: its output goes to FILE, its messages and how it ended to the log. A step that fails ends nothing.
-# Begins within $until sixtieths of the whole time (60). Seconds it took: $took. An exit code of $also_fine is no failure either.
+# Begins within $until sixtieths of the total time (60). Seconds it took: $took. An exit code of $also_fine is no failure either.
 step() {
   local name=$1 file=$2 begun=$SECONDS status
   shift 2

@@ -1,5 +1,5 @@
 #pragma once
-// Reading files, and what to say when the system refuses one.
+// Reading files, and messages for files that the system refuses.
 #include <cstdint>
 #include <string>
 #include <string_view>

@@ -5,8 +5,9 @@
 
 namespace aspic {
 
-/// Bytes of memory this process could still take: what the system could give (MemAvailable of /proc/meminfo),
-/// and no more than its limit on address space (ulimit -v) leaves. Nothing where the system does not say.
+/// Bytes of memory this process could still take: the memory available to the system (MemAvailable of
+/// /proc/meminfo), and no more than its limit on address space (ulimit -v) leaves. Nothing where the system
+/// does not say.
 std::optional<std::uint64_t> available_memory();
 
 /// Bytes of address space that the limit of this process (RLIMIT_AS, ulimit -v) leaves; nothing without a

@@ -18,7 +18,8 @@ constexpr std::size_t shown_characters = 100;
 constexpr std::size_t longest_label = 200;
 
 /// The line as UTF-8 characters, fit for a terminal and each as wide as in the file, so that the caret stays
-/// below the culprit: tabs as single spaces, what acts on a terminal or is not UTF-8 as question marks.
+/// below the culprit: tabs as single spaces, control characters and bytes that are not UTF-8 as question
+/// marks.
 std::vector<std::string> characters_of(std::string_view line) {
   std::vector<std::string> characters;
   while (!line.empty()) {
@@ -55,7 +56,7 @@ std::string line_with_caret(std::string_view line, std::uint32_t column, std::st
 }
 
 std::string rendered(const Source& source, const Problem& problem) {
-  // A key or a name may hold a line feed of its own.
+  // A key or a name may hold a line feed.
   const std::string label = source.kind == Source::argument ? excerpt(source.label, longest_label)
                                                             : printable_line(source.label),
                     message = printable_line(problem.message);

@@ -1,5 +1,5 @@
 #pragma once
-// Messages about scene text: where, the line with a caret, what is allowed, what was probably meant.
+// Messages about scene text: the place, the line with a caret, the allowed values, a suggestion.
 #include <compare>
 #include <cstdint>
 #include <span>
@@ -29,7 +29,7 @@ struct Problem {
 
 /// A text that problems point into.
 struct Source {
-  std::string label;  ///< the file's name; for an argument the whole `--set KEY=VALUE`
+  std::string label;  ///< the file's name; for an argument the complete `--set KEY=VALUE`
   std::string text;
   enum Kind { file, argument, none } kind = file;  ///< none: a scene that was not read from text
 };

@@ -29,7 +29,7 @@ std::string_view kind_text(const toml::node& node);
 inline constexpr int deepest_nesting = 32;
 
 /// The first place where a text nests deeper, or nothing. Strings and comments are passed over by TOML's
-/// rules (version 1.0.0); what is no valid TOML up to that place is the parser's business.
+/// rules (version 1.0.0); invalid TOML up to that place is left to the parser.
 std::optional<Problem> too_deep(std::string_view text, std::uint32_t source);
 
 }  // namespace aspic::document

@@ -31,15 +31,15 @@ std::vector<std::string> followable(const ModelSettings& settings, std::uint64_t
 /// that was it.
 std::optional<std::string> followed_without(const std::string& name, std::string_view key, std::size_t index);
 
-/// The name of what a particle belongs to, or of a ball; the model is that of the settings.
+/// The name of the body that a particle belongs to, or of a ball; the model is that of the settings.
 std::string name_of_body(const ModelSettings& settings, const Model& model, std::uint32_t particle);
 std::string name_of_ball(std::uint32_t ball);
 
-/// The mean of a body's particles, or a ball's centre [m]. What is followed must be in the model, the state
+/// The mean of a body's particles, or a ball's centre [m]. The followed body must be in the model, the state
 /// of it.
 Vec3 place_of(const Model& model, const State& state, const Followed& followed);
 
-/// How far a camera moves along with what a scene's view follows.
+/// How far a camera moves along with the body that a scene's view follows.
 class Following {
  public:
   /// Nothing is followed.

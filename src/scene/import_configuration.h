@@ -22,7 +22,7 @@ struct ImportedConfiguration {
 /// number or out of range, a key given twice, a line that is neither key nor value.
 Result<ImportedConfiguration> import_configuration(std::string_view text, const std::string& file_name);
 
-/// The scene as TOML, headed by comments that say where it comes from and what it does not carry.
+/// The scene as TOML, headed by comments that name its origin and the settings it does not carry.
 std::string imported_toml(const ImportedConfiguration& imported, const std::string& file_name);
 
 }  // namespace aspic

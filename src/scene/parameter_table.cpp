@@ -169,7 +169,7 @@ Rows view_rows() {
       arrows,
       absent("as long as the picture has room for",
              row("view.arrow-scale", "N/m", {0.0, 1e12, true}, FIELD(view.arrow_scale),
-                 "Force that an arrow of a metre stands for.")),
+                 "Force that an arrow of a metre represents.")),
       word<scale_maps>("view.scale.map", FIELD(view.scale.map),
                        "Colours of the scale; automatic: blue-red for signed strain, else violet-yellow."),
       word<scale_ranges>("view.scale.range", FIELD(view.scale.range),

@@ -55,7 +55,7 @@ std::optional<std::string> complaint_about(const Parameter& p, double value) {
     }
     return fmt::format("'{}' is out of range: {}; allowed: {}", key_text(p), value, allowed_text(p));
   }
-  // The default precision is single: what is positive here must be so there.
+  // The default precision is single: a value that is positive here must be so there.
   if (r.min_excluded && static_cast<float>(value) <= static_cast<float>(r.min)) {
     return fmt::format("'{}' is out of range: {} is zero in single precision; allowed: {}", key_text(p),
                        value, allowed_text(p));

@@ -58,14 +58,14 @@ struct Parameter {
   Range range;                          ///< integer, number, vector, counts, numbers
   std::size_t components = 3;           ///< vector, counts, numbers: how many there are, 2 or 3
   std::vector<std::string_view> words;  ///< word, words: those allowed; pinned: the sides
-  const PinNames* pins = nullptr;       ///< pinned: what may be named
+  const PinNames* pins = nullptr;       ///< pinned: the names allowed
   Belonging belonging = Belonging::always;
   bool direction = false;        ///< vector: any length but zero
   bool live = true;              ///< may change while the simulation runs, without a restart
   std::string_view when_absent;  ///< what an absent value means; empty: the default is a value
   std::string_view meaning;      ///< one sentence
 
-  /// The table it stands in, `cube[]`, empty at the top of the file, and its key there, `shear.stiffness`.
+  /// The table it belongs to, `cube[]`, empty at the top of the file, and its key there, `shear.stiffness`.
   std::string_view section() const {
     return path.substr(0, path.find('.') == std::string_view::npos ? 0 : path.find('.'));
   }
@@ -118,7 +118,7 @@ std::size_t index_count(const Parameter& parameter, const Scene& scene);
 
 /// A value that is not allowed.
 struct Complaint {
-  std::string message;  ///< a sentence that names the key and says what is allowed
+  std::string message;  ///< a sentence that names the key and the values allowed
   /// Of a vector or list, the element to blame; of pinned, names come before indices.
   std::optional<std::size_t> element = {};
 };

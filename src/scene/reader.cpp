@@ -12,7 +12,7 @@ namespace {
 
 using document::position_of;
 
-/// A value in its parameter's type, or the node that is of another type and what is wrong with it.
+/// A value in its parameter's type, or the node that is of another type and its fault.
 struct WrongType {
   const toml::node* culprit;
   std::string message;
@@ -139,7 +139,7 @@ void Reader::read_member(std::string_view path, std::size_t index, std::string_v
   if (kind == PathKind::table && !value.is_table()) forget(path_text(child, index));
   const auto [entry, fresh] = written_.try_emplace(path_text(child, index), here);
   Written& written = entry->second;
-  // A table adds its keys to one that is there already; anything else takes the place of what was there.
+  // A table adds its keys to one that is there already; anything else replaces it.
   if (!fresh && (kind != PathKind::table || !value.is_table() || written.problem)) written = std::move(here);
   if (kind == PathKind::unknown) return;
   if (kind == PathKind::parameter) {

@@ -19,7 +19,7 @@ namespace aspic::reader {
 using diagnostics::Position;
 using diagnostics::Problem;
 
-/// Where a path of the scene was written last, and what is wrong with what was written.
+/// Where a path of the scene was written last, and the faults of its value.
 struct Written {
   Position key, value;
   std::vector<Position> elements;  ///< of an array's elements; of pinned, names before indices
@@ -30,7 +30,7 @@ struct Written {
 /// place and problem.
 class Reader {
  public:
-  /// `scene` is what the keys are read into: an empty one for a file's text, another for --set alone.
+  /// The keys are read into `scene`: an empty one for a file's text, another for --set alone.
   Reader(Scene scene, bool has_text) : scene_(std::move(scene)), has_text_(has_text) {}
 
   Scene& scene() { return scene_; }

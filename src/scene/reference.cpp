@@ -68,7 +68,7 @@ std::string scene_reference() {
       "A key marked *live* may change while a simulation runs; changing any other restarts it.\n\n"
       "A part that is not in the file is not in the scene: without `[[cube]]` there is no cube. Inner tables "
       "may be written\n"
-      "inline, `shear = { stiffness = 2000.0, damping = 60.0 }`, or as tables of their own.\n\n";
+      "inline, `shear = { stiffness = 2000.0, damping = 60.0 }`, or as separate tables.\n\n";
   std::string_view section = "-";
   for (const Parameter& p : parameters()) {
     if (p.section() != section) {

@@ -1,5 +1,5 @@
 #pragma once
-// A scene: what one TOML file says of physics and picture, as plain data.
+// A scene: the physics and the picture of one TOML file, as plain data.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,7 +46,7 @@ inline constexpr Named<ViewColour> view_colours[] = {
     {ViewColour::force, "force"},       {ViewColour::energy, "energy"},
     {ViewColour::speed, "speed"}};
 
-/// Whether a colour stands for a number, on a scale.
+/// Whether a colour shows a number, on a scale.
 inline bool has_scale(ViewColour colour) {
   return colour >= ViewColour::strain;
 }
@@ -59,16 +59,16 @@ inline constexpr Named<ScaleMap> scale_maps[] = {{ScaleMap::automatic, "automati
                                                  {ScaleMap::grey, "grey"},
                                                  {ScaleMap::blue_red, "blue-red"}};
 
-/// Which values the ends of a scale stand for.
+/// Which values the ends of a scale represent.
 enum class ScaleRange { fixed, automatic, symmetric };
 inline constexpr Named<ScaleRange> scale_ranges[] = {
     {ScaleRange::fixed, "fixed"}, {ScaleRange::automatic, "automatic"}, {ScaleRange::symmetric, "symmetric"}};
 
-/// The scale of a colour that stands for a number.
+/// The scale of a colour that shows a number.
 struct ScaleSettings {
   ScaleMap map = ScaleMap::automatic;
   ScaleRange range = ScaleRange::fixed;
-  /// Ends of a fixed scale, in the quantity's SI unit, strain as a ratio; absent: what suits the model.
+  /// Ends of a fixed scale, in the quantity's SI unit, strain as a ratio; absent: ends that suit the model.
   std::optional<double> from, to;
 
   friend bool operator==(const ScaleSettings&, const ScaleSettings&) = default;
@@ -81,8 +81,8 @@ enum class CutInside { off, section, springs };
 inline constexpr Named<CutInside> cut_insides[] = {
     {CutInside::off, "off"}, {CutInside::section, "section"}, {CutInside::springs, "springs"}};
 
-/// A plane of the world that bodies are cut along: what lies at normal·x > offset is not drawn, with the unit
-/// vector along `normal`.
+/// A plane of the world that bodies are cut along: their parts at normal·x > offset are not drawn, with the
+/// unit vector along `normal`.
 struct CutSettings {
   CutInside inside = CutInside::off;  ///< off: nothing is cut
   Vec3 normal = {0.0, 0.0, 1.0};      ///< of any length but zero, towards what is cut away

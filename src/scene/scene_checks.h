@@ -17,7 +17,7 @@ struct SceneComplaint : Complaint {
   bool of_key = false;     ///< the key has no place there, whatever its value
 };
 
-/// Checks every value and what only the complete scene shows: geometry of another shape, pinned indices,
+/// Checks every value and conditions of the complete scene: geometry of another shape, pinned indices,
 /// boxes, the camera, a scene in which nothing moves, more than 32-bit indices or `memory_bytes` (absent: any
 /// number) hold. Empty if the scene is legal.
 std::vector<SceneComplaint> check_scene(const Scene& scene,

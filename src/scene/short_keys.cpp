@@ -90,10 +90,9 @@ Result<std::vector<std::string>> assignments(const Scene& scene, std::string_vie
   }
   const std::vector<ShortKeyTarget> targets = row->targets(scene);
   if (targets.empty()) {
-    return fail(
-        ErrorCode::usage,
-        "{} stands for {}, and {} has nothing of the kind; name a key that it has (aspic scene show).", key,
-        row->meaning, scene.name);
+    return fail(ErrorCode::usage,
+                "{} means {}, and {} has nothing of the kind; name a key that it has (aspic scene show).",
+                key, row->meaning, scene.name);
   }
   std::vector<std::string> result;
   for (const ShortKeyTarget& target : targets) {

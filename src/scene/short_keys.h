@@ -1,5 +1,5 @@
 #pragma once
-// Short names for what students vary: each stands for one or more keys of the scene at hand.
+// Short names for commonly varied values: each means one or more keys of the current scene.
 #include <optional>
 #include <span>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace aspic {
 
-/// A key that a short name stands for in a scene.
+/// A key that a short name means in a scene.
 struct ShortKeyTarget {
   std::string path;     ///< `cube[0].shear.stiffness`
   double factor = 1.0;  ///< its value over that of the first target; 1 where values are no numbers
@@ -32,7 +32,7 @@ const ShortKey* find_short_key(std::string_view name);
 
 /// KEY=VALUE arguments that set `key`, a short name or a path of the parameter table, in a scene. Of a short
 /// name with several targets that are numbers, each keeps its ratio to the first. Error (usage): the scene
-/// has nothing that the short name stands for, a number is needed, or a short name is mistyped.
+/// has nothing that the short name means, a number is needed, or a short name is mistyped.
 Result<std::vector<std::string>> assignments(const Scene& scene, std::string_view key,
                                              const std::string& value);
 

@@ -55,7 +55,7 @@ struct Writer {
   }
 };
 
-/// A line of the file: what is said, and the comment behind it.
+/// A line of the file: its text, and the comment behind it.
 struct Line {
   std::string text, comment;
 };
