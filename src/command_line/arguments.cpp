@@ -348,7 +348,8 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion&) {
     return Command(ShowText{"aspic " ASPIC_VERSION "\n"});
   } catch (const CLI::Success&) {
-    return Command(ShowText{named_command(app).help()});
+    const CLI::App& command = named_command(app);
+    return Command(ShowText{command.help(command.get_parent() ? full_name(*command.get_parent()) : "")});
   } catch (const CLI::ParseError& error) {
     const CLI::App& command = named_command(app);
     const auto extras = command.remaining();

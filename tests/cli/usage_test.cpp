@@ -33,6 +33,12 @@ TEST(Usage, VersionAndHelpAreData) {
   EXPECT_THAT(aspic({"scene", "--help"}).out, HasSubstr("check"));
 }
 
+TEST(Usage, HelpNamesTheCompleteCommand) {
+  EXPECT_THAT(aspic({"--help"}).out, HasSubstr("Usage: aspic [OPTIONS]"));
+  EXPECT_THAT(aspic({"run", "--help"}).out, HasSubstr("Usage: aspic run [OPTIONS]"));
+  EXPECT_THAT(aspic({"scene", "check", "--help"}).out, HasSubstr("Usage: aspic scene check [OPTIONS]"));
+}
+
 TEST(Usage, EveryOptionIsDocumented) {
   std::ifstream file(ASPIC_SOURCE_DIR "/docs/commands.md");
   const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
