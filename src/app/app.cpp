@@ -129,7 +129,8 @@ std::vector<Command> App::make_commands() {
       {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
       {"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
       {"F12", "save the picture", GLFW_KEY_F12, 0, 0, [this] { shot_wanted_ = Shot::picture; }},
-      {"Shift+F12", "save the whole window", GLFW_KEY_F12, shift, 0, [this] { shot_wanted_ = Shot::window; }},
+      {"Shift+F12", "save the complete window", GLFW_KEY_F12, shift, 0,
+       [this] { shot_wanted_ = Shot::window; }},
   };
 }
 
@@ -268,7 +269,7 @@ void App::character(unsigned int code_point) {
   deliver_keys();
 }
 
-/// To the text field that has the keyboard, else to the command they stand for; some wait for the next
+/// To the text field that has the keyboard, else to the command they belong to; some wait for the next
 /// picture.
 void App::deliver_keys() {
   while (!keys_.empty() && gui_->ready_for(keys_.front())) {
@@ -352,7 +353,7 @@ Status App::frame(const WindowSize& size, double dt) {
   return made;
 }
 
-/// Of several runs the picture is what the window shows of them, with their names.
+/// Of several runs the picture is the window's view of all, with their names.
 Status App::save_shot(Shot wanted, const WindowSize& size, const std::string& path) {
   if (wanted == Shot::window) return save_pixels(0, {size.pixel_width, size.pixel_height}, path);
   if (!beside.several()) return picture.save(path);

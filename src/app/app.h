@@ -55,14 +55,14 @@ class App final : public EventReceiver {
   /// take the app on then (replace_window).
   Status frame(const WindowSize& size, double dt);
   /// Releases all that the context holds, while it is still current: films are completed as far as they
-  /// came, a run that needs the context goes on on the reference from the last copy, and a message will say
-  /// so.
+  /// came, a run that needs the context continues on the reference from the last copy, and a message will
+  /// say so.
   Status release_context(const Error& why);
-  /// Goes on in another context, current from now on, after release_context(). Errors as create().
+  /// Continues in another context, current from now on, after release_context(). Errors as create().
   Status adopt_context(gl::Context& context, double scale, WindowServices services);
   /// Nothing moves: the next picture would be the same but for events.
   bool idle() const;
-  /// The picture to come would be the last one once more: there is no need to make it. Then doze() instead,
+  /// The next frame would be identical: there is no need to draw it. Then doze() instead,
   /// `dt` ≥ 0 after the last call [s], which looks at the scene's file; true if there is something to show
   /// again.
   bool asleep() const;

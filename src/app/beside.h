@@ -56,9 +56,9 @@ class Beside {
   /// Back to one run.
   void leave();
 
-  /// The window's own run diverged and others go on.
+  /// The window's own run diverged and others continue.
   bool others_go_on() const { return leader_.divergence() && stand_in() != nullptr; }
-  /// Starts or pauses those that go on. False if the window's own run is the one to start.
+  /// Starts or pauses those that continue. False if the window's own run is the one to start.
   bool toggle();
   bool running() const { return others_run_; }
   /// Why hands that touch particles cannot act on all runs; nothing: they can.

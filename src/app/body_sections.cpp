@@ -73,8 +73,8 @@ void add_body_button(Gui& gui, SceneControl& scene, const SettingsList& list) {
   if (add_button(
           gui, list.key,
           fmt::format(
-              "Adds a {}, like the last one if there is one, beside the bodies that there are. Restarts "
-              "the simulation.",
+              "Adds a {}, a copy of the last one if there is one, next to the existing bodies. Restarts the "
+              "simulation.",
               spaced(list.key))))
     add_body(scene, list);
 }

@@ -59,7 +59,7 @@ class CameraControl {
   static CameraSettings settings_of(const Orbit& orbit);
   /// To the point at (dx, dy) of the goal's view from the target [m].
   Vec3 across(double dx, double dy, double fov) const;
-  /// The shown camera as many whole turns away as brings it nearest to an azimuth [radians].
+  /// The shown camera, turned by the multiple of 360° that brings it nearest to an azimuth [radians].
   void come_round(double azimuth);
 
   CameraSettings home_;

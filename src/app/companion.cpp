@@ -47,7 +47,7 @@ std::uint64_t Companion::step_at(double time) const {
   return nearest_step(time, simulation_->model().simulation.timestep);
 }
 
-/// The run began anew, or is another: so is this one.
+/// The run restarted, or is another one: so is this one.
 Status Companion::take_over(const Scene& scene, const Simulation& leader) {
   Simulation& own = *simulation_;
   if (!own_backend_ && &leader.backend() != &own.backend()) ASPIC_CHECK(own.set_backend(leader.backend()));

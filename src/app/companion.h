@@ -1,5 +1,5 @@
 #pragma once
-// A run beside the window's own: the same scene with one difference, on the same clock.
+// A run compared with the window's own: the same scene with one difference, on the same clock.
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -30,7 +30,7 @@ class Companion {
   Simulation& simulation() { return *simulation_; }
   ScenePicture& picture() { return *picture_; }
 
-  /// Once for each picture: takes on what became of the window's own run, and goes to its time. `dt` and
+  /// Once for each picture: follows the window's own run to its time, resets and changes included. `dt` and
   /// `budget` as of Simulation::update(). Errors: those of Simulation.
   Status follow(const Scene& scene, const Simulation& leader, double dt, double budget);
   /// Goes to a time [s] that only runs like this one have come to.

@@ -1,4 +1,4 @@
-// What stands in the corners of the view, in window pixels whatever the picture's own: labels, legends and
+// The corners of the view, in window pixels whatever the picture's own: labels, legends and
 // axes.
 #include <fmt/format.h>
 #include <imgui.h>

@@ -142,7 +142,7 @@ std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> li
                     each = fmt::format("lines every {:.4g} {}, {:.3g} s", tick, unit, time_tick),
                     end = fmt::format("{:.3g} s", start + span);
   const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
-  // Beside the upper end where both fit, else in a line of its own.
+  // Next to the upper end where both fit, else in a separate line.
   const bool beside = width(top) + width(each) + 4.0f * pad < size.x;
   const float above = beside ? text_height : 2.0f * text_height;
   const auto place = [&](double t, double e) {
@@ -233,7 +233,7 @@ void pass_times(Gui& gui, GpuSolver& solver) {
   const float column = ImGui::GetWindowContentRegionMax().x * 0.52f;
   for (const gl::PassTime& pass : passes) {
     ImGui::TextDisabled("   %s", pass.name.c_str());
-    // A long name has a line of its own.
+    // A long name has a separate line.
     if (ImGui::GetItemRectSize().x + 4.0f < column)
       ImGui::SameLine(column);
     else

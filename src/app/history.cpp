@@ -38,7 +38,7 @@ std::uint64_t Stretch::bytes() const {
 }
 
 void History::clear() {
-  // Numbers go on, so that no moment of the old run passes for one of the new.
+  // Numbers continue, so that no moment of the old run is taken for one of the new.
   first_number_ += stretches_.size();
   stretches_.clear();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The run so far, so that any of its steps can be had again: keyframes, and the inputs between them. Steps
+// The run so far, so that any step can be restored: keyframes, and the inputs between them. Steps
 // between two keyframes are simulated once more, which gives the same bits (docs/determinism.md).
 #include <cstdint>
 #include <deque>
@@ -39,7 +39,7 @@ State unpack(const Keyframe& keyframe);
 /// A part of the run with the same setup throughout.
 struct Stretch {
   Setup setup;
-  std::uint64_t first = 0, last = 0;  ///< steps that can be had
+  std::uint64_t first = 0, last = 0;  ///< restorable steps
   std::deque<Keyframe> keyframes;     ///< ascending; the first one is of step `first`
   std::vector<PullChange> pulls;      ///< ascending, at most one a step
   std::uint64_t bytes() const;
@@ -55,7 +55,7 @@ class History {
   void clear();
   bool empty() const { return stretches_.empty(); }
 
-  /// The run goes on from this state with another setup. A stretch without a step is replaced.
+  /// The run continues from this state with another setup. A stretch without a step is replaced.
   void begin(const Setup& setup, const State& state);
   /// The last stretch has come to this step.
   void reach(std::uint64_t step);

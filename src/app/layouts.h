@@ -1,5 +1,5 @@
 #pragma once
-// How the window can be arranged: rows of a table to choose from, and what was made of each.
+// How the window can be arranged: rows of a table to choose from, and the user's changes to each.
 #include <algorithm>
 #include <map>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace aspic::app {
 
-/// Where things stand in the window.
+/// Where things are in the window.
 struct Layout {
   static constexpr double side_width = 322.0, narrowest = 240.0, widest = 800.0;
   static constexpr double smallest_text = 0.75, largest_text = 2.5;
@@ -23,15 +23,15 @@ struct Layout {
   friend bool operator==(const Layout&, const Layout&) = default;
 };
 
-/// A layout to choose: what it is at first. The sections are those of panels.cpp, by heading.
+/// A layout as it is at first. The sections are those of panels.cpp, by heading.
 struct LayoutRow {
   std::string_view name, title, summary;
   std::span<const std::string_view> open;           ///< sections that are open
   std::span<const std::string_view> sections = {};  ///< that there are; empty: all
   bool panels = true, clock = false;
   double text_size = 1.0, side_width = Layout::side_width;
-  int sides = 2;        ///< panels beside the picture, 1 or 2
-  bool readout = true;  ///< tells of what is under the mouse
+  int sides = 2;        ///< panels at the sides of the picture, 1 or 2
+  bool readout = true;  ///< describes the thing under the mouse
 
   Layout at_first() const { return {panels, side_width, side_width, text_size, clock, {}}; }
 };

@@ -63,7 +63,7 @@ int show(const ViewOptions& view) {
     if (((*window)->should_close() && !(*app)->may_close()) || (*app)->closes())
       (*window)->set_should_close((*app)->closes());
     const auto now = Clock::now();
-    // After a pause of the program itself time goes on; it does not catch up.
+    // After a pause of the program itself time continues; it does not catch up.
     const double dt = std::min(std::chrono::duration<double>(now - last).count(), 0.25);
     last = now;
     if ((*app)->asleep() && !(*app)->doze(dt)) continue;

@@ -15,7 +15,7 @@ TypedCheck between(double low, double high);
 
 /// A number as text that is always there to be typed into. True once it was entered, by Enter or a click
 /// elsewhere, as another one; what is no number, or a wrong one, changes nothing, see take_typing_error().
-/// `label` is ImGui's, `shown` what stands there otherwise.
+/// `label` is ImGui's, `shown` the text there otherwise.
 bool number_field(const char* label, const std::string& shown, double& value, const TypedCheck& check);
 
 /// ImGui's drag and slider, which stay in low … high and are typed into in the same way after Ctrl+click or a

@@ -60,7 +60,8 @@ bool on_one_line(std::vector<Number>& values, const std::function<bool(Number&)>
   return changed;
 }
 
-/// What the scene's check says of a number of the parameter. A direction is checked whole once it is set.
+/// What the scene's check says of a number of the parameter. A direction is checked as one value once it is
+/// set.
 TypedCheck check_of(const Parameter& p) {
   return [&p](double typed) -> std::optional<std::string> {
     const auto wrong = p.direction ? std::nullopt : check_value(p, Value(typed));
@@ -184,7 +185,7 @@ std::optional<Value> widget(const Field& f, PinnedSettings value) {
   return check_boxes(f, value.names) ? std::optional<Value>(value) : std::nullopt;
 }
 
-/// What a key starts with when it is set: the value that its absence stood for, where that is a number.
+/// The first value of a key when it is set: the one that its absence meant, where that is a number.
 Value first_value(const Parameter& p, const Scene& scene) {
   if (p.path == "terrain[].restitution") return scene.model.contact.restitution;
   if (p.path == "terrain[].friction") return scene.model.contact.friction;
@@ -203,7 +204,7 @@ std::string tooltip_of(const Parameter& p, std::size_t index) {
   return text;
 }
 
-/// Where a value would stand: what its absence means, if there is room for that.
+/// In the place of a value: the meaning of its absence, if there is room for that.
 void absent_text(std::string_view meaning) {
   if (meaning == "that of [contact]") meaning = "as above";
   const float width = ImGui::CalcTextSize(meaning.data(), meaning.data() + meaning.size()).x;

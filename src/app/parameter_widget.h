@@ -40,7 +40,7 @@ std::string capitalized(std::string words);
 
 /// A tooltip for the widget just made, with the keys of the command of that name if there is one.
 void tooltip(std::string_view text, std::string_view command = "");
-/// Text broken at blanks alone, so that numbers stay whole, into lines of at most `width` [window units].
+/// Text broken at blanks alone, so that numbers are not split, into lines of at most `width` [window units].
 void wrapped_text(std::string_view text, float width);
 /// Names the widget just made, for the watcher, and gives it a tooltip.
 void named(Gui& gui, std::string_view name, std::string_view help, std::string_view command = "");

@@ -1,4 +1,4 @@
-// The rows of the section View that set the scale of a colour that stands for a number.
+// The rows of the section View that set the scale of a colour that shows a number.
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 

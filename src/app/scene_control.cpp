@@ -45,7 +45,7 @@ void SceneControl::reload() {
   if (!messages_.notice()) messages_.info(fmt::format("{} reloaded.", source));
 }
 
-/// The file was written: constants take effect while the motion goes on, and undo comes back to what was
+/// The file was written: constants take effect while the motion continues, and undo comes back to what was
 /// here.
 void SceneControl::reread_file() {
   const auto loaded = editor_.other(editor_.source());

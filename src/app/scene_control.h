@@ -40,7 +40,7 @@ class SceneControl {
   void apply(Scene scene, const std::string& name, const std::string& gesture = "");
   void change(const std::string& name, const std::function<void(Scene&)>& make,
               const std::string& gesture = "");
-  /// Which runs go beside the scene's own: see SceneEditor.
+  /// The runs that are compared with the scene's own: see SceneEditor.
   void set_beside(std::vector<Variation> beside, const std::string& name) {
     editor_.set_beside(std::move(beside), name);
     unchanged_for_ = 0.0;

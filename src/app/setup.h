@@ -1,5 +1,5 @@
 #pragma once
-// What a run is made of: the physics of a scene, and what hands have added to it since it began.
+// The setup of a run: the physics of a scene, and the balls, pins and pulls added by hand since it began.
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -25,7 +25,7 @@ struct Setup {
 Result<Model> build_model(const Setup& setup);
 
 /// A state of a model with fewer balls as one of `model`: balls that are missing at the end start as the
-/// model says, pinned particles stand still. The number of particles must be the model's.
+/// model says, pinned particles do not move. The number of particles must be the model's.
 State grown_state(const Model& model, State state);
 
 }  // namespace aspic::app

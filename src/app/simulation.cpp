@@ -1,4 +1,4 @@
-// What is simulated, and by whom: setups, backends, hands. simulation_run.cpp has what moves it.
+// The simulated setup and its backends: setups, backends, hands. simulation_run.cpp advances it.
 #include "app/simulation.h"
 
 #include <fmt/format.h>
@@ -93,7 +93,7 @@ Status Simulation::change_setup(Setup setup, bool keep_state) {
   return finish_change(std::move(change));
 }
 
-/// What is to be built, and the state it goes on from: snapshot_ is that of the step, and stays so.
+/// The setup to be built, and the state it continues from: snapshot_ is that of the step, and stays so.
 Simulation::Change Simulation::begin_change(Setup setup, bool keep_state) const {
   Change change{std::move(setup), keep_state, snapshot_, model().balls.size() - setup_.thrown.size()};
   if (!keep_state) {
@@ -101,7 +101,7 @@ Simulation::Change Simulation::begin_change(Setup setup, bool keep_state) const 
     change.setup.pinned.clear();
   }
   const double h = setup_.settings.simulation.timestep, other = change.setup.settings.simulation.timestep;
-  // Time goes on from where it was, in steps of the new length.
+  // Time continues from where it was, in steps of the new length.
   if (const double t = time() / other; h != other && t < 0x1p62)
     change.state.step = static_cast<std::uint64_t>(std::llround(t));
   for (Ball& ball : change.setup.thrown) ball.launch_step = std::min(ball.launch_step, change.state.step);
@@ -126,7 +126,7 @@ Status Simulation::finish_change(Change change) {
   return {};
 }
 
-/// The run goes on with this state and setup.
+/// The run continues with this state and setup.
 Status Simulation::begin_history(const State& state) {
   ASPIC_CHECK(load(state));
   history_.begin(setup_, state);
@@ -198,7 +198,7 @@ Status Simulation::set_shadow(const BackendRow* row) {
   return {};
 }
 
-/// The reference goes on from the last copy of a state that was lost with the context.
+/// The reference continues from the last copy of a state that was lost with the context.
 Status Simulation::fall_back(const Error& error) {
   if (!engines_.use_context()) return error;
   worker_.finish();

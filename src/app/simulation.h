@@ -25,8 +25,8 @@
 namespace aspic::app {
 
 /// All calls from the window's thread, with its context current. A backend that needs the context advances in
-/// batches that keep within a frame; every other in a thread of its own, beside the drawing of the state that
-/// it finished last. No call but settle() waits for a step that takes long: it is dropped and begun again.
+/// batches that keep within a frame; every other in a separate thread, while the state it finished last is
+/// drawn. Only settle() waits for a long step; other calls cancel it and repeat it later.
 class Simulation {
  public:
   /// `context` must outlive it. Errors: those of the scene and of make_backend().
@@ -35,12 +35,12 @@ class Simulation {
                                                     const BackendChoice& asked = {});
 
   // ---- what is simulated, and by whom ----
-  /// Runs a changed scene from now on. With `keep_state` the motion goes on with other constants, where the
+  /// Runs a changed scene from now on. With `keep_state` the motion continues with other constants, where the
   /// bodies have the same particles. Errors leave everything as it was: scene_rejected, no_device.
   Status change(const Scene& scene, bool keep_state);
   /// The same without waiting: where building takes long a thread does it while nothing moves, and a later
-  /// update() goes on with it. take_change() tells how a change ended, once for each; a request before that
-  /// replaces one that has not begun.
+  /// update() continues with it. take_change() returns how a change ended, once for each; a request before
+  /// that replaces one that has not begun.
   void request_change(const Scene& scene, bool keep_state);
   std::optional<Status> take_change() { return std::exchange(change_result_, std::nullopt); }
   bool changing() const { return requested_.has_value() || change_.has_value(); }
@@ -59,15 +59,15 @@ class Simulation {
   /// start again.
   Status start_from(const State& state);
   const Setup& setup() const { return setup_; }
-  /// Changes whenever the run began anew, by reset() or start_from().
+  /// Changes whenever the run restarts, by reset() or start_from().
   std::uint64_t run_number() const { return run_number_; }
   /// Runs another setup from now on, as change() does; hands that are no part of it are undone.
   Status adopt(Setup setup, bool keep_state) {
     requested_.reset();
     return change_setup(std::move(setup), keep_state);
   }
-  /// Before the context goes: what needs it goes on on the reference, from the last copy; take_message()
-  /// tells `why`.
+  /// Before the context goes: a run that needs it continues on the reference, from the last copy;
+  /// take_message() tells `why`.
   Status leave_context(const Error& why) { return engines_.use_context() ? fall_back(why) : Status(); }
   /// The context of solvers to come, after leave_context().
   void set_context(gl::Context& context) { factory_.set_context(context); }
@@ -150,12 +150,12 @@ class Simulation {
   /// Spring evaluations per second; nothing with implicit-euler, which has no fixed number a step.
   std::optional<double> spring_evaluations_per_second() const;
   const Samples& samples() const { return samples_; }
-  /// What happened unasked since the last call, in a sentence: a backend failed and the reference goes on.
+  /// What happened unasked since the last call, in a sentence: a backend failed and the reference continues.
   std::optional<std::string> take_message() { return std::exchange(message_, std::nullopt); }
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// Another setup on its way, the state that goes on in it, and once they are made its solvers.
+  /// Another setup on its way, the state that continues in it, and once they are made its solvers.
   struct Change {
     Setup setup;
     bool keep_state = false;

@@ -1,5 +1,5 @@
 #pragma once
-// Which time steps and stiffnesses are stable for a scene, measured by a thread of its own.
+// Which time steps and stiffnesses are stable for a scene, measured in the background.
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -26,12 +26,12 @@ struct StabilityCells {
 /// All calls from one thread.
 class StabilityMap {
  public:
-  /// Once for each picture that shows it: measures anew where the scene is another but for its time step and
+  /// Once for each picture that shows it: measures again where the scene is another but for its time step and
   /// stiffness, or where these have left the map. Fewer than 20,000 particles are run; of more there is
   /// theory alone.
   void update(const Scene& scene);
 
-  /// Of the scene last updated; null where it has no springs with a stiffness of their own.
+  /// Of the scene last updated; null where it has no springs with a separate stiffness.
   const StabilityCells* cells() const { return map_.steps.empty() ? nullptr : &map_; }
   /// Where the scene is on it.
   double step() const { return step_; }

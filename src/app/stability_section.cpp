@@ -133,10 +133,9 @@ void stability_section(Gui& gui, SceneControl& scenes) {
   const StabilityCells* const cells = map.cells();
   if (!cells) {
     ImGui::TextWrapped(
-        "%s",
-        map.busy()
-            ? "Looking at the springs…"
-            : "No springs with a stiffness of their own; those of a material follow its Young's modulus.");
+        "%s", map.busy()
+                  ? "Looking at the springs…"
+                  : "No springs with a separate stiffness; those of a material follow its Young's modulus.");
     return;
   }
   const float scale = static_cast<float>(gui.scale()), line = ImGui::GetTextLineHeight();
@@ -147,7 +146,7 @@ void stability_section(Gui& gui, SceneControl& scenes) {
     ImGui::TextDisabled("   measuring…");
     gui.mark("stability/measuring");
     gui.keep_awake();
-    tooltip("Cells are run one after another by a thread of their own; grey ones are still to come.");
+    tooltip("Cells are computed in the background; grey cells are pending.");
   }
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size = {std::max(60.0f, ImGui::GetContentRegionAvail().x - left), 170.0f * scale};

@@ -31,12 +31,12 @@ struct View {
   CameraControl camera;
   Box box;                           ///< where the scene is drawn [window units]
   Box whole;                         ///< the same with all runs that are side by side
-  std::vector<OtherPicture> others;  ///< of the runs beside it
+  std::vector<OtherPicture> others;  ///< of the runs compared with it
   double pixels_per_unit = 1.0;      ///< of the framebuffer
   double text_scale = 1.0;           ///< of the panels, see Gui::scale()
   std::vector<KeptCamera> kept;      ///< of scenes seen before
 
-  bool recalled = false;  ///< a camera was that nobody has looked through since
+  bool recalled = false;  ///< a saved camera was restored and not drawn yet
 
   /// The first picture's camera is moved along by so much [m] with what the scene says, or with nothing.
   /// Where that is something else than before, the picture stays as it is.

@@ -1,4 +1,4 @@
-// The section of the picture: what is drawn, from where, and how large the words are.
+// The section of the picture: the things drawn, the camera, and the size of text.
 #include <fmt/format.h>
 #include <imgui.h>
 

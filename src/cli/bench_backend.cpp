@@ -46,7 +46,7 @@ class BackendContestant final : public Contestant {
     return took;
   }
 
-  /// Device time by pass, from steps of their own: the time stamps are none of what is measured.
+  /// Device time by pass, from separate steps, so that the time stamps do not disturb the measurement.
   Status finish() override {
     if (!backend_.gpu) return {};
     ASPIC_CHECK(make_current());

@@ -89,7 +89,7 @@ class Case {
     return {};
   }
 
-  /// Warms up and measures, everyone in turn, so that what else the machine does meets all alike.
+  /// Warms up and measures, everyone in turn, so that other work of the machine affects all alike.
   Status measure() {
     for (int repeat = -options_.warm_up; repeat < options_.repeats; ++repeat) {
       for (const auto& contestant : contestants_) {
@@ -183,7 +183,7 @@ Status execute(const BenchOptions& options) {
   if (!report.interrupted) return measured;
   return Error{ErrorCode::interrupted, report.rows.empty()
                                            ? "interrupted; nothing was measured."
-                                           : "interrupted; the rows have what was measured before."};
+                                           : "interrupted; the rows have the measurements made before."};
 }
 
 }  // namespace aspic::cli

@@ -19,7 +19,7 @@
 namespace aspic::cli {
 namespace {
 
-/// A run beside others, with all that it holds. Not movable: its parts refer to each other.
+/// One of several runs, with all that it holds. Not movable: its parts refer to each other.
 struct Member {
   Member(Variant variant, RunFiles opened) : run(std::move(variant)), files(std::move(opened)) {}
   Member(const Member&) = delete;
@@ -43,7 +43,7 @@ Status refuse_what_needs_one_run(const RunOptions& options) {
   for (const StateOutput& output : options.outputs)
     if (output.path.starts_with("/dev/"))
       return fail(ErrorCode::usage,
-                  "--{} {}: with --beside every run writes a file of its own; name a file, such as out.csv, "
+                  "--{} {}: with --beside every run writes a separate file; name a file, such as out.csv, "
                   "which becomes out-1.csv, out-2.csv and so on.",
                   output.option, output.path);
   return {};

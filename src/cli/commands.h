@@ -37,7 +37,7 @@ Status execute(const VerifyOptions& options);
 Status execute(const SceneListOptions& options);
 Status execute(const SceneShowOptions& options);
 Status execute(const SceneCheckOptions& options);
-/// The scene goes to stdout; what it cannot carry is listed there in comments and on stderr.
+/// The scene goes to stdout; settings that it cannot carry are listed there in comments and on stderr.
 Status execute(const SceneImportOptions& options);
 
 /// Never fails for want of a GPU: says so instead.

@@ -30,8 +30,7 @@ Status execute(const ReportOptions& options) {
   }
   std::string text;
   for (const std::string& file : summary.files) text += fmt::format("wrote        {}\n", file);
-  return print_text(text +
-                    fmt::format("with         {} figures and CSV files beside them\n", summary.data_files));
+  return print_text(text + fmt::format("with         {} figures and CSV files\n", summary.data_files));
 }
 
 }  // namespace aspic::cli

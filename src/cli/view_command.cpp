@@ -9,7 +9,7 @@
 
 namespace aspic::cli {
 
-// The window is a program of its own, so that this one starts on machines without X libraries.
+// The window is a separate program, so that this one starts on machines without X libraries.
 Status execute(const ViewOptions& options) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);

@@ -1,5 +1,5 @@
 #pragma once
-// Words of a command line that stand for numbers, checked before they are converted.
+// Words of a command line that are numbers, checked before they are converted.
 #include <cstdint>
 #include <string>
 

@@ -69,7 +69,7 @@ inline constexpr const char* report_examples = R"(Examples:
   aspic report my-scene.toml --out report --thorough
   aspic report cube-plane --only stability --only contact --out part
 
-report.html is one file, light or dark as the reader's system is; report.md has its pictures beside it; report.pdf
+report.html is one file, light or dark as the reader's system is; report.md has its pictures in figures/; report.pdf
 is made where chromium, weasyprint or wkhtmltopdf is installed. The numbers behind each figure are in data/.)";
 
 inline constexpr const char* verify_examples = R"(Examples:

@@ -1,5 +1,5 @@
 #pragma once
-// The names of the window's layouts, which `aspic view` takes; app/layouts.h says what they are.
+// The names of the window's layouts, which `aspic view` takes; app/layouts.h describes them.
 #include <string_view>
 
 namespace aspic {

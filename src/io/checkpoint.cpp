@@ -230,7 +230,7 @@ Status check_size(const std::string& path, std::uint64_t size, std::uint64_t bef
 }  // namespace
 
 Result<Checkpoint> read_checkpoint(const std::string& path) {
-  // The first bytes come first: what is no checkpoint needs no memory to be refused.
+  // The first bytes come first: a file that is no checkpoint needs no memory to be refused.
   constexpr std::uint64_t before_texts = magic.size() + 4 + 4 + 3 * 8;  // as encode_checkpoint() writes them
   ASPIC_TRY(const auto start, read_regular_file(path, before_texts));
   Decoder in(start.content);

@@ -119,7 +119,7 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   return result;
 }
 
-/// posix_spawnp, in a process group of its own if `apart`.
+/// posix_spawnp, in a separate process group if `apart`.
 int spawn(const std::vector<std::string>& arguments, const Streams& streams, char* const* environment,
           bool apart, pid_t& pid) {
   posix_spawn_file_actions_t actions;

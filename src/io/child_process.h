@@ -16,7 +16,7 @@ namespace aspic {
 
 class Movement;
 
-/// A program that reads what we write, found on PATH, started without a shell. It has a process group of its
+/// A program that reads our output, found on PATH, started without a shell. It has a process group of its
 /// own, so that Ctrl-C reaches us alone and its input ends in good order. Its standard output goes nowhere
 /// unless it answers; its standard error is kept. Once we are asked to end (base/end_request.h), one that no
 /// longer moves, neither computing nor reading or writing, is ended after a few seconds.

@@ -20,7 +20,7 @@ inline constexpr std::string_view series_csv_header =
 inline constexpr std::string_view series_csv_solve_header =
     ",newton_iterations,cg_iterations,residual,converged,stagnated,not_converged";
 
-/// Writes rows as a run goes on; the file appears when finish() succeeds.
+/// Writes rows during a run; the file appears when finish() succeeds.
 class SeriesWriter {
  public:
   /// Opens the file (AtomicFile::create) and writes the header, with the columns of solves if `solves`.
@@ -30,7 +30,7 @@ class SeriesWriter {
   /// the run's statistics so far, read only where the file has their columns. Errors: io from the file;
   /// diverged if a figure is not finite.
   Status add(const Model& model, const State& state, const SolveStatistics& solves = {});
-  /// The same with what was measured at a step, at `time` [s].
+  /// The same with the measurements of a step, at `time` [s].
   Status add(std::uint64_t step, double time, const Measures& measures, const SolveStatistics& solves = {});
 
   /// Completes the file with the rows so far.

@@ -20,7 +20,7 @@ struct RunFacts {
   Integrator integrator = Integrator::explicit_euler;
 };
 
-/// A state of a run, with what belongs to it.
+/// A state of a run, with its model and scene.
 struct Sample {
   const Model& model;
   const State& state;

@@ -149,7 +149,7 @@ std::vector<std::string_view> names_where(Predicate holds) {
   return names;
 }
 
-/// Something that a choice may ask for, beside a force path, and not every row has.
+/// Something besides a force path that a choice may ask for, and not every row has.
 struct Ability {
   bool (*asked)(const BackendChoice&);
   bool (*had)(const BackendRow&);
@@ -314,7 +314,7 @@ Status check_choice(const BackendChoice& choice) {
     std::vector<std::string> wishes;
     for (const Ability& ability : abilities)
       if (ability.asked(choice)) wishes.push_back(only_those_with(ability));
-    return fail(ErrorCode::usage, "no backend does all that is asked for: {}.", fmt::join(wishes, ", "));
+    return fail(ErrorCode::usage, "no backend supports this combination: {}.", fmt::join(wishes, ", "));
   }
   if (choice.force_path == ForcePath::automatic) return {};
   const auto possible = [&](const BackendRow& row) {

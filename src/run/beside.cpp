@@ -24,13 +24,14 @@ Result<Variation> parse_variation(const std::string& text) {
 Result<std::vector<Variant>> runs_beside(const Scene& scene, const BackendChoice& backend,
                                          const std::vector<Variation>& differences) {
   if (differences.size() >= most_beside)
-    return fail(ErrorCode::usage, "--beside is given {} times; at most {} runs go beside the scene's own.",
+    return fail(ErrorCode::usage,
+                "--beside is given {} times; at most {} runs are compared with the scene's own.",
                 differences.size(), most_beside - 1);
   std::vector<Variant> runs = {{scene, backend}};
   for (const Variation& difference : differences) {
     auto run = varied(scene, backend, std::span(&difference, 1));
     if (!run) {
-      return fail(run.error().code, "--beside {}={} makes no run:\n{}", printable_line(difference.key),
+      return fail(run.error().code, "the variant {}={} cannot be run:\n{}", printable_line(difference.key),
                   printable_line(difference.value), run.error().message);
     }
     runs.push_back(std::move(*run));

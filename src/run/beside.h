@@ -27,7 +27,7 @@ Result<Variation> parse_variation(const std::string& text);
 Result<std::vector<Variant>> runs_beside(const Scene& scene, const BackendChoice& backend,
                                          const std::vector<Variation>& differences);
 
-/// What distinguishes a run from those beside it: a line for each key that differs in one of them, once.
+/// How a run differs from the others: a line for each key that differs in one of them, once.
 /// `backend`: what computes this one.
 std::vector<OverlayLine> label_of(const std::vector<Variation>& differences, const Scene& scene,
                                   const std::string& backend);
@@ -39,7 +39,7 @@ std::vector<OverlayLine> beside_text(std::vector<OverlayLine> label, double time
 /// Height of the text on the parts of a picture of that height, which so many runs share [pixels].
 int beside_text_height(int picture_height, std::size_t runs);
 
-/// How far a run of its own time step goes.
+/// How far a run with its own time step goes.
 struct Span {
   double timestep = 0.0;        ///< [s], > 0
   std::uint64_t last_step = 0;  ///< where it ends

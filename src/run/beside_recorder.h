@@ -20,7 +20,7 @@
 
 namespace aspic {
 
-/// A run as its picture needs it; what it names must outlive the recorder.
+/// A run as its picture needs it; the objects it refers to must outlive the recorder.
 struct PicturedRun {
   const Scene* scene = nullptr;
   const Backend* backend = nullptr;
@@ -36,7 +36,7 @@ class BesideRecorder {
                                                         std::vector<std::unique_ptr<FrameSink>> sinks);
 
   /// Adds a picture of the runs' states: run i is at `steps[i]`, and diverged in the step after if
-  /// `divergences[i]` says so. The part of a run that stands still is not drawn again. Error: also that of
+  /// `divergences[i]` says so. The part of a run that has stopped is not drawn again. Error: also that of
   /// the encoder, as soon as all outputs are lost.
   Status add(const std::vector<std::uint64_t>& steps,
              const std::vector<std::optional<Divergence>>& divergences);
@@ -50,7 +50,7 @@ class BesideRecorder {
 
   void add_simulation(double seconds) { simulate_seconds_ += seconds; }
   FrameTimes times() const;
-  /// GL_RENDERER of what draws.
+  /// GL_RENDERER of the drawing context.
   const std::string& device() const { return context_->info().renderer; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What drawing a run costs, as a whole and by pass.
+// The cost of drawing a run, in all and by pass.
 #include <functional>
 #include <string>
 #include <vector>
@@ -20,7 +20,7 @@ struct PictureCostOptions {
   int warm_up = 1;        ///< repeats before them that are not counted, ≥ 0
 };
 
-/// Times of pictures [s], each of its own from the state to bytes in memory, nothing beside it.
+/// Times of single pictures [s], from the state to bytes in memory, with nothing else running.
 struct PictureCost {
   std::string device;                     ///< GL_RENDERER
   std::vector<double> seconds;            ///< by the clock

@@ -12,7 +12,7 @@
 namespace aspic {
 namespace {
 
-/// Half a year at 60 pictures a second: what makes more was not meant.
+/// Half a year at 60 pictures a second: more cannot have been meant.
 constexpr std::uint64_t most_pictures = 1000000000;
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace aspic {
 
 class Recorder {
  public:
-  /// Draws in the backend's context where it has one, else in a headless one of its own; the sinks have the
+  /// Draws in the backend's context where it has one, else in a separate headless one; the sinks have the
   /// size of `output`. Everything given by reference must outlive the recorder. Errors: no_device,
   /// scene_rejected (no device memory), io (a shader file).
   static Result<std::unique_ptr<Recorder>> create(const PictureOutput& output, const Scene& scene,
@@ -45,7 +45,7 @@ class Recorder {
 
   void add_simulation(double seconds) { simulate_seconds_ += seconds; }
   FrameTimes times() const;
-  /// GL_RENDERER of what draws.
+  /// GL_RENDERER of the drawing context.
   const std::string& device() const;
 
  private:

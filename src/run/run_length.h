@@ -18,7 +18,7 @@ struct RunLength {
   std::optional<double> duration;  ///< [s], ≥ 0; rounded to the nearest whole number of steps
 };
 
-/// Steps of a run of this length: what was asked for, else the scene's duration, rounded to the nearest whole
+/// Steps of a run of this length: as asked for, else the scene's duration, rounded to the nearest whole
 /// step. Error (usage): more steps than can be counted.
 Result<std::uint64_t> steps_of(const RunLength& length, const SimulationSettings& simulation);
 

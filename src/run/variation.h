@@ -1,5 +1,5 @@
 #pragma once
-// A run that differs from another in some values: of its scene, or what computes it.
+// A run that differs from another in some values: of its scene, or in its backend.
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,7 +19,7 @@ struct Variation {
   std::string value;  ///< as --set or --backend takes it
 };
 
-/// What a run simulates, and with what.
+/// A run's scene and backend.
 struct Variant {
   Scene scene;
   BackendChoice backend;

@@ -96,7 +96,7 @@ TEST_F(Peers, CtrlCLeavesWhatWasMeasured) {
   directory_.write("stop.sh", "kill -INT $PPID\n");
   const auto ran = run("stop 4 sh {source}/stop.sh\n", {"--size", "6,4", "--peers", "--json"});
   EXPECT_EQ(ran.exit_code, 130);
-  EXPECT_THAT(ran.err, HasSubstr("interrupted; the rows have what was measured before"));
+  EXPECT_THAT(ran.err, HasSubstr("interrupted; the rows have the measurements made before"));
   const json report = json::parse(ran.out);
   EXPECT_EQ(report["interrupted"], true);
   ASSERT_EQ(report["measurements"].size(), 1u);

@@ -66,7 +66,7 @@ TEST(Backends, FastArithmeticAndThreadsAreForThoseThatHaveThem) {
   EXPECT_EQ(choose_automatically({.threads = 2}).row, find_backend("cpu"));
   const Status nobody = check_choice({.precision = Precision::double_, .arithmetic = Arithmetic::fast});
   ASSERT_FALSE(nobody.ok());
-  EXPECT_THAT(nobody.error().message, HasSubstr("no backend does all that is asked for"));
+  EXPECT_THAT(nobody.error().message, HasSubstr("no backend supports this combination"));
 }
 
 TEST(Backends, OptionsOfItsOwnGoBeforeThoseAskedOfAll) {
