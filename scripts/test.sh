@@ -1,10 +1,58 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds Release, runs every test and then each fuzzer for ten seconds. With arguments, which go to
-# ctest, the fuzzers are left out: scripts/test.sh -R EqualBits
+# Installs what is missing, builds, and runs the core tests, or all with --full. scripts/test.sh --help tells what the tiers have.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
+usage() {
+  cat <<'END'
+scripts/test.sh                      the core tier, for every change: minutes on two cores after the build
+scripts/test.sh --full               all tests, before a release: half an hour on two cores after the build
+scripts/test.sh [--full] ARGUMENT …  with arguments of ctest. -R, -L and -I choose from both tiers:
+                                     scripts/test.sh -R EqualBits; scripts/test.sh -L drivers
+
+core      each room's own tests; the gpu solvers on llvmpipe with a covering set of methods, terrains, contact
+          models, force paths and bodies; pictures; the command line; the window's main tests
+full      core, and by label:
+  products     equal bits in products of methods, terrains and paths, and for more particles
+  drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads and on zink
+  crowds       hundreds of balls in one place
+  verify       aspic verify --quick
+  window       the rest of the window's tests
+  report       the report's page, in a browser
+  independent  the independent implementation of the physics
+  attack       damaged files, limits, faults and kills (scripts/attack.sh)
+          and without a label:
+  fuzzers      ten seconds each (scripts/fuzz.sh)
+
+Left to scripts/check.sh: tests under sanitizers, clang-tidy, types of all translation units.
+END
+}
+
+full=no
+arguments=()
+for argument in "$@"; do
+  case $argument in
+    --help | -h)
+      usage
+      exit
+      ;;
+    --full) full=yes ;;
+    *) arguments+=("$argument") ;;
+  esac
+done
+
+tier=()
+if [ "$full" = no ]; then
+  tier=(-LE '^full$')
+  for argument in "${arguments[@]}"; do
+    # Tests that are asked for by name are run whatever their tier.
+    case $argument in -LE*) ;; -R* | -L* | -I* | --tests-regex* | --label-regex* | --tests-information* | --rerun-failed) tier=() ;; esac
+  done
+fi
+
 aspic_install all
 aspic_build ON
-ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -j "$(nproc)" "$@"
-[ $# -gt 0 ] || scripts/fuzz.sh 10
+ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -j "$(nproc)" "${tier[@]}" "${arguments[@]}"
+if [ "$full" = yes ] && [ "${#arguments[@]}" -eq 0 ]; then
+  scripts/fuzz.sh 10
+fi

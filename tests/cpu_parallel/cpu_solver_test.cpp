@@ -10,8 +10,8 @@
 #include <array>
 
 #include "cpu_reference/reference_solver.h"
-#include "scene/load.h"
 #include "support/contact_rules.h"
+#include "support/golden_runs.h"
 #include "support/integrator_names.h"
 #include "support/model_building.h"
 
@@ -69,18 +69,23 @@ class EveryMethodOnTheCpu : public testing::TestWithParam<Integrator> {
 INSTANTIATE_TEST_SUITE_P(CpuSolver, EveryMethodOnTheCpu, testing::ValuesIn(all_integrators),
                          test::by_integrator);
 
+/// The solver ends the run with the state that the reference is known to end it with.
+void expect_golden(const test::GoldenRun& run) {
+  const Model model = run.model();
+  const auto solver = cpu(model);
+  ASSERT_TRUE(solver->advance(run.steps).ok());
+  test::expect_golden(run, *solver->state());
+}
+
 TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInEveryBuiltInScene) {
-  for (const char* const name : {"cube-plane", "cube-tilted-plane", "cube-sphere", "cube-bowl", "elevator",
-                                 "goal-net", "penalty", "cube-and-balls", "curtain"}) {
-    for (const ContactModel contact : both_models) {
-      SCOPED_TRACE(fmt::format("{}, {}", name, name_of(contact)));
-      auto scene = load_scene(name);
-      ASSERT_TRUE(scene.ok());
-      scene->model.simulation.integrator = GetParam();
-      scene->model.contact.model = contact;
-      for (CubeSettings& cube : scene->model.cubes) cube.position.y -= 4.0;  // contact soon
-      expect_equal(test::build(scene->model), steps(10, 300));
-    }
+  for (const test::GoldenRun& run : test::scene_runs()) {
+    if (run.method == GetParam()) expect_golden(run);
+  }
+}
+
+TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInTheCoveringSet) {
+  for (const test::EqualityCase& row : test::covering_cases()) {
+    if (row.integrator == GetParam()) expect_golden(test::golden_run(row));
   }
 }
 

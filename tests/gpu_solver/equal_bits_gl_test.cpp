@@ -1,5 +1,6 @@
 // The product's first claim: the gpu backend ends with the same bits as the reference in single precision.
-// CMakeLists.txt runs the cells named Five under several thread counts of the driver.
+// EqualBits has a covering set of all that a run depends on, and what no set has; EqualBitsInFull the
+// products of integrators, terrains and paths, and more particles.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,7 +12,10 @@
 #include "gpu_solver/gpu_solver.h"
 #include "model/springs.h"
 #include "model/terrain.h"
+#include "scene/load.h"
+#include "support/equality_cases.h"
 #include "support/gl_fixture.h"
+#include "support/golden_runs.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -64,17 +68,50 @@ class EqualBits : public aspic::testing::GlTest {
   }
 };
 
+class EqualBitsInFull : public EqualBits {};
+
+TEST_F(EqualBits, CoveringSet) {
+  for (const test::EqualityCase& row : test::covering_cases()) {
+    SCOPED_TRACE(test::text_of(row));
+    GpuOptions options;
+    options.force_path = row.path;
+    options.lattice_run = row.lattice_run;
+    const Model model = test::model_of(row);
+    auto solver = make_gpu_solver(context(), model, options);
+    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    const test::GoldenRun run = test::golden_run(row);
+    ASSERT_TRUE((*solver)->advance(run.steps).ok());
+    test::expect_golden(run, *(*solver)->state());
+  }
+}
+
+// On the path that scenes take; methods and contact models take turns.
+TEST_F(EqualBits, BuiltInScenes) {
+  std::size_t turn = 0;
+  for (const BuiltinScene& scene : list_builtin_scenes()) {
+    const Integrator method = all_integrators[turn % all_integrators.size()];
+    const ContactModel contact = contact_models[turn / 2 % 2].value;
+    ++turn;
+    const test::GoldenRun run = test::golden_run(std::string(scene.name), contact, method);
+    const Model model = run.model();
+    auto solver = make_gpu_solver(context(), model);
+    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    ASSERT_TRUE((*solver)->advance(run.steps).ok());
+    test::expect_golden(run, *(*solver)->state());
+  }
+}
+
 constexpr Integrator both_integrators[] = {Integrator::explicit_euler, Integrator::runge_kutta_4};
 constexpr ContactModel both_models[] = {ContactModel::coulomb, ContactModel::course};
 
-TEST_F(EqualBits, Five) {
+TEST_F(EqualBitsInFull, Five) {
   for (const Integrator integrator : both_integrators) {
     for (const ContactModel contact : both_models)
       expect_equal(test::low_cube(5, integrator, contact), 2000, {32, 128});
   }
 }
 
-TEST_F(EqualBits, FiveOverEveryIntegratorAndTerrain) {
+TEST_F(EqualBitsInFull, FiveOverEveryIntegratorAndTerrain) {
   for (const Integrator integrator : explicit_integrators) {
     for (const TerrainShapeRow& shape : terrain_shapes) {
       for (const ContactModel contact : both_models) {
@@ -108,7 +145,7 @@ TEST_F(EqualBits, FiveWithSeveralTerrainsMaterialAndPinnedCorner) {
 }
 
 // Long enough to rest: reactions act in every stage, on ground, slope, top of a sphere and bottom of a bowl.
-TEST_F(EqualBits, FourAtRestUnderEveryIntegratorOnEveryTerrain) {
+TEST_F(EqualBitsInFull, FourAtRestUnderEveryIntegratorOnEveryTerrain) {
   for (const Integrator integrator : explicit_integrators) {
     for (const TerrainShapeRow& shape : terrain_shapes) {
       ModelSettings settings = test::low_cube(4, integrator, ContactModel::coulomb);
@@ -124,7 +161,7 @@ TEST_F(EqualBits, FourAtRestUnderEveryIntegratorOnEveryTerrain) {
 
 // A groove of slopes, a wall across it, one of them movable, and a pinned corner: each acts on what the one
 // before left, in every stage and at the step's end.
-TEST_F(EqualBits, FourInACornerOfThreeTerrains) {
+TEST_F(EqualBitsInFull, FourInACornerOfThreeTerrains) {
   for (const Integrator integrator : explicit_integrators) {
     for (const bool pinned : {false, true}) {
       ModelSettings settings = test::low_cube(4, integrator, ContactModel::coulomb);
@@ -270,14 +307,14 @@ ModelSettings implicit(ModelSettings settings) {
   return settings;
 }
 
-TEST_F(EqualBits, FiveImplicit) {
+TEST_F(EqualBitsInFull, FiveImplicit) {
   for (const ContactModel contact : both_models) {
     expect_equal(implicit(test::low_cube(5, Integrator::implicit_euler, contact)), 30, {64});
   }
 }
 
 // Ground in the equation: flat, inclined, curved both ways; until it rests or nearly so.
-TEST_F(EqualBits, FourImplicitOnEveryTerrain) {
+TEST_F(EqualBitsInFull, FourImplicitOnEveryTerrain) {
   for (const TerrainShapeRow& shape : terrain_shapes) {
     ModelSettings settings = implicit(test::low_cube(4, Integrator::implicit_euler, ContactModel::coulomb));
     settings.terrain[0].shape = shape.value;
@@ -313,18 +350,18 @@ TEST_F(EqualBits, TenPerEdgeImplicit) {
   expect_equal(implicit(test::low_cube(10, Integrator::implicit_euler, ContactModel::coulomb)), 20, {64});
 }
 
-TEST_F(EqualBits, FortyTwoPerEdgeImplicit) {
+TEST_F(EqualBitsInFull, FortyTwoPerEdgeImplicit) {
   ModelSettings settings = implicit(test::low_cube(42, Integrator::implicit_euler, ContactModel::course));
   settings.cubes[0].material = MaterialSettings{};
   settings.cubes[0].velocity = {1.0, -12.0, 0.5};
   expect_equal(settings, 1, {64});
 }
 
-TEST_F(EqualBits, TenPerEdge) {
+TEST_F(EqualBitsInFull, TenPerEdge) {
   expect_equal(test::low_cube(10, Integrator::runge_kutta_4, ContactModel::coulomb), 2000, {64});
 }
 
-TEST_F(EqualBits, TwentyPerEdge) {
+TEST_F(EqualBitsInFull, TwentyPerEdge) {
   expect_equal(test::low_cube(20, Integrator::explicit_euler, ContactModel::course), 2000, {64});
 }
 

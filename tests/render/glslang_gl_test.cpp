@@ -13,6 +13,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "model/terrain.h"
 #include "render/studio.h"
+#include "support/kernel_variants.h"
 #include "support/temporary_directory.h"
 
 namespace aspic {
@@ -55,68 +56,16 @@ class Glslang : public aspic::testing::GlTest {
     GlTest::TearDown();
   }
 
-  /// Compiles what a solver of these settings needs.
-  static void solve(const ModelSettings& settings, GpuOptions options) {
-    const Model model = test::build(settings);
-    for (const ForcePathRow& path : force_paths()) {
-      if (!works_with(path.path, settings.simulation.integrator)) continue;
-      options.force_path = path.path;
-      const auto solver = make_gpu_solver(context(), model, options);
-      ASSERT_TRUE(solver.ok()) << solver.error().message;
-    }
-  }
-
+  /// Compiles what solvers need.
   static void compile_solvers() {
-    ModelSettings settings = test::cube_on_plane(3);
-    settings.balls = {BallSettings{}, BallSettings{}};
-    settings.balls[1].position = {4.0, 0.0, 0.0};
-    GpuOptions options;
-    options.arithmetic.emplace();
-    for (const Integrator integrator : all_integrators) {
-      settings.simulation.integrator = integrator;
-      for (const ContactModel contact : {ContactModel::coulomb, ContactModel::course}) {
-        settings.contact.model = contact;
-        for (const TerrainShapeRow& shape : terrain_shapes) {
-          settings.terrain[0].shape = shape.value;
-          solve(settings, options);
-        }
-      }
-    }
-    // Cubes alone and with others, both forms of the lattice kernel, methods of one stage and of several;
-    // fast.
-    for (const bool beside : {false, true}) {
-      ModelSettings bodies = settings;
-      if (beside) bodies.goal_nets.emplace_back();
-      for (const Integrator integrator : {Integrator::explicit_euler, Integrator::midpoint}) {
-        bodies.simulation.integrator = integrator;
-        for (const std::uint32_t run : {1u, 4u}) {
-          for (const Arithmetic arithmetic : {Arithmetic::exact, Arithmetic::fast}) {
-            options.lattice_run = run;
-            options.spring_arithmetic = arithmetic;
-            solve(bodies, options);
-          }
-        }
-      }
-      bodies.simulation.integrator = Integrator::implicit_euler;
-      solve(bodies, options);
-    }
-    options.lattice_run = 0;
-    options.spring_arithmetic = Arithmetic::exact;
-    // More bodies than a block of partners, which want a kernel of their own.
-    settings.cubes[0].particles_per_edge = 7;
-    for (const BallSearch search : {BallSearch::all_pairs, BallSearch::grid}) {
-      options.ball_search = search;
-      solve(settings, options);
-    }
-    // A device that divides and takes roots inexactly, with and without an fma() that rounds once.
-    options.arithmetic->defines = {{"ASPIC_CORRECT_DIV", "1"}, {"ASPIC_CORRECT_SQRT", "1"}};
-    for (const bool fused : {false, true}) {
-      if (fused) options.arithmetic->defines.push_back({"ASPIC_FUSED_FMA", "1"});
-      for (const Integrator integrator : {Integrator::explicit_euler, Integrator::implicit_euler}) {
-        settings.simulation.integrator = integrator;
-        solve(settings, options);
-      }
-      ASSERT_TRUE(gl::measure_arithmetic(context(), gl::ShaderLibrary{}, options.arithmetic->defines).ok());
+    std::set<std::size_t> arithmetic;  // by number of defines
+    for (const test::KernelVariant& variant : test::kernel_variants()) {
+      const Model model = test::build(variant.settings);
+      const auto solver = make_gpu_solver(context(), model, variant.options);
+      ASSERT_TRUE(solver.ok()) << solver.error().message;
+      const std::vector<gl::Define>& defines = variant.options.arithmetic->defines;
+      if (!arithmetic.insert(defines.size()).second) continue;
+      ASSERT_TRUE(gl::measure_arithmetic(context(), gl::ShaderLibrary{}, defines).ok());
     }
   }
 

@@ -1,0 +1,126 @@
+#include "support/kernel_variants.h"
+
+#include <fmt/format.h>
+
+#include "model/terrain.h"
+#include "support/equality_cases.h"
+
+namespace aspic::test {
+namespace {
+
+constexpr Integrator methods[] = {Integrator::explicit_euler, Integrator::midpoint,
+                                  Integrator::implicit_euler};
+
+/// A cube that lands.
+ModelSettings cube_on(Integrator integrator, const TerrainShapeRow& shape, int particles_per_edge = 5) {
+  ModelSettings settings;
+  settings.simulation.integrator = integrator;
+  if (row_of(integrator).solved()) settings.simulation.timestep = 1.0 / 120.0;
+  settings.terrain.emplace_back().shape = shape.value;
+  CubeSettings& cube = settings.cubes.emplace_back();
+  cube.particles_per_edge = particles_per_edge;
+  cube.position = shape.drop;
+  cube.velocity = {0.5, -2.0, 0.3};
+  set_down(settings, 0.005);
+  return settings;
+}
+
+/// Two balls strike the cube and each other within a step or two.
+ModelSettings with_balls(ModelSettings settings) {
+  const Vec3 top = settings.cubes[0].position + Vec3{0.1, 2.0, 0.1};
+  settings.balls.push_back({0.5, 4.0, top + Vec3{0.0, 0.495, 0.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 9.0}});
+  settings.balls.push_back({0.4, 2.0, top + Vec3{0.1, 1.385, 0.0}, {0.0, -9.0, 0.0}, {}});
+  return settings;
+}
+
+ModelSettings with_net(ModelSettings settings) {
+  GoalNetSettings& net = settings.goal_nets.emplace_back();
+  net.particles = {4, 5, 6};
+  net.position = settings.cubes[0].position + Vec3{0.0, -0.4, 6.0};
+  return settings;
+}
+
+class Variants {
+ public:
+  void add(const std::string& scene, const ModelSettings& settings, const GpuOptions& options) {
+    made.push_back({fmt::format("kernels: {}", scene), settings, options});
+  }
+  /// One for each path that the method takes.
+  void add_paths(const std::string& scene, const ModelSettings& settings, GpuOptions options) {
+    for (const ForcePathRow& path : force_paths()) {
+      options.force_path = path.path;
+      if (works_with(path.path, settings.simulation.integrator)) add(scene, settings, options);
+    }
+  }
+  std::vector<KernelVariant> made;
+};
+
+}  // namespace
+
+std::uint64_t KernelVariant::steps() const {
+  return row_of(settings.simulation.integrator).solved() ? 8 : 60;
+}
+
+const std::vector<KernelVariant>& kernel_variants() {
+  static const std::vector<KernelVariant> all = [] {
+    Variants variants;
+    const TerrainShapeRow& plane = terrain_shapes[0];
+    GpuOptions exact;
+    exact.arithmetic.emplace();  // as the device computes, without a canary for each solver
+    GpuOptions gather = exact;
+    gather.force_path = ForcePath::gather;
+    for (const Integrator method : methods) {
+      // Every path, of cubes alone and among others; what follows the sum of forces is one text for all.
+      variants.add_paths("plane", cube_on(method, plane), exact);
+      variants.add_paths("plane, with a net", with_net(cube_on(method, plane)), exact);
+      for (const TerrainShapeRow& shape : terrain_shapes)
+        variants.add(std::string(shape.name), cube_on(method, shape), exact);
+      ModelSettings several = cube_on(method, plane);
+      several.terrain[0].motion = TerrainMotion{{0.3, 1.0, 0.0}, 0.1, 2.0, 0.1};
+      variants.add("plane that moves", several, exact);
+      for (const TerrainShapeRow& shape : terrain_shapes) several.terrain.emplace_back().shape = shape.value;
+      variants.add("all terrains", several, gather);
+      for (const std::uint32_t size : {32u, 256u}) {
+        GpuOptions sized = exact;
+        sized.group_size = size;
+        variants.add("plane", cube_on(method, plane), sized);
+      }
+      // A device that divides and takes roots inexactly, with and without an fma() that rounds once.
+      GpuOptions corrected = exact;
+      corrected.arithmetic->defines = {{"ASPIC_CORRECT_DIV", "1"}, {"ASPIC_CORRECT_SQRT", "1"}};
+      variants.add("plane", cube_on(method, plane), corrected);
+      corrected.arithmetic->defines.push_back({"ASPIC_FUSED_FMA", "1"});
+      variants.add("plane, with balls", with_balls(cube_on(method, plane)), corrected);
+    }
+    // Both forms of the lattice kernel, and fast arithmetic on each path.
+    for (const Integrator method : {Integrator::explicit_euler, Integrator::midpoint}) {
+      GpuOptions form = exact;
+      for (const std::uint32_t run : {1u, 4u}) {
+        form.lattice_run = run;
+        form.spring_arithmetic = Arithmetic::exact;
+        variants.add("plane, with a net", with_net(cube_on(method, plane)), form);
+        form.spring_arithmetic = Arithmetic::fast;
+        variants.add("plane", cube_on(method, plane), form);
+      }
+      variants.add_paths("plane, with a net", with_net(cube_on(method, plane)), form);
+    }
+    // Few balls, on terrain of every kind; and more bodies than a block of partners, which want a kernel of
+    // their own.
+    for (const Integrator method : {Integrator::explicit_euler, Integrator::implicit_euler}) {
+      variants.add("plane, with balls", with_balls(cube_on(method, plane)), exact);
+      variants.add("plane, with balls", with_balls(cube_on(method, plane)), gather);
+      for (const BallSearch search : {BallSearch::all_pairs, BallSearch::grid}) {
+        GpuOptions searching = exact;
+        searching.ball_search = search;
+        variants.add("plane, 7 per edge, with balls", with_balls(cube_on(method, plane, 7)), searching);
+      }
+    }
+    ModelSettings balls = with_balls(cube_on(Integrator::explicit_euler, plane));
+    for (const TerrainShapeRow& shape : terrain_shapes) balls.terrain.emplace_back().shape = shape.value;
+    variants.add("all terrains, with balls", balls, exact);
+    return std::move(variants.made);
+  }();
+  return all;
+}
+
+}  // namespace aspic::test
