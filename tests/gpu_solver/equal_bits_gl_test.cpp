@@ -205,7 +205,7 @@ Model mixed(Integrator integrator, double timestep, int first_edge = 5) {
   return model;
 }
 
-TEST_F(EqualBits, MixedBodies) {
+TEST_F(EqualBitsInFull, MixedBodies) {
   for (const Integrator integrator : {Integrator::explicit_euler, Integrator::midpoint})
     expect_equal(mixed(integrator, 0.001), 1000, {64, 32});
 }
