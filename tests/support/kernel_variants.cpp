@@ -12,13 +12,13 @@ constexpr Integrator methods[] = {Integrator::explicit_euler, Integrator::midpoi
                                   Integrator::implicit_euler};
 
 /// A cube that lands.
-ModelSettings cube_on(Integrator integrator, const TerrainShapeRow& shape, int particles_per_edge = 5) {
+ModelSettings cube_on(Integrator integrator, const TerrainShapeRow& shape) {
   ModelSettings settings;
   settings.simulation.integrator = integrator;
   if (row_of(integrator).solved()) settings.simulation.timestep = 1.0 / 120.0;
   settings.terrain.emplace_back().shape = shape.value;
   CubeSettings& cube = settings.cubes.emplace_back();
-  cube.particles_per_edge = particles_per_edge;
+  cube.particles_per_edge = 5;
   cube.position = shape.drop;
   cube.velocity = {0.5, -2.0, 0.3};
   set_down(settings, 0.005);
@@ -30,6 +30,17 @@ ModelSettings with_balls(ModelSettings settings) {
   const Vec3 top = settings.cubes[0].position + Vec3{0.1, 2.0, 0.1};
   settings.balls.push_back({0.5, 4.0, top + Vec3{0.0, 0.495, 0.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 9.0}});
   settings.balls.push_back({0.4, 2.0, top + Vec3{0.1, 1.385, 0.0}, {0.0, -9.0, 0.0}, {}});
+  return settings;
+}
+
+/// A ball in the middle of a dense cube: more than a block of partners, of which it strikes more than half.
+ModelSettings crowded(Integrator integrator) {
+  ModelSettings settings = cube_on(integrator, terrain_shapes[0]);
+  CubeSettings& cube = settings.cubes[0];
+  cube.particles_per_edge = 10;
+  cube.edge_length = 0.5;
+  settings.balls.push_back({0.45, 400.0, cube.position, {0.5, -9.0, 0.3}, {0.0, 0.0, 9.0}});
+  settings.balls.push_back({0.4, 2.0, cube.position + Vec3{0.1, 0.84, 0.0}, {0.0, -12.0, 0.0}, {}});
   return settings;
 }
 
@@ -112,7 +123,7 @@ const std::vector<KernelVariant>& kernel_variants() {
       for (const BallSearch search : {BallSearch::all_pairs, BallSearch::grid}) {
         GpuOptions searching = exact;
         searching.ball_search = search;
-        variants.add("plane, 7 per edge, with balls", with_balls(cube_on(method, plane, 7)), searching);
+        variants.add("plane, a ball in a crowd", crowded(method), searching);
       }
     }
     ModelSettings balls = with_balls(cube_on(Integrator::explicit_euler, plane));
