@@ -1,5 +1,4 @@
 // Time by pass: which passes a step has, how often each is dispatched, and that looking changes no bit.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
