@@ -26,6 +26,7 @@ std::size_t colours(const std::vector<unsigned char>& rgb, std::size_t most) {
 
 TEST_F(AppWindow, EveryBuiltInSceneOpensAndDraws) {
   open("cube-plane");
+  resize(roomy[0], roomy[1]);
   std::vector<unsigned char> before;
   for (const BuiltinScene& scene : list_builtin_scenes()) {
     EXPECT_EQ(app().scene.editor().source(), scene.name);
@@ -127,7 +128,7 @@ TEST_F(AppWindow, MouseTurnsMovesAndZoomsAndHomeComesBack) {
 TEST_F(AppWindow, DraggingAPanelDoesNotTurnTheCamera) {
   open("cube-plane");
   const CameraSettings before = app().view.camera.goal();
-  drag(GLFW_MOUSE_BUTTON_LEFT, 150, 600, 60, 40);
+  drag(GLFW_MOUSE_BUTTON_LEFT, 150, 300, 60, 40);
   app().scroll(0, 2);
   frames(5);
   EXPECT_EQ(app().view.camera.goal(), before);
@@ -135,6 +136,7 @@ TEST_F(AppWindow, DraggingAPanelDoesNotTurnTheCamera) {
 
 TEST_F(AppWindow, KeysOfTheView) {
   open("cube-plane");
+  resize(roomy[0], roomy[1]);
   press(GLFW_KEY_TAB);
   frames(1);
   EXPECT_FALSE(app().layout.panels);

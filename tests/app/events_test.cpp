@@ -26,6 +26,8 @@ namespace fs = std::filesystem;
 /// Far more than anything takes on a slow machine.
 constexpr auto patience = std::chrono::seconds(60);
 constexpr const char* window_title = "cube-plane";
+/// Of the window: panels stand on both sides.
+constexpr int width = 1040, height = 600;
 
 std::string output_of(const std::string& command) {
   std::FILE* const pipe = ::popen(command.c_str(), "r");
@@ -52,7 +54,7 @@ bool waited_for(Condition condition) {
 /// A film's pictures come one for each step: 0.24 simulated seconds a second, shown at 240 pictures.
 app::KeptState one_picture_a_step(const FilmFormat* format) {
   app::KeptState kept;
-  kept.window = app::WindowPlace{1280, 720, std::array<int, 2>{0, 0}};
+  kept.window = app::WindowPlace{width, height, std::array<int, 2>{0, 0}};
   for (const char* name : {"Simulation", "View", "Performance", "Energy"}) kept.layout.sections[name] = false;
   kept.speed = 0.24;
   kept.film_fps = 240.0;
@@ -62,6 +64,7 @@ app::KeptState one_picture_a_step(const FilmFormat* format) {
 
 class Events : public Stage {
  protected:
+  std::array<int, 2> window_size() const override { return {width, height}; }
   void SetUp() override {
     Stage::SetUp();
     ::setenv("XDG_STATE_HOME", (directory() / "state").c_str(), 1);
@@ -206,7 +209,7 @@ TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
   keep(kept);
   start();
   catch_up();
-  EXPECT_EQ(size_of(file(newest_)), std::pair(1280, 720));
+  EXPECT_EQ(size_of(file(newest_)), std::pair(width, height));
 
   key("ctrl+r");
   wait_for_picture(1, 0);
@@ -227,7 +230,7 @@ TEST_F(Events, KeysClicksAndDragsOfTheRealWindow) {
   key("ctrl+r");
   key("Tab");
   catch_up();
-  EXPECT_EQ(size_of(still(3)).first, 1280) << "without panels the picture is as wide as the window";
+  EXPECT_EQ(size_of(still(3)).first, width) << "without panels the picture is as wide as the window";
   key("Tab");
   catch_up();
   const std::string before = still(4);

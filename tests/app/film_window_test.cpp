@@ -46,6 +46,8 @@ class OtherPath {
 
 class Film : public Stage {
  protected:
+  // The view, whose size films have, is 320 × 180.
+  std::array<int, 2> window_size() const override { return {640, 244}; }
   /// A cube that is quick to draw and to step, and falls.
   void open_small(std::string_view backend = "reference", const std::string& more = "name=\"film\"") {
     open("cube-plane", {"cube[0].particles-per-edge=4", "view.draw=[\"particles\"]", more}, backend);

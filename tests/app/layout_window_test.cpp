@@ -12,6 +12,7 @@ using app::Box;
 
 class Layout : public Stage {
  protected:
+  std::array<int, 2> window_size() const override { return roomy; }
   /// As after a first start, with every section open or none.
   static app::KeptState with_sections(bool open) {
     app::KeptState kept;

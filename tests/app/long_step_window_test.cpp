@@ -1,5 +1,4 @@
 // The real window while a step takes as long as one likes: nothing that the user does waits for its end.
-#include <gmock/gmock.h>
 
 #include "app/endless.h"
 #include "app/stage.h"

@@ -17,6 +17,7 @@ using app::Effect;
 
 class Panels : public Stage {
  protected:
+  std::array<int, 2> window_size() const override { return roomy; }
   void set(std::string_view path, const Value& value, std::size_t index = 0) {
     app().scene.set_value(*find_parameter(path), index, value, "");
     frames(1);

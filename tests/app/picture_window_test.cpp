@@ -196,6 +196,7 @@ TEST_F(Picture, TheLegendIsOfTheWindowsPixels) {
 
 TEST_F(Picture, TooltipsWaitAndStandBesideThePanel) {
   open("cube-plane", {}, "reference");
+  bring_into_sight("simulation/run");
   const app::Box start = widgets().at("simulation/run");
   app().cursor(start.centre_x(), start.centre_y());
   frames(10);

@@ -8,6 +8,7 @@ namespace {
 
 class ScaleRows : public Stage {
  protected:
+  std::array<int, 2> window_size() const override { return roomy; }
   const ViewSettings& view() { return app().scene.scene().view; }
 };
 

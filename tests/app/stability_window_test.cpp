@@ -19,6 +19,7 @@ void measure(app::StabilityMap& map, const Scene& scene) {
 
 class StabilityWindow : public Stage {
  protected:
+  std::array<int, 2> window_size() const override { return roomy; }
   static app::KeptState only_the_map() {
     app::KeptState kept;
     for (const char* name : {"Scene", "Simulation", "View", "Performance", "Energy"})

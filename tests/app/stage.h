@@ -40,8 +40,10 @@ class Stage : public ::testing::Test {
   void SetUp() override;
   void TearDown() override;
 
-  /// Width and height of the window; the display has 1920 × 1080.
-  virtual std::array<int, 2> window_size() const { return {1280, 720}; }
+  /// Width and height of the window; the display has 1920 × 1080. Small, for pictures cost by the pixel;
+  /// suites about what is where have `roomy`, in which panels stand on both sides.
+  virtual std::array<int, 2> window_size() const { return {640, 400}; }
+  static constexpr std::array<int, 2> roomy = {1280, 720};
   /// Whether pictures are drawn as on hardware.
   virtual bool full_quality() const { return false; }
   /// Opens the app on a scene, on a backend by its name (empty: automatic); before any other call.
