@@ -74,7 +74,9 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   glfwShowWindow(w->window_);
   glfwMakeContextCurrent(w->window_);
   glfwSwapInterval(1);
-  auto context = gl::Context::adopt_current(glfwGetProcAddress);
+  auto context = gl::Context::adopt_current(
+      glfwGetProcAddress, {[window = w->window_] { return glfwGetCurrentContext() == window; },
+                           [window = w->window_] { glfwMakeContextCurrent(window); }});
   if (!context) return fail(context.error().code, "{} {}", context.error().message, instead);
   w->context_ = std::move(*context);
   w->connect();

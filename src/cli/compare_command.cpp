@@ -4,85 +4,28 @@
 #include <array>
 #include <optional>
 
-#include "analysis/compare.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "io/program.h"
+#include "run/lockstep.h"
 #include "scene/load.h"
 
 namespace aspic::cli {
 namespace {
 
-/// What is compared, as it is reported.
+/// How a quantity is reported, in the order of compared_quantities.
 struct Quantity {
   std::string_view key, name, unit, body;
-  QuantityDifference StateDifference::*difference;
 };
-constexpr Quantity quantities[] = {
-    {"position", "position", "m", "particle", &StateDifference::position},
-    {"velocity", "velocity", "m/s", "particle", &StateDifference::velocity},
-    {"ball_position", "ball x", "m", "ball", &StateDifference::ball_position},
-    {"ball_velocity", "ball v", "m/s", "ball", &StateDifference::ball_velocity},
-    {"ball_angular_velocity", "ball ω", "rad/s", "ball", &StateDifference::ball_angular_velocity},
-};
+constexpr std::array<Quantity, compared_quantities.size()> quantities = {{
+    {"position", "position", "m", "particle"},
+    {"velocity", "velocity", "m/s", "particle"},
+    {"ball_position", "ball x", "m", "ball"},
+    {"ball_velocity", "ball v", "m/s", "ball"},
+    {"ball_angular_velocity", "ball ω", "rad/s", "ball"},
+}};
 
-/// The largest difference of a quantity over all steps compared.
-struct Worst : QuantityDifference {
-  std::uint64_t absolute_step = 0, ulp_step = 0;
-
-  void take(const QuantityDifference& d, std::uint64_t step) {
-    if (d.absolute > absolute) {
-      absolute = d.absolute;
-      absolute_index = d.absolute_index;
-      absolute_step = step;
-    }
-    if (d.ulp > ulp) {
-      ulp = d.ulp;
-      ulp_index = d.ulp_index;
-      ulp_step = step;
-    }
-  }
-};
-
-struct Comparison {
-  std::uint64_t steps = 0;  ///< compared
-  std::array<Worst, std::size(quantities)> worst;
-  std::optional<std::uint64_t> first_difference;
-  std::array<std::string, 2> hash;
-  std::array<std::optional<Divergence>, 2> divergence;
-  bool interrupted = false;
-
-  double largest_absolute() const { return std::ranges::max_element(worst, {}, &Worst::absolute)->absolute; }
-};
-
-Result<Comparison> compare_steps(std::array<Backend, 2>& backends, std::uint64_t steps,
-                                 const InterruptGuard& interrupt) {
-  Comparison result;
-  ProgressBar bar(steps);
-  for (std::uint64_t step = 0;; ++step) {
-    ASPIC_TRY(auto first, backends[0].solver->state());
-    ASPIC_TRY(const auto second, backends[1].solver->state());
-    ASPIC_TRY(const auto difference, compare_states(first, second));
-    // States of two precisions with equal single-precision values still differ where a number does.
-    if (!result.first_difference && (!difference.identical() || difference.largest_absolute() > 0.0)) {
-      result.first_difference = step;
-    }
-    for (std::size_t i = 0; i < result.worst.size(); ++i)
-      result.worst[i].take(difference.*quantities[i].difference, step);
-    result.hash = {state_hash_text(first), state_hash_text(second)};
-    result.steps = step;
-    result.interrupted = interrupt.interrupted();
-    if (step == steps || result.interrupted) return result;
-
-    for (std::size_t i = 0; i < backends.size(); ++i) {
-      ASPIC_TRY(result.divergence[i], backends[i].solver->advance(1));
-    }
-    if (result.divergence[0] || result.divergence[1]) return result;
-    bar.update(step + 1);
-  }
-}
-
-Json to_json(const Worst& worst, std::string_view body) {
+Json to_json(const WorstDifference& worst, std::string_view body) {
   return {{"largest_absolute", worst.absolute},
           {fmt::format("largest_absolute_{}", body), worst.absolute_index},
           {"largest_absolute_step", worst.absolute_step},
@@ -102,7 +45,7 @@ std::string inexact_arithmetic(const Backend& backend) {
 }
 
 Json to_json(const CompareOptions& options, const Scene& scene, const std::array<Backend, 2>& backends,
-             const Comparison& result, bool within) {
+             const LockstepResult& result, bool within) {
   Json json = {{"scene", scene.name},
                {"integrator", name_of(scene.model.simulation.integrator)},
                {"steps", result.steps},
@@ -126,7 +69,7 @@ Json to_json(const CompareOptions& options, const Scene& scene, const std::array
 }
 
 Status print_result(const CompareOptions& options, const Scene& scene, const std::array<Backend, 2>& backends,
-                    const Comparison& result, bool within) {
+                    const LockstepResult& result, bool within) {
   if (options.json) return print_data(to_text(to_json(options, scene, backends, result, within)));
   std::string text = fmt::format("scene       {}, {}, {} steps compared\n", scene.name,
                                  name_of(scene.model.simulation.integrator), result.steps);
@@ -134,8 +77,8 @@ Status print_result(const CompareOptions& options, const Scene& scene, const std
     text += fmt::format("{:<11} {}  {}\n", backends[i].variant(), result.hash[i], backends[i].device);
   }
   for (std::size_t i = 0; i < result.worst.size(); ++i) {
-    const auto& [key, name, unit, body, difference] = quantities[i];
-    const Worst& w = result.worst[i];
+    const auto& [key, name, unit, body] = quantities[i];
+    const WorstDifference& w = result.worst[i];
     if (body == "ball" && backends[0].solver->model().ball_count() == 0) continue;
     if (w.absolute == 0.0 && w.ulp == 0) {
       text += fmt::format("{:<11} identical in every step\n", name);
@@ -168,7 +111,14 @@ Status execute(const CompareOptions& options) {
     host.context = backends[0].context.get();
     ASPIC_TRY(backends[i], make_backend(i == 0 ? options.first : options.second, model, host));
   }
-  ASPIC_TRY(const auto result, compare_steps(backends, steps, interrupt));
+  const auto compare = [&] {
+    ProgressBar bar(steps);
+    return compare_in_lockstep(*backends[0].solver, *backends[1].solver, steps, [&](std::uint64_t done) {
+      bar.update(done);
+      return !interrupt.interrupted();
+    });
+  };
+  ASPIC_TRY(const auto result, compare());
   const bool within =
       options.tolerance == 0.0 ? !result.first_difference : result.largest_absolute() <= options.tolerance;
   ASPIC_CHECK(print_result(options, scene, backends, result, within));

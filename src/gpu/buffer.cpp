@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "gpu/current.h"
 #include "gpu/read_ring.h"
 
 namespace aspic::gl {
@@ -34,6 +35,8 @@ Status Buffer::check_size(const Context& context, std::string_view name, std::ui
 }
 
 Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t bytes, BufferKind kind) {
+  const Current here(context);
+  ASPIC_CHECK(here.status());
   ASPIC_CHECK(check_size(context, name, bytes, kind));
   const bool storage = kind != BufferKind::uniform;
   // An error from before would be taken for this allocation's; on debug contexts the message was kept.
@@ -61,12 +64,7 @@ Result<Buffer> Buffer::create(Context& context, std::string name, std::uint64_t 
 }
 
 void Buffer::Release::operator()(Context* context) const {
-  // Its number may soon be another buffer's.
-  for (auto& points : context->bound_)
-    for (Context::Bound& bound : points)
-      if (bound.id == id) bound = {};
-  glDeleteBuffers(1, &id);
-  context->bytes_held_ -= bytes;
+  context->dispose({nullptr, id, nullptr, bytes});
 }
 
 void Buffer::upload(std::span<const std::byte> data, std::uint64_t offset) {

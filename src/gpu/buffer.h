@@ -23,7 +23,7 @@ enum class BufferKind {
 };
 
 /// Owns one GL buffer object. Movable, not copyable; its context must outlive it and be current in every
-/// call.
+/// call, but need not be at its end.
 class Buffer {
  public:
   /// An empty handle: id 0, no bytes.
@@ -73,6 +73,8 @@ class Buffer {
     return items;
   }
 
+  /// Where it lies; null for an empty handle.
+  Context* context() const { return held_.get(); }
   /// The size asked for [bytes].
   std::uint64_t bytes() const { return held_ ? held_.get_deleter().bytes : 0; }
   /// The GL name; 0 for an empty handle.

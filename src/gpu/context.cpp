@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <glad/gl.h>
 
+#include <new>
 #include <string_view>
 
 #include "base/printable.h"
+#include "gpu/current.h"
 #include "gpu/fence.h"
 #include "gpu/program.h"
 #include "gpu/read_ring.h"
@@ -39,7 +41,7 @@ bool has_extension(std::string_view name) {
 
 Context::Context() : programs_(std::make_unique<ProgramCache>(*this)) {}
 
-Result<std::unique_ptr<Context>> Context::adopt_current(Loader loader) {
+Result<std::unique_ptr<Context>> Context::adopt_current(Loader loader, WindowContext window) {
   const int version = gladLoadGL(loader);
   if (version == 0)
     return Error{
@@ -53,6 +55,9 @@ Result<std::unique_ptr<Context>> Context::adopt_current(Loader loader) {
                 GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version),
                 reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
   std::unique_ptr<Context> context(new Context);
+  context->window_ = std::move(window);
+  context->thread_ = std::this_thread::get_id();
+  context->note_egl();
   context->start("window", loader);
   return context;
 }
@@ -91,12 +96,16 @@ void Context::start(std::string platform, Loader loader) {
 
 bool Context::lost() {
   if (lost_) return true;
+  const Current here(*this);
+  if (!here.status()) return false;
   lost_ =
       dead_ || silent_ || strikes(Fault::lost_context) || (info_.robust && reset_status_() != GL_NO_ERROR);
   return lost_;
 }
 
 bool Context::ran_out_of_memory() {
+  const Current here(*this);
+  if (!here.status()) return false;
   bool found = strikes(Fault::out_of_memory);
   for (int n = 0; n < most_errors; ++n) {
     const GLenum error = glGetError();
@@ -110,8 +119,10 @@ bool Context::ran_out_of_memory() {
   return found;
 }
 
-std::optional<std::uint64_t> Context::free_memory() const {
+std::optional<std::uint64_t> Context::free_memory() {
   if (assumed_free_ || memory_query_ == 0) return assumed_free_;
+  const Current here(*this);
+  if (!here.status()) return std::nullopt;
   std::array<GLint, 4> kibibytes = {};
   glGetIntegerv(memory_query_, kibibytes.data());
   // A number beyond 2 TiB has no place in it.
@@ -119,7 +130,7 @@ std::optional<std::uint64_t> Context::free_memory() const {
   return std::uint64_t{1024} * static_cast<std::uint64_t>(kibibytes[0]);
 }
 
-Status Context::check_memory(std::uint64_t bytes) const {
+Status Context::check_memory(std::uint64_t bytes) {
   const auto free = free_memory();
   if (!free || bytes <= *free) return {};
   return fail(ErrorCode::scene_rejected,
@@ -130,8 +141,18 @@ Status Context::check_memory(std::uint64_t bytes) const {
 }
 
 void Context::forget_errors() {
+  const Current here(*this);
+  if (!here.status()) return;
   for (int n = 0; n < most_errors && glGetError() != GL_NO_ERROR; ++n) {
   }
+}
+
+Error Context::elsewhere_error() const {
+  return fail(
+      ErrorCode::no_device,
+      "The OpenGL context on {} is in use on another thread. Call a gpu solver, and whatever draws in its "
+      "context, on one thread.",
+      info_.renderer);
 }
 
 Error Context::lost_error() const {
@@ -148,6 +169,8 @@ Error Context::lost_error() const {
 }
 
 Status Context::check(ErrorCode memory_code) {
+  const Current here(*this);
+  ASPIC_CHECK(here.status());
   if (lost()) return lost_error();
   if (!ran_out_of_memory()) return {};
   return Error{memory_code,
@@ -180,6 +203,36 @@ ReadRing& Context::reads() {
 void Context::release_objects() {
   programs_.reset();
   reads_.reset();
+}
+
+void Context::dispose(const Disposed& object) noexcept {
+  if (const Current here(*this); here.status()) return remove(object);
+  try {
+    const std::lock_guard lock(disposed_mutex_);
+    disposed_.push_back(object);
+    any_disposed_ = true;
+  } catch (const std::bad_alloc&) {
+    // It goes with the context.
+  }
+}
+
+void Context::remove(const Disposed& object) noexcept {
+  if (object.sync) return glDeleteSync(static_cast<GLsync>(object.sync));
+  if (object.deletion) return object.deletion(object.id);
+  // Its number may soon be another buffer's.
+  for (auto& points : bound_)
+    for (Bound& bound : points)
+      if (bound.id == object.id) bound = {};
+  glDeleteBuffers(1, &object.id);
+  bytes_held_ -= object.bytes;
+}
+
+void Context::remove_disposed() noexcept {
+  if (!any_disposed_) return;
+  const std::lock_guard lock(disposed_mutex_);
+  for (const Disposed& object : disposed_) remove(object);
+  disposed_.clear();
+  any_disposed_ = false;
 }
 
 bool Context::strikes(Fault fault) {

@@ -1,11 +1,14 @@
 #pragma once
 // An OpenGL 4.3 core context: its own through EGL, without a display, or a window's.
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/result.h"
@@ -74,9 +77,16 @@ class ReadRing;
 /// The address of a GL function, or null: eglGetProcAddress, glfwGetProcAddress.
 using Loader = void (*(*)(const char* name))();
 
+/// How a window system that is not EGL answers for a context of its own, on that context's thread.
+struct WindowContext {
+  std::function<bool()> is_current;    ///< whether the context is current
+  std::function<void()> make_current;  ///< makes it current
+};
+
 /// A context and what was found out about its device. Buffers, programs and timers made with it must go
-/// before it. One thread at a time; GL calls of the project go to the context that is current. Not movable:
-/// the driver keeps its address for messages.
+/// before it. GL calls go to the context that is current on the calling thread: whoever makes them enters
+/// the context first (gpu/current.h). A context is current on one thread at a time; an adopted one belongs to
+/// the thread that adopted it. Not movable: the driver keeps its address for messages.
 class Context {
  public:
   /// A separate context, without a window, current on return.
@@ -84,17 +94,38 @@ class Context {
   static Result<std::unique_ptr<Context>> create_headless(const ContextOptions& options = {});
 
   /// Takes on the context that is current on this thread, a window's say, without owning it. Debug and
-  /// robustness follow from how it was made. Error (no_device): none is current, or it is older than
+  /// robustness follow from how it was made. A context of EGL is made current again by itself; others need
+  /// `window`, or must be current in every call. Error (no_device): none is current, or it is older than
   /// OpenGL 4.3.
-  static Result<std::unique_ptr<Context>> adopt_current(Loader loader);
+  static Result<std::unique_ptr<Context>> adopt_current(Loader loader, WindowContext window = {});
 
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Makes a headless context current on this thread; for an adopted one the window does that, and this is a
-  /// no-op.
+  /// Makes the context current on this thread, where it stays so; nothing happens where it is. Error
+  /// (no_device): it is at work on another thread, or the system refuses.
   Status make_current();
+  /// Whether calls of this thread go to this context.
+  bool is_current() const;
+
+  /// A context of EGL that was current, with its surfaces; all null: none.
+  struct Place {
+    void* display = nullptr;
+    void* context = nullptr;
+    void* draw = nullptr;
+    void* read = nullptr;
+  };
+  /// make_current(), with what it takes the place of, for class Current. Nothing is written where nothing
+  /// changes.
+  Status enter(Place& before);
+  /// Makes current what enter() took the place of.
+  static void put_back(const Place& before);
+
+  /// Deletes an object of this context: at once, or, where the context is at work on another thread, as soon
+  /// as that thread enters it again.
+  using Delete = void (*)(std::uint32_t id);
+  void dispose(std::uint32_t id, Delete deletion) noexcept { dispose({nullptr, id, deletion}); }
 
   const DeviceInfo& info() const { return info_; }
 
@@ -133,7 +164,7 @@ class Context {
 
   /// Bytes of device memory that are free, where the driver tells (GL_NVX_gpu_memory_info, GL_ATI_meminfo),
   /// or as assumed.
-  std::optional<std::uint64_t> free_memory() const;
+  std::optional<std::uint64_t> free_memory();
   /// For tests: what free_memory() answers from now on; nothing: what the driver tells.
   void assume_free_memory(std::optional<std::uint64_t> bytes) { assumed_free_ = bytes; }
   /// For tests: the limits of another device, no wider than this one's; with small blocks, small scenes take
@@ -141,9 +172,9 @@ class Context {
   void assume_limits(const DeviceLimits& limits) { info_.limits = limits; }
   /// Error (scene_rejected): `bytes` more are needed than are free, as far as the driver tells; the sentence
   /// gives the figures.
-  Status check_memory(std::uint64_t bytes) const;
+  Status check_memory(std::uint64_t bytes);
 
-  /// Bytes that this context's buffers hold at present.
+  /// Bytes that this context's buffers hold at present, those included that wait to be deleted.
   std::uint64_t bytes_held() const { return bytes_held_; }
 
  private:
@@ -151,8 +182,16 @@ class Context {
   friend class Texture;
   friend class Pass;
   friend class ReadRing;
+  friend struct DeleteFence;
   friend bool passed(Context& context, const std::unique_ptr<void, DeleteFence>& fence);
   friend Status wait_for(Context& context, const std::unique_ptr<void, DeleteFence>& fence);
+  /// An object that is no longer needed: a GLsync, a name and how to delete it, or the name of a Buffer.
+  struct Disposed {
+    void* sync = nullptr;
+    std::uint32_t id = 0;
+    Delete deletion = nullptr;
+    std::uint64_t bytes = 0;
+  };
   Context();
   /// The context on a candidate. The error says why it does not do.
   static Result<std::unique_ptr<Context>> create_on(const EglCandidate& candidate,
@@ -169,11 +208,21 @@ class Context {
   /// Copies of read_part_bytes on their way back; made when it is first asked for.
   ReadRing& reads();
   void release_objects();
+  void note_egl();
+  Error elsewhere_error() const;
+  void dispose(const Disposed& object) noexcept;
+  void remove(const Disposed& object) noexcept;
+  void remove_disposed() noexcept;
   /// A pass is about to be dispatched: whether it may.
   bool begins_dispatch();
 
-  void* display_ = nullptr;  // EGLDisplay and EGLContext; null for an adopted context
-  void* context_ = nullptr;
+  Place egl_;  // nothing: a context of another window system
+  bool owned_ = false;
+  WindowContext window_;
+  std::thread::id thread_;  // that adopted it
+  std::mutex disposed_mutex_;
+  std::vector<Disposed> disposed_;
+  std::atomic<bool> any_disposed_ = false;
   DeviceInfo info_;
   bool lost_ = false;
   unsigned int (*reset_status_)() = nullptr;  // glGetGraphicsResetStatus of a robust context

@@ -14,6 +14,7 @@
 #include "base/memory.h"
 #include "base/printable.h"
 #include "gpu/context.h"
+#include "gpu/current.h"
 #include "gpu/device_info.h"
 #include "gpu/program.h"
 #include "gpu/read_ring.h"
@@ -208,6 +209,11 @@ EGLContext create_context(EGLDisplay display, const ContextOptions& options) {
   return EGL_NO_CONTEXT;
 }
 
+Context::Place current_place() {
+  return {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
+          eglGetCurrentSurface(EGL_READ)};
+}
+
 /// An error in the words that follow a candidate's name.
 template <class... T>
 Error unfit(fmt::format_string<T...> why, T&&... arguments) {
@@ -241,8 +247,8 @@ Result<std::unique_ptr<Context>> Context::create_on(const EglCandidate& candidat
   const EGLContext egl_context = create_context(display, options);
   if (egl_context == EGL_NO_CONTEXT) return unfit("provides no OpenGL 4.3 core context ({})", egl_error());
   std::unique_ptr<Context> context(new Context);
-  context->display_ = display;
-  context->context_ = egl_context;
+  context->egl_ = {display, egl_context};
+  context->owned_ = true;
   if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context))
     return unfit("cannot make its context current ({})", egl_error());
   if (gladLoadGL(eglGetProcAddress) < GLAD_MAKE_VERSION(4, 3)) return unfit("lacks functions of OpenGL 4.3");
@@ -261,10 +267,12 @@ Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& 
   }
   ASPIC_TRY(const Choice choice, choose(options));
   ASPIC_TRY(const std::vector<EglCandidate> ways, candidates(choice));
+  const Place before = current_place();
   std::string tried;
   for (const EglCandidate& candidate : ways) {
     auto context = create_on(candidate, options);
     if (context) return context;
+    if (before.context) put_back(before);
     tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, context.error().message);
   }
   return fail(ErrorCode::no_device,
@@ -274,31 +282,59 @@ Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& 
               tried.empty() ? "nothing, EGL offers no platform" : tried);
 }
 
+/// Of an adopted context; an owned one has no surfaces.
+void Context::note_egl() {
+  egl_ = current_place();
+}
+
+bool Context::is_current() const {
+  if (egl_.context) return eglGetCurrentContext() == egl_.context;
+  return std::this_thread::get_id() == thread_ && (!window_.is_current || window_.is_current());
+}
+
+Status Context::enter(Place& before) {
+  if (!is_current()) {
+    if (!owned_ && std::this_thread::get_id() != thread_) return elsewhere_error();
+    if (egl_.context) {
+      const Place current = current_place();
+      if (!eglMakeCurrent(egl_.display, egl_.draw, egl_.read, egl_.context)) {
+        const std::string error = egl_error();
+        if (error != "EGL_BAD_ACCESS")
+          return fail(ErrorCode::no_device, "The OpenGL context on {} cannot be made current ({}).",
+                      info_.renderer, error);
+        return elsewhere_error();
+      }
+      before = current;
+    } else {
+      if (window_.make_current) window_.make_current();
+      if (!is_current())
+        return fail(ErrorCode::no_device, "The window's OpenGL context on {} cannot be made current.",
+                    info_.renderer);
+    }
+  }
+  remove_disposed();
+  return {};
+}
+
 Status Context::make_current() {
-  if (!context_) return {};
-  if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return {};
-  return fail(ErrorCode::no_device,
-              "The OpenGL context on {} cannot be made current ({}). It may be current on another thread.",
-              info_.platform, egl_error());
+  Place before;
+  return enter(before);
+}
+
+void Context::put_back(const Place& before) {
+  eglMakeCurrent(before.display, before.draw, before.read, before.context);
 }
 
 Context::~Context() {
-  if (!context_) {
+  {
+    const Current here(*this);
     release_objects();
-    if (info_.debug) glDebugMessageCallback(nullptr, nullptr);
-    return;
+    if (!owned_ && info_.debug && here.status()) glDebugMessageCallback(nullptr, nullptr);
   }
-  // Programs are deleted where they live, whoever is current.
-  const EGLContext current = eglGetCurrentContext();
-  const EGLDisplay display = eglGetCurrentDisplay();
-  const EGLSurface draw = eglGetCurrentSurface(EGL_DRAW), read = eglGetCurrentSurface(EGL_READ);
-  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
-  release_objects();
-  if (current != EGL_NO_CONTEXT && current != context_)
-    eglMakeCurrent(display, draw, read, current);
-  else
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  eglDestroyContext(display_, context_);
+  if (!owned_) return;
+  if (eglGetCurrentContext() == egl_.context)
+    eglMakeCurrent(egl_.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  eglDestroyContext(egl_.display, egl_.context);
 }
 
 }  // namespace aspic::gl

@@ -2,6 +2,8 @@
 
 #include <glad/gl.h>
 
+#include "gpu/current.h"
+
 namespace aspic::gl {
 namespace {
 
@@ -11,11 +13,11 @@ constexpr int looks_per_second = 10;
 }  // namespace
 
 void DeleteFence::operator()(void* sync) const {
-  glDeleteSync(static_cast<GLsync>(sync));
+  context->dispose({sync});
 }
 
-Fence fence() {
-  Fence made(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+Fence fence(Context& context) {
+  Fence made(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0), {&context});
   glFlush();
   return made;
 }
@@ -26,6 +28,8 @@ bool passed(Context& context, const Fence& fence) {
 }
 
 Status wait_for(Context& context, const Fence& fence) {
+  const Current here(context);
+  ASPIC_CHECK(here.status());
   const bool answers = !context.strikes(Fault::no_answer);
   const auto sync = static_cast<GLsync>(fence.get());
   for (int n = 0; answers && n < longest_wait * looks_per_second; ++n) {

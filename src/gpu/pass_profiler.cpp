@@ -8,13 +8,13 @@
 
 namespace aspic::gl {
 
-PassProfiler::PassProfiler([[maybe_unused]] Context& context, std::vector<std::string> names,
-                           PassStamps stamps)
-    : names_(std::move(names)), stamps_(stamps) {}
+PassProfiler::PassProfiler(Context& context, std::vector<std::string> names, PassStamps stamps)
+    : context_(context), names_(std::move(names)), stamps_(stamps) {}
 
 PassProfiler::~PassProfiler() {
   for (const Sample& sample : samples_)
-    glDeleteQueries(static_cast<GLsizei>(sample.queries.size()), sample.queries.data());
+    for (const std::uint32_t query : sample.queries)
+      context_.dispose(query, [](std::uint32_t id) { glDeleteQueries(1, &id); });
 }
 
 void PassProfiler::stamp(Sample& sample, std::size_t index) {

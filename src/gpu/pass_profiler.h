@@ -76,6 +76,7 @@ class PassProfiler {
   Sum interval(const Sample& sample, std::size_t index) const;
   void collect();
 
+  Context& context_;
   std::vector<std::string> names_;
   PassStamps stamps_;
   std::array<Sample, 4> samples_;

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "gpu/current.h"
+
 namespace aspic::gl {
 namespace {
 
@@ -13,17 +15,19 @@ constexpr std::size_t stored_channels = 4;
 
 }  // namespace
 
-Name pixel_buffer(std::size_t bytes) {
+Name pixel_buffer(Context& context, std::size_t bytes) {
   GLuint id = 0;
   glGenBuffers(1, &id);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, id);
   glBufferData(GL_PIXEL_PACK_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  return Name(id, [](std::uint32_t owned) { glDeleteBuffers(1, &owned); });
+  return Name(context, id, [](std::uint32_t owned) { glDeleteBuffers(1, &owned); });
 }
 
 Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
   assert(width >= 1 && height >= 1);
+  const Current here(context);
+  ASPIC_CHECK(here.status());
   context.forget_errors();
   PixelRing ring;
   ring.context_ = &context;
@@ -31,7 +35,7 @@ Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
   ring.height_ = height;
   const std::size_t bytes =
       stored_channels * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  for (Name& buffer : ring.buffers_) buffer = pixel_buffer(bytes);
+  for (Name& buffer : ring.buffers_) buffer = pixel_buffer(context, bytes);
   const GLenum error = glGetError();
   if (error != GL_NO_ERROR)
     return fail(ErrorCode::scene_rejected,
@@ -44,17 +48,21 @@ Result<PixelRing> PixelRing::create(Context& context, int width, int height) {
 void PixelRing::submit(const Framebuffer& source) {
   assert(!full() && source.width() == width_ && source.height() == height_);
   const std::size_t slot = (first_ + pending_) % capacity;
+  ++pending_;
+  const Current here(*context_);
+  if (!here.status()) return;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot].id());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  fences_[slot] = fence();
-  ++pending_;
+  fences_[slot] = fence(*context_);
 }
 
 Status PixelRing::take(std::vector<std::byte>& rgb) {
   assert(pending_ > 0);
+  const Current here(*context_);
+  ASPIC_CHECK(here.status());
   const std::size_t slot = first_;
   const Fence drawn = std::move(fences_[slot]);
   const Status answered = wait_for(*context_, drawn);

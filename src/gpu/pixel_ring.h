@@ -14,10 +14,10 @@
 namespace aspic::gl {
 
 /// A buffer for pixels on their way back.
-Name pixel_buffer(std::size_t bytes);
+Name pixel_buffer(Context& context, std::size_t bytes);
 
 /// A ring of pixel buffers with fences, for pictures of one size. OpenGL 4.3 has no persistent mapping, so a
-/// buffer is mapped when its fence has passed. Its context must outlive it and be current.
+/// buffer is mapped when its fence has passed. Its context must outlive it; every call makes it current.
 class PixelRing {
  public:
   /// Pictures under way at once.
@@ -35,7 +35,7 @@ class PixelRing {
 
   /// The oldest picture: height·width·3 bytes RGB, rows from the top down, values as stored (of an sRGB
   /// image: encoded). Waits for the device. Legal while pending() > 0. Error (no_device): the device was
-  /// lost.
+  /// lost, or the context is in use on another thread.
   Status take(std::vector<std::byte>& rgb);
 
  private:

@@ -44,7 +44,7 @@ struct StageSource {
 /// Compiles the stages and links them into a program, which debug messages call `label`.
 Result<Name> build(Context& context, std::span<const StageSource> stages, std::string_view label) {
   const GLuint program = glCreateProgram();
-  Name made(program, [](std::uint32_t id) { glDeleteProgram(id); });
+  Name made(context, program, [](std::uint32_t id) { glDeleteProgram(id); });
   std::vector<GLuint> shaders;
   const auto detach_all = [&] {
     for (const GLuint shader : shaders) {

@@ -21,7 +21,7 @@ ReadRing::ReadRing(Context& context, std::uint64_t bytes) : context_(&context), 
     glGenBuffers(1, &id);
     glBindBuffer(target, id);
     glBufferData(target, static_cast<GLsizeiptr>(bytes), nullptr, GL_STREAM_READ);
-    buffers_.emplace_back(id, [](std::uint32_t owned) { glDeleteBuffers(1, &owned); });
+    buffers_.emplace_back(context, id, [](std::uint32_t owned) { glDeleteBuffers(1, &owned); });
   }
 }
 
@@ -32,7 +32,7 @@ void ReadRing::submit(const Buffer& source, std::uint64_t offset, std::uint64_t 
   glBindBuffer(source_target, source.id());
   glCopyBufferSubData(source_target, target, static_cast<GLintptr>(offset), 0,
                       static_cast<GLsizeiptr>(bytes));
-  fences_[slot] = fence();
+  fences_[slot] = fence(*context_);
   ++pending_;
 }
 

@@ -50,7 +50,7 @@ Result<Texture> Texture::create(Context& context, std::string name, const Textur
   texture.settings_ = settings;
   GLuint id = 0;
   glGenTextures(1, &id);
-  texture.name_ = Name(id, [](std::uint32_t owned) { glDeleteTextures(1, &owned); });
+  texture.name_ = Name(context, id, [](std::uint32_t owned) { glDeleteTextures(1, &owned); });
   const GLenum target = target_of(settings);
   const Storage storage = storage_of(settings.format);
   glBindTexture(target, id);
@@ -118,7 +118,7 @@ Result<Framebuffer> Framebuffer::create(Context& context, const Texture& colour,
   result.height_ = colour.height();
   GLuint id = 0;
   glGenFramebuffers(1, &id);
-  result.name_ = Name(id, [](std::uint32_t owned) { glDeleteFramebuffers(1, &owned); });
+  result.name_ = Name(context, id, [](std::uint32_t owned) { glDeleteFramebuffers(1, &owned); });
   glBindFramebuffer(GL_FRAMEBUFFER, id);
   glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, colour.id(), 0);
   if (depth) glFramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth->id(), 0);

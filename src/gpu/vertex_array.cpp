@@ -6,12 +6,18 @@
 
 namespace aspic::gl {
 
-VertexArray VertexArray::create(std::span<const Attribute> attributes, const Buffer* indices) {
+VertexArray VertexArray::without_inputs(Context& context) {
   VertexArray result;
   GLuint id = 0;
   glGenVertexArrays(1, &id);
-  result.name_ = Name(id, [](std::uint32_t owned) { glDeleteVertexArrays(1, &owned); });
-  glBindVertexArray(id);
+  result.name_ = Name(context, id, [](std::uint32_t owned) { glDeleteVertexArrays(1, &owned); });
+  return result;
+}
+
+VertexArray VertexArray::create(std::span<const Attribute> attributes, const Buffer* indices) {
+  assert(!attributes.empty());
+  VertexArray result = without_inputs(*attributes.front().buffer->context());
+  result.bind();
   for (const Attribute& a : attributes) {
     assert(a.buffer && a.components >= 1 && a.components <= 4);
     glBindBuffer(GL_ARRAY_BUFFER, a.buffer->id());

@@ -23,9 +23,10 @@ class VertexArray {
   /// An empty handle: id 0.
   VertexArray() = default;
 
-  /// An array of these inputs and, unless null, an index buffer of 32-bit indices. No inputs is legal: the
-  /// shader then makes its vertices from gl_VertexID.
+  /// An array of these inputs, at least one, and, unless null, an index buffer of 32-bit indices.
   static VertexArray create(std::span<const Attribute> attributes, const Buffer* indices = nullptr);
+  /// One without inputs: the shader makes its vertices from gl_VertexID.
+  static VertexArray without_inputs(Context& context);
 
   void bind() const;
   std::uint32_t id() const { return name_.id(); }

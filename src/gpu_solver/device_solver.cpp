@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "device/particles.h"
+#include "gpu/current.h"
 #include "gpu_solver/kernels.h"
 
 namespace aspic {
@@ -79,12 +80,23 @@ Status DeviceSolver::take(const State& state) {
   return {};
 }
 
+Result<std::optional<Divergence>> DeviceSolver::advance(std::uint64_t steps) {
+  const gl::Current here(context_);
+  ASPIC_CHECK(here.status());
+  ASPIC_CHECK(take_steps(steps));
+  return divergence_;
+}
+
 Status DeviceSolver::load(const State& state) {
+  const gl::Current here(context_);
+  ASPIC_CHECK(here.status());
   ASPIC_CHECK(take(state));
   return context_.check();
 }
 
 Status DeviceSolver::set_pull(const std::optional<Pull>& pull) {
+  const gl::Current here(context_);
+  ASPIC_CHECK(here.status());
   ASPIC_TRY(const bool changes, pull_.changes(model_, pull));
   if (!changes) return {};
   // Steps of balls that found no room are repeated, with the pull that they had.
@@ -93,6 +105,8 @@ Status DeviceSolver::set_pull(const std::optional<Pull>& pull) {
 }
 
 Result<State> DeviceSolver::state() {
+  const gl::Current here(context_);
+  ASPIC_CHECK(here.status());
   ASPIC_CHECK(settle());
   State state;
   state.precision = Precision::single;
@@ -144,7 +158,8 @@ Divergence DeviceSolver::divergence_from(std::uint32_t word, std::uint64_t steps
 }
 
 void DeviceSolver::set_profiling(bool on) {
-  if (on == (profiler_ != nullptr)) return;
+  const gl::Current here(context_);
+  if (on == (profiler_ != nullptr) || !here.status()) return;
   balls_.set_profiler(nullptr, 0);
   profiler_.reset();
   if (!on) return;
@@ -155,7 +170,8 @@ void DeviceSolver::set_profiling(bool on) {
 }
 
 std::vector<gl::PassTime> DeviceSolver::pass_times() {
-  return profiler_ ? profiler_->times() : std::vector<gl::PassTime>();
+  const gl::Current here(context_);
+  return profiler_ && here.status() ? profiler_->times() : std::vector<gl::PassTime>();
 }
 
 }  // namespace aspic

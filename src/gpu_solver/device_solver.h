@@ -20,6 +20,7 @@ namespace aspic {
 inline constexpr gl::ReadBy anyone =
     gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw | gl::ReadBy::read_back | gl::ReadBy::copy;
 
+/// Every public call enters the solver's context (gpu/current.h).
 class DeviceSolver : public GpuSolver {
  public:
   /// Makes everything and loads the initial state. Errors: those of make_gpu_solver.
@@ -35,6 +36,7 @@ class DeviceSolver : public GpuSolver {
   const gl::Arithmetic& arithmetic() const final { return arithmetic_; }
   const std::shared_ptr<const SpringBuffers>& spring_buffers() const final { return springs_; }
 
+  Result<std::optional<Divergence>> advance(std::uint64_t steps) final;
   Status load(const State& state) final;
   Status set_pull(const std::optional<Pull>& pull) final;
   Result<State> state() final;
@@ -74,6 +76,8 @@ class DeviceSolver : public GpuSolver {
   }
   /// Whether steps under way may be carried out after what the host says next.
   virtual bool repeats_steps() const { return balls_.any(); }
+  /// Queues steps and takes in what came of earlier ones, for advance().
+  virtual Status take_steps(std::uint64_t steps) = 0;
   /// Waits for the queued steps, so that state and step number are those of good steps.
   virtual Status settle() { return {}; }
   /// The kernels count steps in 32 bits: before those are full, counting begins again. No step may be under

@@ -39,7 +39,6 @@ class ExplicitSolver final : public DeviceSolver {
                       std::string(path.particle_title)}),
         method_(free_flight_row(model.simulation.integrator)) {}
 
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   void set_late(bool on) override { late_ = on; }
 
  private:
@@ -56,6 +55,7 @@ class ExplicitSolver final : public DeviceSolver {
   std::uint32_t group_size(const GpuOptions& options) const override { return options.group_size; }
   Status build_passes(const KernelOptions& kernels, const GpuOptions& options) override;
   void restart() override;
+  Status take_steps(std::uint64_t steps) override { return carry_out(steps, !late_); }
   Status settle() override { return carry_out(0, true); }
   Status carry_out(std::uint64_t steps, bool wait);
   std::uint32_t queue_steps(std::uint32_t count);
@@ -193,11 +193,6 @@ void ExplicitSolver::queue_step(std::uint32_t step_index, bool last_of_queue) {
                last_of_queue ? anyone : ReadBy::compute_pass);
   ball_slot_ = 1 - ball_slot_;
   current_ = end;
-}
-
-Result<std::optional<Divergence>> ExplicitSolver::advance(std::uint64_t steps) {
-  ASPIC_CHECK(carry_out(steps, !late_));
-  return divergence_;
 }
 
 Status ExplicitSolver::carry_out(std::uint64_t steps, bool wait) {

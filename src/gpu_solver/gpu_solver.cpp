@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/result.h"
+#include "gpu/current.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
@@ -18,7 +19,7 @@ bool solves(Integrator integrator, std::uint64_t particles) {
 }
 
 /// Springs that are shared are held already.
-Status check_free_memory(const gl::Context& context, const Model& model, const GpuOptions& options,
+Status check_free_memory(gl::Context& context, const Model& model, const GpuOptions& options,
                          const ForcePathRow& path) {
   const std::uint64_t needed = gpu_bytes(model, path.path, context.info().limits.storage_block_bytes),
                       shared =
@@ -30,6 +31,8 @@ Status check_free_memory(const gl::Context& context, const Model& model, const G
 
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
                                                    const GpuOptions& options) {
+  const gl::Current here(context);
+  ASPIC_CHECK(here.status());
   if (context.lost()) return context.lost_error();
   const ForcePathRow& path = row_of(options.force_path, model);
   // Counting takes a while in large scenes, and without a figure to compare with it is for nothing.

@@ -73,10 +73,12 @@ class GpuSolver : public Solver {
   virtual const std::shared_ptr<const SpringBuffers>& spring_buffers() const = 0;
 };
 
-/// A gpu solver at the model's initial state. Model and context must outlive it; the context must be current
-/// here and in every call. Errors: scene_rejected (not built yet, or larger than the device's buffers or
-/// index words, or the device has no memory left: the sentence gives the figures), no_device (the driver
-/// refuses a kernel, or the context is lost), io (a shader file cannot be read).
+/// A gpu solver at the model's initial state. Model and context must outlive it. This and every call of the
+/// solver enter the context (gpu/current.h), so that any number of solvers take turns on a thread; a call
+/// from another thread than the one that the context is in use on is an error. Errors: scene_rejected (not
+/// built yet, or larger than the device's buffers or index words, or the device has no memory left: the
+/// sentence gives the figures), no_device (the driver refuses a kernel, or the context is lost), io (a shader
+/// file cannot be read).
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
                                                    const GpuOptions& options = {});
 

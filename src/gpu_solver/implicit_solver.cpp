@@ -44,7 +44,6 @@ class ImplicitSolver final : public DeviceSolver {
   ImplicitSolver(gl::Context& context, const Model& model, const ForcePathRow& path)
       : DeviceSolver(context, model, path, 2, titles_of(implicit_kernels)) {}
 
-  Result<std::optional<Divergence>> advance(std::uint64_t steps) override;
   std::optional<SolveStatistics> solve_statistics() override { return statistics_; }
   void set_late(bool on) override { late_ = on; }
 
@@ -58,6 +57,7 @@ class ImplicitSolver final : public DeviceSolver {
   }
   // A step may end in a later queue than its own, and would meet the pull of that one.
   bool repeats_steps() const override { return true; }
+  Status take_steps(std::uint64_t steps) override;
   Status settle() override { return carry_out(0, true); }
   Status carry_out(std::uint64_t steps, bool wait);
   Result<std::uint32_t> work_on(std::uint64_t steps, bool must);
@@ -172,7 +172,7 @@ void ImplicitSolver::queue_rounds(std::uint32_t rounds) const {
   balls_.queue(states_[0], states_[1], 0, 0, anyone);
 }
 
-Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
+Status ImplicitSolver::take_steps(std::uint64_t steps) {
   // A step that is measured is queued alone: rounds queued behind it may turn out to belong to it.
   if (profiler_ && steps > 0) {
     ASPIC_CHECK(settle());
@@ -182,8 +182,7 @@ Result<std::optional<Divergence>> ImplicitSolver::advance(std::uint64_t steps) {
       --steps;
     }
   }
-  ASPIC_CHECK(carry_out(steps, !late_));
-  return divergence_;
+  return carry_out(steps, !late_);
 }
 
 /// As many as the last step took, or this one so far, and a quarter more.

@@ -51,9 +51,9 @@ Result<std::unique_ptr<Picker>> Picker::create(gl::Context& context, const gl::S
   ASPIC_TRY(p->image_,
             DrawableImage::create(context, "identities",
                                   {.format = gl::TexelFormat::rg32ui, .width = side, .height = side}, true));
-  p->nothing_ = gl::VertexArray::create({});
+  p->nothing_ = gl::VertexArray::without_inputs(context);
   for (Slot& slot : p->slots_) {
-    slot.buffer = gl::pixel_buffer(sizeof(Word) * side * side);
+    slot.buffer = gl::pixel_buffer(context, sizeof(Word) * side * side);
   }
   return p;
 }
@@ -134,7 +134,7 @@ void Picker::submit(std::uint64_t request, const Model& model, const ModelBuffer
   glReadPixels(0, 0, side, side, GL_RG_INTEGER, GL_UNSIGNED_INT, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  slot.fence = gl::fence();
+  slot.fence = gl::fence(particles_.context());
   ++pending_;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "device/particles.h"
+#include "gpu/current.h"
 #include "gpu/pass.h"
 #include "model/terrain.h"
 #include "render/frame_block.h"
@@ -45,6 +46,8 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Renderer::~Renderer() = default;
 
 Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const RendererOptions& options) {
+  const gl::Current here(context);
+  ASPIC_CHECK(here.status());
   auto parts = std::make_unique<Parts>();
   parts->context = &context;
   parts->shaders = options.shaders;
@@ -56,7 +59,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
   ASPIC_TRY(parts->colour_map, gl::Texture::create(context, "colour map", {.width = 256, .height = 1}));
   ASPIC_TRY(parts->frame,
             gl::Buffer::create(context, "frame", sizeof(render_layout::Frame), gl::BufferKind::uniform));
-  parts->nothing = gl::VertexArray::create({});
+  parts->nothing = gl::VertexArray::without_inputs(context);
   GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
   parts->samples = std::clamp(options.samples, 1, static_cast<int>(most));
@@ -64,6 +67,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
 }
 
 Status Renderer::set_model(const Model& model) {
+  const gl::Current here(*parts_->context);
+  ASPIC_CHECK(here.status());
   parts_->abandon();
   ASPIC_TRY(auto buffers, ModelBuffers::create(*parts_->context, model));
   ASPIC_CHECK(parts_->terrain.set_terrain(*parts_->context, model.terrain));
@@ -80,6 +85,8 @@ Status Renderer::set_model(const Model& model) {
 
 Result<DeviceState> Renderer::upload(const State& state) {
   Parts& p = *parts_;
+  const gl::Current here(*p.context);
+  ASPIC_CHECK(here.status());
   assert(p.model);
   auto particles = packed_particles(*p.model, state);
   auto balls = packed_balls(*p.model, state);
@@ -183,7 +190,7 @@ void Renderer::Parts::prepare_scale(const DeviceState& state, const PictureOptio
 /// be.
 Status Renderer::Parts::start(int width, int height, const DeviceState& state,
                               const PictureOptions& options) {
-  assert(model && state.particles);
+  assert(model && state.particles && state.particles->context() == context);
   assert(state.particles->bytes() >= sizeof(layout::Particle) * model->particle_count());
   const ViewSettings& view = options.view;
   ASPIC_CHECK(prepare_targets(width, height, options.samples));
@@ -230,6 +237,8 @@ void Renderer::Parts::abandon() {
 
 Status Renderer::draw(int width, int height, const DeviceState& state, const PictureOptions& options) {
   Parts& p = *parts_;
+  const gl::Current here(*p.context);
+  ASPIC_CHECK(here.status());
   p.abandon();
   ASPIC_CHECK(p.start(width, height, state, options));
   for (const Parts::Step& step : Parts::steps()) {
@@ -241,6 +250,8 @@ Status Renderer::draw(int width, int height, const DeviceState& state, const Pic
 
 Status Renderer::begin(int width, int height, const DeviceState& state, const PictureOptions& options) {
   Parts& p = *parts_;
+  const gl::Current here(*p.context);
+  ASPIC_CHECK(here.status());
   p.abandon();
   std::swap(p.earlier, p.targets);
   const Status started = p.start(width, height, state, options);
@@ -250,6 +261,8 @@ Status Renderer::begin(int width, int height, const DeviceState& state, const Pi
 
 Result<bool> Renderer::proceed() {
   Parts& p = *parts_;
+  const gl::Current here(*p.context);
+  ASPIC_CHECK(here.status());
   assert(p.drawing);
   Drawing& d = *p.drawing;
   const std::span<const Parts::Step> steps = Parts::steps();
@@ -264,6 +277,8 @@ Result<bool> Renderer::proceed() {
 
 Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
   Parts& p = *parts_;
+  const gl::Current here(*p.context);
+  ASPIC_CHECK(here.status());
   assert(p.drawn_state);
   if (!p.picker) {
     ASPIC_TRY(p.picker, Picker::create(*p.context, p.shaders));
@@ -274,11 +289,14 @@ Result<std::uint64_t> Renderer::request_pick(const PickPlace& place) {
 }
 
 PickAnswer Renderer::picked() const {
-  return parts_->picker ? parts_->picker->answer() : PickAnswer{};
+  const gl::Current here(*parts_->context);
+  return parts_->picker && here.status() ? parts_->picker->answer() : PickAnswer{};
 }
 
 Result<QuantityRange> Renderer::range_of(const DeviceState& state, const ViewSettings& view) {
   Parts& p = *parts_;
+  const gl::Current here(*p.context);
+  ASPIC_CHECK(here.status());
   const QuantityRange alone = range_for(*p.model, view, {});
   if (!follows_picture(view)) return alone;
   if (shows_springs(view.colour)) ASPIC_CHECK(p.buffers->prepare_incident(*p.context, *p.model, state));
@@ -298,6 +316,8 @@ const gl::Framebuffer& Renderer::picture() const {
 }
 
 void Renderer::present(std::uint32_t framebuffer, int width, int height, int left, int bottom) const {
+  const gl::Current here(*parts_->context);
+  if (!here.status()) return;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(left, bottom, width, height);
   parts_->last().picture.colour.bind(UNIT_FRAME);
@@ -308,6 +328,8 @@ void Renderer::present(std::uint32_t framebuffer, int width, int height, int lef
 
 void Renderer::present_ghost(const Colour& background, std::uint32_t framebuffer, int width, int height,
                              int left, int bottom) const {
+  const gl::Current here(*parts_->context);
+  if (!here.status()) return;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(left, bottom, width, height);
   parts_->last().picture.colour.bind(UNIT_FRAME);
@@ -323,6 +345,8 @@ void Renderer::present_ghost(const Colour& background, std::uint32_t framebuffer
 Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_t framebuffer, int width,
                                    int height, int left, int bottom) {
   Parts& p = *parts_;
+  const gl::Current here(*p.context);
+  ASPIC_CHECK(here.status());
   assert(p.drawn_state && width > 0 && height > 0);
   ASPIC_CHECK(p.prepare_highlight());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -343,7 +367,8 @@ Status Renderer::present_highlight(const HighlightOptions& options, std::uint32_
 
 void Renderer::set_profiling(bool on) {
   Parts& p = *parts_;
-  if (on == (p.profiler != nullptr)) return;
+  const gl::Current here(*p.context);
+  if (on == (p.profiler != nullptr) || !here.status()) return;
   p.profiler.reset();
   if (on)
     p.profiler = std::make_unique<gl::PassProfiler>(
@@ -352,10 +377,13 @@ void Renderer::set_profiling(bool on) {
 }
 
 std::vector<gl::PassTime> Renderer::pass_times() {
-  return parts_->profiler ? parts_->profiler->times() : std::vector<gl::PassTime>();
+  const gl::Current here(*parts_->context);
+  return parts_->profiler && here.status() ? parts_->profiler->times() : std::vector<gl::PassTime>();
 }
 
 std::vector<Vec3> Renderer::normals() const {
+  const gl::Current here(*parts_->context);
+  if (!here.status()) return {};
   std::vector<Vec3> result;
   for (const render_layout::SkinVertex& v :
        parts_->buffers->skin().download_items<render_layout::SkinVertex>(parts_->buffers->skin_vertices()))

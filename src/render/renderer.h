@@ -45,8 +45,9 @@ struct PictureOptions {
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
 };
 
-/// Everything of OpenGL that pictures need. The context must outlive it and be current in every call. The
-/// state of the context that it changes it leaves as OpenGL starts with, bindings excepted.
+/// Everything of OpenGL that pictures need. The context must outlive it; every call enters it
+/// (gpu/current.h), and where it is in use on another thread, calls without a Status do nothing. The state of
+/// the context that it changes it leaves as OpenGL starts with, bindings excepted.
 class Renderer {
  public:
   /// Compiles the shaders and makes the textures. Errors: no_device (a shader is refused), io (a shader file

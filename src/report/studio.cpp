@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "gpu/current.h"
 #include "gpu/pixel_ring.h"
 #include "run/backends.h"
 
@@ -18,7 +19,8 @@ Result<std::unique_ptr<Studio>> Studio::open() {
 }
 
 Result<std::string> Studio::jpeg(const State& state, const ViewSettings& view, const PictureSize& size) {
-  ASPIC_CHECK(context_->make_current());
+  const gl::Current here(*context_);
+  ASPIC_CHECK(here.status());
   ASPIC_TRY(const auto uploaded, renderer_->upload(state));
   PictureOptions options;
   options.view = view;

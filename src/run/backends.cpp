@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "base/memory.h"
 #include "base/printable.h"
@@ -211,6 +212,19 @@ std::string backend_words() {
   std::string words = "auto";
   for (const BackendRow& row : table) words += fmt::format(", {}", row.name);
   return words;
+}
+
+Backend& Backend::operator=(Backend&& other) noexcept {
+  if (this == &other) return *this;
+  solver = std::move(other.solver);
+  context = std::move(other.context);
+  gpu = std::exchange(other.gpu, nullptr);
+  row = other.row;
+  device = std::move(other.device);
+  force_path = std::move(other.force_path);
+  arithmetic = other.arithmetic;
+  reason = std::move(other.reason);
+  return *this;
 }
 
 std::string Backend::variant() const {

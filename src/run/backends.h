@@ -30,7 +30,8 @@ struct BackendChoice {
 
 /// What a solver may use of its surroundings; nothing is required.
 struct SolverHost {
-  /// Where a backend that needs a context works; it must outlive the solver. Null: a headless one of its own.
+  /// Where a backend that needs a context works; it must outlive the solver, and may be others' as well.
+  /// Null: a headless one of its own.
   gl::Context* context = nullptr;
   /// A solver on the same context to share buffers with, see GpuOptions::share_springs_of.
   const GpuSolver* share_springs_of = nullptr;
@@ -48,6 +49,12 @@ struct Backend {
   std::string force_path;    ///< "gather", …; empty if the backend has none
   Arithmetic arithmetic = Arithmetic::exact;
   std::string reason;  ///< why `auto` took it; empty if it was named
+
+  Backend() = default;
+  Backend(Backend&&) = default;
+  /// What was there goes in the right order: the solver before its context.
+  Backend& operator=(Backend&& other) noexcept;
+  ~Backend() = default;
 
   /// "gpu:gather", "cpu:fast", "reference:double", "reference".
   std::string variant() const;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "gpu/current.h"
 #include "render/camera.h"
 #include "run/arrows.h"
 
@@ -11,6 +12,8 @@ namespace aspic {
 Result<std::unique_ptr<BesideRecorder>> BesideRecorder::create(
     gl::Context& context, const PictureOutput& output, std::vector<PicturedRun> runs,
     std::vector<std::unique_ptr<FrameSink>> sinks) {
+  const gl::Current here(context);
+  ASPIC_CHECK(here.status());
   std::unique_ptr<BesideRecorder> r(new BesideRecorder());
   r->context_ = &context;
   r->output_ = output;
@@ -49,6 +52,8 @@ Status BesideRecorder::add(const std::vector<std::uint64_t>& steps,
   recording_->wait_until_ready();
   // Nothing but an error completes the film before its end.
   if (recording_->completed()) return recording_->result();
+  const gl::Current here(*context_);
+  ASPIC_CHECK(here.status());
   const auto before = std::chrono::steady_clock::now();
   for (std::size_t i = 0; i < parts_.size(); ++i) ASPIC_CHECK(take_state(parts_[i], steps[i]));
   for (std::size_t i = 0; i < parts_.size(); ++i)

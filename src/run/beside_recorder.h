@@ -29,7 +29,7 @@ struct PicturedRun {
 
 class BesideRecorder {
  public:
-  /// Draws in `context`, the one of all backends that need one, current in every call. The sinks have the
+  /// Draws in `context`, the one of all backends that need one. The sinks have the
   /// size of `output`. One to most_beside runs. Errors: as Recorder::create().
   static Result<std::unique_ptr<BesideRecorder>> create(gl::Context& context, const PictureOutput& output,
                                                         std::vector<PicturedRun> runs,

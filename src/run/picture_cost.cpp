@@ -7,6 +7,7 @@
 #include <ctime>
 #include <optional>
 
+#include "gpu/current.h"
 #include "gpu/pixel_ring.h"
 #include "io/frame_schedule.h"
 #include "render/overlay_text.h"
@@ -81,6 +82,8 @@ class PictureCostMeter {
 
   /// The same pass by pass, into sums.
   Status passes(std::vector<gl::PassTime>& sums) {
+    const gl::Current here(*backend_.context);
+    ASPIC_CHECK(here.status());
     const Stopwatch uploading;
     ASPIC_TRY(const auto state, on_device());
     std::vector<gl::PassTime> all = {uploading.pass("state to the device")};

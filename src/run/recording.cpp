@@ -4,6 +4,8 @@
 #include <chrono>
 #include <new>
 
+#include "gpu/current.h"
+
 namespace aspic {
 namespace {
 
@@ -22,11 +24,13 @@ Result<std::unique_ptr<Recording>> Recording::start(gl::Context& context,
                                                     std::vector<std::unique_ptr<FrameSink>> sinks,
                                                     FilmOptions options) {
   ASPIC_TRY(auto ring, gl::PixelRing::create(context, options.size.width, options.size.height));
-  return std::unique_ptr<Recording>(new Recording(std::move(ring), std::move(sinks), std::move(options)));
+  return std::unique_ptr<Recording>(
+      new Recording(context, std::move(ring), std::move(sinks), std::move(options)));
 }
 
-Recording::Recording(gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>> sinks, FilmOptions options)
-    : options_(std::move(options)), ring_(std::move(ring)), sinks_(std::move(sinks)) {
+Recording::Recording(gl::Context& context, gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>> sinks,
+                     FilmOptions options)
+    : context_(context), options_(std::move(options)), ring_(std::move(ring)), sinks_(std::move(sinks)) {
   const std::size_t bytes =
       3 * static_cast<std::size_t>(options_.size.width) * static_cast<std::size_t>(options_.size.height);
   most_waiting_ = std::clamp<std::size_t>(most_waiting_bytes / bytes, 2, 64);
@@ -58,6 +62,8 @@ void Recording::wait_until_ready() {
 }
 
 Status Recording::hand_on() {
+  const gl::Current here(context_);
+  ASPIC_CHECK(here.status());
   Picture picture;
   picture.copies = copies_.front();
   copies_.pop_front();
@@ -73,6 +79,8 @@ Status Recording::hand_on() {
 }
 
 Status Recording::add(const gl::Framebuffer& picture, std::uint64_t copies) {
+  const gl::Current here(context_);
+  ASPIC_CHECK(here.status());
   if (ring_.full()) ASPIC_CHECK(hand_on());
   ring_.submit(picture);
   copies_.push_back(copies);

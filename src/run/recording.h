@@ -31,7 +31,7 @@ struct FrameTimes {
 
 /// Takes pictures of one size. Nothing is dropped: while the encoder is behind, ready() is false. A sink that
 /// fails is lost alone; the others continue. One that is destroyed before its end() leaves no film file, only
-/// the pictures of a directory.
+/// the pictures of a directory. Every call enters the context (gpu/current.h).
 class Recording {
  public:
   /// All sinks get every picture. Error (scene_rejected): no device memory. The context must outlive end().
@@ -77,7 +77,8 @@ class Recording {
   FrameTimes times() const;
 
  private:
-  Recording(gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>> sinks, FilmOptions options);
+  Recording(gl::Context& context, gl::PixelRing ring, std::vector<std::unique_ptr<FrameSink>> sinks,
+            FilmOptions options);
   struct Picture {
     std::vector<std::byte> pixels;
     std::uint64_t copies = 1;
@@ -88,6 +89,7 @@ class Recording {
   template <class Work>
   bool carry_out(std::unique_ptr<FrameSink>& sink, const Work& work);
 
+  gl::Context& context_;
   FilmOptions options_;
   gl::PixelRing ring_;
   std::deque<std::uint64_t> copies_;  // of the ring's pictures

@@ -71,6 +71,7 @@ void GlTest::SetUp() {
 
 void GlTest::TearDown() {
   if (!process_context()) return;
+  EXPECT_TRUE(context().make_current().ok());
   for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError())
     ADD_FAILURE() << "GL error 0x" << std::hex << error << " was left behind";
   for (const std::string& message : severe_messages()) ADD_FAILURE() << "The driver reported: " << message;

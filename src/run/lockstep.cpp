@@ -1,0 +1,69 @@
+#include "run/lockstep.h"
+
+#include <algorithm>
+
+namespace aspic {
+namespace {
+
+bool same_bits(const State& a, const State& b) {
+  return state_hash(a) == state_hash(b);
+}
+
+Error one_state(const Solver& first, const Solver& second) {
+  return fail(ErrorCode::check_failed,
+              "a step of the one solver ({}) changed the state of the other ({}): both work on one state, so "
+              "nothing was compared. This is a fault of the program or of the driver.",
+              first.description(), second.description());
+}
+
+}  // namespace
+
+void WorstDifference::take(const QuantityDifference& d, std::uint64_t step) {
+  if (d.absolute > absolute) {
+    absolute = d.absolute;
+    absolute_index = d.absolute_index;
+    absolute_step = step;
+  }
+  if (d.ulp > ulp) {
+    ulp = d.ulp;
+    ulp_index = d.ulp_index;
+    ulp_step = step;
+  }
+}
+
+double LockstepResult::largest_absolute() const {
+  return std::ranges::max_element(worst, {}, &WorstDifference::absolute)->absolute;
+}
+
+Result<LockstepResult> compare_in_lockstep(Solver& first, Solver& second, std::uint64_t steps,
+                                           const std::function<bool(std::uint64_t)>& go_on) {
+  LockstepResult result;
+  if (&first == &second) return one_state(first, second);
+  bool apart = false;
+  for (std::uint64_t step = 0;; ++step) {
+    ASPIC_TRY(const auto a, first.state());
+    ASPIC_TRY(const auto b, second.state());
+    ASPIC_TRY(const auto difference, compare_states(a, b));
+    // States of two precisions with equal single-precision values still differ where a number does.
+    if (!result.first_difference && (!difference.identical() || difference.largest_absolute() > 0.0))
+      result.first_difference = step;
+    for (std::size_t i = 0; i < result.worst.size(); ++i)
+      result.worst[i].take(difference.*compared_quantities[i], step);
+    result.hash = {state_hash_text(a), state_hash_text(b)};
+    result.steps = step;
+    result.interrupted = !go_on(step);
+    if (step == steps || result.interrupted) return result;
+
+    ASPIC_TRY(result.divergence[0], first.advance(1));
+    if (!apart) {
+      ASPIC_TRY(const auto stepped, first.state());
+      ASPIC_TRY(const auto untouched, second.state());
+      if (!same_bits(untouched, b)) return one_state(first, second);
+      apart = !same_bits(stepped, a);
+    }
+    ASPIC_TRY(result.divergence[1], second.advance(1));
+    if (result.divergence[0] || result.divergence[1]) return result;
+  }
+}
+
+}  // namespace aspic
