@@ -1,6 +1,7 @@
 #pragma once
 // The model of a run with the solvers that advance it.
 #include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -69,7 +70,11 @@ class Engines {
 
   /// Puts another solver of the same model in the place of one; it has no pull yet.
   void set_leader(Backend engine) { leader_ = std::move(engine); }
-  void set_shadow(Backend engine) { shadow_ = std::move(engine); }
+  /// Of another backend than the leader's: beside its like a shadow would show nothing.
+  void set_shadow(Backend engine) {
+    assert(!engine.row || engine.row != leader_.row);
+    shadow_ = std::move(engine);
+  }
   void swap() { std::swap(leader_, shadow_); }
   /// The energies of a state of the model.
   EnergySample measured(const State& state) const;

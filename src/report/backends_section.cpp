@@ -100,7 +100,9 @@ Result<Section> backends_section(const Study& study) {
       figure.table->rows.push_back({std::string(row.name), speed->device,
                                     size > 0 ? Cell(static_cast<double>(size)) : Cell(), springs,
                                     speed->steps_per_second, forces, speed->hash,
-                                    std::string(speed->hash == reference.hash ? "yes" : "no")});
+                                    std::string(&row == &reference_backend()    ? "is the reference"
+                                                : speed->hash == reference.hash ? "yes"
+                                                                                : "no")});
       if (springs == 0.0) continue;
       const std::string name = fmt::format("{}: {}", row.name, speed->device);
       auto curve = std::ranges::find(curves, name, &Curve::name);

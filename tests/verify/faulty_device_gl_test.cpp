@@ -51,6 +51,23 @@ TEST_F(FaultyDevice, AWorkGroupOrARunOfItsOwnIsNoticed) {
   EXPECT_EQ(row_of("repeat/driver-threads", subject).verdict, Verdict::failed);
 }
 
+// A solver that does nothing has one hash in all runs.
+TEST_F(FaultyDevice, RunsThatGoNowhereAreNoticed) {
+  Subject subject = product(&context(), ASPIC_PROGRAM);
+  EXPECT_EQ(row_of("repeat/runs", subject).verdict, Verdict::passed);
+  std::vector<std::unique_ptr<Model>> models;
+  subject.gpu = [&, right = subject.gpu](const Model& model, const GpuOptions& options) {
+    models.push_back(std::make_unique<Model>(model));
+    models.back()->simulation.timestep = 1e-60;  // 0 in single precision
+    return right(*models.back(), options);
+  };
+  for (const char* name : {"repeat/runs", "repeat/group-sizes"}) {
+    const Row row = row_of(name, subject);
+    EXPECT_EQ(row.verdict, Verdict::failed) << name << ": " << row.measured;
+    EXPECT_NE(row.measured.find("nothing moved"), std::string::npos) << row.measured;
+  }
+}
+
 /// A cube that meets the ground, on a device and on the reference.
 Finding compared(const Subject& subject, Integrator integrator) {
   const auto model = build_model(cube_on_terrain(4, TerrainShape::plane, integrator, ContactModel::coulomb));
