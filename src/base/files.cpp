@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "base/end_request.h"
 #include "base/printable.h"
@@ -132,6 +134,21 @@ Result<FileStart> read_regular_file(const std::string& path, std::uint64_t most)
   }
   ASPIC_TRY(auto content, read_and_close(descriptor, most, path));
   return FileStart{std::move(content), static_cast<std::uint64_t>(present.st_size)};
+}
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+bool is_device_or_pipe(const std::string& path) {
+  std::error_code failed;
+  const auto kind = std::filesystem::status(path, failed).type();
+  using std::filesystem::file_type;
+  return kind == file_type::character || kind == file_type::block || kind == file_type::fifo ||
+         kind == file_type::socket;
 }
 
 }  // namespace aspic

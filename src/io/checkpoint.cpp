@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "base/files.h"
 #include "base/fnv.h"
 #include "base/memory.h"
 #include "base/printable.h"
@@ -17,11 +18,7 @@
 namespace aspic {
 namespace {
 
-// As in PNG: a byte above 127, a line end of each kind and an end-of-file mark reveal transfers that alter
-// text.
-constexpr std::string_view magic =
-    "\x89"
-    "ASPIC\r\n\x1a\n";
+constexpr std::string_view magic = checkpoint_mark;
 
 /// The lowest `bytes` bytes of a value, little-endian.
 void append(std::string& out, std::uint64_t value, int bytes) {

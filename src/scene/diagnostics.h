@@ -43,8 +43,9 @@ Error rejection(std::span<const Source> sources, std::vector<Problem> problems);
 /// substitutions and swaps of neighbours. Damerau, Communications of the ACM 7 (1964); Levenshtein (1966).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to a word, or empty if none is near enough to have been meant: at most a third of
-/// its letters may be wrong. The first wins among equals.
+/// The candidate that was probably meant, or empty: one that differs by a letter; else one that the word
+/// shortens, by its beginning, by its initials ("rk4") or to one of its parts; else the nearest, of whose
+/// letters at most a third may be wrong. The first wins among equals.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
 
 /// "; did you mean 'x'?" or "" if x is empty.

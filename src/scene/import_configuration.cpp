@@ -38,7 +38,7 @@ constexpr std::array<Target, 24> targets = {{
     {"DrawGoalpost", "", -1, "the posts are the net's pinned corners, drawn with it"},
     {"DrawPlane", "", -1, "terrain is always drawn; leave [[terrain]] out for none"},
     {"DrawBackground", "", -1, "there is one background"},
-    {"DrawAxis", "", -1, "axes are not part of a scene"},
+    {"DrawAxis", "view.axes", -1, ""},
     {"SimulationStart", "", -1, "a scene does not say whether it runs at once"},
     {"IntegratorType", "simulation.integrator", -1, ""},
     {"NetInitPos_x", "goal-net[].position", 0, ""},
@@ -80,6 +80,8 @@ class Importer {
   }
 
   Result<ImportedConfiguration> read(std::string_view text) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     while (!text.empty()) {
       ++line_;
       const std::string_view line = take_line(text);
@@ -87,6 +89,7 @@ class Importer {
     }
     if (!key_.empty()) missing_value();
     if (seen_.empty() && problems_.empty()) {
+      line_ = 1;
       fail("no key: a configuration has lines such as *DeltaT, each with its value on the next line");
     }
     if (problems_.empty()) return std::move(result_);
@@ -155,6 +158,10 @@ class Importer {
         if (!whole) return need_whole();
         std::get<std::vector<int>>(value)[static_cast<std::size_t>(target.axis)] = static_cast<int>(number);
         return value;
+      case ParameterType::boolean:
+        if (number == 0.0 || number == 1.0) return Value(number != 0.0);
+        fail(fmt::format("*{} must be true or false, not {}", key_, number));
+        return std::nullopt;
       case ParameterType::word:
         if (number == 0.0) return Value(std::string(name_of(Integrator::explicit_euler)));
         if (number == 1.0) return Value(std::string(name_of(Integrator::runge_kutta_4)));

@@ -28,8 +28,9 @@ std::string known_scenes(std::string_view name) {
 }
 
 Result<Scene> with_arguments(reader::Reader reader, std::vector<diagnostics::Source> sources,
-                             std::span<const std::string> overrides, const LoadLimits& limits) {
-  overrides::apply(overrides, reader, sources);
+                             std::span<const std::string> overrides, const LoadLimits& limits,
+                             decltype(overrides::apply) apply = overrides::apply) {
+  apply(overrides, reader, sources);
   auto problems = reader.problems(limits.memory_bytes ? limits.memory_bytes : available_memory());
   if (!problems.empty()) return diagnostics::rejection(sources, std::move(problems));
   return std::move(reader.scene());
@@ -64,6 +65,13 @@ Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides
   return with_arguments({std::move(scene), false}, std::move(sources), overrides, limits);
 }
 
+Result<Scene> with_view(Scene scene, std::span<const std::string> arguments, const LoadLimits& limits) {
+  if (arguments.empty()) return scene;
+  std::vector<diagnostics::Source> sources = {{scene.name, "", diagnostics::Source::none}};
+  return with_arguments({std::move(scene), false}, std::move(sources), arguments, limits,
+                        overrides::apply_view);
+}
+
 Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std::string> overrides,
                          const LoadLimits& limits) {
   if (const auto text = builtin_scene_text(file_or_builtin)) {
@@ -78,6 +86,12 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
     }
     return fail(ErrorCode::scene_rejected, "'{}' is neither a file nor a built-in scene; {}",
                 printable_line(file_or_builtin), known_scenes(file_or_builtin));
+  }
+  const auto start = read_regular_file(file_or_builtin, checkpoint_mark.size());
+  if (start && start->content == checkpoint_mark) {
+    return fail(ErrorCode::scene_rejected,
+                "{0}: this is a checkpoint, not a scene; aspic run --resume {0} continues its run.",
+                printable_line(file_or_builtin));
   }
   ASPIC_TRY(auto text, read_file(file_or_builtin));
   return parse_scene(text, file_or_builtin, overrides, limits);

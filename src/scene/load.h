@@ -31,9 +31,12 @@ Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
 Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides,
                              const LoadLimits& limits = {});
 
+/// The same for arguments of --view: keys of the table `view`, without its name.
+Result<Scene> with_view(Scene scene, std::span<const std::string> arguments, const LoadLimits& limits = {});
+
 /// Reads a built-in scene by name, or else a file (write `./cube-plane` for a file with a built-in's name).
 /// Errors: as parse_scene; io for a path that cannot be read; scene_rejected for a name nobody knows, with
-/// the list of names and the nearest one.
+/// the list of names and the nearest one, and for a file that is no text, a checkpoint for one.
 Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std::string> overrides = {},
                          const LoadLimits& limits = {});
 

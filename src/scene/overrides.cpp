@@ -9,6 +9,7 @@
 #include "model/bodies.h"
 #include "scene/parameters.h"
 #include "scene/reader.h"
+#include "scene/short_keys.h"
 
 namespace aspic::overrides {
 namespace {
@@ -36,17 +37,76 @@ bool is_bare_word(std::string_view text) {
                      [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-'; });
 }
 
+/// A number as people write it with a comma, or with its unit.
+struct MistakenNumber {
+  std::string number;     ///< as it is meant
+  std::string_view rest;  ///< what follows it, the unit
+};
+std::optional<MistakenNumber> mistaken_number(std::string_view text) {
+  const auto digits_from = [&](std::size_t at) {
+    while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
+    return at;
+  };
+  const std::size_t start = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+  std::size_t end = digits_from(start);
+  if (end == start) return std::nullopt;
+  if (end < text.size() && (text[end] == '.' || text[end] == ',')) end = digits_from(end + 1);
+  if (end + 1 < text.size() && (text[end] == 'e' || text[end] == 'E')) {
+    const std::size_t exponent = end + (text[end + 1] == '-' || text[end + 1] == '+' ? 2 : 1);
+    if (digits_from(exponent) > exponent) end = digits_from(exponent);
+  }
+  MistakenNumber found = {std::string(text.substr(0, end)), text.substr(end)};
+  std::ranges::replace(found.number, ',', '.');
+  while (found.rest.starts_with(' ')) found.rest.remove_prefix(1);
+  return found;
+}
+
+/// What to write instead of a value that is no TOML, where it looks like a number, a list or a unit. Empty:
+/// it looks like none of them. `unit`: of the key's numbers; empty: none, or the key is not known.
+std::string advice_on(std::string_view value, std::string_view unit) {
+  if (std::ranges::count(value, ',') > 0 &&
+      value.find_first_not_of("0123456789+-.,eE ") == std::string_view::npos) {
+    const auto one = mistaken_number(value);
+    if (one && one->rest.empty() && std::ranges::count(value, ',') == 1 &&
+        value.find('.') == std::string_view::npos)
+      return fmt::format("numbers have a decimal point, {}; a list stands in brackets, [{}]", one->number,
+                         value);
+    return fmt::format("a list stands in brackets, [{}]", value);
+  }
+  const auto number = mistaken_number(value);
+  if (!number || number->rest.empty()) return "";
+  if (number->rest == "%") {
+    double percent = 0.0;
+    const auto [end, error] =
+        std::from_chars(number->number.data(), number->number.data() + number->number.size(), percent);
+    return error == std::errc() ? fmt::format("write {:.6g} for {}", percent / 100.0, value) : "";
+  }
+  if (number->rest.find_first_of("0123456789\"'[]{}=") != std::string_view::npos) return "";
+  return unit.empty() ? fmt::format("write the number alone, {}", number->number)
+                      : fmt::format("write the number alone, in {}", unit);
+}
+
+/// Where arguments come from.
+struct Origin {
+  std::string_view option;  ///< "--set"
+  std::string_view table;   ///< that the keys are in; empty: the scene itself
+  std::string_view example;
+};
+constexpr Origin set = {"--set", "", "simulation.timestep=0.002"}, view = {"--view", "view", "colour=strain"};
+
 /// One argument on its way into the scene.
 class Argument {
  public:
-  Argument(const std::string& text, std::uint32_t source, Reader& reader)
-      : text_(text), source_(source), reader_(reader) {}
+  Argument(const Origin& origin, const std::string& text, std::uint32_t source, Reader& reader)
+      : origin_(origin), text_(text), source_(source), reader_(reader) {}
 
   void apply() {
     const std::size_t equals = text_.find('=');
     if (equals == std::string::npos) {
-      return fail(1, "an argument of --set is KEY=VALUE, such as simulation.timestep=0.002");
+      return fail(1,
+                  fmt::format("an argument of {} is KEY=VALUE, such as {}", origin_.option, origin_.example));
     }
+    if (!origin_.table.empty()) segments_.push_back({std::string(origin_.table), {}, 1});
     if (!parse_key(std::string_view(text_).substr(0, equals))) return;
     if (!parse_value(equals)) return;
     read();
@@ -98,9 +158,17 @@ class Argument {
     const char* const quote = is_bare_word(value) ? "\"" : "";
     auto parsed = document::parse(fmt::format("{0}={1}{2}{1}", stand_in, quote, value), source_);
     if (const auto* problem = std::get_if<Problem>(&parsed)) {
-      fail(column, fmt::format("the value is neither a TOML value nor a single word; text with spaces needs "
-                               "quotation marks inside the argument: '{}=\"…\"' ({})",
-                               text_.substr(0, equals), problem->message));
+      const Parameter* const parameter = find_parameter(parameter_path());
+      if (const std::string advice = parameter && parameter->type == ParameterType::text
+                                         ? ""
+                                         : advice_on(value, parameter ? parameter->unit : "");
+          !advice.empty())
+        fail(column, advice);
+      else
+        fail(column,
+             fmt::format("the value is neither a TOML value nor a single word; text with spaces needs "
+                         "quotation marks inside the argument: '{}=\"…\"' ({})",
+                         text_.substr(0, equals), problem->message));
       return false;
     }
     table_ = std::move(std::get<toml::table>(parsed));
@@ -112,14 +180,46 @@ class Argument {
     return true;
   }
 
-  /// The key with `[0]` where a list lacks its index, for suggestions.
+  /// The key as the parameter table has it: `cube[].shear.stiffness`.
+  std::string parameter_path() const {
+    std::string path;
+    for (const Segment& segment : segments_)
+      path += fmt::format("{}{}{}", path.empty() ? "" : ".", segment.name, segment.index ? "[]" : "");
+    return path;
+  }
+
+  /// The key with an index where a list lacks it, for suggestions: `cube[0].…` for `cube.…` and `cube.0.…`.
   std::string key_with_index(std::size_t list) const {
     std::string key;
     for (std::size_t s = 0; s < segments_.size(); ++s) {
       key += (s > 0 ? "." : "") + segments_[s].name;
-      if (s == list) key += "[0]";
+      if (s != list) continue;
+      const bool number = s + 1 < segments_.size() &&
+                          segments_[s + 1].name.find_first_not_of("0123456789") == std::string::npos;
+      key += fmt::format("[{}]", number ? segments_[++s].name : "0");
     }
     return key;
+  }
+
+  /// The message for a key that the table `path` does not have.
+  std::string unknown_key(const std::string& path, const std::string& name) const {
+    if (!path.empty()) return diagnostics::unknown_key(path, name);
+    if (const ShortKey* const row = segments_.size() == 1 ? find_short_key(name) : nullptr) {
+      const auto targets = row->targets(reader_.scene());
+      return fmt::format(
+          "'{}' is a short name of --beside and aspic sweep --vary; --set takes a key of the scene{}", name,
+          targets.empty() ? "" : fmt::format(", such as '{}'", targets.front().path));
+    }
+    // The end of a key alone, `shear.stiffness`.
+    const std::string ending = "." + parameter_path();
+    std::vector<std::string> whole;
+    for (const Parameter& p : parameters())
+      if (segments_.size() > 1 && p.path.ends_with(ending)) whole.push_back(path_text(p.path, 0));
+    if (whole.empty()) return diagnostics::unknown_key(path, name);
+    const std::vector<std::string_view> names(
+        whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(whole.size(), 4)));
+    return fmt::format("unknown key '{}'; did you mean {}?", text_.substr(0, text_.find('=')),
+                       diagnostics::list_text(names, false));
   }
 
   void read() {
@@ -131,8 +231,7 @@ class Argument {
       const std::string path = table + (table.empty() ? "" : ".") + segment.name;
       const Position at = {source_, 1, segment.column};
       const PathKind kind = path_kind(path);
-      if (kind == PathKind::unknown)
-        return fail(segment.column, diagnostics::unknown_key(table, segment.name));
+      if (kind == PathKind::unknown) return fail(segment.column, unknown_key(table, segment.name));
       if (kind != PathKind::list && segment.index) {
         return fail(segment.column,
                     fmt::format("'{}' is not a list of tables and takes no index", segment.name));
@@ -176,6 +275,7 @@ class Argument {
     return false;
   }
 
+  const Origin& origin_;
   const std::string& text_;
   std::uint32_t source_;
   Reader& reader_;
@@ -252,20 +352,31 @@ void resolve_shape(Reader& reader, std::size_t terrain) {
   }
 }
 
-}  // namespace
-
-void apply(std::span<const std::string> arguments, Reader& reader,
-           std::vector<diagnostics::Source>& sources) {
+void apply_from(const Origin& origin, std::span<const std::string> arguments, Reader& reader,
+                std::vector<diagnostics::Source>& sources) {
   const auto& cubes = reader.scene().model.cubes;
   std::vector<bool> had_material;
   for (const CubeSettings& cube : cubes) had_material.push_back(cube.material.has_value());
   for (const std::string& argument : arguments) {
     const auto source = static_cast<std::uint32_t>(sources.size());
-    sources.push_back({"--set " + argument, argument, diagnostics::Source::argument});
-    Argument(argument, source, reader).apply();
+    sources.push_back(
+        {fmt::format("{} {}", origin.option, argument), argument, diagnostics::Source::argument});
+    Argument(origin, argument, source, reader).apply();
   }
   for (std::size_t c = 0; c < cubes.size(); ++c) resolve_material(reader, c, had_material[c]);
   for (std::size_t t = 0; t < reader.scene().model.terrain.size(); ++t) resolve_shape(reader, t);
+}
+
+}  // namespace
+
+void apply(std::span<const std::string> arguments, Reader& reader,
+           std::vector<diagnostics::Source>& sources) {
+  apply_from(set, arguments, reader, sources);
+}
+
+void apply_view(std::span<const std::string> arguments, Reader& reader,
+                std::vector<diagnostics::Source>& sources) {
+  apply_from(view, arguments, reader, sources);
 }
 
 }  // namespace aspic::overrides

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "model/bodies.h"
@@ -25,9 +26,19 @@ std::optional<double> number_of(const toml::node& node) {
   return std::nullopt;
 }
 
+/// What was found in place of the parameter's type. 1e1 has no decimal point, and is no whole number all the
+/// same.
+std::string found_text(const Parameter& p, const toml::node& node) {
+  const auto* number = node.as_floating_point();
+  if (!number) return std::string(document::kind_text(node));
+  if (!std::isfinite(number->get())) return fmt::format("{}", number->get());
+  const bool whole = p.type == ParameterType::integer || p.type == ParameterType::counts;
+  return whole ? "a number with a decimal point or an exponent" : "a number";
+}
+
 WrongType wrong_type(const Parameter& p, const toml::node& culprit) {
   return {&culprit,
-          fmt::format("'{}' must be {}, not {}", key_text(p), allowed_text(p), document::kind_text(culprit))};
+          fmt::format("'{}' must be {}, not {}", key_text(p), allowed_text(p), found_text(p, culprit))};
 }
 
 /// An array whose elements `take` takes into `result`, or refuses with false.

@@ -79,5 +79,8 @@ namespace aspic::overrides {
 /// does not have.
 void apply(std::span<const std::string> arguments, reader::Reader& reader,
            std::vector<diagnostics::Source>& sources);
+/// The same for arguments of --view.
+void apply_view(std::span<const std::string> arguments, reader::Reader& reader,
+                std::vector<diagnostics::Source>& sources);
 
 }  // namespace aspic::overrides

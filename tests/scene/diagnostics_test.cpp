@@ -25,5 +25,20 @@ TEST(Nearest, IsSilentWhenNothingIsNear) {
   EXPECT_EQ(nearest(std::string(100000, 'x'), words), "");
 }
 
+// A word that is cut short is not mistyped: of its letters all are right.
+TEST(Nearest, PrefersWhatTheWordShortens) {
+  const std::string_view keys[] = {"particle-mass", "particles-per-edge", "position"};
+  EXPECT_EQ(nearest("particles", keys), "particles-per-edge");
+  EXPECT_EQ(nearest("particle-mas", keys), "particle-mass");
+  const std::string_view methods[] = {"explicit-euler", "midpoint", "velocity-verlet", "runge-kutta-4",
+                                      "implicit-euler"};
+  EXPECT_EQ(nearest("rk4", methods), "runge-kutta-4");
+  EXPECT_EQ(nearest("verlet", methods), "velocity-verlet");
+  EXPECT_EQ(nearest("implicit", methods), "implicit-euler");
+  EXPECT_EQ(nearest("euler", methods), "");  // of two
+  EXPECT_EQ(nearest("mid", methods), "midpoint");
+  EXPECT_EQ(nearest("mi", methods), "");
+}
+
 }  // namespace
 }  // namespace aspic::diagnostics

@@ -8,8 +8,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/files.h"
 #include "model/model.h"
 #include "scene/scene_support.h"
+#include "support/temporary_directory.h"
 
 namespace aspic {
 namespace {
@@ -252,6 +254,26 @@ TEST(Load, SuggestsTheNearestBuiltin) {
   EXPECT_EQ(scene.error().code, ErrorCode::scene_rejected);
   EXPECT_THAT(scene.error().message, HasSubstr("large-cube"));
   EXPECT_THAT(scene.error().message, HasSubstr("did you mean 'cube-plane'?"));
+}
+
+TEST(Load, TellsACheckpointFromAScene) {
+  const test::TemporaryDirectory dir;
+  dir.write("c.aspic", std::string(checkpoint_mark) + "\x02\x01");
+  const auto scene = load_scene(dir.file("c.aspic"));
+  ASSERT_FALSE(scene.ok());
+  EXPECT_EQ(scene.error().code, ErrorCode::scene_rejected);
+  EXPECT_EQ(scene.error().message, dir.file("c.aspic") +
+                                       ": this is a checkpoint, not a scene; aspic run --resume " +
+                                       dir.file("c.aspic") + " continues its run.");
+}
+
+// Of --view, what is wrong is shown as it was typed.
+TEST(Load, NamesTheOptionThatAnArgumentIsOf) {
+  const auto wrong = with_view(Scene{}, std::vector<std::string>{"colour=stress"});
+  ASSERT_FALSE(wrong.ok());
+  EXPECT_THAT(wrong.error().message,
+              HasSubstr("--view colour=stress: 'view.colour' does not know \"stress\""));
+  EXPECT_THAT(wrong.error().message, testing::EndsWith("\n  colour=stress\n         ^"));
 }
 
 TEST(Load, SaysWhichFileItCannotRead) {
