@@ -6,17 +6,20 @@ set(computes "$<BOOL:$<TARGET_PROPERTY:ASPIC_COMPUTES>>")
 target_include_directories(aspic_rules INTERFACE "${PROJECT_SOURCE_DIR}/src")
 # Contraction to fused multiply-add would change bits: see docs/determinism.md.
 target_compile_options(aspic_rules INTERFACE -ffp-contract=off)
-target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wconversion -Wnon-virtual-dtor>)
+target_compile_features(aspic_rules INTERFACE cxx_std_20)
+# Warnings are the project's own business: not that of a project which builds it along with itself.
+set(own "$<AND:$<COMPILE_LANGUAGE:CXX>,$<PATH:IS_PREFIX,${PROJECT_SOURCE_DIR},$<TARGET_PROPERTY:SOURCE_DIR>>>")
+target_compile_options(aspic_rules INTERFACE "$<${own}:-Wall;-Wextra;-Wconversion;-Wnon-virtual-dtor>")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND ASPIC_ASSERTIONS)
   # GCC 12 at -O3 takes fmt's own assertions for a way past the end of its fill characters.
   target_compile_options(aspic_rules INTERFACE $<${computes}:-Wno-stringop-overflow>)
 endif()
 if(NOT CMAKE_UNITY_BUILD)
   # Files that are compiled together see one another's names.
-  target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wshadow>)
+  target_compile_options(aspic_rules INTERFACE $<${own}:-Wshadow>)
 endif()
 if(ASPIC_WARNINGS_AS_ERRORS)
-  target_compile_options(aspic_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
+  target_compile_options(aspic_rules INTERFACE $<${own}:-Werror>)
 endif()
 # The standard library's bounds are checked along with assertions, except where the program computes.
 target_compile_definitions(aspic_rules INTERFACE

@@ -2,6 +2,7 @@
 //   aspic_minimal [SCENE [STEPS]]
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 
 #include "aspic.h"
 
@@ -21,12 +22,15 @@ int main(int argc, char** argv) {
   if (!model) return fail(model.error());
   const auto backend = aspic::make_backend({}, *model);  // auto: a hardware GPU if there is one
   if (!backend) return fail(backend.error());
-  const auto diverged = backend->solver->advance(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1000);
-  if (!diverged) return fail(diverged.error());
+  const auto advanced = backend->solver->advance(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1000);
+  if (!advanced) return fail(advanced.error());
+  const std::optional<aspic::Divergence> divergence = *advanced;  // empty: all steps were made
   const auto state = backend->solver->state();
   if (!state) return fail(state.error());
   std::printf("step %llu on %s\n", static_cast<unsigned long long>(state->step), backend->device.c_str());
   std::printf("total energy %.6g J\n", aspic::measure(*model, *state).total());
   std::printf("state hash %s\n", aspic::state_hash_text(*state).c_str());
-  return *diverged ? static_cast<int>(aspic::ErrorCode::diverged) : 0;
+  if (!divergence) return 0;
+  std::printf("diverged in step %llu\n", static_cast<unsigned long long>(divergence->step));
+  return static_cast<int>(aspic::ErrorCode::diverged);
 }

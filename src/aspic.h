@@ -28,3 +28,4 @@
 #include "io/checkpoint.h"  // read_checkpoint(), write_checkpoint()
 #include "io/series_csv.h"  // SeriesWriter
 #include "io/state_csv.h"   // write_state_csv()
+#include "io/state_vtp.h"   // write_state_vtp()

@@ -128,8 +128,8 @@ struct Model {
 inline constexpr std::uint64_t most_indices = 0x7fffffff;
 
 /// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
-/// particles than 32-bit indices or free memory hold. The settings' ranges are the caller's business
-/// (scene/validate).
+/// particles than 32-bit indices or free memory hold. Values are taken as they are: it is
+/// scene/load.h that checks ranges, of a scene changed by code through with_overrides().
 Result<Model> build_model(const ModelSettings& settings);
 
 /// The state a run starts from, rounded to `precision`; −0 becomes +0.
