@@ -12,6 +12,7 @@
 #include "io/program.h"
 #include "run/beside.h"
 #include "run/beside_recorder.h"
+#include "run/recorder.h"
 #include "run/run_files.h"
 #include "scene/load.h"
 #include "scene/write.h"
@@ -61,9 +62,7 @@ Result<RunFiles> open_files(const RunOptions& options, const Scene& scene, std::
 Result<Members> make_members(const RunOptions& options, const std::vector<Variation>& differences,
                              Overwrite overwrite) {
   ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides));
-  std::vector<std::string> view;
-  for (const std::string& argument : options.view) view.push_back("view." + argument);
-  ASPIC_TRY(scene, with_overrides(std::move(scene), view));
+  ASPIC_TRY(scene, with_view(std::move(scene), options.view));
   ASPIC_TRY(const auto steps, steps_of(options.length, scene.model.simulation));
   ASPIC_TRY(auto runs, runs_beside(scene, options.backend, differences));
   Members members;
@@ -185,6 +184,8 @@ Status execute_beside(const RunOptions& options) {
   const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
   std::unique_ptr<gl::Context> context;  // outlives the members' solvers
   ASPIC_TRY(auto members, make_members(options, differences, overwrite));
+  ASPIC_CHECK(check_pictures(options.pictures, members.front()->model.simulation.timestep, 0,
+                             members.front()->last_step));
   ASPIC_TRY(auto film, RunFiles::open({}, options.pictures, {}, overwrite));
   ASPIC_TRY(context, shared_context(options, members));
   ASPIC_CHECK(prepare(members, differences, context.get(), interrupt));

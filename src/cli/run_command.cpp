@@ -44,13 +44,6 @@ std::string first_difference(const std::string& a, const std::string& b) {
   }
 }
 
-/// --view as --set sees it. A view changes no checkpoint: it is no part of the run.
-std::vector<std::string> overrides_of(const std::vector<std::string>& view) {
-  std::vector<std::string> overrides;
-  for (const std::string& argument : view) overrides.push_back("view." + argument);
-  return overrides;
-}
-
 bool asks_for_checkpoint(const RunOptions& options) {
   return std::ranges::any_of(options.outputs, [](const StateOutput& output) {
     return output.option == "checkpoint" && !output.path.empty();
@@ -62,14 +55,12 @@ Result<Start> load_start(const RunOptions& options) {
   if (options.resume_file.empty()) {
     ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides));
     if (asks_for_checkpoint(options)) start.scene_toml = to_toml(scene);
-    if (!options.view.empty()) {
-      ASPIC_TRY(scene, with_overrides(std::move(scene), overrides_of(options.view)));
-    }
-    start.scene = std::move(scene);
+    // A view changes no checkpoint: it is no part of the run.
+    ASPIC_TRY(start.scene, with_view(std::move(scene), options.view));
     return start;
   }
   ASPIC_TRY(auto checkpoint, read_checkpoint(options.resume_file));
-  auto scene = parse_scene(checkpoint.scene, options.resume_file, overrides_of(options.view));
+  auto scene = parse_scene(checkpoint.scene, options.resume_file);
   if (!scene) {
     return fail(scene.error().code,
                 "the scene inside the checkpoint, written by aspic {}, is not accepted by aspic {}:\n{}",
@@ -90,7 +81,7 @@ Result<Start> load_start(const RunOptions& options) {
     return fail(ErrorCode::usage, "{} was written in {} precision: resume it without --precision.",
                 options.resume_file, name_of(checkpoint.state.precision));
   }
-  start.scene = std::move(*scene);
+  ASPIC_TRY(start.scene, with_view(std::move(*scene), options.view));
   start.scene_toml = std::move(checkpoint.scene);
   start.state = std::move(checkpoint.state);
   return start;
@@ -160,6 +151,8 @@ Status execute(const RunOptions& options) {
                 "from the scene's start.",
                 options.resume_file, start.state->step, steps);
   }
+  const std::uint64_t first_step = start.state ? start.state->step : 0;
+  ASPIC_CHECK(check_pictures(options.pictures, start.scene.model.simulation.timestep, first_step, steps));
   const RunFacts facts = {start.scene_toml, start.scene.model.simulation.integrator};
   ASPIC_TRY(auto files, RunFiles::open(options.outputs, options.pictures, facts,
                                        options.force ? Overwrite::allow : Overwrite::refuse));
@@ -171,7 +164,6 @@ Status execute(const RunOptions& options) {
   if (start.state) ASPIC_CHECK(backend.solver->load(*start.state));
   warn_if_unstable(model, interrupt);
 
-  const std::uint64_t first_step = start.state ? start.state->step : 0;
   start.state.reset();
   std::unique_ptr<Recorder> recorder;
   if (options.pictures.any()) {

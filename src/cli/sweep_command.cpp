@@ -27,6 +27,7 @@ Status execute(const SweepOptions& options) {
   plan.command.emplace_back("--worker");
   plan.grid = std::move(grid);
   ASPIC_TRY(const auto counts, report::run_sweep(plan, interrupt));
+  if (!counts.first_reason.empty()) print_warning(counts.first_reason);
   if (options.json) {
     return print_data(to_text({{"scene", plan.grid.scene.name},
                                {"grid", plan.grid.identity()},

@@ -65,10 +65,23 @@ Status print_rows(const VerifyOptions& options, const std::vector<Row>& rows, co
                              {"rows", array}}));
 }
 
+Status print_names(const VerifyOptions& options, const std::vector<verify::Check>& checks) {
+  std::size_t names = 0;
+  for (const verify::Check& check : checks) names = std::max(names, check.name.size());
+  std::string text;
+  Json array = Json::array();
+  for (const verify::Check& check : checks) {
+    text += fmt::format("{:<{}}  {}\n", check.name, names, check.claim);
+    array.push_back({{"name", check.name}, {"claim", check.claim}, {"quick", check.quick}});
+  }
+  return options.json ? print_data(to_text(array)) : print_text(text);
+}
+
 }  // namespace
 
 Status execute(const VerifyOptions& options) {
   ASPIC_TRY(const auto checks, verify::select(verify::battery(), options.only, options.quick));
+  if (options.list) return print_names(options, checks);
 
   std::unique_ptr<gl::Context> context;
   std::string device = "none";

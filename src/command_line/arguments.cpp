@@ -10,16 +10,17 @@
 
 #include "base/printable.h"
 #include "command_line/checked_words.h"
+#include "command_line/command_words.h"
 #include "command_line/help_texts.h"
 #include "command_line/raw_options.h"
 #include "command_line/window_layouts.h"
-#include "scene/diagnostics.h"
 
 namespace aspic {
 namespace {
 
-/// Largest number of repeats and of particles per edge that is read at all.
-constexpr std::uint64_t most_of_int = 1000000;
+/// Repeats and particles per edge that are read at all.
+constexpr WholeRange any_steps = {0, most_steps}, intervals = {1, most_steps}, few = {1, 1024},
+                     repeats = {1, 1000000}, edges = {2, 1000000};
 
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -45,19 +46,15 @@ std::string full_name(const CLI::App& app) {
   return app.get_parent() ? full_name(*app.get_parent()) + " " + app.get_name() : app.get_name();
 }
 
-/// A sentence for words that no option or argument takes.
-Error unexpected_word(const CLI::App& command, const std::string& word) {
-  const bool option = word.starts_with('-');
-  const std::string shown = printable_line(word);
-  const std::string name = shown.substr(0, shown.find('='));
-  const std::vector<std::string> known = option ? option_names(command) : command_names(command);
-  std::string message = option          ? fmt::format("{} has no option {}.", full_name(command), name)
-                        : known.empty() ? fmt::format("{} does not expect \"{}\".", full_name(command), shown)
-                                        : fmt::format("{} has no command \"{}\".", full_name(command), shown);
-  const std::vector<std::string_view> candidates(known.begin(), known.end());
-  const std::string_view near = diagnostics::nearest(name, candidates);
-  if (!near.empty()) message += fmt::format(" Did you mean {}?", near);
-  return usage("{} See {} --help.", message, full_name(command));
+CommandWords words_of(const CLI::App& app) {
+  return {full_name(app), option_names(app), command_names(app)};
+}
+
+/// The name by which an option of several was given; its first where it was not.
+std::string typed_name(const CLI::Option& option, const std::vector<std::string>& given) {
+  for (const std::string& name : option.get_lnames())
+    if (std::ranges::find(given, "--" + name) != given.end()) return "--" + name;
+  return option.get_name();
 }
 
 template <class T>
@@ -67,17 +64,21 @@ T element_of(const std::optional<T>&);
 template <class T>
 T element_of(const std::vector<T>&);
 
-/// An option, or an argument where the name has no hyphens. Numbers are checked as text, whole ones up to
-/// `most`; a list takes one element each time the option is given; a default is shown.
+/// An option, or an argument where the name has no hyphens. Numbers are checked as text, whole ones against
+/// `range`, and names of files must not be empty; a list takes one element each time the option is given; a
+/// default is shown.
 template <class T>
 CLI::Option* add(CLI::App* command, const std::string& name, const char* type, T& target,
-                 const std::string& help, std::uint64_t most = most_steps) {
+                 const std::string& help, const WholeRange& range = any_steps) {
   using Element = decltype(element_of(target));
   CLI::Option* option = command->add_option(name, target, help)->type_name(type);
   if constexpr (std::is_integral_v<Element>)
-    option->transform(CLI::Validator([most](std::string& text) { return check_whole(text, most); }, ""));
+    option->transform(CLI::Validator([range](std::string& text) { return check_whole(text, range); }, ""));
   if constexpr (std::is_floating_point_v<Element>)
     option->transform(CLI::Validator([](std::string& text) { return check_number(text); }, ""));
+  const std::string_view kind = type;
+  if (kind == "FILE" || kind == "DIR" || kind == "SCENE")
+    option->check(CLI::Validator([](std::string& text) { return check_name(text); }, ""));
   if constexpr (std::is_same_v<T, std::vector<Element>>) option->allow_extra_args(false);
   if constexpr (requires { target.empty(); }) {
     if (!target.empty()) option->capture_default_str();
@@ -87,10 +88,8 @@ CLI::Option* add(CLI::App* command, const std::string& name, const char* type, T
   return option;
 }
 
-/// Without a footer of its own it has that of its parent.
-CLI::App* add_command(CLI::App& parent, const char* name, const char* summary, const char* footer = "") {
-  CLI::App* command = parent.add_subcommand(name, summary);
-  return *footer ? command->footer(footer) : command;
+CLI::App* add_command(CLI::App& parent, const char* name, const char* summary, const char* footer) {
+  return parent.add_subcommand(name, summary)->footer(footer);
 }
 
 void add_json(CLI::App* c, bool& json, const char* help = "result on stdout as JSON") {
@@ -105,11 +104,11 @@ void add_arithmetic(CLI::App* c, RawOptions& raw) {
   add(c, "--arithmetic", "NAME", raw.arithmetic,
       "exact: the reference's bits, or fast: other last bits (gpu and cpu)");
   add(c, "--threads", "N", raw.threads, "threads of the cpu backend, 1 to 1024; default: as many as pay",
-      1024);
+      few);
 }
 
 void add_backend(CLI::App* c, RawOptions& raw) {
-  add(c, "--backend", "NAME", raw.backend, backend_words());
+  add(c, "--backend", "NAME", raw.backend, backend_words() + "; with options, gpu:gather, cpu:fast");
   add(c, "--precision", "NAME", raw.precision, "single or double (reference only); default single");
   add(c, "--force-path", "NAME", raw.force_path, force_path_words() + " (gpu only)");
   add_arithmetic(c, raw);
@@ -140,12 +139,11 @@ void add_outputs(CLI::App* c, std::vector<StateOutput>& outputs) {
   for (const std::string_view option : state_options()) outputs.push_back({std::string(option), "", {}});
   for (StateOutput& output : outputs) {
     const StateFormat& format = state_format_of(output.option, "");
-    auto* file = add(c, "--" + output.option, "FILE", output.path, state_help(output.option));
+    add(c, "--" + output.option, "FILE", output.path, state_help(output.option));
     // The series' interval was there first, and has the short name too.
     const char* const short_name = format.over_time ? "--every," : "";
     add(c, fmt::format("{}--{}-every", short_name, output.option), "N", output.every,
-        std::string(format.every))
-        ->needs(file);
+        std::string(format.every), intervals);
   }
 }
 
@@ -158,8 +156,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add_outputs(c, run.outputs);
   add_pictures(c, run, raw);
   add(c, "--beside", "KEY=VALUE", run.beside,
-      "a run with this difference beside the scene's own, e.g. integrator=implicit-euler, h=0.002, k=500, "
-      "backend=reference or a key of --set; up to three");
+      "a further run with this difference, e.g. integrator=implicit-euler, h=0.002; up to three");
   add(c, "--resume", "FILE", run.resume_file,
       "continue from a checkpoint; --steps and --duration count from its start");
   c->add_flag("--force", run.force, "overwrite files");
@@ -185,9 +182,9 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
   c->add_option("--backends", raw.backends,
                 "the two backends, options after colons: gpu:per-spring,reference:double or cpu:fast,cpu")
       ->delimiter(',')
-      ->expected(2)
+      ->expected(1, 100)
       ->type_name("A,B")
-      ->capture_default_str();
+      ->default_str("gpu,reference");
   add(c, "--force-path", "NAME", raw.force_path, "force path of gpu backends without their own");
   add_arithmetic(c, raw);
   add_length(c, compare.length);
@@ -207,7 +204,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
       ->delimiter(',');
   add(c, "--force-path", "NAME", raw.bench_force_paths, "of gpu backends without their own")->delimiter(',');
   add_arithmetic(c, raw);
-  auto* sizes = add(c, "--size", "N", bench.sizes, "particles per edge of the scene's cubes", most_of_int);
+  auto* sizes = add(c, "--size", "N", bench.sizes, "particles per edge of the scene's cubes", edges);
   sizes->delimiter(',');
   auto* integrators = add(c, "--integrator", "NAME", raw.bench_integrators, "instead of the scene's, or all");
   integrators->delimiter(',');
@@ -216,8 +213,8 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
   auto* seconds = add(c, "--seconds", "S", bench.seconds, "time to spend on each case");
   add(c, "--duration", "S", bench.duration, "simulated seconds of each repeat, however long they take")
       ->excludes(seconds);
-  add(c, "--repeats", "N", bench.repeats, "runs of each case", most_of_int);
-  add(c, "--warm-up", "N", bench.warm_up, "runs of each case before them, not counted", most_of_int);
+  add(c, "--repeats", "N", bench.repeats, "runs of each case", repeats);
+  add(c, "--warm-up", "N", bench.warm_up, "runs of each case before them, not counted", {0, repeats.most});
   auto* peers = c->add_flag("--peers", bench.with_peers,
                             "beside other programs with the same cube, from a source checkout");
   auto* peer = add(c, "--peer", "NAME", bench.peers, "beside this one alone, e.g. textbook")->delimiter(',');
@@ -234,19 +231,16 @@ CLI::App* add_sweep(CLI::App& app, SweepOptions& sweep, RawOptions& raw) {
       add_command(app, "sweep", "Run a scene at every point of a grid, a CSV row each", sweep_examples);
   add(c, "scene", "SCENE", sweep.scene, "scene file or built-in name")->required();
   add(c, "--vary", "KEY=VALUES", sweep.vary,
-      "from:to:count, from:to:count:log or a,b,c; KEY as for --set, or integrator, h, k, c, n, e, mu, "
-      "backend; repeatable")
+      "from:to:count[:log] or a,b,c; KEY as for --set, or integrator, h, k, c, n, e, mu, backend")
       ->required();
   add(c, "--out", "FILE", sweep.out, "the CSV file; until it is complete, FILE.partial")->required();
   add_backend(c, raw);
   add_length(c, sweep.length);
   add_overrides(c, sweep.overrides);
-  add(c, "--jobs", "N", sweep.jobs, "runs at once; default: the processors, or 1 where runs take a GPU",
-      1024);
+  add(c, "--jobs", "N", sweep.jobs, "runs at once; default: the processors, or 1 where runs take a GPU", few);
   add(c, "--part", "I/N", raw.part, "the I-th of N equal parts of the grid, for job arrays");
   c->add_flag("--force", sweep.force, "overwrite the file, and begin anew");
   add_json(c, sweep.json, "numbers of rows on stdout as JSON");
-  c->add_flag("--worker", sweep.worker)->group("");  // what the sweep starts
   return c;
 }
 
@@ -259,7 +253,7 @@ CLI::App* add_report(CLI::App& app, ReportOptions& report) {
   add(c, "--only", "NAME", report.only,
       "one section: integrators, parameters, stability, contact or backends; repeatable");
   c->add_flag("--thorough", report.thorough, "finer maps, longer runs, larger sizes");
-  add(c, "--jobs", "N", report.jobs, "threads; default: the processors", 1024);
+  add(c, "--jobs", "N", report.jobs, "threads; default: the processors", few);
   add_overrides(c, report.overrides);
   c->add_flag("--force", report.force, "overwrite a report");
   add_json(c, report.json, "names of the files on stdout as JSON");
@@ -271,6 +265,7 @@ CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
       app, "verify", "Check physics and equivalence on this machine, as a table of figures", verify_examples);
   c->add_flag("--quick", verify.quick, "only checks that take seconds");
   add(c, "--only", "NAME", verify.only, "one check or group, e.g. order or rest/midpoint; repeatable");
+  c->add_flag("--list", verify.list, "names and claims of the checks; nothing is run");
   c->add_flag("--require-gpu", verify.require_gpu,
               "fail if a check finds no GL device, instead of skipping it");
   add_json(c, verify.json, "the table on stdout as JSON");
@@ -280,18 +275,21 @@ CLI::App* add_verify(CLI::App& app, VerifyOptions& verify) {
 /// The four commands below `scene`, in their order.
 std::array<CLI::App*, 4> add_scene(CLI::App& app, SceneListOptions& list, SceneShowOptions& show,
                                    SceneCheckOptions& check, SceneImportOptions& import) {
-  CLI::App* scene = add_command(app, "scene", "List, show, check and import scenes");
+  CLI::App* scene = add_command(app, "scene", "List, show, check and import scenes", scene_examples);
   scene->require_subcommand(1);
-  CLI::App* c = add_command(*scene, "list", "The built-in scenes");
+  CLI::App* c = add_command(*scene, "list", "The built-in scenes", scene_list_examples);
   add_json(c, list.json, "as JSON");
-  CLI::App* s = add_command(*scene, "show", "Print a scene as complete TOML, with every default");
+  CLI::App* s =
+      add_command(*scene, "show", "Print a scene as complete TOML, with every default", scene_show_examples);
   add(s, "scene", "SCENE", show.scene, "scene file or built-in name")->required();
   add_overrides(s, show.overrides);
-  CLI::App* k = add_command(*scene, "check", "Counts, memory and stable time steps of a scene");
+  CLI::App* k =
+      add_command(*scene, "check", "Counts, memory and stable time steps of a scene", scene_check_examples);
   add(k, "scene", "SCENE", check.scene, "scene file or built-in name")->required();
   add_json(k, check.json, "as JSON");
   add_overrides(k, check.overrides);
-  CLI::App* i = add_command(*scene, "import", "Print Configuration.txt of the 2018 framework as a scene");
+  CLI::App* i = add_command(*scene, "import", "Print Configuration.txt of the 2018 framework as a scene",
+                            scene_import_examples);
   add(i, "file", "FILE", import.file, "the file to read")->required();
   return {c, s, k, i};
 }
@@ -318,7 +316,10 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   InfoOptions info;
   std::optional<Result<Command>> result;
   const auto on = [&](CLI::App* command, auto finish) {
-    command->callback([&result, finish] { result.emplace(finish()); });
+    command->callback([&raw, &result, command, argc, argv, finish] {
+      raw.given = given_options(option_names(*command), {argv + 1, argv + argc});
+      result.emplace(finish());
+    });
   };
   on(add_run(app, run, raw), [&] { return finish_run(run, raw); });
   on(add_view(app, view, raw), [&] {
@@ -338,10 +339,15 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   on(scenes[1], [&] { return Command(show); });
   on(scenes[2], [&] { return Command(check); });
   on(scenes[3], [&] { return Command(import); });
-  CLI::App* info_command = add_command(app, "info", "Devices, drivers, GL limits, and what auto picks");
+  CLI::App* info_command =
+      add_command(app, "info", "Devices, drivers, GL limits, and what auto picks", info_examples);
   add_json(info_command, info.json, "as JSON");
   on(info_command, [&] { return Command(info); });
 
+  // What a sweep starts: an option of no person's, and none of --help.
+  sweep.worker =
+      argc > 2 && std::string_view(argv[1]) == "sweep" && std::string_view(argv[argc - 1]) == "--worker";
+  if (sweep.worker) --argc;
   if (argc < 2) return usage("no command given.\n\n{}", app.help());
   try {
     app.parse(argc, argv);
@@ -356,12 +362,23 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
     // Where a command is missing, CLI11 reports that before the word in its place.
     const bool command_missing =
         command.get_require_subcommand_min() > 0 && command.get_subcommands().empty();
-    if (!extras.empty()) return unexpected_word(command, extras.front());
+    if (!extras.empty()) return unexpected_word(words_of(command), extras.front());
     if (command_missing) {
       for (int i = &command == &app ? 1 : 2; i < argc; ++i) {
         const std::string word = argv[i];
-        if (word != command.get_name()) return unexpected_word(command, word);
+        if (word != command.get_name()) return unexpected_word(words_of(command), word);
       }
+    }
+    const std::vector<std::string> given = given_options(option_names(command), {argv + 1, argv + argc});
+    for (const CLI::Option* option : command.get_options()) {
+      if (option->get_items_expected_max() == 1 && option->count() > 1)
+        return usage("{} is given {} times: give it once. See {} --help.", typed_name(*option, given),
+                     option->count(), full_name(command));
+      // The parser calls an option by the first of its names.
+      const std::string opening = option->get_name() + ":";
+      if (const std::string_view what = error.what(); what.starts_with(opening))
+        return usage("{}{}. See {} --help.", typed_name(*option, given), what.substr(opening.size() - 1),
+                     full_name(command));
     }
     return usage("{}. See {} --help.", error.what(), full_name(command));
   }

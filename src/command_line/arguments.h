@@ -90,6 +90,7 @@ struct VerifyOptions {
   bool quick = false;
   std::vector<std::string> only;  ///< names of checks or groups; empty: all
   bool require_gpu = false;       ///< rows that found no device fail
+  bool list = false;              ///< the names alone; nothing is checked
   bool json = false;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What --help prints below the options of the program and of each command.
+// What --help prints below the options of the program and of each command. A test runs the examples.
 
 namespace aspic {
 
@@ -17,7 +17,35 @@ inline constexpr const char* main_examples = R"(Examples:
 
 SCENE is a TOML file or the name of a built-in scene (aspic scene list).
 Exit codes: 0 ok, 1 comparison or verification failed, 2 usage, 3 scene rejected, 4 no usable
-GL device, 5 diverged, 6 input/output failed, 130 interrupted.)";
+GL device, 5 diverged, 6 input, output or memory failed, 130 interrupted, 141 stdout closed.)";
+
+inline constexpr const char* scene_examples = R"(Examples:
+  aspic scene list
+  aspic scene show cube-plane > my-scene.toml
+  aspic scene check my-scene.toml
+  aspic scene import Configuration.txt > net.toml)";
+
+inline constexpr const char* scene_list_examples = R"(Example:
+  aspic scene list)";
+
+inline constexpr const char* scene_show_examples = R"(Examples:
+  aspic scene show cube-plane > my-scene.toml
+  aspic scene show cube-plane --set simulation.integrator=midpoint)";
+
+inline constexpr const char* scene_check_examples = R"(Examples:
+  aspic scene check cube-bowl
+  aspic scene check my-scene.toml --set simulation.timestep=0.002 --json
+
+Exit code 3 if the scene is rejected; every mistake in it is reported.)";
+
+inline constexpr const char* scene_import_examples = R"(Example:
+  aspic scene import Configuration.txt > net.toml
+
+What cannot be carried over is said in comments of the scene.)";
+
+inline constexpr const char* info_examples = R"(Examples:
+  aspic info
+  ASPIC_EGL_DEVICE=software aspic info              another device of the list)";
 
 inline constexpr const char* run_examples = R"(Examples:
   aspic run cube-plane --steps 1000 --json

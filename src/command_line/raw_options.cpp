@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "base/files.h"
 #include "base/printable.h"
 #include "command_line/window_layouts.h"
 
@@ -37,7 +38,19 @@ Result<PictureSize> parse_size(const std::string& text, std::string_view option 
                option, printable_line(text));
 }
 
+/// Options of pictures, where there are none, would do nothing.
+Status check_pictures_wanted(const PictureOutput& pictures, const RawOptions& raw) {
+  for (const std::string_view option :
+       {"--frames-format", "--fps", "--speed", "--size", "--text", "--no-text", "--view"})
+    if (raw.gave(option) && !pictures.any())
+      return usage("{} is for pictures: add --video FILE or --frames DIR, or leave it out.", option);
+  if (raw.gave("--frames-format") && pictures.frames.empty())
+    return usage("--frames-format is for --frames DIR: add it, or leave --frames-format out.");
+  return {};
+}
+
 Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
+  ASPIC_CHECK(check_pictures_wanted(pictures, raw));
   ASPIC_TRY(const auto size, parse_size(raw.size));
   pictures.size = size;
   const FilmFormat* const images = find_film_format(raw.frames_format);
@@ -78,12 +91,27 @@ Status check_choices(const std::vector<BackendChoice>& choices, const BackendCho
              return choice_for(c.row, asked).*option == asked.*option;
            });
   };
-  if (takes(&BackendChoice::force_path) && takes(&BackendChoice::arithmetic) &&
-      takes(&BackendChoice::threads))
+  if (takes(&BackendChoice::precision) && takes(&BackendChoice::force_path) &&
+      takes(&BackendChoice::arithmetic) && takes(&BackendChoice::threads))
     return {};
   BackendChoice refused = asked;
   refused.row = choices.front().row;
   return check_choice(refused);
+}
+
+/// --backend of a command that takes one, with its options after colons.
+Result<BackendChoice> one_backend(const RawOptions& raw) {
+  ASPIC_TRY(const auto asked, asked_of_all(raw));
+  ASPIC_TRY(const auto choice, parse_backend(raw.backend, asked));
+  ASPIC_CHECK(check_choices({choice}, asked));
+  return choice;
+}
+
+/// "gpu,cpu,reference" where two were wanted.
+Status check_two(const std::vector<std::string>& backends) {
+  if (backends.size() == 2) return {};
+  return usage("--backends names two backends, such as gpu,reference, not {} ({}).", backends.size(),
+               printable_line(fmt::format("{}", fmt::join(backends, ","))));
 }
 
 Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
@@ -109,13 +137,17 @@ Result<std::vector<BackendChoice>> bench_backends(const RawOptions& raw) {
 }  // namespace
 
 Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
-  ASPIC_TRY(run.backend, asked_of_all(raw));
-  ASPIC_TRY(run.backend.row, parse_backend_name(raw.backend));
-  run.precision_given = !raw.precision.empty();
+  ASPIC_TRY(run.backend, one_backend(raw));
+  run.precision_given = !raw.precision.empty() || raw.backend.find(":single") != std::string::npos ||
+                        raw.backend.find(":double") != std::string::npos;
   ASPIC_CHECK(check_length(run.length));
   for (const StateOutput& output : run.outputs) {
-    if (output.every && *output.every < 1) return usage("--{}-every must be 1 or more.", output.option);
+    if (!output.every || !output.path.empty()) continue;
+    const std::string interval = fmt::format("--{}-every", output.option);
+    return usage("{0} is for --{1} FILE: add it, or leave {0} out.",
+                 raw.gave(interval) ? interval : "--every", output.option);
   }
+  ASPIC_CHECK(check_endings(run.outputs));
   if (run.scene.empty() && run.resume_file.empty()) {
     return usage("aspic run needs a SCENE: a file, or a built-in name from aspic scene list.");
   }
@@ -125,11 +157,11 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
         "or run a scene.");
   }
   ASPIC_CHECK(finish_pictures(run.pictures, raw));
-  ASPIC_CHECK(check_choice(run.backend));
   return Command(std::move(run));
 }
 
 Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
+  ASPIC_CHECK(check_two(raw.backends));
   ASPIC_TRY(const auto asked, asked_of_all(raw));
   ASPIC_TRY(compare.first, parse_backend(raw.backends.front(), asked));
   ASPIC_TRY(compare.second, parse_backend(raw.backends.back(), asked));
@@ -142,9 +174,7 @@ Result<Command> finish_compare(CompareOptions compare, const RawOptions& raw) {
 }
 
 Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
-  ASPIC_TRY(view.backend, asked_of_all(raw));
-  ASPIC_TRY(view.backend.row, parse_backend_name(raw.backend));
-  ASPIC_CHECK(check_choice(view.backend));
+  ASPIC_TRY(view.backend, one_backend(raw));
   if (!raw.window_size.empty()) {
     ASPIC_TRY(view.size, parse_size(raw.window_size));
   }
@@ -155,10 +185,11 @@ Result<Command> finish_view(ViewOptions view, const RawOptions& raw) {
 }
 
 Result<Command> finish_sweep(SweepOptions sweep, const RawOptions& raw) {
-  ASPIC_TRY(sweep.backend, asked_of_all(raw));
-  ASPIC_TRY(sweep.backend.row, parse_backend_name(raw.backend));
-  ASPIC_CHECK(check_choice(sweep.backend));
+  ASPIC_TRY(sweep.backend, one_backend(raw));
   ASPIC_CHECK(check_length(sweep.length));
+  if (const std::string ending = ending_of(sweep.out);
+      !ending.empty() && ending != ".csv" && !is_device_or_pipe(sweep.out))
+    return usage("--out writes CSV, so its name {} must end in .csv.", printable_line(sweep.out));
   const char* const end = raw.part.data() + raw.part.size();
   const auto part = std::from_chars(raw.part.data(), end, sweep.part);
   const bool slash = part.ec == std::errc() && part.ptr != end && *part.ptr == '/';

@@ -1,7 +1,9 @@
 #pragma once
 // From the words the command line parser read to the values the commands take.
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,9 @@ struct RawOptions {
   std::string part = "1/1";
   std::string window_size, size = "1280x720", frames_format = "png", text = "on";
   bool no_text = false;
+  std::vector<std::string> given;  ///< every option, as it was typed: "--every"
+
+  bool gave(std::string_view option) const { return std::ranges::find(given, option) != given.end(); }
 };
 
 /// An Error of the command line.

@@ -22,6 +22,7 @@ void print_aside(const std::string& text) {
 
 Status print_data(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    if (errno == EPIPE) return Error{closed_pipe, ""};
     return file_error("write", "standard output", errno);
   }
   return {};
@@ -64,6 +65,10 @@ void ProgressBar::update(std::uint64_t done) {
 
 ProgressLines::ProgressLines(std::uint64_t total, std::string_view unit)
     : silent_(::isatty(STDERR_FILENO) == 1 || total == 0), total_(total), unit_(unit) {}
+
+void ProgressLines::begin(std::string_view name) const {
+  if (!silent_) print_message(fmt::format("{} …", name));
+}
 
 void ProgressLines::update(std::uint64_t done) {
   const std::uint64_t tenth = silent_ ? 0 : 10 * done / total_;

@@ -9,7 +9,12 @@
 
 namespace aspic {
 
-/// Writes data to stdout and flushes. Error (io): a full disk behind a redirection, a closed pipe.
+/// Whoever read stdout has ended, as head does when it has its lines. Nothing is said then, and the exit code
+/// is the one a shell gives to programs that the signal SIGPIPE ends.
+inline constexpr auto closed_pipe = ErrorCode{141};
+
+/// Writes data to stdout and flushes. Errors: io, a full disk behind a redirection; closed_pipe, without a
+/// message.
 Status print_data(std::string_view text);
 
 /// Writes text for people to stdout as print_data does, escaped as the messages below.
@@ -50,6 +55,8 @@ class ProgressLines {
  public:
   /// `unit`: what is counted, in the plural.
   ProgressLines(std::uint64_t total, std::string_view unit);
+  /// A part that may take a while begins.
+  void begin(std::string_view name) const;
   void update(std::uint64_t done);
 
  private:

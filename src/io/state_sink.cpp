@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/files.h"
 #include "base/printable.h"
 #include "io/checkpoint.h"
 #include "io/series_csv.h"
@@ -184,11 +185,28 @@ std::string state_help(std::string_view option) {
   return fmt::format("{} as {}", summary, fmt::join(kinds, " or "));
 }
 
-const StateFormat& state_format_of(std::string_view option, std::string_view path) {
-  const StateFormat* chosen = nullptr;
+Status check_state_name(std::string_view option, const std::string& path) {
+  if (path == "-")
+    return fail(ErrorCode::usage,
+                "--{} - would be a file of the name -: write /dev/stdout for standard output.", option);
+  const std::string ending = ending_of(path);
+  if (ending.empty() || is_device_or_pipe(path)) return {};
+  std::vector<std::string_view> endings;
   for (const StateFormat& format : table) {
     if (format.option != option) continue;
-    if (!chosen || path.ends_with(format.ending)) chosen = &format;
+    if (format.ending == ending) return {};
+    endings.push_back(format.ending);
+  }
+  return fail(ErrorCode::usage, "--{} {}: the name must end in {}, which chooses its format.", option,
+              printable_line(path), fmt::join(endings, " or "));
+}
+
+const StateFormat& state_format_of(std::string_view option, const std::string& path) {
+  const StateFormat* chosen = nullptr;
+  const std::string ending = ending_of(path);
+  for (const StateFormat& format : table) {
+    if (format.option != option) continue;
+    if (!chosen || format.ending == ending) chosen = &format;
   }
   return *chosen;
 }

@@ -72,8 +72,11 @@ std::span<const StateFormat> state_formats();
 std::vector<std::string_view> state_options();
 /// What an option does and which formats it has: "write the final state as CSV (.csv)".
 std::string state_help(std::string_view option);
+/// Whether a file's name can be one of an option's outputs: it ends as one of its formats does, in letters of
+/// either case, or in nothing, which means the first; devices and pipes have any name. Error (usage).
+Status check_state_name(std::string_view option, const std::string& path);
 /// The format of an option, which exists, that a file name's ending asks for; the option's default where no
 /// ending fits.
-const StateFormat& state_format_of(std::string_view option, std::string_view path);
+const StateFormat& state_format_of(std::string_view option, const std::string& path);
 
 }  // namespace aspic

@@ -34,4 +34,22 @@ std::string csv_row(std::span<const std::string> fields) {
   return row + "\n";
 }
 
+std::vector<std::string> csv_fields(std::string_view row) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t at = 0; at < row.size() && (quoted || row[at] != '\n'); ++at) {
+    const char c = row[at];
+    if (c == '"' && quoted && at + 1 < row.size() && row[at + 1] == '"') {
+      fields.back() += row[++at];
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
 }  // namespace aspic::report

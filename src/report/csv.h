@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace aspic::report {
 
@@ -11,6 +12,8 @@ namespace aspic::report {
 std::string csv_number(double value);
 /// A field, in quotation marks where it needs them; line ends become spaces.
 std::string csv_field(std::string_view text);
+/// The fields of a row that csv_row() made.
+std::vector<std::string> csv_fields(std::string_view row);
 /// The fields with commas between and a line end.
 std::string csv_row(std::span<const std::string> fields);
 

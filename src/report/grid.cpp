@@ -83,6 +83,7 @@ Result<Axis> parse_axis(const std::string& text, const Scene& scene) {
     if (error != std::errc() || end != range[2].data() + range[2].size()) count = 0;
   }
   if (!to) return bad_axis(text, "from and to are numbers");
+  if (range.size() == 2) return bad_axis(text, "the count is missing");
   if (range.size() > 4 || (range.size() == 4 && !log))
     return bad_axis(text, "after the count comes log or nothing");
   if (count < 1 || count > most_runs)

@@ -75,6 +75,9 @@ std::string print_pdf(const fs::path& directory) {
 
 Status check_directory(const ReportPlan& plan) {
   std::error_code failed;
+  if (fs::exists(plan.out, failed) && !fs::is_directory(plan.out, failed))
+    return fail(ErrorCode::io, "{} is a file, and a report is a directory; give another --out.",
+                printable_line(plan.out));
   for (const char* const part : {"", "data", "figures"}) {
     const fs::path directory = fs::path(plan.out) / part;
     fs::create_directory(directory, failed);  // its parent exists, or the name is mistyped
@@ -136,6 +139,7 @@ Result<Page> make_page(const ReportPlan& plan, const Study& study,
     ProgressBar bar(rows.size(), "section");
     ProgressLines lines(rows.size(), "sections");
     for (const SectionRow* row : rows) {
+      lines.begin(row->name);
       ASPIC_TRY(auto section, row->make(study));
       page.sections.push_back(std::move(section));
       bar.update(page.sections.size());

@@ -20,6 +20,7 @@
 #include "io/atomic_file.h"
 #include "io/child_process.h"
 #include "io/console.h"
+#include "report/csv.h"
 #include "report/sweep_rows.h"
 
 namespace aspic::report {
@@ -165,19 +166,23 @@ bool takes_device(const Grid& grid, const BackendRow& usual) {
 
 SweepCounts count_rows(const std::map<std::size_t, std::string>& rows, const Grid& grid) {
   SweepCounts counts;
-  const std::size_t before = 1 + grid.axes.size();  // fields; values of keys may be quoted and hold commas
   for (const auto& [index, row] : rows) {
-    std::size_t at = 0, fields = 0;
-    bool quoted = false;
-    for (; at < row.size() && fields < before; ++at) {
-      if (row[at] == '"') quoted = !quoted;
-      if (row[at] == ',' && !quoted) ++fields;
-    }
-    const std::string outcome = row.substr(at, row.find(',', at) - at);
+    const std::vector<std::string> fields = csv_fields(row);
+    const std::size_t at = 1 + grid.axes.size();  // after the run's number and its values
+    if (fields.size() < at + 2) continue;
+    const std::string& outcome = fields[at];
     if (outcome == name_of(Outcome::ok)) ++counts.ok;
     if (outcome == name_of(Outcome::diverged)) ++counts.diverged;
     if (outcome == name_of(Outcome::rejected)) ++counts.rejected;
     if (outcome == name_of(Outcome::failed)) ++counts.failed;
+    const bool refused = outcome == name_of(Outcome::rejected) || outcome == name_of(Outcome::failed);
+    if (!refused || !counts.first_reason.empty()) continue;
+    std::vector<std::string> values;
+    for (std::size_t a = 0; a < grid.axes.size(); ++a)
+      values.push_back(fmt::format("{}={}", grid.axes[a].key, fields[1 + a]));
+    counts.first_reason =
+        fmt::format("run {} ({}) was {}: {}", index, fmt::join(values, ", "),
+                    outcome == name_of(Outcome::rejected) ? "rejected" : "lost", fields[at + 1]);
   }
   return counts;
 }

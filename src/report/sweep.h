@@ -31,6 +31,7 @@ struct SweepPlan {
 /// Numbers of rows by outcome.
 struct SweepCounts {
   std::size_t ok = 0, diverged = 0, rejected = 0, failed = 0, resumed = 0;  ///< resumed: of all these
+  std::string first_reason;  ///< of the first run that was rejected or failed; empty: none was
 };
 
 /// Runs what the journal of `out` lacks, and then writes `out`, its rows in the grid's order. Errors: those

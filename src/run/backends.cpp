@@ -38,23 +38,30 @@ Result<Backend> make_gpu(const Model& model, const BackendChoice& choice, const 
   return backend;
 }
 
+/// Whether there is a software rasteriser where no hardware was found. EGL's list is asked first: to make a
+/// context takes a while, but the environment may choose a device that is not in the list.
+bool has_software_device() {
+  const char* const variable = std::getenv("ASPIC_EGL_DEVICE");
+  if (!(variable && *variable) && std::ranges::any_of(gl::list_devices(), &gl::EglDevice::software))
+    return true;
+  return gl::Context::create_headless().ok();
+}
+
 Suitability gpu_suitability(const gl::Context* window) {
+  constexpr const char* software =
+      "OpenGL is a software rasteriser here, which is used only with --backend gpu";
   Suitability result;
   if (window == nullptr) {
     gl::ContextOptions options;
     options.device = gl::DeviceChoice::hardware;
     auto made = gl::Context::create_headless(options);
-    if (!made) return {false, "no hardware GPU with OpenGL 4.3 was found", made.error().message, nullptr};
+    if (!made && has_software_device()) return {false, software, "", nullptr};
+    if (!made) return {false, "no OpenGL 4.3 device was found", made.error().message, nullptr};
     result.context = std::move(*made);
     window = result.context.get();
   }
   const gl::DeviceInfo& info = window->info();
-  if (info.is_software) {
-    return {false,
-            fmt::format("{} is a software rasteriser, which is used only when asked for with --backend gpu",
-                        info.renderer),
-            "", nullptr};
-  }
+  if (info.is_software) return {false, software, "", nullptr};
   result.suits = true;
   result.reason = fmt::format("{} is a hardware GPU with OpenGL 4.3 compute", info.renderer);
   return result;

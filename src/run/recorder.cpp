@@ -17,6 +17,18 @@ constexpr std::uint64_t most_pictures = 1000000000;
 
 }  // namespace
 
+Status check_pictures(const PictureOutput& output, double timestep, std::uint64_t first_step,
+                      std::uint64_t last_step) {
+  if (!output.any()) return {};
+  const double fps = frames_per_second(output);
+  if (FrameSchedule(timestep, first_step, last_step, fps, output.speed).count() <= most_pictures) return {};
+  return fail(
+      ErrorCode::usage,
+      "--speed {} and --fps {} make more than {} pictures of this run: choose a larger speed or fewer "
+      "pictures per second.",
+      output.speed, fps, most_pictures);
+}
+
 Recorder::Recorder(const PictureOutput& output, const Scene& scene, const Backend& backend,
                    const FrameSchedule& schedule)
     : output_(output), scene_(scene), backend_(backend), schedule_(schedule) {}
@@ -29,13 +41,8 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
                                                    std::uint64_t first_step, std::uint64_t last_step) {
   const Model& model = backend.solver->model();
   const double fps = frames_per_second(output);
+  ASPIC_CHECK(check_pictures(output, model.simulation.timestep, first_step, last_step));
   const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, fps, output.speed);
-  if (schedule.count() > most_pictures) {
-    return fail(ErrorCode::usage,
-                "--speed {} and --fps {} make more than {} pictures of this run: choose a larger speed or "
-                "fewer pictures per second.",
-                output.speed, fps, most_pictures);
-  }
   std::unique_ptr<Recorder> r(new Recorder(output, scene, backend, schedule));
   r->context_ = backend.context.get();
   if (!r->context_) {

@@ -16,6 +16,11 @@
 
 namespace aspic {
 
+/// Whether the pictures of a run can be counted. Error (usage): speed and pictures per second make more than
+/// was meant.
+Status check_pictures(const PictureOutput& output, double timestep, std::uint64_t first_step,
+                      std::uint64_t last_step);
+
 class Recorder {
  public:
   /// Draws in the backend's context where it has one, else in a separate headless one; the sinks have the

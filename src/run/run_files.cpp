@@ -34,6 +34,7 @@ Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOu
 
 Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
                                 const RunFacts& facts, Overwrite overwrite) {
+  ASPIC_CHECK(check_endings(states));
   ASPIC_CHECK(refuse_duplicates(states, pictures));
   RunFiles files;
   for (const StateOutput& output : states) {
@@ -95,6 +96,12 @@ Status RunFiles::finish(const Sample& last) {
   }
   outputs_.clear();
   return failures_.empty() ? Status() : Status(failures_.front());
+}
+
+Status check_endings(const std::vector<StateOutput>& outputs) {
+  for (const StateOutput& output : outputs)
+    if (!output.path.empty()) ASPIC_CHECK(check_state_name(output.option, output.path));
+  return {};
 }
 
 double frames_per_second(const PictureOutput& output) {

@@ -31,6 +31,9 @@ struct PictureOutput {
   bool any() const { return !video.empty() || !frames.empty(); }
 };
 
+/// Whether the names of all outputs say formats that these options have. Error (usage).
+Status check_endings(const std::vector<StateOutput>& outputs);
+
 /// The pictures per second that were asked for, or what the formats have where nothing was.
 double frames_per_second(const PictureOutput& output);
 

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <ranges>
 #include <thread>
 #include <utility>
 
+#include "base/printable.h"
 #include "cpu_reference/reference_solver.h"
+#include "scene/diagnostics.h"
 
 namespace aspic::verify {
 
@@ -51,10 +54,19 @@ Result<std::vector<Check>> select(std::vector<Check> checks, std::span<const std
   };
   for (const std::string& name : names) {
     if (std::any_of(checks.begin(), checks.end(), [&](const Check& c) { return meant(c, name); })) continue;
-    std::string message = fmt::format(
-        "no check is called \"{}\". A name selects itself and everything below it; the checks:", name);
-    for (const Check& check : checks) message += "\n  " + check.name;
-    return Error{ErrorCode::usage, message};
+    std::vector<std::string_view> known;
+    for (const std::string_view check : checks | std::views::transform(&Check::name)) {
+      for (std::size_t slash = check.find('/'); slash != std::string_view::npos;
+           slash = check.find('/', slash + 1))
+        known.push_back(check.substr(0, slash));
+      known.push_back(check);
+    }
+    const std::string_view near = diagnostics::nearest(name, known);
+    return fail(
+        ErrorCode::usage,
+        "no check is called \"{}\"{} A name selects itself and everything below it; aspic verify --list "
+        "prints all names.",
+        printable_line(name), near.empty() ? "." : diagnostics::did_you_mean(near));
   }
   std::erase_if(checks, [&](const Check& check) {
     const bool named = names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) {

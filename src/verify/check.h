@@ -64,8 +64,8 @@ struct Row {
 std::vector<Check> battery();
 
 /// The checks whose name is one of `names` or begins with one of them followed by a slash; all if `names` is
-/// empty. With `quick` only those that are quick. Error (usage): a name that is no check's, with the list of
-/// names.
+/// empty. With `quick` only those that are quick. Error (usage): a name that is no check's, with the nearest
+/// one.
 Result<std::vector<Check>> select(std::vector<Check> checks, std::span<const std::string> names, bool quick);
 
 /// Runs one check. An error inside it is a failed row whose figure is the error's sentence.

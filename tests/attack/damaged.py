@@ -4,7 +4,7 @@ import os
 import random
 import struct
 
-from attack import DIVERGED, IO, OK, SCENE, TINY, USAGE, fnv1a, hash_in, main, read, write
+from attack import DEVICE, DIVERGED, IO, OK, SCENE, TINY, USAGE, fnv1a, hash_in, main, read, write
 
 BYTES = [0x00, 0x09, 0x0A, 0x1B, 0x22, 0x27, 0x2D, 0x30, 0x39, 0x5B, 0x5D, 0x65, 0x7B, 0x7F, 0x9B, 0xC3, 0xFF]
 
@@ -165,16 +165,21 @@ NUMBERS = ["", "-1", "0", "1e400", "nan", "inf", "-inf", "0x10", "1,5", " 7", "9
            "99999999999999999999", "1e19", "\x1b[2J", "\xff", "½", "1" * 5000, "--", "-"]
 
 
+# Without pictures these options are refused whatever their values.
+OF_PICTURES = ("--fps", "--speed", "--size", "--text", "--frames-format")
+PICTURES = ["--frames", "pictures", "--force"]
+
+
 def options(attack):
     run = ["run", "cube-plane", "--backend", "reference", *TINY]
     # Each form must end at once, with a sentence; a number that is accepted must be a number.
     for option in ("--steps", "--duration", "--every", "--fps", "--speed", "--size", "--backend", "--precision", "--force-path", "--text",
                    "--frames-format"):
         for value in NUMBERS:
-            extra = ["--series", "s.csv", "--force"] if option == "--every" else []
+            extra = ["--series", "s.csv", "--force"] if option == "--every" else PICTURES if option in OF_PICTURES else []
             short = [] if option in ("--steps", "--duration") else ["--steps", "2"]
-            done = attack.run(*run, *short, *extra, option, value.encode("utf-8", "surrogateescape"), timeout=10)
-            attack.judge(done, [OK, USAGE, SCENE], f"{option} {value[:40]!r}")
+            done = attack.run(*run, *short, *extra, option, value.encode("utf-8", "surrogateescape"), timeout=30)
+            attack.judge(done, [OK, USAGE, SCENE, *([DEVICE] if extra == PICTURES else [])], f"{option} {value[:40]!r}")
     for value in NUMBERS:
         for words in (["compare", "cube-plane", *TINY, "--backends", "reference,reference:double", "--steps", value],
                       ["compare", "cube-plane", *TINY, "--backends", "reference,reference:double", "--steps", "1", "--tolerance", value],
@@ -191,7 +196,7 @@ def options(attack):
         done = attack.run("scene", "show", "cube-plane", "--set", argument, timeout=20)
         attack.judge(done, [USAGE, SCENE], f"--set {argument[:40]!r}")
         attack.require(len(done.err) < 200000, f"--set {argument[:40]!r}: a message of {len(done.err)} bytes")
-        done = attack.run(*run, "--steps", "1", "--view", argument, timeout=20)
+        done = attack.run(*run, *PICTURES, "--steps", "1", "--view", argument, timeout=20)
         attack.judge(done, [OK, USAGE, SCENE], f"--view {argument[:40]!r}")
     for value in range(300 if attack.thorough else 60):
         word = "".join(random.choice("abc=.[]{}\"'\\-0123456789eE,\x1b\u202e\n\t ") for _ in range(random.randrange(1, 40)))

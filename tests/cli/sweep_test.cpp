@@ -55,6 +55,17 @@ Words sweep(const std::string& out, const Words& more = {}) {
   return words;
 }
 
+TEST(Sweep, TheFirstRejectionIsSaid) {
+  const test::TemporaryDirectory dir;
+  const auto done = aspic({"sweep", "cube-plane", "--steps", "2", "--backend", "reference", "--vary",
+                           "integrator=rk4,midpoint,rk5", "--out", dir.file("s.csv")});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("1 ok, 0 diverged, 2 rejected"));
+  EXPECT_THAT(done.err, HasSubstr("warning: run 0 (integrator=rk4) was rejected: "));
+  EXPECT_THAT(done.err, HasSubstr("did you mean 'runge-kutta-4'?"));
+  EXPECT_THAT(done.err, testing::Not(HasSubstr("rk5")));
+}
+
 TEST(Sweep, DivergedRunsAreRowsWithTheirReason) {
   const test::TemporaryDirectory dir;
   const auto done = aspic(sweep(dir.file("s.csv"), {"--json"}));

@@ -91,15 +91,19 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"view", "--size", "huge"}, 2, "--size must be"},
         Failure{{"view", "--layout", "cinema"}, 2, "standard, lecture, lab, film"},
         Failure{{"view", "--backend", "tpu"}, 2, "auto, gpu"},
-        Failure{{"verify", "--only", "odrer"}, 2, "order/midpoint"},
+        Failure{{"verify", "--only", "odrer"}, 2, "did you mean 'order'?"},
+        Failure{{"verify", "--only", "rest/midpint"}, 2, "did you mean 'rest/midpoint'?"},
         Failure{{"bench", "--repeats", "0"}, 2, "--repeats"}, Failure{{"report"}, 2, "--out is required"},
         Failure{{"report", "--out", "x", "--only", "integators"}, 2, "integrators, parameters"},
         Failure{{"report", "--out", "/nonexistent/x"}, 6, "/nonexistent"},
+        Failure{{"report", "--out", ASPIC_SOURCE_DIR "/README.md"}, 6, "README.md is a file"},
         Failure{{"sweep", "cube-plane", "--out", "x.csv"}, 2, "--vary is required"},
         Failure{
             {"sweep", "cube-plane", "--vary", "h=1", "--out", "x.csv", "--part", "3/2"}, 2, "1 <= i <= n"},
         Failure{{"sweep", "cube-plane", "--vary", "h", "--out", "x.csv"}, 2, "its = is missing"},
-        Failure{{"sweep", "cube-plane", "--vary", "h=1:2", "--out", "x.csv"}, 2, "the count is from 1"},
+        Failure{{"sweep", "cube-plane", "--vary", "h=1:2", "--out", "x.csv"}, 2, "the count is missing"},
+        Failure{{"sweep", "cube-plane", "--vary", "h=1:2:0", "--out", "x.csv"}, 2, "the count is from 1"},
+        Failure{{"sweep", "cube-plane", "--vary", "h=0.001", "--out", "k.txt"}, 2, "k.txt must end in .csv"},
         Failure{{"sweep", "cube-plane", "--vary", "h=0:1:3:log", "--out", "x.csv"}, 2, "above 0"},
         Failure{{"sweep", "cube-plane", "--vary", "h=1:2:3:cubic", "--out", "x.csv"}, 2, "log or nothing"},
         Failure{{"sweep", "cube-plane", "--vary", "h=1,,2", "--out", "x.csv"}, 2, "a value is missing"},
@@ -124,8 +128,19 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"run", "cube-plane", "--duration", "-1"}, 2, "0 or more"},
         Failure{{"run", "cube-plane", "--duration", "nan"}, 2, "finite"},
         Failure{{"run", "cube-plane", "--duration", "1e300"}, 2, "more steps than can be counted"},
-        Failure{{"run", "cube-plane", "--every", "5"}, 2, "--series"},
-        Failure{{"run", "cube-plane", "--series", "x.csv", "--every", "0"}, 2, "1 or more"},
+        Failure{{"run", "cube-plane", "--every", "5"}, 2, "--every is for --series FILE"},
+        Failure{{"run", "cube-plane", "--series-every", "5"}, 2, "--series-every is for --series FILE"},
+        Failure{
+            {"run", "cube-plane", "--checkpoint-every=5"}, 2, "--checkpoint-every is for --checkpoint FILE"},
+        Failure{{"run", "cube-plane", "--series", "x.csv", "--every", "0"}, 2, "--every: 0 is too small"},
+        Failure{{"run", "cube-plane", "--series", "x.csv", "--series-every", "0"},
+                2,
+                "--series-every: 0 is too small"},
+        Failure{{"run", "cube-plane", "--checkpoint", "c.aspic", "--checkpoint-every", "-1"},
+                2,
+                "-1 is negative; give a whole number of 1 or more"},
+        Failure{{"bench", "--size", "0"}, 2, "0 is too small"},
+        Failure{{"run", "cube-plane", "--state", "a.csv", "--state", "b.csv"}, 2, "--state is given 2 times"},
         Failure{{"run", "cube-plane", "--backend", "tpu"}, 2, "auto, gpu, "},
         Failure{{"run", "cube-plane", "--precision", "half"}, 2, "single, double"},
         Failure{{"run", "cube-plane", "--force-path", "x"}, 2, "per-spring"},
@@ -149,6 +164,37 @@ INSTANTIATE_TEST_SUITE_P(
                 2,
                 "the reference does not"},
         Failure{{"compare", "cube-plane", "--backends", "cpu,reference:fast"}, 2, "the reference does not"},
+        // Names that say no format of the option, or nothing.
+        Failure{
+            {"run", "cube-plane", "--state", "x.txt"}, 2, "--state x.txt: the name must end in .csv or .vtp"},
+        Failure{{"run", "cube-plane", "--state", "y.vtk"}, 2, "must end in .csv or .vtp"},
+        Failure{{"run", "cube-plane", "--state", "-"}, 2, "/dev/stdout"},
+        Failure{{"run", "cube-plane", "--checkpoint", "c.csv"}, 2, "must end in .aspic"},
+        Failure{{"run", "cube-plane", "--series", "e.vtp"}, 2, "must end in .csv"},
+        Failure{
+            {"run", "cube-plane", "--beside", "h=0.002", "--state", "x.txt"}, 2, "must end in .csv or .vtp"},
+        Failure{{"run", "cube-plane", "--state", ""}, 2, "--state: the name is empty"},
+        Failure{{"run", "cube-plane", "--video", ""}, 2, "--video: the name is empty"},
+        Failure{{"report", "--out", ""}, 2, "--out: the name is empty"},
+        // Options that would do nothing.
+        Failure{{"run", "cube-plane", "--size", "64x64"}, 2, "--size is for pictures"},
+        Failure{{"run", "cube-plane", "--fps", "30"}, 2, "--fps is for pictures"},
+        Failure{{"run", "cube-plane", "--no-text"}, 2, "--no-text is for pictures"},
+        Failure{{"run", "cube-plane", "--speed=0.5"}, 2, "--speed is for pictures"},
+        Failure{{"run", "cube-plane", "--view", "colour=strain"}, 2, "--view is for pictures"},
+        Failure{
+            {"run", "cube-plane", "--video", "x.mp4", "--frames-format", "jpg"}, 2, "is for --frames DIR"},
+        // Keys of a scene are no options.
+        Failure{{"run", "cube-plane", "--dt", "0.001"}, 2, "--set simulation.timestep=VALUE"},
+        Failure{{"run", "cube-plane", "--integrator", "midpoint"}, 2, "--set simulation.integrator=VALUE"},
+        Failure{{"sweep", "cube-plane", "--friction", "0.1"}, 2, "--set contact.friction=VALUE"},
+        // A backend's options after its name.
+        Failure{{"run", "cube-plane", "--backend", "gpu:gahter"}, 2, "unknown backend option"},
+        Failure{{"run", "cube-plane", "--backend", "cpu:gather"}, 2, "belongs to the gpu"},
+        Failure{{"run", "cube-plane", "--backend", "cpu:double"}, 2, "use --backend reference"},
+        Failure{{"compare", "cube-plane", "--backends", "gpu,cpu,reference"},
+                2,
+                "--backends names two backends, such as gpu,reference, not 3 (gpu,cpu,reference)"},
         Failure{{"run", "cube-plane", "--state", "same.csv", "--series", "./same.csv"}, 2, "its own name"},
         Failure{{"run", "--resume", "x", "--set", "a=1"}, 2, "--set cannot change"},
         Failure{{"compare", "cube-plane", "--backends", "reference"}, 2, "--backends"},
@@ -164,6 +210,80 @@ INSTANTIATE_TEST_SUITE_P(
                     Failure{{"run", "cube-plane", "--set", "simulation.timestep=-1"}, 3, "timestep"},
                     Failure{{"scene", "check", "cube-plan"}, 3, "cube-plane"},
                     Failure{{"compare", "cube-plane", "--backends", "reference,tpu"}, 2, "auto, gpu, "}));
+
+TEST(Usage, ABackendTakesItsOptionsAfterItsName) {
+  const auto twice = aspic({"run", "cube-plane", "--backend", "reference:double", "--steps", "3", "--json"});
+  EXPECT_EQ(twice.exit_code, 0) << twice.err;
+  EXPECT_EQ(test::json_member(twice.out, "precision"), "double");
+  const auto fast = aspic({"run", "cube-plane", "--backend", "cpu:fast", "--steps", "3", "--json"});
+  EXPECT_EQ(fast.exit_code, 0) << fast.err;
+  EXPECT_EQ(test::json_member(fast.out, "arithmetic"), "fast");
+}
+
+TEST(Usage, AnEndingMayBeInCapitals) {
+  const test::TemporaryDirectory dir;
+  const auto run =
+      aspic({"run", "cube-plane", "--backend", "reference", "--steps", "1", "--state", dir.file("x.VTP"),
+             "--series", dir.file("E.Csv"), "--checkpoint", dir.file("C.ASPIC")});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(dir.read("x.VTP"), testing::StartsWith("<?xml"));
+}
+
+TEST(Usage, PicturesThatCannotBeCountedLeaveNothingBehind) {
+  const test::TemporaryDirectory dir;
+  for (const Words& more : {Words{}, {"--beside", "h=0.002"}}) {
+    Words words = {"run",      "cube-plane",  "--backend", "reference",
+                   "--frames", dir.file("z"), "--speed",   "1e-300"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto run = aspic(words);
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("pictures of this run"));
+    EXPECT_EQ(dir.entries(), 0u);
+  }
+}
+
+TEST(Usage, VerifyListsItsChecks) {
+  const auto list = aspic({"verify", "--list"});
+  EXPECT_EQ(list.exit_code, 0) << list.err;
+  EXPECT_THAT(list.out, HasSubstr("order/midpoint "));
+  const auto rest = aspic({"verify", "--list", "--only", "rest", "--json"});
+  ASSERT_TRUE(test::is_json(rest.out)) << rest.out;
+  EXPECT_THAT(rest.out, testing::AllOf(HasSubstr("rest/"), Not(HasSubstr("order/"))));
+}
+
+// Examples and exit codes of a command are its own, and every line fits a wide terminal.
+TEST(Usage, HelpIsThatOfTheCommand) {
+  for (const Words& words : {Words{},
+                             {"run"},
+                             {"view"},
+                             {"compare"},
+                             {"verify"},
+                             {"report"},
+                             {"sweep"},
+                             {"bench"},
+                             {"scene"},
+                             {"scene", "list"},
+                             {"scene", "show"},
+                             {"scene", "check"},
+                             {"scene", "import"},
+                             {"info"}}) {
+    Words asked = words;
+    asked.emplace_back("--help");
+    std::string name = "aspic", text = aspic(asked).out;
+    for (const std::string& word : words) name += " " + word;
+    const std::size_t examples = text.find("Example");
+    ASSERT_NE(examples, std::string::npos) << name;
+    EXPECT_THAT(text.substr(0, examples), Not(HasSubstr("\n\n\n"))) << name;
+    std::istringstream shown(text.substr(examples));
+    for (std::string line; std::getline(shown, line);) {
+      if (line.starts_with("  aspic ")) {
+        EXPECT_THAT(line, testing::StartsWith("  " + name)) << name;
+      }
+    }
+    for (const std::string& line : test::lines(text)) EXPECT_LE(line.size(), 130u) << name << ": " << line;
+    EXPECT_EQ(text.find("Exit codes:") != std::string::npos, words.empty()) << name;
+  }
+}
 
 TEST(Usage, MisspeltKeyInAFileShowsLineAndCaretAndWritesNothing) {
   const test::TemporaryDirectory dir;
@@ -188,7 +308,21 @@ TEST(Usage, WithoutADeviceGpuIsRefusedAndInfoSaysSo) {
   const auto info = aspic({"info"}, no_device);
   EXPECT_EQ(info.exit_code, 0) << info.err;
   EXPECT_THAT(info.out, HasSubstr("No usable GL device"));
-  EXPECT_THAT(info.out, HasSubstr("Backend auto: cpu"));
+  EXPECT_THAT(info.out, HasSubstr("Backend auto: cpu, since no OpenGL 4.3 device was found"));
+}
+
+// On a software rasteriser: that there is one is no reason to install one, and all commands say the same.
+TEST(Usage, AutoHasOneReasonEverywhere) {
+  const test::ProcessOptions software = {{{"ASPIC_EGL_DEVICE", "software"}}, "", {}};
+  const auto info = aspic({"info", "--json"}, software);
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  const std::string reason = test::json_member(info.out, "auto_reason");
+  EXPECT_THAT(info.out, Not(HasSubstr("Install")));
+  const Words run = {"run", "cube-plane", "--steps", "1", "--json"};
+  EXPECT_EQ(test::json_member(aspic(run, software).out, "backend_reason"), reason);
+  Words beside = run;
+  beside.insert(beside.end(), {"--beside", "h=0.002"});
+  EXPECT_EQ(test::json_member(aspic(beside, software).out, "backend_reason"), reason);
 }
 
 TEST(Usage, ThreadsOfTheEnvironmentMustBeANumber) {
