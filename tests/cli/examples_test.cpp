@@ -1,0 +1,283 @@
+// The commands of every --help and of the documents, as they are written. All are parsed; those of --help
+// that draw nothing are run in the suite Examples, all others in ExamplesInFull. A run is shortened by rule,
+// never changed otherwise.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <wordexp.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/process.h"
+#include "command_line/arguments.h"
+
+namespace aspic {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+struct Example {
+  std::string where;  ///< "README.md:33", "aspic run --help"
+  std::string command;
+};
+
+/// What is parsed but not run, and why.
+struct Exclusion {
+  std::string_view what;  ///< part of the command or of the place
+  std::string_view reason;
+};
+constexpr Exclusion exclusions[] = {
+    {"aspic view", "opens a window and stays there"},
+    {"--peer", "needs other programs, which scripts/peers.sh installs"},
+    {"docs/performance.md", "measures, for minutes to hours"},
+    {"--thorough", "measures for minutes"},
+    {"GALLIUM_DRIVER=zink", "needs a second driver, which the tests of zink ask for"},
+};
+
+bool is_excluded(const Example& example) {
+  return std::ranges::any_of(exclusions, [&](const Exclusion& e) {
+    return example.command.find(e.what) != std::string::npos ||
+           example.where.find(e.what) != std::string::npos;
+  });
+}
+
+/// A command with words to be replaced, SCENE or …, is a form and no example.
+bool is_form(const std::string& command) {
+  static const std::regex placeholder(R"(…|\$|\b(SCENE|FILE|NAME|DIR|KEY|VALUE|N)\b)");
+  return std::regex_search(command, placeholder);
+}
+
+const std::regex program(R"(^([A-Z_]+=\S+ )*(build/release/)?aspic )");
+
+/// A command without what explains it, three spaces or more behind it.
+std::string alone(const std::string& line) {
+  const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+  return line.substr(first, line.find("   ", first) - first);
+}
+
+/// The examples below the options of a command.
+std::vector<Example> examples_of_help(const Words& command) {
+  Words words = command;
+  words.emplace_back("--help");
+  const std::string text = test::aspic(words).out;
+  std::string where = "aspic";
+  for (const std::string& word : words) where += " " + word;
+  std::vector<Example> examples;
+  const std::size_t from = text.find("\nExample");
+  for (const std::string& line : test::lines(from == std::string::npos ? "" : text.substr(from))) {
+    if (const std::string shown = alone(line); line.starts_with("  ") && std::regex_search(shown, program))
+      examples.push_back({where, shown});
+  }
+  return examples;
+}
+
+std::vector<Example> examples_of_all_help() {
+  std::vector<Example> examples;
+  for (const Words& command : {Words{},
+                               {"run"},
+                               {"view"},
+                               {"compare"},
+                               {"verify"},
+                               {"bench"},
+                               {"report"},
+                               {"sweep"},
+                               {"scene"},
+                               {"scene", "list"},
+                               {"scene", "show"},
+                               {"scene", "check"},
+                               {"scene", "import"},
+                               {"info"}}) {
+    const auto more = examples_of_help(command);
+    EXPECT_FALSE(more.empty()) << (command.empty() ? "aspic" : command.back());
+    examples.insert(examples.end(), more.begin(), more.end());
+  }
+  return examples;
+}
+
+/// Lines of code blocks, and code within text that names a scene.
+std::vector<Example> examples_of_page(const fs::path& page) {
+  static const std::regex inline_code("`([^`]+)`"),
+      with_scene(R"(aspic (scene \w+|run|view|compare|report|sweep|bench) [^-].*)");
+  std::vector<Example> examples;
+  std::ifstream file(page);
+  const auto add = [&](int line, const std::string& command) {
+    if (std::regex_search(command, program) && !is_form(command))
+      examples.push_back(
+          {fs::relative(page, ASPIC_SOURCE_DIR).string() + ":" + std::to_string(line), command});
+  };
+  bool block = false;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    const int first = ++number;
+    if (line.starts_with("```")) {
+      block = !block;
+    } else if (block || line.starts_with("    ")) {
+      for (std::string more; line.ends_with('\\') && std::getline(file, more); ++number)
+        line = line.substr(0, line.find_last_not_of(" \\") + 1) + " " +
+               more.substr(std::min(more.find_first_not_of(' '), more.size()));
+      add(first, alone(line));
+    } else {
+      for (std::sregex_iterator at(line.begin(), line.end(), inline_code), end; at != end; ++at)
+        if (std::regex_match(at->str(1), with_scene))
+          add(first, std::regex_replace(at->str(1), std::regex(R"(\\\|)"), "|"));  // in a table
+    }
+  }
+  return examples;
+}
+
+std::vector<Example> examples_of_pages() {
+  std::vector<fs::path> pages = {fs::path(ASPIC_SOURCE_DIR) / "README.md"};
+  for (const auto& entry : fs::directory_iterator(fs::path(ASPIC_SOURCE_DIR) / "docs"))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  std::ranges::sort(pages);
+  std::vector<Example> examples;
+  for (const fs::path& page : pages) {
+    const auto more = examples_of_page(page);
+    examples.insert(examples.end(), more.begin(), more.end());
+  }
+  return examples;
+}
+
+/// The command without what the shell does with it: redirection, pipe, comment.
+std::string without_shell(const std::string& command) {
+  static const std::regex shell(R"(\s+([>|#]|&&).*$)");
+  return std::regex_replace(command, shell, "");
+}
+
+Words words_of(const std::string& command) {
+  wordexp_t expanded = {};
+  EXPECT_EQ(::wordexp(command.c_str(), &expanded, WRDE_NOCMD), 0) << command;
+  Words words(expanded.we_wordv, expanded.we_wordv + expanded.we_wordc);
+  ::wordfree(&expanded);
+  while (!words.empty() && words.front().find('=') != std::string::npos) words.erase(words.begin());
+  return words;
+}
+
+void expect_parsed(const Example& example) {
+  const Words words = words_of(without_shell(example.command));
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  const auto parsed = parse_arguments(static_cast<int>(argv.size()), argv.data());
+  EXPECT_TRUE(parsed.ok()) << example.where << ": " << example.command << "\n" << parsed.error().message;
+}
+
+/// The value of an option divided, at least `least`; nothing where it is not given.
+std::string divided(const std::string& command, const std::string& option, double divisor, double least) {
+  const std::regex given(option + R"(( |=)([0-9.e-]+))");
+  std::smatch found;
+  if (!std::regex_search(command, found, given)) return "";
+  std::ostringstream value;
+  value << std::max(std::stod(found.str(2)) / divisor, least);
+  return std::string(found.prefix()) + option + found.str(1) + value.str() + std::string(found.suffix());
+}
+
+/// A hundredth of its steps or duration, or 5 steps; checks are listed, measurements take a moment.
+std::string shortened(const std::string& command) {
+  const std::string bare = without_shell(command), rest = command.substr(bare.size());
+  std::smatch name;
+  if (!std::regex_search(bare, name, std::regex(R"(aspic (\w+))"))) return command;
+  const std::string verb = name.str(1);
+  if (verb == "run" || verb == "compare" || verb == "sweep") {
+    for (const auto& [option, least] : {std::pair{"--steps", 1.0}, {"--duration", 0.0}})
+      if (const std::string shorter = divided(bare, option, 100.0, least); !shorter.empty())
+        return shorter + rest;
+    return bare + " --steps 5" + rest;
+  }
+  if (verb == "verify") return bare + " --list" + rest;
+  if (verb == "report")
+    return bare + " --set simulation.duration=0.05 --set 'cube[0].particles-per-edge=3'" + rest;
+  if (verb != "bench") return command;
+  const std::string shorter = divided(bare, "--seconds", 1000.0, 0.001),
+                    whole = divided(bare, "--duration", 100.0, 0.0);
+  return (!shorter.empty() ? shorter
+          : !whole.empty() ? whole
+                           : bare + " --seconds 0.001") +
+         (bare.find("--repeats") == std::string::npos ? " --repeats 1 --warm-up 0" : "") + rest;
+}
+
+bool draws(const Example& example) {
+  return std::regex_search(example.command, std::regex("--(video|frames|pictures)\\b|aspic report"));
+}
+
+/// Runs examples in the order in which they stand, in a directory with the files that a reader would have.
+class Reader {
+ public:
+  Reader() {
+    fs::create_directory(dir_.file("bin"));
+    fs::create_symlink(ASPIC_PROGRAM, dir_.file("bin/aspic"));
+    fs::create_directories(dir_.file("build/release"));
+    fs::create_symlink(ASPIC_PROGRAM, dir_.file("build/release/aspic"));
+    fs::copy_file(fs::path(ASPIC_SOURCE_DIR) / "tests/data/import/Configuration.txt",
+                  dir_.file("Configuration.txt"));
+    const auto scene = test::aspic({"scene", "show", "cube-plane", "--set", "cube[0].particles-per-edge=4"});
+    dir_.write("my-scene.toml", scene.out);
+  }
+
+  void run(const Example& example) {
+    // What one example wrote may be in the way of the next; scenes and checkpoints are meant for it.
+    for (const auto& entry : fs::directory_iterator(dir_.path())) {
+      const std::string ending = entry.path().extension().string();
+      if (entry.is_regular_file() && ending != ".toml" && ending != ".aspic" && ending != ".txt")
+        fs::remove(entry.path());
+    }
+    for (const char* const made : {"out", "report", "part", "map", "rest"}) fs::remove_all(dir_.file(made));
+    const std::string command = shortened(example.command);
+    test::ProcessOptions shell;
+    shell.program = "/bin/sh";
+    const char* const path = std::getenv("PATH");
+    shell.environment = {{"PATH", dir_.file("bin") + ":" + (path ? path : "/usr/bin:/bin")}};
+    const auto done = test::aspic({"-c", "cd '" + dir_.path().string() + "' && " + command}, shell);
+    EXPECT_EQ(done.exit_code, 0) << example.where << ": " << example.command << "\nrun as " << command << "\n"
+                                 << done.err << done.out;
+  }
+
+ private:
+  test::TemporaryDirectory dir_;
+};
+
+TEST(Examples, AllAreUnderstood) {
+  const auto pages = examples_of_pages(), help = examples_of_all_help();
+  // Fewer than there are means that they are no longer found.
+  EXPECT_GE(pages.size(), 55u);
+  EXPECT_GE(help.size(), 40u);
+  for (const Example& example : pages) expect_parsed(example);
+  for (const Example& example : help) expect_parsed(example);
+  for (const Exclusion& exclusion : exclusions) {
+    const auto meant = [&](const Example& example) {
+      return example.command.find(exclusion.what) != std::string::npos ||
+             example.where.find(exclusion.what) != std::string::npos;
+    };
+    EXPECT_TRUE(std::ranges::any_of(pages, meant) || std::ranges::any_of(help, meant)) << exclusion.what;
+  }
+}
+
+TEST(Examples, OfHelpRun) {
+  Reader reader;
+  for (const Example& example : examples_of_all_help())
+    if (!is_excluded(example) && !draws(example)) reader.run(example);
+}
+
+TEST(ExamplesInFull, OfHelpDraw) {
+  Reader reader;
+  for (const Example& example : examples_of_all_help())
+    if (!is_excluded(example) && draws(example)) reader.run(example);
+}
+
+TEST(ExamplesInFull, OfPagesRun) {
+  Reader reader;
+  std::set<std::string> done;  // some stand on several pages
+  for (const Example& example : examples_of_pages())
+    if (!is_excluded(example) && done.insert(example.command).second) reader.run(example);
+}
+
+}  // namespace
+}  // namespace aspic
