@@ -2,27 +2,13 @@
 
 #include <cassert>
 
-#include "cpu_reference/coulomb.h"
+#include "analysis/contact_force.h"
 
 namespace aspic {
 namespace {
 
 using reference::Ground;
 using Vector = reference::Vector<double>;
-
-/// The force f [N] on a particle at (x, v) with what a terrain adds to it.
-Vector with_contact(const Model& model, const reference::ContactConstants<double>& constants,
-                    const Ground<double>& ground, double inverse_mass, const Vector& x, const Vector& v,
-                    const Vector& f) {
-  if (model.contact.model == ContactModel::course)
-    return reference::with_contact_force<double>(ground, constants.epsilon, x, v, f);
-  const auto at = reference::gap<double>(ground, ground.start, x);
-  if (!reference::rests<double>(constants, at.d, reference::dot3<double>(ground.start.relative(v), at.n)))
-    return f;
-  return reference::with_reaction<double>(ground.friction, at.n,
-                                          reference::least_normal_speed<double>(constants, at.d),
-                                          constants.step * inverse_mass, ground.end.relative(v), f);
-}
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cassert>
 
-#include "cpu_reference/contact.h"
+#include "analysis/contact_force.h"
 #include "cpu_reference/spring.h"
 #include "model/springs.h"
 
@@ -76,16 +76,22 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
     force.pull = back(f);
     net += f;
   }
+  const double w = model.inverse_mass[particle];
+  force.applied = back(net);
+  if (w == 0.0) {
+    force.pin = -1.0 * force.applied;
+    return force;
+  }
   const Vector before = net;
-  if (model.contact.model == ContactModel::course && model.inverse_mass[particle] != 0.0) {
-    for (const Terrain& terrain : model.terrain) {
-      reference::Ground<double> ground(terrain);
-      ground.begin_step(model.simulation.timestep, state.step);
-      net = reference::with_contact_force<double>(ground, model.contact.epsilon, x, v, net);
-    }
+  const reference::ContactConstants<double> constants(model);
+  for (const Terrain& terrain : model.terrain) {
+    reference::Ground<double> ground(terrain);
+    ground.begin_step(model.simulation.timestep, state.step);
+    net = with_contact(model, constants, ground, w, x, v, net);
   }
   force.contact = back(net - before);
   force.net = back(net);
+  if (model.contact.model == ContactModel::course) force.applied = force.net;
   return force;
 }
 
@@ -101,7 +107,7 @@ ParticleForce ball_force(const Model& model, const State& state, std::uint32_t b
         exact(state.ball_velocity[ball]), exact(pull->anchor), exact({}));
     force.pull = {f.x(), f.y(), f.z()};
   }
-  force.net = force.gravity + force.pull;
+  force.net = force.applied = force.gravity + force.pull;
   return force;
 }
 

@@ -28,8 +28,12 @@ struct ParticleForce {
   Vec3 gravity;  ///< m·g
   Vec3 springs;  ///< sum over its springs
   Vec3 pull;     ///< a hand's, where it pulls this particle
-  Vec3 contact;  ///< the course model's contact force; the Coulomb model's reaction belongs to a step
-  Vec3 net;      ///< f: all summed in the solvers' order; of a pinned particle too, which it does not move
+  Vec3 applied;  ///< f: all but pins and the Coulomb model's reaction, summed in the solvers' order
+  Vec3 contact;  ///< of terrain: the course model's force, or the reaction in the step that begins here
+  Vec3 pin;      ///< what holds a pinned particle against the others
+  /// The sum of all: zero at rest, but for rounding. A bounce is an impulse at a step's end and no part of
+  /// it.
+  Vec3 net;
 };
 
 /// The state must have the model's numbers of particles; `particle` is one of them; `pull` is that of the
@@ -37,8 +41,9 @@ struct ParticleForce {
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
                              std::uint32_t particle, const std::optional<Pull>& pull = {});
 
-/// Forces on one ball at a state [N]: gravity and the pull; terrain, particles and other balls act by
-/// impulses. The state must have the model's numbers; `ball` is one of them; `pull` is that of the solver.
+/// Forces on one ball at a state [N]: gravity and the pull, which are all of `net`; terrain, particles and
+/// other balls act by impulses. The state must have the model's numbers; `ball` is one of them; `pull` is
+/// that of the solver.
 ParticleForce ball_force(const Model& model, const State& state, std::uint32_t ball,
                          const std::optional<Pull>& pull = {});
 

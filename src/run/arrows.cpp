@@ -6,6 +6,8 @@
 
 #include "analysis/particle_contact.h"
 #include "analysis/particle_force.h"
+#include "model/implicit.h"
+#include "model/integrator.h"
 
 namespace aspic {
 namespace {
@@ -47,14 +49,19 @@ double largest(const std::vector<Vec3>& vectors) {
   return most;
 }
 
-/// What errors of positions and velocities mean for the stiffest springs [N].
+/// What errors of positions and velocities mean for the stiffest springs, and those of a solve [N].
 double noise_of(const Model& model, const State& state) {
   double stiffness = 0.0, damping = 0.0;
   for (const SpringClass& c : model.spring_classes) {
     stiffness = std::max(stiffness, c.stiffness);
     damping = std::max(damping, c.damping);
   }
-  return rounding * (stiffness * largest(state.position) + damping * largest(state.velocity));
+  const double rounded = rounding * (stiffness * largest(state.position) + damping * largest(state.velocity));
+  if (!row_of(model.simulation.integrator).solved()) return rounded;
+  // A solve leaves up to m·tolerance in a step.
+  const double mass = model.mass.empty() ? 0.0 : std::ranges::max(model.mass);
+  const double left = implicit_tolerance(model.simulation.implicit, Precision::single);
+  return rounded + mass * left / model.simulation.timestep;
 }
 
 }  // namespace

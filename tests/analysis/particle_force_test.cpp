@@ -58,7 +58,7 @@ void expect_references_force(const Model& model, const State& state, const std::
     const ParticleForce force = particle_force(model, incident, state, i, pull);
     // The same operations in the same order.
     const Vec3 expected = {f(0, i), f(1, i), f(2, i)};
-    EXPECT_EQ(force.net, expected) << "particle " << i;
+    EXPECT_EQ(force.applied, expected) << "particle " << i;
   }
 }
 

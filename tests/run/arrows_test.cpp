@@ -63,6 +63,25 @@ TEST(Arrows, OfLargeCubesAreThinnedEvenly) {
   EXPECT_EQ(count(arrows_of(model, state, {.contacts = true}), ArrowKind::normal), 100u);
 }
 
+// Newton's second law: what rests has no net force, and no arrow of it.
+TEST(Arrows, OfTheNetForceOfABodyAtRestAreNone) {
+  for (const Integrator method :
+       {Integrator::explicit_euler, Integrator::implicit_euler, Integrator::runge_kutta_4}) {
+    ModelSettings settings = test::cube_on_plane(5, 2.05);
+    settings.simulation.integrator = method;
+    const Model model = test::build(settings);
+    const State state = test::after(model, 4400, Precision::single);
+    ASSERT_LT(length(state.velocity[0]), 2e-4);
+    const ArrowSet net = arrows_of(model, state, {.net = true});
+    double most = 0.0;
+    for (const Arrow& arrow : net.arrows) most = std::max(most, length(arrow.value));
+    EXPECT_LT(most, net.noise);
+    EXPECT_EQ(arrow_scale({}, net), 0.0);
+    const ArrowSet springs = arrows_of(model, state, {.springs = true});
+    EXPECT_GT(arrow_scale({}, springs), 0.0) << "which carry weight";
+  }
+}
+
 // A cube that falls turned has springs of their rest length but for rounding.
 TEST(Arrows, OfRoundingAloneAreNotEnlarged) {
   ModelSettings settings = test::cube_on_plane(6, 9.0);
