@@ -74,6 +74,16 @@ std::string stability_figure(const StabilityLimit& limit);
 /// all that is known: part of a sentence.
 std::string stability_sentence(Integrator integrator, const StabilityLimit& limit);
 
+/// What to do about the time step [s] of a run that diverged: "The time step is 0.02 s; the largest stable
+/// one … 0.002048 s." The limit holds for small motions: below it a hit or a contact was too much, and the
+/// sentence says that and names half the step.
+std::string divergence_sentence(double timestep, Integrator integrator, const StabilityLimit& limit);
+
+/// The time step [s] to offer to a run that diverged, always below its own: 0.95 of the limit, rounded down
+/// to two digits, or half its own step where that is below the limit already. Nothing where no step is
+/// stable.
+std::optional<double> step_to_try(double timestep, const StabilityLimit& limit);
+
 /// "the time step 0.01 s is not stable: …." or "may not be stable", for a step that exceeds the limit.
 std::string unstable_sentence(double timestep, Integrator integrator, const StabilityLimit& limit);
 

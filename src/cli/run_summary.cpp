@@ -137,10 +137,10 @@ Error divergence_error(const Model& model, const Outcome& outcome, const Interru
                                                 [&](double) { return !interrupt.interrupted(); });
   const double h = model.simulation.timestep;
   return fail(ErrorCode::diverged,
-              "{} diverged in step {} (t = {:.6g} s): {} {}. The time step is {} s; {}. The last "
-              "good step is {}; every output holds that state.",
-              of, d.step, static_cast<double>(d.step) * h, body_text(d), fault_text(d), h,
-              stability_sentence(model.simulation.integrator, stable), outcome.state.step);
+              "{} diverged in step {} (t = {:.6g} s): {} {}. {} The last good step is {}; every output holds "
+              "that state.",
+              of, d.step, static_cast<double>(d.step) * h, body_text(d), fault_text(d),
+              divergence_sentence(h, model.simulation.integrator, stable), outcome.state.step);
 }
 
 }  // namespace aspic::cli

@@ -270,6 +270,25 @@ TEST(Stability, GershgorinBoundIsAboveTheEigenvalue) {
   }
 }
 
+TEST(Stability, AfterADivergenceASmallerStepIsOfferedWhateverTheEstimate) {
+  EXPECT_EQ(step_to_try(0.02, {0.002048, true}), 0.0019);
+  EXPECT_EQ(step_to_try(0.001, {0.002, true}), 0.0005) << "a hit needed less than small motions do";
+  EXPECT_EQ(step_to_try(0.02, {std::numeric_limits<double>::infinity(), true}), 0.01);
+  EXPECT_EQ(step_to_try(0.001, {std::nullopt, true}), std::nullopt);
+  EXPECT_EQ(step_to_try(0.001, {0.0, false}), std::nullopt);
+  for (const double limit : {1e-5, 3.3e-4, 1e-3, 1.04e-3, 1.06e-3, 0.5})
+    EXPECT_LT(*step_to_try(0.001, {limit, true}), 0.001) << limit;
+  const auto of = [](double step, double limit) {
+    return divergence_sentence(step, Integrator::explicit_euler, {limit, true});
+  };
+  EXPECT_EQ(of(0.02, 0.002048),
+            "The time step is 0.02 s; the largest stable one for explicit-euler is estimated at 0.002048 s.");
+  EXPECT_EQ(
+      of(0.0018000000000000002, 0.002),
+      "The time step is 0.0018 s, and small motions are stable under explicit-euler up to 0.002 s; a hit "
+      "or a contact needed a smaller one. Try 0.0009 s.");
+}
+
 TEST(Stability, OverflowHasAnAnswer) {
   Model model = model_of(cube_settings(2));
   model.inverse_mass.assign(model.particle_count(), 1e308);
