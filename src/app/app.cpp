@@ -53,6 +53,19 @@ std::vector<Command> App::make_commands() {
     run.single_step();
     film.update();
   };
+  const auto step_back = [this] {
+    // After the window's own run diverged, of those that went on.
+    if (beside.others_go_on())
+      go_back(beside.clock().model().simulation.timestep);
+    else
+      run.step_back();
+  };
+  const auto reset = [this] {
+    run.reset();
+    if (messages.check(simulation.refresh_snapshot()) && !view.sees_bodies(simulation.snapshot()))
+      messages.info(
+          "The bodies are outside the picture: Home shows the scene's camera, F frames the bodies.");
+  };
   const auto toggle = [this] {
     if (!beside.toggle()) run.toggle();
   };
@@ -76,11 +89,11 @@ std::vector<Command> App::make_commands() {
   const auto paste = [this] { paste_camera(view, scene.scene(), gui_->services(), messages); };
   return {
       {"", "Motion"},
-      {"Space", "start or pause", GLFW_KEY_SPACE, 0, 0, toggle},
+      {"Space", "start or pause", GLFW_KEY_SPACE, 0, 0, toggle, false, -1, ctrl},
       {". (full stop)", "single step", -1, 0, U'.', step},
-      {"R", "reset to the start", GLFW_KEY_R, 0, 0, [this] { run.reset(); }},
-      {", (comma)", "step back", -1, 0, U',', [this] { run.step_back(); }},
-      {"Backspace", "half a second back", GLFW_KEY_BACKSPACE, 0, 0, [this] { run.jump_back(); }, true},
+      {"R", "reset to the start", GLFW_KEY_R, 0, 0, reset},
+      {", (comma)", "step back", -1, 0, U',', step_back},
+      {"Backspace", "half a second back", GLFW_KEY_BACKSPACE, 0, 0, [this] { go_back(0.5); }, true},
       {"+", "twice as fast", -1, 0, U'+', [this] { run.change_speed(2.0); }},
       {"-", "half as fast", -1, 0, U'-', [this] { run.change_speed(0.5); }},
       {"G", "other backend", GLFW_KEY_G, 0, 0, [this] { run.switch_backend(); }},
@@ -120,12 +133,13 @@ std::vector<Command> App::make_commands() {
       {"", "Window and files"},
       {"L", "next layout", GLFW_KEY_L, 0, 0, [this] { layout.choose_next(); }},
       {"Tab", "hide or show the panels", GLFW_KEY_TAB, 0, 0, [this] { layout.panels = !layout.panels; }},
-      {"Ctrl+P", "find an action, a scene or a value", GLFW_KEY_P, ctrl, 0, [this] { palette.open(); }},
+      {"Ctrl+P", "find an action, a scene or a value", GLFW_KEY_P, ctrl, 0,
+       [this] { open_page(Page::palette); }},
       {"Ctrl++", "larger text", GLFW_KEY_EQUAL, ctrl, 0, [this] { layout.scale_text(1.1); }, true,
        GLFW_KEY_KP_ADD},
       {"Ctrl+-", "smaller text", GLFW_KEY_MINUS, ctrl, 0, [this] { layout.scale_text(1.0 / 1.1); }, true,
        GLFW_KEY_KP_SUBTRACT},
-      {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { help_visible = !help_visible; }},
+      {"F1", "all keys", GLFW_KEY_F1, 0, 0, [this] { open_page(help_visible ? Page::none : Page::help); }},
       {"F11", "full screen", GLFW_KEY_F11, 0, 0, full_screen},
       {"Ctrl+R", "start or end a film", GLFW_KEY_R, ctrl, 0, [this] { film.toggle(); }},
       {"F12", "save the picture", GLFW_KEY_F12, 0, 0, [this] { shot_wanted_ = Shot::picture; }},
@@ -134,13 +148,30 @@ std::vector<Command> App::make_commands() {
   };
 }
 
+void App::go_back(double time) {
+  const double to = beside.clock_time() - time;
+  if (!beside.go_to(to)) run.go_to(to);
+}
+
+/// One at a time.
+void App::open_page(Page page) {
+  help_visible = page == Page::help;
+  if (page != Page::files) files.close();
+  if (page == Page::palette)
+    palette.open();
+  else
+    palette.close();
+}
+
 void App::ask_for_scene() {
+  open_page(Page::files);
   files.ask(
       {"Open", {".toml", ".aspic"}, false, [this](const std::string& path, Overwrite) { scene.open(path); }},
       scene.editor().is_file() ? scene.editor().source() : "");
 }
 
 void App::ask_where_to_save() {
+  open_page(Page::files);
   const auto save = [this](const std::string& path, Overwrite overwrite) { scene.save_as(path, overwrite); };
   files.ask({"Save", {".toml"}, true, save},
             scene.editor().is_file() ? scene.editor().source() : scene.editor().source() + ".toml");
@@ -188,6 +219,10 @@ void App::restore(const KeptState& kept, const std::vector<std::string>& overrid
         "Space starts and pauses. Drag to turn the view, the wheel zooms. Ctrl+drag pulls a body, B throws a "
         "ball. F1 shows all keys, Ctrl+P finds everything by name.",
         20.0);
+  else if (simulation.pacer().speed != 1.0)
+    messages.info(fmt::format("The speed is ×{:g}, as it was left: + and - change it.{}",
+                              simulation.pacer().speed, layout.panels ? "" : " Tab shows the panels."),
+                  10.0);
   else if (!layout.panels)
     messages.info("Tab shows the panels, F1 all keys.");
 }
@@ -207,6 +242,7 @@ KeptState App::kept_state() const {
 
 bool App::may_close() {
   if (closing == Closing::no && scene.editor().changed()) {
+    open_page(Page::none);
     closing = Closing::asked;
     touch();
     return false;
@@ -219,8 +255,9 @@ std::string App::title() const {
 }
 
 bool App::idle() const {
-  return !simulation.running() && !beside.running() && beside.settled() && !picture.refining() &&
-         !beside.refining() && std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
+  return !simulation.running() && !beside.running() && beside.settled() && !beside.busy() &&
+         !picture.refining() && !beside.refining() &&
+         std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
          shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() && !simulation.changing() &&
          !simulation.busy();
 }
@@ -276,9 +313,12 @@ void App::deliver_keys() {
     const KeyEvent event = keys_.front();
     keys_.pop_front();
     // F1 and those after it are in no text.
-    const bool escapes = event.key == GLFW_KEY_ESCAPE && (files.is_open() || palette.is_open());
-    const bool typing =
-        gui_->takes_keyboard() && !escapes && !(event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F25);
+    const bool escapes =
+        event.key == GLFW_KEY_ESCAPE && (files.is_open() || palette.is_open() || closing == Closing::asked);
+    // While a page asks something no key is the window's.
+    const bool asks = palette.is_open() || files.is_open() || closing == Closing::asked;
+    const bool typing = (gui_->takes_keyboard() || asks) && !escapes &&
+                        !(event.key >= GLFW_KEY_F1 && event.key <= GLFW_KEY_F25);
     if (event.character == 0 || typing) gui_->key(event);
     if (typing || (event.character == 0 && event.action == GLFW_RELEASE)) continue;
     if (event.character != 0) {

@@ -108,6 +108,9 @@ class App final : public EventReceiver {
   std::vector<Command> make_commands();
   void deliver_keys();
   void follow_hovered();
+  void go_back(double time);
+  enum class Page { none, help, palette, files };
+  void open_page(Page page);
   void ask_for_scene();
   void ask_where_to_save();
   Status make_picture(const WindowSize& size, double dt);

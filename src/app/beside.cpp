@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -45,6 +46,39 @@ void Beside::detach() {
 std::vector<OverlayLine> Beside::label(std::size_t i) const {
   const Scene& scene = i == 0 ? scene_.scene() : companions_[i - 1]->scene();
   return label_of(scene_.editor().beside(), scene, std::string(run(i).backend().title));
+}
+
+namespace {
+
+/// "implicit Euler", "h 0.0005 s", "shear stiffness 20 N/m".
+std::string short_difference(const std::string& key, const Scene& scene, const std::string& backend) {
+  const std::string value = value_of(key, scene, backend);
+  if (key == backend_key || key == "integrator" || key == "simulation.integrator") return value;
+  std::string name = title_of(key);
+  // The symbol of a short name; of a path what is after its table.
+  if (find_short_key(key)) {
+    name = name.substr(name.rfind(' ') + 1);
+  } else {
+    const std::size_t list = name.find("].");
+    name = name.substr(list == std::string::npos ? name.find('.') + 1 : list + 2);
+    std::ranges::replace(name, '.', ' ');
+    std::ranges::replace(name, '-', ' ');
+  }
+  return fmt::format("{} {}", name, value);
+}
+
+}  // namespace
+
+std::string Beside::name(std::size_t i) const {
+  const std::string backend(run(i).backend().title);
+  if (i > 0)
+    return short_difference(companions_[i - 1]->variation().key, companions_[i - 1]->scene(), backend);
+  std::vector<std::string> parts;
+  for (const auto& companion : companions_) {
+    std::string part = short_difference(companion->variation().key, scene_.scene(), backend);
+    if (std::ranges::find(parts, part) == parts.end()) parts.push_back(std::move(part));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 // ---- what runs there are ----
@@ -132,7 +166,70 @@ Companion* Beside::stand_in() const {
 bool Beside::toggle() {
   if (!others_go_on()) return false;
   others_run_ = !others_run_;
+  recalled_.reset();
   return true;
+}
+
+bool Beside::busy() const {
+  return std::ranges::any_of(companions_, [](const auto& c) { return c->simulation().busy(); });
+}
+
+double Beside::clock_time() const {
+  if (!several()) return leader_.time();
+  const Simulation& setter = clock();
+  for (std::size_t i = 0; i < count(); ++i)
+    if (&run(i) == &setter) return shown_time(i);
+  return leader_.time();
+}
+
+double Beside::end_time() const {
+  const auto end_of = [](const Simulation& s) { return s.history().time(s.history().end_moment()); };
+  if (several() && clock_runs()) return clock_time();
+  double end = end_of(leader_);
+  if (!leader_.ends_diverged()) return end;
+  for (const auto& companion : companions_) end = std::max(end, end_of(companion->simulation()));
+  return end;
+}
+
+bool Beside::go_to(double time) {
+  const History& own = leader_.history();
+  const double last = own.time(own.end_moment());
+  recalled_.reset();
+  const bool beyond = time > last + 0.5 * leader_.model().simulation.timestep;
+  if (!active() || !leader_.ends_diverged() || !beyond || !(end_time() > last)) return false;
+  // The window's own run stays at its end, or goes there.
+  others_run_ = false;
+  recalled_ = time;
+  if (leader_.here() != own.end_moment()) messages_.check(leader_.seek(own.end_moment()));
+  scene_.follow_history();
+  return true;
+}
+
+double Beside::figures_time() const {
+  double limit = clock_time();
+  for (std::size_t i = 0; i < count(); ++i) {
+    const auto& energies = run(i).samples().energies();
+    const double half = 0.5 * run(i).model().simulation.timestep;
+    if (!run(i).divergence() && !energies.empty()) limit = std::min(limit, energies.back().time + half);
+  }
+  const auto& energies = clock().samples().energies();
+  const auto after = std::ranges::upper_bound(energies, limit, {}, &EnergySample::time);
+  return after == energies.begin() ? limit : std::prev(after)->time;
+}
+
+/// Of what was shown since the last measurement, where something was.
+void Beside::measure_factor(double dt) {
+  constexpr double window = 0.5;  // s
+  const double now = clock_time();
+  measured_for_ += dt;
+  if (!clock_runs() || now < measured_from_) {
+    factor_ = measured_for_ = 0.0;
+    measured_from_ = now;
+  } else if (measured_for_ > window && now > measured_from_) {
+    factor_ = (now - measured_from_) / measured_for_;
+    measured_for_ = 0.0;
+    measured_from_ = now;
+  }
 }
 
 std::optional<std::string> Beside::hands_refused() const {
@@ -155,6 +252,7 @@ void Beside::lead() {
 
 Status Beside::follow(double dt, double budget) {
   if (!several()) return {};
+  measure_factor(dt);
   Companion* const ahead = leader_.divergence() ? stand_in() : nullptr;
   // They go on where the window's own run did.
   if (ahead && was_running_) others_run_ = true;
@@ -162,16 +260,29 @@ Status Beside::follow(double dt, double budget) {
   was_running_ = leader_.running();
   const bool all_there = settled_;
   settled_ = !leader_.seeking() && !leader_.changing();
+  if (!leader_.divergence() && !leader_.seeking()) recalled_.reset();
+  if (recalled_) return recall(*recalled_, dt, budget);
   if (ahead) ASPIC_CHECK(ahead->lead(leader_.pacer(), others_run_, !all_there, dt, budget));
   for (const auto& companion : companions_) {
     if (companion.get() == ahead) continue;
-    ASPIC_CHECK(ahead ? companion->go_on_to(ahead->simulation().time(), dt, budget)
+    ASPIC_CHECK(ahead ? companion->go_on_to(ahead->simulation().time(), !others_run_, dt, budget)
                       : companion->follow(scene_.scene(), leader_, dt, budget));
     settled_ = settled_ && companion->arrived();
     if (const auto message = companion->take_message()) messages_.error(*message);
     if (const auto message = companion->simulation().take_message()) messages_.error(*message);
   }
   if (ghost_) ASPIC_CHECK(follow_with_ghost(ahead ? ahead->simulation().time() : leader_.time(), dt, budget));
+  if (settled_) keep_shown();
+  return {};
+}
+
+/// A time after the window's own run diverged, of all others.
+Status Beside::recall(double time, double dt, double budget) {
+  for (const auto& companion : companions_) {
+    ASPIC_CHECK(companion->recall(time, dt, budget));
+    settled_ = settled_ && companion->arrived();
+  }
+  if (ghost_) ASPIC_CHECK(follow_with_ghost(time, dt, budget));
   if (settled_) keep_shown();
   return {};
 }

@@ -45,6 +45,9 @@ class Beside {
   ScenePicture& picture(std::size_t i) { return i == 0 ? picture_ : companions_[i - 1]->picture(); }
   /// What distinguishes a run from the others.
   std::vector<OverlayLine> label(std::size_t i) const;
+  /// The same in few words on a line: of the window's own run all that others differ in, of those their own
+  /// difference.
+  std::string name(std::size_t i) const;
   /// The colour of a run's curves and label, as ImGui packs it.
   static std::uint32_t packed_colour(std::size_t i);
 
@@ -61,6 +64,25 @@ class Beside {
   /// Starts or pauses those that continue. False if the window's own run is the one to start.
   bool toggle();
   bool running() const { return others_run_; }
+  /// A run other than the window's own has something to take up.
+  bool busy() const;
+
+  // ---- the clock of all ----
+  /// The run that sets it: the window's own, or after its divergence the first that continues.
+  const Simulation& clock() const { return others_go_on() ? stand_in()->simulation() : leader_; }
+  bool clock_runs() const { return leader_.running() || others_run_; }
+  /// The time that the pictures show [s].
+  double clock_time() const;
+  /// The last time that there is to go to [s]: of the run that came furthest, while they move what is shown.
+  double end_time() const;
+  /// To the moment nearest to a time [s]; false if the window's own run has it: that goes then, and the
+  /// others follow.
+  bool go_to(double time);
+  /// Simulated seconds per second of the pictures; 0 before there is a measurement.
+  double real_time_factor() const { return several() ? factor_ : leader_.real_time_factor(); }
+  /// The newest time, up to that of the pictures, at which all runs but those that diverged have energies
+  /// [s].
+  double figures_time() const;
   /// Why hands that touch particles cannot act on all runs; nothing: they can.
   std::optional<std::string> hands_refused() const;
 
@@ -112,6 +134,8 @@ class Beside {
   };
   Status follow_with_ghost(double time, double dt, double budget);
   Companion* stand_in() const;
+  Status recall(double time, double dt, double budget);
+  void measure_factor(double dt);
   void match_editor();
   void end_waiting();
   void keep_shown();
@@ -127,6 +151,8 @@ class Beside {
   std::unique_ptr<Ghost> ghost_;
   std::vector<Box> boxes_;
   bool settled_ = true, others_run_ = false, was_running_ = false;
+  std::optional<double> recalled_;  // a time after the window's own run diverged that is shown
+  double factor_ = 0.0, measured_for_ = 0.0, measured_from_ = 0.0;  // real_time_factor() [1], [s], [s]
   /// What is kept of a run.
   struct Shown {
     std::uint64_t picture = 0;

@@ -35,16 +35,23 @@ std::vector<std::string> keys_of(const Scene& scene) {
   return keys;
 }
 
-/// The words a key takes; none: it takes numbers and the like.
-std::vector<std::string_view> words_for(std::string_view key, const Scene& scene) {
-  std::vector<std::string_view> words;
+/// The words a key takes, as they are written and as they are read; none: it takes numbers and the like.
+struct Words {
+  std::vector<std::string_view> names, titles;
+};
+Words words_for(std::string_view key, const Scene& scene) {
+  Words words;
   if (key == backend_key) {
-    for (const BackendRow& row : backends()) words.push_back(row.name);
+    for (const BackendRow& row : backends()) {
+      words.names.push_back(row.name);
+      words.titles.push_back(row.title);
+    }
     return words;
   }
   const ShortKey* const row = find_short_key(key);
   const auto place = row ? place_of(scene, *row) : place_of(key);
-  if (place && place->parameter->type == ParameterType::word) return place->parameter->words;
+  if (place && place->parameter->type == ParameterType::word)
+    words = {place->parameter->words, titles_of(*place->parameter)};
   return words;
 }
 
@@ -73,10 +80,11 @@ void difference_widget(Gui& gui, Beside& beside, const Scene& scene, std::size_t
     return beside.set(i, {keys[index], present(keys[index], scene, beside.run(0))});
   label_column("Value");
   const std::string name = fmt::format("beside/{}/value", i);
-  if (const std::vector<std::string_view> words = words_for(own.key, scene); !words.empty()) {
-    auto word = static_cast<std::size_t>(std::ranges::find(words, own.value) - words.begin());
-    if (choice(gui, name, words, words, word, "The value of this run. Another one starts all runs anew."))
-      beside.set(i, {own.key, std::string(words[word])});
+  if (const Words words = words_for(own.key, scene); !words.names.empty()) {
+    auto word = static_cast<std::size_t>(std::ranges::find(words.names, own.value) - words.names.begin());
+    if (choice(gui, name, words.names, words.titles, word,
+               "The value of this run. Changing it restarts all runs."))
+      beside.set(i, {own.key, std::string(words.names[word])});
     return;
   }
   std::string text = own.value;

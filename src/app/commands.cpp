@@ -22,7 +22,7 @@ void Commands::run(std::string_view name) const {
 void Commands::on_key(int key, int modifiers, bool held) const {
   const int of_interest = modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
   for (const Command& c : rows_) {
-    if (key >= 0 && (c.key == key || c.other_key == key) && c.modifiers == of_interest &&
+    if (key >= 0 && (c.key == key || c.other_key == key) && c.modifiers == (of_interest & ~c.ignored) &&
         (c.repeats || !held))
       return c.act();
   }

@@ -16,6 +16,7 @@ struct Command {
   std::function<void()> act{};  ///< empty for what the mouse does, which only the help page lists
   bool repeats = false;         ///< while the key is held
   int other_key = -1;           ///< another GLFW key that does the same
+  int ignored = 0;              ///< GLFW modifiers that may be held as well: a pull needs Ctrl
 };
 
 class Commands {

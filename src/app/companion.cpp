@@ -117,11 +117,8 @@ Status Companion::follow(const Scene& scene, const Simulation& leader, double dt
   const Moment here = leader.here();
   if (!leader.at_end()) {
     // In the past every run follows its own history.
-    own.set_hand(std::nullopt);
-    const Moment moment = own.history().nearest(leader.time());
-    if (!own.seeking() && moment != own.here()) ASPIC_CHECK(own.seek(moment));
-    ASPIC_CHECK(own.update(dt, budget));
-    arrived_ = !own.seeking() && !leader.seeking() && own.here() == moment;
+    ASPIC_CHECK(recall(leader.time(), dt, budget));
+    arrived_ = arrived_ && !leader.seeking();
     return {};
   }
   std::uint64_t wanted = step_at(leader.time());
@@ -143,17 +140,36 @@ Status Companion::follow(const Scene& scene, const Simulation& leader, double dt
       wanted = std::min(wanted, std::max(step_at(history.time({here.stretch, *next})), own.step() + 1));
   }
   ASPIC_CHECK(go_to(wanted));
+  rest(wanted, !leader.running());
   ASPIC_CHECK(own.update(dt, budget));
   const bool there = own.step() == step_at(leader.time()) && !own.seeking();
   arrived_ = adopted_ && (there || stuck_ || own.divergence());
   return {};
 }
 
-Status Companion::go_on_to(double time, double dt, double budget) {
+/// Where the others pause at the step that it has come to, so does this: paused runs have figures of the very
+/// state that is shown.
+void Companion::rest(std::uint64_t step, bool paused) {
+  Simulation& own = *simulation_;
+  if (paused && own.running() && own.step() == step && !own.busy()) own.set_running(false);
+}
+
+Status Companion::recall(double time, double dt, double budget) {
+  Simulation& own = *simulation_;
+  own.set_hand(std::nullopt);
+  const Moment moment = own.history().nearest(time);
+  if (!own.seeking() && moment != own.here()) ASPIC_CHECK(own.seek(moment));
+  ASPIC_CHECK(own.update(dt, budget));
+  arrived_ = !own.seeking() && own.here() == moment;
+  return {};
+}
+
+Status Companion::go_on_to(double time, bool paused, double dt, double budget) {
   Simulation& own = *simulation_;
   own.set_hand(std::nullopt);
   const std::uint64_t wanted = step_at(time);
   ASPIC_CHECK(go_to(wanted));
+  rest(wanted, paused);
   ASPIC_CHECK(own.update(dt, budget));
   arrived_ = (own.step() == wanted && !own.seeking()) || stuck_ || own.divergence();
   return {};

@@ -33,8 +33,10 @@ class Companion {
   /// Once for each picture: follows the window's own run to its time, resets and changes included. `dt` and
   /// `budget` as of Simulation::update(). Errors: those of Simulation.
   Status follow(const Scene& scene, const Simulation& leader, double dt, double budget);
-  /// Goes to a time [s] that only runs like this one have come to.
-  Status go_on_to(double time, double dt, double budget);
+  /// Goes to a time [s] that only runs like this one have come to, and rests there if those have `paused`.
+  Status go_on_to(double time, bool paused, double dt, double budget);
+  /// Goes to the moment of its own history that is nearest to a time [s].
+  Status recall(double time, double dt, double budget);
   /// Sets the pace itself.
   Status lead(const Pacer& pace, bool running, bool waits, double dt, double budget);
   /// It shows the time it was last asked for, or diverged on the way there.
@@ -51,6 +53,7 @@ class Companion {
   Status take_over(const Scene& scene, const Simulation& leader);
   Status adopt_setup(const Simulation& leader);
   Status go_to(std::uint64_t step);
+  void rest(std::uint64_t step, bool paused);
   bool can_pull(const Simulation& leader, const Pull& pull) const;
   std::uint64_t step_at(double time) const;
 

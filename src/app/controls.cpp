@@ -1,6 +1,7 @@
 // Controls with a label, a tooltip and a name: see parameter_widget.h.
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <string>
@@ -111,6 +112,22 @@ bool slider(Gui& gui, std::string_view label, std::string_view name, double& val
   ImGui::PopID();
   named(gui, name, help);
   return done;
+}
+
+void shade_all_but(const char* window) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.0f, 0.0f});
+  ImGui::SetNextWindowSize(display);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.03f, 0.03f, 0.03f, 0.45f));
+  ImGui::Begin("##shade", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+  ImGui::End();
+  ImGui::PopStyleColor();
+  // One that is about to be made comes to the front by itself.
+  if (ImGuiWindow* const above = ImGui::FindWindowByName(window)) ImGui::BringWindowToDisplayFront(above);
 }
 
 float share_of_line(int count) {

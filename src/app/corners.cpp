@@ -107,7 +107,8 @@ void draw_corners(const PanelParts& p, const Box& view) {
   std::vector<Box> taken = {draw_legend(p.gui, "legend", p.picture.legend(), view)};
   const Box above = {view.left, view.top, view.right, taken.front().top};
   taken.push_back(draw_legend(p.gui, "legend/arrows", p.picture.arrow_legend(), above));
-  const bool legend = taken.front().top < view.bottom || taken.back().top < above.bottom;
+  std::vector<Box> legends = taken;
+  std::erase_if(legends, [](const Box& box) { return box.right <= box.left; });
   Box below = view;
   for (const Box& label : labels)
     if (label.right > view.centre_x()) below.top = std::max(below.top, label.bottom);
@@ -118,7 +119,7 @@ void draw_corners(const PanelParts& p, const Box& view) {
     below.top = taken.back().bottom;
   }
   if (const auto& hovered = p.pointer.hovered(); hovered && p.layout.row().readout)
-    taken.push_back(particle_readout(p.gui, p.simulation, *hovered, below, legend));
+    taken.push_back(particle_readout(p.gui, p.simulation, *hovered, below, legends));
   std::erase_if(taken, [](const Box& box) { return box.right <= box.left; });
   if (p.scene.scene().view.axes && !p.picture.film) draw_axes(p.gui, p.view.lens(), view, taken);
 }

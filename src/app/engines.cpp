@@ -60,12 +60,13 @@ Result<Outcome> Engines::advance_outside(const JobLimits& limits, const std::ato
     ASPIC_TRY(start, first.state());
     ASPIC_TRY(other_start, shadow_.solver->state());
   }
-  const std::uint64_t interval = sample_interval(model_->simulation.timestep);
+  std::uint64_t sample = next_sample_step(limits.from, model_->simulation.timestep);
   first.set_stop_flag(&hurry);
   for (std::uint64_t at = limits.from; at < limits.to && !hurry && !paced.divergence && Clock::now() < end;
        ++at) {
     ASPIC_TRY(paced.divergence, first.advance(1));
-    if ((at + 1) % interval != 0 || paced.divergence || limits.alone) continue;
+    if (at + 1 != sample || paced.divergence || limits.alone) continue;
+    sample = next_sample_step(sample, model_->simulation.timestep);
     ASPIC_TRY(const auto state, first.state());
     // A step that was dropped in a hurry is none.
     if (state.step == at + 1) outcome.energies.push_back(measured(state));

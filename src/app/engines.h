@@ -30,7 +30,7 @@ struct Advanced {
 struct Outcome {
   std::uint64_t steps = 0;
   Advanced leader, shadow;             ///< each where it took part
-  std::vector<EnergySample> energies;  ///< of the one that set the pace, at each sample_interval()
+  std::vector<EnergySample> energies;  ///< of the one that set the pace, at each next_sample_step()
   std::optional<Pull> pull;            ///< in these steps
 };
 

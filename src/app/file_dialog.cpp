@@ -127,6 +127,7 @@ void FileDialog::draw(Gui& gui, double width, double height) {
   if (button(gui, "files/cancel", "Cancel", "Closes this page (Escape).")) close();
   ImGui::End();
   ImGui::PopStyleVar();
+  if (open_) shade_all_but("##files");
 }
 
 }  // namespace aspic::app

@@ -13,17 +13,21 @@
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "app/units.h"
 #include "base/printable.h"
 #include "model/springs.h"
 
 namespace aspic::app {
 namespace {
 
+/// Where values begin, as a share of the panel's width.
+constexpr float figure_column = 0.52f;
+
 void figure(const char* label, const std::string& value, std::string_view help,
             const ImVec4& colour = ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled)) {
   ImGui::TextColored(colour, "%s", label);
   tooltip(help);
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.52f);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * figure_column);
   ImGui::TextUnformatted(value.c_str());
   tooltip(help);
 }
@@ -114,6 +118,14 @@ struct Line {
   bool counts = true;  ///< for the scale; one that does not may leave the plot
 };
 
+/// The largest magnitude in a plot: figures far below it are rounding.
+double largest(std::span<const Line> lines) {
+  double most = 0.0;
+  for (const Line& line : lines)
+    for (const EnergySample& s : *line.samples) most = std::max(most, std::abs(line.value(s.measures)));
+  return std::isfinite(most) ? most : 0.0;
+}
+
 /// Curves over time with their scale.
 std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> lines, const char* unit,
                             std::string_view help, double now) {
@@ -138,8 +150,8 @@ std::optional<Pointed> plot(Gui& gui, const char* name, std::span<const Line> li
   ImDrawList& draw = plot.draw;
   const float text_height = ImGui::GetTextLineHeight();
   const double time_tick = tick_length(span), tick = tick_length(high - low);
-  const std::string top = fmt::format("{:.4g} {}", high, unit), bottom = fmt::format("{:.4g} {}", low, unit),
-                    each = fmt::format("lines every {:.4g} {}, {:.3g} s", tick, unit, time_tick),
+  const std::string top = with_prefix(high, unit), bottom = with_prefix(low, unit),
+                    each = fmt::format("lines every {}, {:.3g} s", with_prefix(tick, unit), time_tick),
                     end = fmt::format("{:.3g} s", start + span);
   const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
   // Next to the upper end where both fit, else in a separate line.
@@ -230,7 +242,7 @@ void pass_times(Gui& gui, GpuSolver& solver) {
     return;
   }
   double sum = 0.0;
-  const float column = ImGui::GetWindowContentRegionMax().x * 0.52f;
+  const float column = ImGui::GetWindowContentRegionMax().x * figure_column;
   for (const gl::PassTime& pass : passes) {
     ImGui::TextDisabled("   %s", pass.name.c_str());
     // A long name has a separate line.
@@ -248,7 +260,7 @@ void pass_times(Gui& gui, GpuSolver& solver) {
 
 /// One quantity of all runs in their colours.
 void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, std::size_t& compared,
-                   const char* unit, std::string_view help, const Beside& beside, RunControl& run) {
+                   const char* unit, std::string_view help, Beside& beside, RunControl& run) {
   std::vector<std::string_view> names;
   for (const Curve& c : curves) names.emplace_back(c.name);
   label_column("Compare");
@@ -259,36 +271,61 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
   for (std::size_t i = 0; i < beside.count(); ++i)
     lines.push_back({&beside.run(i).samples().energies(), Beside::packed_colour(i), curve.value,
                      !beside.run(i).divergence().has_value()});
-  const double now = beside.run(0).time();
+  // All figures are of one moment: the newest that all runs have come to.
+  const double now = beside.figures_time();
   const auto pointed = plot(gui, name, lines, unit, help, now);
-  if (pointed && pointed->pressed) run.go_to(pointed->time);
+  if (pointed && pointed->pressed && !beside.go_to(pointed->time)) run.go_to(pointed->time);
   const double time = pointed ? pointed->time : now;
-  figure("t", fmt::format("{:.4g} s{}", time, pointed ? " (under the mouse)" : ""), help);
+  const EnergySample* const first = beside.run(0).samples().nearest(time);
+  const bool first_has_it = first && !beside.run(0).divergence();
+  const double shown = pointed && first_has_it ? first->time : time;
+  figure("t", fmt::format("{:.4g} s{}", shown, pointed ? " (under the mouse)" : ""), help);
+  gui.mark("{}/time", name);
+  std::vector<std::string> runs, values;
+  const double size = largest(lines);
+  bool fits = true;
+  const float column = ImGui::GetWindowContentRegionMax().x * figure_column;
   for (std::size_t i = 0; i < beside.count(); ++i) {
-    const EnergySample* const sample = beside.run(i).samples().nearest(time);
-    if (!sample) continue;
-    std::string words;
-    for (const OverlayLine& line : beside.label(i)) words += (words.empty() ? "" : ", ") + line.value;
-    figure(words.c_str(), fmt::format("{:.5g} {}", curve.value(sample->measures), unit), help,
-           ImGui::ColorConvertU32ToFloat4(Beside::packed_colour(i)));
+    const EnergySample* const sample = beside.run(i).samples().nearest(shown);
+    runs.push_back(beside.name(i));
+    values.push_back(sample ? with_prefix(without_noise(curve.value(sample->measures), size), unit, 5) : "-");
+    // Another time step comes to another time, and a run that diverged to none later.
+    if (sample && std::abs(sample->time - shown) > 1e-6 * std::max(shown, 1e-3))
+      values.back() += fmt::format(" at {:.4g} s", sample->time);
+    fits = fits && ImGui::CalcTextSize(runs.back().c_str()).x + ImGui::GetStyle().ItemSpacing.x < column;
+  }
+  for (std::size_t i = 0; i < beside.count(); ++i) {
+    ImGui::PushStyleColor(ImGuiCol_Text, Beside::packed_colour(i));
+    wrapped_text(runs[i], ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+    gui.mark("{}/run {}/name", name, i + 1);
+    tooltip(help);
+    if (fits) ImGui::SameLine();
+    ImGui::SetCursorPosX(column);
+    ImGui::TextUnformatted(values[i].c_str());
     gui.mark("{}/run {}", name, i + 1);
+    tooltip(help);
   }
 }
 
 }  // namespace
 
-void performance_section(Gui& gui, Simulation& s, const ScenePicture& picture) {
+void performance_section(Gui& gui, Simulation& s, const Beside& beside, const ScenePicture& picture) {
   const gl::DeviceInfo& device = picture.context().info();
-  figure("Steps", s.running() ? short_number(s.pacer().steps_per_second()) + "/s" : "paused",
+  // After a divergence of the window's own run, figures of the one that sets the clock.
+  const Simulation& setter = beside.clock();
+  const bool runs = beside.clock_runs();
+  figure("Steps", runs ? short_number(setter.pacer().steps_per_second()) + "/s" : "paused",
          "Time steps per second.");
-  const auto evaluations = s.spring_evaluations_per_second();
+  gui.mark("performance/steps");
+  const auto evaluations = setter.spring_evaluations_per_second();
   figure("Spring evaluations",
-         !s.running()  ? "paused"
+         !runs         ? "paused"
          : evaluations ? short_number(*evaluations) + "/s"
                        : "varies",
          "Springs × force evaluations of a step × steps per second. Implicit Euler has no fixed number per "
          "step.");
-  figure("Real-time factor", s.running() ? fmt::format("{:.3g}", s.real_time_factor()) : "paused",
+  figure("Real-time factor", runs ? fmt::format("{:.3g}", beside.real_time_factor()) : "paused",
          "Simulated seconds per second.");
   figure("Pictures",
          picture.at_rest() ? fmt::format("at rest, {:.0f} ms", 1e3 * picture.draw_seconds())
@@ -326,13 +363,15 @@ void energy_section(Gui& gui, Beside& beside, RunControl& run) {
     if (beside.active()) return compared_runs(gui, name, curves, compared, unit, help, beside, run);
     std::vector<Line> lines;
     for (const Curve& c : curves) lines.push_back({&s.samples().energies(), c.colour, c.value});
-    const auto pointed = plot(gui, name, lines, unit, help, s.time());
+    const double now = beside.clock_time();
+    const auto pointed = plot(gui, name, lines, unit, help, now);
     if (pointed && pointed->pressed) run.go_to(pointed->time);
-    const EnergySample* const sample = s.samples().nearest(pointed ? pointed->time : s.time());
+    const EnergySample* const sample = s.samples().nearest(pointed ? pointed->time : now);
     if (!sample) return;
     figure("t", fmt::format("{:.4g} s{}", sample->time, pointed ? " (under the mouse)" : ""), help);
+    const double size = largest(lines);
     for (const Curve& c : curves) {
-      figure(c.name, fmt::format("{:.5g} {}", c.value(sample->measures), unit), help,
+      figure(c.name, with_prefix(without_noise(c.value(sample->measures), size), unit), help,
              ImGui::ColorConvertU32ToFloat4(c.colour));
       gui.mark("{}/{}", name, c.name);
     }

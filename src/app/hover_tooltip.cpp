@@ -1,6 +1,7 @@
 // What is known of the particle or ball under the mouse.
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,17 +45,20 @@ bool touches(const Simulation& simulation, const Vec3& x) {
 }  // namespace
 
 Box particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& h, const Box& view,
-                     bool legend) {
+                     std::span<const Box> taken) {
   const ParticleForce& f = h.force;
   const auto gap = static_cast<float>(16.0 * gui.scale());
   const auto width = static_cast<float>(view.right - view.left);
   // In a corner, so that it is never in the way of what it tells of.
   const bool components = width > 34.0f * ImGui::GetFontSize();
-  const bool shares = legend && width < 56.0f * ImGui::GetFontSize();
-  const ImVec2 low = {static_cast<float>(view.left) + gap, static_cast<float>(view.bottom) - gap},
-               high = {static_cast<float>(view.right) - gap, static_cast<float>(view.top) + gap};
-  ImGui::SetNextWindowPos(shares ? high : low, ImGuiCond_Always,
-                          {shares ? 1.0f : 0.0f, shares ? 0.0f : 1.0f});
+  // Always in the same corner; a legend that reaches so far to the left lifts it.
+  const ImGuiWindow* const before = ImGui::FindWindowByName("##particle");
+  const double right = view.left + static_cast<double>(gap + (before ? before->Size.x : 0.0f));
+  double bottom = view.bottom;
+  for (const Box& box : taken)
+    if (box.left < right && box.bottom > view.centre_y()) bottom = std::min(bottom, box.top);
+  ImGui::SetNextWindowPos({static_cast<float>(view.left) + gap, static_cast<float>(bottom) - gap},
+                          ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::SetNextWindowBgAlpha(0.72f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);
   ImGui::Begin("##particle", nullptr,
@@ -70,18 +74,20 @@ Box particle_readout(const Gui& gui, const Simulation& simulation, const Hovered
   if (ImGui::BeginTable("values", components ? 6 : 3, ImGuiTableFlags_SizingFixedFit)) {
     row("v", h.velocity, "m/s", components);
     if (h.ball) row("ω", h.angular_velocity, "rad/s", components);
-    row("f", f.net, "N", components);
+    // What a ball touches acts on it by impulses.
+    row(h.ball && !h.contact.empty() ? "f without contact" : "f", f.net, "N", components);
     row("  gravity", f.gravity, "N", components);
     if (!h.ball) row("  springs", f.springs, "N", components);
     if (f.pull != Vec3{}) row("  hand", f.pull, "N", components);
     if (f.contact != Vec3{}) row("  contact", f.contact, "N", components);
+    if (f.pin != Vec3{}) row("  pin", f.pin, "N", components);
     ImGui::EndTable();
   }
-  // The Coulomb model's contacts act on velocities at the end of a step.
   if (h.ball)
     ImGui::TextDisabled("%s", h.contact.empty() ? "touches nothing" : h.contact.c_str());
-  else if (simulation.model().contact.model == ContactModel::coulomb && touches(simulation, h.position))
-    ImGui::TextDisabled("Contact acts on v at the end of a step: no part of f.");
+  else if (simulation.model().contact.model == ContactModel::coulomb && !h.pinned && f.contact == Vec3{} &&
+           touches(simulation, h.position))
+    ImGui::TextDisabled("A bounce acts on v at the end of a step: no part of f.");
   ImGui::EndGroup();
   gui.mark("particle");
   const Box place = window_box();

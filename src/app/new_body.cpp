@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -100,6 +101,29 @@ void aim(Scene& scene, const SettingsList& list, std::size_t i, const Extent& ta
   find_parameter(key_of(list, "towards.max"))->set(scene, i, Value(target.centre() + half));
 }
 
+/// The first of its kind throws, or flies, no faster than a cloth at a millisecond a step can take: defaults
+/// are those of shots into a goal net from nearby.
+void slow_down(Scene& scene, const SettingsList& list, std::size_t i) {
+  constexpr double most = 12.0;  // m/s
+  if (const Parameter* const velocity = find_parameter(key_of(list, "velocity"))) {
+    const Vec3 v = std::get<Vec3>(*velocity->get(scene, i));
+    if (length(v) > most) velocity->set(scene, i, Value(most / length(v) * v));
+  }
+  const Parameter* const factor = find_parameter(key_of(list, "speed-factor"));
+  if (!factor) return;
+  const auto place = [&](const char* key) {
+    return std::get<Vec3>(*find_parameter(key_of(list, key))->get(scene, i));
+  };
+  // As far apart as a start and a target can be.
+  Vec3 apart;
+  for (int axis = 0; axis < 3; ++axis)
+    apart[axis] = std::max(std::abs(place("from.max")[axis] - place("towards.min")[axis]),
+                           std::abs(place("towards.max")[axis] - place("from.min")[axis]));
+  const double fastest = std::floor(100.0 * most / std::max(length(apart), 0.1)) / 100.0;
+  if (fastest > 0.0 && fastest < std::get<double>(*factor->get(scene, i)))
+    factor->set(scene, i, Value(fastest));
+}
+
 /// The last element of a list goes where it is in nobody's way.
 void place(Scene& scene, const SettingsList& list) {
   const std::size_t last = list.size(scene.model) - 1;
@@ -124,6 +148,7 @@ void place(Scene& scene, const SettingsList& list) {
   }
   move(scene, list, last, shift);
   if (others) aim(scene, list, last, others->extent());
+  if (last == 0) slow_down(scene, list, last);
 }
 
 }  // namespace

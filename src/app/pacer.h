@@ -45,6 +45,10 @@ class Pacer {
   bool late() const { return since_behind_ < 3.0; }
   /// Measured while running; 0 before there is a measurement.
   double steps_per_second() const { return steps_per_second_; }
+  /// It was late lately, and a run at `factor` × real time lacks more than a measurement may err.
+  bool falls_short(double factor) const {
+    return late() && factor > 0.0 && (pace != Pace::real_time || factor < 0.97 * speed);
+  }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -40,7 +40,7 @@ constexpr Heading left_sections[] = {
     {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene); },
      "Cubes, nets, balls and launchers of the scene: place, size, mass, pins."},
     {"Springs", [](Parts p) { springs_section(p.gui, p.scene); },
-     "Stiffness and damping by type, or a material."},
+     "Stiffness and damping, of all types together or by type, or a material."},
     {"Contact", [](Parts p) { contact_section(p.gui, p.scene); },
      "Contact model, restitution, friction, and the terrain's own values."},
     {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); },
@@ -60,7 +60,7 @@ constexpr Heading right_sections[] = {
        state_files(p.gui, p.scene.editor(), p.simulation, p.messages, p.files);
      },
      "Films of the scene; its states, energies and checkpoints as files."},
-    {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.picture); },
+    {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.beside, p.picture); },
      "Speed of simulation and drawing, and the devices used."},
     {"Energy", [](Parts p) { energy_section(p.gui, p.beside, p.run); }, "Energies and momentum over time."},
     {"Side by side", [](Parts p) { beside_section(p.gui, p.scene, p.beside); },
@@ -74,7 +74,8 @@ ImVec2 at(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};
 }
 
-void sections(Parts parts, std::span<const Heading> headings) {
+/// `wanted`: the one to scroll to.
+void sections(Parts parts, std::span<const Heading> headings, std::string_view wanted) {
   const LayoutRow& row = parts.layout.row();
   std::map<std::string, bool>& kept = parts.layout.sections;
   for (const Heading& heading : headings) {
@@ -87,6 +88,7 @@ void sections(Parts parts, std::span<const Heading> headings) {
     const bool open = ImGui::CollapsingHeader(heading.name);
     if (open != was_open) kept[heading.name] = open;
     named(parts.gui, fmt::format("section/{}", heading.name), heading.help);
+    if (heading.name == wanted) ImGui::SetScrollHereY(0.0f);
     if (!open) continue;
     ImGui::PushID(heading.name);
     heading.section(parts);
@@ -137,29 +139,33 @@ void status_line(Parts parts, const Box& box) {
   const Recording* const film = parts.film.recording();
   const Panel panel("##status", box, at(12.0 * scale, 6.0 * scale), bar);
   const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
-  const bool others = parts.beside.others_go_on();
-  const char* const motion = s.divergence() && !others                           ? "Diverged"
-                             : s.running() || (others && parts.beside.running()) ? "Running"
-                                                                                 : "Paused";
+  const Beside& beside = parts.beside;
+  const bool others = beside.others_go_on();
+  const char* const motion = s.divergence() && !others ? "Diverged"
+                             : beside.clock_runs()     ? "Running"
+                                                       : "Paused";
   ImGui::TextColored(s.divergence() ? ImVec4(0.95f, 0.55f, 0.40f, 1.0f) : bright, "%s", motion);
   const bool software = parts.picture.context().info().is_software && s.backend().needs_context;
   std::vector<std::string> facts = {
-      fmt::format("t = {:.3f} s", s.time()),
+      fmt::format("t = {:.3f} s", beside.clock_time()),
       fmt::format("{}{}", s.solver().backend(), software ? " (software)" : ""),
       fmt::format("speed ×{:g}", s.pacer().speed),
   };
   if (film) facts.insert(facts.begin() + 1, fmt::format("● filming, {:.2f} s", film->seconds()));
-  if (s.running()) {
+  const double factor = beside.clock_runs() ? beside.real_time_factor() : 0.0;
+  if (factor > 0.0) {
     const std::string why = film && !film->ready() ? " (waits for the encoder)"
-                            : s.pacer().late() && !film
-                                ? " (" + slowness(s.real_time_factor(), longest_edge(s)) + ")"
+                            : beside.clock().pacer().falls_short(factor) && !film
+                                ? " (" + slowness(factor, longest_edge(s)) + ")"
                                 : "";
-    facts.push_back(fmt::format("{:.3g} × real time{}", s.real_time_factor(), why));
+    facts.push_back(fmt::format("{:.3g} × real time{}", factor, why));
   }
   if (s.working())
     facts.insert(facts.begin(), s.changing() ? "working: rebuilds the scene"
                                              : fmt::format("working on step {}", s.step() + 1));
-  facts.push_back(fmt::format("step {}", s.step()));
+  const Simulation& setter = beside.clock();
+  facts.push_back(
+      fmt::format("step {}", std::llround(beside.clock_time() / setter.model().simulation.timestep)));
   facts.emplace_back("F1 all keys");
   const float gap = 22.0f * static_cast<float>(scale);
   const float end = ImGui::GetWindowContentRegionMax().x;
@@ -168,18 +174,19 @@ void status_line(Parts parts, const Box& box) {
     const float width = ImGui::CalcTextSize(fact.c_str()).x;
     if (left + width > end) break;
     ImGui::SameLine(&fact == &facts.back() ? end - width : left);
-    ImGui::TextUnformatted(fact.c_str());
+    // A speed that is not that of the clock is easily forgotten.
+    const bool odd = fact.starts_with("speed") && s.pacer().speed != 1.0;
+    ImGui::TextColored(odd ? bright : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s", fact.c_str());
   }
 }
 
 /// Ways on after a divergence.
 void divergence_buttons(Gui& gui, const Simulation& simulation, RunControl& run, Messages& messages) {
-  const auto& stable = run.stable_step();
-  if (stable && stable->step && std::isfinite(*stable->step)) {
-    if (button(gui, "diverged/stable", "Use a stable step",
-               "Goes on from shortly before the divergence with all values as they are now, and a time step "
-               "of 0.95 of the estimate."))
-      run.take_stable_step();
+  if (const auto step = run.offered_step()) {
+    if (button(gui, "diverged/stable", fmt::format("Use h = {:.4g} s", *step).c_str(),
+               "Continues from shortly before the divergence with all values as they are now, and this time "
+               "step: 0.95 of the estimated limit, or half the present step where that is smaller."))
+      run.take_offered_step();
     ImGui::SameLine();
   }
   if (simulation.can_step_back()) {
@@ -232,7 +239,8 @@ void notice_panel(Parts parts, const Box& view) {
                           ImGuiCond_Always, {right ? 1.0f : 0.0f, named ? 1.0f : 0.0f});
   const Panel panel("##notice", 6.0 * scale,
                     notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f),
-                    ImGuiWindowFlags_AlwaysAutoResize);
+                    // Taking the focus would end a drag, and typing.
+                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   notice_text(notice.text, static_cast<float>(room) - 2.0f * ImGui::GetStyle().WindowPadding.x);
   if (parts.simulation.divergence()) divergence_buttons(parts.gui, parts.simulation, parts.run, messages);
   if (button(parts.gui, "notice/close", "Close", "Dismiss this message (Escape).")) messages.dismiss();
@@ -276,6 +284,7 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
 /// Asks before changes are lost.
 void closing_panel(Gui& gui, Closing& closing, double width, double height) {
   if (closing != Closing::asked) return;
+  shade_all_but("##closing");
   ImGui::SetNextWindowPos(at(0.5 * width, 0.5 * height), ImGuiCond_Always, {0.5f, 0.5f});
   const Panel panel("##closing", 8.0 * gui.scale(), ImVec4(0.23f, 0.11f, 0.09f, 0.97f),
                     ImGuiWindowFlags_AlwaysAutoResize);
@@ -290,13 +299,14 @@ void closing_panel(Gui& gui, Closing& closing, double width, double height) {
 }
 
 /// The bar of the history, under the picture: any step since the start.
-void timeline(Gui& gui, const Simulation& s, RunControl& run, const Box& box) {
+void timeline(Gui& gui, const Simulation& s, Beside& beside, RunControl& run, const Box& box) {
   const History& history = s.history();
   const double scale = gui.scale();
   const Panel panel("##timeline", box, at(12.0 * scale, 4.0 * scale), bar);
-  const double first = history.time(history.begin_moment()), last = history.time(history.end_moment());
-  double now = std::clamp(s.time(), first, last);
-  const std::string text = fmt::format("{:.3f} / {:.3f} s{}", s.time(), last, s.seeking() ? "  …" : "");
+  const double first = history.time(history.begin_moment()), last = std::max(beside.end_time(), first);
+  double now = std::clamp(beside.clock_time(), first, last);
+  const bool on_the_way = s.seeking() || beside.clock().seeking();
+  const std::string text = fmt::format("{:.3f} / {:.3f} s{}", now, last, on_the_way ? "  …" : "");
   ImGui::SetNextItemWidth(-1.0f);
   const bool moved = ImGui::SliderScalar("##history", ImGuiDataType_Double, &now, &first, &last, text.c_str(),
                                          ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp);
@@ -315,7 +325,7 @@ void timeline(Gui& gui, const Simulation& s, RunControl& run, const Box& box) {
                                           IM_COL32(242, 176, 92, 255), static_cast<float>(1.5 * scale));
     }
   }
-  if (moved && last > first) run.go_to(now);
+  if (moved && last > first && !beside.go_to(now)) run.go_to(now);
 }
 
 /// The edge of a side, which can be dragged. `inwards` is 1 where the panel lies on the left.
@@ -341,6 +351,20 @@ void drag_edge(Gui& gui, const char* name, double place, double height, double i
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> section_names() {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const auto& side : {std::span<const Heading>(left_sections), std::span<const Heading>(right_sections)})
+    for (const Heading& heading : side) names.emplace_back(heading.name, heading.help);
+  return names;
+}
+
+void show_section(Layouts& layout, std::string_view name) {
+  const auto& there = layout.row().sections;
+  if (!there.empty() && std::ranges::find(there, name) == there.end()) layout.choose(layouts().front());
+  layout.panels = true;
+  layout.sections[std::string(name)] = true;
+}
+
 void draw_panels(const PanelParts& p, double width, double height) {
   const double scale = p.gui.scale();
   Layouts& layout = p.layout;
@@ -352,18 +376,19 @@ void draw_panels(const PanelParts& p, double width, double height) {
                      width - (layout.left_width + layout.right_width) * scale >= least_view * scale;
     const double right = two ? layout.right_width * scale : 0.0;
     const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+    const std::string wanted = p.palette.take_section();
     {
       const Panel panel("##left", {0.0, 0.0, left, bottom}, padding, behind);
-      sections(p, left_sections);
-      if (!two) sections(p, right_sections);
+      sections(p, left_sections, wanted);
+      if (!two) sections(p, right_sections, wanted);
     }
     if (two) {
       const Panel panel("##right", {width - right, 0.0, width, bottom}, padding, behind);
-      sections(p, right_sections);
+      sections(p, right_sections, wanted);
     }
     status_line(p, {0.0, bottom, width, height});
     view = {left, 0.0, width - right, bottom - timeline_height * scale};
-    timeline(p.gui, p.simulation, p.run, {view.left, view.bottom, view.right, bottom});
+    timeline(p.gui, p.simulation, p.beside, p.run, {view.left, view.bottom, view.right, bottom});
     drag_edge(p.gui, "layout/left", left, bottom, 1.0, layout.left_width);
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }

@@ -4,7 +4,10 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/beside.h"
@@ -47,6 +50,11 @@ struct PanelParts {
   bool& help_visible;
 };
 
+/// The sections by heading, each with what is in it.
+std::vector<std::pair<std::string, std::string>> section_names();
+/// Opens a section by heading, in a layout that has it.
+void show_section(Layouts& layout, std::string_view name);
+
 /// Makes all panels of one picture, between Gui::begin and end; sizes in window units. The runs get the place
 /// that they leave.
 void draw_panels(const PanelParts& parts, double width, double height);
@@ -75,16 +83,16 @@ void picture_files(Gui& gui, SavedLook& look);
 /// A button for each format of states; part of the recording section. The references must outlive `files`.
 void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
                  FileDialog& files);
-void performance_section(Gui& gui, Simulation& simulation, const ScenePicture& picture);
+void performance_section(Gui& gui, Simulation& simulation, const Beside& beside, const ScenePicture& picture);
 void energy_section(Gui& gui, Beside& beside, RunControl& run);
 void beside_section(Gui& gui, SceneControl& scene, Beside& beside);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void stability_section(Gui& gui, SceneControl& scene);
 
-/// What is known of a particle, in the lower left corner of the view, or where that is narrow and has a
-/// legend in the upper right one. Returns its place.
+/// What is known of a particle, in the lower left corner of the view, above what is in its way there. Returns
+/// its place.
 Box particle_readout(const Gui& gui, const Simulation& simulation, const Hovered& hovered, const Box& view,
-                     bool legend);
+                     std::span<const Box> taken);
 /// A ring around the ball under the mouse, and the band by which `hand` pulls it, where the picture is.
 void ball_mark(const Gui& gui, const std::optional<Pull>& hand, const Hovered& hovered, const View& view,
                const Box& picture);

@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "app/number_field.h"
+#include "model/integrator.h"
 
 namespace aspic::app {
 namespace {
@@ -155,7 +156,7 @@ std::optional<Value> widget(const Field& f, const std::string& value) {
   }
   const std::vector<std::string_view>& words = f.parameter.words;
   auto index = static_cast<std::size_t>(std::ranges::find(words, value) - words.begin());
-  if (!choice(f.gui, f.key, words, words, index, f.help)) return std::nullopt;
+  if (!choice(f.gui, f.key, words, titles_of(f.parameter), index, f.help)) return std::nullopt;
   return Value(std::string(words[index]));
 }
 
@@ -233,6 +234,17 @@ std::string spaced(std::string_view key) {
 std::string capitalized(std::string words) {
   words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
   return words;
+}
+
+std::vector<std::string_view> titles_of(const Parameter& p) {
+  if (p.path != "simulation.integrator") return p.words;
+  // As labels of runs, plots and the status line call them.
+  std::vector<std::string_view> titles;
+  for (const std::string_view word : p.words) {
+    const auto* const row = std::ranges::find(integrator_table, word, &IntegratorRow::name);
+    titles.push_back(row == integrator_table.end() ? word : row->title);
+  }
+  return titles;
 }
 
 std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const Scene& scene,

@@ -38,6 +38,9 @@ void edit(Gui& gui, SceneControl& scene, std::string_view path, std::size_t inde
 std::string spaced(std::string_view key);
 std::string capitalized(std::string words);
 
+/// What people read for the words of a parameter, in their order.
+std::vector<std::string_view> titles_of(const Parameter& parameter);
+
 /// A tooltip for the widget just made, with the keys of the command of that name if there is one.
 void tooltip(std::string_view text, std::string_view command = "");
 /// Text broken at blanks alone, so that numbers are not split, into lines of at most `width` [window units].
@@ -55,6 +58,8 @@ bool choice(Gui& gui, std::string_view name, std::span<const std::string_view> n
 /// A slider with its label on the left. True once it is let go.
 bool slider(Gui& gui, std::string_view label, std::string_view name, double& value, double low, double high,
             const char* format, std::string_view help, bool logarithmic = true);
+/// Takes the mouse everywhere but in the window of ImGui's of that name, and dims what is behind it.
+void shade_all_but(const char* window);
 /// Width of one of `count` equal widgets on a line [window units].
 float share_of_line(int count);
 /// A label on the left; the next widget fills the rest of the line.

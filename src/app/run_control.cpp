@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "analysis/stability.h"
 
@@ -11,7 +10,7 @@ namespace aspic::app {
 
 void RunControl::toggle() {
   if (simulation_.divergence())
-    messages_.error("The simulation has diverged. Use the stable step, step back or reset first.");
+    messages_.error("The simulation has diverged. Use a smaller step, go back or reset first.");
   else
     simulation_.set_running(!simulation_.running());
 }
@@ -67,16 +66,17 @@ void RunControl::back_before_divergence() {
   scene_.follow_history();
 }
 
-void RunControl::take_stable_step() {
-  if (!stable_ || !stable_->step || !std::isfinite(*stable_->step)) return;
-  // Two digits below: an estimate is not trusted to its last one.
-  const double limit = 0.95 * *stable_->step;
-  const double unit = std::pow(10.0, std::floor(std::log10(limit)) - 1.0);
-  const double step = std::floor(limit / unit) * unit;
+std::optional<double> RunControl::offered_step() const {
+  return stable_ ? step_to_try(simulation_.model().simulation.timestep, *stable_) : std::nullopt;
+}
+
+void RunControl::take_offered_step() {
+  const auto step = offered_step();
+  if (!step) return;
   messages_.dismiss();
   messages_.check(simulation_.seek(simulation_.before_trouble()));
   // The state of then, with the values of now.
-  scene_.set_value(*find_parameter("simulation.timestep"), 0, Value(step));
+  scene_.set_value(*find_parameter("simulation.timestep"), 0, Value(*step));
   scene_.hand_over();
 }
 
@@ -88,10 +88,9 @@ void RunControl::watch_divergence() {
   const SimulationSettings& s = model.simulation;
   stable_ = stability_limit(model, s.integrator, StabilityEffort::quick);
   messages_.error(fmt::format(
-      "The simulation diverged in step {} (t = {:.6g} s): {} {}. The time step is {} s; {}. "
-      "The last good step is shown.",
+      "The simulation diverged in step {} (t = {:.6g} s): {} {}. {} The last good step is shown.",
       divergence->step, static_cast<double>(divergence->step) * s.timestep, body_text(*divergence),
-      fault_text(*divergence), s.timestep, stability_sentence(s.integrator, *stable_)));
+      fault_text(*divergence), divergence_sentence(s.timestep, s.integrator, *stable_)));
 }
 
 }  // namespace aspic::app

@@ -26,19 +26,17 @@ class RunControl {
   void set_shadow(const BackendRow* backend);
 
   void step_back();
-  /// Half a second of simulated time.
-  void jump_back() { go_to(simulation_.time() - 0.5); }
   /// To the moment nearest to a time of the history [s]; paused.
   void go_to(double time);
   void back_before_divergence();
-  /// Goes on from shortly before the divergence with the scene as it is now and a time step just below the
-  /// estimated limit.
-  void take_stable_step();
+  /// Continues from shortly before the divergence with the scene as it is now and the time step that is
+  /// offered.
+  void take_offered_step();
 
   /// Once for each picture: reports a new divergence.
   void watch_divergence();
-  /// The largest stable step, once a divergence was reported.
-  const std::optional<StabilityLimit>& stable_step() const { return stable_; }
+  /// A smaller time step [s] than that which diverged, once a divergence was reported: step_to_try().
+  std::optional<double> offered_step() const;
 
  private:
   Simulation& simulation_;

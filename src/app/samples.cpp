@@ -14,9 +14,15 @@ constexpr std::size_t most_samples = 2000;
 
 }  // namespace
 
-std::uint64_t sample_interval(double timestep) {
+std::uint64_t next_sample_step(std::uint64_t step, double timestep, std::uint64_t stride) {
   constexpr double interval = 0.02;  // s
-  return static_cast<std::uint64_t>(std::max(std::round(interval / timestep), 1.0));
+  const double apart = interval < 2.0 * timestep ? 1.0 : interval / timestep;
+  const double steps = apart * static_cast<double>(stride);
+  // Beyond what a double counts in ones.
+  if (step >> 52 != 0) return step + static_cast<std::uint64_t>(std::round(steps));
+  double next = std::floor(static_cast<double>(step) / steps);
+  while (std::round(next * steps) <= static_cast<double>(step)) ++next;
+  return static_cast<std::uint64_t>(std::round(next * steps));
 }
 
 const EnergySample* Samples::nearest(double time) const {

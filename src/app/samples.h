@@ -23,8 +23,10 @@ struct DifferenceSample {
   bool identical = false;  ///< every bit is the same
 };
 
-/// Steps between two points of the plot while a run goes on: the same ones however fast it is.
-std::uint64_t sample_interval(double timestep);
+/// The first step after `step` that has a point of the plot during a run: the steps nearest to
+/// multiples of `stride` · 0.02 s, so that runs of different time steps [s] have points at the same times, to
+/// half a step; every `stride`-th step where that is about as long.
+std::uint64_t next_sample_step(std::uint64_t step, double timestep, std::uint64_t stride = 1);
 
 /// Samples in the order of time, one for each.
 class Samples {

@@ -10,24 +10,32 @@
 
 namespace aspic::app {
 
-/// Puts a scene that was loaded in the place of the present one, if it can be simulated.
-bool SceneControl::replace(Result<SceneEditor> loaded, bool keep_state) {
-  if (!loaded) messages_.error(loaded.error().message);
-  if (!loaded || !messages_.check(simulation_.change(loaded->scene(), keep_state))) return false;
-  editor_ = std::move(*loaded);
+/// The simulation, which has the editor's scene already, begins; the camera leaves the source `left`.
+void SceneControl::show_opened(const std::string& left) {
+  view_.keep_camera(left);
   pending_ = Effect::none;
-  return true;
-}
-
-void SceneControl::open(const std::string& source) {
-  view_.keep_camera(editor_.source());
-  if (!replace(editor_.other(source), false)) return;
+  unchanged_for_ = 0.0;
   messages_.dismiss();
   messages_.check(simulation_.reset());
   if (editor_.state()) messages_.check(simulation_.start_from(*editor_.state()));
-  view_.camera = CameraControl(editor_.scene().view.camera);
+  view_.camera = CameraControl(scene().view.camera);
   view_.forget_followed();
   view_.recall_camera(editor_.source());
+}
+
+/// The one that is open, if it is a file.
+void SceneControl::list_file() {
+  if (editor_.is_file() && std::ranges::find(files_, editor_.source()) == files_.end())
+    files_.push_back(editor_.source());
+}
+
+void SceneControl::open(const std::string& source) {
+  auto loaded = editor_.other(source);
+  if (!messages_.check(loaded) || !messages_.check(simulation_.change(loaded->scene(), false))) return;
+  const std::string left = editor_.source();
+  editor_.open(std::move(*loaded));
+  list_file();
+  show_opened(left);
 }
 
 void SceneControl::open_neighbour(int offset) {
@@ -66,19 +74,35 @@ void SceneControl::reread_file() {
 
 void SceneControl::save_as(const std::string& path, Overwrite overwrite) {
   if (!messages_.check(editor_.save_as(path, view_.camera.goal(), overwrite))) return;
+  list_file();
   view_.camera.set_home(editor_.scene().view.camera);
   messages_.info(fmt::format("Saved as {}.", path));
 }
 
 void SceneControl::undo() {
   if (!editor_.can_undo()) return;
-  take_effect(editor_.undo());
+  const std::string left = editor_.source();
+  if (!undone(editor_.undo(), left, &SceneEditor::redo)) return;
   messages_.info(fmt::format("Undone: {}.", editor_.redo_name()));
+}
+
+/// Carries out what undo or redo did; where it cannot be, `back` takes that back and a message says why.
+bool SceneControl::undone(Effect effect, const std::string& left, Effect (SceneEditor::*back)()) {
+  if (effect != Effect::opening) {
+    take_effect(effect);
+  } else if (messages_.check(simulation_.change(scene(), false))) {
+    show_opened(left);
+  } else {
+    (editor_.*back)();
+    return false;
+  }
+  return true;
 }
 
 void SceneControl::redo() {
   if (!editor_.can_redo()) return;
-  take_effect(editor_.redo());
+  const std::string left = editor_.source();
+  if (!undone(editor_.redo(), left, &SceneEditor::undo)) return;
   messages_.info(fmt::format("Redone: {}.", editor_.undo_name()));
 }
 

@@ -18,14 +18,19 @@ class SceneControl {
  public:
   /// The references must outlive it. The simulation runs the editor's scene.
   SceneControl(SceneEditor editor, Simulation& simulation, View& view, Messages& messages)
-      : editor_(std::move(editor)), simulation_(simulation), view_(view), messages_(messages) {}
+      : editor_(std::move(editor)), simulation_(simulation), view_(view), messages_(messages) {
+    list_file();
+  }
 
   const SceneEditor& editor() const { return editor_; }
   const Scene& scene() const { return editor_.scene(); }
   const Solver& solver() const { return simulation_.solver(); }
 
-  /// Opens a file or built-in scene; on an error the old one stays and a message says why.
+  /// Opens a file or built-in scene, which undo() takes back; on an error the old one stays and a message
+  /// says why.
   void open(const std::string& source);
+  /// Scene files and checkpoints that were opened or saved, in that order.
+  const std::vector<std::string>& files() const { return files_; }
   /// Opens the built-in scene that comes so many places later in the list, which goes round.
   void open_neighbour(int offset);
   void reload();
@@ -66,10 +71,14 @@ class SceneControl {
  private:
   void take_effect(Result<Effect> effect);
   void say_if_gone(const std::optional<std::string>& followed);
-  bool replace(Result<SceneEditor> loaded, bool keep_state);
+  void show_opened(const std::string& left);
+  bool undone(Effect effect, const std::string& left, Effect (SceneEditor::*back)());
   void reread_file();
 
+  void list_file();
+
   SceneEditor editor_;
+  std::vector<std::string> files_;
   Simulation& simulation_;
   View& view_;
   Messages& messages_;

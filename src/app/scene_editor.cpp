@@ -61,25 +61,36 @@ Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std
     ASPIC_TRY(auto checkpoint, read_checkpoint(source));
     ASPIC_TRY(editor.scene_, parse_scene(checkpoint.scene, source, overrides));
     ASPIC_CHECK(check_against_scene(checkpoint, editor.scene_.model, source));
-    editor.state_ = std::move(checkpoint.state);
+    editor.origin_->state = std::move(checkpoint.state);
   } else {
     ASPIC_TRY(editor.scene_, load_scene(source, overrides));
   }
-  editor.source_ = source;
-  editor.overrides_ = std::move(overrides);
-  if (!builtin_scene_text(source)) editor.modified_ = time_of(source);
+  editor.origin_->source = source;
+  editor.origin_->overrides = std::move(overrides);
+  if (!builtin_scene_text(source)) editor.origin_->modified = time_of(source);
   return editor;
 }
 
 Result<SceneEditor> SceneEditor::other(const std::string& source) const {
-  return open(source, source == source_ ? overrides_ : std::vector<std::string>{});
+  return open(source, source == origin_->source ? origin_->overrides : std::vector<std::string>{});
+}
+
+void SceneEditor::open(SceneEditor other) {
+  const bool same = origin_->source == other.source() && !changed() && beside_ == other.beside_ &&
+                    effect_between(scene_, other.scene_) == Effect::none;
+  if (same) return;
+  begin_entry("open " + std::filesystem::path(other.source()).filename().string(), "");
+  scene_ = std::move(other.scene_);
+  beside_ = std::move(other.beside_);
+  origin_ = std::move(other.origin_);
+  mark_saved();
 }
 
 bool SceneEditor::file_changed() {
-  if (!modified_) return false;
-  const auto now = time_of(source_);
-  if (!now || *now == *modified_) return false;
-  modified_ = now;
+  if (!origin_->modified) return false;
+  const auto now = time_of(origin_->source);
+  if (!now || *now == *origin_->modified) return false;
+  origin_->modified = now;
   return true;
 }
 
@@ -113,28 +124,39 @@ void SceneEditor::set_beside(std::vector<Variation> beside, const std::string& n
   beside_ = std::move(beside);
 }
 
+constexpr auto never = std::numeric_limits<std::size_t>::max();
+
 /// What is there now is what undo() comes back to, unless the gesture goes on.
 void SceneEditor::begin_entry(const std::string& name, const std::string& gesture) {
   if (gesture.empty() || gesture != gesture_ || undo_.empty()) {
-    constexpr auto never = std::numeric_limits<std::size_t>::max();
-    if (saved_ > undo_.size()) saved_ = never;
-    if (undo_.size() == longest_past) {
-      undo_.erase(undo_.begin());
-      saved_ = saved_ == 0 ? never : saved_ - (saved_ == never ? 0 : 1);
-    }
-    undo_.push_back({scene_, beside_, name});
+    if (origin_->saved > undo_.size()) origin_->saved = never;
+    if (undo_.size() == longest_past) forget_oldest();
+    undo_.push_back({scene_, beside_, name, origin_});
   }
   gesture_ = gesture;
   redo_.clear();
 }
 
+void SceneEditor::forget_oldest() {
+  undo_.erase(undo_.begin());
+  std::vector<Origin*> origins = {origin_.get()};
+  for (const Entry& entry : undo_) {
+    if (std::ranges::find(origins, entry.origin.get()) == origins.end())
+      origins.push_back(entry.origin.get());
+  }
+  for (Origin* const origin : origins) {
+    if (origin->saved != never) origin->saved = origin->saved == 0 ? never : origin->saved - 1;
+  }
+}
+
 Effect SceneEditor::swap_with(std::vector<Entry>& from, std::vector<Entry>& to) {
   Entry entry = std::move(from.back());
   from.pop_back();
-  const Effect effect = effect_between(scene_, entry.scene);
-  to.push_back({std::move(scene_), std::move(beside_), entry.name});
+  const Effect effect = entry.origin == origin_ ? effect_between(scene_, entry.scene) : Effect::opening;
+  to.push_back({std::move(scene_), std::move(beside_), entry.name, std::move(origin_)});
   scene_ = std::move(entry.scene);
   beside_ = std::move(entry.beside);
+  origin_ = std::move(entry.origin);
   gesture_.clear();
   return effect;
 }
@@ -154,10 +176,10 @@ Status SceneEditor::save_as(const std::string& path, const CameraSettings& camer
   ASPIC_CHECK(file.write(to_toml(saved)));
   ASPIC_CHECK(file.commit());
   scene_ = std::move(saved);
-  source_ = path;
-  overrides_.clear();
-  state_.reset();
-  modified_ = time_of(source_);
+  origin_->source = path;
+  origin_->overrides.clear();
+  origin_->state.reset();
+  origin_->modified = time_of(path);
   mark_saved();
   return {};
 }

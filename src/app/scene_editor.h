@@ -1,6 +1,7 @@
 #pragma once
 // The scene that is shown and changed: where it came from, what was changed, and the way back.
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ enum class Effect {
   none,       ///< nothing changed
   view,       ///< the picture alone
   constants,  ///< other constants; the state goes on
-  restart     ///< another body or another start: the simulation restarts
+  restart,    ///< another body or another start: the simulation restarts
+  opening     ///< another source, or the same one again: as if it had been opened
 };
 
 /// What lies between two scenes, by the parameter table.
@@ -33,16 +35,19 @@ class SceneEditor {
 
   const Scene& scene() const { return scene_; }
   /// File or built-in name.
-  const std::string& source() const { return source_; }
-  bool is_file() const { return modified_.has_value(); }
+  const std::string& source() const { return origin_->source; }
+  bool is_file() const { return origin_->modified.has_value(); }
   /// What a checkpoint holds beside its scene: where the run goes on.
-  const std::optional<State>& state() const { return state_; }
+  const std::optional<State>& state() const { return origin_->state; }
   /// Since it was opened, saved or read again.
-  bool changed() const { return undo_.size() != saved_; }
+  bool changed() const { return undo_.size() != origin_->saved; }
 
   /// An editor of another source, or of the same one again, whose overrides (--set) stay with it. Errors:
   /// those of load_scene.
   Result<SceneEditor> other(const std::string& source) const;
+  /// Opens what another editor has open; undo() comes back to what there was, with its changes. Where that is
+  /// the same source and scene, unchanged, there is nothing to come back to.
+  void open(SceneEditor other);
   /// Whether the file was written since it was last looked at; true once for each time.
   bool file_changed();
 
@@ -74,28 +79,35 @@ class SceneEditor {
   Status save_as(const std::string& path, const CameraSettings& camera, Overwrite overwrite);
   /// The scene is what the file holds.
   void mark_saved() {
-    saved_ = undo_.size();
+    origin_->saved = undo_.size();
     end_gesture();
   }
 
  private:
+  /// What was opened.
+  struct Origin {
+    std::string source;
+    std::vector<std::string> overrides;
+    std::optional<State> state;
+    std::optional<std::filesystem::file_time_type> modified;
+    std::size_t saved =
+        0;  ///< length of undo_ when the scene was the file's; never again: the largest number
+  };
   struct Entry {
     Scene scene;
     std::vector<Variation> beside;
     std::string name;
+    std::shared_ptr<Origin> origin;  ///< of all entries since it was opened
   };
+  void forget_oldest();
   void begin_entry(const std::string& name, const std::string& gesture);
   Effect swap_with(std::vector<Entry>& from, std::vector<Entry>& to);
 
   Scene scene_;
   std::vector<Variation> beside_;
-  std::string source_, gesture_;
-  std::vector<std::string> overrides_;
-  std::optional<State> state_;
-  std::optional<std::filesystem::file_time_type> modified_;
+  std::string gesture_;
+  std::shared_ptr<Origin> origin_ = std::make_shared<Origin>();  // never null
   std::vector<Entry> undo_, redo_;
-  std::size_t saved_ =
-      0;  // length of undo_ when the scene was that of the file; never again: the largest number
 };
 
 }  // namespace aspic::app

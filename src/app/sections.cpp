@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "base/printable.h"
 #include "model/terrain.h"
 #include "scene/load.h"
 
@@ -76,7 +79,13 @@ void scene_section(Gui& gui, SceneControl& scene) {
   }
   std::vector<std::string> hits;
   std::string_view group;
-  for (const BuiltinScene& builtin : list_builtin_scenes()) {
+  // Of a search, those with the words in their names first.
+  std::vector<BuiltinScene> scenes = list_builtin_scenes();
+  if (filter.IsActive())
+    std::ranges::stable_partition(scenes, [](const BuiltinScene& builtin) {
+      return filter.PassFilter(std::string(builtin.name).c_str());
+    });
+  for (const BuiltinScene& builtin : scenes) {
     const std::string name(builtin.name), description(builtin.description);
     const bool hit = filter.PassFilter(name.c_str()) || filter.PassFilter(description.c_str());
     if (hit) hits.push_back(name);
@@ -90,9 +99,12 @@ void scene_section(Gui& gui, SceneControl& scene) {
     scene.open(hits.front());
     filter.Clear();
   }
-  if (scene.editor().is_file()) {
-    ImGui::Selectable(scene.editor().source().c_str(), true);
-    tooltip("A scene file. It is reloaded whenever it is written.");
+  const std::vector<std::string> files = scene.files();
+  for (const std::string& file : files) {
+    const std::string name = printable(std::filesystem::path(file).filename().string());
+    if (ImGui::Selectable(fmt::format("{}##{}", name, file).c_str(), file == scene.editor().source()))
+      scene.open(file);
+    named(gui, "scene/" + file, fmt::format("{}\n\nIt is reloaded whenever it is written.", printable(file)));
   }
   const float half = share_of_line(2);
   ImGui::TextDisabled("Terrain");

@@ -128,6 +128,7 @@ Status Simulation::finish_change(Change change) {
 
 /// The run continues with this state and setup.
 Status Simulation::begin_history(const State& state) {
+  ended_.reset();
   ASPIC_CHECK(load(state));
   history_.begin(setup_, state);
   stretch_ = history_.end_moment().stretch;

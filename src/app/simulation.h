@@ -103,8 +103,11 @@ class Simulation {
   const History& history() const { return history_; }
   Moment here() const { return {stretch_, step_}; }
   bool at_end() const { return here() == history_.end_moment(); }
+  /// The history ended with a divergence, wherever in it this is.
+  bool ends_diverged() const { return divergence_ || ended_; }
   /// Goes to a moment of the history and pauses there; update() makes the way. The next step that is
-  /// simulated from there on makes the history end there.
+  /// simulated from there on makes the history end there. A history that ended with a divergence has it at
+  /// its end.
   Status seek(const Moment& moment);
   bool seeking() const { return seek_.has_value(); }
   /// Takes over the history of another run, which is not empty, and goes to its beginning. Errors: those of
@@ -189,6 +192,7 @@ class Simulation {
   Status take(Outcome outcome);
   Status follow(Outcome outcome);
   Status seek_on(double budget);
+  void arrive();
   void note(std::uint64_t steps, const std::optional<Divergence>& divergence);
   void reach(std::uint64_t step, const std::optional<Divergence>& divergence);
   void take_snapshot(State state);
@@ -205,11 +209,12 @@ class Simulation {
   Clock::time_point snapshot_time_ = {};
   bool running_ = false;
   std::uint64_t batch_ = 1;  // steps between two looks at the clock, of a backend in the context
-  /// Of a backend in the context: energies are those of steps that are multiples of sample_interval() times
-  /// this, a power of two that keeps the time for reading states back low.
+  /// Of a backend in the context: energies are those of every next_sample_step() with this stride, a
+  /// power of two that keeps the time for reading states back low.
   std::uint64_t sample_stride_ = 1;
   double read_seconds_ = 0.0;  // for the last energies
   std::optional<Divergence> divergence_;
+  std::optional<std::pair<Moment, Divergence>> ended_;  // how the history ended, while elsewhere in it
   std::optional<std::string> message_;
 
   History history_;

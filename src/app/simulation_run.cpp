@@ -38,6 +38,7 @@ void Simulation::take_snapshot(State state) {
 
 void Simulation::forget_future(double now) {
   history_.truncate(here());
+  ended_.reset();
   samples_.truncate(now);
 }
 
@@ -157,11 +158,10 @@ Status Simulation::start_steps(std::uint64_t to, double budget) {
 /// Steps of the leader, in the context, in batches.
 Status Simulation::advance_here(std::uint64_t steps, double budget) {
   const auto start = Clock::now();
-  const std::uint64_t interval = sample_interval(model().simulation.timestep);
   std::uint64_t done = 0;
   while (done < steps && !divergence_) {
-    const std::uint64_t apart = seek_ ? steps : interval * sample_stride_;
-    const std::uint64_t count = std::min({batch_, steps - done, apart - step_ % apart});
+    const std::uint64_t sample = next_sample_step(step_, model().simulation.timestep, sample_stride_);
+    const std::uint64_t count = std::min({batch_, steps - done, seek_ ? steps : sample - step_});
     const auto before = Clock::now();
     ASPIC_TRY(const auto advanced, engines_.leader().solver->advance(count));
     reach(advanced ? advanced->step - 1 : step_ + count, advanced);
@@ -171,7 +171,7 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
     if (count == batch_ && took < 0.125 * std::min(budget, shortest_job))
       batch_ = std::min<std::uint64_t>(2 * batch_, 256);
     if (took > 0.5 * budget) batch_ = std::max<std::uint64_t>(batch_ / 2, 1);
-    if (!seek_ && !divergence_ && step_ % apart == 0) ASPIC_CHECK(sample_here());
+    if (!seek_ && !divergence_ && step_ == sample) ASPIC_CHECK(sample_here());
     if (seconds_since(start) > 0.75 * budget) break;
   }
   if (seek_ || (!divergence_ && Clock::now() - snapshot_time_ <= copy_every)) return {};
@@ -321,6 +321,7 @@ Status Simulation::seek(const Moment& moment) {
   if (const Status taken = collect(); !taken) return fall_back(taken.error());
   const std::optional<std::uint64_t> underway = std::exchange(seek_, std::nullopt);
   if (moment == here() && !underway) return halt(true);
+  if (divergence_ && at_end()) ended_ = {here(), *divergence_};
   const Keyframe& keyframe = history_.keyframe(moment);
   const bool on_the_way = moment.stretch == stretch_ && step_ <= moment.step && step_ >= keyframe.step;
   if (moment.stretch != stretch_) {
@@ -343,6 +344,7 @@ Status Simulation::replay(History history) {
   const Setup setup = history.stretch(first.stretch).setup;
   ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
   history_ = std::move(history);
+  ended_.reset();
   samples_.clear();
   stretch_ = first.stretch;
   return load(unpack(history_.keyframe(first)));
@@ -364,7 +366,13 @@ Status Simulation::seek_on(double budget) {
   }
   seek_.reset();
   ASPIC_CHECK(refresh_snapshot());
+  arrive();
   return shadowed() ? engines_.shadow().solver->load(snapshot_) : Status();
+}
+
+/// At the end of a history that ended with a divergence there is no way on.
+void Simulation::arrive() {
+  if (ended_ && ended_->first == here() && at_end()) divergence_ = ended_->second;
 }
 
 Status Simulation::step_back() {

@@ -17,6 +17,7 @@ inline constexpr std::string_view backend_key = "backend";
 struct Variation {
   std::string key;    ///< a short name (scene/short_keys.h), a path of --set, or backend_key
   std::string value;  ///< as --set or --backend takes it
+  friend bool operator==(const Variation&, const Variation&) = default;
 };
 
 /// A run's scene and backend.

@@ -273,6 +273,105 @@ TEST_F(Beside, TheSectionAndThePaletteAddEditAndRemove) {
   EXPECT_EQ(beside().count(), 1u);
 }
 
+TEST_F(Beside, FiguresOfAllRunsAreOfOneMoment) {
+  open("cube-plane", {small});
+  compare({"integrator", "implicit-euler"});
+  simulation().set_running(true);
+  frames_until([&] {
+    // Each run has the energies of the time that is printed.
+    const double time = beside().figures_time();
+    EXPECT_LE(time, beside().clock_time());
+    for (std::size_t i = 0; i < 2; ++i) {
+      const app::EnergySample* const sample = run(i).samples().nearest(time);
+      EXPECT_TRUE(!sample || std::abs(sample->time - time) < 1e-9) << "run " << i;
+    }
+    return simulation().step() >= 107;
+  });
+  simulation().set_running(false);
+  settled();
+  // Off the grid of the plot.
+  if (simulation().step() % 20 == 0) {
+    type(U'.');
+    settled();
+  }
+  const auto known = [&](std::size_t i) {
+    const app::EnergySample* const sample = run(i).samples().nearest(run(0).time());
+    return sample && sample->time == run(0).time();
+  };
+  for (int i = 0; i < 200 && !(known(0) && known(1)); ++i) frames(1);
+  EXPECT_TRUE(known(0));
+  EXPECT_TRUE(known(1)) << "a point of every run at a pause";
+  EXPECT_EQ(beside().figures_time(), run(0).time());
+}
+
+TEST_F(Beside, NamesAndFiguresOfFourRunsLieApart) {
+  open("cube-plane", {small, low});
+  for (int i = 0; i < 3; ++i) {
+    press(GLFW_KEY_B, GLFW_MOD_CONTROL);
+    frames(1);
+  }
+  settled();
+  ASSERT_EQ(beside().count(), 4u);
+  run_to(60);
+  frames(2);
+  for (const char* const plot : {"energy/plot", "energy/momentum"}) {
+    std::vector<app::Box> boxes;
+    for (int i = 1; i <= 4; ++i) {
+      boxes.push_back(widgets().at(fmt::format("{}/run {}/name", plot, i)));
+      boxes.push_back(widgets().at(fmt::format("{}/run {}", plot, i)));
+    }
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (std::size_t j = i + 1; j < boxes.size(); ++j) {
+        const app::Box &a = boxes[i], &b = boxes[j];
+        EXPECT_FALSE(a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom)
+            << plot << " " << i << " " << j;
+      }
+    }
+  }
+  EXPECT_EQ(beside().name(0), "explicit Euler, h 0.001 s, k 2000 N/m");
+  EXPECT_EQ(beside().name(1), "implicit Euler");
+  EXPECT_EQ(beside().name(2), "h 0.0005 s");
+}
+
+TEST_F(Beside, ARunThatGoesOnAfterTheFirstDivergedCanBeScrubbed) {
+  open("cube-plane", {small, "simulation.timestep=0.003", "cube[0].structural.stiffness=20000"});
+  compare({"integrator", "implicit-euler"});
+  simulation().set_running(true);
+  frames_until([&] { return run(0).divergence().has_value(); });
+  const double diverged = run(0).time();
+  frames_until([&] { return beside().shown_time(1) > diverged + 0.3; });
+  EXPECT_EQ(&beside().clock(), &run(1));
+  EXPECT_TRUE(beside().clock_runs());
+  frames_until([&] { return beside().real_time_factor() > 0.0; });
+  press(GLFW_KEY_SPACE);
+  settled();
+  const double end = run(1).time();
+  EXPECT_DOUBLE_EQ(beside().end_time(), end) << "the bar reaches as far";
+  EXPECT_DOUBLE_EQ(beside().clock_time(), end);
+  frames(2);
+  // A click in the middle of the bar.
+  click("timeline");
+  settled();
+  const double middle = beside().clock_time();
+  EXPECT_GT(middle, diverged);
+  EXPECT_LT(middle, end - 0.05);
+  EXPECT_TRUE(run(0).divergence().has_value());
+  EXPECT_EQ(hash(1), hash_alone(1));
+  EXPECT_DOUBLE_EQ(beside().end_time(), end) << "nothing is lost";
+  // Before the divergence both go there, and back again.
+  EXPECT_FALSE(beside().go_to(0.5 * diverged));
+  app().run.go_to(0.5 * diverged);
+  settled();
+  EXPECT_NEAR(run(0).time(), 0.5 * diverged, 0.003);
+  EXPECT_NEAR(run(1).time(), 0.5 * diverged, 0.003);
+  EXPECT_FALSE(run(0).divergence().has_value());
+  EXPECT_TRUE(beside().go_to(end));
+  frames(1);
+  settled();
+  EXPECT_TRUE(run(0).divergence().has_value());
+  EXPECT_DOUBLE_EQ(run(1).time(), end);
+}
+
 TEST_F(Beside, PlotsShowAQuantityOfAllRuns) {
   open("cube-plane", {small, low});
   compare({"h", "0.002"});

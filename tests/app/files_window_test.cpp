@@ -2,10 +2,14 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
+#include "app/parameter_widget.h"
 #include "app/stage.h"
+#include "model/integrator.h"
+#include "model/terrain.h"
 #include "scene/load.h"
 #include "support/projection.h"
 
@@ -222,6 +226,193 @@ TEST_F(Files, ThePaletteFindsActionsScenesAndValues) {
   press(GLFW_KEY_ESCAPE);
   frames(2);
   EXPECT_FALSE(has("palette/query"));
+}
+
+TEST_F(Files, ThePaletteFindsValuesBeforeScenesAndSectionsToo) {
+  open("cube-plane", {}, "reference");
+  const auto ask = [&](std::u32string_view query) {
+    press(GLFW_KEY_P, GLFW_MOD_CONTROL);
+    frames(3);
+    for (const char32_t c : query) type(c);
+    frames(2);
+  };
+  const auto marked = [&](const std::string& widget) {
+    const app::Box row = widgets().at("palette/marked"), own = widgets().at(widget);
+    return std::abs(row.centre_y() - own.centre_y()) < 8.0;
+  };
+  // A scene's description speaks of gravity; the value has the name.
+  ask(U"gravity");
+  EXPECT_FALSE(has("palette/open flag"));
+  EXPECT_TRUE(marked("simulation.gravity"));
+  press(GLFW_KEY_ENTER);
+  frames(4);
+  for (const char32_t c : std::u32string_view(U"2")) type(c);
+  frames(2);
+  press(GLFW_KEY_ENTER);
+  frames(4);
+  EXPECT_EQ(app().scene.scene().model.simulation.gravity.x, 2.0) << "Enter began typing there";
+  EXPECT_EQ(app().scene.editor().source(), "cube-plane");
+  ASSERT_TRUE(has("palette/query"));
+  // No key reaches the window meanwhile; what is typed now is the next query.
+  press(GLFW_KEY_SPACE);
+  press(GLFW_KEY_TAB);
+  frames(2);
+  EXPECT_FALSE(simulation().running());
+  EXPECT_TRUE(app().layout.panels);
+  press(GLFW_KEY_ESCAPE);
+  frames(2);
+
+  ask(U"stiffness");
+  press(GLFW_KEY_DOWN);
+  frames(2);
+  EXPECT_TRUE(marked("cube[0].shear.stiffness"));
+  press(GLFW_KEY_ENTER);
+  frames(4);
+  for (const char32_t c : std::u32string_view(U"123")) type(c);
+  frames(2);
+  press(GLFW_KEY_ENTER);
+  frames(4);
+  EXPECT_EQ(app().scene.scene().model.cubes[0].shear.stiffness, 123.0);
+  for (const char32_t c : std::u32string_view(U"integrator")) type(c);
+  frames(3);
+  EXPECT_TRUE(marked("simulation.integrator")) << "the next one is looked for at once";
+  press(GLFW_KEY_ENTER);
+  frames(3);
+  EXPECT_EQ(app().scene.scene().model.simulation.integrator, Integrator::symplectic_euler)
+      << "the next of its words";
+  press(GLFW_KEY_ESCAPE);
+  frames(2);
+
+  EXPECT_FALSE(has("stability/map"));
+  ask(U"stability");
+  EXPECT_TRUE(marked("palette/section Stability"));
+  press(GLFW_KEY_ENTER);
+  frames(3);
+  ASSERT_TRUE(has("section/Stability"));
+  EXPECT_TRUE(app().layout.sections.at("Stability"));
+  EXPECT_LT(widgets().at("section/Stability").bottom, 720.0) << "scrolled into sight";
+  ask(U"types together");
+  EXPECT_TRUE(has("palette/section Springs"));
+  app().cursor(middle_x(), app().view.box.bottom - 20.0);
+  frames(1);
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
+  frames(1);
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+  frames(2);
+  EXPECT_FALSE(has("palette/query")) << "a click elsewhere closes it";
+}
+
+TEST_F(Files, OpeningAnotherSceneIsTakenBackByUndo) {
+  open("cube-plane", {}, "reference");
+  app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}));
+  frames(3);
+  EXPECT_EQ(app().title(), "cube-plane (changed) - Aspic");
+  type(U'.');
+  frames(2);
+  click("scene/cube-bowl");
+  EXPECT_EQ(app().title(), "cube-bowl - Aspic");
+  press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  frames(3);
+  EXPECT_EQ(app().title(), "cube-plane (changed) - Aspic");
+  EXPECT_EQ(simulation().model().simulation.gravity, (Vec3{0.0, -3.0, 0.0}));
+  EXPECT_EQ(simulation().step(), 0u);
+  EXPECT_EQ(app().view.camera.home(), app().scene.scene().view.camera);
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("Undone: open cube-bowl."));
+  press(GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+  frames(3);
+  EXPECT_EQ(app().title(), "cube-bowl - Aspic");
+  EXPECT_EQ(simulation().model().terrain[0].shape, TerrainShape::bowl);
+  press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  frames(3);
+  EXPECT_EQ(app().title(), "cube-plane - Aspic");
+}
+
+TEST_F(Files, OnePageIsOpenAtATimeAndTheBrowserIsModal) {
+  open("cube-plane", {}, "reference");
+  press(GLFW_KEY_F1);
+  frames(2);
+  EXPECT_TRUE(has("help/close"));
+  press(GLFW_KEY_P, GLFW_MOD_CONTROL);
+  frames(2);
+  EXPECT_TRUE(has("palette/query"));
+  EXPECT_FALSE(has("help/close"));
+  press(GLFW_KEY_ESCAPE);
+  press(GLFW_KEY_O, GLFW_MOD_CONTROL);
+  frames(3);
+  EXPECT_TRUE(has("files/name"));
+  press(GLFW_KEY_F1);
+  frames(2);
+  EXPECT_FALSE(has("files/name"));
+  press(GLFW_KEY_O, GLFW_MOD_CONTROL);
+  frames(3);
+  EXPECT_FALSE(has("help/close"));
+  // Neither keys nor clicks reach what is behind it.
+  const bool open_before = has("simulation/run");
+  click("section/Simulation");
+  press(GLFW_KEY_SPACE);
+  frames(2);
+  EXPECT_EQ(has("simulation/run"), open_before);
+  EXPECT_FALSE(simulation().running());
+  press(GLFW_KEY_ESCAPE);
+  frames(2);
+  EXPECT_FALSE(has("files/name"));
+  press(GLFW_KEY_SPACE);
+  EXPECT_TRUE(simulation().running());
+}
+
+TEST_F(Files, OpenedFilesStayInTheList) {
+  open("cube-plane", {}, "reference");
+  app().scene.save_as("mine.toml");
+  frames(2);
+  EXPECT_TRUE(has("scene/mine.toml"));
+  click("scene/cube-bowl");
+  ASSERT_EQ(app().scene.editor().source(), "cube-bowl");
+  click("scene/mine.toml");
+  EXPECT_EQ(app().scene.editor().source(), "mine.toml");
+}
+
+TEST_F(Files, ASpeedThatWasLeftIsSaidAtTheStart) {
+  app::KeptState kept;
+  kept.greeted = true;
+  kept.speed = 0.0625;
+  open("cube-plane", {}, "reference", kept);
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("The speed is ×0.0625"));
+}
+
+TEST_F(Files, AResetOutOfSightSaysSoAndAPullInAPauseIsStarted) {
+  open("cube-plane", {}, "reference");
+  // As F frames a cube that has come down.
+  app().view.camera.jump_to({{3.0, 0.0, 6.0}, {0.0, -0.5, 0.0}, 30.0, Projection::perspective});
+  press(GLFW_KEY_R);
+  frames(2);
+  ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("outside the picture"));
+  // Ctrl is held for the pull.
+  press(GLFW_KEY_SPACE, GLFW_MOD_CONTROL);
+  EXPECT_TRUE(simulation().running());
+  press(GLFW_KEY_SPACE, GLFW_MOD_CONTROL);
+  EXPECT_FALSE(simulation().running());
+}
+
+TEST_F(Files, IntegratorsHaveTheNamesOfLabels) {
+  open("cube-plane", {}, "reference");
+  const auto titles = app::titles_of(*find_parameter("simulation.integrator"));
+  ASSERT_EQ(titles.size(), integrator_table.size());
+  EXPECT_EQ(titles[0], "explicit Euler");
+  click("simulation.integrator");
+  click("simulation.integrator/implicit-euler");
+  EXPECT_EQ(app().scene.scene().model.simulation.integrator, Integrator::implicit_euler);
+}
+
+TEST_F(Files, TheSearchShowsNamesBeforeDescriptions) {
+  open("cube-plane", {}, "reference");
+  click("scene/search");
+  for (const char32_t c : std::u32string_view(U"hole")) type(c);
+  frames(3);
+  EXPECT_LT(widgets().at("scene/cube-hole").top, widgets().at("scene/cube-torus").top);
+  click("scene/search/clear");
 }
 
 TEST_F(Files, OtherTerrainBeginsAnew) {

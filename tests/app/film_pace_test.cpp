@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/pacer.h"
+#include "app/samples.h"
 
 namespace aspic::app {
 namespace {
@@ -91,6 +92,36 @@ TEST(Slowness, SaysHowLongASecondTakesAndWhatWouldDo) {
   EXPECT_EQ(app::slowness(0.4, 10), "the solver does not keep up");
   EXPECT_EQ(app::slowness(0.02, 0), "1 s takes about 50 s here");
   EXPECT_EQ(app::slowness(0.00045, 64), "1 s takes about 38 min here; try 6 particles an edge");
+}
+
+TEST(Slowness, IsNotSaidOfARunThatIsAsFastAsWasAsked) {
+  SimulationSettings settings;
+  app::Pacer pacer;
+  // Steps that are not done pile up: late.
+  for (int i = 0; i < 10; ++i) pacer.steps_due(0.1, settings, 0);
+  ASSERT_TRUE(pacer.late());
+  EXPECT_FALSE(pacer.falls_short(0.0)) << "nothing was measured";
+  EXPECT_TRUE(pacer.falls_short(0.5));
+  EXPECT_FALSE(pacer.falls_short(0.98));
+  EXPECT_FALSE(pacer.falls_short(1.04));
+  pacer.speed = 2.0;
+  EXPECT_TRUE(pacer.falls_short(1.04));
+}
+
+TEST(SampleSteps, RunsOfDifferentTimeStepsHavePointsAtTheSameTimes) {
+  EXPECT_EQ(app::next_sample_step(0, 0.001), 20u);
+  EXPECT_EQ(app::next_sample_step(19, 0.001), 20u);
+  EXPECT_EQ(app::next_sample_step(20, 0.001), 40u);
+  EXPECT_EQ(app::next_sample_step(20, 0.001, 4), 80u);
+  EXPECT_EQ(app::next_sample_step(7, 1.0 / 60.0), 8u) << "every step where that is about as long";
+  EXPECT_EQ(app::next_sample_step(7, 1.0 / 60.0, 2), 8u);
+  const double h = 0.0013;
+  std::uint64_t step = 0;
+  for (int i = 1; i <= 1000; ++i) {
+    step = app::next_sample_step(step, h);
+    EXPECT_LE(std::abs(static_cast<double>(step) * h - 0.02 * i), 0.5 * h * (1.0 + 1e-9));
+  }
+  EXPECT_GT(app::next_sample_step(std::uint64_t{1} << 60, 0.001), std::uint64_t{1} << 60);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <functional>
 
+#include "app/new_body.h"
 #include "app/stage.h"
 #include "model/bodies.h"
 #include "model/terrain.h"
@@ -172,6 +173,47 @@ TEST_F(Panels, LengthsAndAnglesAreDraggedAtAFixedSpeed) {
   EXPECT_LE(first, 0.5) << "a centimetre";
 }
 
+// A change of a body restarts the run and says so, in the midst of the drag.
+TEST_F(Panels, ANoticeEndsNeitherADragNorTyping) {
+  open("cube-plane", {}, "reference", only("Simulation"));
+  bring_into_sight("cube[0].rotation.angle");
+  frames(40);
+  Box box = widgets().at("cube[0].rotation.angle");
+  const double before = settings().cubes[0].rotation.angle, x = box.left + 20.0, y = box.centre_y();
+  app().cursor(x, y);
+  frames(1);
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
+  frames(1);
+  for (int i = 1; i <= 20; ++i) {
+    app().cursor(x + 3.5 * i, y);
+    frames(1);
+  }
+  EXPECT_TRUE(has("notice/close"));
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+  frames(2);
+  EXPECT_GT(settings().cubes[0].rotation.angle - before, 25.0) << "half a degree for each unit";
+
+  app().messages.dismiss();
+  frames(40);
+  box = widgets().at("cube[0].particles-per-edge");
+  app().cursor(box.left + 0.2 * (box.right - box.left), box.centre_y());
+  frames(1);
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, 0);
+  frames(1);
+  app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, 0);
+  frames(2);
+  type(U'1');
+  frames(2);
+  app().messages.info("The file was reloaded.");
+  frames(3);
+  EXPECT_TRUE(has("notice/close"));
+  type(U'2');
+  frames(2);
+  press(GLFW_KEY_ENTER);
+  frames(2);
+  EXPECT_EQ(settings().cubes[0].particles_per_edge, 12);
+}
+
 TEST_F(Panels, ConstantsKeepTheStateAndBodiesStartAnew) {
   open("cube-plane", {}, "reference");
   for (int i = 0; i < 9; ++i) type(U'.');
@@ -230,6 +272,7 @@ TEST_F(Panels, DivergencePausesExplainsAndOffersAStableStep) {
   ASSERT_TRUE(app().messages.notice().has_value());
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("particle"));
   EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("0.002048"));
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("The time step is 0.02 s"));
   for (const Vec3& x : simulation().snapshot().position) ASSERT_TRUE(std::isfinite(x.x + x.y + x.z));
   press(GLFW_KEY_SPACE);
   EXPECT_FALSE(simulation().running()) << "not on from a diverged state";
@@ -364,6 +407,16 @@ TEST_F(Panels, NewBodiesStandBesideOthersAndAboveTheGroundAndAreSaved) {
   for (int i = 0; i < 10; ++i) press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   EXPECT_EQ(settings().cubes.size(), 1u);
   for (const BodyRow& row : body_rows().subspan(1)) EXPECT_EQ(row.list.size(settings()), 0u) << row.list.key;
+}
+
+TEST_F(Panels, WhatIsAddedSurvivesItsLauncher) {
+  open("cube-plane", {}, "cpu");
+  for (const auto& row : body_rows().subspan(1)) app::add_body(app().scene, row.list);
+  frames(3);
+  ASSERT_EQ(settings().launchers.size(), 1u);
+  simulation().set_running(true);
+  frames_until([&] { return simulation().step() >= 1500 || simulation().divergence(); });
+  EXPECT_FALSE(simulation().divergence().has_value()) << "at " << simulation().time() << " s";
 }
 
 TEST_F(Panels, ASecondBodyInABowlStandsAboveTheFirst) {

@@ -233,6 +233,22 @@ TEST_F(SmallPicture, TheReadoutOfAParticleIsInTheView) {
   EXPECT_GE(readout.top, view.top);
 }
 
+TEST_F(SmallPicture, TheReadoutStaysInItsCornerWhenALegendAppears) {
+  open("cube-plane", {"cube[0].position=[0,3,0]"}, "reference");
+  app().cursor(middle_x(), middle_y());
+  frames(5);
+  ASSERT_TRUE(app().pointer.hovered());
+  const app::Box before = widgets().at("particle");
+  app().scene.change("colour", [](Scene& s) { s.view.colour = ViewColour::strain; });
+  frames(5);
+  ASSERT_TRUE(has("legend"));
+  const app::Box after = widgets().at("particle"), legend = widgets().at("legend");
+  EXPECT_EQ(after.left, before.left);
+  EXPECT_LT(after.left, app().view.box.centre_x());
+  EXPECT_GT(after.bottom, app().view.box.centre_y());
+  EXPECT_TRUE(after.right <= legend.left || after.bottom <= legend.top) << "beside or above the legend";
+}
+
 TEST_F(SmallPicture, AxesGiveWayToTheReadout) {
   open("goal-net", {"view.axes=true", "view.colour=speed"}, "reference");
   for (const auto& [width, height] : {std::pair(800, 600), std::pair(600, 420), std::pair(420, 320)}) {

@@ -121,6 +121,44 @@ TEST(SceneEditor, RefusesInASentencePerComplaint) {
             "'cube.pinned' index 1000 is not in the cube; allowed: 0 … 999");
 }
 
+TEST(SceneEditor, OpeningIsAnEntryThatComesBackToTheChanges) {
+  SceneEditor editor = editor_of("cube-plane");
+  const Parameter& step = key("simulation.timestep");
+  ASSERT_TRUE(editor.set(step, 0, Value(0.002), "").ok());
+  editor.open(editor_of("cube-sphere"));
+  EXPECT_EQ(editor.source(), "cube-sphere");
+  EXPECT_FALSE(editor.changed());
+  ASSERT_TRUE(editor.set(step, 0, Value(0.0005), "").ok());
+  EXPECT_TRUE(editor.changed());
+  EXPECT_EQ(editor.undo(), Effect::constants);
+  EXPECT_FALSE(editor.changed());
+  EXPECT_EQ(editor.undo_name(), "open cube-sphere");
+  EXPECT_EQ(editor.undo(), Effect::opening);
+  EXPECT_EQ(editor.source(), "cube-plane");
+  EXPECT_EQ(editor.scene().model.simulation.timestep, 0.002);
+  EXPECT_TRUE(editor.changed()) << "as it was left";
+  EXPECT_EQ(editor.undo(), Effect::constants);
+  EXPECT_FALSE(editor.changed());
+  editor.redo();
+  EXPECT_EQ(editor.redo(), Effect::opening);
+  EXPECT_EQ(editor.source(), "cube-sphere");
+  EXPECT_FALSE(editor.changed());
+  // The same scene once more, as it is: nothing to come back to.
+  editor.open(editor_of("cube-sphere"));
+  EXPECT_EQ(editor.undo_name(), "open cube-sphere");
+  EXPECT_EQ(editor.undo(), Effect::opening);
+}
+
+TEST(SceneEditor, TheOldestEntriesAreForgottenOfEverySource) {
+  SceneEditor editor = editor_of("cube-plane");
+  editor.open(editor_of("cube-sphere"));
+  const Parameter& step = key("simulation.timestep");
+  for (int i = 0; i < 300; ++i) ASSERT_TRUE(editor.set(step, 0, Value(0.0001 * (i + 11)), "").ok());
+  while (editor.can_undo()) editor.undo();
+  EXPECT_EQ(editor.source(), "cube-sphere");
+  EXPECT_TRUE(editor.changed()) << "the file's own scene is beyond what is remembered";
+}
+
 TEST(SceneEditor, OverridesSurviveAReloadAndGoWithTheirScene) {
   auto editor = SceneEditor::open("cube-plane", {"simulation.timestep=0.0005"});
   ASSERT_TRUE(editor.ok());
