@@ -32,7 +32,7 @@ std::string memory_note(const Solver& solver) {
 bool element_line(Gui& gui, const std::string& title, const std::string& name, std::string_view help,
                   bool enabled) {
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", title.c_str());
+  ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", title.c_str());
   const char* const label = "Remove";
   const float width = ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x;
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
@@ -96,7 +96,7 @@ void bodies_of(Gui& gui, SceneControl& scene, const SettingsList& list) {
 void shown_springs(Gui& gui, SceneControl& scene) {
   const Parameter& p = *find_parameter("view.draw");
   auto words = std::get<std::vector<std::string>>(*p.get(scene.scene(), 0));
-  ImGui::TextUnformatted("Shown");
+  group_heading("Shown");
   tooltip("Types of springs in the picture. Their colours are chosen under View.\n\nScene key: view.draw");
   float end = ImGui::GetWindowContentRegionMax().x;
   for (const std::string_view type : spring_types) {
@@ -131,13 +131,18 @@ void kind_of_springs(Gui& gui, SceneControl& scene, std::size_t cube) {
 
 void same_for_all(Gui& gui, SceneControl& scene, std::size_t cube, std::string_view what) {
   const Parameter& first = *find_parameter(fmt::format("cube[].structural.{}", what));
-  const std::string
-      label = fmt::format("All {}", what),
-      help = fmt::format(
-          "One {0} for structural, shear and bending springs.\n\nScene keys: cube[{1}].structural.{0}, "
-          "cube[{1}].shear.{0}, cube[{1}].bending.{0}\nDrag to change, Ctrl+click to type.",
-          what, cube);
+  const std::string label = fmt::format("{} (all)", capitalized(std::string(what))),
+                    help = fmt::format(
+                        "One {0} for structural, shear and bending springs. Where they differ, that of the "
+                        "structural ones is "
+                        "shown.\n\nScene keys: cube[{1}].structural.{0}, "
+                        "cube[{1}].shear.{0}, cube[{1}].bending.{0}\nDrag to change, Ctrl+click to type.",
+                        what, cube);
+  // Not the row of the structural springs, which has the same key.
+  ImGui::PushID("all");
   const auto change = parameter_widget(gui, first, scene.scene(), cube, {label, {}, help});
+  gui.mark("springs/all/{}", what);
+  ImGui::PopID();
   if (!change || !change->value) return;
   const auto set = [&](Scene& s) {
     for (const std::string_view type : spring_types)
@@ -185,35 +190,36 @@ void bodies_section(Gui& gui, SceneControl& scene) {
   if (body_count(scene.scene().model) > 1) ImGui::TextDisabled("Bodies do not touch one another.");
 }
 
-void springs_section(Gui& gui, SceneControl& scene) {
-  static bool together = false;
+void springs_section(Gui& gui, SceneControl& scene, Layouts& layout) {
   const std::size_t count = scene.scene().model.cubes.size();
-  shown_springs(gui, scene);
   if (count == 0) ImGui::TextDisabled("No cube; springs of other bodies are under Bodies.");
   for (std::size_t i = 0; i < count; ++i) {
     ImGui::PushID(static_cast<int>(i));
-    if (count > 1) ImGui::TextDisabled("cube %zu", i);
-    kind_of_springs(gui, scene, i);
-    if (scene.scene().model.cubes[i].material) {
+    if (count > 1) group_heading(fmt::format("cube {}", i));
+    const bool material = scene.scene().model.cubes[i].material.has_value();
+    if (material) {
       edit(gui, scene, "cube[].material.density", i);
       edit(gui, scene, "cube[].material.youngs-modulus", i, {"Young's modulus"});
       edit(gui, scene, "cube[].material.damping-ratio", i);
     } else {
-      check_box(gui, "all types together", "springs/together", together,
-                "One stiffness and one damping for structural, shear and bending springs.");
-      if (together) {
-        same_for_all(gui, scene, i, "stiffness");
-        same_for_all(gui, scene, i, "damping");
-      } else {
-        for (const std::string_view type : spring_types) {
-          const std::string label = capitalized(std::string(type));
-          edit(gui, scene, fmt::format("cube[].{}.stiffness", type), i, {label + " k"});
-          edit(gui, scene, fmt::format("cube[].{}.damping", type), i, {label + " c"});
-        }
+      same_for_all(gui, scene, i, "stiffness");
+      same_for_all(gui, scene, i, "damping");
+    }
+    const std::string label = count > 1 ? fmt::format("by type, cube {}", i) : std::string("by type");
+    if (folded(gui, layout, "Springs", label.c_str(),
+               "Stiffness and damping of structural, shear and bending springs, and whether a material gives "
+               "them.")) {
+      kind_of_springs(gui, scene, i);
+      for (const std::string_view type : spring_types) {
+        if (material) break;
+        const std::string name = capitalized(std::string(type));
+        edit(gui, scene, fmt::format("cube[].{}.stiffness", type), i, {name + " k"});
+        edit(gui, scene, fmt::format("cube[].{}.damping", type), i, {name + " c"});
       }
     }
     ImGui::PopID();
   }
+  shown_springs(gui, scene);
 }
 
 void contact_section(Gui& gui, SceneControl& scene) {

@@ -130,6 +130,31 @@ void shade_all_but(const char* window) {
   if (ImGuiWindow* const above = ImGui::FindWindowByName(window)) ImGui::BringWindowToDisplayFront(above);
 }
 
+bool folded(Gui& gui, Layouts& layout, const std::string& section, const char* label, std::string_view help) {
+  const std::string key = fmt::format("{}: {}", section, label);
+  const auto known = layout.sections.find(key);
+  const bool was_open = known != layout.sections.end() && known->second;
+  ImGui::SetNextItemOpen(was_open);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
+  const bool open =
+      ImGui::TreeNodeEx(label, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+  ImGui::PopStyleColor();
+  named(gui, "fold/" + key, help);
+  if (open != was_open) layout.sections[key] = open;
+  return open;
+}
+
+void group_heading(std::string_view text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%.*s", static_cast<int>(text.size()),
+                     text.data());
+  const ImVec2 end = ImGui::GetItemRectMax(), begin = ImGui::GetItemRectMin();
+  const float middle = 0.5f * (begin.y + end.y);
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  ImGui::GetWindowDrawList()->AddLine({end.x + ImGui::GetStyle().ItemSpacing.x, middle}, {right, middle},
+                                      ImGui::GetColorU32(ImGuiCol_Separator));
+}
+
 float share_of_line(int count) {
   const float gaps = static_cast<float>(count - 1) * ImGui::GetStyle().ItemSpacing.x;
   return (ImGui::GetContentRegionAvail().x - gaps) / static_cast<float>(count);

@@ -232,7 +232,7 @@ std::vector<const BackendRow*> others_than(const BackendRow& leader) {
 void pass_times(Gui& gui, GpuSolver& solver) {
   // Measured only while it is shown: a measured step takes a little longer.
   solver.set_profiling(true);
-  ImGui::TextDisabled("Passes of a step");
+  group_heading("Passes of a step");
   named(gui, "performance/passes",
         "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
         "last steps measured, from time stamps.");
@@ -356,7 +356,7 @@ void performance_section(Gui& gui, Simulation& s, const Beside& beside, const Sc
   tooltip(fmt::format("Draws the window: {}, OpenGL {}", device.renderer, device.version));
 }
 
-void energy_section(Gui& gui, Beside& beside, RunControl& run) {
+void energy_section(Gui& gui, Beside& beside, RunControl& run, Layouts& layout) {
   const Simulation& s = beside.run(0);
   const auto show = [&](const char* name, std::span<const Curve> curves, std::size_t& compared,
                         const char* unit, std::string_view help) {
@@ -381,6 +381,7 @@ void energy_section(Gui& gui, Beside& beside, RunControl& run) {
        "moment. At rest explicit Euler keeps a little kinetic energy: within a step gravity and contact act "
        "one "
        "after the other.");
+  if (!folded(gui, layout, "Energy", "momentum", "Momentum over time.")) return;
   show("energy/momentum", momentum_curves, beside.compared[1], "N·s",
        "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude. A click goes to "
        "that "

@@ -65,7 +65,7 @@ void set_theme(float scale) {
   c[ImGuiCol_Button] = grey(0.21f);
   c[ImGuiCol_ButtonHovered] = tint(0.55f);
   c[ImGuiCol_ButtonActive] = tint(0.85f);
-  c[ImGuiCol_Header] = grey(0.165f);
+  c[ImGuiCol_Header] = {0.13f, 0.215f, 0.235f, 1.0f};
   c[ImGuiCol_HeaderHovered] = tint(0.40f);
   c[ImGuiCol_HeaderActive] = tint(0.60f);
   c[ImGuiCol_CheckMark] = {0.45f, 0.82f, 0.87f, 1.0f};

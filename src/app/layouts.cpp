@@ -8,7 +8,7 @@ namespace aspic::app {
 
 namespace {
 
-constexpr std::string_view standard_open[] = {"Scene", "Simulation", "View", "Energy"};
+constexpr std::string_view standard_open[] = {"Simulation", "Springs", "Scene", "Energy", "View"};
 constexpr std::string_view lecture_sections[] = {"Scene", "Simulation", "View", "Energy"};
 constexpr std::string_view lecture_open[] = {"Energy"};
 constexpr std::string_view lab_open[] = {"Simulation", "Springs",     "Contact",
@@ -18,7 +18,7 @@ constexpr std::string_view film_open[] = {"View", "Recording"};
 constexpr LayoutRow rows[] = {
     {.name = window_layouts[0],
      .title = "Standard",
-     .summary = "Scenes, motion, view and energy; all other sections are closed.",
+     .summary = "Motion, springs, scenes, energy and view; all other sections are closed.",
      .open = standard_open},
     {.name = window_layouts[1],
      .title = "Lecture",

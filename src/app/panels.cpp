@@ -33,24 +33,28 @@ struct Heading {
 };
 using Parts = const PanelParts&;
 constexpr Heading left_sections[] = {
-    {"Scene", [](Parts p) { scene_section(p.gui, p.scene); },
-     "Scenes and terrain; opening, saving and reloading."},
     {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene, p.beside); },
      "Motion, integrator, time step, pace and gravity."},
+    {"Springs", [](Parts p) { springs_section(p.gui, p.scene, p.layout); },
+     "Stiffness and damping, of all types together or by type, or a material."},
+    {"Scene", [](Parts p) { scene_section(p.gui, p.scene); },
+     "Scenes and terrain; opening, saving and reloading."},
     {"Bodies", [](Parts p) { bodies_section(p.gui, p.scene); },
      "Cubes, nets, balls and launchers of the scene: place, size, mass, pins."},
-    {"Springs", [](Parts p) { springs_section(p.gui, p.scene); },
-     "Stiffness and damping, of all types together or by type, or a material."},
     {"Contact", [](Parts p) { contact_section(p.gui, p.scene); },
      "Contact model, restitution, friction, and the terrain's own values."},
     {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); },
      "Balls thrown by hand, and the strength of pulls."}};
 constexpr Heading right_sections[] = {
+    {"Energy", [](Parts p) { energy_section(p.gui, p.beside, p.run, p.layout); },
+     "Energies and momentum over time."},
     {"View",
      [](Parts p) {
        view_section(p.gui, p.scene, p.view.camera, p.picture.range(), p.picture.shadows, p.layout);
      },
      "What is drawn, its colours, the camera, and the size of text."},
+    {"Side by side", [](Parts p) { beside_section(p.gui, p.scene, p.beside); },
+     "Further runs of the scene, each with one difference, on the same clock."},
     {"Recording",
      [](Parts p) {
        recording_section(p.gui, p.scene.editor().source(), p.film);
@@ -60,15 +64,12 @@ constexpr Heading right_sections[] = {
        state_files(p.gui, p.scene.editor(), p.simulation, p.messages, p.files);
      },
      "Films of the scene; its states, energies and checkpoints as files."},
+    {"Stability", [](Parts p) { stability_section(p.gui, p.scene); },
+     "Which time steps and stiffnesses are stable, and where the scene is among them."},
     {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.beside, p.picture); },
      "Speed of simulation and drawing, and the devices used."},
-    {"Energy", [](Parts p) { energy_section(p.gui, p.beside, p.run); }, "Energies and momentum over time."},
-    {"Side by side", [](Parts p) { beside_section(p.gui, p.scene, p.beside); },
-     "Further runs of the scene, each with one difference, on the same clock."},
     {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); },
-     "A second backend on the same run, and how far the two differ."},
-    {"Stability", [](Parts p) { stability_section(p.gui, p.scene); },
-     "Which time steps and stiffnesses are stable, and where the scene is among them."}};
+     "A second backend on the same run, and how far the two differ."}};
 
 ImVec2 at(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};
@@ -85,7 +86,9 @@ void sections(Parts parts, std::span<const Heading> headings, std::string_view w
     const bool was_open =
         known == kept.end() ? std::ranges::find(row.open, heading.name) != row.open.end() : known->second;
     ImGui::SetNextItemOpen(was_open);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.97f, 0.98f, 1.0f, 1.0f));
     const bool open = ImGui::CollapsingHeader(heading.name);
+    ImGui::PopStyleColor();
     if (open != was_open) kept[heading.name] = open;
     named(parts.gui, fmt::format("section/{}", heading.name), heading.help);
     if (heading.name == wanted) ImGui::SetScrollHereY(0.0f);
@@ -328,6 +331,56 @@ void timeline(Gui& gui, const Simulation& s, Beside& beside, RunControl& run, co
   if (moved && last > first && !beside.go_to(now)) run.go_to(now);
 }
 
+/// The buttons of a lesson, large, at the bottom of the picture. Returns the view above them.
+Box action_bar(Parts p, const Box& view) {
+  const double scale = p.gui.scale(), gap = 8.0 * scale, pad = 8.0 * scale;
+  const double width = std::min(118.0 * scale, (view.right - view.left - 5.0 * gap - 2.0 * pad) / 4.0);
+  if (width < 64.0 * scale) return view;
+  const double height = 36.0 * scale, top = view.bottom - height - 2.0 * pad - gap;
+  const double half = 2.0 * width + 1.5 * gap + pad;
+  ImGui::SetNextWindowPos(at(view.centre_x() - half, top));
+  ImGui::SetNextWindowSize(at(2.0 * half, height + 2.0 * pad));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, at(pad, pad));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, at(gap, gap));
+  {
+    const Panel panel("##actions", 8.0 * scale, ImVec4(0.09f, 0.095f, 0.10f, 0.72f),
+                      bar | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::SetWindowFontScale(1.15f);
+    const auto large = [&](const char* name, const char* label, std::string_view help, const char* command,
+                           bool enabled) {
+      ImGui::PushID(name);
+      ImGui::BeginDisabled(!enabled);
+      const bool pressed = ImGui::Button(label, at(width, height));
+      ImGui::EndDisabled();
+      named(p.gui, name, help, command);
+      ImGui::PopID();
+      if (pressed) p.gui.commands().run(command);
+    };
+    const Beside& beside = p.beside;
+    const bool runs = beside.clock_runs(), films = p.film.recording() != nullptr;
+    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrabActive));
+    large("actions/start", runs ? "Pause" : "Start", "Starts or pauses the motion.", "start or pause",
+          !p.simulation.divergence() || beside.others_go_on());
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+    large("actions/reset", "Reset", "Returns to the scene's start.", "reset to the start", true);
+    ImGui::SameLine();
+    large("actions/compare", "Compare",
+          "Adds a run side by side: first another integrator, then half the time step, then four times the "
+          "stiffness. What differs is changed in the section Side by side.",
+          "add a run side by side", beside.count() < most_beside);
+    ImGui::SameLine();
+    large(
+        "actions/film", films ? "End film" : "Film",
+        "Films the picture from now on, or completes the film. Format and name are in the section Recording.",
+        "start or end a film", films || !beside.active());
+  }
+  ImGui::PopStyleVar(2);
+  Box above = view;
+  above.bottom = top;
+  return above;
+}
+
 /// The edge of a side, which can be dragged. `inwards` is 1 where the panel lies on the left.
 void drag_edge(Gui& gui, const char* name, double place, double height, double inwards, double& width) {
   const double scale = gui.scale(), grip = edge * scale;
@@ -394,8 +447,9 @@ void draw_panels(const PanelParts& p, double width, double height) {
   }
   if (const auto error = take_typing_error()) p.messages.error(*error);
   p.beside.place(view);
-  draw_corners(p, view);
-  notice_panel(p, view);
+  const Box corners = layout.panels ? action_bar(p, view) : view;
+  draw_corners(p, corners);
+  notice_panel(p, corners);
   help_panel(p.gui, p.help_visible, width, height);
   closing_panel(p.gui, p.closing, width, height);
   p.files.draw(p.gui, width, height);

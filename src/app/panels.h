@@ -65,7 +65,7 @@ void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene, c
 void bodies_section(Gui& gui, SceneControl& scene);
 /// Size, place and turn of a cube.
 void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube);
-void springs_section(Gui& gui, SceneControl& scene);
+void springs_section(Gui& gui, SceneControl& scene, Layouts& layout);
 void contact_section(Gui& gui, SceneControl& scene);
 void balls_section(Gui& gui, const Simulation& simulation, Hands& hands);
 /// `shown`: the ends of the scale of colours in the picture.
@@ -84,7 +84,7 @@ void picture_files(Gui& gui, SavedLook& look);
 void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
                  FileDialog& files);
 void performance_section(Gui& gui, Simulation& simulation, const Beside& beside, const ScenePicture& picture);
-void energy_section(Gui& gui, Beside& beside, RunControl& run);
+void energy_section(Gui& gui, Beside& beside, RunControl& run, Layouts& layout);
 void beside_section(Gui& gui, SceneControl& scene, Beside& beside);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void stability_section(Gui& gui, SceneControl& scene);

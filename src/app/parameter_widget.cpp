@@ -264,8 +264,7 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& p, const
   ImGui::PushID(field.key.c_str());
   const bool many = p.type == ParameterType::words || p.type == ParameterType::pinned;
   if (many) {
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(label.c_str());
+    group_heading(label);
     tooltip(field.help);
   } else {
     label_column(label);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/gui.h"
+#include "app/layouts.h"
 #include "app/scene_control.h"
 #include "scene/parameters.h"
 
@@ -60,6 +61,11 @@ bool slider(Gui& gui, std::string_view label, std::string_view name, double& val
             const char* format, std::string_view help, bool logarithmic = true);
 /// Takes the mouse everywhere but in the window of ImGui's of that name, and dims what is behind it.
 void shade_all_but(const char* window);
+/// A line that folds the rest of a section away or out, named "SECTION: LABEL" like its place in
+/// Layout::sections, closed at first. True if it is open.
+bool folded(Gui& gui, Layouts& layout, const std::string& section, const char* label, std::string_view help);
+/// A heading of some rows of a section.
+void group_heading(std::string_view text);
 /// Width of one of `count` equal widgets on a line [window units].
 float share_of_line(int count);
 /// A label on the left; the next widget fills the rest of the line.

@@ -53,7 +53,7 @@ void scene_buttons(Gui& gui, const SceneEditor& editor) {
 
 /// At the right end of the row of its first scene: headings of their own would push what follows out of
 /// sight.
-void group_heading(std::string_view group) {
+void group_at_right(std::string_view group) {
   const std::string text(group);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x -
                   ImGui::GetStyle().FramePadding.x);
@@ -93,7 +93,7 @@ void scene_section(Gui& gui, SceneControl& scene) {
     if (!hit && !open) continue;  // the one that is open stays in sight
     if (ImGui::Selectable(name.c_str(), open)) scene.open(name);
     named(gui, "scene/" + name, description);
-    if (std::exchange(group, builtin.group) != builtin.group) group_heading(builtin.group);
+    if (std::exchange(group, builtin.group) != builtin.group) group_at_right(builtin.group);
   }
   if (entered && hits.size() == 1) {
     scene.open(hits.front());
@@ -107,7 +107,7 @@ void scene_section(Gui& gui, SceneControl& scene) {
     named(gui, "scene/" + file, fmt::format("{}\n\nIt is reloaded whenever it is written.", printable(file)));
   }
   const float half = share_of_line(2);
-  ImGui::TextDisabled("Terrain");
+  group_heading("Terrain");
   for (const TerrainShapeRow& row : terrain_shapes) {
     if ((&row - terrain_shapes) % 2 != 0) ImGui::SameLine();
     terrain_button(gui, scene, row, half);

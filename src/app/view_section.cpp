@@ -161,6 +161,8 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const Qu
   edit(gui, scene, "view.colour", 0, {"Colour by"});
   scale_rows(gui, scene, shown);
   cut_widgets(gui, scene, camera.goal());
+  layout_widgets(gui, layout);
+  if (!folded(gui, layout, "View", "more", "Arrows, ground, shadows, axes, and the camera.")) return;
   edit(gui, scene, "view.arrows");
   if (scene.scene().view.arrows.any()) edit(gui, scene, "view.arrow-scale", 0, {"Force per length"});
   edit(gui, scene, "view.ground", 0, {"Grid at height"});
@@ -174,7 +176,6 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const Qu
   edit_camera(gui, camera, "view.camera.target", "Looks at");
   edit_camera(gui, camera, "view.camera.fov", "Field of view");
   edit_camera(gui, camera, "view.camera.projection", "Projection");
-  layout_widgets(gui, layout);
 }
 
 }  // namespace aspic::app

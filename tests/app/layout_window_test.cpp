@@ -142,7 +142,7 @@ TEST_F(Layout, AFirstStartOpensFourSectionsInRealTimeAndSaysTheKeysOnce) {
   EXPECT_EQ(simulation().pacer().pace, app::Pace::real_time);
   for (const char* widget : {"scene/search", "simulation/run", "view/shadows", "energy/plot"})
     EXPECT_TRUE(has(widget)) << widget;
-  for (const char* widget : {"cube[0].edge-length", "springs/together", "contact.model", "balls/throw",
+  for (const char* widget : {"cube[0].edge-length", "fold/Springs: by type", "contact.model", "balls/throw",
                              "record/format", "shadow/on", "stability/map"})
     EXPECT_FALSE(has(widget)) << widget;
   EXPECT_EQ(app().layout.row().open.size(), 4u);

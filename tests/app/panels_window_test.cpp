@@ -245,7 +245,6 @@ TEST_F(Panels, EverySectionOpensAndShowsItsKeys) {
   for (const char* section : {"Scene", "Simulation"}) click(std::string("section/") + section);
   click("section/Springs");
   EXPECT_TRUE(has("cube[0].bending.damping"));
-  click("springs/together");
   EXPECT_TRUE(has("cube[0].structural.stiffness"));
   EXPECT_FALSE(has("cube[0].bending.damping"));
   click("section/Springs");

@@ -58,11 +58,15 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
   services.clipboard = [this] { return clipboard; };
   services.set_clipboard = [this](const std::string& text) { clipboard = text; };
   services.toggle_full_screen = [this] { ++full_screen_toggles; };
+  // Unfolded, so that tests reach all.
+  app::KeptState unfolded = kept;
+  for (const char* const fold : {"View: more", "Energy: momentum", "Springs: by type"})
+    unfolded.layout.sections.emplace(fold, true);
   auto made = app::App::create(window_->context(),
                                {.scene = scene,
                                 .overrides = std::move(overrides),
                                 .backend = find_backend(backend),
-                                .kept = kept,
+                                .kept = unfolded,
                                 .full_quality = full_quality(),
                                 .watcher = &log_},
                                1.0, services);
