@@ -43,11 +43,6 @@ void Beside::detach() {
   context_ = nullptr;
 }
 
-std::vector<OverlayLine> Beside::label(std::size_t i) const {
-  const Scene& scene = i == 0 ? scene_.scene() : companions_[i - 1]->scene();
-  return label_of(scene_.editor().beside(), scene, std::string(run(i).backend().title));
-}
-
 namespace {
 
 /// "implicit Euler", "h 0.0005 s", "shear stiffness 20 N/m".
@@ -387,6 +382,8 @@ void Beside::place(const Box& whole) {
 
 void Beside::share_colours() {
   picture_.common_range.reset();
+  picture_.tint = active() ? std::optional(tint(0)) : std::nullopt;
+  for (std::size_t i = 0; i < companions_.size(); ++i) companions_[i]->picture().tint = tint(i + 1);
   const ViewSettings& view = scene_.scene().view;
   if (!active() || !has_scale(view.colour)) return;
   QuantityRange range = picture_.own_range();

@@ -17,7 +17,7 @@
 #include "app/view.h"
 #include "app/window.h"
 #include "base/result.h"
-#include "render/overlay.h"
+#include "render/colour_map.h"
 #include "run/beside.h"
 
 namespace aspic::app {
@@ -43,13 +43,13 @@ class Beside {
   std::size_t count() const { return companions_.size() + 1; }
   const Simulation& run(std::size_t i) const { return i == 0 ? leader_ : companions_[i - 1]->simulation(); }
   ScenePicture& picture(std::size_t i) { return i == 0 ? picture_ : companions_[i - 1]->picture(); }
-  /// What distinguishes a run from the others.
-  std::vector<OverlayLine> label(std::size_t i) const;
-  /// The same in few words on a line: of the window's own run all that others differ in, of those their own
-  /// difference.
+  /// What distinguishes a run from the others, in few words: of the window's own run all values that others
+  /// differ in, of those their own difference.
   std::string name(std::size_t i) const;
   /// The colour of a run's curves and label, as ImGui packs it.
   static std::uint32_t packed_colour(std::size_t i);
+  /// The same for its bodies, linear light.
+  static Colour tint(std::size_t i);
 
   /// One more run, with a difference that suggests itself; nothing if there are most_beside already.
   void add();

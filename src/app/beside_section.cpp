@@ -13,6 +13,7 @@
 #include "app/parameter_widget.h"
 #include "base/printable.h"
 #include "model/integrator.h"
+#include "render/colour_map.h"
 #include "run/backends.h"
 #include "scene/parameters.h"
 #include "scene/short_keys.h"
@@ -172,38 +173,51 @@ void Beside::draw_ghost_label(const Gui& gui) const {
   ImGui::PopStyleVar();
 }
 
+Colour Beside::tint(std::size_t i) {
+  const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(packed_colour(i));
+  const auto linear = [](float encoded) {
+    return static_cast<float>(srgb_to_linear(static_cast<double>(encoded)));
+  };
+  return {linear(colour.x), linear(colour.y), linear(colour.z)};
+}
+
+/// "implicit Euler · 1.501 s" in a frame of the run's colour, to be read from the last row.
 void Beside::draw_labels(const Gui& gui) const {
   draw_ghost_label(gui);
   if (!active()) return;
   const auto scale = static_cast<float>(gui.scale());
-  const float gap = 14.0f * scale;
+  const float gap = 14.0f * scale, thickness = 3.0f * scale;
   for (std::size_t i = 0; i < count(); ++i) {
     const Simulation& s = run(i);
-    const auto divergence = shown_divergence(i);
-    const std::vector<OverlayLine> lines =
-        beside_text(label(i), shown_time(i), s.model().simulation.timestep, divergence);
-    ImGui::SetNextWindowPos(
-        {static_cast<float>(boxes_[i].left) + gap, static_cast<float>(boxes_[i].top) + gap});
+    const Box& box = boxes_[i];
+    const ImVec2 low = {static_cast<float>(box.left), static_cast<float>(box.top)},
+                 high = {static_cast<float>(box.right), static_cast<float>(box.bottom)};
+    ImGui::GetBackgroundDrawList()->AddRect({low.x + 0.5f * thickness, low.y + 0.5f * thickness},
+                                            {high.x - 0.5f * thickness, high.y - 0.5f * thickness},
+                                            packed_colour(i), 0.0f, 0, thickness);
+    ImGui::SetNextWindowPos({low.x + gap, low.y + gap});
     ImGui::SetNextWindowBgAlpha(0.72f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);
     ImGui::Begin(fmt::format("##beside{}", i).c_str(), nullptr, label_flags);
-    // To be read from the last row.
     ImGui::SetWindowFontScale(1.35f);
-    float column = 0.0f;
-    for (const OverlayLine& line : lines)
-      column = std::max(column, ImGui::CalcTextSize(line.label.c_str()).x + 1.5f * gap);
+    const std::string time = fmt::format("{:.3f} s", shown_time(i)), own = name(i);
+    const std::string line = fmt::format("{} · {}", own, time);
+    const float room = high.x - low.x - 2.0f * (gap + ImGui::GetStyle().WindowPadding.x);
     ImGui::BeginGroup();
-    for (const OverlayLine& line : lines) {
-      const ImVec4 alarm(0.98f, 0.55f, 0.38f, 1.0f);
-      const bool names = &line < &lines[lines.size() - (divergence ? 2 : 1)];
-      const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-      const ImVec4 own = ImGui::ColorConvertU32ToFloat4(Beside::packed_colour(i));
-      const float left = ImGui::GetCursorPosX();
-      ImGui::TextColored(line.alarm ? alarm : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled), "%s",
-                         line.label.c_str());
-      ImGui::SameLine(left + column);
-      ImGui::TextColored(line.alarm ? alarm : names ? own : bright, "%s", line.value.c_str());
+    ImGui::PushStyleColor(ImGuiCol_Text, packed_colour(i));
+    if (ImGui::CalcTextSize(line.c_str()).x <= room) {
+      ImGui::TextUnformatted(own.c_str());
+      ImGui::PopStyleColor();
+      ImGui::SameLine(0.0f, 0.0f);
+      ImGui::TextUnformatted(fmt::format(" · {}", time).c_str());
+    } else {
+      wrapped_text(own, room);
+      ImGui::PopStyleColor();
+      ImGui::TextUnformatted(time.c_str());
     }
+    if (const auto divergence = shown_divergence(i))
+      ImGui::TextColored(ImVec4(0.98f, 0.55f, 0.38f, 1.0f), "diverged at %.3f s",
+                         static_cast<double>(divergence->step) * s.model().simulation.timestep);
     ImGui::EndGroup();
     gui.mark("beside/{}/label", i);
     ImGui::End();

@@ -70,6 +70,7 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
   c.view.camera = view_.seen(offset_);
   c.shadows = shadows;
   c.range = common_range;
+  c.tint = tint;
   c.film = film;
   c.fine = in_full() || (fine && !film);
   const double scale = c.fine ? 1.0 : resolution_.share();
@@ -148,6 +149,7 @@ Result<PictureOptions> ScenePicture::options_of(const Content& content, bool leg
   options.background = background;
   options.samples = content.fine ? 0 : 1;
   options.range = content.range;
+  options.tint = content.tint;
   options.view = content.view;
   if (film && film->text) options.text = overlay_lines(scene_.model, simulation_.time());
   options.shadows = shadows;

@@ -42,6 +42,7 @@ class ScenePicture {
   bool shadows = true;                        ///< on terrain
   std::optional<FilmLook> film;               ///< while a film is made
   SavedLook saved;                            ///< of the next save()
+  std::optional<Colour> tint;                 ///< of bodies coloured by material; absent: their own
   std::optional<QuantityRange> common_range;  ///< of colours, with runs beside it; absent: its own
   bool ghost = false;  ///< its bodies alone, pale and translucent over what the window shows
 
@@ -123,6 +124,7 @@ class ScenePicture {
     HighlightOptions marks;
     bool shadows = true, fine = true;
     std::optional<QuantityRange> range;
+    std::optional<Colour> tint;
     std::optional<FilmLook> film;
     PictureSize size;
     friend bool operator==(const Content&, const Content&) = default;

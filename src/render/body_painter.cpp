@@ -145,7 +145,8 @@ void BodyPainter::draw_parts(const gl::Program& program, SurfaceStyle style) con
   const gl::VertexArray skin = buffers.shaded_skin_array();
   skin.bind();
   draw_skins(style, [&](std::size_t body) {
-    const Colour colour = view.colour == ViewColour::material ? body_colour(body) : neutral_body_colour();
+    const Colour own = tint ? *tint : body_colour(body);
+    const Colour colour = view.colour == ViewColour::material ? own : neutral_body_colour();
     program.set(LOCATION_BASE_COLOUR, with_alpha(colour, light_reach(model.bodies[body])));
   });
 }

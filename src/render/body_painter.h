@@ -1,7 +1,10 @@
 #pragma once
 // Bodies, springs, particles and balls: everything of a picture that a solver moves.
+#include <optional>
+
 #include "device/device_state.h"
 #include "model/model.h"
+#include "render/colour_map.h"
 #include "render/model_buffers.h"
 #include "render/programs.h"
 #include "render/section.h"
@@ -27,6 +30,7 @@ struct BodyPainter {
   const DeviceState& state;
   const ViewSettings& view;
   const SectionPainter* section = nullptr;  ///< prepared for the model where the view has a cut
+  std::optional<Colour> tint = {};          ///< of skins coloured by material, instead of each body's own
 
   /// Into the target of that name, which it binds to its texture unit.
   void draw_thickness() const;

@@ -40,6 +40,7 @@ struct PictureOptions {
   int samples = 0;                            ///< per pixel, at most the renderer's; 0: those
   bool coarse_skin = false;                   ///< fewer triangles for large bodies: for software rasterisers
   std::optional<QuantityRange> range;         ///< ends of the scale of colours; absent: the view's
+  std::optional<Colour> tint;                 ///< of bodies coloured by material, instead of their own
   ArrowSet arrows;                            ///< of those that the view asks for
   bool axes = true;                           ///< in a corner, where the view asks for them
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones

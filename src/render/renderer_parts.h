@@ -113,8 +113,9 @@ struct Renderer::Parts {
   QuantityRange measured_range(const ViewSettings& view) const;
   BodyPainter bodies(const Drawing& d) const {
     const ViewSettings& view = d.options.view;
-    return {*model,     programs, *buffers, *targets,
-            colour_map, d.state,  view,     view.cut.on() ? section.get() : nullptr};
+    return {*model,        programs, *buffers, *targets,
+            colour_map,    d.state,  view,     view.cut.on() ? section.get() : nullptr,
+            d.options.tint};
   }
   bool draws_flesh(const Drawing& d) const { return d.options.view.draw.solid && has(SurfaceStyle::flesh); }
   /// The complete picture by one program.

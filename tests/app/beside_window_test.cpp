@@ -333,6 +333,33 @@ TEST_F(Beside, NamesAndFiguresOfFourRunsLieApart) {
   EXPECT_EQ(beside().name(2), "h 0.0005 s");
 }
 
+TEST_F(Beside, RunsAreToldApartByFrameTintAndALineThatGrowsWithTheText) {
+  open("cube-plane", {small, "cube[0].position=[0,3,0]"});
+  EXPECT_FALSE(app().picture.tint.has_value());
+  compare({"integrator", "implicit-euler"});
+  frames(2);
+  EXPECT_EQ(app().picture.tint, app::Beside::tint(0));
+  EXPECT_EQ(beside().picture(1).tint, app::Beside::tint(1));
+  // The frame is the run's colour along the edge of its picture.
+  const Image picture = image();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const app::Box& box = beside().boxes()[i];
+    const auto x = static_cast<std::size_t>(box.left) + 1, y = static_cast<std::size_t>(box.centre_y());
+    const std::size_t at = 3 * (y * static_cast<std::size_t>(picture.width) + x);
+    const std::uint32_t colour = app::Beside::packed_colour(i);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      EXPECT_NEAR(std::to_integer<int>(picture.rgb[at + channel]),
+                  static_cast<int>((colour >> (8 * channel)) & 255u), 3)
+          << i << " " << channel;
+  }
+  const app::Box label = widgets().at("beside/1/label");
+  EXPECT_LT(label.bottom - label.top, 30.0) << "one line";
+  app().layout.text_size = 1.5;
+  frames(3);
+  const app::Box larger = widgets().at("beside/1/label");
+  EXPECT_NEAR(larger.bottom - larger.top, 1.5 * (label.bottom - label.top), 3.0);
+}
+
 TEST_F(Beside, ARunThatGoesOnAfterTheFirstDivergedCanBeScrubbed) {
   open("cube-plane", {small, "simulation.timestep=0.003", "cube[0].structural.stiffness=20000"});
   compare({"integrator", "implicit-euler"});

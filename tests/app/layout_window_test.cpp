@@ -137,15 +137,22 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   EXPECT_EQ(app().kept_state().layout, app::Layout());
 }
 
-TEST_F(Layout, AFirstStartOpensFourSectionsInRealTimeAndSaysTheKeysOnce) {
+TEST_F(Layout, AFirstStartIsALessonInRealTimeAndSaysTheKeysOnce) {
   open("cube-plane", {}, "", app::KeptState());
   EXPECT_EQ(simulation().pacer().pace, app::Pace::real_time);
-  for (const char* widget : {"scene/search", "simulation/run", "view/shadows", "energy/plot"})
+  for (const char* widget :
+       {"scene/search", "simulation/run", "springs/all/stiffness", "view.colour", "energy/plot"})
     EXPECT_TRUE(has(widget)) << widget;
+  // In sight, without scrolling, as it is at first.
+  app().layout.reset();
+  frames(2);
+  for (const char* widget : {"actions/start", "actions/reset", "actions/compare", "actions/film",
+                             "energy/plot", "energy/plot/total", "springs/all/stiffness", "view.colour"})
+    EXPECT_LT(box(widget).bottom, 690.0) << widget;
   for (const char* widget : {"cube[0].edge-length", "fold/Springs: by type", "contact.model", "balls/throw",
                              "record/format", "shadow/on", "stability/map"})
     EXPECT_FALSE(has(widget)) << widget;
-  EXPECT_EQ(app().layout.row().open.size(), 4u);
+  EXPECT_EQ(app().layout.row().open.size(), 5u);
   ASSERT_TRUE(app().messages.notice().has_value());
   for (const char* key : {"Space", "Ctrl+drag", "F1", "Ctrl+P"})
     EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(key));

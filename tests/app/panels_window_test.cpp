@@ -243,9 +243,9 @@ TEST_F(Panels, EverySectionOpensAndShowsItsKeys) {
   open("cube-plane");
   // Energy and Performance make room.
   for (const char* section : {"Scene", "Simulation"}) click(std::string("section/") + section);
-  click("section/Springs");
   EXPECT_TRUE(has("cube[0].bending.damping"));
-  EXPECT_TRUE(has("cube[0].structural.stiffness"));
+  click("fold/Springs: by type");
+  EXPECT_TRUE(has("springs/all/stiffness"));
   EXPECT_FALSE(has("cube[0].bending.damping"));
   click("section/Springs");
   click("section/Contact");
@@ -287,6 +287,38 @@ TEST_F(Panels, DivergencePausesExplainsAndOffersAStableStep) {
   press(GLFW_KEY_SPACE);
   frames_to_step(500);
   EXPECT_FALSE(simulation().divergence().has_value());
+}
+
+TEST_F(Panels, LargeButtonsRunResetCompareAndFilm) {
+  open("cube-plane", {"cube[0].particles-per-edge=4"}, "reference");
+  click("actions/start");
+  EXPECT_TRUE(simulation().running());
+  frames_to_step(10);
+  click("actions/start");
+  EXPECT_FALSE(simulation().running());
+  click("actions/reset");
+  EXPECT_EQ(simulation().step(), 0u);
+  click("actions/film");
+  EXPECT_NE(app().film.recording(), nullptr);
+  click("actions/film");
+  EXPECT_EQ(app().film.recording(), nullptr);
+  click("actions/compare");
+  frames_until([&] { return app().beside.settled(); });
+  EXPECT_EQ(app().beside.count(), 2u);
+  press(GLFW_KEY_TAB);
+  frames(2);
+  EXPECT_FALSE(has("actions/start")) << "with the panels";
+}
+
+TEST_F(Panels, OneStiffnessIsThatOfAllSprings) {
+  open("cube-plane", {}, "reference");
+  const Box row = widgets().at("springs/all/stiffness");
+  drag(GLFW_MOUSE_BUTTON_LEFT, row.centre_x(), row.centre_y(), 60, 0);
+  frames(2);
+  const CubeSettings& cube = settings().cubes[0];
+  EXPECT_GT(cube.structural.stiffness, 2000.0);
+  EXPECT_EQ(cube.shear.stiffness, cube.structural.stiffness);
+  EXPECT_EQ(cube.bending.stiffness, cube.structural.stiffness);
 }
 
 TEST_F(Panels, StepBackTakesOneStepBack) {
