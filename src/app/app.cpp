@@ -265,8 +265,7 @@ bool App::idle() const {
 bool App::asleep() const {
   constexpr double rest = 1.5;  // s, by when tooltips have come
   return idle() && !touched_ && std::min(still_for_, mouse_still_for_) > rest && !gui_->takes_keyboard() &&
-         !gui_->awake() && !film.recording() && film.completing() == 0 &&
-         (!messages.notice() || messages.notice()->is_error);
+         !gui_->awake() && !film.recording() && film.completing() == 0 && !messages.fades();
 }
 
 bool App::doze(double dt) {

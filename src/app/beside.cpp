@@ -81,7 +81,7 @@ std::string Beside::name(std::size_t i) const {
 void Beside::add() {
   std::vector<Variation> beside = scene_.editor().beside();
   if (beside.size() + 1 >= most_beside)
-    return messages_.error(fmt::format("There are {} runs side by side, which is the most.", most_beside));
+    return messages_.refuse(fmt::format("There are {} runs side by side, which is the most.", most_beside));
   for (const Variation& wanted : suggestions(scene_.scene())) {
     const auto same = [&](const Variation& v) { return v.key == wanted.key && v.value == wanted.value; };
     if (std::ranges::any_of(beside, same)) continue;
@@ -142,6 +142,7 @@ void Beside::match_editor() {
     next.push_back(std::move(*made));
     any_new = true;
   }
+  if (next.size() < companions_.size()) messages_.dismiss_refusal();
   companions_ = std::move(next);
   shown_.clear();
   others_run_ = false;

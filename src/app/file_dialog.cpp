@@ -33,6 +33,7 @@ void FileDialog::ask(FileQuestion question, const std::string& suggested) {
   else
     go_to(directory_.empty() ? fs::current_path(unknown).string() : directory_);
   warned_of_.clear();
+  missed_.clear();
   open_ = just_opened_ = true;
 }
 
@@ -74,7 +75,11 @@ void FileDialog::accept() {
 void FileDialog::list(Gui& gui, double height) {
   ImGui::BeginChild("##entries", {0.0f, static_cast<float>(height)}, true);
   const auto entry = [&](const std::string& name, const std::string& label, bool chosen) {
-    const bool pressed = ImGui::Selectable(label.c_str(), chosen, ImGuiSelectableFlags_AllowDoubleClick);
+    // Long names differ at their ends more often than in the middle, where nothing tells that they go on.
+    const std::string shown = elided_path(label, ImGui::GetContentRegionAvail().x);
+    ImGui::PushID(name.c_str());
+    const bool pressed = ImGui::Selectable(shown.c_str(), chosen, ImGuiSelectableFlags_AllowDoubleClick);
+    ImGui::PopID();
     gui.mark("files/entry/{}", name);
     return pressed;
   };
@@ -103,11 +108,13 @@ void FileDialog::draw(Gui& gui, double width, double height) {
   ImGui::Begin("##files", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextUnformatted(question_.title.c_str());
   ImGui::SameLine();
-  ImGui::TextDisabled("%s", printable(directory_).c_str());
+  ImGui::TextDisabled("%s", elided_path(printable(directory_), ImGui::GetContentRegionAvail().x).c_str());
   list(gui, std::min(300.0 * scale, 0.5 * height));
   if (std::exchange(just_opened_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1.0f);
-  const bool entered = ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
+  // Typing replaces the name that is suggested.
+  const bool entered = ImGui::InputText(
+      "##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   named(gui, "files/name", "The file's name, or a path from this directory.");
   std::error_code unknown;
   const bool exists = !name_.empty() && fs::exists(path(), unknown);
@@ -115,11 +122,17 @@ void FileDialog::draw(Gui& gui, double width, double height) {
   if (replaces)
     ImGui::TextDisabled("%s exists. Enter once more replaces all that it holds, comments too.",
                         printable(name_).c_str());
+  if (entered && !exists && !question_.writes && !name_.empty()) missed_ = path();
+  if (!exists && missed_ == path()) {
+    ImGui::TextColored(ImVec4(0.95f, 0.55f, 0.40f, 1.0f), "There is no file %s here.",
+                       printable(name_).c_str());
+    gui.mark("files/missed");
+  }
   const bool ready = question_.writes ? !name_.empty() : exists;
   const std::string label = replaces ? "Replace" : question_.title;
   const bool pressed = button(gui, "files/accept", label.c_str(),
                               "Enter does the same; it asks once more before a file is replaced.", ready);
-  if (entered && replaces && std::exchange(warned_of_, path()) != path())
+  if (entered && ((replaces && std::exchange(warned_of_, path()) != path()) || !ready))
     just_opened_ = true;  // the field gets the keyboard again
   else if (ready && (pressed || entered))
     accept();

@@ -43,6 +43,7 @@ class FileDialog {
   FileQuestion question_;
   std::string directory_, name_, problem_;
   std::string warned_of_;  // a file that Enter would have replaced
+  std::string missed_;     // a file that Enter would have opened
   std::vector<Entry> entries_;
 };
 

@@ -30,7 +30,7 @@ std::string film_path(const std::string& path, const FilmFormat& format) {
 void Film::start() {
   stop();
   if (!editor_.beside().empty())
-    return messages_.error(
+    return messages_.refuse(
         "The window films one run alone. Leave side by side first, or film all runs with aspic run … "
         "--beside, which draws the same.");
   const FilmFormat& format = *settings.format;
@@ -45,11 +45,11 @@ void Film::start() {
   options.size = {pixels(view_.box.right - view_.box.left), pixels(view_.box.bottom - view_.box.top)};
   std::error_code unknown;
   if (!format.is_directory() && std::filesystem::exists(options.path, unknown))
-    return messages_.error(
+    return messages_.refuse(
         fmt::format("{} already exists. Choose another name for the film, or none.", options.path));
   if (format.is_directory() && std::filesystem::exists(options.path, unknown) &&
       !std::filesystem::is_empty(options.path, unknown)) {
-    return messages_.error(
+    return messages_.refuse(
         fmt::format("{} already exists and is not an empty directory. Choose another name for the pictures.",
                     options.path));
   }

@@ -14,7 +14,7 @@ void App::follow_hovered() {
   const auto& h = pointer.hovered();
   std::optional<std::string> name;
   if (h && h->ball && h->particle >= simulation.model().ball_count() - simulation.setup().thrown.size())
-    return messages.error(
+    return messages.refuse(
         "The camera follows the scene's own bodies and balls; this one was thrown by hand.");
   if (h)
     name = h->ball ? name_of_ball(h->particle)

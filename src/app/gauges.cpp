@@ -279,7 +279,7 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
   const EnergySample* const first = beside.run(0).samples().nearest(time);
   const bool first_has_it = first && !beside.run(0).divergence();
   const double shown = pointed && first_has_it ? first->time : time;
-  figure("t", fmt::format("{:.4g} s{}", shown, pointed ? " (under the mouse)" : ""), help);
+  figure(pointed ? "t under the mouse" : "t", fmt::format("{:.4g} s", shown), help);
   gui.mark("{}/time", name);
   std::vector<std::string> runs, values;
   const double size = largest(lines);
@@ -368,7 +368,7 @@ void energy_section(Gui& gui, Beside& beside, RunControl& run, Layouts& layout) 
     if (pointed && pointed->pressed) run.go_to(pointed->time);
     const EnergySample* const sample = s.samples().nearest(pointed ? pointed->time : now);
     if (!sample) return;
-    figure("t", fmt::format("{:.4g} s{}", sample->time, pointed ? " (under the mouse)" : ""), help);
+    figure(pointed ? "t under the mouse" : "t", fmt::format("{:.4g} s", sample->time), help);
     const double size = largest(lines);
     for (const Curve& c : curves) {
       figure(c.name, with_prefix(without_noise(c.value(sample->measures), size), unit), help,

@@ -53,7 +53,7 @@ void Hands::clear_balls() {
 /// True with a message if pulls and pins are not possible.
 bool Hands::refused() {
   const auto why = refusal ? refusal() : std::nullopt;
-  if (why) messages_.error(*why);
+  if (why) messages_.refuse(*why);
   return why.has_value();
 }
 

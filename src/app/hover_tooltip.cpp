@@ -26,8 +26,8 @@ void row(const char* name, const Vec3& v, const char* unit, bool components) {
   for (int axis = 0; components && axis < 3; ++axis) {
     ImGui::TableNextColumn();
     const std::string number = fmt::format("{:.4g}", v[axis]);
-    // Flush right, in columns as wide as the longest number.
-    const float width = ImGui::CalcTextSize("-0.000e-00").x;
+    // Flush right, in columns wider than the longest number.
+    const float width = ImGui::CalcTextSize(" -0.000e-00").x;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(number.c_str()).x);
     ImGui::TextDisabled("%s", number.c_str());
   }

@@ -8,20 +8,28 @@
 
 namespace aspic::app {
 
+/// What ends a message by itself.
+enum class Until { dismissed, time, divergence_is_over };
+
 /// A message on top of the picture until it is dismissed or replaced.
 struct Notice {
   std::string text;
   bool is_error = false;
-  double left = 0.0;  ///< until it disappears, if it is no error [s]
+  Until until = Until::dismissed;
+  double left = 0.0;  ///< until it disappears, if time ends it [s]
 };
 
-/// The one message that is shown. One that is not an error disappears after a while.
+/// The one message that is shown. An error that leaves nothing to decide disappears as other messages do.
 class Messages {
  public:
   void info(const std::string& text, double seconds = 5.0) {
-    notice_ = Notice{printable(text), false, seconds};
+    notice_ = Notice{printable(text), false, Until::time, seconds};
   }
-  void error(const std::string& text) { notice_ = Notice{printable(text), true}; }
+  void error(const std::string& text, Until until = Until::dismissed) {
+    notice_ = Notice{printable(text), true, until};
+  }
+  /// What was asked for cannot be done, and nothing has changed.
+  void refuse(const std::string& text) { notice_ = Notice{printable(text), true, Until::time, 8.0}; }
   /// Shows the error of a status or result, if it has one; true without.
   template <class Outcome>
   bool check(const Outcome& status) {
@@ -32,11 +40,21 @@ class Messages {
   void dismiss_error() {
     if (notice_ && notice_->is_error) notice_.reset();
   }
+  /// What was refused may be possible now.
+  void dismiss_refusal() {
+    if (notice_ && notice_->is_error && notice_->until == Until::time) notice_.reset();
+  }
+  /// The simulation has left its divergence: what was said of it no longer holds.
+  void divergence_is_over() {
+    if (notice_ && notice_->until == Until::divergence_is_over) notice_.reset();
+  }
   /// Once for each picture, `dt` after the last [s].
   void update(double dt) {
-    if (notice_ && !notice_->is_error && (notice_->left -= dt) < 0.0) notice_.reset();
+    if (fades() && (notice_->left -= dt) < 0.0) notice_.reset();
   }
   const std::optional<Notice>& notice() const { return notice_; }
+  /// Whether time will end the message that is shown.
+  bool fades() const { return notice_ && notice_->until == Until::time; }
 
  private:
   std::optional<Notice> notice_;

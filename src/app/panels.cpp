@@ -111,10 +111,12 @@ class Panel {
     ImGui::Begin(name, nullptr, fixed | flags);
   }
   /// Floats over the picture with round corners, where SetNextWindowPos says.
-  Panel(const char* name, double rounding, const ImVec4& colour, ImGuiWindowFlags flags = 0) : colours_(1) {
+  Panel(const char* name, double rounding, const ImVec4& colour, ImGuiWindowFlags flags = 0,
+        ImGuiWindowFlags without = 0)
+      : colours_(1) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, static_cast<float>(rounding));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, colour);
-    ImGui::Begin(name, nullptr, fixed | flags);
+    ImGui::Begin(name, nullptr, (fixed | flags) & ~without);
   }
   ~Panel() {
     ImGui::End();
@@ -236,7 +238,7 @@ void notice_panel(Parts parts, const Box& view) {
   const double scale = parts.gui.scale();
   const double room = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
   if (room < 80.0 * scale) return;
-  const bool right = parts.picture.film && parts.picture.film->text, named = parts.beside.active();
+  const bool right = parts.picture.film && parts.picture.film->text, named = parts.beside.several();
   ImGui::SetNextWindowPos(at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale,
                              named ? view.bottom - 16.0 * scale : view.top + 16.0 * scale),
                           ImGuiCond_Always, {right ? 1.0f : 0.0f, named ? 1.0f : 0.0f});
@@ -252,8 +254,11 @@ void notice_panel(Parts parts, const Box& view) {
 void help_panel(Gui& gui, bool& visible, double width, double height) {
   if (!visible) return;
   ImGui::SetNextWindowPos(at(0.5 * width, 0.5 * height), ImGuiCond_Always, {0.5f, 0.5f});
+  // A small window scrolls it.
+  const ImVec2 most = at(width - 16.0 * gui.scale(), height - 16.0 * gui.scale());
+  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, most);
   const Panel panel("##help", 8.0 * gui.scale(), ImVec4(0.09f, 0.095f, 0.10f, 0.97f),
-                    ImGuiWindowFlags_AlwaysAutoResize);
+                    ImGuiWindowFlags_AlwaysAutoResize, ImGuiWindowFlags_NoScrollbar);
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::Separator();
   // Headings begin groups, in two columns of about the same length.
@@ -262,6 +267,10 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
   ImGui::BeginGroup();
   float taken = 0.0f, keys = 0.0f;
   for (const Command& c : rows) keys = std::max(keys, ImGui::CalcTextSize(c.keys.data()).x);
+  // What a name may take in half of the largest page.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float room =
+      0.5f * (most.x - 2.0f * style.WindowPadding.x - style.ScrollbarSize) - 2.0f * line - keys;
   for (const Command& c : rows) {
     const bool heading = c.keys.empty();
     if (heading && taken > 0.45f * static_cast<float>(rows.size()) * line) {
@@ -277,7 +286,11 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
     }
     ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", c.keys.data());
     ImGui::SameLine(keys + line);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + std::max(room, 4.0f * line));
     ImGui::TextUnformatted(c.name.data());
+    ImGui::PopTextWrapPos();
+    gui.mark("help/{}", c.name);
+    taken += ImGui::GetItemRectSize().y - ImGui::GetTextLineHeight();
   }
   ImGui::EndGroup();
   ImGui::Separator();
@@ -445,7 +458,7 @@ void draw_panels(const PanelParts& p, double width, double height) {
     drag_edge(p.gui, "layout/left", left, bottom, 1.0, layout.left_width);
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
-  if (const auto error = take_typing_error()) p.messages.error(*error);
+  if (const auto error = take_typing_error()) p.messages.refuse(*error);
   p.beside.place(view);
   const Box corners = layout.panels ? action_bar(p, view) : view;
   draw_corners(p, corners);

@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "app/number_field.h"
+#include "base/printable.h"
 #include "model/integrator.h"
 
 namespace aspic::app {
@@ -123,13 +124,22 @@ std::optional<Value> widget(const Field& f, std::int64_t value) {
   return Value(static_cast<std::int64_t>(within(f.parameter.range, static_cast<double>(value))));
 }
 
+/// Of one component of a camera's place, of which nobody sees a ten-thousandth: three decimals or so, and 0
+/// for what rounds to it. What a camera follows leaves rounding noise in it.
+std::string camera_format(double value, double size) {
+  const int decimals = std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 3);
+  return std::abs(value) < 0.5 * std::pow(10.0, -decimals) ? "0" : fmt::format("%.{}f", decimals);
+}
+
 std::optional<Value> widget(const Field& f, std::vector<double> value) {
   const Range& range = f.parameter.range;
   double size = 2.0;
   for (const double x : value) size = std::max(size, std::abs(x));
+  const bool camera = f.parameter.path.starts_with("view.camera.");
   const bool changed = on_one_line<double>(value, [&](double& x) {
-    return number_drag("##value", x, drag_speed(size, f.parameter), range.min, range.max, "%.4g", as_typed,
-                       check_of(f.parameter));
+    const std::string format = camera ? camera_format(x, size) : "%.4g";
+    return number_drag("##value", x, drag_speed(size, f.parameter), range.min, range.max, format.c_str(),
+                       as_typed, check_of(f.parameter));
   });
   // A drag that runs into an open end stops there instead of complaining.
   if (!changed || (range.min_excluded && std::ranges::min(value) <= range.min)) return std::nullopt;
@@ -224,6 +234,23 @@ bool presence_box(const Field& f, bool& present) {
 }
 
 }  // namespace
+
+std::string elided_path(const std::string& path, float width) {
+  const auto wide = [](std::string_view text) {
+    return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
+  };
+  float taken = wide(path);
+  if (taken <= width) return path;
+  constexpr std::string_view dots = "…";
+  taken += wide(dots);
+  std::string_view end = path;
+  while (!end.empty() && taken > width) {
+    const std::size_t bytes = first_character(end).size;
+    taken -= wide(end.substr(0, bytes));
+    end.remove_prefix(bytes);
+  }
+  return std::string(dots) + std::string(end);
+}
 
 std::string spaced(std::string_view key) {
   std::string words(key);

@@ -46,6 +46,8 @@ std::vector<std::string_view> titles_of(const Parameter& parameter);
 void tooltip(std::string_view text, std::string_view command = "");
 /// Text broken at blanks alone, so that numbers are not split, into lines of at most `width` [window units].
 void wrapped_text(std::string_view text, float width);
+/// A path or a file name, in at most `width` [window units]: its end, behind "…", where it is longer.
+std::string elided_path(const std::string& path, float width);
 /// Names the widget just made, for the watcher, and gives it a tooltip.
 void named(Gui& gui, std::string_view name, std::string_view help, std::string_view command = "");
 /// A box with its label; or one that puts a word into a list and takes it out. True if it was toggled.
@@ -70,7 +72,6 @@ void group_heading(std::string_view text);
 float share_of_line(int count);
 /// A label on the left; the next widget fills the rest of the line.
 void label_column(std::string_view label);
-/// The popup of that name, which asks for a file to write; `hint` shows what an empty path means. True once a
 /// A button with a name for the watcher and a tooltip. True if it was pressed.
 bool button(Gui& gui, const char* name, const char* label, std::string_view help, bool enabled = true,
             float width = 0.0f, std::string_view command = "");

@@ -51,7 +51,9 @@ void name_widget(Gui& gui, const std::string& source, FilmSettings& film) {
   std::array<char, 1024> text = {};
   film.path.copy(text.data(), text.size() - 1);
   const std::string hint = free_name(source, film_ending(*film.format));
-  if (ImGui::InputTextWithHint("##film", hint.c_str(), text.data(), text.size())) film.path = text.data();
+  const float room = ImGui::CalcItemWidth() - 2.0f * ImGui::GetStyle().FramePadding.x;
+  if (ImGui::InputTextWithHint("##film", elided_path(hint, room).c_str(), text.data(), text.size()))
+    film.path = text.data();
   named(
       gui, "record/path",
       fmt::format("Name of the film; if left empty, {}. The format determines the extension. Existing files "
@@ -83,7 +85,7 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
   if (!messages.check(simulation.settle())) return;
   const Setup& setup = simulation.setup();
   if (format.holds_scene && !(setup.thrown.empty() && setup.pinned.empty())) {
-    return messages.error(
+    return messages.refuse(
         fmt::format("A {} holds the scene and the state, and balls thrown or particles pinned by hand are "
                     "not part of the scene. Remove them first (Balls, or Reset), or save the state alone.",
                     format.option));

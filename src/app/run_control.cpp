@@ -10,7 +10,8 @@ namespace aspic::app {
 
 void RunControl::toggle() {
   if (simulation_.divergence())
-    messages_.error("The simulation has diverged. Use a smaller step, go back or reset first.");
+    messages_.error("The simulation has diverged. Use a smaller step, go back or reset first.",
+                    Until::divergence_is_over);
   else
     simulation_.set_running(!simulation_.running());
 }
@@ -82,15 +83,20 @@ void RunControl::take_offered_step() {
 
 void RunControl::watch_divergence() {
   const auto& divergence = simulation_.divergence();
-  if (!divergence) stable_.reset();
+  if (!divergence) {
+    stable_.reset();
+    messages_.divergence_is_over();
+  }
   if (!divergence || stable_) return;
   const Model& model = simulation_.model();
   const SimulationSettings& s = model.simulation;
   stable_ = stability_limit(model, s.integrator, StabilityEffort::quick);
-  messages_.error(fmt::format(
-      "The simulation diverged in step {} (t = {:.6g} s): {} {}. {} The last good step is shown.",
-      divergence->step, static_cast<double>(divergence->step) * s.timestep, body_text(*divergence),
-      fault_text(*divergence), divergence_sentence(s.timestep, s.integrator, *stable_)));
+  messages_.error(
+      fmt::format("The simulation diverged in step {} (t = {:.6g} s): {} {}. {} The last good step is shown.",
+                  divergence->step, static_cast<double>(divergence->step) * s.timestep,
+                  body_text(*divergence), fault_text(*divergence),
+                  divergence_sentence(s.timestep, s.integrator, *stable_)),
+      Until::divergence_is_over);
 }
 
 }  // namespace aspic::app

@@ -51,14 +51,25 @@ void scene_buttons(Gui& gui, const SceneEditor& editor) {
                  redo ? "Redo " + editor.redo_name() : std::string("Nothing to redo."), "redo", redo, half);
 }
 
-/// At the right end of the row of its first scene: headings of their own would push what follows out of
-/// sight.
-void group_at_right(std::string_view group) {
-  const std::string text(group);
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x -
-                  ImGui::GetStyle().FramePadding.x);
-  ImGui::TextDisabled("%s", text.c_str());
-}
+/// Where the heading of a group goes that begins with a scene: to the right end of its row, since headings of
+/// their own would push what follows out of sight; to the left in a line before it where the two would touch.
+struct GroupHeading {
+  GroupHeading(const std::string& scene, std::string_view group) : text(group) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const auto width = [](const std::string& words) { return ImGui::CalcTextSize(words.c_str()).x; };
+    place = ImGui::GetWindowContentRegionMax().x - width(text) - style.FramePadding.x;
+    fits = text.empty() || ImGui::GetCursorPosX() + width(scene) + 2.0f * style.ItemSpacing.x <= place;
+    if (!fits) ImGui::TextDisabled("%s", text.c_str());
+  }
+  void after_scene() const {
+    if (!fits || text.empty()) return;
+    ImGui::SameLine(place);
+    ImGui::TextDisabled("%s", text.c_str());
+  }
+  std::string text;
+  float place;
+  bool fits;
+};
 
 }  // namespace
 
@@ -91,9 +102,11 @@ void scene_section(Gui& gui, SceneControl& scene) {
     if (hit) hits.push_back(name);
     const bool open = name == scene.editor().source();
     if (!hit && !open) continue;  // the one that is open stays in sight
+    const bool first = std::exchange(group, builtin.group) != builtin.group;
+    const GroupHeading heading(name, first ? builtin.group : std::string_view());
     if (ImGui::Selectable(name.c_str(), open)) scene.open(name);
     named(gui, "scene/" + name, description);
-    if (std::exchange(group, builtin.group) != builtin.group) group_at_right(builtin.group);
+    heading.after_scene();
   }
   if (entered && hits.size() == 1) {
     scene.open(hits.front());
@@ -102,7 +115,8 @@ void scene_section(Gui& gui, SceneControl& scene) {
   const std::vector<std::string> files = scene.files();
   for (const std::string& file : files) {
     const std::string name = printable(std::filesystem::path(file).filename().string());
-    if (ImGui::Selectable(fmt::format("{}##{}", name, file).c_str(), file == scene.editor().source()))
+    const std::string shown = elided_path(name, ImGui::GetContentRegionAvail().x);
+    if (ImGui::Selectable(fmt::format("{}##{}", shown, file).c_str(), file == scene.editor().source()))
       scene.open(file);
     named(gui, "scene/" + file, fmt::format("{}\n\nIt is reloaded whenever it is written.", printable(file)));
   }

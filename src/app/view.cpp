@@ -100,7 +100,7 @@ void paste_camera(View& view, const Scene& scene, const WindowServices& services
   text = text.find("camera") == std::string::npos || brace == std::string::npos ? "" : text.substr(brace);
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
   if (text.empty()) {
-    return messages.error(
+    return messages.refuse(
         "The clipboard holds no camera. One looks like camera = { position = [10.0, 6.0, 14.0], target = "
         "[0.0, 2.0, 0.0], fov = 45.0 }.");
   }
@@ -109,7 +109,7 @@ void paste_camera(View& view, const Scene& scene, const WindowServices& services
   if (pasted)
     view.camera.jump_to(pasted->view.camera);
   else
-    messages.error(pasted.error().message);
+    messages.refuse(pasted.error().message);
 }
 
 }  // namespace aspic::app

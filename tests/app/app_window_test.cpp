@@ -148,6 +148,11 @@ TEST_F(AppWindow, KeysOfTheView) {
   press(GLFW_KEY_F1);
   frames(2);
   EXPECT_TRUE(app().help_visible);
+  frames(2);
+  for (const auto& [name, box] : widgets()) {
+    if (!name.starts_with("help/")) continue;
+    EXPECT_LE(box.right, window_size()[0]) << name;
+  }
   click("help/close");
   EXPECT_FALSE(app().help_visible);
   press(GLFW_KEY_F11);

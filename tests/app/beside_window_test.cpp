@@ -75,8 +75,13 @@ TEST_F(Beside, ARunIsAddedAndLeftAndComesBackByUndo) {
   EXPECT_EQ(beside().count(), 4u);
   press(GLFW_KEY_B, GLFW_MOD_CONTROL);
   EXPECT_THAT(error(), HasSubstr("4 runs"));
+  frames(30, 0.3);
+  EXPECT_EQ(error(), "") << "there is nothing to decide";
+  press(GLFW_KEY_B, GLFW_MOD_CONTROL);
+  EXPECT_THAT(error(), HasSubstr("4 runs"));
   press(GLFW_KEY_B, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
   frames(2);
+  EXPECT_EQ(error(), "") << "there is room again";
   EXPECT_EQ(beside().count(), 1u);
   EXPECT_FALSE(has("beside/0/label"));
   app().scene.undo();
@@ -442,6 +447,10 @@ TEST_F(Beside, AGhostShowsAnEarlierRunAtTheSameTime) {
   EXPECT_NE(hash(0), reference_hash(earlier, 30));
   frames(1);
   EXPECT_TRUE(has("ghost/label"));
+  app().messages.info("A message is below the label.");
+  frames(2);
+  ASSERT_TRUE(has("notice/close"));
+  EXPECT_GT(widgets().at("notice/close").top, widgets().at("ghost/label").bottom + 100.0);
   run_to(end + 40);
   EXPECT_EQ(beside().ghost()->step(), end) << "its run goes no further";
   app().run.go_to(static_cast<double>(pulled_to) * earlier.model.simulation.timestep);

@@ -165,6 +165,35 @@ TEST_F(Files, ABrowserFindsAndOpensAFile) {
   EXPECT_FALSE(has("files/name"));
 }
 
+TEST_F(Files, TypingReplacesTheNameThatIsSuggested) {
+  open("cube-plane", {}, "reference");
+  press(GLFW_KEY_S, GLFW_MOD_CONTROL);
+  frames(3);
+  type(U'm');
+  type(U'y');
+  frames(2);
+  press(GLFW_KEY_ENTER);
+  frames(3);
+  EXPECT_TRUE(std::filesystem::exists(directory() / "my.toml"));
+  EXPECT_FALSE(has("files/name"));
+}
+
+TEST_F(Files, AFileThatIsNotThereIsSaid) {
+  open("cube-plane", {}, "reference");
+  press(GLFW_KEY_O, GLFW_MOD_CONTROL);
+  frames(3);
+  for (const char32_t c : std::u32string_view(U"none.toml")) type(c);
+  frames(2);
+  EXPECT_FALSE(has("files/missed"));
+  press(GLFW_KEY_ENTER);
+  frames(3);
+  EXPECT_TRUE(has("files/missed"));
+  EXPECT_TRUE(has("files/name")) << "and asked for again";
+  type(U'x');
+  frames(3);
+  EXPECT_FALSE(has("files/missed")) << "until another is typed";
+}
+
 TEST_F(Files, AFileThatWasWrittenIsAChangeThatCanBeUndone) {
   open(write("mine.toml", scene_text(4)), {}, "reference");
   set("contact.friction", 0.35);

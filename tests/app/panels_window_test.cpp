@@ -261,6 +261,19 @@ TEST_F(Panels, EverySectionOpensAndShowsItsKeys) {
   EXPECT_EQ(count(simulation().model()).pinned, 100u);
 }
 
+TEST_F(Panels, WhatIsSaidOfADivergenceEndsWithIt) {
+  open("cube-plane", {"cube[0].position=[0,1.2,0]", "simulation.timestep=0.02"}, "reference");
+  press(GLFW_KEY_SPACE);
+  for (int i = 0; i < 2000 && !simulation().divergence(); ++i) frames(1);
+  frames(60, 0.3);
+  ASSERT_TRUE(app().messages.notice().has_value()) << "it asks what to do";
+  EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr("last good step"));
+  press(GLFW_KEY_R);
+  frames(3);
+  EXPECT_EQ(simulation().step(), 0u);
+  EXPECT_FALSE(app().messages.notice().has_value()) << app().messages.notice()->text;
+}
+
 TEST_F(Panels, DivergencePausesExplainsAndOffersAStableStep) {
   open("cube-plane", {"cube[0].position=[0,1.2,0]", "simulation.timestep=0.02"}, "reference");
   press(GLFW_KEY_SPACE);
