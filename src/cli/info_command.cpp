@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "gpu/canary.h"
+#include "run/reach.h"
 
 namespace aspic::cli {
 namespace {
@@ -67,7 +68,7 @@ Status execute(const InfoOptions& options) {
   const std::vector<std::string> arithmetic =
       context ? arithmetic_sentences(*context) : std::vector<std::string>{};
   std::optional<std::uint64_t> free_memory;
-  if (context) free_memory = context->free_memory();
+  if (context) free_memory = free_bytes(*context);
   if (options.json) {
     Json list = Json::array(), rows = Json::array();
     for (const gl::EglDevice& device : devices)

@@ -162,8 +162,8 @@ class Context {
   /// Compute programs that were linked in this context, to be used again.
   ProgramCache& programs() { return *programs_; }
 
-  /// Bytes of device memory that are free, where the driver tells (GL_NVX_gpu_memory_info, GL_ATI_meminfo),
-  /// or as assumed.
+  /// Bytes of device memory that are free, where a hardware device's driver tells (GL_NVX_gpu_memory_info,
+  /// GL_ATI_meminfo), or as assumed.
   std::optional<std::uint64_t> free_memory();
   /// For tests: what free_memory() answers from now on; nothing: what the driver tells.
   void assume_free_memory(std::optional<std::uint64_t> bytes) { assumed_free_ = bytes; }

@@ -4,13 +4,15 @@
 
 namespace aspic {
 
+std::optional<std::uint64_t> free_bytes(gl::Context& context) {
+  return context.info().is_software ? available_memory() : context.free_memory();
+}
+
 std::optional<DeviceReach> device_reach(Integrator integrator) {
   const auto context = gl::Context::create_headless();
   if (!context) return std::nullopt;
   const gl::DeviceInfo& info = (*context)->info();
-  // A software rasteriser's memory is the machine's.
-  const auto free = info.is_software ? available_memory() : (*context)->free_memory();
-  return DeviceReach{info.renderer, largest_cubes(info.limits, free, integrator)};
+  return DeviceReach{info.renderer, largest_cubes(info.limits, free_bytes(**context), integrator)};
 }
 
 std::string limit_text(const CubeReach& reach) {

@@ -1,9 +1,11 @@
 #pragma once
 // What the device of --backend gpu takes at most.
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "gpu/context.h"
 #include "gpu_solver/reach.h"
 
 namespace aspic {
@@ -15,6 +17,10 @@ struct DeviceReach {
 
 /// Of the hardware GPU or, without one, of whatever device there is; nothing without any.
 std::optional<DeviceReach> device_reach(Integrator integrator);
+
+/// Bytes that are free for buffers of this device: its own or, for a software rasteriser, the machine's.
+/// Nothing where neither tells.
+std::optional<std::uint64_t> free_bytes(gl::Context& context);
 
 /// What ends it, as in "of 128 MiB in one block".
 std::string limit_text(const CubeReach& reach);

@@ -1,11 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <ostream>
 #include <sstream>
 
+#include "base/memory.h"
 #include "cli/process.h"
 
 namespace aspic {
@@ -356,6 +358,19 @@ TEST(Usage, InfoIsJsonOnRequest) {
   const auto info = aspic({"info", "--json"});
   EXPECT_EQ(info.exit_code, 0) << info.err;
   EXPECT_TRUE(test::is_json(info.out)) << info.out;
+}
+
+TEST(Usage, InfoGivesTheMachinesFreeMemoryForASoftwareRasteriser) {
+  test::ProcessOptions software;
+  software.environment = {{"ASPIC_EGL_DEVICE", "software"}};
+  const auto info = aspic({"info", "--json"}, software);
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  const auto machine = available_memory();
+  ASSERT_TRUE(machine.has_value());
+  // Other programs take and give back memory meanwhile.
+  const double told = std::strtod(test::json_member(info.out, "gpu_free_bytes").c_str(), nullptr);
+  EXPECT_GT(told, 0.5 * static_cast<double>(*machine));
+  EXPECT_LT(told, 2.0 * static_cast<double>(*machine));
 }
 
 TEST(Scene, ListNamesBuiltInScenesThatShowPrintsAndShownTextIsAScene) {

@@ -80,6 +80,12 @@ TEST_F(ContextGl, DescribesTheDevice) {
   EXPECT_FALSE(context().lost());
 }
 
+TEST_F(ContextGl, ASoftwareRasteriserIsNotAskedForMemoryOfItsOwn) {
+  if (!context().info().is_software) GTEST_SKIP() << "hardware has its own";
+  EXPECT_EQ(context().free_memory(), std::nullopt);
+  EXPECT_TRUE(context().check_memory(std::uint64_t{1} << 30).ok());
+}
+
 TEST_F(ContextGl, OffersTheSoftwareDeviceByChoiceAndByVariable) {
   const DeviceVariable variable("software");
   const auto made = Context::create_headless({.debug = false, .device = DeviceChoice::automatic});
