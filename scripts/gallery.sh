@@ -45,12 +45,13 @@ draw flag 2.25 flag
 "$aspic_build_dir/aspic" report cube-plane --only stability --out "$work/report" >&2
 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --blink-settings=preferredColorScheme=1 --window-size=1240,1190 \
   --screenshot="$work/report.png" "file://$work/report/report.html" >&2
-ffmpeg -v error -y -i "$work/report.png" -vf scale=960:-1 -q:v 4 "$images/report.jpg"
+ffmpeg -v error -y -i "$work/report.png" -vf scale=960:-1 -q:v 6 "$images/report.jpg"
 echo "docs/images/report.jpg" >&2
 
 ASPIC_WINDOW_PICTURES=$work tests/support/on_display.sh 1920x1080 \
   "$aspic_build_dir/tests/app/app_window_tests" --gtest_filter='Gallery.*' >&2
+# No file of the repository has more than 150 kB (tests/repository).
 for picture in "$work"/window-*.jpg; do
-  cp "$picture" "$images/"
+  ffmpeg -v error -y -i "$picture" -vf scale=1280:-1:flags=lanczos -q:v 4 "$images/${picture##*/}"
   echo "docs/images/${picture##*/}" >&2
 done
