@@ -4,8 +4,7 @@
 
 layout(lines_adjacency) in;
 layout(triangle_strip, max_vertices = 4) out;
-in vec3 vertex_place[];
-in float vertex_shown[];
+in vec4 vertex_place_and_shown[];
 flat in uint vertex_particle[];
 #ifdef PICKED
 flat out uvec4 particles;
@@ -65,8 +64,9 @@ void main() {
 #else
     world = at[i];
     from_eye = way_from_eye(at[i]);
-    place = mix(vertex_place[crossed[i].x], vertex_place[crossed[i].y], share[i]);
-    shown = mix(vertex_shown[crossed[i].x], vertex_shown[crossed[i].y], share[i]);
+    vec4 both = mix(vertex_place_and_shown[crossed[i].x], vertex_place_and_shown[crossed[i].y], share[i]);
+    place = both.xyz;
+    shown = both.w;
 #endif
     gl_Position = view_projection * vec4(at[i], 1.0);
     EmitVertex();
