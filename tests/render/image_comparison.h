@@ -18,17 +18,22 @@ struct Image {
   }
 };
 
-/// What of a picture is not as in a golden one of the same size, in a sentence; nothing where they agree.
-/// They agree where no channel differs by more than 2 of 255: another build of the rasteriser rounds
-/// otherwise. One pixel in 5,000 may also differ by more, where edges fall by a hair on the other side of a
-/// sample on another kind of processor: its channels are within 2 of what the golden picture has up to two
-/// pixels beside it. `difference`: how far apart they are, eight times as bright.
+/// A picture as golden files hold it: half as wide and high, each channel the mean of four pixels, rounded to
+/// an even number. Width and height of the picture are even.
+Image golden_form(const Image& image);
+
+/// A PNG file's picture; of no size if there is none.
+Image read_picture(const std::string& path);
+
+/// What of a picture is not as in a golden one, in a sentence; nothing where they agree. docs/pictures.md
+/// (section "Golden pictures") derives the two bounds: on each pixel of the golden picture, and on the mean
+/// of each square of 8 × 8. `difference`: how far apart they are, eight times as bright.
 std::optional<std::string> difference_from(const Image& golden, const Image& image,
                                            Image* difference = nullptr);
 
 /// Fails the test unless the picture agrees with tests/golden/NAME.png; picture and difference are then
 /// written where the message says. With the environment variable ASPIC_UPDATE_GOLDEN set, the golden file is
-/// written instead, and the test fails, so that no one leaves it set.
+/// written instead where they do not agree, and the test fails, so that no one leaves it set.
 void expect_golden(const Image& image, const std::string& name);
 
 }  // namespace aspic::test
