@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 steps=(format lints clang tidy odr asan tsan)
 declare -A meaning=(
   [format]="every C++ file is as clang-format leaves it (.clang-format)"
-  [lints]="tests of the text: exact kernels, pointers between pages, arrows between rooms, the scene reference"
+  [lints]="tests of the text: exact kernels, pointers between pages, arrows between rooms, sizes of files, the scene reference"
   [clang]="everything compiles with clang without a warning"
   [tidy]="clang-tidy finds nothing (.clang-tidy)"
   [odr]="no name has two definitions in a program (g++ -flto -Wodr)"
@@ -53,7 +53,7 @@ step_format() { files '*.cpp' '*.h' | xargs clang-format --dry-run --Werror; }
 
 step_lints() {
   aspic_build ON repository_tests gpu_tests scene_tests || return 1
-  ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -R '^(TextLint|Rooms|PreciseLint|Reference)\.'
+  ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -R '^(TextLint|FileSizes|Rooms|PreciseLint|Reference)\.'
 }
 
 # tidy_one FILE: what was found clean is checked again once it changes. build/check/tidy keeps check sums of the file and of the

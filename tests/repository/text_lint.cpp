@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -166,6 +167,44 @@ std::vector<fs::path> written_files(const fs::path& root) {
   }
   std::ranges::sort(files);
   return files;
+}
+
+std::vector<fs::path> tracked_files(const fs::path& root) {
+  std::vector<fs::path> files;
+  const std::string command = "git -C '" + root.string() + "' ls-files -z 2>/dev/null";
+  if (std::FILE* const git = ::popen(command.c_str(), "r")) {
+    std::string name;
+    for (int c = std::fgetc(git); c != EOF; c = std::fgetc(git)) {
+      if (c != 0) {
+        name += static_cast<char>(c);
+        continue;
+      }
+      files.emplace_back(name);
+      name.clear();
+    }
+    if (::pclose(git) == 0 && !files.empty()) return files;
+  }
+  files.clear();
+  for (auto entry = fs::recursive_directory_iterator(root); entry != fs::recursive_directory_iterator();
+       ++entry) {
+    const std::string name = entry->path().filename().string();
+    const bool ours = name == ".ci" || !(name.starts_with(".") || name == "build" || name == "out");
+    if (entry->is_directory() && !ours) entry.disable_recursion_pending();
+    if (entry->is_regular_file()) files.push_back(entry->path().lexically_relative(root));
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+std::vector<std::string> too_large(const fs::path& root, const std::vector<fs::path>& files) {
+  std::vector<std::string> found;
+  for (const fs::path& file : files) {
+    if (!fs::is_regular_file(root / file)) continue;  // removed, and not yet committed
+    const std::uintmax_t bytes = fs::file_size(root / file);
+    if (bytes > most_file_bytes)
+      found.push_back(file.generic_string() + ": " + std::to_string(bytes) + " bytes");
+  }
+  return found;
 }
 
 }  // namespace aspic::testing

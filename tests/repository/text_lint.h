@@ -1,5 +1,6 @@
 #pragma once
 // A lint of everything written: what a text points at has to be in the repository.
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -25,6 +26,17 @@ std::vector<Offence> lint(const std::filesystem::path& root, const std::filesyst
 /// Every text file of the repository that people write, as a path below `root`, in alphabetical order. Build
 /// directories, data, pictures and results of measurements are left out.
 std::vector<std::filesystem::path> written_files(const std::filesystem::path& root);
+
+/// Every file that git tracks below `root`, as a path below it; where git has no answer, as in an unpacked
+/// archive, every file outside of `build`, `out` and hidden directories.
+std::vector<std::filesystem::path> tracked_files(const std::filesystem::path& root);
+
+/// The most bytes that a tracked file may have: what is replaced stays in the repository's history for good.
+constexpr std::uintmax_t most_file_bytes = 150'000;
+
+/// Those of the files that are larger, with their sizes, as `docs/a.jpg: 157896 bytes`.
+std::vector<std::string> too_large(const std::filesystem::path& root,
+                                   const std::vector<std::filesystem::path>& files);
 
 /// The contents of a file.
 std::string contents(const std::filesystem::path& path);

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "support/temporary_directory.h"
+
 namespace aspic::testing {
 namespace {
 
@@ -48,6 +50,21 @@ TEST(TextLint, RepositoryIsClean) {
       ADD_FAILURE() << file.generic_string() << ":" << offence.line << ": " << offence.rule << " ("
                     << offence.text << ")";
   }
+}
+
+TEST(FileSizes, LargeFilesAreFound) {
+  const test::TemporaryDirectory dir;
+  dir.write("small.jpg", std::string(most_file_bytes, 'x'));
+  dir.write("large.jpg", std::string(most_file_bytes + 1, 'x'));
+  EXPECT_THAT(too_large(dir.path(), tracked_files(dir.path())),
+              ::testing::ElementsAre("large.jpg: 150001 bytes"));
+}
+
+TEST(FileSizes, EveryTrackedFileIsSmall) {
+  const auto files = tracked_files(root);
+  EXPECT_GE(files.size(), 900u);
+  EXPECT_THAT(too_large(root, files), ::testing::IsEmpty())
+      << "make it smaller: fewer pixels, fewer colours, or stronger compression";
 }
 
 /// The rooms that a directory of src includes headers of, its own left out.
