@@ -75,8 +75,8 @@ void Context::start(std::string platform, Loader loader) {
     glGetIntegerv(reset_notification_strategy, &strategy);
     info_.robust = reset_status_ && strategy == lose_context_on_reset;
   }
-  // A software rasteriser's memory is the machine's, whatever its driver answers: Mesa 25's llvmpipe says that
-  // 32 MiB are free where 20 GiB are.
+  // A software rasteriser's memory is the machine's, whatever its driver answers: Mesa 25's llvmpipe says
+  // that 32 MiB are free where 20 GiB are.
   if (info_.is_software)
     memory_query_ = 0;
   else if (has_extension("GL_NVX_gpu_memory_info"))

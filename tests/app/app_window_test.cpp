@@ -151,7 +151,7 @@ TEST_F(AppWindow, KeysOfTheView) {
   frames(2);
   for (const auto& [name, box] : widgets()) {
     if (!name.starts_with("help/")) continue;
-    EXPECT_LE(box.right, window_size()[0]) << name;
+    EXPECT_LE(box.right, roomy[0]) << name;
   }
   click("help/close");
   EXPECT_FALSE(app().help_visible);

@@ -103,10 +103,11 @@ class Hurrying final : public Endless {
 };
 
 TEST(Engines, AHurryDropsTheStepInProgressOfBoth) {
-  Engines engines = engines_of(outside, &outside);
+  Engines engines = engines_of(outside, nullptr);
   std::atomic<bool> hurry = false;
+  const BackendRow also_outside = outside;
   Backend endless;
-  endless.row = &outside;
+  endless.row = &also_outside;
   endless.solver = std::make_unique<Hurrying>(
       std::move(*make_reference_solver(engines.model(), Precision::single)), hurry);
   engines.set_shadow(std::move(endless));

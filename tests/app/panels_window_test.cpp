@@ -71,6 +71,9 @@ TEST_F(Panels, WordsAndFlagsFollowTheTable) {
   click("simulation.integrator/runge-kutta-4");
   EXPECT_EQ(settings().simulation.integrator, Integrator::runge_kutta_4);
   EXPECT_EQ(simulation().model().simulation.integrator, Integrator::runge_kutta_4);
+  // Energy, which is above, has figures again.
+  frames_until([&] { return !simulation().samples().energies().empty(); });
+  frames(2);
   click("view.draw/shear");
   EXPECT_TRUE(app().scene.editor().scene().view.draw.shear);
   click("view.draw/solid");

@@ -92,11 +92,14 @@ TEST(Hostile, DeepNestingIsRefusedWhereItBegins) {
     EXPECT_LT(check.err.size(), 2000u);
   }
   for (const char* option : {"--set", "--view"}) {
-    const auto run = aspic({"run", "cube-plane", option, "x={" + key.substr(0, 100000) + "=1}"});
+    const auto run = aspic(
+        {"run", "cube-plane", "--video", dir.file("v.mp4"), option, "x={" + key.substr(0, 100000) + "=1}"});
     EXPECT_EQ(run.exit_code, 3) << run.signal;
     EXPECT_THAT(run.err, HasSubstr("more than 32"));
     EXPECT_LT(run.err.size(), 2000u);
-    EXPECT_EQ(aspic({"run", "cube-plane", option, key.substr(0, 100000) + "=1"}).exit_code, 3);
+    EXPECT_EQ(aspic({"run", "cube-plane", "--video", dir.file("v.mp4"), option, key.substr(0, 100000) + "=1"})
+                  .exit_code,
+              3);
   }
 }
 

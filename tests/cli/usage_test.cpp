@@ -154,7 +154,8 @@ INSTANTIATE_TEST_SUITE_P(
                 2,
                 "the reference does not compute in fast arithmetic; use --backend gpu or cpu."},
         Failure{{"run", "cube-plane", "--arithmetic", "quick"}, 2, "allowed: exact, fast"},
-        Failure{{"run", "cube-plane", "--arithmetic", "fast", "--precision", "double"}, 2, "no backend does"},
+        Failure{
+            {"run", "cube-plane", "--arithmetic", "fast", "--precision", "double"}, 2, "no backend supports"},
         Failure{{"run", "cube-plane", "--backend", "reference", "--threads", "2"},
                 2,
                 "the reference does not take a number of threads; use --backend cpu."},

@@ -56,12 +56,12 @@ TEST(Beside, WrongDifferencesSayWhichAndWhy) {
     EXPECT_FALSE(runs.ok());
     return runs.ok() ? std::string() : runs.error().message;
   };
-  EXPECT_THAT(
-      message({{"simulation.integratr", "x"}}),
-      testing::AllOf(HasSubstr("--beside simulation.integratr=x"), HasSubstr("did you mean 'integrator'")));
-  EXPECT_THAT(message({{"h", "-1"}}), HasSubstr("--beside h=-1"));
+  EXPECT_THAT(message({{"simulation.integratr", "x"}}),
+              testing::AllOf(HasSubstr("the variant simulation.integratr=x"),
+                             HasSubstr("did you mean 'integrator'")));
+  EXPECT_THAT(message({{"h", "-1"}}), HasSubstr("the variant h=-1"));
   EXPECT_THAT(message({{"backend", "xpu"}}), HasSubstr("auto, gpu, cpu, reference"));
-  EXPECT_THAT(message({{"k", "stiff"}}), HasSubstr("--beside k=stiff"));
+  EXPECT_THAT(message({{"k", "stiff"}}), HasSubstr("the variant k=stiff"));
   EXPECT_THAT(message({{"h", "0.1"}, {"h", "0.2"}, {"h", "0.3"}, {"h", "0.4"}}), HasSubstr("at most 3"));
 }
 
