@@ -44,7 +44,7 @@ function(aspic_level target level)
 endfunction()
 
 # aspic_headers(NAME LEVEL TARGETS library … HEADERS <header> …): headers of other libraries, compiled once for all targets of one level,
-# which use them by aspic_precompiled(TARGET NAME). No file relies on them: `scripts/check.sh includes` compiles each by itself.
+# which use them by aspic_precompiled(TARGET NAME). No file relies on them: `scripts/check.sh clang` compiles each by itself, without them.
 function(aspic_headers name level)
   cmake_parse_arguments(arg "" "" "TARGETS;HEADERS" ${ARGN})
   set(source "${PROJECT_BINARY_DIR}/${name}.cpp")
