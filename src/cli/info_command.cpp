@@ -4,7 +4,7 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "gpu/canary.h"
-#include "run/reach.h"
+#include "run/capacity.h"
 
 namespace aspic::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "io/program.h"
-#include "run/reach.h"
+#include "run/capacity.h"
 #include "scene/import_configuration.h"
 #include "scene/load.h"
 #include "scene/write.h"
@@ -59,11 +59,11 @@ Status execute(const SceneCheckOptions& options) {
     return Error{ErrorCode::interrupted,
                  "interrupted before the stable steps were known; nothing was printed."};
 
-  const std::optional<DeviceReach> reach = device_reach(own);
+  const std::optional<DeviceCapacity> capacity = device_capacity(own);
   if (options.json) {
     Json largest = Json::object();
-    if (reach)
-      for (const CubeReach& cube : reach->cubes)
+    if (capacity)
+      for (const CubeCapacity& cube : capacity->cubes)
         largest[std::string(cube.force_path)] = cube.particles_per_edge;
     Json bytes, steps;
     for (const BackendBytes& backend : bytes_by_backend(model))
@@ -86,7 +86,7 @@ Status execute(const SceneCheckOptions& options) {
                                     {"integrator", name_of(own)},
                                     {"timestep", timestep},
                                     {"stable_steps", steps},
-                                    {"largest_cubes", reach ? largest : Json()}})));
+                                    {"largest_cubes", capacity ? largest : Json()}})));
   } else {
     std::string text = fmt::format("scene        {}\n", scene.name);
     text += fmt::format("particles    {}, {} of them pinned\n", counts.particles, counts.pinned);
@@ -101,8 +101,8 @@ Status execute(const SceneCheckOptions& options) {
                                   human_bytes(shared + *bytes))
                     : fmt::format("memory       {:<24} more than is free\n", backend);
     }
-    if (reach) {
-      for (const CubeReach& cube : reach->cubes)
+    if (capacity) {
+      for (const CubeCapacity& cube : capacity->cubes)
         text += fmt::format("largest cube gpu:{:<20} {:>10}, by {}\n", cube.force_path,
                             fmt::format("{}^3", cube.particles_per_edge), limit_text(cube));
     }

@@ -3,8 +3,8 @@
 
 #include "cpu_reference/reference_solver.h"
 #include "gpu/pass.h"
+#include "gpu_solver/capacity.h"
 #include "gpu_solver/gpu_solver.h"
-#include "gpu_solver/reach.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 
@@ -77,17 +77,17 @@ TEST_F(LimitsGl, TheLargestCubeOfEachPathIsForetold) {
   limits.storage_block_bytes = 2u << 20;
   context().assume_limits(limits);
   for (const Integrator integrator : {Integrator::explicit_euler, Integrator::implicit_euler}) {
-    for (const CubeReach& reach : largest_cubes(limits, std::nullopt, integrator)) {
-      const auto path = std::ranges::find(force_paths(), reach.force_path, &ForcePathRow::name)->path;
-      EXPECT_EQ(reach.limit, ReachLimit::buffer) << reach.force_path;
+    for (const CubeCapacity& largest : largest_cubes(limits, std::nullopt, integrator)) {
+      const auto path = std::ranges::find(force_paths(), largest.force_path, &ForcePathRow::name)->path;
+      EXPECT_EQ(largest.limit, CapacityLimit::buffer) << largest.force_path;
       for (const std::uint32_t more : {0u, 2u}) {
-        ModelSettings cube = test::cube_on_plane(static_cast<int>(reach.particles_per_edge + more));
+        ModelSettings cube = test::cube_on_plane(static_cast<int>(largest.particles_per_edge + more));
         cube.simulation.integrator = integrator;
         const Model model = test::build(cube);
         GpuOptions options;
         options.force_path = path;
         const auto made = make_gpu_solver(context(), model, options);
-        EXPECT_EQ(made.ok(), more == 0) << reach.force_path << ", " << reach.particles_per_edge + more;
+        EXPECT_EQ(made.ok(), more == 0) << largest.force_path << ", " << largest.particles_per_edge + more;
       }
     }
   }
@@ -98,9 +98,9 @@ TEST(LargestCubes, FollowBuffersBlocksMemoryAndWords) {
   limits.buffer_bytes = std::uint64_t{1} << 32;
   limits.storage_block_bytes = 128u << 20;
   const auto of = [&](std::optional<std::uint64_t> free, Integrator integrator, std::string_view path) {
-    for (const CubeReach& reach : largest_cubes(limits, free, integrator))
-      if (reach.force_path == path) return reach;
-    return CubeReach{};
+    for (const CubeCapacity& cube : largest_cubes(limits, free, integrator))
+      if (cube.force_path == path) return cube;
+    return CubeCapacity{};
   };
   const auto cube = [](std::uint64_t n) { return n * n * n; };
   EXPECT_EQ(of(std::nullopt, Integrator::midpoint, "lattice").particles_per_edge, 512u);  // 32 n³ ≤ 2³²
@@ -108,14 +108,14 @@ TEST(LargestCubes, FollowBuffersBlocksMemoryAndWords) {
   EXPECT_EQ(of(std::nullopt, Integrator::implicit_euler, "lattice").particles_per_edge, 290u);  // 176 n³
   EXPECT_EQ(of(std::nullopt, Integrator::implicit_euler, "per-spring").particles_per_edge,
             0u);  // has no such path
-  const CubeReach small = of(100 * cube(50), Integrator::explicit_euler, "lattice");
-  EXPECT_EQ(small.limit, ReachLimit::memory);
+  const CubeCapacity small = of(100 * cube(50), Integrator::explicit_euler, "lattice");
+  EXPECT_EQ(small.limit, CapacityLimit::memory);
   EXPECT_EQ(small.particles_per_edge, 50u);  // 96 n³
   limits.buffer_bytes = std::uint64_t{1} << 62;
-  EXPECT_EQ(of(std::nullopt, Integrator::explicit_euler, "gather").limit, ReachLimit::words);
+  EXPECT_EQ(of(std::nullopt, Integrator::explicit_euler, "gather").limit, CapacityLimit::words);
   limits.storage_block_bytes = 16u << 20;
-  const CubeReach planes = of(std::nullopt, Integrator::explicit_euler, "lattice");
-  EXPECT_EQ(planes.limit, ReachLimit::block);
+  const CubeCapacity planes = of(std::nullopt, Integrator::explicit_euler, "lattice");
+  EXPECT_EQ(planes.limit, CapacityLimit::block);
   EXPECT_EQ(planes.particles_per_edge, 361u);  // about four planes: 32 (4 n² + 4 n + 528) ≤ 2²⁴
 }
 

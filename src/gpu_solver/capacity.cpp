@@ -1,4 +1,4 @@
-#include "gpu_solver/reach.h"
+#include "gpu_solver/capacity.h"
 
 #include <algorithm>
 
@@ -16,8 +16,8 @@ std::uint64_t springs_of_cube(std::uint64_t n) {
 }
 
 /// What keeps a cube from this path, if anything does.
-std::optional<ReachLimit> obstacle(const ForcePathRow& path, Integrator integrator, std::uint64_t n,
-                                   const gl::DeviceLimits& limits, std::optional<std::uint64_t> free) {
+std::optional<CapacityLimit> obstacle(const ForcePathRow& path, Integrator integrator, std::uint64_t n,
+                                      const gl::DeviceLimits& limits, std::optional<std::uint64_t> free) {
   const std::uint64_t particles = n * n * n, springs = springs_of_cube(n);
   const bool lattice = !path.lattice_kernel.empty(), solved = row_of(integrator).solved();
   // Slices are as long as their longest list: nearly everywhere a particle has all directions.
@@ -27,44 +27,44 @@ std::optional<ReachLimit> obstacle(const ForcePathRow& path, Integrator integrat
   const std::uint64_t largest = std::max({particles * sizeof(layout::Particle), words * sizeof(std::uint32_t),
                                           listed * sizeof(layout::uvec2), springs * path.spring_bytes,
                                           solved ? particles * OWN_VECTORS * sizeof(layout::vec4) : 0});
-  if (largest > limits.buffer_bytes) return ReachLimit::buffer;
+  if (largest > limits.buffer_bytes) return CapacityLimit::buffer;
   // Passes over windows see a few particles' neighbours at least, two planes away, and their springs.
   const std::uint64_t seen = 2 * window_unit + 2 * (2 * n * n + 2 * n + 8),
                       seen_bytes =
                           std::max(std::min(seen, particles) * sizeof(layout::Particle),
                                    std::min(seen * LATTICE_DIRECTIONS / 2, springs) * path.spring_bytes);
   if (largest > limits.storage_block_bytes && seen_bytes > limits.storage_block_bytes)
-    return ReachLimit::block;
+    return CapacityLimit::block;
   // A word holds a particle and two bits of class, or a spring and its side.
   if (words > 0xffffffffu || (!lattice && particles >= 1u << 30) || 2 * listed > 0xffffffffu)
-    return ReachLimit::words;
+    return CapacityLimit::words;
   ModelCounts counts;
   counts.particles = particles;
   const std::uint64_t all =
       (solved ? implicit_bytes(counts, limits.storage_block_bytes) : explicit_bytes(counts, integrator)) +
       words * sizeof(std::uint32_t) + listed * sizeof(layout::uvec2) + springs * path.spring_bytes;
-  if (free && all > *free) return ReachLimit::memory;
+  if (free && all > *free) return CapacityLimit::memory;
   return std::nullopt;
 }
 
 }  // namespace
 
-std::vector<CubeReach> largest_cubes(const gl::DeviceLimits& limits, std::optional<std::uint64_t> free,
-                                     Integrator integrator) {
-  std::vector<CubeReach> result;
+std::vector<CubeCapacity> largest_cubes(const gl::DeviceLimits& limits, std::optional<std::uint64_t> free,
+                                        Integrator integrator) {
+  std::vector<CubeCapacity> result;
   for (const ForcePathRow& path : force_paths()) {
     if (!works_with(path.path, integrator)) continue;
-    CubeReach reach = {path.name, 2, ReachLimit::block};
+    CubeCapacity capacity = {path.name, 2, CapacityLimit::block};
     constexpr std::uint32_t most = 2000;  // whose particles no 32-bit index counts
-    while (reach.particles_per_edge < most) {
-      const auto ends = obstacle(path, integrator, reach.particles_per_edge + 1, limits, free);
+    while (capacity.particles_per_edge < most) {
+      const auto ends = obstacle(path, integrator, capacity.particles_per_edge + 1, limits, free);
       if (ends) {
-        reach.limit = *ends;
+        capacity.limit = *ends;
         break;
       }
-      ++reach.particles_per_edge;
+      ++capacity.particles_per_edge;
     }
-    result.push_back(reach);
+    result.push_back(capacity);
   }
   return result;
 }

@@ -6,23 +6,23 @@
 #include <vector>
 
 #include "gpu/context.h"
-#include "gpu_solver/reach.h"
+#include "gpu_solver/capacity.h"
 
 namespace aspic {
 
-struct DeviceReach {
+struct DeviceCapacity {
   std::string renderer;
-  std::vector<CubeReach> cubes;  ///< by force path
+  std::vector<CubeCapacity> cubes;  ///< by force path
 };
 
 /// Of the hardware GPU or, without one, of whatever device there is; nothing without any.
-std::optional<DeviceReach> device_reach(Integrator integrator);
+std::optional<DeviceCapacity> device_capacity(Integrator integrator);
 
 /// Bytes that are free for buffers of this device: its own or, for a software rasteriser, the machine's.
 /// Nothing where neither tells.
 std::optional<std::uint64_t> free_bytes(gl::Context& context);
 
 /// What ends it, as in "of 128 MiB in one block".
-std::string limit_text(const CubeReach& reach);
+std::string limit_text(const CubeCapacity& capacity);
 
 }  // namespace aspic

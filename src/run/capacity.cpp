@@ -1,4 +1,4 @@
-#include "run/reach.h"
+#include "run/capacity.h"
 
 #include "base/memory.h"
 
@@ -8,22 +8,22 @@ std::optional<std::uint64_t> free_bytes(gl::Context& context) {
   return context.info().is_software ? available_memory() : context.free_memory();
 }
 
-std::optional<DeviceReach> device_reach(Integrator integrator) {
+std::optional<DeviceCapacity> device_capacity(Integrator integrator) {
   const auto context = gl::Context::create_headless();
   if (!context) return std::nullopt;
   const gl::DeviceInfo& info = (*context)->info();
-  return DeviceReach{info.renderer, largest_cubes(info.limits, free_bytes(**context), integrator)};
+  return DeviceCapacity{info.renderer, largest_cubes(info.limits, free_bytes(**context), integrator)};
 }
 
-std::string limit_text(const CubeReach& reach) {
-  switch (reach.limit) {
-    case ReachLimit::memory:
+std::string limit_text(const CubeCapacity& capacity) {
+  switch (capacity.limit) {
+    case CapacityLimit::memory:
       return "free memory";
-    case ReachLimit::words:
+    case CapacityLimit::words:
       return "words of 32 bits";
-    case ReachLimit::buffer:
+    case CapacityLimit::buffer:
       return "the device's largest buffer";
-    case ReachLimit::block:
+    case CapacityLimit::block:
       break;
   }
   return "the device's largest storage block";
