@@ -119,10 +119,10 @@ endfunction()
 
 # aspic_test(NAME SOURCES a_test.cpp … DEPENDS target …): one test binary, each suite of it a test of ctest's (cmake/AspicSuites.cmake):
 # a process for each case would make a context and compile the shaders each time. EACH_CASE: a process for each case all the
-# same, for cases that take long or want a process of their own. SOFTWARE pattern: those of its tests that mean software
-# rasterisers alone, in the words of --gtest_filter, get the label software besides.
+# same, for cases that take long or want a process of their own. Patterns are those of --gtest_filter: SOFTWARE pattern gives the
+# label software to tests that mean software rasterisers alone, FULL part=pattern moves tests to that part of the full tier.
 function(aspic_test name)
-  cmake_parse_arguments(arg "EACH_CASE" "SOFTWARE" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "EACH_CASE" "SOFTWARE;FULL" "SOURCES;DEPENDS" ${ARGN})
   aspic_test_program(${name} SOURCES ${arg_SOURCES} DEPENDS ${arg_DEPENDS})
   if("threads" IN_LIST ASPIC_TEST_PROPERTIES)
     set_property(GLOBAL APPEND PROPERTY ASPIC_THREADED_TESTS ${name})
@@ -134,7 +134,11 @@ function(aspic_test name)
   endif()
   set(labels "")
   if(arg_SOFTWARE)
-    set(labels "software=${arg_SOFTWARE}")
+    list(APPEND labels "software=${arg_SOFTWARE}")
+  endif()
+  if(arg_FULL)
+    string(REGEX REPLACE "^[^=]+" "full" all "${arg_FULL}")
+    list(APPEND labels "${all}" "${arg_FULL}")
   endif()
   set(base "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites")
   list(JOIN properties " " properties)
