@@ -4,10 +4,11 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
-steps=(format lints clang tidy odr asan tsan)
+steps=(format lints alone clang tidy odr asan tsan)
 declare -A meaning=(
   [format]="every C++ file is as clang-format leaves it (.clang-format)"
   [lints]="tests of the text: exact kernels, pointers between pages, arrows between rooms, sizes of files, the scene reference"
+  [alone]="what changed in the last day's commits compiles by itself: no precompiled header or neighbour hides a missing include"
   [clang]="everything compiles with clang without a warning"
   [tidy]="clang-tidy finds nothing (.clang-tidy)"
   [odr]="no name has two definitions in a program (g++ -flto -Wodr)"
@@ -56,6 +57,31 @@ step_lints() {
   ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -R '^(TextLint|FileSizes|Rooms|PreciseLint|Reference)\.'
 }
 
+# The files of the last day's commits, the newest first, and those that are not committed yet: a header by the .cpp of its name.
+changed_files() {
+  local since=$(($(git show -s --format=%ct HEAD) - 86400))
+  { git diff --name-only HEAD; git -c log.showRoot=false log --since="$since" --name-only --format=; } |
+    awk '/\.(cpp|h)$/ { sub(/\.h$/, ".cpp"); if (!seen[$0]++) print }' |
+    while read -r file; do if [ -f "$file" ]; then echo "$file"; fi; done
+}
+
+# In parts, until ASPIC_ALONE_SECONDS are over if they are set: says how many files were left then.
+step_alone() {
+  local files at=0 part=24 started=$SECONDS
+  mapfile -t files < <(changed_files)
+  [ build/alone/build.ninja -nt CMakePresets.json ] || cmake --preset alone || return 1
+  # Files that this build does not know, of fuzzers for one, have no target.
+  mapfile -t files < <(printf '%s\n' "${files[@]}" | grep -xFf <(sed -n "s|.*\"file\": \"$aspic_root/\(.*\)\".*|\1|p" build/alone/compile_commands.json))
+  while [ "$at" -lt "${#files[@]}" ]; do
+    if [ $((SECONDS - started)) -ge "${ASPIC_ALONE_SECONDS:-86400}" ]; then
+      echo "alone: $at files compiled, $((${#files[@]} - at)) older ones left for want of time" | tee /dev/fd/3
+      break
+    fi
+    ninja -C build/alone --quiet $(printf "$aspic_root/%s^ " "${files[@]:at:part}") || return 1
+    at=$((at + part))
+  done
+}
+
 # tidy_one FILE: what was found clean is checked again once it changes. build/check/tidy keeps check sums of the file and of the
 # project's headers that it includes, under a name made from its command and the checks.
 # Ninja may tidy up its own log when it opens it, so one asks at a time.
@@ -89,7 +115,7 @@ results=()
 for step in "${chosen[@]}"; do
   echo "== $step: ${meaning[$step]}" >&2
   started=$SECONDS
-  if "step_$step" >"$logs/$step.log" 2>&1; then
+  if "step_$step" 3>&2 >"$logs/$step.log" 2>&1; then
     verdict=passed
   else
     verdict=FAILED
