@@ -50,7 +50,7 @@ def pieces(attack):
     for scene in SCENES:
         for precision in ("single", "double"):
             words = ["--backend", "reference", "--precision", precision]
-            whole = attack.path(f"whole-{precision}")
+            whole = attack.path(f"whole-{precision}.aspic")
             first = attack.run("run", *scene, "--steps", STEPS, *words, "--checkpoint", whole, "--force", "--state", whole + ".csv")
             attack.judge(first, [OK], str(scene))
             wanted = hash_in(first)
@@ -59,11 +59,11 @@ def pieces(attack):
                 for _ in range(random.randrange(1, 4)):
                     at = random.randrange(at, int(STEPS) + 1)
                     start = ["--resume", last] if last else scene
-                    last, before = attack.path(f"at-{at}-{random.random()}"), last
+                    last, before = attack.path(f"at-{at}-{random.random()}.aspic"), last
                     backend = random.choice((["--backend", "gpu"], ["--backend", "reference"])) if precision == "single" else ["--backend", "reference"]
                     done = attack.run("run", *start, *backend, *([] if before else ["--precision", precision]), "--steps", str(at), "--checkpoint", last)
                     attack.judge(done, [OK], f"stopped at {at} of {scene[0]}")
-                end = attack.path("end")
+                end = attack.path("end.aspic")
                 one(attack, ["--resume", last, "--steps", STEPS, "--backend", "reference", "--checkpoint", end, "--state", end + ".csv", "--force"],
                     f"resumed at {at}, {scene[0]}, {precision}", wanted)
                 attack.require(read(end) == read(whole), f"resumed at {at}, {scene[0]}, {precision}: the checkpoints differ")

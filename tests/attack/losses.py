@@ -169,7 +169,8 @@ def tool(attack, name, script):
     return directory
 
 
-FILM = ["run", "cube-plane", *TINY, "--backend", "reference", "--set", "simulation.timestep=0.002", *PICTURES]
+UNSEEN = ["run", "cube-plane", *TINY, "--backend", "reference", "--set", "simulation.timestep=0.002"]
+FILM = [*UNSEEN, *PICTURES]
 DYING = {
     "dies at once": "exit 1",
     "dies with a message": f"head -c {2 * FRAME} > /dev/null; echo 'no space left' >&2; exit 1",
@@ -188,7 +189,7 @@ def encoders(attack):
     """An ffmpeg that dies, or reports success without a film: the film alone is lost."""
     plain = attack.fresh()
     film = [*FILM, "--duration", "0.2"]
-    whole = attack.run(*film, *FILES, cwd=plain)
+    whole = attack.run(*UNSEEN, "--duration", "0.2", *FILES, cwd=plain)
     attack.judge(whole, [OK], "without a film")
 
     def struck(note, env):
