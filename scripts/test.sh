@@ -22,9 +22,10 @@ full      core, and by label:
   independent  the independent implementation of the physics
   attack       damaged files, limits, faults and kills (scripts/attack.sh)
           and without a label:
+  sanitizers   core once more, built with clang's address and undefined-behaviour sanitizers
   fuzzers      ten seconds each (scripts/fuzz.sh)
 
-Left to scripts/check.sh: tests under sanitizers, clang-tidy, types of all translation units.
+Left to scripts/check.sh: the full tier under sanitizers, the thread sanitizer, clang-tidy, types of all translation units.
 END
 }
 
@@ -54,5 +55,8 @@ aspic_install all
 aspic_build ON
 ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -j "$(nproc)" "${tier[@]}" "${arguments[@]}"
 if [ "$full" = yes ] && [ "${#arguments[@]}" -eq 0 ]; then
+  cmake --preset asan-core
+  ninja -C build/asan-core --quiet
+  ctest --preset asan-core --no-tests=error -j "$(nproc)"
   scripts/fuzz.sh 10
 fi
