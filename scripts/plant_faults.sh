@@ -3,18 +3,35 @@
 # tests notice each, and in which tier. Prints a table in Markdown; exit code 1 if one of those named in the list noticed nothing.
 # Arguments: --rows or --tests for one of both alone, and words that a fault's name must contain (default: all faults), e.g.
 # scripts/plant_faults.sh --tests friction
+# scripts/plant_faults.sh --check builds nothing and says which faults no longer change their files.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 list=$root/tests/faults/faults.txt
-rows=yes tests=yes words=()
+rows=yes tests=yes check=no words=()
 for argument in "$@"; do
   case $argument in
+    --check) check=yes ;;
     --rows) tests=no ;;
     --tests) rows=no ;;
     *) words+=("$argument") ;;
   esac
 done
+
+outdated() { echo "The change for \"$1\" no longer applies to $2: correct it in tests/faults/faults.txt." >&2; }
+
+if [ "$check" = yes ]; then
+  status=0
+  while IFS=$'\t' read -r name file change _; do
+    [[ $name == \#* || -z $name ]] && continue
+    if sed "$change" "$root/$file" | cmp -s - "$root/$file"; then
+      outdated "$name" "$file"
+      status=1
+    fi
+  done <"$list"
+  exit "$status"
+fi
+
 work=$(mktemp -d "${TMPDIR:-/tmp}/aspic-faults.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 tree=$work/tree build=$work/build
@@ -103,7 +120,7 @@ while IFS=$'\t' read -r name file change checks detectors; do
   cp -p "$tree/$file" "$work/original"
   sed -i "$change" "$tree/$file"
   if cmp -s "$tree/$file" "$work/original"; then
-    echo "The change for \"$name\" no longer applies to $file: correct it in tests/faults/faults.txt." >&2
+    outdated "$name" "$file"
     exit 2
   fi
   declare -A noticed=([rows]="" [core]="" [full]="")
