@@ -199,7 +199,9 @@ Status execute_beside(const RunOptions& options) {
   const CommonClock clock(std::move(spans), frames_per_second(options.pictures), options.pictures.speed);
   std::unique_ptr<BesideRecorder> recorder;
   if (options.pictures.any()) {
-    ASPIC_TRY(recorder, BesideRecorder::create(*context, options.pictures, std::move(pictured),
+    PictureOutput pictures = options.pictures;
+    pictures.drawer = drawer_command();
+    ASPIC_TRY(recorder, BesideRecorder::create(*context, pictures, std::move(pictured), clock.count(),
                                                film.take_frame_sinks()));
   }
   ASPIC_TRY(Status pictured_all, simulate(members, clock, recorder.get(), interrupt));

@@ -1,5 +1,8 @@
 #pragma once
 // The commands. Each prints its data to stdout and returns success or the error whose code is the exit code.
+#include <string>
+#include <vector>
+
 #include "base/result.h"
 #include "command_line/arguments.h"
 #include "io/console.h"
@@ -15,6 +18,11 @@ inline Status execute(const ShowText& shown) {
 Status execute(const RunOptions& options);
 /// The same for options with --beside.
 Status execute_beside(const RunOptions& options);
+
+/// Draws pictures for the process that started this one: what `run` starts on software rasterisers.
+Status execute(const DrawOptions& options);
+/// The words that start it.
+std::vector<std::string> drawer_command();
 
 /// Becomes the window program, aspic-view, installed next to this one. Error (no_device): it is not there.
 Status execute(const ViewOptions& options);

@@ -167,8 +167,10 @@ Status execute(const RunOptions& options) {
   start.state.reset();
   std::unique_ptr<Recorder> recorder;
   if (options.pictures.any()) {
-    ASPIC_TRY(recorder, Recorder::create(options.pictures, start.scene, backend, files.take_frame_sinks(),
-                                         first_step, steps));
+    PictureOutput pictures = options.pictures;
+    pictures.drawer = drawer_command();
+    ASPIC_TRY(recorder,
+              Recorder::create(pictures, start.scene, backend, files.take_frame_sinks(), first_step, steps));
   }
   RunLane lane(*backend.solver, files, first_step, options.pictures.any());
   ASPIC_TRY(auto outcome, simulate(lane, recorder.get(), steps, interrupt));

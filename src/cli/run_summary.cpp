@@ -106,6 +106,7 @@ std::string to_text(const RunReport& run) {
 Json to_json(const FrameTimes& t, const std::string& device) {
   return {{"count", t.frames},
           {"device", device},
+          {"processes", t.processes},
           {"seconds_per_frame",
            {{"simulate", t.per_frame(t.simulate)},
             {"draw", t.per_frame(t.draw)},
@@ -116,8 +117,10 @@ Json to_json(const FrameTimes& t, const std::string& device) {
 void print_frame_times(const FrameTimes& t, const std::string& device) {
   const auto ms = [&](double seconds) { return 1000.0 * t.per_frame(seconds); };
   print_message(fmt::format(
-      "{} pictures on {}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, encode {:.1f} ms.",
-      t.frames, device, ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
+      "{} pictures on {}{}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, encode {:.1f} "
+      "ms.",
+      t.frames, device, t.processes > 0 ? fmt::format(", drawn by {} processes", t.processes) : "",
+      ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
 }
 
 /// The infinite lattice clears most cubes at once; a large one's own spectrum takes seconds.

@@ -344,6 +344,7 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
   add_json(info_command, info.json, "as JSON");
   on(info_command, [&] { return Command(info); });
 
+  if (argc == 2 && argv[1] == draw_word) return Command(DrawOptions{});
   // What a sweep starts: an option of no person's, and none of --help.
   sweep.worker =
       argc > 2 && std::string_view(argv[1]) == "sweep" && std::string_view(argv[argc - 1]) == "--worker";

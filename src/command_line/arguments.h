@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -122,6 +123,9 @@ struct SceneImportOptions {
 struct InfoOptions {
   bool json = false;
 };
+/// What a run starts to draw its pictures: a word of no person's, and none of --help.
+struct DrawOptions {};
+inline constexpr std::string_view draw_word = "--draw-pictures";
 /// --help, --version: text for stdout and nothing else to do.
 struct ShowText {
   std::string text;
@@ -129,7 +133,7 @@ struct ShowText {
 
 using Command = std::variant<ShowText, RunOptions, ViewOptions, CompareOptions, BenchOptions, SweepOptions,
                              ReportOptions, VerifyOptions, SceneListOptions, SceneShowOptions,
-                             SceneCheckOptions, SceneImportOptions, InfoOptions>;
+                             SceneCheckOptions, SceneImportOptions, InfoOptions, DrawOptions>;
 
 /// Errors: usage, with a suggestion for a misspelt command or option; scene_rejected for what is not built
 /// yet.

@@ -93,6 +93,10 @@ Result<unsigned> available_threads() {
         "or unset it.",
         printable_line(word));
   }
+  return own_processors();
+}
+
+unsigned own_processors() {
   cpu_set_t set;
   if (sched_getaffinity(0, sizeof set, &set) == 0)
     return std::max(1u, static_cast<unsigned>(CPU_COUNT(&set)));

@@ -41,8 +41,10 @@ class Workers {
   std::atomic<bool> ending_ = false;
 };
 
-/// Threads this process may run at once: ASPIC_THREADS where that is set, else its share of the processors
-/// (sched_getaffinity). Error (usage): ASPIC_THREADS is not a whole number from 1 to 1024.
+/// This process's share of the processors (sched_getaffinity), ≥ 1.
+unsigned own_processors();
+/// Threads this process may run at once: ASPIC_THREADS where that is set, else
+/// own_processors(). Error (usage): ASPIC_THREADS is not a whole number from 1 to 1024.
 Result<unsigned> available_threads();
 
 }  // namespace aspic::parallel

@@ -13,7 +13,45 @@ namespace {
 // Four bytes a pixel go straight through; three would be repacked by the driver texel by texel.
 constexpr std::size_t stored_channels = 4;
 
+/// Rows from the bottom up to rows from the top down, without the fourth channel.
+void put_rgb(const std::byte* pixels, std::size_t width, std::size_t height, std::byte* out) {
+  for (std::size_t row = height; row-- > 0;) {
+    const std::byte* in = pixels + row * width * stored_channels;
+    for (std::size_t column = 0; column < width; ++column, in += stored_channels, out += 3) {
+      out[0] = in[0];
+      out[1] = in[1];
+      out[2] = in[2];
+    }
+  }
+}
+
+/// The framebuffer's pixels to `place`, or to that place of the bound pixel buffer.
+void read_pixels(const Framebuffer& source, void* place) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, source.width(), source.height(), GL_RGBA, GL_UNSIGNED_BYTE, place);
+}
+
+Error lost_picture(const Context& context) {
+  return fail(ErrorCode::no_device, "A picture could not be read back: the device {} was lost.",
+              context.info().renderer);
+}
+
 }  // namespace
+
+Status read_rgb(Context& context, const Framebuffer& source, std::vector<std::byte>& scratch,
+                std::span<std::byte> rgb) {
+  const Current here(context);
+  ASPIC_CHECK(here.status());
+  const auto width = static_cast<std::size_t>(source.width());
+  const auto height = static_cast<std::size_t>(source.height());
+  assert(rgb.size() == 3 * width * height);
+  scratch.resize(stored_channels * width * height);
+  read_pixels(source, scratch.data());
+  if (context.lost()) return lost_picture(context);
+  put_rgb(scratch.data(), width, height, rgb.data());
+  return {};
+}
 
 Name pixel_buffer(Context& context, std::size_t bytes) {
   GLuint id = 0;
@@ -51,10 +89,8 @@ void PixelRing::submit(const Framebuffer& source) {
   ++pending_;
   const Current here(*context_);
   if (!here.status()) return;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, source.id());
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot].id());
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  read_pixels(source, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   fences_[slot] = fence(*context_);
 }
@@ -72,10 +108,6 @@ Status PixelRing::take(std::vector<std::byte>& rgb) {
   const auto width = static_cast<std::size_t>(width_);
   const auto height = static_cast<std::size_t>(height_);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[slot].id());
-  const auto lost = [&] {
-    return fail(ErrorCode::no_device, "A picture could not be read back: the device {} was lost.",
-                context_->info().renderer);
-  };
   const auto* pixels = static_cast<const std::byte*>(
       !answered || context_->lost()
           ? nullptr
@@ -83,21 +115,13 @@ Status PixelRing::take(std::vector<std::byte>& rgb) {
                              static_cast<GLsizeiptr>(stored_channels * width * height), GL_MAP_READ_BIT));
   if (!pixels) {
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    return lost();
+    return lost_picture(*context_);
   }
   rgb.resize(3 * width * height);
-  std::byte* out = rgb.data();
-  for (std::size_t row = height; row-- > 0;) {
-    const std::byte* in = pixels + row * width * stored_channels;
-    for (std::size_t column = 0; column < width; ++column, in += stored_channels, out += 3) {
-      out[0] = in[0];
-      out[1] = in[1];
-      out[2] = in[2];
-    }
-  }
+  put_rgb(pixels, width, height, rgb.data());
   const bool kept = glUnmapBuffer(GL_PIXEL_PACK_BUFFER) == GL_TRUE;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  if (!kept || context_->lost()) return lost();  // meanwhile: what was read may be anything
+  if (!kept || context_->lost()) return lost_picture(*context_);  // meanwhile: what was read may be anything
   return {};
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/result.h"
@@ -15,6 +16,12 @@ namespace aspic::gl {
 
 /// A buffer for pixels on their way back.
 Name pixel_buffer(Context& context, std::size_t bytes);
+
+/// The colour of a framebuffer of one sample as it is when all calls so far are done, at once: into
+/// height·width·3 bytes as PixelRing::take() gives them. `scratch` is room that is kept between calls. Error
+/// (no_device): the device was lost, or the context is in use on another thread.
+Status read_rgb(Context& context, const Framebuffer& source, std::vector<std::byte>& scratch,
+                std::span<std::byte> rgb);
 
 /// A ring of pixel buffers with fences, for pictures of one size. OpenGL 4.3 has no persistent mapping, so a
 /// buffer is mapped when its fence has passed. Its context must outlive it; every call makes it current.

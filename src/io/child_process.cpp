@@ -93,7 +93,7 @@ Movement::Work Movement::work_of(pid_t group) {
 namespace {
 
 // Readable by a signal handler: 0 is a free place.
-std::array<std::atomic<pid_t>, 16> running;
+std::array<std::atomic<pid_t>, 64> running;
 static_assert(std::atomic<pid_t>::is_always_lock_free);
 
 void exchange_running(pid_t from, pid_t to) {
@@ -107,9 +107,9 @@ Error start_error(const std::string& program, int reason) {
   return fail(ErrorCode::io, "{} cannot be started: {}.", program, std::strerror(reason));
 }
 
-/// Ends of the child's three streams; negative: /dev/null.
+/// Ends of the child's three streams; negative: /dev/null. `shared`: its shared_descriptor; negative: none.
 struct Streams {
-  int input = -1, output = -1, errors = -1;
+  int input = -1, output = -1, errors = -1, shared = -1;
 };
 
 std::vector<char*> pointers(const std::vector<std::string>& texts) {
@@ -133,6 +133,9 @@ int spawn(const std::vector<std::string>& arguments, const Streams& streams, cha
   set(streams.input, STDIN_FILENO, O_RDONLY);
   set(streams.output, STDOUT_FILENO, O_WRONLY);
   set(streams.errors, STDERR_FILENO, O_WRONLY);
+  // Last: what is copied above may have this number here.
+  if (streams.shared >= 0)
+    posix_spawn_file_actions_adddup2(&actions, streams.shared, ChildProcess::shared_descriptor);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t defaults;
@@ -193,7 +196,8 @@ std::vector<std::string> environment_with(const std::vector<std::pair<std::strin
 
 }  // namespace
 
-Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments, Output output) {
+Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments, Output output,
+                                         const ChildExtras& extras) {
   ChildProcess child;
   // A socket, not a pipe: send() can be told not to raise SIGPIPE, without touching the process's signals.
   std::array<int, 2> ends = {-1, -1};
@@ -202,8 +206,11 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
   child.input_ = ends[0];
   child.output_ = output;
   child.errors_ = ::memfd_create("messages", MFD_CLOEXEC);
-  const Streams streams = {ends[1], output == Output::answers ? ends[1] : -1, child.errors_};
-  const int failed = child.errors_ < 0 ? errno : spawn(arguments, streams, environ, true, child.pid_);
+  const Streams streams = {ends[1], output == Output::answers ? ends[1] : -1, child.errors_,
+                           extras.descriptor};
+  const std::vector<std::string> variables = environment_with(extras.environment);
+  const int failed =
+      child.errors_ < 0 ? errno : spawn(arguments, streams, pointers(variables).data(), true, child.pid_);
   ::close(ends[1]);
   if (failed != 0) {
     child.pid_ = -1;
@@ -220,6 +227,7 @@ ChildProcess::ChildProcess(ChildProcess&& other) noexcept
       output_(other.output_),
       stalled_(other.stalled_),
       stopped_reading_(other.stopped_reading_),
+      closed_(other.closed_),
       answers_(std::move(other.answers_)) {}
 
 ChildProcess::~ChildProcess() {
@@ -255,22 +263,31 @@ bool ChildProcess::write(std::span<const std::byte> data) {
   return true;
 }
 
-std::optional<std::string> ChildProcess::line() {
+/// Takes what has been answered so far. False: nothing was there.
+bool ChildProcess::receive() {
   std::array<char, 4096> block = {};
-  Movement movement(pid_);
-  std::size_t end = answers_.find('\n');
-  while (end == std::string::npos) {
+  for (;;) {
     const ssize_t got = ::recv(input_, block.data(), block.size(), MSG_DONTWAIT);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0 && errno == EAGAIN) {
-      if (!wait(POLLIN, movement)) return std::nullopt;
-      continue;
-    }
-    if (got <= 0) return std::nullopt;
-    const std::size_t before = answers_.size();
-    answers_.append(block.data(), static_cast<std::size_t>(got));
-    end = answers_.find('\n', before);
+    if (got < 0 && errno == EAGAIN) return false;
+    closed_ = got <= 0;
+    if (!closed_) answers_.append(block.data(), static_cast<std::size_t>(got));
+    return true;
   }
+}
+
+bool ChildProcess::answered() {
+  while (answers_.find('\n') == std::string::npos && !closed_)
+    if (!receive()) return false;
+  return true;
+}
+
+std::optional<std::string> ChildProcess::line() {
+  Movement movement(pid_);
+  while (!answered())
+    if (!wait(POLLIN, movement)) return std::nullopt;
+  const std::size_t end = answers_.find('\n');
+  if (end == std::string::npos) return std::nullopt;
   std::string result = answers_.substr(0, end);
   answers_.erase(0, end + 1);
   return result;

@@ -16,6 +16,12 @@ namespace aspic {
 
 class Movement;
 
+/// What a program gets besides its words.
+struct ChildExtras {
+  std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables that differ from ours
+  int descriptor = -1;  ///< an open file that it gets too; negative: none
+};
+
 /// A program that reads our output, found on PATH, started without a shell. It has a process group of its
 /// own, so that Ctrl-C reaches us alone and its input ends in good order. Its standard output goes nowhere
 /// unless it answers; its standard error is kept. Once we are asked to end (base/end_request.h), one that no
@@ -23,9 +29,11 @@ class Movement;
 class ChildProcess {
  public:
   enum class Output { dropped, answers };
+  /// The number that ChildExtras::descriptor has there.
+  static constexpr int shared_descriptor = 3;
   /// Error (io): `arguments[0]` is not on PATH or cannot be started; the message is the system's alone.
   static Result<ChildProcess> start(const std::vector<std::string>& arguments,
-                                    Output output = Output::dropped);
+                                    Output output = Output::dropped, const ChildExtras& extras = {});
 
   /// Closes the input, ends the program if it runs on, and waits for it.
   ~ChildProcess();
@@ -37,6 +45,8 @@ class ChildProcess {
   /// The next line of a program that answers, without its end; waits for it. Nothing: it has closed its
   /// output, or was ended as above.
   std::optional<std::string> line();
+  /// Whether line() would return at once.
+  bool answered();
 
   /// Ends the program at once, from any thread while finish() is not called: line() then returns nothing.
   void kill() const;
@@ -58,12 +68,13 @@ class ChildProcess {
  private:
   ChildProcess() = default;
   bool wait(short events, Movement& movement);
+  bool receive();
 
   pid_t pid_ = -1;
   int input_ = -1;
   int errors_ = -1;
   Output output_ = Output::dropped;
-  bool stalled_ = false, stopped_reading_ = false;
+  bool stalled_ = false, stopped_reading_ = false, closed_ = false;
   std::string answers_;  // read and not yet handed on
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <vector>
 
 #include "gpu/pass.h"
@@ -56,6 +57,12 @@ void BallBuffers::prepare(const RenderPrograms& programs, const DeviceState& sta
            {{BINDING_BALLS, state.balls}, {BINDING_TURNS, &turns_}, {BINDING_BOUNDS, &bounds}},
            ReadBy::compute_pass | ReadBy::vertex_draw | ReadBy::read_back | ReadBy::copy)
       .dispatch_for(count_);
+}
+
+void BallBuffers::set_turns(const std::vector<Four>& turns, std::uint64_t step) {
+  assert(turns.size() == count_);
+  turns_.upload_items(turns);
+  turned_to_ = step;
 }
 
 void BallBuffers::draw(const gl::Program& program, const DeviceState& state) const {

@@ -1,7 +1,9 @@
 #pragma once
 // What drawing needs of a model's balls, and how far each has turned.
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "base/result.h"
 #include "device/device_state.h"
@@ -24,6 +26,9 @@ class BallBuffers {
   /// Turns the balls to where they are at state.step, and adds those in sight to the box of each light. Going
   /// back in time starts again, unturned. The frame block must be bound.
   void prepare(const RenderPrograms& programs, const DeviceState& state, const gl::Buffer& bounds);
+
+  /// The balls are turned like this at that step: prepare() goes on from there.
+  void set_turns(const std::vector<std::array<float, 4>>& turns, std::uint64_t step);
 
   /// Draws what has been launched, as points that the program makes balls of.
   void draw(const gl::Program& program, const DeviceState& state) const;

@@ -54,6 +54,13 @@ class ModelBuffers {
   /// bound.
   void compute_light_boxes(const RenderPrograms& programs, const DeviceState& state);
 
+  /// Turns each ball to where it is in the state; how they are turned then. The frame block must be bound.
+  std::vector<std::array<float, 4>> turn_balls(const RenderPrograms& programs, const DeviceState& state);
+  /// Turns the balls as they were found to be at this step.
+  void set_ball_turns(const std::vector<std::array<float, 4>>& turns, std::uint64_t step) {
+    balls_->set_turns(turns, step);
+  }
+
   /// Inputs of the skin's shaders, of those that need positions of it alone, and of the particles' and the
   /// springs'.
   gl::VertexArray shaded_skin_array() const;

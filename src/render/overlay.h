@@ -20,6 +20,7 @@ struct OverlayLine {
   std::string label;   ///< in the left column, dimmer; may be empty
   std::string value;   ///< in the right column
   bool alarm = false;  ///< it tells of a failure
+  friend bool operator==(const OverlayLine&, const OverlayLine&) = default;
 };
 
 /// A scale of colours with its ends, or a key of named colours, bottom right.

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 #include <span>
 #include <utility>
 
-#include "device/particles.h"
 #include "gpu/current.h"
 #include "gpu/pass.h"
 #include "model/terrain.h"
@@ -20,25 +18,6 @@ namespace {
 /// Whether a colour shows what a particle's springs do.
 bool shows_springs(ViewColour colour) {
   return has_scale(colour) && colour != ViewColour::speed;
-}
-
-/// Particles that are kept in memory too, so that a picture's moving part can be told.
-constexpr std::size_t most_followed = 100000;
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), sizeof(T) * a.size()) == 0);
-}
-
-/// Uploads into a buffer that is made, or made larger, as needed.
-template <class T>
-Status refill(gl::Context& context, gl::Buffer& buffer, const char* name, const std::vector<T>& items) {
-  const std::uint64_t bytes = sizeof(T) * items.size();
-  if (buffer.id() == 0 || buffer.bytes() < bytes) {
-    ASPIC_TRY(buffer, gl::Buffer::create(context, name, bytes));
-  }
-  buffer.upload_items(items);
-  return {};
 }
 }  // namespace
 
@@ -81,29 +60,6 @@ Status Renderer::set_model(const Model& model) {
   parts_->drawn_state.reset();
   if (parts_->picker) parts_->picker->forget();
   return {};
-}
-
-Result<DeviceState> Renderer::upload(const State& state) {
-  Parts& p = *parts_;
-  const gl::Current here(*p.context);
-  ASPIC_CHECK(here.status());
-  assert(p.model);
-  auto particles = packed_particles(*p.model, state);
-  auto balls = packed_balls(*p.model, state);
-  const DeviceState there = {&p.uploaded, &p.uploaded_balls, 0, state.step, nullptr};
-  if (p.upload_is_whole && same_bytes(particles, p.uploaded_particles) &&
-      same_bytes(balls, p.uploaded_ball_items))
-    return there;
-  p.upload_is_whole = false;
-  ++p.uploads;
-  p.uploaded_particles = std::move(particles);
-  p.uploaded_ball_items = std::move(balls);
-  ASPIC_CHECK(refill(*p.context, p.uploaded, "particles to draw", p.uploaded_particles));
-  ASPIC_CHECK(refill(*p.context, p.uploaded_balls, "balls to draw", p.uploaded_ball_items));
-  // To look at all of very many would take longer than it saves.
-  if (p.uploaded_particles.size() > most_followed) p.uploaded_particles = {};
-  p.upload_is_whole = true;
-  return there;
 }
 
 Status Renderer::Parts::prepare_targets(int width, int height, int wanted_samples) {
@@ -201,6 +157,7 @@ Status Renderer::Parts::start(int width, int height, const DeviceState& state,
   if (shows_springs(view.colour)) ASPIC_CHECK(buffers->prepare_incident(*context, *model, state));
   buffers->use_coarse_skin(options.coarse_skin && !view.cut.on());
   const Camera camera(view.camera, width, height);
+  if (!options.ball_turns.empty()) buffers->set_ball_turns(options.ball_turns, state.step);
   range = options.range.value_or(range_for(*model, view, {}));
   // A solver's last pass named its own next step as reader, not us.
   gl::barrier(gl::ReadBy::compute_pass | gl::ReadBy::vertex_draw);

@@ -1,11 +1,13 @@
 #pragma once
 // Draws a model's particles, wherever they come from, as a picture: the same code for window and file.
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "base/result.h"
 #include "device/device_state.h"
+#include "device/layout.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/pass_profiler.h"
@@ -29,6 +31,15 @@ struct RendererOptions {
   gl::ShaderLibrary shaders{};  ///< where shaders come from
 };
 
+/// How a ball is turned: a quaternion, its real part last.
+using BallTurn = std::array<float, 4>;
+
+/// How the balls of a model were turned in a picture.
+struct TurnedBalls {
+  std::vector<BallTurn> turns;  ///< empty: there was no picture yet
+  std::uint64_t step = 0;       ///< that it showed
+};
+
 /// What a picture shows besides the particles.
 struct PictureOptions {
   ViewSettings view;
@@ -42,6 +53,7 @@ struct PictureOptions {
   std::optional<QuantityRange> range;         ///< ends of the scale of colours; absent: the view's
   std::optional<Colour> tint;                 ///< of bodies coloured by material, instead of their own
   ArrowSet arrows;                            ///< of those that the view asks for
+  std::vector<BallTurn> ball_turns;           ///< of each ball; empty: by the pictures drawn before
   bool axes = true;                           ///< in a corner, where the view asks for them
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones
 };
@@ -66,6 +78,15 @@ class Renderer {
   /// lies, valid until the next call. The state has as many particles and balls as the model. Error
   /// (scene_rejected): no device memory.
   Result<DeviceState> upload(const State& state);
+
+  /// The same for a state that packed_particles() and packed_balls() made ready.
+  Result<DeviceState> upload(std::vector<layout::Particle> particles, std::vector<layout::Ball> balls,
+                             std::uint64_t step);
+
+  /// Turns balls from where they were in one picture to where they are in the next, that of this state, as
+  /// drawing both would: for PictureOptions::ball_turns of renderers that draw some of a run's pictures only.
+  /// Waits for the device. Legal after set_model. Error (no_device): the context cannot be entered.
+  Status turn_balls(const DeviceState& state, TurnedBalls& balls);
 
   /// Draws width × height pixels of a state of the model. Balls appear turned by what they have rotated since
   /// the model was set, as far as the pictures drawn since then tell. Legal after set_model. Error:

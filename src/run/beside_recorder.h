@@ -8,12 +8,9 @@
 #include "base/result.h"
 #include "model/solver.h"
 #include "render/overlay.h"
-#include "render/quantity.h"
-#include "render/renderer.h"
-#include "render/targets.h"
 #include "run/backends.h"
 #include "run/beside.h"
-#include "run/recording.h"
+#include "run/film_painter.h"
 #include "run/run_files.h"
 #include "scene/follow.h"
 #include "scene/scene.h"
@@ -30,9 +27,10 @@ struct PicturedRun {
 class BesideRecorder {
  public:
   /// Draws in `context`, the one of all backends that need one. The sinks have the
-  /// size of `output`. One to most_beside runs. Errors: as Recorder::create().
+  /// size of `output`. One to most_beside runs. `pictures`: in all, as planned. Errors: as
+  /// Recorder::create().
   static Result<std::unique_ptr<BesideRecorder>> create(gl::Context& context, const PictureOutput& output,
-                                                        std::vector<PicturedRun> runs,
+                                                        std::vector<PicturedRun> runs, std::uint64_t pictures,
                                                         std::vector<std::unique_ptr<FrameSink>> sinks);
 
   /// Adds a picture of the runs' states: run i is at `steps[i]`, and diverged in the step after if
@@ -42,41 +40,33 @@ class BesideRecorder {
              const std::vector<std::optional<Divergence>>& divergences);
   /// Completes the outputs.
   Status finish();
-  void abandon() { recording_->abandon(); }
+  void abandon() { film_->abandon(); }
   /// Of the outputs that are lost so far; the others continue.
-  std::vector<Error> failures() const { return recording_->failures(); }
+  std::vector<Error> failures() const { return film_->recording().failures(); }
   /// After finish(): the names of the completed outputs.
-  std::vector<std::string> written() { return recording_->written(); }
+  std::vector<std::string> written() { return film_->recording().written(); }
 
   void add_simulation(double seconds) { simulate_seconds_ += seconds; }
   FrameTimes times() const;
   /// GL_RENDERER of the drawing context.
-  const std::string& device() const { return context_->info().renderer; }
+  const std::string& device() const { return film_->device(); }
 
  private:
   struct Part {
     PicturedRun run;
     Tile tile;
-    std::unique_ptr<Renderer> renderer;
     Following following = {};
     std::optional<std::uint64_t> step = {};  // of what follows
     State copy = {};                         // where it is needed
-    DeviceState state = {};
-    QuantityRange own_range = {};
-    std::optional<QuantityRange> drawn_range = {};
-    bool drawn_diverged = false;
   };
   BesideRecorder() = default;
   Status take_state(Part& part, std::uint64_t step);
-  QuantityRange common_range(const Part& part) const;
-  Status draw(Part& part, const QuantityRange& range, const std::optional<Divergence>& divergence);
+  ShownRun shown(const Part& part, const std::optional<Divergence>& divergence) const;
 
-  gl::Context* context_ = nullptr;
   PictureOutput output_;
   std::vector<Part> parts_;
-  DrawableImage picture_;
-  double simulate_seconds_ = 0.0, draw_seconds_ = 0.0;
-  std::unique_ptr<Recording> recording_;
+  double simulate_seconds_ = 0.0;
+  std::unique_ptr<FilmPainter> film_;
 };
 
 }  // namespace aspic

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <limits>
 
 #include "render/camera.h"
@@ -44,34 +43,23 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
   ASPIC_CHECK(check_pictures(output, model.simulation.timestep, first_step, last_step));
   const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, fps, output.speed);
   std::unique_ptr<Recorder> r(new Recorder(output, scene, backend, schedule));
-  r->context_ = backend.context.get();
-  if (!r->context_) {
+  if (!backend.context) {
     auto context = gl::Context::create_headless();
     if (!context)
       return Error{context.error().code,
                    "pictures need an OpenGL device; a software one is enough. " + context.error().message};
     r->own_context_ = std::move(*context);
-    r->context_ = r->own_context_.get();
   }
-  ASPIC_TRY(const auto directory, shader_directory());
-  RendererOptions look;
-  look.shaders = gl::ShaderLibrary(directory);
-  ASPIC_TRY(r->renderer_, Renderer::create(*r->context_, look));
-  ASPIC_CHECK(r->renderer_->set_model(model));
+  gl::Context& context = backend.context ? *backend.context : *r->own_context_;
   r->following_ = Following(scene, model, backend.solver->precision());
-  FilmOptions film = {sinks.front()->path(), fps, output.size};
-  ASPIC_TRY(r->recording_, Recording::start(*r->context_, std::move(sinks), std::move(film)));
+  ASPIC_TRY(r->film_,
+            FilmPainter::create(context, output, {{&scene, &model}}, schedule.count(), std::move(sinks)));
   return r;
 }
 
-const std::string& Recorder::device() const {
-  return context_->info().renderer;
-}
-
 FrameTimes Recorder::times() const {
-  FrameTimes times = recording_->times();
+  FrameTimes times = film_->times();
   times.simulate = simulate_seconds_;
-  times.draw = draw_seconds_;
   return times;
 }
 
@@ -87,45 +75,37 @@ Status Recorder::reach(Solver& solver, std::uint64_t step) {
 }
 
 Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) {
-  recording_->wait_until_ready();
-  // Nothing but an error completes the film before its end.
-  if (recording_->completed()) return recording_->result();
-  const auto before = std::chrono::steady_clock::now();
+  const ViewSettings& view = scene_.view;
   const bool on_device = backend_.gpu && !own_context_;
-  State state;
-  if (!on_device || following_.any() || scene_.view.arrows.any()) {
-    ASPIC_TRY(state, solver.state());
+  State copy;
+  PaintedState state;
+  if (!on_device || film_->wants_copies() || following_.any() || view.arrows.any()) {
+    ASPIC_TRY(copy, solver.state());
   }
-  DeviceState drawn_state;
-  if (on_device) {
-    drawn_state = backend_.gpu->device_state();
-  } else {
-    ASPIC_TRY(drawn_state, renderer_->upload(state));
-  }
-  PictureOptions picture;
-  picture.view = scene_.view;
-  picture.view.camera = fitted(moved(scene_.view.camera, following_.offset(solver.model(), state)),
-                               output_.size.width, output_.size.height);
-  picture.legend = output_.text;
-  if (picture.view.arrows.any()) picture.arrows = arrows_of(solver.model(), state, picture.view.arrows);
+  if (on_device && !film_->wants_copies())
+    state.there = backend_.gpu->device_state();
+  else
+    state.copy = &copy;
+  ShownRun shown;
+  shown.camera = fitted(moved(view.camera, following_.offset(solver.model(), copy)), output_.size.width,
+                        output_.size.height);
+  shown.legend = output_.text;
+  if (view.arrows.any()) shown.arrows = arrows_of(solver.model(), copy, view.arrows);
   if (output_.text)
-    picture.text =
-        overlay_lines(scene_.model, static_cast<double>(step) * solver.model().simulation.timestep);
-  ASPIC_CHECK(renderer_->draw(output_.size.width, output_.size.height, drawn_state, picture));
-  draw_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+    shown.text = overlay_lines(scene_.model, static_cast<double>(step) * solver.model().simulation.timestep);
+  ASPIC_CHECK(film_->add({state}, {std::move(shown)}, copies));
   last_shown_ = step;
-  return recording_->add(renderer_->picture(), copies);
+  return {};
 }
 
 Status Recorder::finish(Solver& solver, std::uint64_t step) {
-  if (recording_->pictures() == 0 || last_shown_ != step) {
+  if (film_->recording().pictures() == 0 || last_shown_ != step) {
     if (const Status drawn = draw(solver, step, 1); !drawn) {
-      recording_->abandon();
+      film_->abandon();
       return drawn;
     }
   }
-  ASPIC_CHECK(recording_->end_complete());
-  return recording_->result();
+  return film_->finish();
 }
 
 }  // namespace aspic

@@ -7,9 +7,8 @@
 
 #include "base/result.h"
 #include "io/frame_schedule.h"
-#include "render/renderer.h"
 #include "run/backends.h"
-#include "run/recording.h"
+#include "run/film_painter.h"
 #include "run/run_files.h"
 #include "scene/follow.h"
 #include "scene/scene.h"
@@ -42,16 +41,16 @@ class Recorder {
   /// The run ended at `step`, perhaps early: its state is in the last picture, and the outputs are completed.
   Status finish(Solver& solver, std::uint64_t step);
   /// Ends without films, instead of finish(); pictures in directories stay.
-  void abandon() { recording_->abandon(); }
+  void abandon() { film_->abandon(); }
   /// Of the outputs that are lost so far; the others continue.
-  std::vector<Error> failures() const { return recording_->failures(); }
+  std::vector<Error> failures() const { return film_->recording().failures(); }
   /// After finish(): the names of the completed outputs.
-  std::vector<std::string> written() { return recording_->written(); }
+  std::vector<std::string> written() { return film_->recording().written(); }
 
   void add_simulation(double seconds) { simulate_seconds_ += seconds; }
   FrameTimes times() const;
   /// GL_RENDERER of the drawing context.
-  const std::string& device() const;
+  const std::string& device() const { return film_->device(); }
 
  private:
   Recorder(const PictureOutput& output, const Scene& scene, const Backend& backend,
@@ -64,11 +63,9 @@ class Recorder {
   FrameSchedule schedule_;
   Following following_;
   std::uint64_t next_frame_ = 0, last_shown_ = 0;
-  double simulate_seconds_ = 0.0, draw_seconds_ = 0.0;
+  double simulate_seconds_ = 0.0;
   std::unique_ptr<gl::Context> own_context_;
-  gl::Context* context_ = nullptr;
-  std::unique_ptr<Renderer> renderer_;
-  std::unique_ptr<Recording> recording_;
+  std::unique_ptr<FilmPainter> film_;
 };
 
 }  // namespace aspic

@@ -1,10 +1,12 @@
 #include "run/recording.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <new>
 
 #include "gpu/current.h"
+#include "run/seconds_since.h"
 
 namespace aspic {
 namespace {
@@ -13,10 +15,6 @@ using Clock = std::chrono::steady_clock;
 
 /// What waits for the encoder at most: room for its hiccups, little next to a simulation.
 constexpr std::size_t most_waiting_bytes = std::size_t{128} << 20;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 }  // namespace
 
@@ -88,6 +86,26 @@ Status Recording::add(const gl::Framebuffer& picture, std::uint64_t copies) {
   return {};
 }
 
+void Recording::add(std::span<const std::byte> rgb, std::uint64_t copies, std::shared_ptr<const void> owner) {
+  assert(ring_.pending() == 0);
+  pictures_ += copies;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!completed_) waiting_.push_back({{}, rgb, std::move(owner), copies});
+  }
+  changed_.notify_all();
+}
+
+void Recording::wait_until(const std::function<bool()>& done) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return done() || completed_; });
+}
+
+Status Recording::hand_on_all() {
+  while (ring_.pending() > 0) ASPIC_CHECK(hand_on());
+  return {};
+}
+
 Status Recording::progress() {
   return ring_.pending() > 0 ? hand_on() : Status();
 }
@@ -105,11 +123,9 @@ void Recording::end() {
 }
 
 Status Recording::end_complete() {
-  while (ring_.pending() > 0) {
-    if (const Status read = hand_on(); !read) {
-      abandon();
-      return read;
-    }
+  if (const Status read = hand_on_all(); !read) {
+    abandon();
+    return read;
   }
   end();
   return {};
@@ -163,9 +179,10 @@ bool Recording::carry_out(std::unique_ptr<FrameSink>& sink, const Work& work) {
 }
 
 void Recording::write(const Picture& picture) {
+  const std::span<const std::byte> rgb = picture.owner ? picture.shared : std::span(picture.pixels);
   for (auto& sink : sinks_) {
     for (std::uint64_t i = 0; sink && i < picture.copies; ++i)
-      carry_out(sink, [&](FrameSink& to) { return to.write(picture.pixels); });
+      carry_out(sink, [&](FrameSink& to) { return to.write(rgb); });
   }
 }
 
@@ -177,7 +194,7 @@ void Recording::encode() {
   while (any_left()) {
     changed_.wait(lock, [this] { return !waiting_.empty() || no_more_; });
     if (abandoned_ || waiting_.empty()) break;
-    const Picture picture = std::move(waiting_.front());
+    Picture picture = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
     changed_.notify_all();
@@ -186,6 +203,9 @@ void Recording::encode() {
     const double took = seconds_since(before);
     lock.lock();
     encode_seconds_ += took;
+    if (!picture.owner) continue;
+    picture.owner.reset();
+    changed_.notify_all();
   }
   const bool complete = !abandoned_;
   lock.unlock();

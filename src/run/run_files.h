@@ -27,6 +27,9 @@ struct PictureOutput {
   double speed = 1.0;         ///< simulated seconds per second shown, > 0
   PictureSize size;
   bool text = true;  ///< parameters and time are written on them
+  /// A program that calls serve_pictures() (run/drawer.h) and its words, to draw on software rasterisers with
+  /// all processors; empty: this one draws alone.
+  std::vector<std::string> drawer = {};
 
   bool any() const { return !video.empty() || !frames.empty(); }
 };

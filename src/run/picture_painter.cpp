@@ -1,0 +1,80 @@
+#include "run/picture_painter.h"
+
+#include <cassert>
+#include <utility>
+
+#include "gpu/current.h"
+
+namespace aspic {
+
+Result<std::unique_ptr<PicturePainter>> PicturePainter::create(gl::Context& context, const PictureSize& size,
+                                                               const std::vector<PaintedRun>& runs) {
+  const gl::Current here(context);
+  ASPIC_CHECK(here.status());
+  std::unique_ptr<PicturePainter> p(new PicturePainter());
+  p->context_ = &context;
+  p->size_ = size;
+  ASPIC_TRY(const auto directory, shader_directory());
+  RendererOptions look;
+  look.shaders = gl::ShaderLibrary(directory);
+  const std::vector<Tile> tiles = tiles_of(size, runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    Part part{runs[i], tiles[i], nullptr};
+    ASPIC_TRY(part.renderer, Renderer::create(context, look));
+    ASPIC_CHECK(part.renderer->set_model(*part.run.model));
+    p->parts_.push_back(std::move(part));
+  }
+  if (runs.size() == 1) return p;
+  ASPIC_TRY(p->together_, DrawableImage::create(context, "runs side by side",
+                                                {.width = size.width, .height = size.height}, false));
+  p->together_.framebuffer.clear();
+  return p;
+}
+
+const gl::Framebuffer& PicturePainter::picture() const {
+  return parts_.size() == 1 ? parts_.front().renderer->picture() : together_.framebuffer;
+}
+
+Status PicturePainter::draw(const std::vector<DeviceState>& states, const std::vector<ShownRun>& shown) {
+  assert(states.size() == parts_.size() && shown.size() == parts_.size());
+  const gl::Current here(*context_);
+  ASPIC_CHECK(here.status());
+  if (parts_.size() == 1) return draw_part(parts_.front(), states.front(), shown.front(), std::nullopt);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    Part& part = parts_[i];
+    if (part.step == states[i].step) continue;
+    ASPIC_TRY(part.own_range, part.renderer->range_of(states[i], part.run.scene->view));
+    part.step = states[i].step;
+    part.drawn_range.reset();
+  }
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    Part& part = parts_[i];
+    // The widest range of all that share a part's scale: only so can colours be compared.
+    QuantityRange range = part.own_range;
+    for (const Part& other : parts_)
+      if (share_scale(part.run.scene->view, other.run.scene->view)) range = widest(range, other.own_range);
+    if (part.drawn_range == range && part.drawn_text == shown[i].text) continue;
+    ASPIC_CHECK(draw_part(part, states[i], shown[i], range));
+    together_.framebuffer.place(part.renderer->picture(), part.tile.left,
+                                size_.height - part.tile.top - part.tile.height);
+    part.drawn_range = range;
+    part.drawn_text = shown[i].text;
+  }
+  return {};
+}
+
+Status PicturePainter::draw_part(Part& part, const DeviceState& state, const ShownRun& shown,
+                                 const std::optional<QuantityRange>& range) {
+  PictureOptions options;
+  options.view = part.run.scene->view;
+  options.view.camera = shown.camera;
+  options.text = shown.text;
+  options.text_height = shown.text_height;
+  options.legend = shown.legend;
+  options.arrows = shown.arrows;
+  options.ball_turns = shown.ball_turns;
+  options.range = range;
+  return part.renderer->draw(part.tile.width, part.tile.height, state, options);
+}
+
+}  // namespace aspic
