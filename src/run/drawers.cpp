@@ -83,10 +83,11 @@ Result<std::unique_ptr<Drawers::Drawer>> Drawers::start_one(const DrawingWork& w
                                                             std::uint64_t bytes) {
   ASPIC_TRY(auto memory, SharedMemory::create(bytes));
   // Its own thread alone rasterises: there are as many processes as processors.
-  const ChildExtras extras = {{{"LP_NUM_THREADS", "0"}}, memory.descriptor()};
+  ChildExtras extras = {{{"LP_NUM_THREADS", "0"}}, memory.descriptor()};
+  if (!std::getenv("ASPIC_EGL_DEVICE")) extras.environment.emplace_back("ASPIC_EGL_DEVICE", "software");
   ASPIC_TRY(auto child, ChildProcess::start(work.command, ChildProcess::Output::answers, extras));
-  if (!child.write(std::as_bytes(std::span(greeting))))
-    return fail(ErrorCode::io, "{} takes no message.", work.command.front());
+  (void)child.write(
+      std::as_bytes(std::span(greeting)));  // that it has died comes out when it does not answer
   return std::make_unique<Drawer>(std::move(child), std::move(memory));
 }
 
@@ -97,7 +98,10 @@ std::unique_ptr<Drawers> Drawers::start(const DrawingWork& work, const std::stri
   const std::string message = message_of(greeting);
   for (unsigned i = 0; i < count; ++i) {
     auto drawer = start_one(work, message, slots * d->layout_.bytes());
-    if (!drawer) break;  // pictures are drawn all the same, here if need be
+    if (!drawer) {
+      print_warning(fmt::format("{} of {} processes draw pictures: {}", i, count, drawer.error().message));
+      break;
+    }
     d->drawers_.push_back(std::move(*drawer));
   }
   if (d->drawers_.empty()) return nullptr;
@@ -158,10 +162,12 @@ std::optional<Drawers::Drawn> Drawers::take(const Place& place) {
   std::string word;
   std::uint64_t slot = 0;
   Drawn drawn;
-  if (words >> word >> slot >> drawn.draw >> drawn.read && word == "done" && slot == place.slot) {
+  const bool answered = static_cast<bool>(words >> word >> slot >> drawn.draw >> drawn.read);
+  if (answered && word == "done" && slot == place.slot) {
     drawn.rgb = layout_.pixels(drawer.memory.bytes(), place.slot);
     return drawn;
   }
+  if (answered) drawer.child->kill();  // it does not do what it was asked for
   lose(drawer);
   return std::nullopt;
 }
