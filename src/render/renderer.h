@@ -53,6 +53,7 @@ struct PictureOptions {
   std::optional<QuantityRange> range;         ///< ends of the scale of colours; absent: the view's
   std::optional<Colour> tint;                 ///< of bodies coloured by material, instead of their own
   ArrowSet arrows;                            ///< of those that the view asks for
+  bool steady = false;                        ///< the next picture has this camera: a backdrop is worth it
   std::vector<BallTurn> ball_turns;           ///< of each ball; empty: by the pictures drawn before
   bool axes = true;                           ///< in a corner, where the view asks for them
   std::optional<HighlightOptions> highlight;  ///< marks on particles; absent: none, not even on pinned ones

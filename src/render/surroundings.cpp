@@ -22,9 +22,10 @@ void Renderer::Parts::draw_ground(const std::vector<Terrain>& placed, const Came
 /// would save there is little.
 bool Renderer::Parts::prepare_backdrop(const std::vector<Terrain>& placed, const Camera& camera,
                                        const PictureOptions& options) {
-  if (!context->info().is_software ||
-      !backdrop.stays({drawn_frame, placed, options.background, targets->samples.colour.settings().samples}))
-    return false;
+  if (!context->info().is_software) return false;
+  const bool stays =
+      backdrop.stays({drawn_frame, placed, options.background, targets->samples.colour.settings().samples});
+  if (!stays && !options.steady) return false;
   if (backdrop.drawn()) return true;
   if (!backdrop.begin(*context, *targets)) return false;
   lights.leave_out(*buffers);

@@ -1,5 +1,6 @@
 #include "run/picture_painter.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -68,6 +69,9 @@ Status PicturePainter::draw_part(Part& part, const DeviceState& state, const Sho
   PictureOptions options;
   options.view = part.run.scene->view;
   options.view.camera = shown.camera;
+  options.steady =
+      !options.view.follow &&
+      std::ranges::none_of(part.run.model->terrain, [](const Terrain& t) { return t.motion.has_value(); });
   options.text = shown.text;
   options.text_height = shown.text_height;
   options.legend = shown.legend;

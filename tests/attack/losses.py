@@ -387,4 +387,54 @@ def sweep_owner(attack, grid, directory):
     return line
 
 
-main({f.__name__: f for f in (links, hangups, encoders, halts, pictures, pipes, endless)})
+def drawers_of(child):
+    """The processes that draw for a run."""
+    try:
+        children = read(f"/proc/{child.pid}/task/{child.pid}/children").split()
+        return [int(c) for c in children if b"--draw-pictures" in read(f"/proc/{int(c)}/cmdline")]
+    except (FileNotFoundError, ProcessLookupError):
+        return []
+
+
+def drawers(attack):
+    """Processes that draw, killed, held or left alone: no picture is lost, and none of them is left behind."""
+    words = [*RUN[:-1], "2000", "--set", "simulation.timestep=0.002", *PICTURES]
+    there = attack.fresh()
+    attack.judge(attack.run(*words, "--frames", "plain", cwd=there, env={"ASPIC_DRAWERS": "0"}), [OK], "drawn by one")
+    plain = [read(p) for p in sorted(all_files(os.path.join(there, "plain")))]
+    attack.require(len(plain) == 241, f"drawn by one: {len(plain)} pictures")
+
+    def begun(name):
+        child = start(attack, [*words, "--frames", name], there, {"ASPIC_DRAWERS": "3"})
+        attack.require(wait_until(lambda: len(drawers_of(child)) == 3 and len(names(os.path.join(there, name))) > 2), f"{name}: it did not begin")
+        return child, drawers_of(child)
+
+    def gone(processes, note):
+        def running(p):
+            return os.path.exists(f"/proc/{p}") and b"--draw-pictures" in read(f"/proc/{p}/cmdline")
+        attack.require(wait_until(lambda: not any(running(p) for p in processes), 20), f"{note}: processes that draw are left")
+
+    # Those that are killed, and how many warnings tell of it.
+    for name, killed in (("none", 0), ("one", 1), ("two", 2), ("all", 3)):
+        child, processes = begun(name)
+        for process in processes[:killed]:
+            os.kill(process, signal.SIGKILL)
+        code, err, _ = end_of(attack, child, f"killing {name}", 120)
+        attack.require(code == OK, f"killing {name}: ended {code} {err[:600]}")
+        attack.require(err.count(b"process that draws pictures was lost") == killed, f"killing {name}: said {err[:600]}")
+        attack.require([read(p) for p in sorted(all_files(os.path.join(there, name)))] == plain, f"killing {name}: other pictures")
+        gone(processes, f"killing {name}")
+    # The run is asked to end while one does not move, or is killed itself.
+    for name, number in (("interrupt", signal.SIGINT), ("terminate", signal.SIGTERM), ("hang up", signal.SIGHUP), ("kill", signal.SIGKILL)):
+        child, processes = begun(name)
+        if number != signal.SIGKILL:
+            os.kill(processes[0], signal.SIGSTOP)
+        child.send_signal(number)
+        code, err, _ = end_of(attack, child, name, 40)
+        attack.require(code == (-number if number == signal.SIGKILL else INTERRUPTED), f"{name}: ended {code} {err[:600]}")
+        gone(processes, name)
+        done = [read(p) for p in sorted(all_files(os.path.join(there, name))) if p.endswith(".png") and "frame-" in os.path.basename(p)]
+        attack.require(done[:-1] == plain[:len(done) - 1], f"{name}: other pictures")
+
+
+main({f.__name__: f for f in (links, hangups, encoders, halts, pictures, drawers, pipes, endless)})
