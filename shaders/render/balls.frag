@@ -50,7 +50,7 @@ void main() {
 
   float nl = max(dot(n, sun.xyz), 0.0);
   // From above the ball itself, whose own shade is in its ambient light: higher bodies keep the sky off.
-  float open = skylight_at(world - 1.2 * size * transpose(mat3(lights[LIGHT_SKY]))[2], 2.0 * size);
+  float open = skylight_above(world - 1.2 * size * transpose(mat3(lights[LIGHT_SKY]))[2], 2.0 * size);
   vec3 light = base * (0.46 * sun_light * nl * sphere_shade(world) + 0.62 * open * ambient(n));
   light += sun_light * 0.04 * highlight(n, v, sun.xyz, 0.3) + 0.3 * open * fresnel(dot(n, v), 0.04) * sky(reflect(-v, n));
   colour = vec4(to_display(light), coverage);

@@ -1,4 +1,8 @@
-in float depth;
-layout(location = 0) out vec2 covered;
+#include "render/layout.glsl"
+#include "render/light.glsl"
 
-void main() { covered = vec2(1.0, depth); }
+layout(location = LOCATION_LIGHT) uniform int light;
+in float depth;
+layout(location = 0) out vec4 covered;
+
+void main() { covered = light_texel(light, depth, 0.0); }

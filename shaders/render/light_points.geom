@@ -7,6 +7,7 @@ layout(location = LOCATION_LIGHT) uniform int light;
 layout(location = LOCATION_RADIUS) uniform float radius;
 out float depth;
 out vec2 on_disc;
+flat out float size;
 
 void main() {
   // w: 1 for particles, its own radius for a ball, 0 while that waits.
@@ -16,6 +17,7 @@ void main() {
   for (int corner = 0; corner < 4; ++corner) {
     on_disc = vec2((corner & 1) * 2 - 1, (corner >> 1) * 2 - 1);
     depth = p.z;
+    size = r;
     gl_Position = vec4(p.xy + on_disc * (r * light_boxes[light].depth.y), p.z / light_boxes[light].depth.x, 1.0);
     EmitVertex();
   }

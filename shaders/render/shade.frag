@@ -12,6 +12,6 @@ void main() {
 #if SHADED_LIGHT == LIGHT_SUN
   kept_off = vec2(sun_kept_off(world), 0.0);
 #else
-  kept_off = vec2(0.0, sky_kept_off(world, 1e-6));
+  kept_off = vec2(0.0, sky_kept_off(world));
 #endif
 }

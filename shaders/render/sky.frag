@@ -1,4 +1,5 @@
 #include "render/frame.glsl"
+#include "render/landscape.glsl"
 #include "render/sight.glsl"
 
 in vec2 on_screen;
@@ -6,5 +7,5 @@ layout(location = 0) out vec4 colour;
 
 void main() {
   vec4 far = clip_to_world * vec4(on_screen, 1.0, 1.0);
-  colour = vec4(to_display(sky(-to_eye(far.xyz / far.w))), 1.0);
+  colour = vec4(to_display(landscape(-to_eye(far.xyz / far.w))), 1.0);
 }

@@ -1,6 +1,7 @@
 // Solid terrain: textured ground or another textured surface, in sun, sky and shadow. CUT_PLANE: ground with parts cut
 // out, which the shape's distance tells.
 #include "render/frame.glsl"
+#include "render/landscape.glsl"
 #include "render/sight.glsl"
 #include "render/drawn_terrain.glsl"
 #ifdef UNSHADOWED_PLANE
@@ -49,14 +50,15 @@ void main() {
   bool from_behind = false;
 #endif
   float nl = max(dot(n, sun.xyz), 0.0);
-  vec3 sunlit = nl > 0.0 && !from_behind ? sun_light * nl * sunlight_at(world) : vec3(0.0);
   float open = from_behind ? 0.6 : skylight_at(world);
+  // Close to a body light that ground and body pass on to each other is missing too.
+  vec3 sunlit = nl > 0.0 && !from_behind ? sun_light * nl * sunlight_at(world) * (0.45 + 0.55 * open) : vec3(0.0);
   vec3 light = albedo * (0.46 * sunlit + 0.62 * open * ambient(n));
   light += 0.10 * open * fresnel(dot(n, v), 0.03) * horizon_light;
 #ifdef PLANE
   vec3 off = (world - plane_point.xyz) / plane_point.w;
-  float haze = smoothstep(0.01, 0.55, dot(off, off));
-  light = mix(light, sky(-v), 1.0 - (1.0 - haze) * (1.0 - haze));
+  float haze = smoothstep(0.0025, 0.50, dot(off, off));
+  light = mix(light, landscape(-v), 1.0 - (1.0 - haze) * (1.0 - haze));
   colour = vec4(to_display(light), from_behind ? 0.3 : 1.0);
 #else
   colour = vec4(to_display(light), 1.0);

@@ -366,13 +366,14 @@ void energy_section(Gui& gui, Beside& beside, RunControl& run, Layouts& layout) 
     const double now = beside.clock_time();
     const auto pointed = plot(gui, name, lines, unit, help, now);
     if (pointed && pointed->pressed) run.go_to(pointed->time);
+    // Without figures, as after a restart, their rows stay: what is below keeps its place under the mouse.
     const EnergySample* const sample = s.samples().nearest(pointed ? pointed->time : now);
-    if (!sample) return;
-    figure(pointed ? "t under the mouse" : "t", fmt::format("{:.4g} s", sample->time), help);
+    figure(pointed ? "t under the mouse" : "t", sample ? fmt::format("{:.4g} s", sample->time) : "-", help);
     const double size = largest(lines);
     for (const Curve& c : curves) {
-      figure(c.name, with_prefix(without_noise(c.value(sample->measures), size), unit), help,
-             ImGui::ColorConvertU32ToFloat4(c.colour));
+      figure(c.name,
+             sample ? with_prefix(without_noise(c.value(sample->measures), size), unit) : std::string("-"),
+             help, ImGui::ColorConvertU32ToFloat4(c.colour));
       gui.mark("{}/{}", name, c.name);
     }
   };

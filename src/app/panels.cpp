@@ -259,7 +259,11 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, most);
   const Panel panel("##help", 8.0 * gui.scale(), ImVec4(0.09f, 0.095f, 0.10f, 0.97f),
                     ImGuiWindowFlags_AlwaysAutoResize, ImGuiWindowFlags_NoScrollbar);
+  ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Keys and mouse");
+  ImGui::SameLine(0.0f, 2.0f * ImGui::GetTextLineHeightWithSpacing());
+  // Above the rows: in a small window their end is out of sight.
+  if (button(gui, "help/close", "Close", "Close this page (F1 or Escape).")) visible = false;
   ImGui::Separator();
   // Headings begin groups, in two columns of about the same length.
   const auto& rows = gui.commands().rows();
@@ -293,8 +297,6 @@ void help_panel(Gui& gui, bool& visible, double width, double height) {
     taken += ImGui::GetItemRectSize().y - ImGui::GetTextLineHeight();
   }
   ImGui::EndGroup();
-  ImGui::Separator();
-  if (button(gui, "help/close", "Close", "Close this page (F1 or Escape).")) visible = false;
 }
 
 /// Asks before changes are lost.

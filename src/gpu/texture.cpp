@@ -18,7 +18,8 @@ struct Storage {
 /// By TexelFormat.
 constexpr Storage storages[] = {{GL_R8, GL_RED, 1}, {GL_SRGB8_ALPHA8, GL_RGBA, 4},
                                 {GL_R16F, 0, 0},    {GL_RG16F, 0, 0},
-                                {GL_RG32UI, 0, 0},  {GL_DEPTH_COMPONENT32F, 0, 0}};
+                                {GL_RGBA16F, 0, 0}, {GL_RG32UI, 0, 0},
+                                {GL_DEPTH_COMPONENT32F, 0, 0}};
 
 const Storage& storage_of(TexelFormat format) {
   return storages[static_cast<std::size_t>(format)];

@@ -17,6 +17,7 @@ enum class TexelFormat {
   srgba8,  ///< colour encoded as sRGB, linear to shaders and blending; alpha linear
   r16f,    ///< one half float
   rg16f,   ///< two half floats
+  rgba16f,  ///< four
   rg32ui,  ///< two unsigned integers, to be drawn into and read back, not filtered
   depth32f
 };

@@ -38,11 +38,12 @@ bool draws_balls(const DrawSettings& draw) {
 Result<LightMaps> LightMaps::create(gl::Context& context) {
   LightMaps result;
   for (int light = 0; light < LIGHTS; ++light) {
-    const int size = light == LIGHT_SUN ? sun_size : sky_size;
+    const bool sun = light == LIGHT_SUN;
+    const int size = sun ? sun_size : sky_size;
+    const gl::TexelFormat format = sun ? gl::TexelFormat::rg16f : gl::TexelFormat::rgba16f;
     ASPIC_TRY(result.maps_[static_cast<std::size_t>(light)],
-              DrawableImage::create(
-                  context, light == LIGHT_SUN ? "sun map" : "sky map",
-                  {.format = gl::TexelFormat::rg16f, .width = size, .height = size, .mipmaps = true}, true));
+              DrawableImage::create(context, sun ? "sun map" : "sky map",
+                                    {.format = format, .width = size, .height = size, .mipmaps = true}, sun));
   }
   ASPIC_TRY(result.empty_,
             DrawableImage::create(context, "empty light map", {.format = gl::TexelFormat::rg16f}, false));
@@ -73,11 +74,9 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
                        const ViewSettings& view) {
   const DrawSettings& draw = view.draw;
   model.light_boxes().bind(gl::BufferKind::uniform, BINDING_LIGHT_BOXES);
-  glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
   glDisable(GL_CULL_FACE);
-  glDisable(GL_BLEND);
   const gl::VertexArray skin = model.skin_array(*state.particles);
   const gl::VertexArray points = model.particle_array(*state.particles);
   const gl::VertexArray lines = model.spring_array(*state.particles);
@@ -86,6 +85,11 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
   for (int light = 0; light < LIGHTS; ++light) {
     DrawableImage& map = maps_[static_cast<std::size_t>(light)];
     map.framebuffer.bind();
+    // The surfaces nearest to the sun; below the sky the highest and the lowest of all, in whatever order.
+    const bool sun = light == LIGHT_SUN;
+    (sun ? glEnable : glDisable)(GL_DEPTH_TEST);
+    (sun ? glDisable : glEnable)(GL_BLEND);
+    glBlendEquation(sun ? GL_FUNC_ADD : GL_MAX);
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     for (const gl::Program* program :
@@ -116,6 +120,9 @@ void LightMaps::render(const RenderPrograms& programs, const ModelBuffers& model
     }
     map.colour.generate_mipmaps();
   }
+  glBlendEquation(GL_FUNC_ADD);
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
   bind(model);
   glBindVertexArray(0);
 }

@@ -134,7 +134,7 @@ void TerrainPainter::draw_planes(const RenderPrograms& programs, const std::vect
     }
     // The square lies around what the camera looks at and reaches as far as it sees.
     const Vec3 middle = camera.target - above(camera.target) * flat.normal;
-    const double reach = 14.0 * static_cast<double>(lens.target_distance());
+    const double reach = 28.0 * static_cast<double>(lens.target_distance());
     for (const gl::Program* program : {&plain, &shadowed, &programs.shade[0], &programs.shade[1]}) {
       program->set(LOCATION_PLANE_POINT, four(middle, reach));
       program->set(LOCATION_PLANE_NORMAL, four(flat.normal, 0.0));

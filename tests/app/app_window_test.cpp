@@ -134,6 +134,18 @@ TEST_F(AppWindow, DraggingAPanelDoesNotTurnTheCamera) {
   EXPECT_EQ(app().view.camera.goal(), before);
 }
 
+TEST_F(AppWindow, TheHelpPageOfASmallWindowCloses) {
+  open("cube-plane");
+  press(GLFW_KEY_F1);
+  frames(3);
+  ASSERT_TRUE(app().help_visible);
+  const app::Box close = widgets().at("help/close");
+  EXPECT_GE(close.top, 0.0);
+  EXPECT_LE(close.bottom, 400.0) << "in sight without scrolling";
+  click("help/close");
+  EXPECT_FALSE(app().help_visible);
+}
+
 TEST_F(AppWindow, KeysOfTheView) {
   open("cube-plane");
   resize(roomy[0], roomy[1]);

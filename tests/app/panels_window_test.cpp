@@ -71,9 +71,6 @@ TEST_F(Panels, WordsAndFlagsFollowTheTable) {
   click("simulation.integrator/runge-kutta-4");
   EXPECT_EQ(settings().simulation.integrator, Integrator::runge_kutta_4);
   EXPECT_EQ(simulation().model().simulation.integrator, Integrator::runge_kutta_4);
-  // Energy, which is above, has figures again.
-  frames_until([&] { return !simulation().samples().energies().empty(); });
-  frames(2);
   click("view.draw/shear");
   EXPECT_TRUE(app().scene.editor().scene().view.draw.shear);
   click("view.draw/solid");
@@ -83,6 +80,24 @@ TEST_F(Panels, WordsAndFlagsFollowTheTable) {
   EXPECT_TRUE(app().scene.editor().scene().view.draw.shear);
   press(GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
   EXPECT_FALSE(app().scene.editor().scene().view.draw.solid);
+}
+
+// A restart empties Energy, which is above View.
+TEST_F(Panels, RowsKeepTheirPlacesWhileEnergyHasNoFigures) {
+  open("cube-plane", {"cube[0].particles-per-edge=4"}, "reference");
+  click("fold/Energy: momentum");
+  bring_into_sight("view.draw/solid");
+  frames_until([&] { return !simulation().samples().energies().empty(); });
+  frames(2);
+  const Box full = widgets().at("view.draw/solid");
+  ASSERT_TRUE(simulation().reset().ok());
+  int without = 0;
+  for (int i = 0; i < 20; ++i) {
+    if (simulation().samples().energies().empty()) ++without;
+    frame();
+    EXPECT_EQ(widgets().at("view.draw/solid"), full) << "picture " << i;
+  }
+  EXPECT_GT(without, 0);
 }
 
 TEST_F(Panels, ADragOfANumberIsOneChangeForUndo) {
