@@ -16,6 +16,7 @@ full      core, and by label:
   products     equal bits in products of methods, terrains and paths, and for more particles
   drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads and on zink
   crowds       hundreds of balls in one place
+  framing      how much of the picture bodies fill, in every built-in scene
   verify       aspic verify --quick
   window       the rest of the window's tests
   report       the report's page, in a browser

@@ -5,6 +5,7 @@
 
 #include "render/overlay_text.h"
 #include "render/studio.h"
+#include "scene/follow.h"
 #include "scene/load.h"
 
 namespace aspic {
@@ -31,6 +32,8 @@ TEST_P(Golden, Picture) {
   const State state = shot.step > 0 ? test::after(model, shot.step) : initial_state(model, Precision::single);
   PictureOptions options;
   options.view = scene->view;
+  options.view.camera =
+      moved(scene->view.camera, Following(*scene, model, Precision::single).offset(model, state));
   options.text = overlay_lines(scene->model, static_cast<double>(state.step) * model.simulation.timestep);
   test::expect_golden(draw(model, state, options), shot.name.empty() ? shot.scene : shot.name);
 }
