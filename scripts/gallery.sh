@@ -29,12 +29,12 @@ draw signed-strain 2.25 flag --view colour=signed-strain --view 'scale={ from = 
 draw strain-at-rest 6 cube-plane --view colour=strain --view scale.range=automatic
 draw springs 1.42 cube-plane --view 'draw=["structural","shear","bending"]'
 draw cut 1.05 cube-sphere --view cut.inside=section --view 'cut.normal=[0.2,0,1]' --view colour=strain \
-  --view 'camera={position=[5,5,9],target=[0.2,2.4,0]}'
-draw contacts 1.4 cube-plane --view 'arrows=["contacts"]' --view axes=true --view 'camera={position=[6,3,9],target=[0,1,0]}'
+  --view 'camera={position=[5,5,9],target=[0.2,2.4,0],fov=45}' --view follow=none
+draw contacts 1.4 cube-plane --view 'arrows=["contacts"]' --view axes=true --view 'camera={position=[6,3,9],target=[0,1,0],fov=45}'
 draw penalty 1.4 penalty
 draw cube-and-balls 0.7 cube-and-balls
 draw beside 1.72 cube-plane --set cube[0].structural.damping=1 --set cube[0].shear.damping=1 --set cube[0].bending.damping=1 \
-  --beside integrator=implicit-euler --view camera.position=[10,5,14] --view camera.target=[0,2.4,0]
+  --beside integrator=implicit-euler --view 'camera={position=[10,5,14],target=[0,2.4,0],fov=45}'
 draw cube-torus 0.95 cube-torus
 draw cube-hole 1.3 cube-hole
 draw elevator 2 elevator

@@ -40,8 +40,8 @@ App::App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Simulati
       run(simulation, scene, messages),
       picture(simulation, scene.scene(), view, options.full_quality),
       hands(simulation, view, messages),
-      film(simulation, scene.editor(), view, picture, messages),
       beside(simulation, scene, view, picture, messages, options.asked),
+      film(simulation, scene.editor(), view, picture, beside, messages),
       pointer(simulation, view, picture, hands) {
   hands.refusal = [this] { return beside.hands_refused(); };
 }

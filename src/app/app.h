@@ -93,8 +93,8 @@ class App final : public EventReceiver {
   RunControl run;
   ScenePicture picture;
   Hands hands;
-  Film film;
   Beside beside;
+  Film film;
   Pointer pointer;
   Layouts layout;
   FileDialog files;

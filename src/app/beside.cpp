@@ -43,37 +43,11 @@ void Beside::detach() {
   context_ = nullptr;
 }
 
-namespace {
-
-/// "implicit Euler", "h 0.0005 s", "shear stiffness 20 N/m".
-std::string short_difference(const std::string& key, const Scene& scene, const std::string& backend) {
-  const std::string value = value_of(key, scene, backend);
-  if (key == backend_key || key == "integrator" || key == "simulation.integrator") return value;
-  std::string name = title_of(key);
-  // The symbol of a short name; of a path what is after its table.
-  if (find_short_key(key)) {
-    name = name.substr(name.rfind(' ') + 1);
-  } else {
-    const std::size_t list = name.find("].");
-    name = name.substr(list == std::string::npos ? name.find('.') + 1 : list + 2);
-    std::ranges::replace(name, '.', ' ');
-    std::ranges::replace(name, '-', ' ');
-  }
-  return fmt::format("{} {}", name, value);
-}
-
-}  // namespace
-
 std::string Beside::name(std::size_t i) const {
-  const std::string backend(run(i).backend().title);
-  if (i > 0)
-    return short_difference(companions_[i - 1]->variation().key, companions_[i - 1]->scene(), backend);
-  std::vector<std::string> parts;
-  for (const auto& companion : companions_) {
-    std::string part = short_difference(companion->variation().key, scene_.scene(), backend);
-    if (std::ranges::find(parts, part) == parts.end()) parts.push_back(std::move(part));
-  }
-  return fmt::format("{}", fmt::join(parts, ", "));
+  std::vector<Variation> differences;
+  for (const auto& companion : companions_) differences.push_back(companion->variation());
+  return short_name(i, differences, i > 0 ? companions_[i - 1]->scene() : scene_.scene(),
+                    std::string(run(i).backend().title));
 }
 
 // ---- what runs there are ----
@@ -176,6 +150,21 @@ double Beside::clock_time() const {
   for (std::size_t i = 0; i < count(); ++i)
     if (&run(i) == &setter) return shown_time(i);
   return leader_.time();
+}
+
+bool Beside::shows_clock() const {
+  if (!several()) return true;
+  if (!settled_ || shown_.size() != count()) return false;
+  const Simulation& setter = clock();
+  for (std::size_t i = 0; i < count(); ++i)
+    if (&run(i) == &setter) return shown_[i].time == setter.time();
+  return false;
+}
+
+void Beside::hold_at(std::optional<std::uint64_t> step) {
+  leader_.pacer().pause_step.reset();
+  for (const auto& companion : companions_) companion->simulation().pacer().pause_step.reset();
+  (others_go_on() ? stand_in()->simulation() : leader_).pacer().pause_step = step;
 }
 
 double Beside::end_time() const {
@@ -383,8 +372,10 @@ void Beside::place(const Box& whole) {
 
 void Beside::share_colours() {
   picture_.common_range.reset();
-  picture_.tint = active() ? std::optional(tint(0)) : std::nullopt;
-  for (std::size_t i = 0; i < companions_.size(); ++i) companions_[i]->picture().tint = tint(i + 1);
+  // A film without names shows each run as it would be alone.
+  const bool marked = active() && !(picture_.film && !picture_.film->text);
+  for (std::size_t i = 0; i < count(); ++i)
+    picture(i).tint = marked ? std::optional(run_tint(i)) : std::nullopt;
   const ViewSettings& view = scene_.scene().view;
   if (!active() || !has_scale(view.colour)) return;
   QuantityRange range = picture_.own_range();

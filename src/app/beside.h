@@ -42,14 +42,13 @@ class Beside {
   /// Runs in all, the window's own included.
   std::size_t count() const { return companions_.size() + 1; }
   const Simulation& run(std::size_t i) const { return i == 0 ? leader_ : companions_[i - 1]->simulation(); }
+  const Scene& scene(std::size_t i) const { return i == 0 ? scene_.scene() : companions_[i - 1]->scene(); }
   ScenePicture& picture(std::size_t i) { return i == 0 ? picture_ : companions_[i - 1]->picture(); }
   /// What distinguishes a run from the others, in few words: of the window's own run all values that others
   /// differ in, of those their own difference.
   std::string name(std::size_t i) const;
   /// The colour of a run's curves and label, as ImGui packs it.
   static std::uint32_t packed_colour(std::size_t i);
-  /// The same for its bodies, linear light.
-  static Colour tint(std::size_t i);
 
   /// One more run, with a difference that suggests itself; nothing if there are most_beside already.
   void add();
@@ -73,6 +72,10 @@ class Beside {
   bool clock_runs() const { return leader_.running() || others_run_; }
   /// The time that the pictures show [s].
   double clock_time() const;
+  /// All pictures show the very step that the run of the clock is at.
+  bool shows_clock() const;
+  /// The step of the clock's run that it does not pass (Pacer::pause_step); absent: none.
+  void hold_at(std::optional<std::uint64_t> step);
   /// The last time that there is to go to [s]: of the run that came furthest, while they move what is shown.
   double end_time() const;
   /// To the moment nearest to a time [s]; false if the window's own run has it: that goes then, and the

@@ -145,9 +145,8 @@ void beside_section(Gui& gui, SceneControl& scene, Beside& beside) {
 }
 
 std::uint32_t Beside::packed_colour(std::size_t i) {
-  constexpr ImU32 colours[most_beside] = {IM_COL32(242, 176, 92, 255), IM_COL32(110, 165, 240, 255),
-                                          IM_COL32(120, 205, 140, 255), IM_COL32(224, 130, 200, 255)};
-  return colours[i];
+  const auto& colour = run_colours[i];
+  return IM_COL32(colour[0], colour[1], colour[2], 255);
 }
 
 /// Tells where the ghost stands still, in the lower part of the picture.
@@ -173,14 +172,6 @@ void Beside::draw_ghost_label(const Gui& gui) const {
   ImGui::PopStyleVar();
 }
 
-Colour Beside::tint(std::size_t i) {
-  const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(packed_colour(i));
-  const auto linear = [](float encoded) {
-    return static_cast<float>(srgb_to_linear(static_cast<double>(encoded)));
-  };
-  return {linear(colour.x), linear(colour.y), linear(colour.z)};
-}
-
 /// "implicit Euler · 1.501 s" in a frame of the run's colour, to be read from the last row.
 void Beside::draw_labels(const Gui& gui) const {
   draw_ghost_label(gui);
@@ -195,6 +186,8 @@ void Beside::draw_labels(const Gui& gui) const {
     ImGui::GetBackgroundDrawList()->AddRect({low.x + 0.5f * thickness, low.y + 0.5f * thickness},
                                             {high.x - 0.5f * thickness, high.y - 0.5f * thickness},
                                             packed_colour(i), 0.0f, 0, thickness);
+    // A film has the names in its pictures.
+    if (picture_.film && picture_.film->text) continue;
     ImGui::SetNextWindowPos({low.x + gap, low.y + gap});
     ImGui::SetNextWindowBgAlpha(0.72f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);

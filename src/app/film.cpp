@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "render/quantity.h"
+#include "run/beside.h"
 #include "run/run_files.h"
 
 namespace aspic::app {
@@ -29,10 +31,6 @@ std::string film_path(const std::string& path, const FilmFormat& format) {
 
 void Film::start() {
   stop();
-  if (!editor_.beside().empty())
-    return messages_.refuse(
-        "The window films one run alone. Leave side by side first, or film all runs with aspic run … "
-        "--beside, which draws the same.");
   const FilmFormat& format = *settings.format;
   const auto pixels = [&](double length) {
     const int count = std::max(static_cast<int>(std::lround(length * view_.pixels_per_unit)), 16);
@@ -42,7 +40,8 @@ void Film::start() {
   options.fps = settings.fps;
   options.path = settings.path.empty() ? free_name(editor_.source(), film_ending(format))
                                        : film_path(settings.path, format);
-  options.size = {pixels(view_.box.right - view_.box.left), pixels(view_.box.bottom - view_.box.top)};
+  const Box& all = view_.whole;
+  options.size = {pixels(all.right - all.left), pixels(all.bottom - all.top)};
   std::error_code unknown;
   if (!format.is_directory() && std::filesystem::exists(options.path, unknown))
     return messages_.refuse(
@@ -62,7 +61,7 @@ void Film::start() {
   recording_ = std::move(*started);
   pace_.emplace(recording_->options().fps);
   scene_ = editor_.source();
-  picture_.film = FilmLook{recording_->options().size, settings.text};
+  taken_.reset();
   messages_.info(fmt::format("Recording to {}, in step with simulated time.", recording_->options().path));
   update();
 }
@@ -78,8 +77,54 @@ void Film::end() {
   recording_->end();
   completing_.push_back(std::move(recording_));
   pace_.reset();
-  simulation_.pacer().pause_step.reset();
-  picture_.film.reset();
+  beside_.hold_at(std::nullopt);
+  for (std::size_t i = 0; i < beside_.count(); ++i) beside_.picture(i).film.reset();
+  canvas_.reset();
+}
+
+/// What the picture of a run is like: as aspic run draws it, alone or with --beside.
+FilmLook Film::look_of(std::size_t run) const {
+  const PictureSize& size = recording_->options().size;
+  if (!beside_.active()) return {size, settings.text};
+  const Tile tile = tiles_of(size, beside_.count())[run];
+  FilmLook look = {{tile.width, tile.height}, settings.text};
+  look.text_height = beside_text_height(size.height, beside_.count());
+  look.label = beside_text(beside_.name(run), run, beside_.shown_time(run),
+                           beside_.run(run).model().simulation.timestep, beside_.shown_divergence(run));
+  // One legend for all that share a scale.
+  const ViewSettings &own = beside_.scene(run).view, &last = beside_.scene(beside_.count() - 1).view;
+  look.legend = run + 1 == beside_.count() || own.scale != last.scale || own.colour != last.colour ||
+                (own.arrows.any() && !own.arrow_scale);
+  return look;
+}
+
+/// The picture of all runs, as they are shown.
+Status Film::draw() {
+  for (std::size_t i = 0; i < beside_.count(); ++i) beside_.picture(i).film = look_of(i);
+  beside_.share_colours();
+  if (!beside_.active()) {
+    canvas_.reset();
+    return picture_.draw();
+  }
+  if (!canvas_) {
+    ASPIC_TRY(canvas_, BesideCanvas::create(picture_.context(), recording_->options().size));
+  }
+  canvas_->divide(beside_.count());
+  for (std::size_t i = 0; i < beside_.count(); ++i) {
+    ASPIC_CHECK(beside_.picture(i).draw());
+    canvas_->place(i, beside_.picture(i).pixels(), settings.text);
+  }
+  return {};
+}
+
+/// How many pictures the film wants of what is shown; none before all runs have come to the clock's step.
+std::uint64_t Film::wanted_copies() {
+  const Simulation& clock = beside_.clock();
+  if (!beside_.shows_clock()) return 0;
+  const double timestep = clock.model().simulation.timestep;
+  const std::uint64_t copies = pace_->take(clock.step(), timestep, simulation_.pacer().speed);
+  if (copies > 0) taken_ = clock.step();
+  return copies;
 }
 
 void Film::update() {
@@ -88,22 +133,23 @@ void Film::update() {
   // Nothing but an error completes a film by itself.
   if (recording_->completed()) return end();
   // States passed on the way through history are not filmed; the one it ends at is.
-  if (simulation_.seeking()) return;
-  const double speed = simulation_.pacer().speed;
+  if (simulation_.seeking() || beside_.clock().seeking()) return;
   // A job in progress goes to the step that the old speed asked for.
-  if (speed != pace_->speed()) messages_.check(simulation_.halt());
+  if (simulation_.pacer().speed != pace_->speed()) messages_.check(simulation_.halt());
   if (scene_ != editor_.source()) pace_->restart();
   scene_ = editor_.source();
-  const std::uint64_t copies =
-      pace_->take(simulation_.step(), simulation_.model().simulation.timestep, speed);
+  const std::uint64_t copies = wanted_copies();
   Status taken;
   if (copies == 0)
     taken = recording_->progress();
-  else if (taken = picture_.draw(); taken)
-    taken = recording_->add(picture_.pixels(), copies);
+  else if (taken = draw(); taken)
+    taken = recording_->add(drawn(), copies);
   if (!messages_.check(taken)) return end();
-  // While the encoder is behind, the motion waits and the window does not.
-  simulation_.pacer().pause_step = recording_->ready() ? pace_->next_step() : simulation_.step();
+  // While the encoder is behind, the motion waits and the window does not. So it does where the run was put
+  // to another state, until that is shown.
+  const std::uint64_t step = beside_.clock().step();
+  const bool on_the_way = taken_ && *taken_ <= step && step <= pace_->next_step();
+  beside_.hold_at(recording_->ready() && on_the_way ? pace_->next_step() : step);
 }
 
 void Film::report_completed() {

@@ -1,11 +1,12 @@
 #pragma once
-// Films of the scene while the user plays with it, in step with simulated time.
+// Films of the scene, or of all runs side by side, while the user plays with it, in step with simulated time.
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/beside.h"
 #include "app/film_pace.h"
 #include "app/messages.h"
 #include "app/scene_editor.h"
@@ -34,8 +35,13 @@ class Film {
  public:
   /// The references must outlive it.
   Film(Simulation& simulation, const SceneEditor& editor, const View& view, ScenePicture& picture,
-       Messages& messages)
-      : simulation_(simulation), editor_(editor), view_(view), picture_(picture), messages_(messages) {}
+       Beside& beside, Messages& messages)
+      : simulation_(simulation),
+        editor_(editor),
+        view_(view),
+        picture_(picture),
+        beside_(beside),
+        messages_(messages) {}
   /// Completes the film.
   ~Film() { stop(); }
 
@@ -58,15 +64,22 @@ class Film {
  private:
   void end();
   void report_completed();
+  std::uint64_t wanted_copies();
+  FilmLook look_of(std::size_t run) const;
+  Status draw();
+  const gl::Framebuffer& drawn() const { return canvas_ ? canvas_->picture() : picture_.pixels(); }
 
   Simulation& simulation_;
   const SceneEditor& editor_;
   const View& view_;
   ScenePicture& picture_;
+  Beside& beside_;
   Messages& messages_;
   std::unique_ptr<Recording> recording_;
   std::optional<FilmPace> pace_;
-  std::string scene_;  // that was filmed last
+  std::optional<BesideCanvas> canvas_;  // of several runs
+  std::optional<std::uint64_t> taken_;  // step of the last picture
+  std::string scene_;                   // that was filmed last
   std::vector<std::unique_ptr<Recording>> completing_;
 };
 

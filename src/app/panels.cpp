@@ -61,7 +61,7 @@ constexpr Heading right_sections[] = {
        ImGui::Separator();
        picture_files(p.gui, p.picture.saved);
        ImGui::Separator();
-       state_files(p.gui, p.scene.editor(), p.simulation, p.messages, p.files);
+       state_files(p.gui, p.scene.editor().source(), p.simulation, p.beside, p.messages, p.files);
      },
      "Films of the scene; its states, energies and checkpoints as files."},
     {"Stability", [](Parts p) { stability_section(p.gui, p.scene); },
@@ -385,10 +385,10 @@ Box action_bar(Parts p, const Box& view) {
           "stiffness. What differs is changed in the section Side by side.",
           "add a run side by side", beside.count() < most_beside);
     ImGui::SameLine();
-    large(
-        "actions/film", films ? "End film" : "Film",
-        "Films the picture from now on, or completes the film. Format and name are in the section Recording.",
-        "start or end a film", films || !beside.active());
+    large("actions/film", films ? "End film" : "Film",
+          "Films the picture from now on, all runs of a comparison together, or completes the film. Format "
+          "and name are in the section Recording.",
+          "start or end a film", true);
   }
   ImGui::PopStyleVar(2);
   Box above = view;

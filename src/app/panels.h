@@ -80,9 +80,10 @@ std::vector<std::string> followed_names(const Scene& scene);
 void recording_section(Gui& gui, const std::string& source, Film& film);
 /// How pictures are saved; part of the recording section.
 void picture_files(Gui& gui, SavedLook& look);
-/// A button for each format of states; part of the recording section. The references must outlive `files`.
-void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
-                 FileDialog& files);
+/// A button for each format of states; part of the recording section. The references but `source` must
+/// outlive `files`.
+void state_files(Gui& gui, const std::string& source, Simulation& simulation, Beside& beside,
+                 Messages& messages, FileDialog& files);
 void performance_section(Gui& gui, Simulation& simulation, const Beside& beside, const ScenePicture& picture);
 void energy_section(Gui& gui, Beside& beside, RunControl& run, Layouts& layout);
 void beside_section(Gui& gui, SceneControl& scene, Beside& beside);

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "app/number_field.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "io/series_csv.h"
 #include "io/state_sink.h"
+#include "run/beside.h"
 #include "run/run_files.h"
 #include "scene/write.h"
 
@@ -71,32 +73,45 @@ Status write_series(const std::string& path, Overwrite overwrite, const std::deq
 }
 
 Status write_state(const StateFormat& format, const std::string& path, Overwrite overwrite, Scene scene,
-                   const Simulation& simulation) {
+                   const Simulation& simulation, const State& state) {
   scene.model = simulation.setup().settings;
   const RunFacts facts = {to_toml(scene), scene.model.simulation.integrator};
   ASPIC_TRY(auto sink, format.open(path, 0, overwrite, facts));
-  return sink->finish({simulation.model(), simulation.snapshot()});
+  return sink->finish({simulation.model(), state});
 }
 
-/// Writes the state now, or with a format over time the energies of the plot, to a file. A message says what
-/// became of it.
-void save(const StateFormat& format, const std::string& path, Overwrite overwrite, const SceneEditor& editor,
-          Simulation& simulation, Messages& messages) {
+/// Writes the state now, or with a format over time the energies of the plot, to a file; of runs side by side
+/// each to its own, numbered as aspic run --beside does. A message says what became of it.
+void save(const StateFormat& format, const std::string& path, Overwrite overwrite, Simulation& simulation,
+          Beside& beside, Messages& messages) {
   if (!messages.check(simulation.settle())) return;
-  const Setup& setup = simulation.setup();
-  if (format.holds_scene && !(setup.thrown.empty() && setup.pinned.empty())) {
-    return messages.refuse(
-        fmt::format("A {} holds the scene and the state, and balls thrown or particles pinned by hand are "
-                    "not part of the scene. Remove them first (Balls, or Reset), or save the state alone.",
-                    format.option));
+  std::vector<std::string> paths, lines;
+  for (std::size_t i = 0; i < beside.count(); ++i) {
+    paths.push_back(beside.active() ? numbered_path(path, i + 1) : path);
+    std::error_code unknown;
+    if (beside.active() && overwrite == Overwrite::refuse && std::filesystem::exists(paths[i], unknown))
+      return messages.refuse(fmt::format("{} already exists. Choose another name.", paths[i]));
+    const Setup& setup = beside.run(i).setup();
+    if (format.holds_scene && !(setup.thrown.empty() && setup.pinned.empty()))
+      return messages.refuse(
+          fmt::format("A {} holds the scene and the state, and balls thrown or particles pinned by hand are "
+                      "not part of the scene. Remove them first (Balls, or Reset), or save the state alone.",
+                      format.option));
   }
-  const auto& energies = simulation.samples().energies();
-  if (!messages.check(format.over_time ? write_series(path, overwrite, energies)
-                                       : write_state(format, path, overwrite, editor.scene(), simulation)))
-    return;
-  messages.info(format.over_time ? fmt::format("{} holds {} rows.", path, energies.size())
-                                 : fmt::format("{} holds the {} at step {}.", path, format.option,
-                                               simulation.snapshot().step));
+  for (std::size_t i = 0; i < beside.count(); ++i) {
+    const Simulation& run = beside.run(i);
+    const auto& energies = run.samples().energies();
+    // Of several runs what the pictures show, which is of one time.
+    const State& state = beside.active() ? beside.picture(i).shown_state() : run.snapshot();
+    if (!messages.check(format.over_time
+                            ? write_series(paths[i], overwrite, energies)
+                            : write_state(format, paths[i], overwrite, beside.scene(i), run, state)))
+      return;
+    lines.push_back(format.over_time
+                        ? fmt::format("{} holds {} rows.", paths[i], energies.size())
+                        : fmt::format("{} holds the {} at step {}.", paths[i], format.option, state.step));
+  }
+  messages.info(fmt::format("{}", fmt::join(lines, "\n")));
 }
 
 }  // namespace
@@ -115,7 +130,8 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
     return;
   }
   command_button(gui, "record/start", "Start a film",
-                 "Films the scene without the panels, in step with simulated time: no picture is lost or "
+                 "Films the scene, or all runs side by side, without the panels, in step with simulated "
+                 "time: no picture is lost or "
                  "doubled, however fast the solver and the window are. The film's size is that of the view "
                  "now. While the motion pauses, so does the film.",
                  start_or_end, true, -1.0f);
@@ -140,20 +156,23 @@ void picture_files(Gui& gui, SavedLook& look) {
             "Leaves sky and terrain out of saved pictures; what the bodies do not cover is transparent.");
 }
 
-void state_files(Gui& gui, const SceneEditor& editor, Simulation& simulation, Messages& messages,
-                 FileDialog& files) {
+void state_files(Gui& gui, const std::string& source, Simulation& simulation, Beside& beside,
+                 Messages& messages, FileDialog& files) {
   for (const StateFormat& format : state_formats()) {
     const std::string name = fmt::format("save/{}{}", format.option, format.ending);
     const std::string label = fmt::format("Save {}… ({})", format.option, format.ending);
-    const std::string help =
-        format.over_time ? "Writes the energies and momentum of the plot to a file, a row for each point."
-                         : fmt::format("Writes the {} at this step to a file.", format.option);
+    std::string help = format.over_time
+                           ? "Writes the energies and momentum of the plot to a file, a row for each point."
+                           : fmt::format("Writes the {} at this step to a file.", format.option);
+    if (beside.active())
+      help += fmt::format(" Each run has its own: name-1{0}, name-2{0} and so on.", format.ending);
     if (!button(gui, name.c_str(), label.c_str(), help, true, -1.0f)) continue;
-    const auto write = [&format, &editor, &simulation, &messages](const std::string& path,
+    // The page outlives this picture.
+    const auto write = [&format, &simulation, &beside, &messages](const std::string& path,
                                                                   Overwrite overwrite) {
-      save(format, path, overwrite, editor, simulation, messages);
+      save(format, path, overwrite, simulation, beside, messages);
     };
-    files.ask({"Save", {format.ending}, true, write}, free_name(editor.source(), format.ending));
+    files.ask({"Save", {format.ending}, true, write}, free_name(source, format.ending));
   }
 }
 

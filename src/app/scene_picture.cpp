@@ -112,7 +112,7 @@ Status ScenePicture::draw() {
   const Content content = wanted(at_rest_);
   if (drawn_ == content || (drawn_ && drawn_->fine && drawn_ == wanted(true))) return {};
   if (content.fine && !in_full() && !at_once_ && drawn_ == wanted(false)) return refine(content);
-  return draw(content, film && film->text, ghost ? std::optional(behind_ghost) : std::nullopt);
+  return draw(content, film && film->draws_legend(), ghost ? std::optional(behind_ghost) : std::nullopt);
 }
 
 /// Draws some parts of the fine picture, which takes the place of the coarse one once it is whole.
@@ -151,7 +151,9 @@ Result<PictureOptions> ScenePicture::options_of(const Content& content, bool leg
   options.range = content.range;
   options.tint = content.tint;
   options.view = content.view;
-  if (film && film->text) options.text = overlay_lines(scene_.model, simulation_.time());
+  if (film && film->text)
+    options.text = film->label.empty() ? overlay_lines(scene_.model, simulation_.time()) : film->label;
+  if (film) options.text_height = film->text_height;
   options.shadows = shadows;
   options.axes = legend || film;
   // Of the very state that is drawn.

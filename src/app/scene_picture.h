@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/resolution.h"
 #include "app/simulation.h"
@@ -19,8 +20,12 @@ namespace aspic::app {
 
 /// How a film wants its pictures.
 struct FilmLook {
-  PictureSize size;   ///< whatever becomes of the window
-  bool text = false;  ///< parameters, time and the legend of colours are written on them
+  PictureSize size;                     ///< whatever becomes of the window
+  bool text = false;                    ///< parameters, time and the legend of colours are written on them
+  bool legend = true;                   ///< that legend is, and no other picture of the film has it
+  std::vector<OverlayLine> label = {};  ///< instead of parameters and time
+  int text_height = 0;                  ///< [pixels]; 0: that of PictureOptions
+  bool draws_legend() const { return text && legend; }
   friend bool operator==(const FilmLook&, const FilmLook&) = default;
 };
 
@@ -84,6 +89,11 @@ class ScenePicture {
   /// Marks a particle in the window, on top of what show() put there. So the mark follows the mouse however
   /// long pictures take, and is in no film.
   Status mark(std::uint32_t particle);
+  /// The state that it shows.
+  const State& shown_state() const {
+    const State* const held = kept();
+    return held ? *held : simulation_.snapshot();
+  }
   const gl::Framebuffer& pixels() const { return renderer_->picture(); }
   /// Draws it as finely as hardware does, with the legend of its colours, and saves it as a new PNG file.
   /// Errors: of Renderer; io.
@@ -137,10 +147,6 @@ class ScenePicture {
   Status present(const WindowSize& window);
   /// What is kept, if it is one of the simulation's model.
   const State* kept() const;
-  const State& shown_state() const {
-    const State* const held = kept();
-    return held ? *held : simulation_.snapshot();
-  }
   Status refresh();
   Result<DeviceState> on_device();
   Content wanted(bool fine) const;

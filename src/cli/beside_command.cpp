@@ -32,7 +32,6 @@ struct Member {
   std::string name;  ///< "run 2 (integrator implicit Euler)"
   Model model;
   Backend backend;
-  std::vector<OverlayLine> label;
   std::optional<RunLane> lane;
   std::optional<Outcome> outcome;
 };
@@ -97,10 +96,10 @@ Status prepare(Members& members, const std::vector<Variation>& differences, gl::
     Member& m = *members[i];
     ASPIC_TRY(m.backend, make_backend(m.run.backend, m.model, {context, nullptr, {}}));
     m.lane.emplace(*m.backend.solver, m.files, 0, true);
-    m.label = label_of(differences, m.run.scene, m.backend.variant());
+    const std::vector<OverlayLine> label = label_of(differences, m.run.scene, m.backend.variant());
     m.name = fmt::format("run {}", i + 1);
-    for (const OverlayLine& line : m.label)
-      m.name += fmt::format("{}{} {}", &line == &m.label.front() ? " (" : ", ", line.label, line.value);
+    for (const OverlayLine& line : label)
+      m.name += fmt::format("{}{} {}", &line == &label.front() ? " (" : ", ", line.label, line.value);
     m.name += ")";
     warn_if_unstable(m.model, interrupt, m.name + ": ");
   }
@@ -194,7 +193,8 @@ Status execute_beside(const RunOptions& options) {
   std::vector<PicturedRun> pictured;
   for (const auto& m : members) {
     spans.push_back({m->model.simulation.timestep, m->last_step});
-    pictured.push_back({&m->run.scene, &m->backend, m->label});
+    pictured.push_back({&m->run.scene, &m->backend,
+                        short_name(pictured.size(), differences, m->run.scene, m->backend.variant())});
   }
   const CommonClock clock(std::move(spans), frames_per_second(options.pictures), options.pictures.speed);
   std::unique_ptr<BesideRecorder> recorder;

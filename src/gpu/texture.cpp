@@ -16,10 +16,9 @@ struct Storage {
 };
 
 /// By TexelFormat.
-constexpr Storage storages[] = {{GL_R8, GL_RED, 1}, {GL_SRGB8_ALPHA8, GL_RGBA, 4},
-                                {GL_R16F, 0, 0},    {GL_RG16F, 0, 0},
-                                {GL_RGBA16F, 0, 0}, {GL_RG32UI, 0, 0},
-                                {GL_DEPTH_COMPONENT32F, 0, 0}};
+constexpr Storage storages[] = {
+    {GL_R8, GL_RED, 1}, {GL_SRGB8_ALPHA8, GL_RGBA, 4}, {GL_R16F, 0, 0}, {GL_RG16F, 0, 0}, {GL_RGBA16F, 0, 0},
+    {GL_RG32UI, 0, 0},  {GL_DEPTH_COMPONENT32F, 0, 0}};
 
 const Storage& storage_of(TexelFormat format) {
   return storages[static_cast<std::size_t>(format)];
@@ -166,6 +165,16 @@ void Framebuffer::clear() const {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
   const GLfloat nothing[4] = {};
   glClearBufferfv(GL_COLOR, 0, nothing);
+}
+
+void Framebuffer::fill(const PixelBox& box, const std::array<float, 3>& stored) const {
+  if (box.empty()) return;
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(box.left, box.bottom, box.right - box.left, box.top - box.bottom);
+  const GLfloat colour[4] = {stored[0], stored[1], stored[2], 1.0f};
+  glClearBufferfv(GL_COLOR, 0, colour);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 }  // namespace aspic::gl

@@ -1,5 +1,6 @@
 #pragma once
 // Two-dimensional images in device memory, and drawing into them.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,12 +14,12 @@ namespace aspic::gl {
 
 /// How a texel is stored.
 enum class TexelFormat {
-  r8,      ///< one channel 0…1
-  srgba8,  ///< colour encoded as sRGB, linear to shaders and blending; alpha linear
-  r16f,    ///< one half float
-  rg16f,   ///< two half floats
+  r8,       ///< one channel 0…1
+  srgba8,   ///< colour encoded as sRGB, linear to shaders and blending; alpha linear
+  r16f,     ///< one half float
+  rg16f,    ///< two half floats
   rgba16f,  ///< four
-  rg32ui,  ///< two unsigned integers, to be drawn into and read back, not filtered
+  rg32ui,   ///< two unsigned integers, to be drawn into and read back, not filtered
   depth32f
 };
 
@@ -95,6 +96,8 @@ class Framebuffer {
   void place(const Framebuffer& source, int left, int bottom) const;
   /// Fills the colour with zeros. Does not bind.
   void clear() const;
+  /// Fills a part with a colour as it is stored, opaque. Does not bind.
+  void fill(const PixelBox& box, const std::array<float, 3>& stored) const;
 
   std::uint32_t id() const { return name_.id(); }
   int width() const { return width_; }

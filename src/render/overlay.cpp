@@ -84,9 +84,38 @@ void OverlayPainter::text(float x, float y, std::string_view utf8, const std::ar
   }
 }
 
-void OverlayPainter::facts(const std::vector<OverlayLine>& lines) {
+/// Labels that do not fit take several lines, of which the last has the value.
+std::vector<OverlayLine> OverlayPainter::fitted_lines(const std::vector<OverlayLine>& lines,
+                                                      float room) const {
+  std::vector<OverlayLine> result;
+  for (const OverlayLine& line : lines) {
+    OverlayLine part = line;
+    part.label.clear();
+    std::string_view rest = line.label;
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find(' '), rest.size());
+      const std::string longer =
+          (part.label.empty() ? "" : part.label + " ") + std::string(rest.substr(0, end));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+      if (!part.label.empty() && font_->width_of(longer) > room) {
+        result.push_back({part.label, "", line.alarm, line.tint});
+        part.label = longer.substr(part.label.size() + 1);
+      } else {
+        part.label = longer;
+      }
+    }
+    result.push_back(part);
+  }
+  return result;
+}
+
+void OverlayPainter::facts(const std::vector<OverlayLine>& all, float picture_width) {
   const auto em = static_cast<float>(font_->pixel_height());
   const auto step = static_cast<float>(font_->line_height());
+  float widest_value = 0.0f;
+  for (const OverlayLine& line : all) widest_value = std::max(widest_value, font_->width_of(line.value));
+  const std::vector<OverlayLine> lines =
+      fitted_lines(all, picture_width - widest_value - (2.0f * (margin + padding) + column_gap) * em);
   float labels = 0.0f, values = 0.0f;
   for (const OverlayLine& line : lines) {
     labels = std::max(labels, font_->width_of(line.label));
@@ -99,7 +128,8 @@ void OverlayPainter::facts(const std::vector<OverlayLine>& lines) {
         static_cast<float>(lines.size()) * step + 2 * inset - (step - em));
   float y = top + inset;
   for (const OverlayLine& line : lines) {
-    text(left + inset, y, line.label, line.alarm ? alarming : dim);
+    const std::array<float, 4> own = line.tint ? with_alpha(*line.tint, 1.0) : dim;
+    text(left + inset, y, line.label, line.alarm ? alarming : own);
     text(left + inset + labels, y, line.value, line.alarm ? alarming : bright);
     y += step;
   }
@@ -184,7 +214,7 @@ Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<Ov
   const int wanted = text_height > 0 ? text_height : static_cast<int>(std::lround(picture.height() / 42.0));
   ASPIC_CHECK(prepare_font(std::clamp(wanted, 11, 256)));
   pending_.clear();
-  if (!lines.empty()) facts(lines);
+  if (!lines.empty()) facts(lines, static_cast<float>(picture.width()));
   auto bottom = static_cast<float>(picture.height());
   for (const Legend& legend : legends)
     if (!legend.empty()) bottom -= scale(legend, static_cast<float>(picture.width()), bottom);

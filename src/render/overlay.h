@@ -2,6 +2,7 @@
 // What is written over a picture: a panel of facts, and the scale of the colours.
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,10 @@ namespace aspic {
 
 /// One line of the panel.
 struct OverlayLine {
-  std::string label;   ///< in the left column, dimmer; may be empty
-  std::string value;   ///< in the right column
-  bool alarm = false;  ///< it tells of a failure
+  std::string label;                ///< in the left column, dimmer; may be empty
+  std::string value;                ///< in the right column
+  bool alarm = false;               ///< it tells of a failure
+  std::optional<Colour> tint = {};  ///< of the label, linear light; absent: that of all labels
   friend bool operator==(const OverlayLine&, const OverlayLine&) = default;
 };
 
@@ -60,7 +62,8 @@ class OverlayPainter {
                  const std::array<float, 4>& tint, const std::array<float, 4>& shape);
   void panel(float x, float y, float width, float height);
   void text(float x, float y, std::string_view utf8, const std::array<float, 4>& tint);
-  void facts(const std::vector<OverlayLine>& lines);
+  std::vector<OverlayLine> fitted_lines(const std::vector<OverlayLine>& lines, float room) const;
+  void facts(const std::vector<OverlayLine>& all, float picture_width);
   /// Returns the height it takes, and the gap above it.
   float scale(const Legend& legend, float picture_width, float bottom);
   void axes(const Camera& camera, float picture_width);

@@ -8,6 +8,7 @@
 
 #include "base/printable.h"
 #include "run/run_length.h"
+#include "scene/short_keys.h"
 
 namespace aspic {
 
@@ -50,14 +51,53 @@ std::vector<OverlayLine> label_of(const std::vector<Variation>& differences, con
   return label;
 }
 
-std::vector<OverlayLine> beside_text(std::vector<OverlayLine> label, double time, double timestep,
+Colour run_tint(std::size_t run) {
+  Colour colour;
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = static_cast<float>(srgb_to_linear(run_colours[run][c] / 255.0));
+  return colour;
+}
+
+namespace {
+
+/// "implicit Euler", "h 0.0005 s", "shear stiffness 20 N/m".
+std::string short_difference(const std::string& key, const Scene& scene, const std::string& backend) {
+  const std::string value = value_of(key, scene, backend);
+  if (key == backend_key || key == "integrator" || key == "simulation.integrator") return value;
+  std::string name = title_of(key);
+  // The symbol of a short name; of a path what is after its table.
+  if (find_short_key(key)) {
+    name = name.substr(name.rfind(' ') + 1);
+  } else {
+    const std::size_t list = name.find("].");
+    name = name.substr(list == std::string::npos ? name.find('.') + 1 : list + 2);
+    std::ranges::replace(name, '.', ' ');
+    std::ranges::replace(name, '-', ' ');
+  }
+  return fmt::format("{} {}", name, value);
+}
+
+}  // namespace
+
+std::string short_name(std::size_t run, const std::vector<Variation>& differences, const Scene& scene,
+                       const std::string& backend) {
+  if (run > 0) return short_difference(differences[run - 1].key, scene, backend);
+  std::vector<std::string> parts;
+  for (const Variation& difference : differences) {
+    std::string part = short_difference(difference.key, scene, backend);
+    if (std::ranges::find(parts, part) == parts.end()) parts.push_back(std::move(part));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::vector<OverlayLine> beside_text(const std::string& name, std::size_t run, double time, double timestep,
                                      const std::optional<Divergence>& divergence) {
-  label.push_back({"time", fmt::format("{:.3f} s", time)});
+  std::vector<OverlayLine> text = {{name, fmt::format("{:.3f} s", time), false, run_tint(run)}};
   if (divergence) {
     const double when = static_cast<double>(divergence->step) * timestep;
-    label.push_back({"diverged", fmt::format("at {:.3f} s", when), true});
+    text.push_back({"diverged", fmt::format("at {:.3f} s", when), true});
   }
-  return label;
+  return text;
 }
 
 int beside_text_height(int picture_height, std::size_t runs) {
@@ -94,6 +134,38 @@ std::vector<Tile> tiles_of(const PictureSize& picture, std::size_t runs) {
     tiles.push_back({right ? picture.width - width : 0, low ? picture.height - height : 0, width, height});
   }
   return tiles;
+}
+
+Result<BesideCanvas> BesideCanvas::create(gl::Context& context, const PictureSize& size) {
+  BesideCanvas canvas;
+  ASPIC_TRY(canvas.image_, DrawableImage::create(context, "runs side by side",
+                                                 {.width = size.width, .height = size.height}, false));
+  return canvas;
+}
+
+void BesideCanvas::divide(std::size_t runs) {
+  const gl::Framebuffer& whole = image_.framebuffer;
+  std::vector<Tile> tiles = tiles_of({whole.width(), whole.height()}, runs);
+  if (tiles == tiles_) return;
+  tiles_ = std::move(tiles);
+  whole.clear();
+}
+
+void BesideCanvas::place(std::size_t run, const gl::Framebuffer& picture, bool framed) {
+  const gl::Framebuffer& whole = image_.framebuffer;
+  const Tile& tile = tiles_[run];
+  const int bottom = whole.height() - tile.top - tile.height, right = tile.left + tile.width,
+            top = bottom + tile.height;
+  whole.place(picture, tile.left, bottom);
+  if (!framed) return;
+  const int wide = std::max(whole.height() / 240, 1);
+  std::array<float, 3> colour;
+  for (std::size_t c = 0; c < 3; ++c) colour[c] = static_cast<float>(run_colours[run][c]) / 255.0f;
+  for (const gl::PixelBox& edge : {gl::PixelBox{tile.left, bottom, tile.left + wide, top},
+                                   {right - wide, bottom, right, top},
+                                   {tile.left, bottom, right, bottom + wide},
+                                   {tile.left, top - wide, right, top}})
+    whole.fill(edge, colour);
 }
 
 std::string numbered_path(const std::string& path, std::size_t number) {

@@ -1,5 +1,6 @@
 #pragma once
 // Several runs of one scene, each with a difference, on one clock and in one picture.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,7 +12,9 @@
 #include "io/film_format.h"
 #include "io/frame_schedule.h"
 #include "model/solver.h"
+#include "render/colour_map.h"
 #include "render/overlay.h"
+#include "render/targets.h"
 #include "run/variation.h"
 
 namespace aspic {
@@ -32,8 +35,20 @@ Result<std::vector<Variant>> runs_beside(const Scene& scene, const BackendChoice
 std::vector<OverlayLine> label_of(const std::vector<Variation>& differences, const Scene& scene,
                                   const std::string& backend);
 
-/// The text on the picture of a run: its label, its time [s], and that it diverged, if it did.
-std::vector<OverlayLine> beside_text(std::vector<OverlayLine> label, double time, double timestep,
+/// The colours of runs in pictures and plots, as sRGB stores them.
+inline constexpr std::array<std::array<std::uint8_t, 3>, most_beside> run_colours = {
+    {{242, 176, 92}, {110, 165, 240}, {120, 205, 140}, {224, 130, 200}}};
+/// The same in linear light, for bodies that are coloured by material.
+Colour run_tint(std::size_t run);
+
+/// What distinguishes run `run` from the others, in few words: "implicit Euler", "h 0.0005 s". Of the first
+/// all values that others differ in. `scene` and `backend` are its own; run ≤ differences.size().
+std::string short_name(std::size_t run, const std::vector<Variation>& differences, const Scene& scene,
+                       const std::string& backend);
+
+/// The text on the picture of a run: its name in its colour with its time [s], and that it diverged, if it
+/// did.
+std::vector<OverlayLine> beside_text(const std::string& name, std::size_t run, double time, double timestep,
                                      const std::optional<Divergence>& divergence);
 
 /// Height of the text on the parts of a picture of that height, which so many runs share [pixels].
@@ -76,6 +91,23 @@ struct Tile {
 /// The parts of 1 to most_beside runs, all of one size, with two or three pixels between them: two side by
 /// side, in a picture that is higher than wide one above the other; three and four in two rows.
 std::vector<Tile> tiles_of(const PictureSize& picture, std::size_t runs);
+
+/// A picture with a part for each run.
+class BesideCanvas {
+ public:
+  /// Error (scene_rejected): no device memory. The context must outlive it and be current in every call.
+  static Result<BesideCanvas> create(gl::Context& context, const PictureSize& size);
+  /// For so many runs from now on. Clears it where that changes something.
+  void divide(std::size_t runs);
+  const std::vector<Tile>& tiles() const { return tiles_; }
+  /// Puts the picture of a run, which has the size of its tile, into its place; with a frame in its colour.
+  void place(std::size_t run, const gl::Framebuffer& picture, bool framed);
+  const gl::Framebuffer& picture() const { return image_.framebuffer; }
+
+ private:
+  DrawableImage image_;
+  std::vector<Tile> tiles_;
+};
 
 /// FILE with a run's number before its ending: `energy-2.csv`.
 std::string numbered_path(const std::string& path, std::size_t number);

@@ -15,7 +15,7 @@ Result<std::unique_ptr<BesideRecorder>> BesideRecorder::create(
   const std::vector<Tile> tiles = tiles_of(output.size, runs.size());
   std::vector<PaintedRun> painted;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    Part part = {runs[i], tiles[i]};
+    Part part = {runs[i], i, tiles[i]};
     const Solver& solver = *part.run.backend->solver;
     part.following = Following(*part.run.scene, solver.model(), solver.precision());
     painted.push_back({part.run.scene, &solver.model()});
@@ -72,9 +72,12 @@ ShownRun BesideRecorder::shown(const Part& part, const std::optional<Divergence>
   shown.legend = output_.text && (own_scale || &part == &parts_.back());
   if (view.arrows.any()) shown.arrows = arrows_of(model, part.copy, view.arrows);
   shown.text_height = beside_text_height(output_.size.height, parts_.size());
-  if (output_.text)
-    shown.text =
-        beside_text(part.run.label, static_cast<double>(*part.step) * timestep, timestep, divergence);
+  if (output_.text) {
+    shown.text = beside_text(part.run.name, part.number, static_cast<double>(*part.step) * timestep, timestep,
+                             divergence);
+    shown.tint = run_tint(part.number);
+    shown.framed = true;
+  }
   return shown;
 }
 

@@ -21,7 +21,7 @@ namespace aspic {
 struct PicturedRun {
   const Scene* scene = nullptr;
   const Backend* backend = nullptr;
-  std::vector<OverlayLine> label;  ///< what distinguishes it from the others
+  std::string name;  ///< what distinguishes it from the others: short_name()
 };
 
 class BesideRecorder {
@@ -54,6 +54,7 @@ class BesideRecorder {
  private:
   struct Part {
     PicturedRun run;
+    std::size_t number = 0;
     Tile tile;
     Following following = {};
     std::optional<std::uint64_t> step = {};  // of what follows

@@ -75,6 +75,19 @@ class Reader {
   bool whole_ = true;
 };
 
+void put(Writer& to, const std::optional<Colour>& colour) {
+  to.put(colour.has_value());
+  to.put(colour.value_or(Colour{}));
+}
+
+void get(Reader& from, std::optional<Colour>& colour) {
+  bool there = false;
+  Colour given;
+  from.get(there);
+  from.get(given);
+  if (there) colour = given;
+}
+
 void put(Writer& to, const ShownRun& shown) {
   to.put(shown.camera);
   to.put(std::uint64_t{shown.text.size()});
@@ -82,9 +95,12 @@ void put(Writer& to, const ShownRun& shown) {
     to.put(line.label);
     to.put(line.value);
     to.put(line.alarm);
+    put(to, line.tint);
   }
   to.put(shown.text_height);
   to.put(shown.legend);
+  put(to, shown.tint);
+  to.put(shown.framed);
   to.put_items(std::span(shown.arrows.arrows));
   to.put(shown.arrows.room);
   to.put(shown.arrows.noise);
@@ -98,9 +114,12 @@ void get(Reader& from, ShownRun& shown) {
     from.get(line.label);
     from.get(line.value);
     from.get(line.alarm);
+    get(from, line.tint);
   }
   from.get(shown.text_height);
   from.get(shown.legend);
+  get(from, shown.tint);
+  from.get(shown.framed);
   from.get_items(shown.arrows.arrows);
   from.get(shown.arrows.room);
   from.get(shown.arrows.noise);

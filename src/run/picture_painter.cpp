@@ -18,29 +18,28 @@ Result<std::unique_ptr<PicturePainter>> PicturePainter::create(gl::Context& cont
   ASPIC_TRY(const auto directory, shader_directory());
   RendererOptions look;
   look.shaders = gl::ShaderLibrary(directory);
-  const std::vector<Tile> tiles = tiles_of(size, runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    Part part{runs[i], tiles[i], nullptr};
+  for (const PaintedRun& run : runs) {
+    Part part{run, nullptr};
     ASPIC_TRY(part.renderer, Renderer::create(context, look));
     ASPIC_CHECK(part.renderer->set_model(*part.run.model));
     p->parts_.push_back(std::move(part));
   }
   if (runs.size() == 1) return p;
-  ASPIC_TRY(p->together_, DrawableImage::create(context, "runs side by side",
-                                                {.width = size.width, .height = size.height}, false));
-  p->together_.framebuffer.clear();
+  ASPIC_TRY(p->together_, BesideCanvas::create(context, size));
+  p->together_->divide(runs.size());
   return p;
 }
 
 const gl::Framebuffer& PicturePainter::picture() const {
-  return parts_.size() == 1 ? parts_.front().renderer->picture() : together_.framebuffer;
+  return parts_.size() == 1 ? parts_.front().renderer->picture() : together_->picture();
 }
 
 Status PicturePainter::draw(const std::vector<DeviceState>& states, const std::vector<ShownRun>& shown) {
   assert(states.size() == parts_.size() && shown.size() == parts_.size());
   const gl::Current here(*context_);
   ASPIC_CHECK(here.status());
-  if (parts_.size() == 1) return draw_part(parts_.front(), states.front(), shown.front(), std::nullopt);
+  if (!together_)
+    return draw_part(parts_.front(), size_.width, size_.height, states.front(), shown.front(), std::nullopt);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     if (part.step == states[i].step) continue;
@@ -55,17 +54,17 @@ Status PicturePainter::draw(const std::vector<DeviceState>& states, const std::v
     for (const Part& other : parts_)
       if (share_scale(part.run.scene->view, other.run.scene->view)) range = widest(range, other.own_range);
     if (part.drawn_range == range && part.drawn_text == shown[i].text) continue;
-    ASPIC_CHECK(draw_part(part, states[i], shown[i], range));
-    together_.framebuffer.place(part.renderer->picture(), part.tile.left,
-                                size_.height - part.tile.top - part.tile.height);
+    const Tile& tile = together_->tiles()[i];
+    ASPIC_CHECK(draw_part(part, tile.width, tile.height, states[i], shown[i], range));
+    together_->place(i, part.renderer->picture(), shown[i].framed);
     part.drawn_range = range;
     part.drawn_text = shown[i].text;
   }
   return {};
 }
 
-Status PicturePainter::draw_part(Part& part, const DeviceState& state, const ShownRun& shown,
-                                 const std::optional<QuantityRange>& range) {
+Status PicturePainter::draw_part(Part& part, int width, int height, const DeviceState& state,
+                                 const ShownRun& shown, const std::optional<QuantityRange>& range) {
   PictureOptions options;
   options.view = part.run.scene->view;
   options.view.camera = shown.camera;
@@ -75,10 +74,11 @@ Status PicturePainter::draw_part(Part& part, const DeviceState& state, const Sho
   options.text = shown.text;
   options.text_height = shown.text_height;
   options.legend = shown.legend;
+  options.tint = shown.tint;
   options.arrows = shown.arrows;
   options.ball_turns = shown.ball_turns;
   options.range = range;
-  return part.renderer->draw(part.tile.width, part.tile.height, state, options);
+  return part.renderer->draw(width, height, state, options);
 }
 
 }  // namespace aspic

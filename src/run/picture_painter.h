@@ -12,7 +12,6 @@
 #include "render/overlay.h"
 #include "render/quantity.h"
 #include "render/renderer.h"
-#include "render/targets.h"
 #include "run/beside.h"
 #include "scene/scene.h"
 
@@ -30,6 +29,8 @@ struct ShownRun {
   std::vector<OverlayLine> text;  ///< empty: no panel
   int text_height = 0;            ///< [pixels]; 0: a share of the picture's height
   bool legend = true;
+  std::optional<Colour> tint = {};  ///< as PictureOptions::tint
+  bool framed = false;              ///< in the run's colour, where there are several runs
   ArrowSet arrows;
   std::vector<BallTurn> ball_turns;  ///< as PictureOptions::ball_turns
 };
@@ -56,7 +57,6 @@ class PicturePainter {
  private:
   struct Part {
     PaintedRun run;
-    Tile tile;
     std::unique_ptr<Renderer> renderer;
     std::optional<std::uint64_t> step = {};  // of what follows
     QuantityRange own_range = {};
@@ -64,13 +64,13 @@ class PicturePainter {
     std::vector<OverlayLine> drawn_text = {};
   };
   PicturePainter() = default;
-  Status draw_part(Part& part, const DeviceState& state, const ShownRun& shown,
+  Status draw_part(Part& part, int width, int height, const DeviceState& state, const ShownRun& shown,
                    const std::optional<QuantityRange>& range);
 
   gl::Context* context_ = nullptr;
   PictureSize size_;
   std::vector<Part> parts_;
-  DrawableImage together_;  // of several runs
+  std::optional<BesideCanvas> together_;  // of several runs
 };
 
 }  // namespace aspic

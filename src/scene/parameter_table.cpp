@@ -145,6 +145,14 @@ Rows view_rows() {
                          "Arrows at particles: contact points with their normals and forces; the sum of the "
                          "springs' forces; gravity and a hand's pull; all together.");
   arrows.words = {"contacts", "springs", "external", "net"};
+  Parameter follow = absent("the camera stays where it is",
+                            row("view.follow", FIELD(view.follow),
+                                "Body or ball that the camera moves along with from its start, such as "
+                                "\"cube[0]\" or \"ball[2]\"; \"none\" is as if absent."));
+  follow.write = [](const Parameter&, Scene& scene, std::size_t, const Value& value) {
+    const auto& name = std::get<std::string>(value);
+    scene.view.follow = name == "none" ? std::nullopt : std::optional(name);
+  };
   return {
       row("view.camera.position", "m", within(far), FIELD(view.camera.position), "Position of the camera."),
       row("view.camera.target", "m", within(far), FIELD(view.camera.target),
@@ -154,9 +162,7 @@ Rows view_rows() {
           "view.camera.projection", FIELD(view.camera.projection),
           "Perspective, or orthographic: parallel, as high as the field of view is at the target."),
       draw,
-      absent("the camera stays where it is", row("view.follow", FIELD(view.follow),
-                                                 "Body or ball that the camera moves along with from its "
-                                                 "start, such as \"cube[0]\" or \"ball[2]\".")),
+      follow,
       word<view_colours>("view.colour", FIELD(view.colour), "What the colours of bodies mean."),
       word<cut_insides>("view.cut.inside", FIELD(view.cut.inside),
                         "What a cut shows of the bodies' inside: a filled section in their colours, or the "

@@ -343,8 +343,8 @@ TEST_F(Beside, RunsAreToldApartByFrameTintAndALineThatGrowsWithTheText) {
   EXPECT_FALSE(app().picture.tint.has_value());
   compare({"integrator", "implicit-euler"});
   frames(2);
-  EXPECT_EQ(app().picture.tint, app::Beside::tint(0));
-  EXPECT_EQ(beside().picture(1).tint, app::Beside::tint(1));
+  EXPECT_EQ(app().picture.tint, run_tint(0));
+  EXPECT_EQ(beside().picture(1).tint, run_tint(1));
   // The frame is the run's colour along the edge of its picture.
   const Image picture = image();
   for (std::size_t i = 0; i < 2; ++i) {

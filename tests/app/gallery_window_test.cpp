@@ -61,7 +61,7 @@ TEST_F(Gallery, CubeInABowlRuns) {
 TEST_F(Gallery, TwoIntegratorsSideBySide) {
   open("cube-plane",
        {"cube[0].structural.damping=1", "cube[0].shear.damping=1", "cube[0].bending.damping=1",
-        "simulation.steps-per-frame=20", "view.camera={position=[10,5,14], target=[0,2.4,0]}"},
+        "simulation.steps-per-frame=20", "view.camera={position=[10,5,14], target=[0,2.4,0], fov=45}"},
        "reference");
   press(GLFW_KEY_B, GLFW_MOD_CONTROL);
   click("section/Performance");
@@ -88,7 +88,7 @@ TEST_F(Gallery, GoalNetCatchesAShot) {
 TEST_F(Gallery, StrainOfACubeThatAHandPulls) {
   open("cube-plane",
        {"cube[0].position=[0,1.05,0]", "view.colour=strain", "simulation.steps-per-frame=20",
-        "view.camera={position=[8,5,13], target=[0.4,2.0,0]}"},
+        "view.camera={position=[8,5,13], target=[0.4,2.0,0], fov=45}"},
        "reference");
   const Vec3 corner = simulation().snapshot().position[999];
   point_at(corner);

@@ -53,12 +53,12 @@ INSTANTIATE_TEST_SUITE_P(
         Shot{"cube-sphere",
              1050,
              {"view.colour=strain", "view.cut.inside=section", "view.cut.normal=[0.2, 0.0, 1.0]",
-              "view.camera={position=[5.0, 5.0, 9.0], target=[0.2, 2.4, 0.0]}"},
+              "view.camera={position=[5.0, 5.0, 9.0], target=[0.2, 2.4, 0.0], fov=45.0}", "view.follow=none"},
              "section"},
         Shot{"cube-sphere",
              1050,
              {"view.colour=strain", "view.cut.inside=springs",
-              "view.camera={position=[5.0, 5.0, 9.0], target=[0.2, 2.4, 0.0]}"},
+              "view.camera={position=[5.0, 5.0, 9.0], target=[0.2, 2.4, 0.0], fov=45.0}", "view.follow=none"},
              "section-springs"},
         Shot{"penalty", 1080, {"view.camera.projection=orthographic", "view.axes=true"}, "orthographic"},
         Shot{"flag", 2250, {"view.colour=signed-strain", "view.scale.range=symmetric"}, "signed-strain"},
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
              1500,
              {"view.draw=[\"solid\", \"particles\", \"shear\", \"bending\"]", "cube[0].pinned=[\"top\"]",
               "cube[0].particles-per-edge=5", "cube[0].position=[0.0, 2.0, 0.0]",
-              "view.camera={position=[5.6, 9.6, 8.0], target=[-0.7, 2.0, 0.5]}"},
+              "view.camera={position=[5.6, 9.6, 8.0], target=[-0.7, 2.0, 0.5], fov=45.0}"},
              "springs"}),
     [](const ::testing::TestParamInfo<Shot>& shot) {
       std::string name = shot.param.name.empty() ? shot.param.scene : shot.param.name;

@@ -84,13 +84,32 @@ TEST(Beside, LabelHasALineForEachKeyOnce) {
 TEST(Beside, TextTellsOfADivergence) {
   Divergence divergence;
   divergence.step = 40;
-  const auto lines = beside_text({{"k", "1"}}, 0.039, 0.001, divergence);
-  ASSERT_EQ(lines.size(), 3u);
-  EXPECT_EQ(lines[1].value, "0.039 s");
-  EXPECT_FALSE(lines[1].alarm);
-  EXPECT_EQ(lines[2].value, "at 0.040 s");
-  EXPECT_TRUE(lines[2].alarm);
-  EXPECT_EQ(beside_text({{"k", "1"}}, 0.039, 0.001, {}).size(), 2u);
+  const auto lines = beside_text("k 1 N/m", 1, 0.039, 0.001, divergence);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].label, "k 1 N/m");
+  EXPECT_EQ(lines[0].value, "0.039 s");
+  EXPECT_EQ(lines[0].tint, run_tint(1));
+  EXPECT_FALSE(lines[0].alarm);
+  EXPECT_EQ(lines[1].value, "at 0.040 s");
+  EXPECT_TRUE(lines[1].alarm);
+  EXPECT_EQ(beside_text("k 1 N/m", 1, 0.039, 0.001, {}).size(), 1u);
+}
+
+TEST(Beside, NamesAreShort) {
+  const std::vector<Variation> differences = {
+      {"integrator", "implicit-euler"}, {"h", "0.002"}, {"h", "0.004"}, {"cube[0].shear.stiffness", "10"}};
+  const Scene scene = small_scene();
+  EXPECT_EQ(short_name(0, {differences[0]}, scene, "cpu"), "explicit Euler");
+  EXPECT_EQ(short_name(0, {differences[0], differences[1], differences[2]}, scene, "cpu"),
+            "explicit Euler, h 0.001 s");
+  const auto runs = runs_beside(scene, {}, {differences[0], differences[1], differences[3]});
+  ASSERT_TRUE(runs.ok());
+  const auto name = [&](std::size_t run) {
+    return short_name(run, {differences[0], differences[1], differences[3]}, (*runs)[run].scene, "cpu");
+  };
+  EXPECT_EQ(name(1), "implicit Euler");
+  EXPECT_EQ(name(2), "h 0.002 s");
+  EXPECT_EQ(name(3), "shear stiffness 10 N/m");
 }
 
 TEST(Beside, ClockShowsTheNearestStepOfEachRun) {

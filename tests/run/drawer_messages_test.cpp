@@ -15,9 +15,11 @@ DrawerRequest request() {
   DrawerRequest r = {2, {17, 34}, {}};
   r.shown.resize(2);
   r.shown[0].camera.fov = 33.5;
-  r.shown[0].text = {{"time", "0.1 s"}, {"", "diverged", true}};
+  r.shown[0].text = {{"time", "0.1 s"}, {"", "diverged", true, Colour{0.1, 0.2, 0.3}}};
   r.shown[0].text_height = 12;
   r.shown[0].legend = false;
+  r.shown[0].tint = Colour{0.4, 0.5, 0.6};
+  r.shown[0].framed = true;
   r.shown[1].arrows = {{{{1, 2, 3}, {4, 5, 6}, ArrowKind::contact}}, 0.5, 1e-9};
   r.shown[1].ball_turns = {{0, 0, 0, 1}, {1, 0, 0, 0}};
   return r;
@@ -34,7 +36,11 @@ TEST(DrawerMessages, ARequestComesAsItWasSent) {
   EXPECT_EQ(got->shown[0].text, sent.shown[0].text);
   EXPECT_EQ(got->shown[0].text_height, 12);
   EXPECT_FALSE(got->shown[0].legend);
+  EXPECT_EQ(got->shown[0].tint, sent.shown[0].tint);
+  EXPECT_TRUE(got->shown[0].framed);
   EXPECT_TRUE(got->shown[1].legend);
+  EXPECT_FALSE(got->shown[1].tint.has_value());
+  EXPECT_FALSE(got->shown[1].framed);
   EXPECT_EQ(got->shown[1].arrows, sent.shown[1].arrows);
   EXPECT_EQ(got->shown[1].ball_turns, sent.shown[1].ball_turns);
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "model/bodies.h"
+#include "scene/load.h"
 #include "scene/scene_support.h"
 
 namespace aspic {
@@ -38,6 +39,12 @@ TEST(Followed, KeepsItsMeaningWhereElementsAreRemoved) {
   EXPECT_EQ(followed_without("cube[2]", "cube", 3), "cube[2]");
   EXPECT_EQ(followed_without("cloth[2]", "cube", 0), "cloth[2]");
   EXPECT_EQ(followed_without("ball[2]", "ball", 1), "ball[1]");
+}
+
+TEST(Followed, NoneFollowsNothing) {
+  const std::string none[] = {"view.follow=none"}, cube[] = {"view.follow=cube"};
+  EXPECT_EQ(load_scene("cube-sphere", cube)->view.follow, "cube");
+  EXPECT_FALSE(load_scene("cube-sphere", none)->view.follow.has_value());
 }
 
 TEST(Followed, MovesACameraByWhatItMovedItself) {
