@@ -80,6 +80,13 @@ Status write_state(const StateFormat& format, const std::string& path, Overwrite
   return sink->finish({simulation.model(), state});
 }
 
+/// A name that nothing has yet, of several runs none of their numbered ones either.
+std::string free_state_name(const std::string& source, std::string_view ending, const Beside& beside) {
+  if (!beside.active()) return free_name(source, ending);
+  const std::string number = "-1", first = free_name(source, number + std::string(ending));
+  return first.substr(0, first.size() - ending.size() - number.size()) + std::string(ending);
+}
+
 /// Writes the state now, or with a format over time the energies of the plot, to a file; of runs side by side
 /// each to its own, numbered as aspic run --beside does. A message says what became of it.
 void save(const StateFormat& format, const std::string& path, Overwrite overwrite, Simulation& simulation,
@@ -172,7 +179,7 @@ void state_files(Gui& gui, const std::string& source, Simulation& simulation, Be
                                                                   Overwrite overwrite) {
       save(format, path, overwrite, simulation, beside, messages);
     };
-    files.ask({"Save", {format.ending}, true, write}, free_name(source, format.ending));
+    files.ask({"Save", {format.ending}, true, write}, free_state_name(source, format.ending, beside));
   }
 }
 

@@ -1,13 +1,20 @@
 // Runs side by side in the real window.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include "app/stage.h"
+#include "cpu_reference/reference_solver.h"
+#include "io/atomic_file.h"
+#include "render/read_back.h"
 #include "scene/follow.h"
 #include "support/projection.h"
+#include "support/state_csv_reader.h"
 
 namespace aspic::test {
 namespace {
@@ -43,6 +50,12 @@ class Beside : public Stage {
     Scene scene = app().scene.scene();
     scene.model = run(i).setup().settings;
     return reference_hash(scene, run(i).step());
+  }
+  static app::KeptState only_recording() {
+    app::KeptState kept;
+    for (const char* name : {"View", "Energy"}) kept.layout.sections[name] = false;
+    kept.layout.sections["Recording"] = true;
+    return kept;
   }
   std::string error() {
     const auto& notice = app().messages.notice();
@@ -363,6 +376,132 @@ TEST_F(Beside, RunsAreToldApartByFrameTintAndALineThatGrowsWithTheText) {
   frames(3);
   const app::Box larger = widgets().at("beside/1/label");
   EXPECT_NEAR(larger.bottom - larger.top, 1.5 * (label.bottom - label.top), 3.0);
+}
+
+/// RGB of a picture of a film, rows from the top.
+std::string film_pixels(const std::filesystem::path& film, int number) {
+  const std::string name = fmt::format("{}/frame-{:06}", film.string(), number);
+  const std::string command =
+      fmt::format("ffmpeg -v error -y -i {0}.png -f rawvideo -pix_fmt rgb24 {0}.rgb", name);
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  const auto bytes = read_file(name + ".rgb");
+  EXPECT_TRUE(bytes.ok());
+  return bytes.ok() ? *bytes : "";
+}
+
+TEST_F(Beside, AFilmShowsAllRunsAsEachIsDrawnAlone) {
+  open("cube-plane", {small, low});
+  compare({"integrator", "implicit-euler"});
+  app().film.settings = {find_film_format("png"), 20.0, false, "film"};
+  press(GLFW_KEY_R, GLFW_MOD_CONTROL);
+  ASSERT_TRUE(app().film.recording()) << app().messages.notice()->text;
+  const PictureSize size = app().film.recording()->options().size;
+  EXPECT_EQ(size.width, std::lround(app().view.whole.right - app().view.whole.left));
+  EXPECT_EQ(app().film.recording()->pictures(), 1u) << "the start, at once";
+  simulation().set_running(true);
+  frames_until([&] { return app().film.recording()->pictures() >= 4; });
+  EXPECT_EQ(simulation().step(), 150u) << "the motion waits for each picture";
+  EXPECT_DOUBLE_EQ(beside().shown_time(1), beside().shown_time(0));
+  press(GLFW_KEY_R, GLFW_MOD_CONTROL);
+  frames_until([&] { return app().film.completing() == 0; });
+  EXPECT_FALSE(app().picture.film || beside().picture(1).film);
+  EXPECT_THAT(app().messages.notice()->text, HasSubstr("film holds 4 pictures"));
+
+  const std::string film = film_pixels(directory() / "film", 3);
+  ASSERT_EQ(film.size(), 3u * static_cast<std::size_t>(size.width * size.height));
+  const std::vector<Tile> tiles = tiles_of(size, 2);
+  auto renderer = Renderer::create(context());
+  ASSERT_TRUE(renderer.ok());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Model& model = run(i).model();
+    auto solver = make_reference_solver(model, Precision::single);
+    ASSERT_TRUE((*solver)->advance(150).ok());
+    ASSERT_TRUE((*renderer)->set_model(model).ok());
+    const auto state = (*renderer)->upload(*(*solver)->state());
+    ASSERT_TRUE(state.ok());
+    const Tile& tile = tiles[i];
+    PictureOptions options;
+    options.view = app().scene.scene().view;
+    options.view.camera = fitted(options.view.camera, tile.width, tile.height);
+    options.legend = false;
+    options.samples = 1;  // as the window's film on a software rasteriser
+    ASSERT_TRUE((*renderer)->draw(tile.width, tile.height, *state, options).ok());
+    const std::vector<std::byte> alone = read(context(), **renderer);
+    int off = 0;
+    for (int y = 0; y < tile.height; ++y)
+      off += std::memcmp(&film[3 * static_cast<std::size_t>((tile.top + y) * size.width + tile.left)],
+                         &alone[3 * static_cast<std::size_t>(y * tile.width)],
+                         3 * static_cast<std::size_t>(tile.width)) != 0;
+    EXPECT_EQ(off, 0) << "rows of run " << i;
+  }
+}
+
+TEST_F(Beside, AFilmWithTextTellsRunsApartAndGoesOnAfterADivergence) {
+  open("cube-plane", {small, "simulation.timestep=0.003", "cube[0].structural.stiffness=20000"});
+  compare({"integrator", "implicit-euler"});
+  app().film.settings = {find_film_format("png"), 20.0, true, "film"};
+  app().film.start();
+  ASSERT_TRUE(app().film.recording()) << app().messages.notice()->text;
+  const PictureSize size = app().film.recording()->options().size;
+  simulation().set_running(true);
+  frames_until([&] { return run(0).divergence().has_value(); });
+  const std::uint64_t then = app().film.recording()->pictures();
+  frames_until([&] { return app().film.recording()->pictures() >= then + 3; });
+  EXPECT_EQ(&beside().clock(), &run(1));
+  EXPECT_FALSE(has("beside/0/label")) << "names are in the film's pictures";
+  app().film.stop();
+  frames_until([&] { return app().film.completing() == 0; });
+  const std::string last = film_pixels(directory() / "film", static_cast<int>(then) + 2),
+                    before = film_pixels(directory() / "film", static_cast<int>(then) + 1);
+  const std::vector<Tile> tiles = tiles_of(size, 2);
+  const auto at = [&](const std::string& picture, int x, int y) {
+    return picture.substr(3 * static_cast<std::size_t>(y * size.width + x), 3);
+  };
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& colour = run_colours[i];
+    EXPECT_EQ(at(last, tiles[i].left, tiles[i].top + tiles[i].height / 2),
+              std::string(colour.begin(), colour.end()))
+        << "the frame of run " << i;
+  }
+  const auto changes = [&](const Tile& tile) {
+    int rows = 0;
+    for (int y = tile.top; y < tile.top + tile.height; ++y) {
+      const auto begin = 3 * static_cast<std::size_t>(y * size.width + tile.left);
+      rows += last.compare(begin, 3 * static_cast<std::size_t>(tile.width), before, begin,
+                           3 * static_cast<std::size_t>(tile.width)) != 0;
+    }
+    return rows;
+  };
+  EXPECT_EQ(changes(tiles[0]), 0) << "the run that diverged keeps its last good state";
+  EXPECT_GT(changes(tiles[1]), 10);
+}
+
+TEST_F(Beside, EveryRunIsSavedUnderItsNumber) {
+  open("cube-plane", {small, low}, "", only_recording());
+  compare({"h", "0.0005"});
+  run_to(100);
+  const auto save = [&](const std::string& widget) {
+    click("save/" + widget);
+    click("files/accept");
+    ASSERT_TRUE(app().messages.notice() && !app().messages.notice()->is_error)
+        << app().messages.notice()->text;
+  };
+  const auto lines = [&](const std::string& name) {
+    const auto text = read_file((directory() / name).string());
+    EXPECT_TRUE(text.ok()) << name;
+    return text.ok() ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0u;
+  };
+  save("series.csv");
+  EXPECT_EQ(lines("aspic-cube-plane-0001-1.csv"), run(0).samples().energies().size() + 1);
+  EXPECT_EQ(lines("aspic-cube-plane-0001-2.csv"), run(1).samples().energies().size() + 1);
+  EXPECT_FALSE(std::filesystem::exists(directory() / "aspic-cube-plane-0001.csv"));
+  save("state.csv");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string name = fmt::format("aspic-cube-plane-0002-{}.csv", i + 1);
+    const auto state = read_state_csv((directory() / name).string(), Precision::single);
+    ASSERT_TRUE(state.ok()) << name;
+    EXPECT_EQ(state_hash_text(*state), hash(i));
+  }
 }
 
 TEST_F(Beside, ARunThatGoesOnAfterTheFirstDivergedCanBeScrubbed) {
