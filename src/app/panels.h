@@ -104,6 +104,10 @@ Box draw_legend(const Gui& gui, const char* name, const Legend& legend, const Bo
 /// figures; what is under the mouse; and the world's axes where these leave room, in the upper right corner
 /// if they can.
 void draw_corners(const PanelParts& parts, const Box& view);
+/// The message, over the view; the page of keys; and what is asked before changes are lost.
+void notice_panel(const PanelParts& parts, const Box& view);
+void help_panel(Gui& gui, bool& visible, double width, double height);
+void closing_panel(Gui& gui, Closing& closing, double width, double height);
 /// Where ImGui's window is that is being made.
 Box window_box();
 /// A colour as ImGui takes it, opaque.

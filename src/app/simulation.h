@@ -191,6 +191,8 @@ class Simulation {
   Status collect();
   Status take(Outcome outcome);
   Status follow(Outcome outcome);
+  /// The window does not wait for a job, so it may take longer than a picture [s].
+  static constexpr double shortest_job = 0.030;
   Status seek_on(double budget);
   void arrive();
   void note(std::uint64_t steps, const std::optional<Divergence>& divergence);

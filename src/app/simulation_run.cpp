@@ -1,4 +1,4 @@
-// What moves a run, forward and through its history.
+// What moves a run forward.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -13,10 +13,10 @@ namespace {
 /// Keyframes are this far apart in running time, farther where memory would not hold the last half minute.
 constexpr double keyframe_interval = 0.1, history_seconds = 30.0;  // s
 constexpr auto copy_every = std::chrono::milliseconds(100);
-/// The window does not wait for a job, so it may take longer than a picture [s].
-constexpr double shortest_job = 0.030, longest_job = 0.1;
+/// What a job takes at most [s].
+constexpr double longest_job = 0.1;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
+double running_time_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -166,13 +166,13 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
     ASPIC_TRY(const auto advanced, engines_.leader().solver->advance(count));
     reach(advanced ? advanced->step - 1 : step_ + count, advanced);
     done += count;
-    const double took = seconds_since(before);
+    const double took = running_time_since(before);
     // A batch is about a quarter of the budget, so that its end is not far beyond.
     if (count == batch_ && took < 0.125 * std::min(budget, shortest_job))
       batch_ = std::min<std::uint64_t>(2 * batch_, 256);
     if (took > 0.5 * budget) batch_ = std::max<std::uint64_t>(batch_ / 2, 1);
     if (!seek_ && !divergence_ && step_ == sample) ASPIC_CHECK(sample_here());
-    if (seconds_since(start) > 0.75 * budget) break;
+    if (running_time_since(start) > 0.75 * budget) break;
   }
   if (seek_ || (!divergence_ && Clock::now() - snapshot_time_ <= copy_every)) return {};
   ASPIC_CHECK(refresh_snapshot());
@@ -183,7 +183,7 @@ Status Simulation::advance_here(std::uint64_t steps, double budget) {
 /// The energies of a backend in the context, at the same steps in every run: as many as take a quarter of the
 /// time at most. Where they take more, every second one is left out from now on.
 Status Simulation::sample_here() {
-  const double since_last = seconds_since(last_sampled_);
+  const double since_last = running_time_since(last_sampled_);
   if (worker_.jobs() > 3 || read_seconds_ > 0.25 * since_last)
     sample_stride_ *= 2;
   else if (sample_stride_ > 1 && read_seconds_ < 0.05 * since_last)
@@ -193,7 +193,7 @@ Status Simulation::sample_here() {
   ASPIC_CHECK(refresh_snapshot());
   remember(snapshot_, {});
   start_measuring();
-  read_seconds_ = seconds_since(last_sampled_);
+  read_seconds_ = running_time_since(last_sampled_);
   return {};
 }
 
@@ -295,7 +295,7 @@ Status Simulation::settle() {
 
 bool Simulation::working() const {
   constexpr double noticeable = 0.5;  // s
-  return worker_.busy() && !has_news() && seconds_since(progress_) > noticeable;
+  return worker_.busy() && !has_news() && running_time_since(progress_) > noticeable;
 }
 
 Status Simulation::refresh_snapshot() {
@@ -314,79 +314,13 @@ Status Simulation::refresh_snapshot() {
 
 // ---- history ----
 
-Status Simulation::seek(const Moment& moment) {
-  set_running(false);
-  requested_.reset();
-  worker_.finish();
-  if (const Status taken = collect(); !taken) return fall_back(taken.error());
-  const std::optional<std::uint64_t> underway = std::exchange(seek_, std::nullopt);
-  if (moment == here() && !underway) return halt(true);
-  if (divergence_ && at_end()) ended_ = {here(), *divergence_};
-  const Keyframe& keyframe = history_.keyframe(moment);
-  const bool on_the_way = moment.stretch == stretch_ && step_ <= moment.step && step_ >= keyframe.step;
-  if (moment.stretch != stretch_) {
-    const Setup setup = history_.stretch(moment.stretch).setup;
-    ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
-    stretch_ = moment.stretch;
-  }
-  if (!on_the_way) {
-    // The newest state of a gpu may not have been kept yet: it is where a way back ends.
-    ASPIC_CHECK(load(unpack(keyframe)));
-  }
-  divergence_.reset();
-  seek_ = moment.step;
-  return {};
-}
-
-Status Simulation::replay(History history) {
-  ASPIC_CHECK(halt(true));
-  const Moment first = history.begin_moment();
-  const Setup setup = history.stretch(first.stretch).setup;
-  ASPIC_CHECK(install(setup, factory_.make_like(engines_, setup)));
-  history_ = std::move(history);
-  ended_.reset();
-  samples_.clear();
-  stretch_ = first.stretch;
-  return load(unpack(history_.keyframe(first)));
-}
-
-Status Simulation::seek_on(double budget) {
-  const auto start = Clock::now();
-  while (seek_ && step_ < *seek_) {
-    if (!idle()) return {};
-    const auto pull = history_.pull_at(here());
-    ASPIC_CHECK(engines_.set_pull(pull));
-    const std::uint64_t stop = std::min(*seek_, history_.next_pull_change(here()).value_or(*seek_));
-    if (!Engines::in_context(engines_.leader())) {
-      start_job(stop, std::max(budget, shortest_job), true, pull);
-      return {};
-    }
-    ASPIC_CHECK(advance_here(stop - step_, budget - seconds_since(start)));
-    if (seconds_since(start) > 0.75 * budget) return {};
-  }
-  seek_.reset();
-  ASPIC_CHECK(refresh_snapshot());
-  arrive();
-  return shadowed() ? engines_.shadow().solver->load(snapshot_) : Status();
-}
-
-/// At the end of a history that ended with a divergence there is no way on.
-void Simulation::arrive() {
-  if (ended_ && ended_->first == here() && at_end()) divergence_ = ended_->second;
-}
-
-Status Simulation::step_back() {
-  const auto earlier = history_.before({stretch_, seek_.value_or(step_)});
-  return earlier ? seek(*earlier) : Status();
-}
-
 /// Keeps a state that was come to, now and then, and points of the plot.
 void Simulation::remember(const State& state, const std::vector<EnergySample>& energies) {
   if (!divergence_ && at_end()) {
     const double bytes = 24.0 * static_cast<double>(state.position.size());
     const double interval =
         std::max(keyframe_interval, history_seconds * bytes / static_cast<double>(history_.most_bytes()));
-    if (seconds_since(last_remembered_) >= interval) {
+    if (running_time_since(last_remembered_) >= interval) {
       last_remembered_ = Clock::now();
       history_.add_keyframe(state);
     }

@@ -1,0 +1,102 @@
+// The section that measures.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <string>
+#include <vector>
+
+#include "app/figure.h"
+#include "app/panels.h"
+#include "base/printable.h"
+#include "model/springs.h"
+
+namespace aspic::app {
+namespace {
+
+/// 1234567 as "1.23 M".
+std::string short_number(double value) {
+  if (value >= 1e9) return fmt::format("{:.3g} G", value / 1e9);
+  if (value >= 1e6) return fmt::format("{:.3g} M", value / 1e6);
+  if (value >= 1e3) return fmt::format("{:.3g} k", value / 1e3);
+  return fmt::format("{:.3g}", value);
+}
+
+/// Device time by pass.
+void pass_times(Gui& gui, GpuSolver& solver) {
+  // Measured only while it is shown: a measured step takes a little longer.
+  solver.set_profiling(true);
+  group_heading("Passes of a step");
+  named(gui, "performance/passes",
+        "Device time of each kind of pass in a step [ms], and how many dispatches it takes; means over the "
+        "last steps measured, from time stamps.");
+  const std::vector<gl::PassTime> passes = solver.pass_times();
+  if (passes.empty()) {
+    ImGui::TextDisabled("   not measured yet");
+    return;
+  }
+  double sum = 0.0;
+  const float column = ImGui::GetWindowContentRegionMax().x * figure_column;
+  for (const gl::PassTime& pass : passes) {
+    ImGui::TextDisabled("   %s", pass.name.c_str());
+    // A long name has a separate line.
+    if (ImGui::GetItemRectSize().x + 4.0f < column)
+      ImGui::SameLine(column);
+    else
+      ImGui::SetCursorPosX(column);
+    ImGui::Text("%.3f ms  ×%.3g", pass.milliseconds, pass.dispatches);
+    sum += pass.milliseconds;
+  }
+  ImGui::TextDisabled("   together");
+  ImGui::SameLine(column);
+  ImGui::Text("%.3f ms", sum);
+}
+
+}  // namespace
+
+void performance_section(Gui& gui, Simulation& s, const Beside& beside, const ScenePicture& picture) {
+  const gl::DeviceInfo& device = picture.context().info();
+  // After a divergence of the window's own run, figures of the one that sets the clock.
+  const Simulation& setter = beside.clock();
+  const bool runs = beside.clock_runs();
+  figure("Steps", runs ? short_number(setter.pacer().steps_per_second()) + "/s" : "paused",
+         "Time steps per second.");
+  gui.mark("performance/steps");
+  const auto evaluations = setter.spring_evaluations_per_second();
+  figure("Spring evaluations",
+         !runs         ? "paused"
+         : evaluations ? short_number(*evaluations) + "/s"
+                       : "varies",
+         "Springs × force evaluations of a step × steps per second. Implicit Euler has no fixed number per "
+         "step.");
+  figure("Real-time factor", runs ? fmt::format("{:.3g}", beside.real_time_factor()) : "paused",
+         "Simulated seconds per second.");
+  figure("Pictures",
+         picture.at_rest() ? fmt::format("at rest, {:.0f} ms", 1e3 * picture.draw_seconds())
+                           : fmt::format("{:.0f}/s, {:.1f} ms each", picture.pictures_per_second(),
+                                         1e3 * picture.draw_seconds()),
+         "Pictures of the window per second, and how long the last one of the scene took.");
+  if (device.is_software) {
+    figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * picture.resolution()),
+           "A software rasteriser draws: pictures are coarser while something moves. At rest and when saved "
+           "they "
+           "are of full size.");
+  }
+  if (s.gpu() && device.is_software) {
+    figure("Passes of a step", "not timed",
+           "A software device's time stamps do not say when its passes ran.");
+    gui.mark("performance/not-timed");
+  } else if (s.gpu()) {
+    pass_times(gui, *s.gpu());
+  }
+  const Model& model = s.model();
+  figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
+  figure("Springs", fmt::format("{}", spring_count(model)), "Springs of all types.");
+  if (model.ball_count() > 0)
+    figure("Balls", fmt::format("{}", model.ball_count()), "Balls, launched or waiting.");
+  figure("Solver", fmt::format("{}, {}", s.solver().backend(), human_bytes(s.solver().bytes())),
+         s.solver().description());
+  ImGui::TextDisabled("%s", device.renderer.substr(0, 40).c_str());
+  tooltip(fmt::format("Draws the window: {}, OpenGL {}", device.renderer, device.version));
+}
+
+}  // namespace aspic::app
