@@ -63,10 +63,11 @@ void OverlayPainter::rectangle(float x, float y, float width, float height, cons
     vertex(right, low);
 }
 
-void OverlayPainter::panel(float x, float y, float width, float height) {
+void OverlayPainter::panel(float x, float y, float width, float height, float opacity) {
   const float w = 0.5f * width, h = 0.5f * height;
   const auto em = static_cast<float>(font_->pixel_height());
-  rectangle(x, y, width, height, {-w, -h, w, h}, backdrop, {panel_shape, w, h, corner * em});
+  rectangle(x, y, width, height, {-w, -h, w, h}, {backdrop[0], backdrop[1], backdrop[2], opacity},
+            {panel_shape, w, h, corner * em});
 }
 
 void OverlayPainter::text(float x, float y, std::string_view utf8, const std::array<float, 4>& tint) {
@@ -125,7 +126,11 @@ void OverlayPainter::facts(const std::vector<OverlayLine>& all, float picture_wi
   const float left = std::round(margin * em), top = left;
   const float inset = std::round(padding * em);
   panel(left, top, std::ceil(labels + values) + 2 * inset,
-        static_cast<float>(lines.size()) * step + 2 * inset - (step - em));
+        static_cast<float>(lines.size()) * step + 2 * inset - (step - em),
+        // Colours are darker than the text that the usual one is for.
+        std::ranges::any_of(lines, [](const OverlayLine& line) { return line.tint.has_value(); })
+            ? 0.92f
+            : backdrop[3]);
   float y = top + inset;
   for (const OverlayLine& line : lines) {
     const std::array<float, 4> own = line.tint ? with_alpha(*line.tint, 1.0) : dim;
@@ -150,7 +155,7 @@ float OverlayPainter::scale(const Legend& legend, float picture_width, float bot
       rows * step + (bar ? std::round((bar_height + 0.3f) * em) : 0.0f) + 2 * inset - (step - em);
   const float left = std::round(picture_width - margin * em - width - 2 * inset);
   const float top = std::round(bottom - margin * em - height);
-  panel(left, top, width + 2 * inset, height);
+  panel(left, top, width + 2 * inset, height, backdrop[3]);
   const float x = left + inset;
   float y = top + inset;
   text(x, y, legend.title, bright);

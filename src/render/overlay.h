@@ -60,7 +60,7 @@ class OverlayPainter {
   Status prepare_font(int pixel_height);
   void rectangle(float x, float y, float width, float height, const std::array<float, 4>& uv,
                  const std::array<float, 4>& tint, const std::array<float, 4>& shape);
-  void panel(float x, float y, float width, float height);
+  void panel(float x, float y, float width, float height, float opacity);
   void text(float x, float y, std::string_view utf8, const std::array<float, 4>& tint);
   std::vector<OverlayLine> fitted_lines(const std::vector<OverlayLine>& lines, float room) const;
   void facts(const std::vector<OverlayLine>& all, float picture_width);

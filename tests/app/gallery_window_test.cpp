@@ -1,5 +1,7 @@
 // The window as README shows it. With the environment variable ASPIC_WINDOW_PICTURES the pictures go to that
 // directory; scripts/gallery.sh does so.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 
@@ -56,6 +58,33 @@ TEST_F(Gallery, CubeInABowlRuns) {
   EXPECT_GT(simulation().samples().energies().size(), 2u) << "the plot has curves";
   EXPECT_TRUE(has("simulation/run"));
   take("window-cube-bowl");
+}
+
+/// What somebody sees who starts the window for the first time.
+TEST_F(Gallery, TheFirstScreen) {
+  open("cube-plane", {}, "", app::KeptState());
+  for (const auto& [width, height] : {std::pair(1280, 720), std::pair(1920, 1080)}) {
+    resize(width, height);
+    app().cursor(middle_x(), app().view.box.top + 0.35 * (app().view.box.bottom - app().view.box.top));
+    frames(30);
+    for (const char* widget : {"actions/start", "actions/compare", "energy/plot", "springs/all/stiffness"})
+      EXPECT_LT(widgets().at(widget).bottom, height) << widget;
+    take(fmt::format("window-first-{}", width));
+  }
+}
+
+TEST_F(Gallery, FourRunsSideBySide) {
+  open("cube-plane", {"simulation.steps-per-frame=20", "cube[0].position=[0,6,0]"}, "reference");
+  for (int i = 0; i < 3; ++i) press(GLFW_KEY_B, GLFW_MOD_CONTROL);
+  frames_until([&] { return app().beside.count() == 4 && app().beside.settled(); });
+  run_to(1010);
+  press(GLFW_KEY_SPACE);
+  frames_until([&] { return app().beside.settled(); });
+  app().messages.dismiss();
+  app().cursor(middle_x(), app().view.box.top + 100.0);
+  frames(30);
+  EXPECT_EQ(app().beside.count(), 4u);
+  take("window-beside-four");
 }
 
 TEST_F(Gallery, TwoIntegratorsSideBySide) {

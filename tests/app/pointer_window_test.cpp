@@ -104,7 +104,8 @@ TEST_P(PointerOn, TellsForceMassAndPins) {
 INSTANTIATE_TEST_SUITE_P(Pointer, PointerOn, ::testing::Values("reference", "cpu", "gpu"));
 
 TEST_P(PointerOn, ReadsAndPullsABallAndTheRunComesBack) {
-  open("cube-plane", {"cube[0].position=[0,3,0]"}, GetParam());
+  open("cube-plane", {"cube[0].position=[0,3,0]", "view.camera={position=[14,7,20], target=[0,4,0], fov=45}"},
+       GetParam());
   app().scene.change("a ball", [](Scene& s) {
     s.model.balls.push_back({0.5, 2.0, {1.0, -0.5, 5.0}, {}, {0.0, 1.0, 0.0}});
   });

@@ -2,6 +2,7 @@
 // panels: byte for byte what the renderer draws by itself, which tests/render holds against golden pictures.
 #include "app/stage.h"
 #include "render/read_back.h"
+#include "scene/follow.h"
 #include "scene/load.h"
 
 namespace aspic::test {
@@ -41,8 +42,12 @@ class Views : public Stage, public ::testing::WithParamInterface<View> {
       renderer_ = std::move(*made);
       EXPECT_TRUE(renderer_->set_model(simulation().model()).ok());
     }
+    const Scene& scene = app().scene.editor().scene();
+    const Following following(scene, simulation().model(), Precision::single);
     PictureOptions options;
-    options.view = app().scene.editor().scene().view;
+    options.view = scene.view;
+    options.view.camera =
+        moved(scene.view.camera, following.offset(simulation().model(), simulation().snapshot()));
     return draw(context(), *renderer_, simulation().snapshot(), options, window_size()[0], window_size()[1]);
   }
   void TearDown() override {
