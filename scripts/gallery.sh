@@ -48,6 +48,11 @@ draw elevator 2 elevator
 draw ball-pit 2.2 ball-pit
 draw curtain 1.25 curtain
 draw flag 2.25 flag
+for scene in plane:1.25 tilted-plane:1.1 sphere:1 bowl:1.2; do
+  draw course-2021-${scene%:*} ${scene#*:} course-2021-${scene%:*}
+done
+draw course-2018 1.1 course-2018
+draw course-springs 1.25 course-2021-plane --view 'draw=["structural","shear","bending"]'
 
 "$aspic_build_dir/aspic" report cube-plane --only stability --out "$work/report" >&2
 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --blink-settings=preferredColorScheme=1 --window-size=1240,1190 \

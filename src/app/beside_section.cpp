@@ -29,7 +29,7 @@ std::vector<std::string> keys_of(const Scene& scene) {
     if (!key.targets(scene).empty()) keys.emplace_back(key.name);
   keys.emplace_back(backend_key);
   for (const Parameter& p : parameters()) {
-    if (p.path == "name" || p.path.starts_with("view.")) continue;
+    if (p.only_shown()) continue;
     for (std::size_t i = 0; i < index_count(p, scene); ++i)
       if (applies(p, scene, i)) keys.push_back(path_text(p.path, i));
   }

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t longest_past = 256;
 
 Effect effect_of(const Parameter& p) {
-  if (p.path.starts_with("view.") || p.path == "name") return Effect::view;
+  if (p.only_shown()) return Effect::view;
   return p.live ? Effect::constants : Effect::restart;
 }
 

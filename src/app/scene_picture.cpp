@@ -152,7 +152,7 @@ Result<PictureOptions> ScenePicture::options_of(const Content& content, bool leg
   options.tint = content.tint;
   options.view = content.view;
   if (film && film->text)
-    options.text = film->label.empty() ? overlay_lines(scene_.model, simulation_.time()) : film->label;
+    options.text = film->label.empty() ? overlay_lines(scene_, simulation_.time()) : film->label;
   if (film) options.text_height = film->text_height;
   options.shadows = shadows;
   options.axes = legend || film;

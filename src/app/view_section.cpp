@@ -165,6 +165,7 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const Qu
   if (!folded(gui, layout, "View", "more", "Arrows, ground, shadows, axes, and the camera.")) return;
   edit(gui, scene, "view.arrows");
   if (scene.scene().view.arrows.any()) edit(gui, scene, "view.arrow-scale", 0, {"Force per length"});
+  edit(gui, scene, "view.terrain");
   edit(gui, scene, "view.ground", 0, {"Grid at height"});
   check_box(gui, "shadows", "view/shadows", shadows,
             "Shadows that bodies and balls cast on terrain. Without them pictures take less time. Affects "

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "analysis/stability.h"
 #include "base/files.h"
@@ -23,8 +24,15 @@ Status execute(const SceneListOptions& options) {
       array.push_back({{"name", scene.name}, {"group", scene.group}, {"description", scene.description}});
     return print_data(to_text({{"scenes", array}}));
   }
+  std::size_t widest = 0;
+  for (const BuiltinScene& scene : scenes) widest = std::max(widest, scene.name.size());
   std::string text;
-  for (const BuiltinScene& scene : scenes) text += fmt::format("{:<20} {}\n", scene.name, scene.description);
+  std::string_view group;
+  for (const BuiltinScene& scene : scenes) {
+    if (std::exchange(group, scene.group) != scene.group)
+      text += fmt::format("{}{}\n", text.empty() ? "" : "\n", group);
+    text += fmt::format("  {:<{}}  {}\n", scene.name, widest, scene.description);
+  }
   return print_data(text);
 }
 

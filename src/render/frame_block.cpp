@@ -67,7 +67,8 @@ render_layout::Frame frame_block(const Model& model, const Camera& camera, int w
     block.shadow_tint[static_cast<int>(i)] = solid ? 0.10f + 0.22f * tint[i] : 0.15f;
   block.quantity_range = quantity_scale(content.range);
   for (const Terrain& t : model.terrain) {
-    if (!content.shadows || !terrain_row(t.shape).ball || block.shadow_sphere_count == MAX_SHADOW_SPHERES)
+    if (!content.shadows || !content.view.terrain || !terrain_row(t.shape).ball ||
+        block.shadow_sphere_count == MAX_SHADOW_SPHERES)
       continue;
     const Geometry<double> ball = terrain_at(t, model.simulation.timestep, content.step).geometry;
     block.shadow_spheres[block.shadow_sphere_count++] = glm::vec4(to_glm(ball.vectors[0]), ball.numbers[0]);

@@ -29,6 +29,24 @@ constexpr float glyph_shape = 0.0f, panel_shape = 1.0f, scale_shape = 2.0f;
 
 }  // namespace
 
+FactsPanel facts_panel(const Font& font, const std::vector<OverlayLine>& lines) {
+  const auto em = static_cast<float>(font.pixel_height());
+  const auto step = static_cast<float>(font.line_height());
+  float labels = 0.0f, values = 0.0f;
+  for (const OverlayLine& line : lines) {
+    labels = std::max(labels, font.width_of(line.label));
+    values = std::max(values, font.width_of(line.value));
+  }
+  if (labels > 0.0f) labels += column_gap * em;
+  const float left = std::round(margin * em), inset = std::round(padding * em);
+  return {left, left, std::ceil(labels + values) + 2 * inset,
+          static_cast<float>(lines.size()) * step + 2 * inset - (step - em), labels};
+}
+
+int text_height_in(int picture_height) {
+  return std::clamp(static_cast<int>(std::lround(picture_height / 42.0)), 11, 256);
+}
+
 Result<OverlayPainter> OverlayPainter::create(gl::Context& context, const gl::ShaderLibrary& library) {
   OverlayPainter painter(context);
   ASPIC_TRY(painter.program_,
@@ -112,31 +130,23 @@ std::vector<OverlayLine> OverlayPainter::fitted_lines(const std::vector<OverlayL
 
 void OverlayPainter::facts(const std::vector<OverlayLine>& all, float picture_width) {
   const auto em = static_cast<float>(font_->pixel_height());
-  const auto step = static_cast<float>(font_->line_height());
   float widest_value = 0.0f;
   for (const OverlayLine& line : all) widest_value = std::max(widest_value, font_->width_of(line.value));
   const std::vector<OverlayLine> lines =
       fitted_lines(all, picture_width - widest_value - (2.0f * (margin + padding) + column_gap) * em);
-  float labels = 0.0f, values = 0.0f;
-  for (const OverlayLine& line : lines) {
-    labels = std::max(labels, font_->width_of(line.label));
-    values = std::max(values, font_->width_of(line.value));
-  }
-  if (labels > 0.0f) labels += column_gap * em;
-  const float left = std::round(margin * em), top = left;
+  const FactsPanel box = facts_panel(*font_, lines);
+  // Colours are darker than the text that the usual backdrop is for.
+  const bool tinted =
+      std::ranges::any_of(lines, [](const OverlayLine& line) { return line.tint.has_value(); });
+  panel(box.left, box.top, box.width, box.height, tinted ? 0.92f : backdrop[3]);
   const float inset = std::round(padding * em);
-  panel(left, top, std::ceil(labels + values) + 2 * inset,
-        static_cast<float>(lines.size()) * step + 2 * inset - (step - em),
-        // Colours are darker than the text that the usual one is for.
-        std::ranges::any_of(lines, [](const OverlayLine& line) { return line.tint.has_value(); })
-            ? 0.92f
-            : backdrop[3]);
-  float y = top + inset;
+  const float x = box.left + inset;
+  float y = box.top + inset;
   for (const OverlayLine& line : lines) {
     const std::array<float, 4> own = line.tint ? with_alpha(*line.tint, 1.0) : dim;
-    text(left + inset, y, line.label, line.alarm ? alarming : own);
-    text(left + inset + labels, y, line.value, line.alarm ? alarming : bright);
-    y += step;
+    text(x, y, line.label, line.alarm ? alarming : own);
+    text(x + box.labels, y, line.value, line.alarm ? alarming : bright);
+    y += static_cast<float>(font_->line_height());
   }
 }
 
@@ -216,8 +226,8 @@ void OverlayPainter::axes(const Camera& camera, float picture_width) {
 Status OverlayPainter::draw(const gl::Framebuffer& picture, const std::vector<OverlayLine>& lines,
                             std::span<const Legend> legends, const Camera* camera, int text_height) {
   if (lines.empty() && !camera && std::ranges::all_of(legends, &Legend::empty)) return {};
-  const int wanted = text_height > 0 ? text_height : static_cast<int>(std::lround(picture.height() / 42.0));
-  ASPIC_CHECK(prepare_font(std::clamp(wanted, 11, 256)));
+  ASPIC_CHECK(
+      prepare_font(text_height > 0 ? std::clamp(text_height, 11, 256) : text_height_in(picture.height())));
   pending_.clear();
   if (!lines.empty()) facts(lines, static_cast<float>(picture.width()));
   auto bottom = static_cast<float>(picture.height());

@@ -25,6 +25,16 @@ struct OverlayLine {
   friend bool operator==(const OverlayLine&, const OverlayLine&) = default;
 };
 
+/// Where the panel of facts is in a picture [pixels from left and top].
+struct FactsPanel {
+  float left = 0.0f, top = 0.0f, width = 0.0f, height = 0.0f;
+  float labels = 0.0f;  ///< width of the left column, with the gap to the right one
+};
+FactsPanel facts_panel(const Font& font, const std::vector<OverlayLine>& lines);
+
+/// Height of text in a picture of this height, unless another is asked for [pixels].
+int text_height_in(int picture_height);
+
 /// A scale of colours with its ends, or a key of named colours, bottom right.
 struct Legend {
   std::string title;

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 
+#include "base/printable.h"
 #include "model/cube.h"
 #include "model/model.h"
 #include "model/terrain.h"
@@ -15,18 +19,101 @@ std::string triple(const Vec3& v) {
   return fmt::format("({}, {}, {})", short_number(v.x), short_number(v.y), short_number(v.z));
 }
 
-std::string springs(const SpringSettings& s) {
-  return fmt::format("k {} N/m   c {} N·s/m", short_number(s.stiffness), short_number(s.damping));
-}
-
 std::string terrain_names(const std::vector<TerrainSettings>& terrain) {
   std::string names;
   for (const TerrainSettings& t : terrain) {
     names += names.empty() ? "" : ", ";
     names += terrain_row(t.shape).title;
   }
-  return names.empty() ? "none" : names;
+  return names;
 }
+
+/// The springs of one type, of the kinds that a body may have.
+struct SpringsOfType {
+  std::string_view label;
+  double stiffness, damping;  ///< k [N/m], c [N·s/m]
+};
+
+template <class Springs>
+SpringsOfType of_type(std::string_view label, const Springs& s) {
+  return {label, s.stiffness, s.damping};
+}
+
+/// Those of the first body, kinds in the order of scene files.
+std::vector<SpringsOfType> first_springs(const ModelSettings& settings) {
+  if (!settings.cubes.empty()) {
+    const CubeSettings& cube = settings.cubes.front();
+    if (cube.material)
+      return {
+          of_type("structural", material_springs(*cube.material, cube.particles_per_edge, cube.edge_length))};
+    return {of_type("structural", cube.structural), of_type("shear", cube.shear),
+            of_type("bending", cube.bending)};
+  }
+  if (!settings.goal_nets.empty()) {
+    const GoalNetSettings& net = settings.goal_nets.front();
+    std::vector<SpringsOfType> springs = {of_type("structural", net.structural)};
+    if (net.shear.stiffness > 0.0) springs.push_back(of_type("shear", net.shear));
+    if (net.bending.stiffness > 0.0) springs.push_back(of_type("bending", net.bending));
+    return springs;
+  }
+  if (settings.cloths.empty()) return {};
+  const ClothSettings& cloth = settings.cloths.front();
+  return {of_type("structural", cloth.structural), of_type("shear", cloth.shear),
+          of_type("bending", cloth.bending)};
+}
+
+void add_springs(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
+  const std::vector<SpringsOfType> springs = first_springs(settings);
+  const auto value = [](const SpringsOfType& s) {
+    return fmt::format("k {} N/m   c {} N·s/m", short_number(s.stiffness), short_number(s.damping));
+  };
+  const auto alike = [&](const SpringsOfType& s) { return value(s) == value(springs.front()); };
+  if (!springs.empty() && std::ranges::all_of(springs, alike))
+    lines.push_back({"springs", value(springs.front())});
+  else
+    for (const SpringsOfType& s : springs) lines.push_back({std::string(s.label), value(s)});
+}
+
+/// What terrains have in common, or from the least to the largest.
+template <class Value>
+std::string over_terrain(const std::vector<TerrainSettings>& terrain, Value value) {
+  double least = value(terrain.front()), most = least;
+  for (const TerrainSettings& t : terrain) {
+    least = std::min(least, value(t));
+    most = std::max(most, value(t));
+  }
+  const std::string from = short_number(least), to = short_number(most);
+  return from == to ? from : fmt::format("{}–{}", from, to);
+}
+
+void add_terrain(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
+  const std::vector<TerrainSettings>& terrain = settings.terrain;
+  const ContactSettings& contact = settings.contact;
+  if (terrain.empty()) return;
+  lines.push_back({"terrain", terrain_names(terrain)});
+  std::string value =
+      fmt::format("e {}   μ {}",
+                  over_terrain(terrain, [&](auto& t) { return t.restitution.value_or(contact.restitution); }),
+                  over_terrain(terrain, [&](auto& t) { return t.friction.value_or(contact.friction); }));
+  if (std::ranges::all_of(terrain, [](const TerrainSettings& t) { return t.mass.has_value(); }))
+    value += fmt::format("   M {} kg", over_terrain(terrain, [](auto& t) { return *t.mass; }));
+  const std::string_view model = contact.model == ContactModel::coulomb ? "Coulomb" : "course";
+  lines.push_back({"contact", fmt::format("{}   {}", value, model)});
+}
+
+void add_balls(const ModelSettings& settings, std::vector<OverlayLine>& lines) {
+  std::uint64_t balls = settings.balls.size();
+  for (const LauncherSettings& launcher : settings.launchers)
+    balls += static_cast<std::uint64_t>(launcher.count);
+  if (balls == 0) return;
+  const ContactSettings& contact = settings.contact;
+  // Without spin nothing acts across the line of centres.
+  lines.push_back({"balls", fmt::format("{}   e {}   μ {}", balls, short_number(contact.ball_restitution),
+                                        short_number(contact.spin ? contact.ball_friction : 0.0))});
+}
+
+/// A name may be as long as it likes; the panel must not cover the picture.
+constexpr std::size_t most_of_author = 40;
 
 }  // namespace
 
@@ -39,26 +126,28 @@ std::string short_number(double value) {
   return text;
 }
 
-std::vector<OverlayLine> overlay_lines(const ModelSettings& settings, double time) {
-  std::vector<OverlayLine> lines;
-  lines.push_back({"terrain", terrain_names(settings.terrain)});
+std::vector<OverlayLine> author_lines(const Scene& scene) {
+  if (!scene.author || scene.author->empty()) return {};
+  return {{"author", excerpt(*scene.author, most_of_author)}};
+}
+
+std::vector<OverlayLine> overlay_lines(const Scene& scene, double time) {
+  const ModelSettings& settings = scene.model;
+  std::vector<OverlayLine> lines = author_lines(scene);
+  add_terrain(settings, lines);
   lines.push_back({"integrator", std::string(row_of(settings.simulation.integrator).title)});
   lines.push_back({"time step h", short_number(1000.0 * settings.simulation.timestep) + " ms"});
+  add_springs(settings, lines);
   if (!settings.cubes.empty()) {
     const CubeSettings& cube = settings.cubes.front();
-    SpringSettings structural = cube.structural, shear = cube.shear, bending = cube.bending;
-    if (cube.material)
-      structural = shear = bending =
-          material_springs(*cube.material, cube.particles_per_edge, cube.edge_length);
-    lines.push_back({"structural", springs(structural)});
-    lines.push_back({"shear", springs(shear)});
-    lines.push_back({"bending", springs(bending)});
     const std::string more =
         settings.cubes.size() > 1 ? fmt::format("   (first of {} cubes)", settings.cubes.size()) : "";
     lines.push_back({"offset", triple(cube.position) + " m" + more});
-    lines.push_back({"rotation", fmt::format("{}° about {}", short_number(cube.rotation.angle),
-                                             triple(cube.rotation.axis))});
+    const double angle = cube.rotation.angle;
+    lines.push_back({"rotation", short_number(angle) + "°" +
+                                     (angle != 0.0 ? " about " + triple(cube.rotation.axis) : "")});
   }
+  add_balls(settings, lines);
   lines.push_back({"time", fmt::format("{:.3f} s", time)});
   return lines;
 }

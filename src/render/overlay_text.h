@@ -2,14 +2,18 @@
 // The text on a picture.
 #include <vector>
 
-#include "model/settings.h"
 #include "render/overlay.h"
+#include "scene/scene.h"
 
 namespace aspic {
 
-/// Terrain, integrator, h, k and c by spring type, offset and rotation of the first cube, time: one line
-/// each. `time` in seconds. Lines that the scene has nothing for are left out.
-std::vector<OverlayLine> overlay_lines(const ModelSettings& settings, double time);
+/// The parameters of a run, one line each: author, terrain, contact, integrator, h, k and c of the first body
+/// by spring type, offset and rotation of a cube, number and contact of balls, time. `time` in seconds. Lines
+/// that the scene has nothing for are left out, and spring types that are alike share one.
+std::vector<OverlayLine> overlay_lines(const Scene& scene, double time);
+
+/// The line of the author; none for a scene without one.
+std::vector<OverlayLine> author_lines(const Scene& scene);
 
 /// A number in few characters for people: at most four significant digits, no exponent between 0.001 and 10⁶.
 std::string short_number(double value);

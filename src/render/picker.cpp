@@ -77,7 +77,7 @@ void Picker::draw_terrain(const Model& model, std::uint64_t step) const {
 void Picker::draw_image(const Model& model, const ModelBuffers& buffers, const DeviceState& state,
                         const ViewSettings& view, const SectionPainter* section) const {
   const DrawSettings& draw = view.draw;
-  draw_terrain(model, state.step);
+  if (view.terrain) draw_terrain(model, state.step);
   if (draws_balls(draw)) buffers.balls().draw(balls_, state);
   if (section) section->draw(SectionUse::identities, model, buffers, *state.particles, view.colour);
   if (!draw.solid && !draw.particles && !draws_springs(drawn_springs(view))) return;

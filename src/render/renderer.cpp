@@ -168,7 +168,7 @@ Status Renderer::Parts::start(int width, int height, const DeviceState& state,
   drawn_view = view;
   drawing.emplace(Drawing{state, options, camera, {}, {}, {}, 0, false});
   for (const Terrain& t : model->terrain)
-    if (!options.background)
+    if (!options.background && view.terrain)
       drawing->terrain.push_back(terrain_at(t, model->simulation.timestep, state.step));
   if (profiler) profiler->begin();
   bind_frame(drawn_frame);

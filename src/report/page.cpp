@@ -113,7 +113,7 @@ body{margin:0;background:var(--paper);color:var(--ink);font:17px/1.55 Charter,"B
 main,header,footer{max-width:1180px;margin:0 auto;padding:0 28px}
 h1,h2,h3,nav,table,.how,.strip,footer{font-family:system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif}
 header{padding-top:52px}h1{font-size:34px;line-height:1.15;letter-spacing:-.015em;margin:0 0 10px}
-header p,section>p{max-width:46em}
+header p,section>p{max-width:46em}.by{font-size:20px;margin:0 0 18px}
 h2{font-size:25px;letter-spacing:-.01em;margin:64px 0 12px;padding-top:14px;border-top:2px solid var(--ink)}
 nav{font-size:14px;margin:22px 0;display:flex;flex-wrap:wrap;gap:6px 20px}
 a{color:var(--link);text-decoration:none}a:hover{text-decoration:underline}
@@ -170,8 +170,10 @@ std::string html_of(const Page& page) {
   std::string out =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">";
-  out += fmt::format("<title>{}</title><style>{}{}</style></head><body>\n<header><h1>{}</h1><p>{}</p><nav>",
-                     xml(page.title), styles, chart_styles, xml(page.title), inline_html(page.lead));
+  out += fmt::format("<title>{}</title><style>{}{}</style></head><body>\n<header><h1>{}</h1>",
+                     xml(page.title), styles, chart_styles, xml(page.title));
+  if (!page.author.empty()) out += fmt::format("<p class=\"by\">{}</p>", xml(page.author));
+  out += fmt::format("<p>{}</p><nav>", inline_html(page.lead));
   for (const Section& section : page.sections)
     out += fmt::format("<a href=\"#{}\">{}</a>", section.id, xml(section.title));
   out += "<a href=\"#machine\">Machine and scene</a></nav></header><main>\n";
@@ -190,7 +192,9 @@ std::string html_of(const Page& page) {
 }
 
 std::string markdown_of(const Page& page) {
-  std::string out = fmt::format("# {}\n\n{}\n", page.title, page.lead);
+  std::string out = fmt::format("# {}\n\n", page.title);
+  if (!page.author.empty()) out += fmt::format("{}\n\n", page.author);
+  out += page.lead + "\n";
   std::size_t number = 0;
   for (const Section& section : page.sections) {
     out += fmt::format("\n## {}\n", section.title);

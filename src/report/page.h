@@ -59,6 +59,7 @@ struct Section {
 
 struct Page {
   std::string title, lead;
+  std::string author;  ///< below the title; empty: nobody is named
   std::vector<Section> sections;
   /// Machine, driver, version, scene: names and what they are.
   std::vector<std::pair<std::string, std::string>> colophon;

@@ -122,6 +122,7 @@ Result<Page> make_page(const ReportPlan& plan, const Study& study,
                        const std::vector<const SectionRow*>& rows) {
   Page page;
   page.title = fmt::format("{}: integrators and parameters", study.scene.name);
+  page.author = printable_line(study.scene.author.value_or(""));
   page.scene_toml = to_toml(study.scene);
   page.lead = fmt::format(
       "What the choice of integrator, time step and parameters does to the scene `{}`, measured on this "

@@ -114,7 +114,7 @@ class PictureCostMeter {
     PictureOptions picture;
     picture.view = scene_->view;
     const double h = backend_.solver->model().simulation.timestep;
-    picture.text = overlay_lines(scene_->model, static_cast<double>(state.step) * h);
+    picture.text = overlay_lines(*scene_, static_cast<double>(state.step) * h);
     return renderer_->draw(size_.width, size_.height, state, picture);
   }
 

@@ -92,7 +92,7 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   shown.legend = output_.text;
   if (view.arrows.any()) shown.arrows = arrows_of(solver.model(), copy, view.arrows);
   if (output_.text)
-    shown.text = overlay_lines(scene_.model, static_cast<double>(step) * solver.model().simulation.timestep);
+    shown.text = overlay_lines(scene_, static_cast<double>(step) * solver.model().simulation.timestep);
   ASPIC_CHECK(film_->add({state}, {std::move(shown)}, copies));
   last_shown_ = step;
   return {};

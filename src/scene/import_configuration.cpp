@@ -30,13 +30,13 @@ struct Target {
 
 constexpr std::string_view drawn = "view.draw";
 constexpr std::array<Target, 24> targets = {{
-    {"StudentID", "", -1, "a scene belongs to nobody"},
+    {"StudentID", "author", -1, ""},
     {"DrawParticle", drawn, 1, ""},
     {"DrawSpringStructural", drawn, 2, ""},
     {"DrawSpringShear", drawn, 3, ""},
     {"DrawSpringBending", drawn, 4, ""},
     {"DrawGoalpost", "", -1, "the posts are the net's pinned corners, drawn with it"},
-    {"DrawPlane", "", -1, "terrain is always drawn; leave [[terrain]] out for none"},
+    {"DrawPlane", "view.terrain", -1, ""},
     {"DrawBackground", "", -1, "there is one background"},
     {"DrawAxis", "view.axes", -1, ""},
     {"SimulationStart", "", -1, "a scene does not say whether it runs at once"},
@@ -128,9 +128,10 @@ class Importer {
       note(fmt::format("*{} has no meaning here (value {}): {}", key_, shown(text), target->reason));
       return;
     }
+    const Parameter& p = *find_parameter(target->path);
+    if (p.type == ParameterType::text) return p.set(result_.scene, 0, Value(printable_line(text)));
     const auto number = number_in(text);
     if (!number) return fail(fmt::format("*{} must be a number, not \"{}\"", key_, shown(text)));
-    const Parameter& p = *find_parameter(target->path);
     const auto value = converted(p, *target, *number);
     if (!value) return;
     if (const auto complaint = check_value(p, *value))
@@ -218,7 +219,9 @@ Result<ImportedConfiguration> import_configuration(std::string_view text, const 
 std::string imported_toml(const ImportedConfiguration& imported, const std::string& file_name) {
   std::string text = fmt::format(
       "# Imported from {}. The launcher throws at random the balls that were shot by hand there.\n"
-      "# For that framework's own contact formulas set model = \"course\" and spin = false in [contact].\n",
+      "# For that framework's own contact formulas set model = \"course\" and spin = false in [contact], as "
+      "the\n"
+      "# built-in scene course-2018 does.\n",
       printable_line(file_name));
   for (const std::string& note : imported.notes)
     text += fmt::format("# Not carried over: {}\n", printable_line(note));

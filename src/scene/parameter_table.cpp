@@ -27,6 +27,9 @@ Rows root_rows() {
       fixed(schema),
       fixed(absent("the file's name without extension",
                    row("name", FIELD(name), "Title of the scene in windows and reports."))),
+      absent("nobody is named", row("author", FIELD(author),
+                                    "Name or number of its author, shown in films and on a report's first "
+                                    "page.")),
   };
 }
 
@@ -171,6 +174,7 @@ Rows view_rows() {
                     "Normal of the cut's plane; the side that it points to is not drawn.")),
       row("view.cut.offset", "m", within(far), FIELD(view.cut.offset),
           "Distance of the cut's plane from the world's origin, along its normal."),
+      row("view.terrain", FIELD(view.terrain), "Whether terrain is drawn; bodies touch it in either case."),
       row("view.axes", FIELD(view.axes), "Whether the world's axes are drawn in a corner of the picture."),
       arrows,
       absent("as long as the picture has room for",

@@ -70,6 +70,8 @@ struct Parameter {
     return path.substr(0, path.find('.') == std::string_view::npos ? 0 : path.find('.'));
   }
   std::string_view key() const { return path.substr(path.find('.') + 1); }
+  /// Whether it leaves the motion as it is: names, and what is drawn.
+  bool only_shown() const { return path == "name" || path == "author" || path.starts_with("view."); }
   /// The value in a scene; `index` picks the element of its list (0 for other keys) and must exist. Absent
   /// terrain geometry reads as the shape's default. Nothing if the key is absent or does not apply
   /// (Belonging).

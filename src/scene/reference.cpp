@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/terrain.h"
@@ -79,9 +80,12 @@ std::string scene_reference() {
     }
     page += table_row(p);
   }
-  page += "\n## Built-in scenes\n\n| name | |\n|---|---|\n";
-  for (const BuiltinScene& scene : list_builtin_scenes())
-    page += fmt::format("| `{}` | {} |\n", scene.name, scene.description);
+  page += "\n## Built-in scenes\n\n| group | name | |\n|---|---|---|\n";
+  std::string_view group;
+  for (const BuiltinScene& scene : list_builtin_scenes()) {
+    const bool first = std::exchange(group, scene.group) != scene.group;
+    page += fmt::format("| {} | `{}` | {} |\n", first ? group : "", scene.name, scene.description);
+  }
   return page;
 }
 

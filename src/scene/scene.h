@@ -109,7 +109,8 @@ struct ViewSettings {
   DrawSettings draw;
   ViewColour colour = ViewColour::material;
   CutSettings cut;
-  bool axes = false;  ///< the world's axes are drawn in a corner
+  bool terrain = true;  ///< it is drawn; bodies touch it in either case
+  bool axes = false;    ///< the world's axes are drawn in a corner
   ArrowSettings arrows;
   std::optional<double> arrow_scale = {};  ///< an arrow's force by its length [N/m]; absent: fits the picture
   ScaleSettings scale;
@@ -130,6 +131,7 @@ std::string_view name_of(ScaleRange range);
 /// would.
 struct Scene {
   std::string name;  ///< for titles and reports; the file's name without extension if the file gives none
+  std::optional<std::string> author;  ///< as films and reports name them; absent: nobody is named
   ModelSettings model;
   ViewSettings view;
 };

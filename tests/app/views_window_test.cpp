@@ -19,13 +19,25 @@ void PrintTo(const View& view, std::ostream* out) {
 
 const std::vector<View>& views() {
   // Far enough for all bodies to have moved and most to touch something.
-  static const std::vector<View> all = {{"cube-plane", 1500},  {"cube-tilted-plane", 1300},
-                                        {"cube-sphere", 1000}, {"cube-bowl", 1300},
-                                        {"large-cube", 2},     {"goal-net", 300},
-                                        {"penalty", 1080},     {"cube-and-balls", 700},
-                                        {"ball-pit", 1500},    {"cube-torus", 1300},
-                                        {"cube-hole", 1500},   {"elevator", 1500},
-                                        {"flag", 500},         {"curtain", 500}};
+  static const std::vector<View> all = {{"cube-plane", 1500},
+                                        {"cube-tilted-plane", 1300},
+                                        {"cube-sphere", 1000},
+                                        {"cube-bowl", 1300},
+                                        {"large-cube", 2},
+                                        {"goal-net", 300},
+                                        {"penalty", 1080},
+                                        {"cube-and-balls", 700},
+                                        {"ball-pit", 1500},
+                                        {"cube-torus", 1300},
+                                        {"cube-hole", 1500},
+                                        {"elevator", 1500},
+                                        {"flag", 500},
+                                        {"curtain", 500},
+                                        {"course-2021-plane", 1250},
+                                        {"course-2021-tilted-plane", 1050},
+                                        {"course-2021-sphere", 900},
+                                        {"course-2021-bowl", 1200},
+                                        {"course-2018", 700}};
   return all;
 }
 

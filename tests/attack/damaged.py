@@ -1,5 +1,6 @@
 """Damaged files and nonsense on the command line, through the program: scenes, checkpoints, Configuration.txt, options.
 tests/fuzz does the same to the parsers, a thousand times as often; here the whole of the program answers."""
+import json
 import os
 import random
 import struct
@@ -34,7 +35,7 @@ def damages(data, count):
 
 
 def scenes(attack):
-    names = [line.split()[0] for line in attack.run("scene", "list").out.decode().splitlines()]
+    names = [scene["name"] for scene in json.loads(attack.run("scene", "list", "--json").out)["scenes"]]
     attack.require(len(names) >= 9, f"built-in scenes: {names}")
     for name in names:
         whole = attack.run("scene", "show", name).out

@@ -106,7 +106,7 @@ std::vector<Example> examples_of_all_help() {
 /// Lines of code blocks, and code within text that names a scene.
 std::vector<Example> examples_of_page(const fs::path& page) {
   static const std::regex inline_code("`([^`]+)`"),
-      with_scene(R"(aspic (scene \w+|run|view|compare|report|sweep|bench) [^-].*)");
+      with_scene(R"(aspic ((scene \w+|run|view|compare|report|sweep|bench) [^-]|verify --only ).*)");
   std::vector<Example> examples;
   std::ifstream file(page);
   const auto add = [&](int line, const std::string& command) {
@@ -180,8 +180,11 @@ std::string divided(const std::string& command, const std::string& option, doubl
   return std::string(found.prefix()) + option + found.str(1) + value.str() + std::string(found.suffix());
 }
 
+/// What becomes of `aspic verify` when an example is run.
+enum class Checks { listed, run };
+
 /// A hundredth of its steps or duration, or 5 steps; checks are listed, measurements take a moment.
-std::string shortened(const std::string& command) {
+std::string shortened(const std::string& command, Checks checks) {
   const std::string bare = without_shell(command), rest = command.substr(bare.size());
   std::smatch name;
   if (!std::regex_search(bare, name, std::regex(R"(aspic (\w+))"))) return command;
@@ -192,7 +195,7 @@ std::string shortened(const std::string& command) {
         return shorter + rest;
     return bare + " --steps 5" + rest;
   }
-  if (verb == "verify") return bare + " --list" + rest;
+  if (verb == "verify") return checks == Checks::run ? command : bare + " --list" + rest;
   if (verb == "report")
     return bare + " --set simulation.duration=0.05 --set 'cube[0].particles-per-edge=3'" + rest;
   if (verb != "bench") return command;
@@ -222,7 +225,7 @@ class Reader {
     dir_.write("my-scene.toml", scene.out);
   }
 
-  void run(const Example& example) {
+  void run(const Example& example, Checks checks = Checks::listed) {
     // What one example wrote may be in the way of the next; scenes and checkpoints are meant for it.
     for (const auto& entry : fs::directory_iterator(dir_.path())) {
       const std::string ending = entry.path().extension().string();
@@ -230,7 +233,7 @@ class Reader {
         fs::remove(entry.path());
     }
     for (const char* const made : {"out", "report", "part", "map", "rest"}) fs::remove_all(dir_.file(made));
-    const std::string command = shortened(example.command);
+    const std::string command = shortened(example.command, checks);
     test::ProcessOptions shell;
     shell.program = "/bin/sh";
     const char* const path = std::getenv("PATH");
@@ -264,6 +267,19 @@ TEST(Examples, OfHelpRun) {
   Reader reader;
   for (const Example& example : examples_of_all_help())
     if (!is_excluded(example) && !draws(example)) reader.run(example);
+}
+
+// The page of the assignments sends its reader to rows of aspic verify, which have to pass.
+TEST(Examples, OfCoursePageRun) {
+  Reader reader;
+  std::set<std::string> done;
+  std::size_t rows = 0;
+  for (const Example& example : examples_of_page(fs::path(ASPIC_SOURCE_DIR) / "docs/course.md")) {
+    if (draws(example) || !done.insert(example.command).second) continue;
+    rows += example.command.starts_with("aspic verify");
+    reader.run(example, Checks::run);
+  }
+  EXPECT_GE(rows, 15u);
 }
 
 TEST(ExamplesInFull, OfHelpDraw) {

@@ -377,7 +377,8 @@ TEST(Usage, InfoGivesTheMachinesFreeMemoryForASoftwareRasteriser) {
 TEST(Scene, ListNamesBuiltInScenesThatShowPrintsAndShownTextIsAScene) {
   const auto list = aspic({"scene", "list"});
   EXPECT_EQ(list.exit_code, 0);
-  EXPECT_THAT(list.out, HasSubstr("cube-plane "));
+  EXPECT_THAT(list.out, testing::StartsWith("Cubes\n  cube-plane  "));
+  EXPECT_THAT(list.out, HasSubstr("\n\nUniversity course\n  course-2021-plane  "));
   const auto shown = aspic({"scene", "show", "cube-plane", "--set", "simulation.timestep=0.0015"});
   EXPECT_EQ(shown.exit_code, 0) << shown.err;
   EXPECT_THAT(shown.out, HasSubstr("0.0015"));

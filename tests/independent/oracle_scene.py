@@ -76,7 +76,7 @@ def read_scene(path):
     for kind in ("goal-net", "ball", "launcher"):
         if scene.pop(kind, None):
             raise SceneError(f"[[{kind}]] is not covered here: cubes only.")
-    known = {"schema": None, "name": "", "simulation": SIMULATION, "contact": CONTACT, "terrain": [],
+    known = {"schema": None, "name": "", "author": "", "simulation": SIMULATION, "contact": CONTACT, "terrain": [],
              "cube": [], "view": None}
     scene = filled(scene, known, "scene")
     if scene["schema"] != 1:

@@ -34,7 +34,7 @@ TEST_P(Golden, Picture) {
   options.view = scene->view;
   options.view.camera =
       moved(scene->view.camera, Following(*scene, model, Precision::single).offset(model, state));
-  options.text = overlay_lines(scene->model, static_cast<double>(state.step) * model.simulation.timestep);
+  options.text = overlay_lines(*scene, static_cast<double>(state.step) * model.simulation.timestep);
   test::expect_golden(draw(model, state, options), shot.name.empty() ? shot.scene : shot.name);
 }
 
@@ -44,7 +44,9 @@ INSTANTIATE_TEST_SUITE_P(
         Shot{"cube-plane", 1500}, Shot{"cube-tilted-plane", 1300}, Shot{"cube-sphere", 1000},
         Shot{"cube-bowl", 1300}, Shot{"cube-torus", 1200}, Shot{"cube-hole", 1500}, Shot{"elevator", 2600},
         Shot{"large-cube", 0}, Shot{"goal-net", 300}, Shot{"penalty", 1080}, Shot{"cube-and-balls", 700},
-        Shot{"ball-pit", 4000}, Shot{"flag", 2400}, Shot{"curtain", 1000},
+        Shot{"ball-pit", 4000}, Shot{"flag", 2400}, Shot{"curtain", 1000}, Shot{"course-2021-plane", 1250},
+        Shot{"course-2021-tilted-plane", 1050}, Shot{"course-2021-sphere", 900},
+        Shot{"course-2021-bowl", 1200}, Shot{"course-2018", 1080},
         Shot{"flag",
              2400,
              {"view.colour=strain", "view.draw=[\"solid\", \"structural\", \"shear\"]"},

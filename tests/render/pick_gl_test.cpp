@@ -191,6 +191,11 @@ TEST_F(Pick, BallsAndTerrainAreMetWhereTheSightLineMeetsThem) {
       1.0 / test::pixels_per_metre(camera(), of_ground->distance) / (4.0 / length(place - Vec3{0, 3, 14}));
   EXPECT_NEAR(length(of_ground->point - place), 0.0, 0.75 * pixel);
   EXPECT_FALSE(at(160.0, 2.0)) << "the sky";
+  PictureOptions bare = from({0.0, 3.0, 14.0}, {0.0, 1.0, 0.0});
+  bare.view.terrain = false;
+  show(model, bare);
+  EXPECT_TRUE(at(ball.position));
+  EXPECT_FALSE(at(centre)) << "terrain that is not drawn";
 }
 
 TEST_F(Pick, GroundHidesWhatLiesBelowItAndWaitingBallsAreNotThere) {

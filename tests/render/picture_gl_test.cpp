@@ -196,11 +196,28 @@ TEST_F(Picture, ShadowLiesOnTheGround) {
   EXPECT_NEAR(green(shadowed, *far), green(bare, *far), 1);
 }
 
+TEST_F(Picture, TerrainThatIsNotDrawnLeavesNothing) {
+  ModelSettings settings = test::cube_on_plane(4, 1.0);
+  settings.terrain.emplace_back().shape = TerrainShape::sphere;
+  settings.terrain.emplace_back().shape = TerrainShape::bowl;
+  const Model model = test::build(settings);
+  settings.terrain.clear();
+  const Model bare = test::build(settings);
+  const State state = initial_state(model, Precision::single);
+  PictureOptions options;
+  const test::Image without = draw(bare, state, options, width, height);
+  EXPECT_NE(draw(model, state, options, width, height).rgb, without.rgb);
+  options.view.terrain = false;
+  EXPECT_EQ(draw(model, state, options, width, height).rgb, without.rgb);
+}
+
 TEST_F(Picture, TextIsOnTheLeftAndCanBeLeftOut) {
   const Model model = test::build(test::cube_on_plane(3));
   PictureOptions options;
   const test::Image without = draw(model, initial_state(model, Precision::single), options, 640, 360);
-  options.text = overlay_lines(test::cube_on_plane(3), 0.5);
+  Scene scene;
+  scene.model = test::cube_on_plane(3);
+  options.text = overlay_lines(scene, 0.5);
   const test::Image with = draw(model, initial_state(model, Precision::single), options, 640, 360);
   int changed = 0, bright = 0, elsewhere = 0;
   for (int y = 0; y < 360; ++y) {

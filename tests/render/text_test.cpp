@@ -15,7 +15,8 @@ std::string value_of(const std::vector<OverlayLine>& lines, const std::string& l
 }
 
 TEST(Text, SaysWhatTheSceneIs) {
-  ModelSettings settings;
+  Scene scene;
+  ModelSettings& settings = scene.model;
   settings.terrain.emplace_back().shape = TerrainShape::tilted_plane;
   settings.simulation.integrator = Integrator::runge_kutta_4;
   settings.simulation.timestep = 0.0005;
@@ -24,8 +25,9 @@ TEST(Text, SaysWhatTheSceneIs) {
   cube.rotation.angle = 30.0;
   cube.shear = {10.0, 0.5};
   settings.cubes.push_back(cube);
-  const auto lines = overlay_lines(settings, 1.23456);
+  const auto lines = overlay_lines(scene, 1.23456);
   EXPECT_EQ(value_of(lines, "terrain"), "tilted plane");
+  EXPECT_EQ(value_of(lines, "contact"), "e 0.8   μ 0.3   Coulomb");
   EXPECT_EQ(value_of(lines, "integrator"), "Runge–Kutta 4");
   EXPECT_EQ(value_of(lines, "time step h"), "0.5 ms");
   EXPECT_EQ(value_of(lines, "structural"), "k 2000 N/m   c 60 N·s/m");
@@ -36,12 +38,75 @@ TEST(Text, SaysWhatTheSceneIs) {
 }
 
 TEST(Text, MaterialGivesItsSpringConstants) {
-  ModelSettings settings;
-  CubeSettings cube;
-  cube.material = MaterialSettings{};
-  settings.cubes.push_back(cube);
+  Scene scene;
+  scene.model.cubes.emplace_back().material = MaterialSettings{};
   // k = E·s/7.3125 with s = 4/9 m: 2005.7 N/m.
-  EXPECT_TRUE(value_of(overlay_lines(settings, 0.0), "shear").starts_with("k 2006 N/m"));
+  EXPECT_TRUE(value_of(overlay_lines(scene, 0.0), "springs").starts_with("k 2006 N/m"));
+}
+
+std::vector<std::string> labels(const Scene& scene) {
+  std::vector<std::string> all;
+  for (const OverlayLine& line : overlay_lines(scene, 0.0)) all.push_back(line.label);
+  return all;
+}
+
+TEST(Text, LeavesOutWhatSaysNothingNew) {
+  Scene scene;
+  EXPECT_EQ(labels(scene), (std::vector<std::string>{"integrator", "time step h", "time"}));
+  scene.model.cubes.emplace_back();
+  EXPECT_EQ(labels(scene),
+            (std::vector<std::string>{"integrator", "time step h", "springs", "offset", "rotation", "time"}));
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "rotation"), "0°");
+  scene.model.cubes.emplace_back();
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "offset"), "(0, 9, 0) m   (first of 2 cubes)");
+  scene.author = "";
+  EXPECT_EQ(labels(scene).front(), "integrator");
+}
+
+TEST(Text, ContactIsThatOfTheTerrain) {
+  Scene scene;
+  ContactSettings& contact = scene.model.contact;
+  contact.model = ContactModel::course;
+  contact.restitution = 0.25;
+  TerrainSettings& first = scene.model.terrain.emplace_back();
+  first.mass = 10.0;
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "contact"), "e 0.25   μ 0.3   M 10 kg   course");
+  TerrainSettings& second = scene.model.terrain.emplace_back();
+  second.restitution = 1.0;
+  second.friction = 0.0;
+  // A mass that one of them has alone would say something wrong of the other.
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "contact"), "e 0.25–1   μ 0–0.3   course");
+}
+
+TEST(Text, NetClothAndBalls) {
+  Scene scene;
+  ModelSettings& settings = scene.model;
+  ClothSettings& cloth = settings.cloths.emplace_back();
+  cloth.shear.damping = 7.0;
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "shear"), "k 200 N/m   c 7 N·s/m");
+  GoalNetSettings& net = settings.goal_nets.emplace_back();
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "springs"), "k 1500 N/m   c 50 N·s/m");
+  net.bending = {20.0, 5.0};
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "structural"), "k 1500 N/m   c 50 N·s/m");
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "bending"), "k 20 N/m   c 5 N·s/m");
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "shear"), "(none)");
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "balls"), "(none)");
+  settings.balls.resize(3);
+  settings.launchers.resize(2);
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "balls"), "23   e 1   μ 0.3");
+  settings.contact.spin = false;
+  EXPECT_EQ(value_of(overlay_lines(scene, 0.0), "balls"), "23   e 1   μ 0");
+}
+
+TEST(Text, NamesTheAuthorOnOneLine) {
+  Scene scene;
+  scene.author = "0356611";
+  EXPECT_EQ(overlay_lines(scene, 0.0).front().label, "author");
+  EXPECT_EQ(overlay_lines(scene, 0.0).front().value, "0356611");
+  scene.author = "two\nlines, and " + std::string(1000, 'x');
+  const std::string shown = author_lines(scene).front().value;
+  EXPECT_TRUE(shown.starts_with("two\\nlines, and xxx") && shown.ends_with("…"));
+  EXPECT_LT(shown.size(), 50u);
 }
 
 TEST(Text, ReadsUtf8) {
@@ -57,7 +122,7 @@ TEST(Text, ReadsUtf8) {
 
 TEST(Font, HasEverySignOfTheOverlay) {
   const Font font(17);
-  for (const char32_t c : std::u32string(U"azAZ09°·–−≥%√²"))
+  for (const char32_t c : std::u32string(U"azAZ09°·–−≥%√²μ…"))
     EXPECT_NE(&font.glyph(c), &font.glyph(U'?')) << static_cast<unsigned>(c);
   EXPECT_EQ(&font.glyph(0x4e00), &font.glyph(U'?'));
 }

@@ -119,6 +119,17 @@ TEST(Page, IsOneFileWithItsPictures) {
   EXPECT_TRUE(files.contains("figures/f.svg"));
 }
 
+TEST(Page, NamesItsAuthorBelowTheTitle) {
+  Page page;
+  page.title = "T";
+  page.lead = "Lead.";
+  EXPECT_THAT(html_of(page), HasSubstr("<h1>T</h1><p>Lead.</p>"));
+  EXPECT_THAT(markdown_of(page), testing::StartsWith("# T\n\nLead.\n"));
+  page.author = "A & B";
+  EXPECT_THAT(html_of(page), HasSubstr("<h1>T</h1><p class=\"by\">A &amp; B</p><p>Lead.</p>"));
+  EXPECT_THAT(markdown_of(page), testing::StartsWith("# T\n\nA & B\n\nLead.\n"));
+}
+
 TEST(Base64, FillsTheLastGroup) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");

@@ -37,6 +37,8 @@ TEST(Import, EveryKeyFindsItsPlace) {
   EXPECT_EQ(net.structural.damping, 40.0);
   EXPECT_TRUE(scene.view.draw.particles && scene.view.draw.structural && scene.view.draw.bending);
   EXPECT_FALSE(scene.view.draw.shear);
+  EXPECT_EQ(scene.author, "0412345");
+  EXPECT_TRUE(scene.view.terrain);
   ASSERT_EQ(scene.model.terrain.size(), 1u);
   EXPECT_EQ(scene.model.launchers.size(), 1u);
 }
@@ -45,17 +47,13 @@ TEST(Import, SaysWhatItDoesNotCarryAndPrintsAValidScene) {
   const auto imported = import_configuration(example(), "Configuration.txt");
   ASSERT_TRUE(imported.ok());
   const std::string text = imported_toml(*imported, "Configuration.txt");
-  for (const auto& [line, key] : std::vector<std::pair<int, std::string>>{{2, "StudentID"},
-                                                                          {12, "DrawGoalpost"},
-                                                                          {14, "DrawPlane"},
-                                                                          {16, "DrawBackground"},
-                                                                          {20, "SimulationStart"},
-                                                                          {51, "NetColour"}}) {
+  for (const auto& [line, key] : std::vector<std::pair<int, std::string>>{
+           {12, "DrawGoalpost"}, {16, "DrawBackground"}, {20, "SimulationStart"}, {51, "NetColour"}}) {
     const std::string note = fmt::format("Configuration.txt:{}: *{} ", line, key);
     EXPECT_THAT(imported->notes, testing::Contains(HasSubstr(note)));
     EXPECT_THAT(text, HasSubstr("# Not carried over: " + note));
   }
-  EXPECT_EQ(imported->notes.size(), 6u);
+  EXPECT_EQ(imported->notes.size(), 4u);
   EXPECT_FALSE(imported->scene.view.axes);
   test::expect_same_scene(test::parsed(text), imported->scene);
 }
@@ -65,6 +63,17 @@ TEST(Import, SkipsAByteOrderMark) {
   ASSERT_TRUE(imported.ok()) << imported.error().message;
   EXPECT_EQ(imported->scene.model.simulation.timestep, 0.002);
   EXPECT_TRUE(imported->scene.view.axes);
+}
+
+// "In this case, plane will not be showed in the beginning": it is there all the same.
+TEST(Import, APlaneThatIsNotDrawnIsThereAllTheSame) {
+  const auto imported = import_configuration("*DrawPlane\nfalse\n*StudentID\n0356611 \"A\" \n", "c.txt");
+  ASSERT_TRUE(imported.ok()) << imported.error().message;
+  EXPECT_FALSE(imported->scene.view.terrain);
+  EXPECT_EQ(imported->scene.model.terrain.size(), 1u);
+  EXPECT_EQ(imported->scene.author, "0356611 \"A\"");
+  EXPECT_TRUE(imported->notes.empty());
+  test::expect_same_scene(test::parsed(imported_toml(*imported, "c.txt")), imported->scene);
 }
 
 TEST(Import, KeepsTheAssignmentsNetWhereNothingIsSaid) {
