@@ -37,6 +37,14 @@ bool is_bare_word(std::string_view text) {
                      [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-'; });
 }
 
+/// Of a key whose values are text: what may be a number elsewhere is a word here, such as a student's.
+bool is_word_of_text(std::string_view text) {
+  const auto part = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  return !text.empty() && std::all_of(text.begin(), text.end(), part);
+}
+
 /// A number as people write it with a comma, or with its unit.
 struct MistakenNumber {
   std::string number;     ///< as it is meant
@@ -155,13 +163,12 @@ class Argument {
     const std::uint32_t column = characters(std::string_view(text_).substr(0, equals)) + 2;
     // A stand-in key of the same width keeps the parser's columns those of the argument.
     const std::string stand_in(std::max<std::size_t>(column - 2, 1), 'k');
-    const char* const quote = is_bare_word(value) ? "\"" : "";
+    const Parameter* const parameter = find_parameter(parameter_path());
+    const bool takes_text = parameter && parameter->type == ParameterType::text;
+    const char* const quote = is_bare_word(value) || (takes_text && is_word_of_text(value)) ? "\"" : "";
     auto parsed = document::parse(fmt::format("{0}={1}{2}{1}", stand_in, quote, value), source_);
     if (const auto* problem = std::get_if<Problem>(&parsed)) {
-      const Parameter* const parameter = find_parameter(parameter_path());
-      if (const std::string advice = parameter && parameter->type == ParameterType::text
-                                         ? ""
-                                         : advice_on(value, parameter ? parameter->unit : "");
+      if (const std::string advice = takes_text ? "" : advice_on(value, parameter ? parameter->unit : "");
           !advice.empty())
         fail(column, advice);
       else

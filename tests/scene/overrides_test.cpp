@@ -112,6 +112,12 @@ TEST(Set, TakesTheFormsOfTheFormat) {
   EXPECT_EQ(s.name, "two words");
 }
 
+TEST(Set, NumbersAreWordsWhereTextIsMeant) {
+  for (const char* author : {"0356611", "42", "2021-A_7", "true"})
+    EXPECT_EQ(test::parsed(base, {std::string("author=") + author}).author, author);
+  EXPECT_EQ(test::parsed(base, {"author=\"Ada Lovelace\""}).author, "Ada Lovelace");
+}
+
 TEST(Set, LastOneWins) {
   EXPECT_EQ(test::parsed(base, {"simulation.timestep=0.002", "simulation.timestep=0.003"})
                 .model.simulation.timestep,
