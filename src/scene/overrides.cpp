@@ -37,7 +37,7 @@ bool is_bare_word(std::string_view text) {
                      [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-'; });
 }
 
-/// Of a key whose values are text: what may be a number elsewhere is a word here, such as a student's.
+/// Of a key whose values are text: what may be a number elsewhere is a word here, such as a student's number.
 bool is_word_of_text(std::string_view text) {
   const auto part = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
