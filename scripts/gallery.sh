@@ -48,7 +48,7 @@ draw elevator 2 elevator
 draw ball-pit 2.2 ball-pit
 draw curtain 1.25 curtain
 draw flag 2.25 flag
-for scene in plane:1.25 tilted-plane:1.1 sphere:1 bowl:1.2; do
+for scene in plane:1.25 tilted-plane:1 sphere:1 bowl:1.2; do
   draw course-2021-${scene%:*} ${scene#*:} course-2021-${scene%:*}
 done
 draw course-2018 1.1 course-2018

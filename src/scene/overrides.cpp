@@ -40,7 +40,7 @@ bool is_bare_word(std::string_view text) {
 /// Of a key whose values are text: what may be a number elsewhere is a word here, such as a student's number.
 bool is_word_of_text(std::string_view text) {
   const auto part = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
   };
   return !text.empty() && std::all_of(text.begin(), text.end(), part);
 }

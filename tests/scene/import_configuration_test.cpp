@@ -133,10 +133,12 @@ TEST(Import, QuotesNoBytesThatAreNoText) {
   ASSERT_FALSE(stray.ok());
   EXPECT_LT(stray.error().message.size(), 400u);
   // Comments may be in any encoding; values that end up in notes become valid text.
-  const auto imported = import_configuration("*StudentID # \xb1\n\xb1\x61\x1b\n", "c\n\xff");
+  const auto imported =
+      import_configuration("*StudentID # \xb1\n\xb1\x61\x1b\n*NetColour\n\xb2\x61\x1b\n", "c\n\xff");
   ASSERT_TRUE(imported.ok());
   const std::string toml = imported_toml(*imported, "c\n\xff");
-  EXPECT_THAT(toml, HasSubstr("\\xb1a\\x1b"));
+  EXPECT_EQ(imported->scene.author, "\\xb1a\\x1b");
+  EXPECT_THAT(toml, HasSubstr("(value \\xb2a\\x1b)"));
   EXPECT_TRUE(parse_scene(toml, "s.toml").ok());
 }
 
