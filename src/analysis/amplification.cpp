@@ -15,7 +15,7 @@ constexpr double search_radius = 4.0;
 constexpr int search_steps = 800;
 
 /// Coefficients of |R(ρ·e^{iθ})|² − 1 as a polynomial in ρ.
-std::array<double, 2 * max_degree + 1> growth_along_ray(const IntegratorRow& method, double angle) {
+std::array<double, 2 * max_degree + 1> growth_along_ray(const Staged& method, double angle) {
   const auto r = amplification_polynomial(method);
   std::array<double, 2 * max_degree + 1> growth = {};
   for (std::size_t n = 0; n < r.size(); ++n) {
@@ -34,7 +34,7 @@ std::array<double, 2 * max_degree + 1> growth_along_ray(const IntegratorRow& met
 
 }  // namespace
 
-std::array<double, max_stages + 1> amplification_polynomial(const IntegratorRow& method) {
+std::array<double, max_stages + 1> amplification_polynomial(const Staged& method) {
   std::array<double, max_degree + 1> stage = {1.0}, result = {1.0};
   for (const Stage& s : method.stages) {
     for (std::size_t i = 0; i < max_degree; ++i) result[i + 1] += s.weight / method.divisor * stage[i];
@@ -46,7 +46,7 @@ std::array<double, max_stages + 1> amplification_polynomial(const IntegratorRow&
 }
 
 std::optional<double> eigenvalue_limit(Integrator integrator, std::complex<double> lambda) {
-  const IntegratorRow& method = row_of(integrator);
+  const Staged& method = *row_of(integrator).staged();
   assert(!method.mode_limit);
   const double size = std::abs(lambda);
   if (size == 0.0) return infinity;
@@ -81,10 +81,10 @@ std::optional<double> eigenvalue_limit(Integrator integrator, std::complex<doubl
 std::optional<double> mode_limit(Integrator integrator, double kappa, double gamma) {
   assert(!(kappa < 0.0) && !(gamma < 0.0));
   const IntegratorRow& row = row_of(integrator);
-  if (row.solved() || (kappa == 0.0 && gamma == 0.0)) return infinity;
+  if (row.traits.stable_at_any_step || (kappa == 0.0 && gamma == 0.0)) return infinity;
   // The limit as either grows beyond all bounds; NaN is the quotient or product of such values.
   if (!std::isfinite(kappa) || !std::isfinite(gamma)) return 0.0;
-  if (row.mode_limit) return row.mode_limit(kappa, gamma);
+  if (const ModeLimit limit = row.staged()->mode_limit) return limit(kappa, gamma);
   // 4κ/γ² decides between real and complex roots; written with √ so that large κ and γ do not overflow.
   const double root_kappa = std::sqrt(kappa);
   if (gamma < 2.0 * root_kappa) {

@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Coefficients of R(z), lowest first: the stages applied to y' = λy, z = hλ. For velocities it holds for
 /// every staged method where forces do not depend on positions.
-std::array<double, max_stages + 1> amplification_polynomial(const IntegratorRow& method);
+std::array<double, max_stages + 1> amplification_polynomial(const Staged& method);
 
 /// Largest h with |R(h'λ)| ≤ 1 for all h' in (0, h], where R is the amplification polynomial of a staged
 /// (Runge–Kutta) method and λ [1/s] an eigenvalue with Re λ ≤ 0; infinite for λ = 0; nothing where the mode
@@ -24,7 +24,8 @@ std::array<double, max_stages + 1> amplification_polynomial(const IntegratorRow&
 std::optional<double> eigenvalue_limit(Integrator integrator, std::complex<double> lambda);
 
 /// The same for both eigenvalues of a mode of stiffness per mass κ [1/s²] ≥ 0 and damping per mass γ [1/s] ≥
-/// 0, for every integrator. κ or γ that overflowed, to infinity or NaN: 0, unless the method is solved.
+/// 0, for every integrator that is staged or stable at any step; infinite for the latter. κ or γ that
+/// overflowed, to infinity or NaN: 0, unless no step is too large.
 std::optional<double> mode_limit(Integrator integrator, double kappa, double gamma);
 
 }  // namespace aspic

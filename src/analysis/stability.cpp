@@ -183,12 +183,12 @@ StabilityLimit bounded_limit(BodyAnalysis& analysis, Integrator integrator) {
 StabilityLimit body_limit(BodyAnalysis& analysis, Integrator integrator) {
   const LinearisedBody& body = analysis.body();
   const IntegratorRow& row = row_of(integrator);
-  if (row.solved() || !body.has_springs()) return {infinity, true};
+  if (row.traits.stable_at_any_step || !body.has_springs()) return {infinity, true};
   if (!std::isfinite(body.eigenvalue_bound(1.0, 0.0)) || !std::isfinite(body.eigenvalue_bound(0.0, 1.0)))
     return {0.0, false};
   if (body.proportional()) return proportional_limit(analysis, integrator);
   if (integrator == Integrator::symplectic_euler) return symplectic_limit(analysis);
-  if (analysis.small() && !row.mode_limit) return dense_limit(analysis, integrator);
+  if (analysis.small() && !row.staged()->mode_limit) return dense_limit(analysis, integrator);
   return bounded_limit(analysis, integrator);
 }
 
@@ -240,7 +240,7 @@ std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const
 constexpr int most_looks = 50;
 
 bool certainly_stable(const Model& model, Integrator integrator, double timestep) {
-  if (row_of(integrator).solved()) return true;
+  if (row_of(integrator).traits.stable_at_any_step) return true;
   std::uint32_t covered = 0;
   double known_kappa = 0.0, known_ratio = 0.0;  // of the body before: cubes are often alike
   std::optional<StabilityLimit> known;
@@ -277,7 +277,7 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
 
 StabilityLimit stability_limit(const Model& model, Integrator integrator, StabilityEffort effort,
                                const StabilityWatch& watch) {
-  if (row_of(integrator).solved()) return {infinity, true};
+  if (row_of(integrator).traits.stable_at_any_step) return {infinity, true};
   return stability_limits(model, {&integrator, 1}, effort, watch).front();
 }
 

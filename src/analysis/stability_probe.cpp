@@ -16,8 +16,8 @@ constexpr double noise = 0.1;    ///< of it
 constexpr double ended = 30.0;   ///< times the start: it grows beyond doubt
 constexpr double margin = 1.02;  ///< growth above rounding's
 /// Share of the start below which nothing counts as growth: a damped motion ends in the noise of rounding,
-/// which a solve multiplies by a large step.
-constexpr double staged_floor = 0.05, solved_floor = 0.5;
+/// which large steps multiply.
+constexpr double least_growth = 0.05, least_growth_of_large_steps = 0.5;
 
 /// Root of the mean square of all displacements [m].
 double amplitude(const State& state, const State& rest) {
@@ -103,8 +103,9 @@ Result<bool> grows(Solver& solver, const ProbeStart& start, std::uint64_t steps)
     if (3 * step <= steps) early = std::max(early, now);
     if (3 * step >= 2 * steps) late = std::max(late, now);
   }
-  const bool solved = row_of(solver.model().simulation.integrator).solved();
-  return late > margin * early && late > (solved ? solved_floor : staged_floor) * first_amplitude;
+  const bool any_step = row_of(solver.model().simulation.integrator).traits.stable_at_any_step;
+  const double least = any_step ? least_growth_of_large_steps : least_growth;
+  return late > margin * early && late > least * first_amplitude;
 }
 
 Result<double> measured_limit(const Model& model, const ProbeStart& start, const MakeSolver& make, double low,

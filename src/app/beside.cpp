@@ -15,8 +15,8 @@ namespace {
 
 /// Differences that suggest themselves, those that are no difference left out.
 std::vector<Variation> suggestions(const Scene& scene) {
-  const bool solved = row_of(scene.model.simulation.integrator).solved();
-  std::vector<Variation> all = {{"integrator", solved ? "explicit-euler" : "implicit-euler"},
+  const bool stable = row_of(scene.model.simulation.integrator).traits.stable_at_any_step;
+  std::vector<Variation> all = {{"integrator", stable ? "explicit-euler" : "implicit-euler"},
                                 {"h", fmt::format("{:g}", 0.5 * scene.model.simulation.timestep)}};
   if (const auto stiffness = present_value(scene, *find_short_key("k")))
     all.push_back({"k", fmt::format("{:g}", 4.0 * *stiffness)});

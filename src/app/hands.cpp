@@ -68,7 +68,7 @@ void Hands::toggle_pin(std::uint32_t particle) {
 void Hands::take_hold(Pull pull, double held_mass, double most) {
   const SimulationSettings& s = simulation_.model().simulation;
   const double h = s.timestep;
-  const bool cautious = pull.ball || !row_of(s.integrator).solved();
+  const bool cautious = pull.ball || !row_of(s.integrator).traits.stable_at_any_step;
   if (cautious) pull.stiffness = std::min(pull.stiffness, most * held_mass / (h * h));
   pull.damping = 2.0 * std::sqrt(pull.stiffness * held_mass);
   if (cautious) pull.damping = std::min(pull.damping, 0.1 * held_mass / h);

@@ -164,7 +164,7 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene, const Besi
   edit(gui, scene, "simulation.gravity");
   // The cube that the assignments speak of; the rest of it, and other bodies, are under Bodies.
   if (!scene.scene().model.cubes.empty()) placed_cube(gui, scene, 0);
-  if (row_of(scene.scene().model.simulation.integrator).solved()) {
+  if (row_of(scene.scene().model.simulation.integrator).kind() == MethodKind::newton) {
     edit(gui, scene, "simulation.implicit.newton-iterations");
     edit(gui, scene, "simulation.implicit.cg-iterations", 0, {"CG iterations"});
     edit(gui, scene, "simulation.implicit.tolerance");

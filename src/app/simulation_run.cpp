@@ -55,7 +55,7 @@ bool Simulation::steps_quickly() const {
   // Of springs by force evaluations, about 50 ms on the slowest backend.
   constexpr double quick = 4e6, solve = 100.0;
   const Integrator method = model().simulation.integrator;
-  const double evaluations = row_of(method).solved() ? solve : force_evaluations_per_step(method);
+  const double evaluations = row_of(method).traits.long_steps ? solve : force_evaluations_per_step(method);
   return Engines::in_context(engines_.leader()) ||
          evaluations * static_cast<double>(spring_count(model())) < quick;
 }
@@ -330,7 +330,7 @@ void Simulation::remember(const State& state, const std::vector<EnergySample>& e
 
 std::optional<double> Simulation::spring_evaluations_per_second() const {
   const Integrator integrator = model().simulation.integrator;
-  if (row_of(integrator).solved()) return std::nullopt;
+  if (!row_of(integrator).staged()) return std::nullopt;
   return pacer_.steps_per_second() * static_cast<double>(spring_count(model())) *
          force_evaluations_per_step(integrator);
 }

@@ -17,7 +17,7 @@ constexpr std::size_t columns = 24, rows = 13;
 constexpr double span_of_stiffness = 16.0;  ///< from a sixteenth to sixteen times the scene's
 constexpr double span_of_step = 16.0;       ///< likewise around the stable step of the scene
 constexpr std::uint32_t most_particles = 20000;
-constexpr std::uint64_t probe_steps = 240, solved_probe_steps = 30;
+constexpr std::uint64_t probe_steps = 240, long_probe_steps = 30;
 
 std::vector<double> around(double centre, double span, std::size_t count) {
   std::vector<double> values;
@@ -108,7 +108,7 @@ void StabilityMap::begin(const Scene& scene) {
     BackendChoice choice;
     choice.row = find_backend("cpu");
     choice.threads = 1;
-    const std::uint64_t count = row_of(integrator).solved() ? solved_probe_steps : probe_steps;
+    const std::uint64_t count = row_of(integrator).traits.long_steps ? long_probe_steps : probe_steps;
     for (std::size_t row = 0; row < rows; ++row) {
       for (std::size_t column = 0; column < columns; ++column) {
         const Model probed = with_constants(model, factors[row], 1.0, map.steps[column]);

@@ -15,8 +15,9 @@ namespace {
 Result<double> chosen_timestep(const BenchOptions& options, const Model& model) {
   const double own = model.simulation.timestep;
   if (options.timestep == BenchTimestep::scene) return own;
-  // A frame: a solved method is stable at any step, so accuracy and not stability sets its largest.
-  if (row_of(model.simulation.integrator).solved()) return 1.0 / 60.0;
+  // Where a method is stable at any step, accuracy and not stability sets its largest.
+  const MethodTraits& traits = row_of(model.simulation.integrator).traits;
+  if (traits.stable_at_any_step) return traits.nominal_step;
   const StabilityLimit limit = stability_limit(model, model.simulation.integrator, StabilityEffort::quick);
   if (!limit.step) {
     return fail(ErrorCode::scene_rejected, "--timestep largest: {}.",

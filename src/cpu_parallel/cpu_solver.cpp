@@ -5,14 +5,10 @@
 #include <algorithm>
 #include <new>
 #include <utility>
-#include <variant>
 
 #include "cpu_parallel/contact_pieces.h"
-#include "cpu_parallel/explicit.h"
-#include "cpu_parallel/implicit.h"
 #include "cpu_parallel/kernels.h"
-#include "cpu_parallel/springs.h"
-#include "cpu_parallel/workers.h"
+#include "cpu_parallel/steps.h"
 #include "cpu_reference/balls.h"
 #include "cpu_reference/divergence.h"
 #include "model/springs.h"
@@ -28,11 +24,10 @@ class CpuSolver final : public Solver {
  public:
   CpuSolver(const Model& model, unsigned threads, Arithmetic arithmetic)
       : model_(model),
-        method_(row_of(model.simulation.integrator)),
+        reports_solves_(row_of(model.simulation.integrator).traits.reports_solves),
         dynamics_(model),
         balls_(model),
-        workers_(threads),
-        arithmetic_(arithmetic) {
+        workers_(threads) {
     std::size_t margin = slice;
     for (const Body& body : model.bodies) {
       if (body.lattice_edge > 0) {
@@ -51,12 +46,7 @@ class CpuSolver final : public Solver {
       mass_[i] = static_cast<float>(model.mass[i]);
       inverse_mass_[i] = static_cast<float>(model.inverse_mass[i]);
     }
-    if (method_.solved())
-      implicit_ =
-          std::make_unique<ImplicitEuler>(model, dynamics_, springs_, mass_, inverse_mass_, margin, workers_);
-    else
-      explicit_ = std::make_unique<ExplicitSteps>(model, dynamics_, springs_, mass_, inverse_mass_, margin,
-                                                  arithmetic, workers_);
+    steps_ = make_steps({model, dynamics_, springs_, mass_, inverse_mass_, margin, arithmetic, workers_});
     bytes_ = sizeof(*this) + heap_bytes();
     set(initial_state(model, Precision::single));
   }
@@ -65,7 +55,7 @@ class CpuSolver final : public Solver {
   std::string description() const override {
     return fmt::format("cpu, {} thread{}, {}, single precision{}", workers_.threads(),
                        workers_.threads() == 1 ? "" : "s", instruction_set(),
-                       arithmetic_ == Arithmetic::fast && !implicit_ ? ", fast arithmetic" : "");
+                       steps_->arithmetic() == Arithmetic::fast ? ", fast arithmetic" : "");
   }
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return model_; }
@@ -95,7 +85,7 @@ class CpuSolver final : public Solver {
   }
 
   std::optional<SolveStatistics> solve_statistics() override {
-    if (!implicit_) return std::nullopt;
+    if (!reports_solves_) return std::nullopt;
     return statistics_;
   }
 
@@ -108,14 +98,12 @@ class CpuSolver final : public Solver {
   void move_balls();
 
   const Model& model_;
-  const IntegratorRow& method_;
+  const bool reports_solves_;
   reference::Dynamics<float> dynamics_;
   reference::Balls<float> balls_;
   Workers workers_;
-  Arithmetic arithmetic_;
-  std::vector<Springs> springs_;             // by body
-  std::unique_ptr<ImplicitEuler> implicit_;  // one of the two
-  std::unique_ptr<ExplicitSteps> explicit_;
+  std::vector<Springs> springs_;  // by body
+  std::unique_ptr<Steps> steps_;
   SolveStatistics statistics_;
   FloatArray mass_, inverse_mass_;
   Particles state_, next_;
@@ -131,8 +119,7 @@ std::uint64_t CpuSolver::heap_bytes() const {
                       std::uint64_t{model_.ball_count()} * 18 * sizeof(float);
   for (const Springs& springs : springs_)
     sum += std::visit([](const auto& each) { return each.bytes(); }, springs);
-  return sum + (implicit_ ? sizeof(ImplicitEuler) + implicit_->bytes()
-                          : sizeof(ExplicitSteps) + explicit_->bytes());
+  return sum + steps_->bytes();
 }
 
 void CpuSolver::set(const State& state) {
@@ -146,7 +133,7 @@ void CpuSolver::set(const State& state) {
   step_ = state.step;
   divergence_.reset();
   statistics_ = {};
-  if (explicit_) explicit_->forget();
+  steps_->forget();
 }
 
 Result<State> CpuSolver::state() {
@@ -169,15 +156,14 @@ Result<State> CpuSolver::state() {
 void CpuSolver::step() {
   dynamics_.begin_step(step_);
   SolveReport report;
-  bool sound = implicit_ ? implicit_->step(state_, next_, report) : explicit_->step(state_, next_);
+  bool sound = steps_->step(state_, next_, report);
   if (interrupted()) {  // the step is dropped
-    if (explicit_) explicit_->forget();
+    steps_->forget();
     return;
   }
   if (model_.ball_count() > 0) {
     move_balls();
-    sound =
-        explicit_ ? explicit_->look_at(next_) : all_sound(next_, {0, model_.particle_count()}, speed_limit);
+    sound = steps_->look_at(next_);
     divergence_ = reference::find_divergence(model_, next_balls_, step_ + 1);
   }
   if (!sound) {
@@ -189,7 +175,7 @@ void CpuSolver::step() {
   if (!divergence_ && !std::isfinite(report.residual))
     divergence_ = Divergence{step_ + 1, 0, false, false, true};
   if (divergence_) return;
-  if (implicit_) statistics_.add(report);
+  if (reports_solves_) statistics_.add(report);
   std::swap(state_, next_);
   if (model_.ball_count() > 0) std::swap(ball_phase_, next_balls_);
   ++step_;

@@ -23,32 +23,30 @@ void for_parts(Range range, std::size_t size, const F& f) {
 
 }  // namespace
 
-ExplicitSteps::ExplicitSteps(const Model& model, const reference::Dynamics<float>& dynamics,
-                             const std::vector<Springs>& springs, const FloatArray& mass,
-                             const FloatArray& inverse_mass, std::size_t margin, Arithmetic arithmetic,
-                             Workers& workers)
-    : model_(model),
-      method_(row_of(model.simulation.integrator)),
-      dynamics_(dynamics),
-      springs_(springs),
-      mass_(mass),
-      inverse_mass_(inverse_mass),
-      arithmetic_(arithmetic),
-      workers_(workers) {
+ExplicitSteps::ExplicitSteps(const StepParts& parts)
+    : model_(parts.model),
+      method_(*row_of(parts.model.simulation.integrator).staged()),
+      dynamics_(parts.dynamics),
+      springs_(parts.springs),
+      mass_(parts.mass),
+      inverse_mass_(parts.inverse_mass),
+      arithmetic_(parts.arithmetic),
+      workers_(parts.workers) {
   std::size_t edge = 0;
-  for (std::size_t body = 0; body < springs.size(); ++body) {
-    if (const auto* const lattice = std::get_if<Lattice>(&springs[body]))
+  for (std::size_t body = 0; body < springs_.size(); ++body) {
+    if (const auto* const lattice = std::get_if<Lattice>(&springs_[body]))
       edge = std::max(edge, lattice->planes());
     cut(body);
   }
-  for (unsigned n = 0; edge > 0 && n < workers.threads(); ++n) sweeps_.emplace_back(edge);
+  for (unsigned n = 0; edge > 0 && n < workers_.threads(); ++n) sweeps_.emplace_back(edge);
   if (method_.stages.size() == 1) return;
-  sums_ = Particles(model.particle_count(), slice);
-  between_ = Particles(model.particle_count(), margin);
+  sums_ = Particles(model_.particle_count(), slice);
+  between_ = Particles(model_.particle_count(), parts.margin);
 }
 
 std::uint64_t ExplicitSteps::bytes() const {
-  std::uint64_t sum = bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) + bytes_of(sweeps_);
+  std::uint64_t sum =
+      sizeof(*this) + bytes_of(sums_) + bytes_of(between_) + bytes_of(tasks_) + bytes_of(sweeps_);
   for (const Task& task : tasks_) sum += bytes_of(task.near) + bytes_of(task.resting);
   for (const Sweep& sweep : sweeps_) sum += sweep.bytes();
   return sum;
@@ -80,7 +78,7 @@ bool ExplicitSteps::look_at(const Particles& start) {
   return std::ranges::all_of(tasks_, &Task::sound);
 }
 
-bool ExplicitSteps::step(Particles& start, Particles& end) {
+bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
   if (!known_) look_at(start);
   const double h = model_.simulation.timestep;
   const std::size_t stages = method_.stages.size();

@@ -3,30 +3,22 @@
 // pass over the particles, the terrain's response at its end.
 #include <vector>
 
-#include "cpu_parallel/implicit.h"
 #include "cpu_parallel/lattice_kernels.h"
-#include "cpu_parallel/workers.h"
-#include "cpu_reference/dynamics.h"
+#include "cpu_parallel/steps.h"
 
 namespace aspic::parallel {
 
-class ExplicitSteps {
+class ExplicitSteps final : public Steps {
  public:
-  /// Everything must outlive this. `springs`: by body; `mass` and `inverse_mass`: by particle, with room of
-  /// `slice` behind the last; `margin`: particles that the springs' loops may read on both sides of an array.
-  ExplicitSteps(const Model& model, const reference::Dynamics<float>& dynamics,
-                const std::vector<Springs>& springs, const FloatArray& mass, const FloatArray& inverse_mass,
-                std::size_t margin, Arithmetic arithmetic, Workers& workers);
+  /// The model's integrator must be a staged one.
+  explicit ExplicitSteps(const StepParts& parts);
 
-  /// A step from `start`, the terrain's response included. Returns whether all particles ended it finite and
-  /// slower than the speed that counts as diverged.
-  bool step(Particles& start, Particles& end);
-  /// What the next step begins at was changed since the last one. Returns as step().
-  bool look_at(const Particles& start);
-  /// The same without a look: the next step will.
-  void forget() { known_ = false; }
-  /// Bytes it holds on the heap.
-  std::uint64_t bytes() const;
+  bool step(Particles& start, Particles& end, SolveReport& report) override;
+  bool look_at(const Particles& start) override;
+  /// The next step looks itself.
+  void forget() override { known_ = false; }
+  Arithmetic arithmetic() const override { return arithmetic_; }
+  std::uint64_t bytes() const override;
 
  private:
   /// Consecutive particles of one body that one thread moves: complete planes of a cube, or a piece of any
@@ -53,7 +45,7 @@ class ExplicitSteps {
   void for_near(const VectorArray& x, Range range, const F& f) const;
 
   const Model& model_;
-  const IntegratorRow& method_;
+  const Staged& method_;
   const reference::Dynamics<float>& dynamics_;
   const std::vector<Springs>& springs_;
   const FloatArray &mass_, &inverse_mass_;

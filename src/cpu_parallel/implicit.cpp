@@ -47,32 +47,31 @@ Jacobians jacobians_of(const Springs& springs, float h) {
 
 }  // namespace
 
-ImplicitEuler::ImplicitEuler(const Model& model, const reference::Dynamics<float>& dynamics,
-                             const std::vector<Springs>& springs, const FloatArray& mass,
-                             const FloatArray& inverse_mass, std::size_t margin, Workers& workers)
-    : model_(model),
-      dynamics_(dynamics),
-      springs_(springs),
-      mass_(mass),
-      inverse_mass_(inverse_mass),
-      workers_(workers),
-      ahead_(dynamics.grounds(), dynamics.contact(), model.contact.model == ContactModel::coulomb),
-      limits_(model.simulation.implicit),
-      h_(static_cast<float>(model.simulation.timestep)),
-      system_(model.particle_count(), margin) {
-  for (const Springs& each : springs) jacobians_.push_back(jacobians_of(each, h_));
+ImplicitEuler::ImplicitEuler(const StepParts& parts)
+    : model_(parts.model),
+      dynamics_(parts.dynamics),
+      springs_(parts.springs),
+      mass_(parts.mass),
+      inverse_mass_(parts.inverse_mass),
+      workers_(parts.workers),
+      ahead_(dynamics_.grounds(), dynamics_.contact(), model_.contact.model == ContactModel::coulomb),
+      limits_(model_.simulation.implicit),
+      h_(static_cast<float>(model_.simulation.timestep)),
+      system_(model_.particle_count(), parts.margin) {
+  for (const Springs& each : springs_) jacobians_.push_back(jacobians_of(each, h_));
   cut_into_blocks();
   sums_.resize(blocks_.size());
   largest_.resize(blocks_.size());
   falling_.resize(blocks_.size());
-  const std::size_t count = model.particle_count();
-  if (model.contact.model == ContactModel::course) held_force_ = vector_array(count, slice);
+  const std::size_t count = model_.particle_count();
+  if (model_.contact.model == ContactModel::course) held_force_ = vector_array(count, slice);
   if (ahead_.acts()) clearance_ = FloatArray(count, slice);
 }
 
 std::uint64_t ImplicitEuler::bytes() const {
-  std::uint64_t sum = system_.bytes() + bytes_of(held_force_) + bytes_of(clearance_) + bytes_of(blocks_) +
-                      bytes_of(sums_) + bytes_of(largest_) + bytes_of(falling_) + bytes_of(jacobians_);
+  std::uint64_t sum = sizeof(*this) + system_.bytes() + bytes_of(held_force_) + bytes_of(clearance_) +
+                      bytes_of(blocks_) + bytes_of(sums_) + bytes_of(largest_) + bytes_of(falling_) +
+                      bytes_of(jacobians_);
   for (const Block& block : blocks_) sum += bytes_of(block.segments) + bytes_of(block.held);
   for (const Jacobians& each : jacobians_) sum += each.bytes();
   return sum;
@@ -335,7 +334,7 @@ void ImplicitEuler::turn(float beta) {
   for_each_block([&](Block& block, std::size_t) { parallel::turn(system_, block.range, false, beta); });
 }
 
-bool ImplicitEuler::step(const Particles& start, Particles& end, SolveReport& report) {
+bool ImplicitEuler::step(Particles& start, Particles& end, SolveReport& report) {
   start_ = &start;
   end_ = &end;
   const bool accepted = reference::solve_step(*this, limits_, report);
@@ -349,6 +348,10 @@ bool ImplicitEuler::step(const Particles& start, Particles& end, SolveReport& re
     if (!end_block(block)) sound.store(false, std::memory_order_relaxed);
   });
   return sound;
+}
+
+bool ImplicitEuler::look_at(const Particles& start) {
+  return all_sound(start, {0, model_.particle_count()}, speed_limit);
 }
 
 /// What the ground prescribes, the positions, and the terrain's response.
@@ -375,7 +378,7 @@ bool ImplicitEuler::end_block(const Block& block) {
       parallel::set(end_->v, i, v);
     }
   }
-  return all_sound(*end_, range, static_cast<float>(divergence_speed * divergence_speed));
+  return all_sound(*end_, range, speed_limit);
 }
 
 }  // namespace aspic::parallel

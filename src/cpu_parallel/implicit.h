@@ -4,31 +4,21 @@
 // pass over them ends with the blocks' sums and the tree over these is the same for any number of threads.
 #include <cstdint>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "cpu_parallel/implicit_kernels.h"
-#include "cpu_parallel/workers.h"
+#include "cpu_parallel/steps.h"
 #include "cpu_reference/implicit_euler.h"
 
 namespace aspic::parallel {
 
-using Springs = std::variant<Lattice, SpringLists>;
-
-class ImplicitEuler {
+class ImplicitEuler final : public Steps {
  public:
-  /// Everything must outlive this. `springs`: by body; `mass` and `inverse_mass`: by particle, with room of
-  /// `slice` behind the last; `margin`: particles that the springs' loops may read on both sides of an array.
-  ImplicitEuler(const Model& model, const reference::Dynamics<float>& dynamics,
-                const std::vector<Springs>& springs, const FloatArray& mass, const FloatArray& inverse_mass,
-                std::size_t margin, Workers& workers);
+  explicit ImplicitEuler(const StepParts& parts);
 
-  /// A step from `start`, the terrain's response included. Returns whether all particles ended it finite and
-  /// slower than the speed that counts as diverged. The residual in `report` may still not be finite.
-  bool step(const Particles& start, Particles& end, SolveReport& report);
-
-  /// Bytes it holds on the heap.
-  std::uint64_t bytes() const;
+  bool step(Particles& start, Particles& end, SolveReport& report) override;
+  bool look_at(const Particles& start) override;
+  std::uint64_t bytes() const override;
 
   // What solve_step() asks of a system (cpu_reference/implicit_newton.h).
   reference::Trial<float> start();

@@ -13,7 +13,7 @@
 
 #include "cpu_reference/implicit_ground.h"
 #include "cpu_reference/implicit_newton.h"
-#include "cpu_reference/integrators.h"
+#include "cpu_reference/method.h"
 #include "cpu_reference/reductions.h"
 #include "model/springs.h"
 
@@ -95,7 +95,7 @@ T largest_component(const Vector<T>& R) {
 
 /// Steps of backward Euler, one after another.
 template <class T>
-class ImplicitEuler {
+class ImplicitEuler final : public Method<T> {
  public:
   ImplicitEuler(const Dynamics<T>& dynamics, const Model& model)
       : dynamics_(dynamics),
@@ -112,11 +112,9 @@ class ImplicitEuler {
            spring_count(model) * sizeof(SpringJacobian<T>);
   }
 
-  /// The equation's solution from `s`, before the terrain's response.
-  Phase<T> step(const Phase<T>& s, SolveReport& report);
-
-  /// The terrain's response at the end of the step from `s` that step() was last asked for.
-  void respond(const Phase<T>& s, Phase<T>& end) const;
+  /// The equation's solution.
+  Phase<T> step(const Phase<T>& s, SolveReport& report) override;
+  void respond(const Phase<T>& s, Phase<T>& end) const override;
 
   // What solve_step() asks of a system (implicit_newton.h).
   Trial<T> start();

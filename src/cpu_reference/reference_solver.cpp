@@ -8,17 +8,38 @@
 
 #include "cpu_reference/balls.h"
 #include "cpu_reference/divergence.h"
-#include "cpu_reference/implicit_euler.h"
+#include "cpu_reference/method.h"
 
 namespace aspic {
 namespace reference {
 namespace {
 
+/// Bytes a solver with methods of this kind holds at most during a step.
+template <class T>
+std::uint64_t bytes_of(const KindRow<T>& kind, const Model& model) {
+  // x and v where the step starts and ends.
+  const std::uint64_t ends = model.particle_count() * sizeof(T) * 3 * 4;
+  // Fields of balls likewise for x, v and ω, constants, and their order along x.
+  const std::uint64_t balls = model.ball_count() * sizeof(T) * (3 * 17 + 7);
+  const std::uint64_t masses = model.mass.bytes() + 2 * model.inverse_mass.bytes();
+  return ends + kind.bytes(model) + masses + balls;
+}
+
+template <class T>
+KindRow<T> kind_of(const Model& model) {
+  return kind_row<T>(row_of(model.simulation.integrator).kind());
+}
+
 template <class T>
 class ReferenceSolver final : public Solver {
  public:
-  explicit ReferenceSolver(const Model& model)
-      : model_(model), dynamics_(model), implicit_(dynamics_, model), balls_(model) {
+  ReferenceSolver(const KindRow<T>& kind, const Model& model)
+      : model_(model),
+        kind_(kind),
+        reports_solves_(row_of(model.simulation.integrator).traits.reports_solves),
+        dynamics_(model),
+        method_(kind.make(dynamics_, model)),
+        balls_(model) {
     set(initial_state(model, precision()));
   }
 
@@ -29,7 +50,7 @@ class ReferenceSolver final : public Solver {
   }
   Precision precision() const override { return sizeof(T) == 4 ? Precision::single : Precision::double_; }
   const Model& model() const override { return model_; }
-  std::uint64_t bytes() const override { return reference_bytes(model_, precision()); }
+  std::uint64_t bytes() const override { return bytes_of(kind_, model_); }
 
   Status load(const State& state) override {
     if (const Status fits = check_sizes(model_, state); !fits) return fits;
@@ -50,19 +71,11 @@ class ReferenceSolver final : public Solver {
   }
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
-    const double h = model_.simulation.timestep;
-    const bool solved = row_of(model_.simulation.integrator).solved();
     for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) {
       SolveReport report;
       dynamics_.begin_step(step_);
-      Phase<T> next = solved ? implicit_.step(phase_, report)
-                             : explicit_step(model_.simulation.integrator,
-                                             StepDynamics<T>(dynamics_, phase_.x, phase_.v), phase_, h);
-      if (solved) {
-        implicit_.respond(phase_, next);
-      } else {
-        dynamics_.respond(phase_.x, phase_.v, next.x, next.v);
-      }
+      Phase<T> next = method_->step(phase_, report);
+      method_->respond(phase_, next);
       if (interrupted()) break;
       BallPhase<T> next_balls;
       if (model_.ball_count() > 0) {
@@ -74,7 +87,7 @@ class ReferenceSolver final : public Solver {
       if (!divergence_ && !std::isfinite(report.residual))
         divergence_ = Divergence{step_ + 1, 0, false, false, true};
       if (divergence_) break;
-      if (solved) statistics_.add(report);
+      if (reports_solves_) statistics_.add(report);
       std::swap(phase_, next);
       std::swap(ball_phase_, next_balls);
       ++step_;
@@ -83,7 +96,7 @@ class ReferenceSolver final : public Solver {
   }
 
   std::optional<SolveStatistics> solve_statistics() override {
-    if (!row_of(model_.simulation.integrator).solved()) return std::nullopt;
+    if (!reports_solves_) return std::nullopt;
     return statistics_;
   }
 
@@ -110,8 +123,10 @@ class ReferenceSolver final : public Solver {
   }
 
   const Model& model_;
+  const KindRow<T> kind_;
+  const bool reports_solves_;
   Dynamics<T> dynamics_;
-  ImplicitEuler<T> implicit_;
+  const std::unique_ptr<Method<T>> method_;
   SolveStatistics statistics_;
   Balls<T> balls_;
   Phase<T> phase_;
@@ -121,14 +136,20 @@ class ReferenceSolver final : public Solver {
 };
 
 }  // namespace
+
+template <class T>
+std::unique_ptr<Solver> solver_with(const KindRow<T>& kind, const Model& model) {
+  return std::make_unique<ReferenceSolver<T>>(kind, model);
+}
+template std::unique_ptr<Solver> solver_with(const KindRow<float>&, const Model&);
+template std::unique_ptr<Solver> solver_with(const KindRow<double>&, const Model&);
+
 }  // namespace reference
 
 Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precision precision) {
   try {
-    if (precision == Precision::single) {
-      return std::unique_ptr<Solver>(std::make_unique<reference::ReferenceSolver<float>>(model));
-    }
-    return std::unique_ptr<Solver>(std::make_unique<reference::ReferenceSolver<double>>(model));
+    if (precision == Precision::single) return solver_with(reference::kind_of<float>(model), model);
+    return solver_with(reference::kind_of<double>(model), model);
   } catch (const std::bad_alloc&) {
     return fail(
         ErrorCode::scene_rejected,
@@ -138,19 +159,8 @@ Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precis
 }
 
 std::uint64_t reference_bytes(const Model& model, Precision precision) {
-  const std::uint64_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
-  const IntegratorRow& method = row_of(model.simulation.integrator);
-  // Balls: fields as below for x, v and ω, constants, and their order along x.
-  const std::uint64_t balls = model.ball_count() * real * (3 * 17 + 7);
-  const std::uint64_t masses = model.mass.bytes() + 2 * model.inverse_mass.bytes();
-  if (!method.solved()) {
-    // Fields of a step at once: x and v at its start and its end, and for each stage a velocity and an
-    // acceleration.
-    return model.particle_count() * real * 3 * (4 + 2 * method.stages.size()) + masses + balls;
-  }
-  const auto solve = precision == Precision::single ? reference::ImplicitEuler<float>::bytes(model)
-                                                    : reference::ImplicitEuler<double>::bytes(model);
-  return model.particle_count() * real * 3 * 4 + solve + masses + balls;
+  return precision == Precision::single ? reference::bytes_of(reference::kind_of<float>(model), model)
+                                        : reference::bytes_of(reference::kind_of<double>(model), model);
 }
 
 }  // namespace aspic

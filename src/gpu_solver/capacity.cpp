@@ -19,14 +19,14 @@ std::uint64_t springs_of_cube(std::uint64_t n) {
 std::optional<CapacityLimit> obstacle(const ForcePathRow& path, Integrator integrator, std::uint64_t n,
                                       const gl::DeviceLimits& limits, std::optional<std::uint64_t> free) {
   const std::uint64_t particles = n * n * n, springs = springs_of_cube(n);
-  const bool lattice = !path.lattice_kernel.empty(), solved = row_of(integrator).solved();
+  const bool lattice = !path.lattice_kernel.empty();
+  const DeviceMethod& method = device_method(integrator, particles);
   // Slices are as long as their longest list: nearly everywhere a particle has all directions.
   const std::uint64_t slots = (particles + SPRING_SLICE - 1) / SPRING_SLICE * SPRING_SLICE,
                       words = lattice ? 0 : slots * LATTICE_DIRECTIONS;
   const std::uint64_t listed = path.words == IncidentWords::springs ? springs : 0;
-  const std::uint64_t largest = std::max({particles * sizeof(layout::Particle), words * sizeof(std::uint32_t),
-                                          listed * sizeof(layout::uvec2), springs * path.spring_bytes,
-                                          solved ? particles * OWN_VECTORS * sizeof(layout::vec4) : 0});
+  const std::uint64_t largest = std::max({particles * method.particle_bytes, words * sizeof(std::uint32_t),
+                                          listed * sizeof(layout::uvec2), springs * path.spring_bytes});
   if (largest > limits.buffer_bytes) return CapacityLimit::buffer;
   // Passes over windows see a few particles' neighbours at least, two planes away, and their springs.
   const std::uint64_t seen = 2 * window_unit + 2 * (2 * n * n + 2 * n + 8),
@@ -40,9 +40,9 @@ std::optional<CapacityLimit> obstacle(const ForcePathRow& path, Integrator integ
     return CapacityLimit::words;
   ModelCounts counts;
   counts.particles = particles;
-  const std::uint64_t all =
-      (solved ? implicit_bytes(counts, limits.storage_block_bytes) : explicit_bytes(counts, integrator)) +
-      words * sizeof(std::uint32_t) + listed * sizeof(layout::uvec2) + springs * path.spring_bytes;
+  const std::uint64_t all = method.bytes(counts, integrator, limits.storage_block_bytes) +
+                            words * sizeof(std::uint32_t) + listed * sizeof(layout::uvec2) +
+                            springs * path.spring_bytes;
   if (free && all > *free) return CapacityLimit::memory;
   return std::nullopt;
 }

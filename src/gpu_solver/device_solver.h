@@ -117,18 +117,25 @@ class DeviceSolver : public GpuSolver {
   std::uint64_t bytes_ = 0;
 };
 
-/// Explicit methods: every stage one or two dispatches, no read-back inside a step. Called by make_gpu_solver
-/// for scenes with an explicit method, or without particles; same contract.
-Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, const Model& model,
-                                                        const GpuOptions& options, const ForcePathRow& path);
+/// What a kind of methods brings to the device. A new kind derives from DeviceSolver and is named in
+/// device_method().
+struct DeviceMethod {
+  /// Called by make_gpu_solver; same contract. `path`: one that the method takes.
+  Result<std::unique_ptr<GpuSolver>> (*make)(gl::Context& context, const Model& model,
+                                             const GpuOptions& options, const ForcePathRow& path);
+  bool (*takes)(const ForcePathRow& path);  ///< all paths that `automatic` stands for, at least
+  /// gpu_bytes() without what all kinds share.
+  std::uint64_t (*bytes)(const ModelCounts& counts, Integrator integrator, std::uint64_t block_bytes);
+  std::uint64_t particle_bytes;  ///< of its largest array, for each particle
+};
 
-/// Implicit Euler, without a read-back inside a step (shaders/compute/implicit.glsl). Called by
-/// make_gpu_solver; same contract. `path`: one with ForcePathRow::implicit.
-Result<std::unique_ptr<GpuSolver>> make_implicit_solver(gl::Context& context, const Model& model,
-                                                        const GpuOptions& options, const ForcePathRow& path);
+/// Explicit methods, and scenes without particles: every stage one or two dispatches, no read-back inside a
+/// step.
+extern const DeviceMethod staged_method;
+/// Implicit Euler, without a read-back inside a step (shaders/compute/implicit.glsl).
+extern const DeviceMethod newton_method;
 
-/// gpu_bytes() of each, without what both share.
-std::uint64_t explicit_bytes(const ModelCounts& counts, Integrator integrator);
-std::uint64_t implicit_bytes(const ModelCounts& counts, std::uint64_t block_bytes);
+/// Without particles only balls are left, which fly by stages.
+const DeviceMethod& device_method(Integrator integrator, std::uint64_t particles);
 
 }  // namespace aspic

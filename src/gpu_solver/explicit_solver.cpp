@@ -25,7 +25,7 @@ constexpr std::uint32_t most_steps = 1024;
 constexpr std::uint32_t software_run = 4;
 
 /// Whether the method's sums outlive a stage, so that memory must hold them.
-bool keeps_sums(const IntegratorRow& method) {
+bool keeps_sums(const Staged& method) {
   return std::any_of(method.stages.begin(), method.stages.end() - 1,
                      [](const Stage& s) { return s.weight != 0.0; });
 }
@@ -37,7 +37,7 @@ class ExplicitSolver final : public DeviceSolver {
       : DeviceSolver(context, model, path, 3,
                      {std::string(path.spring_title), std::string(path.lattice_title),
                       std::string(path.particle_title)}),
-        method_(free_flight_row(model.simulation.integrator)) {}
+        method_(*free_flight_row(model.simulation.integrator).staged()) {}
 
   void set_late(bool on) override { late_ = on; }
 
@@ -67,7 +67,7 @@ class ExplicitSolver final : public DeviceSolver {
   void forget_queues();
   std::uint32_t passes_per_step() const;
 
-  const IntegratorRow& method_;
+  const Staged& method_;
   Buffer sums_, control_, forces_;
   std::deque<Queue> queues_;
   std::optional<gl::ReadRing> looks_;  // the control words after each queue
@@ -283,8 +283,6 @@ std::uint32_t ExplicitSolver::passes_per_step() const {
          counted(model_.ball_count());
 }
 
-}  // namespace
-
 Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, const Model& model,
                                                         const GpuOptions& options, const ForcePathRow& path) {
   auto solver = std::make_unique<ExplicitSolver>(context, model, path);
@@ -292,9 +290,14 @@ Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, co
   return std::unique_ptr<GpuSolver>(std::move(solver));
 }
 
-std::uint64_t explicit_bytes(const ModelCounts& counts, Integrator integrator) {
-  const std::uint64_t states = keeps_sums(free_flight_row(integrator)) ? 4 : 3;
+std::uint64_t explicit_bytes(const ModelCounts& counts, Integrator integrator, std::uint64_t) {
+  const std::uint64_t states = keeps_sums(*free_flight_row(integrator).staged()) ? 4 : 3;
   return states * counts.particles * sizeof(layout::Particle) + sizeof(layout::Control);
 }
+
+}  // namespace
+
+const DeviceMethod staged_method = {make_explicit_solver, [](const ForcePathRow&) { return true; },
+                                    explicit_bytes, sizeof(layout::Particle)};
 
 }  // namespace aspic

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "device/device_state.h"
+#include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
 
 namespace aspic {
@@ -68,15 +69,15 @@ std::string force_path_words() {
   return words;
 }
 
-std::string implicit_path_words(std::string_view between) {
+std::string force_path_words(Integrator integrator, std::string_view between) {
   std::vector<std::string_view> names;
   for (const ForcePathRow& row : table)
-    if (row.implicit) names.push_back(row.name);
+    if (works_with(row.path, integrator)) names.push_back(row.name);
   return fmt::format("{}", fmt::join(names, between));
 }
 
 bool works_with(ForcePath path, Integrator integrator) {
-  return path == ForcePath::automatic || !aspic::row_of(integrator).solved() || row_of(path).implicit;
+  return path == ForcePath::automatic || device_method(integrator, 1).takes(row_of(path));
 }
 
 }  // namespace aspic

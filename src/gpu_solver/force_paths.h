@@ -43,8 +43,8 @@ const ForcePathRow& row_of(ForcePath path, const Model& model);
 std::string_view name_of(ForcePath path);
 /// "auto, lattice, gather, per-spring".
 std::string force_path_words();
-/// Names of the paths that implicit Euler takes, joined by `between`.
-std::string implicit_path_words(std::string_view between);
+/// Names of the paths that compute with this integrator, joined by `between`.
+std::string force_path_words(Integrator integrator, std::string_view between);
 
 /// Whether the path computes with this integrator; automatic always does.
 bool works_with(ForcePath path, Integrator integrator);

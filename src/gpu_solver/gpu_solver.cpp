@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "base/result.h"
 #include "gpu/current.h"
@@ -12,11 +13,6 @@
 
 namespace aspic {
 namespace {
-
-/// Without particles there is nothing to solve: balls fly by the formula.
-bool solves(Integrator integrator, std::uint64_t particles) {
-  return row_of(integrator).solved() && particles > 0;
-}
 
 /// Springs that are shared are held already.
 Status check_free_memory(gl::Context& context, const Model& model, const GpuOptions& options,
@@ -29,6 +25,18 @@ Status check_free_memory(gl::Context& context, const Model& model, const GpuOpti
 
 }  // namespace
 
+const DeviceMethod& device_method(Integrator integrator, std::uint64_t particles) {
+  if (particles == 0) return staged_method;
+  switch (row_of(integrator).kind()) {
+    case MethodKind::staged:
+      return staged_method;
+    case MethodKind::newton:
+      return newton_method;
+  }
+  assert(false);
+  return staged_method;
+}
+
 Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
                                                    const GpuOptions& options) {
   const gl::Current here(context);
@@ -37,23 +45,23 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
   const ForcePathRow& path = row_of(options.force_path, model);
   // Counting takes a while in large scenes, and without a figure to compare with it is for nothing.
   if (context.free_memory()) ASPIC_CHECK(check_free_memory(context, model, options, path));
-  if (!solves(model.simulation.integrator, model.particle_count()))
-    return make_explicit_solver(context, model, options, path);
-  if (path.implicit) return make_implicit_solver(context, model, options, path);
+  const Integrator integrator = model.simulation.integrator;
+  const DeviceMethod& method = device_method(integrator, model.particle_count());
+  if (method.takes(path)) return method.make(context, model, options, path);
   return Error{ErrorCode::scene_rejected,
-               fmt::format("implicit-euler does not take the force path {}: use auto or {}", path.name,
-                           implicit_path_words(" or "))};
+               fmt::format("{} does not take the force path {}: use auto or {}", name_of(integrator),
+                           path.name, force_path_words(integrator, " or "))};
 }
 
 std::uint64_t gpu_bytes(const Model& model, ForcePath path, std::uint64_t block_bytes) {
   const ModelCounts counts = count(model);
   const Integrator integrator = model.simulation.integrator;
-  const bool implicit = solves(integrator, counts.particles);
-  const ForcePathRow& row =
-      row_of(!implicit || works_with(path, integrator) ? path : ForcePath::automatic, model);
+  const DeviceMethod& method = device_method(integrator, counts.particles);
+  const ForcePathRow& wanted = row_of(path, model);
+  const ForcePathRow& row = method.takes(wanted) ? wanted : row_of(ForcePath::automatic, model);
   return ball_bytes(counts) + sizeof(layout::Simulation) + sizeof(layout::Pull) +
-         (implicit ? implicit_bytes(counts, block_bytes) : explicit_bytes(counts, integrator)) +
-         spring_buffer_bytes(model, row.words) + row.spring_bytes * counts.springs();
+         method.bytes(counts, integrator, block_bytes) + spring_buffer_bytes(model, row.words) +
+         row.spring_bytes * counts.springs();
 }
 
 }  // namespace aspic

@@ -332,8 +332,6 @@ Status ImplicitSolver::repeat_balls() {
   return {};
 }
 
-}  // namespace
-
 Result<std::unique_ptr<GpuSolver>> make_implicit_solver(gl::Context& context, const Model& model,
                                                         const GpuOptions& options, const ForcePathRow& path) {
   auto solver = std::make_unique<ImplicitSolver>(context, model, path);
@@ -341,12 +339,18 @@ Result<std::unique_ptr<GpuSolver>> make_implicit_solver(gl::Context& context, co
   return std::unique_ptr<GpuSolver>(std::move(solver));
 }
 
-std::uint64_t implicit_bytes(const ModelCounts& counts, std::uint64_t block_bytes) {
+std::uint64_t implicit_bytes(const ModelCounts& counts, Integrator, std::uint64_t block_bytes) {
   // The solver's own vectors are the largest array of any lattice, net or cloth.
   const bool windows = counts.particles * OWN_VECTORS * sizeof(layout::vec4) > block_bytes;
   const std::uint64_t vectors = 1 + (windows ? 2 : 1) + OWN_VECTORS;
   return counts.particles * (2 * sizeof(layout::Particle) + vectors * sizeof(layout::vec4)) +
          solve_bytes(counts.particles);
 }
+
+}  // namespace
+
+const DeviceMethod newton_method = {make_implicit_solver,
+                                    [](const ForcePathRow& path) { return path.implicit; }, implicit_bytes,
+                                    OWN_VECTORS * sizeof(layout::vec4)};
 
 }  // namespace aspic

@@ -43,7 +43,7 @@ std::uint32_t drift_word(Drift drift) {
   return DRIFT_STAGE_VELOCITY;
 }
 
-void fill_stages(layout::Simulation& block, const IntegratorRow& method, double h) {
+void fill_stages(layout::Simulation& block, const Staged& method, double h) {
   bool accumulate = false;
   for (std::size_t s = 0; s < method.stages.size(); ++s) {
     const Stage& stage = method.stages[s];
@@ -139,8 +139,8 @@ Result<layout::Simulation> simulation_block(const Model& model) {
   block.terrain_count = static_cast<std::uint32_t>(model.terrain.size());
   block.contact_model = model.contact.model == ContactModel::coulomb ? CONTACT_COULOMB : CONTACT_COURSE;
   block.class_bits = class_bits(model);
-  // A solved method stages nothing but its balls.
-  fill_stages(block, free_flight_row(model.simulation.integrator), model.simulation.timestep);
+  // A method that is not staged stages nothing but its balls.
+  fill_stages(block, *free_flight_row(model.simulation.integrator).staged(), model.simulation.timestep);
   fill_balls(block, model);
   const ImplicitSettings& implicit = model.simulation.implicit;
   block.time_step = static_cast<float>(model.simulation.timestep);

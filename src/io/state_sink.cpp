@@ -117,7 +117,8 @@ class Series final : public StateSink {
  public:
   static Result<std::unique_ptr<StateSink>> open(const std::string& path, std::uint64_t every,
                                                  Overwrite overwrite, const RunFacts& facts) {
-    ASPIC_TRY(auto writer, SeriesWriter::create(path, overwrite, row_of(facts.integrator).solved()));
+    ASPIC_TRY(auto writer,
+              SeriesWriter::create(path, overwrite, row_of(facts.integrator).traits.reports_solves));
     return std::unique_ptr<StateSink>(std::make_unique<Series>(path, every, std::move(writer)));
   }
   Series(const std::string& path, std::uint64_t every, SeriesWriter writer)

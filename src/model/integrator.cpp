@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace aspic {
 namespace integrator_rows {
@@ -21,7 +20,6 @@ StepMatrix operator*(long double s, const StepMatrix& m) {
 }
 
 constexpr StepMatrix one = {1, 0, 0, 1};
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Z = h·A of ẏ = A·y, y = (q, q̇).
 StepMatrix scaled(long double h, long double kappa, long double gamma) {
@@ -82,10 +80,6 @@ double velocity_verlet_limit(double kappa, double gamma) {
   return 4.0 / (gamma + std::sqrt(large - small) * std::sqrt(large + small));
 }
 
-double no_limit(double, double) {
-  return infinity;
-}
-
 }  // namespace integrator_rows
 
 const IntegratorRow& row_of(Integrator integrator) {
@@ -100,20 +94,22 @@ std::string_view name_of(Integrator integrator) {
 }
 
 int force_evaluations_per_step(Integrator integrator) {
-  return static_cast<int>(row_of(integrator).stages.size());
+  const Staged* const staged = row_of(integrator).staged();
+  return staged ? static_cast<int>(staged->stages.size()) : 0;
 }
 
 double free_fall_lead(Integrator integrator) {
-  const IntegratorRow& row = free_flight_row(integrator);
-  if (row.drift == Drift::new_velocity) return 1.0;
+  const Staged& flight = *free_flight_row(integrator).staged();
+  if (flight.drift == Drift::new_velocity) return 1.0;
   double lead = 0.0;
-  for (std::size_t s = 1; s < row.stages.size(); ++s)
-    lead += row.stages[s].weight * row.stages[s - 1].advance;
-  return lead / row.divisor;
+  for (std::size_t s = 1; s < flight.stages.size(); ++s)
+    lead += flight.stages[s].weight * flight.stages[s - 1].advance;
+  return lead / flight.divisor;
 }
 
 const IntegratorRow& free_flight_row(Integrator integrator) {
-  return row_of(row_of(integrator).solved() ? Integrator::symplectic_euler : integrator);
+  const IntegratorRow& row = row_of(integrator);
+  return row.staged() ? row : row_of(Integrator::symplectic_euler);
 }
 
 }  // namespace aspic

@@ -1,9 +1,10 @@
 #pragma once
 // The integrators: one row each, with all that the rest of the program knows about it. A new explicit method
 // is an enumerator and a row here, its step matrix in integrator.cpp, and its textbook formula in
-// src/cpu_reference/integrators.h; docs/extending.md has an example.
+// src/cpu_reference/integrators.h. A new kind of methods is an alternative of MethodData, and its steps in
+// each solver. docs/extending.md has both.
 //
-// Stage s evaluates a_s = a(X_s, V_s) with X_0 = x, V_0 = v and
+// Stage s of a staged method evaluates a_s = a(X_s, V_s) with X_0 = x, V_0 = v and
 //   V_{s+1} = v + (h·advance_s)·a_s,   X_{s+1} = x + (h·advance_s)·U_s;
 // the step ends with
 //   v' = v + (h/divisor)·Σ weight_s·a_s,   x' = x + (h/divisor)·Σ weight_s·V_s,
@@ -14,6 +15,8 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 namespace aspic {
 
@@ -47,29 +50,55 @@ using StepMatrix = std::array<long double, 4>;
 /// Largest stable step [s] of a mode with κ [1/s²] ≥ 0 and γ [1/s] ≥ 0, infinite where nothing limits it.
 using ModeLimit = double (*)(double kappa, double gamma);
 
-struct IntegratorRow {
-  Integrator integrator;
-  std::string_view name;          ///< in scene files
-  std::string_view title;         ///< in pictures
-  int order;                      ///< of convergence
-  std::span<const Stage> stages;  ///< none: backward Euler, which is solved, not staged
-  double divisor;                 ///< of the weights
-  Drift drift;
-  /// Whether central forces leave angular momentum alone: where each force is paired with the positions that
-  /// it was computed at.
-  bool keeps_angular_momentum;
-  StepMatrix (*step_matrix)(long double h, long double kappa, long double gamma);
+/// An explicit method: its stages are data.
+struct Staged {
+  std::span<const Stage> stages;  ///< 1 to max_stages
+  double divisor = 1.0;           ///< of the weights
+  Drift drift = Drift::stage_velocity;
   /// Absent where the stages make a polynomial of hλ, from which the limit follows
   /// (analysis/amplification.h).
-  ModeLimit mode_limit;
+  ModeLimit mode_limit = nullptr;
+};
+
+/// Backward Euler, whose equation Newton's method solves with the limits of ImplicitSettings.
+struct Newton {};
+
+using MethodData = std::variant<Staged, Newton>;
+/// Indices of MethodData.
+enum class MethodKind : std::size_t { staged, newton };
+template <MethodKind kind>
+using MethodDataOf = std::variant_alternative_t<static_cast<std::size_t>(kind), MethodData>;
+static_assert(std::is_same_v<MethodDataOf<MethodKind::staged>, Staged> &&
+              std::is_same_v<MethodDataOf<MethodKind::newton>, Newton>);
+
+/// What a method is like, whatever its kind.
+struct MethodTraits {
+  /// Whether central forces leave angular momentum alone: where each force is paired with the positions that
+  /// it was computed at.
+  bool keeps_angular_momentum = false;
+  bool stable_at_any_step = false;
+  bool reports_solves = false;  ///< Solver::solve_statistics() has figures
+  bool long_steps = false;      ///< a step costs tens of force evaluations: checks and probes take fewer
+  double nominal_step = 1e-3;   ///< time step that suits the default cube [s]
+};
+
+struct IntegratorRow {
+  Integrator integrator;
+  std::string_view name;   ///< in scene files
+  std::string_view title;  ///< in pictures
+  int order;               ///< of convergence
+  StepMatrix (*step_matrix)(long double h, long double kappa, long double gamma);
+  MethodData method;
+  MethodTraits traits;
   std::string_view source;  ///< author and year
 
-  constexpr bool solved() const { return stages.empty(); }
+  constexpr MethodKind kind() const { return static_cast<MethodKind>(method.index()); }
+  /// Null: the method is of another kind.
+  constexpr const Staged* staged() const { return std::get_if<Staged>(&method); }
 };
 
 namespace integrator_rows {
 
-inline constexpr std::array<Stage, 0> no_stages = {};
 inline constexpr std::array<Stage, 1> one_stage = {{{0.0, 1.0}}};
 inline constexpr std::array<Stage, 2> midpoint = {{{0.5, 0.0}, {0.0, 1.0}}};
 inline constexpr std::array<Stage, 2> one_pass = {{{1.0, 0.0}, {0.0, 1.0}}};
@@ -87,34 +116,40 @@ StepMatrix heun_3(long double h, long double kappa, long double gamma);
 StepMatrix velocity_verlet(long double h, long double kappa, long double gamma);
 double symplectic_euler_limit(double kappa, double gamma);
 double velocity_verlet_limit(double kappa, double gamma);
-double no_limit(double kappa, double gamma);
 
 }  // namespace integrator_rows
 
 /// In the order in which lists show them.
 inline constexpr std::array integrator_table = {
     IntegratorRow{Integrator::explicit_euler, "explicit-euler", "explicit Euler", 1,
-                  integrator_rows::one_stage, 1.0, Drift::stage_velocity, false,
-                  integrator_rows::explicit_euler, nullptr, "Euler, 1768"},
-    IntegratorRow{Integrator::symplectic_euler, "symplectic-euler", "symplectic Euler", 1,
-                  integrator_rows::one_stage, 1.0, Drift::new_velocity, true,
-                  integrator_rows::symplectic_euler, integrator_rows::symplectic_euler_limit,
-                  "Hairer, Lubich, Wanner, 2006"},
-    IntegratorRow{Integrator::midpoint, "midpoint", "midpoint", 2, integrator_rows::midpoint, 1.0,
-                  Drift::stage_velocity, false, integrator_rows::midpoint_rule, nullptr, "Runge, 1895"},
-    IntegratorRow{Integrator::runge_kutta_4, "runge-kutta-4", "Runge–Kutta 4", 4, integrator_rows::kutta, 6.0,
-                  Drift::stage_velocity, false, integrator_rows::runge_kutta_4, nullptr, "Kutta, 1901"},
-    IntegratorRow{Integrator::implicit_euler, "implicit-euler", "implicit Euler", 1,
-                  integrator_rows::no_stages, 1.0, Drift::new_velocity, false,
-                  integrator_rows::implicit_euler, integrator_rows::no_limit, "Baraff and Witkin, 1998"},
+                  integrator_rows::explicit_euler, Staged{integrator_rows::one_stage}, MethodTraits{},
+                  "Euler, 1768"},
+    IntegratorRow{
+        Integrator::symplectic_euler, "symplectic-euler", "symplectic Euler", 1,
+        integrator_rows::symplectic_euler,
+        Staged{integrator_rows::one_stage, 1.0, Drift::new_velocity, integrator_rows::symplectic_euler_limit},
+        MethodTraits{.keeps_angular_momentum = true}, "Hairer, Lubich, Wanner, 2006"},
+    IntegratorRow{Integrator::midpoint, "midpoint", "midpoint", 2, integrator_rows::midpoint_rule,
+                  Staged{integrator_rows::midpoint}, MethodTraits{}, "Runge, 1895"},
+    IntegratorRow{Integrator::runge_kutta_4, "runge-kutta-4", "Runge–Kutta 4", 4,
+                  integrator_rows::runge_kutta_4, Staged{integrator_rows::kutta, 6.0}, MethodTraits{},
+                  "Kutta, 1901"},
+    IntegratorRow{
+        Integrator::implicit_euler, "implicit-euler", "implicit Euler", 1, integrator_rows::implicit_euler,
+        Newton{},
+        MethodTraits{
+            .stable_at_any_step = true, .reports_solves = true, .long_steps = true, .nominal_step = 1.0 / 60},
+        "Baraff and Witkin, 1998"},
     IntegratorRow{Integrator::implicit_euler_one_pass, "implicit-euler-one-pass", "implicit Euler, one pass",
-                  1, integrator_rows::one_pass, 1.0, Drift::stage_velocity, false,
-                  integrator_rows::implicit_euler_one_pass, nullptr, "the 2021 assignment"},
-    IntegratorRow{Integrator::heun_3, "heun-3", "Heun 3", 3, integrator_rows::heun, 4.0,
-                  Drift::stage_velocity, false, integrator_rows::heun_3, nullptr, "Heun, 1900"},
-    IntegratorRow{Integrator::velocity_verlet, "velocity-verlet", "velocity Verlet", 2,
-                  integrator_rows::verlet, 2.0, Drift::mean_velocity, true, integrator_rows::velocity_verlet,
-                  integrator_rows::velocity_verlet_limit, "Groot and Warren, 1997"},
+                  1, integrator_rows::implicit_euler_one_pass, Staged{integrator_rows::one_pass},
+                  MethodTraits{}, "the 2021 assignment"},
+    IntegratorRow{Integrator::heun_3, "heun-3", "Heun 3", 3, integrator_rows::heun_3,
+                  Staged{integrator_rows::heun, 4.0}, MethodTraits{}, "Heun, 1900"},
+    IntegratorRow{
+        Integrator::velocity_verlet, "velocity-verlet", "velocity Verlet", 2,
+        integrator_rows::velocity_verlet,
+        Staged{integrator_rows::verlet, 2.0, Drift::mean_velocity, integrator_rows::velocity_verlet_limit},
+        MethodTraits{.keeps_angular_momentum = true}, "Groot and Warren, 1997"},
 };
 
 /// The row of an integrator, which must be one of the enumeration.
@@ -122,14 +157,15 @@ const IntegratorRow& row_of(Integrator integrator);
 
 /// Largest number of stages in the table; the kernels' stage table has as many places.
 inline constexpr std::size_t max_stages = 4;
-static_assert(std::all_of(integrator_table.begin(), integrator_table.end(),
-                          [](const IntegratorRow& row) { return row.stages.size() <= max_stages; }));
+static_assert(std::all_of(integrator_table.begin(), integrator_table.end(), [](const IntegratorRow& row) {
+  return !row.staged() || (!row.staged()->stages.empty() && row.staged()->stages.size() <= max_stages);
+}));
 
 namespace integrator_rows {
 
-template <bool solved_too>
+template <bool staged_only>
 consteval auto list() {
-  constexpr auto wanted = [](const IntegratorRow& row) { return solved_too || !row.solved(); };
+  constexpr auto wanted = [](const IntegratorRow& row) { return !staged_only || row.staged(); };
   constexpr std::size_t size = [&] {
     std::size_t n = 0;
     for (const IntegratorRow& row : integrator_table) n += wanted(row) ? 1 : 0;
@@ -145,19 +181,21 @@ consteval auto list() {
 
 }  // namespace integrator_rows
 
-inline constexpr std::array all_integrators = integrator_rows::list<true>();
-inline constexpr std::array explicit_integrators = integrator_rows::list<false>();
+inline constexpr std::array all_integrators = integrator_rows::list<false>();
+/// The staged ones.
+inline constexpr std::array explicit_integrators = integrator_rows::list<true>();
 
 /// Name as it is written in scene files and reports.
 std::string_view name_of(Integrator integrator);
 
-/// Force evaluations one step takes (explicit methods); 0 for a solved one.
+/// Force evaluations one step takes (explicit methods); 0 where they differ from step to step.
 int force_evaluations_per_step(Integrator integrator);
 
 /// x' = x + h·v + lead·h²·a under a constant acceleration a; ½ is exact.
 double free_fall_lead(Integrator integrator);
 
-/// The staged method that moves a body no spring holds: backward Euler of free flight is symplectic Euler.
+/// The staged method that moves a body no spring holds: the method itself, or symplectic Euler, which
+/// backward Euler of free flight is.
 const IntegratorRow& free_flight_row(Integrator integrator);
 
 }  // namespace aspic

@@ -165,7 +165,7 @@ Result<Figure> work_figure(const Study& study, Smooth smooth) {
   for (std::size_t m = 0; m < methods; ++m) {  // one after another: they are timed
     const Integrator integrator = all_integrators[m];
     double coarsest = smooth.duration / 5.0;
-    if (!row_of(integrator).solved()) {
+    if (row_of(integrator).staged()) {
       const auto at = std::ranges::find(explicit_integrators, integrator) - explicit_integrators.begin();
       const auto& step = limits[static_cast<std::size_t>(at)].step;
       coarsest = step && std::isfinite(*step) ? 0.9 * *step : smooth.model.simulation.timestep;

@@ -90,8 +90,8 @@ Result<Figure> map_figure(const Study& study, const Model& model, const ProbeSta
       Model probed = constant.with(model, factors[row], steps[column]);
       probed.simulation.integrator = integrator;
       ASPIC_TRY(const auto solver, study.make_solver()(probed));
-      // A solved step costs many staged ones, and damps what it is given at once.
-      const std::uint64_t count = row_of(integrator).solved() ? 30 : study.thorough ? 480 : 240;
+      // A long step costs many others, and damps what it is given at once.
+      const std::uint64_t count = row_of(integrator).traits.long_steps ? 30 : study.thorough ? 480 : 240;
       ASPIC_TRY(const bool grew, grows(*solver, start, count));
       stable[task / rows * cells + row * columns + column] = !grew;
     }

@@ -86,7 +86,8 @@ Result<double> Study::affordable(double wanted) const {
 }
 
 std::optional<double> Study::step_for(const Model& model, Integrator integrator) const {
-  if (row_of(integrator).solved()) return 1.0 / 60.0;
+  const MethodTraits& traits = row_of(integrator).traits;
+  if (traits.stable_at_any_step) return traits.nominal_step;
   const StabilityLimit limit = stability_limit(model, integrator, StabilityEffort::quick);
   if (!limit.step) return std::nullopt;
   return std::min(model.simulation.timestep, 0.9 * *limit.step);

@@ -47,8 +47,8 @@ class Study {
   /// A duration of `wanted` [s], less where a run would take seconds to compute, but at least the scene's
   /// own.
   Result<double> affordable(double wanted) const;
-  /// The time step that a method takes here [s]: the scene's, at most 0.9 of the largest stable one; a
-  /// sixtieth of a second where it is solved; nothing where no step is stable.
+  /// The time step that a method takes here [s]: the scene's, at most 0.9 of the largest stable one; its
+  /// nominal step where it is stable at any; nothing where no step is stable.
   std::optional<double> step_for(const Model& model, Integrator integrator) const;
 
   /// `aspic report SCENE --only SECTION --out DIR`

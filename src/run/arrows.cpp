@@ -57,7 +57,7 @@ double noise_of(const Model& model, const State& state) {
     damping = std::max(damping, c.damping);
   }
   const double rounded = rounding * (stiffness * largest(state.position) + damping * largest(state.velocity));
-  if (!row_of(model.simulation.integrator).solved()) return rounded;
+  if (row_of(model.simulation.integrator).kind() != MethodKind::newton) return rounded;
   // A solve leaves up to m·tolerance in a step.
   const double mass = model.mass.empty() ? 0.0 : std::ranges::max(model.mass);
   const double left = implicit_tolerance(model.simulation.implicit, Precision::single);

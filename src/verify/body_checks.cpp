@@ -12,7 +12,7 @@
 namespace aspic::verify {
 namespace {
 
-constexpr std::uint64_t body_steps = 200, implicit_body_steps = 10;
+constexpr std::uint64_t body_steps = 200, few_body_steps = 10;
 const GpuOptions one_variant[1];
 
 ModelSettings settings_of(const BodyRow& body) {
@@ -25,7 +25,7 @@ ModelSettings settings_of(const BodyRow& body) {
 Result<Model> on_ground(const BodyRow& body, Integrator integrator) {
   ModelSettings settings = settings_of(body);
   settings.simulation.integrator = integrator;
-  if (row_of(integrator).solved()) settings.simulation.timestep = 0.01;
+  if (row_of(integrator).traits.stable_at_any_step) settings.simulation.timestep = 0.01;
   ASPIC_TRY(auto airborne, build_model(settings));
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vec3& x : airborne.initial_position) lowest = std::min(lowest, x.y);
@@ -55,7 +55,7 @@ Result<Finding> same_bits(const Subject& subject, const BackendRow& backend, con
   BitComparison comparison(subject, backend);
   for (const Integrator integrator : all_integrators) {
     ASPIC_TRY(auto model, on_ground(body, integrator));
-    const std::uint64_t steps = row_of(integrator).solved() ? implicit_body_steps : body_steps;
+    const std::uint64_t steps = row_of(integrator).traits.long_steps ? few_body_steps : body_steps;
     ASPIC_CHECK(comparison.add(
         model, [&](Solver& solver) { return run(solver, steps); }, one_variant));
   }
@@ -77,7 +77,7 @@ void add_body_checks(std::vector<Check>& checks) {
           {fmt::format("body/{}/{}", body.list.key, backend.name),
            fmt::format("{}: every integrator ends with the reference's bits on the {}, in contact, {} steps, "
                        "{} of implicit-euler",
-                       body.list.key, backend.name, body_steps, implicit_body_steps),
+                       body.list.key, backend.name, body_steps, few_body_steps),
            backend.needs_context ? "0 ULP, or the canary's finding on hardware" : "0 ULP", true,
            backend.needs_context, [&](const Subject& subject) { return same_bits(subject, backend, body); }});
     }

@@ -66,9 +66,9 @@ Result<Finding> viscous(const Subject& subject, Integrator integrator) {
   const Model model = particle_on_plane(integrator, ContactModel::course, 0.0, {2, 0, 0});
   ASPIC_TRY(auto end, run_reference(subject, model, Precision::double_, steps));
   const double z = -model.simulation.timestep * friction * g;
-  double factor = 1 + z;  // of a solved method, which holds the contact force of the step's start
-  if (!row_of(integrator).solved()) {
-    const auto r = amplification_polynomial(row_of(integrator));
+  double factor = 1 + z;  // of implicit Euler, which holds the contact force of the step's start
+  if (const Staged* const staged = row_of(integrator).staged()) {
+    const auto r = amplification_polynomial(*staged);
     factor = 0.0;
     for (std::size_t i = r.size(); i-- > 0;) factor = factor * z + r[i];
   }

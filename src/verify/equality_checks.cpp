@@ -14,7 +14,7 @@
 namespace aspic::verify {
 namespace {
 
-constexpr std::uint64_t explicit_steps = 2000, implicit_steps = 60, repeat_steps = 500;
+constexpr std::uint64_t most_steps = 2000, few_steps = 60, repeat_steps = 500;
 
 /// The force paths of a backend that are worth comparing with an integrator.
 std::vector<GpuOptions> paths_of(const BackendRow& row, Integrator integrator) {
@@ -26,19 +26,17 @@ std::vector<GpuOptions> paths_of(const BackendRow& row, Integrator integrator) {
 }
 
 Result<Finding> same_bits(const Subject& subject, const BackendRow& row, Integrator integrator) {
-  const bool solved = row_of(integrator).solved();
+  const bool long_steps = row_of(integrator).traits.long_steps;
   BitComparison comparison(subject, row);
   // The last round is on ground that moves.
   for (std::size_t round = 0; round <= std::size(terrain_shapes); ++round) {
     const bool moves = round == std::size(terrain_shapes);
     for (const ContactModel contact : both_contact_models) {
       const TerrainShape shape = terrain_shapes[moves ? 0 : round].value;
-      ModelSettings settings = cube_on_terrain(solved ? 4 : 5, shape, integrator, contact);
+      ModelSettings settings = cube_on_terrain(long_steps ? 4 : 5, shape, integrator, contact);
       if (moves) settings.terrain[0].motion = TerrainMotion{{0.3, 1.0, 0.2}, 0.2, 1.1, 0.2};
       ASPIC_TRY(auto model, build_model(settings));
-      const auto steps = [&](Solver& solver) {
-        return run(solver, solved ? implicit_steps : explicit_steps);
-      };
+      const auto steps = [&](Solver& solver) { return run(solver, long_steps ? few_steps : most_steps); };
       ASPIC_CHECK(comparison.add(model, steps, paths_of(row, integrator)));
     }
   }
@@ -62,7 +60,7 @@ Result<State> run_with_hand(Solver& solver, std::uint64_t steps) {
 Result<Finding> same_bits_with_hand(const Subject& subject, const BackendRow& row) {
   BitComparison comparison(subject, row);
   for (const Integrator integrator : all_integrators) {
-    const std::uint64_t steps = row_of(integrator).solved() ? implicit_steps : repeat_steps;
+    const std::uint64_t steps = row_of(integrator).traits.long_steps ? few_steps : repeat_steps;
     for (const ContactModel contact : both_contact_models) {
       ASPIC_TRY(auto model, build_model(cube_on_terrain(4, TerrainShape::plane, integrator, contact)));
       const auto pulled = [&](Solver& solver) { return run_with_hand(solver, steps); };
@@ -190,7 +188,7 @@ void add_equality_checks(std::vector<Check>& checks) {
       checks.push_back(
           {fmt::format("equality/{}/{}", name_of(integrator), row.name),
            fmt::format("{} and reference after {} steps through contact: {} terrains, 2 contact models{}",
-                       row.name, row_of(integrator).solved() ? implicit_steps : explicit_steps,
+                       row.name, row_of(integrator).traits.long_steps ? few_steps : most_steps,
                        std::size(terrain_shapes) + 1,
                        row.force_paths().empty() ? ""
                        : paths.size() == 1       ? fmt::format(", {}", name_of(paths.front().force_path))

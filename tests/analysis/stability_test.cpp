@@ -57,7 +57,7 @@ double spectral_radius(const Model& model, Integrator integrator, double h) {
     if (model.inverse_mass[static_cast<std::size_t>(i / 3)] == 0.0) a(i, dof + i) = 0.0;
   }
   const Eigen::MatrixXd z = h * a, one = Eigen::MatrixXd::Identity(2 * dof, 2 * dof);
-  const IntegratorRow& method = row_of(integrator);
+  const Staged& method = *row_of(integrator).staged();
   Eigen::MatrixXd at = one, sum = Eigen::MatrixXd::Zero(2 * dof, 2 * dof);
   for (const Stage& s : method.stages) {
     const Eigen::MatrixXd slope = z * at;
@@ -91,6 +91,15 @@ TEST(Stability, DefaultCubeHasThePublishedEigenvalueAndSteps) {
   EXPECT_NEAR(step(Integrator::runge_kutta_4), 0.002852, 5e-7);
   EXPECT_NEAR(step(Integrator::symplectic_euler), 0.001917, 5e-7);
   EXPECT_EQ(step(Integrator::implicit_euler), std::numeric_limits<double>::infinity());
+}
+
+TEST(Stability, DefaultCubeBearsTheNominalStepOfEveryMethod) {
+  const Model model = model_of(cube_settings(10));
+  for (const IntegratorRow& row : integrator_table) {
+    const StabilityLimit limit = stability_limit(model, row.integrator);
+    EXPECT_FALSE(exceeds(row.traits.nominal_step, limit)) << row.name;
+    EXPECT_EQ(std::isinf(limit.step.value_or(0.0)), row.traits.stable_at_any_step) << row.name;
+  }
 }
 
 TEST(Stability, QuickEffortAgreesWithThoroughOnTheDefaultCube) {
@@ -160,7 +169,7 @@ TEST(Stability, PureDampingIsARealSpectrum) {
 /// Runge–Kutta method from those of the first-order system, of symplectic Euler from λ_max(h²K + 2hC) = 4.
 /// Other step matrices do not divide into modes, and what stability_limit gives is a bound.
 bool known_exactly(Integrator integrator) {
-  return !row_of(integrator).mode_limit || integrator == Integrator::symplectic_euler;
+  return !row_of(integrator).staged()->mode_limit || integrator == Integrator::symplectic_euler;
 }
 
 class MixedCube : public testing::TestWithParam<Integrator> {};

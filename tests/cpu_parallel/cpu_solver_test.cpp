@@ -61,9 +61,8 @@ void with_every_instruction_set(const Test& test) {
 
 class EveryMethodOnTheCpu : public testing::TestWithParam<Integrator> {
  protected:
-  /// Less for one that solves.
-  static std::uint64_t steps(std::uint64_t solved, std::uint64_t others) {
-    return row_of(GetParam()).solved() ? solved : others;
+  static std::uint64_t steps(std::uint64_t long_ones, std::uint64_t others) {
+    return row_of(GetParam()).traits.long_steps ? long_ones : others;
   }
 };
 INSTANTIATE_TEST_SUITE_P(CpuSolver, EveryMethodOnTheCpu, testing::ValuesIn(all_integrators),

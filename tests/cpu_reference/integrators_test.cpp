@@ -39,7 +39,7 @@ TEST_P(EveryMethod, EqualsTheStageTableToTheBit) {
   settings.cubes[0].velocity = {1.0, -2.0, 0.3};
   const Model model = test::build(settings);
   const Dynamics<double> dynamics(model);
-  const IntegratorRow& method = row_of(GetParam());
+  const Staged& method = *row_of(GetParam()).staged();
   const double h = 0.002;
   Phase<double> by_name = start_of(model), by_table = by_name;
   by_name.v(0, 5) = by_table.v(0, 5) = 3.0;

@@ -54,7 +54,7 @@ class Programs : public aspic::testing::GlTest {
         std::ranges::count(variant.options.arithmetic->defines, "ASPIC_FUSED_FMA", &gl::Define::name) > 0)
       return false;
     return variant.options.spring_arithmetic == Arithmetic::exact ||
-           row_of(variant.settings.simulation.integrator).solved();
+           !row_of(variant.settings.simulation.integrator).staged();
   }
 
   static std::string text_of(const test::KernelVariant& variant) {

@@ -88,6 +88,13 @@ class Line {
     }
   }
 
+  void kinds() {
+    static const std::regex question(R"(\bstages(\(\))?(\.|->)empty\(\))");
+    const bool code = file_.extension() == ".h" || file_.extension() == ".cpp";
+    if (!code || file_ == "src/model/integrator.h" || text_.find("stages") == std::string::npos) return;
+    for (const std::smatch& match : matches(text_, question)) add("kind", match.str());
+  }
+
   void paths() {
     if (text_.find('`') == std::string::npos) return;
     static const std::regex quoted(R"(`((src|shaders|tests|scripts|bench|examples|cmake|assets)/[\w./-]+)`)");
@@ -142,6 +149,7 @@ std::vector<Offence> lint(const fs::path& root, const fs::path& file, std::strin
     Line looked_at(root, file, ++number, line, found);
     looked_at.outside();
     looked_at.pages();
+    looked_at.kinds();
     if (file.extension() != ".md") continue;
     looked_at.paths();
     looked_at.links();

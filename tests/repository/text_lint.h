@@ -11,7 +11,7 @@ namespace aspic::testing {
 /// A line that breaks a rule.
 struct Offence {
   int line;          ///< from 1
-  std::string rule;  ///< `outside`, `path`, `section`, `link` or `anchor`
+  std::string rule;  ///< `outside`, `path`, `section`, `kind`, `link` or `anchor`
   std::string text;  ///< what points nowhere
 };
 
@@ -19,6 +19,8 @@ struct Offence {
 /// outside: a page that is not part of the repository, as a section or a file.
 /// path: `docs/PAGE.md` anywhere, or a path in backticks in a Markdown page, that does not exist.
 /// section: `docs/PAGE.md, section N` where that page has no heading `## N.`.
+/// kind: what a method is, asked of its stages instead of its row (`stages.empty()` outside of
+/// src/model/integrator.h).
 /// link, anchor: a Markdown link to a file, or to a heading, that does not exist.
 std::vector<Offence> lint(const std::filesystem::path& root, const std::filesystem::path& file,
                           std::string_view text);

@@ -27,6 +27,8 @@ TEST(TextLint, FindsEveryPlantedOffence) {
       ::testing::ElementsAre("1: outside", "3: outside", "4: outside"));
   EXPECT_THAT(rules_broken("src/x.h", "// docs/no-such-page.md\n// docs/physics.md, section 99\n"),
               ::testing::ElementsAre("1: path", "2: section"));
+  EXPECT_THAT(rules_broken("src/x.cpp", "if (method.stages.empty())\n  solve(row->stages().empty());\n"),
+              ::testing::ElementsAre("1: kind", "2: kind"));
   EXPECT_THAT(rules_broken("docs/physics.md",
                            "`src/no/such/file.h` [a](no-such.md)\n[b](physics.md#no-such-heading)\n"),
               ::testing::ElementsAre("1: path", "1: link", "2: anchor"));
@@ -39,6 +41,11 @@ TEST(TextLint, AcceptsWhatIsThere) {
       rules_broken("docs/physics.md", "`src/model/model.h` [a](files.md) [b](physics.md#4-implicit-euler)\n"),
       ::testing::IsEmpty());
   EXPECT_THAT(rules_broken("docs/physics.md", "[c](../README.md#two-commands) [d](https://example.org/)\n"),
+              ::testing::IsEmpty());
+}
+
+TEST(TextLint, TheTableOfIntegratorsMayAskItsStages) {
+  EXPECT_THAT(rules_broken("src/model/integrator.h", "static_assert(!row.stages.empty());\n"),
               ::testing::IsEmpty());
 }
 

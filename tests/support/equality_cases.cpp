@@ -173,7 +173,8 @@ std::string text_of(const EqualityCase& row) {
 ModelSettings settings_of(const EqualityCase& row) {
   ModelSettings settings;
   settings.simulation.integrator = row.integrator;
-  if (row_of(row.integrator).solved()) settings.simulation.timestep = 1.0 / 60.0;
+  if (const MethodTraits& traits = row_of(row.integrator).traits; traits.stable_at_any_step)
+    settings.simulation.timestep = traits.nominal_step;
   settings.contact.model = row.contact;
   TerrainSettings& terrain = settings.terrain.emplace_back();
   terrain.shape = row.shape;
@@ -200,7 +201,7 @@ Model model_of(const EqualityCase& row) {
 
 std::uint64_t steps_of(const EqualityCase& row) {
   const bool rests = row.ground == Ground::holding;
-  return row_of(row.integrator).solved() ? (rests ? 40 : 25) : (rests ? 900 : 500);
+  return row_of(row.integrator).traits.long_steps ? (rests ? 40 : 25) : (rests ? 900 : 500);
 }
 
 void set_down(ModelSettings& settings, double gap) {

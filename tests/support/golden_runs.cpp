@@ -43,9 +43,9 @@ const std::map<Key, Entry>& file_entries() {
 
 /// Fewer where steps are long: at most some tenths of a second in all.
 std::uint64_t steps_for(const ModelSettings& settings, Integrator method) {
-  const bool solved = row_of(method).solved();
-  if (predict_counts(settings).particles > 10000) return solved ? 1 : 3;
-  return solved ? 8 : 120;
+  const bool long_steps = row_of(method).traits.long_steps;
+  if (predict_counts(settings).particles > 10000) return long_steps ? 1 : 3;
+  return long_steps ? 8 : 120;
 }
 
 /// The index of the first body that differs.

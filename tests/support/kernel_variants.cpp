@@ -15,7 +15,7 @@ constexpr Integrator methods[] = {Integrator::explicit_euler, Integrator::midpoi
 ModelSettings cube_on(Integrator integrator, const TerrainShapeRow& shape) {
   ModelSettings settings;
   settings.simulation.integrator = integrator;
-  if (row_of(integrator).solved()) settings.simulation.timestep = 1.0 / 120.0;
+  if (row_of(integrator).traits.stable_at_any_step) settings.simulation.timestep = 1.0 / 120.0;
   settings.terrain.emplace_back().shape = shape.value;
   CubeSettings& cube = settings.cubes.emplace_back();
   cube.particles_per_edge = 5;
@@ -69,7 +69,7 @@ class Variants {
 }  // namespace
 
 std::uint64_t KernelVariant::steps() const {
-  return row_of(settings.simulation.integrator).solved() ? 8 : 60;
+  return row_of(settings.simulation.integrator).traits.long_steps ? 8 : 60;
 }
 
 const std::vector<KernelVariant>& kernel_variants() {

@@ -74,7 +74,7 @@ Finding compared(const Subject& subject, Integrator integrator) {
   const auto model = build_model(cube_on_terrain(4, TerrainShape::plane, integrator, ContactModel::coulomb));
   const BackendRow& row = *find_backend("gpu");
   BitComparison comparison(subject, row);
-  const std::uint64_t steps = aspic::row_of(integrator).solved() ? 40 : 400;
+  const std::uint64_t steps = aspic::row_of(integrator).traits.long_steps ? 40 : 400;
   const std::vector<GpuOptions> variants(1);
   const Status done = comparison.add(
       *model, [&](Solver& solver) { return run(solver, steps); }, variants);

@@ -1,0 +1,53 @@
+#pragma once
+// What a kind of methods brings to the parallel solver: steps. What is common to all kinds is in
+// cpu_solver.cpp: balls, divergence, statistics. A new kind derives from Steps and is named in make_steps().
+#include <cstdint>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "cpu_parallel/springs.h"
+#include "cpu_parallel/workers.h"
+#include "cpu_reference/dynamics.h"
+#include "model/implicit.h"
+#include "model/solver.h"
+
+namespace aspic::parallel {
+
+using Springs = std::variant<Lattice, SpringLists>;
+
+/// What steps of any kind work with. Everything must outlive them.
+struct StepParts {
+  const Model& model;
+  const reference::Dynamics<float>& dynamics;
+  const std::vector<Springs>& springs;  ///< by body
+  /// By particle, with room of `slice` behind the last.
+  const FloatArray &mass, &inverse_mass;
+  std::size_t margin;     ///< particles that the springs' loops may read on both sides of an array
+  Arithmetic arithmetic;  ///< of the springs' forces, where the kind leaves a choice
+  Workers& workers;
+};
+
+/// Steps of all particles, one after another. Dynamics::begin_step() comes before each.
+class Steps {
+ public:
+  virtual ~Steps() = default;
+
+  /// A step from `start`, the terrain's response included. Returns whether all particles ended it finite and
+  /// slower than the speed that counts as diverged. A method that reports solves fills in the report; a
+  /// residual in it that is not finite is a divergence.
+  virtual bool step(Particles& start, Particles& end, SolveReport& report) = 0;
+  /// Particles were moved since step(): the next one begins at these. Returns as step().
+  virtual bool look_at(const Particles& start) = 0;
+  /// The next step begins elsewhere than the last one ended.
+  virtual void forget() {}
+  /// Of the springs' forces.
+  virtual Arithmetic arithmetic() const { return Arithmetic::exact; }
+  /// Bytes that it holds, itself included.
+  virtual std::uint64_t bytes() const = 0;
+};
+
+/// Steps of the model's integrator.
+std::unique_ptr<Steps> make_steps(const StepParts& parts);
+
+}  // namespace aspic::parallel

@@ -1,0 +1,59 @@
+#include "cpu_reference/method.h"
+
+#include <cassert>
+
+#include "cpu_reference/implicit_euler.h"
+
+namespace aspic::reference {
+namespace {
+
+/// The explicit methods, by their textbook formulas.
+template <class T>
+class StagedMethod final : public Method<T> {
+ public:
+  StagedMethod(const Dynamics<T>& dynamics, const Model& model)
+      : dynamics_(dynamics), integrator_(model.simulation.integrator), h_(model.simulation.timestep) {}
+
+  Phase<T> step(const Phase<T>& s, SolveReport&) override {
+    return explicit_step(integrator_, StepDynamics<T>(dynamics_, s.x, s.v), s, h_);
+  }
+  void respond(const Phase<T>& s, Phase<T>& end) const override { dynamics_.respond(s.x, s.v, end.x, end.v); }
+
+  /// For each stage a velocity and an acceleration.
+  static std::uint64_t bytes(const Model& model) {
+    const std::size_t stages = row_of(model.simulation.integrator).staged()->stages.size();
+    return model.particle_count() * sizeof(T) * 3 * 2 * stages;
+  }
+
+ private:
+  const Dynamics<T>& dynamics_;
+  Integrator integrator_;
+  double h_;
+};
+
+template <class T, class M>
+KindRow<T> row() {
+  return {[](const Dynamics<T>& dynamics, const Model& model) {
+            return std::unique_ptr<Method<T>>(std::make_unique<M>(dynamics, model));
+          },
+          M::bytes};
+}
+
+}  // namespace
+
+template <class T>
+KindRow<T> kind_row(MethodKind kind) {
+  switch (kind) {
+    case MethodKind::staged:
+      return row<T, StagedMethod<T>>();
+    case MethodKind::newton:
+      return row<T, ImplicitEuler<T>>();
+  }
+  assert(false);
+  return {};
+}
+
+template KindRow<float> kind_row(MethodKind);
+template KindRow<double> kind_row(MethodKind);
+
+}  // namespace aspic::reference
