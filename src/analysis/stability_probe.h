@@ -30,7 +30,7 @@ ProbeStart probe_start(const Model& model);
 /// solver's model has the start's particles. Errors: the solver's.
 Result<bool> grows(Solver& solver, const ProbeStart& start, std::uint64_t steps);
 
-/// Makes a solver of a model, which outlives it.
+/// Makes a solver of a model, which need not outlive it.
 using MakeSolver = std::function<Result<std::unique_ptr<Solver>>(const Model&)>;
 
 /// The largest step [s] at which nothing grows, by bisection between `low` and `high` to a relative

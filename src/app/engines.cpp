@@ -26,14 +26,6 @@ std::uint64_t tried_steps(const Outcome& outcome, const Advanced& paced) {
 
 }  // namespace
 
-Engines& Engines::operator=(Engines&& other) noexcept {
-  leader_ = std::move(other.leader_);
-  shadow_ = std::move(other.shadow_);
-  model_ = std::move(other.model_);
-  departure = std::move(other.departure);
-  return *this;
-}
-
 Status Engines::load(const State& state) {
   ASPIC_CHECK(leader_.solver->load(state));
   return shadowed() ? shadow_.solver->load(state) : Status();
@@ -101,7 +93,7 @@ void EngineFactory::set_context(gl::Context& context) {
   arithmetic_.reset();
 }
 
-Result<Backend> EngineFactory::make(const Model& model, const BackendRow& row, const GpuSolver* like) {
+Result<Backend> EngineFactory::make(const SharedModel& model, const BackendRow& row, const GpuSolver* like) {
   auto engine = make_backend(choice_for(&row, asked_), model, {context_, like, arithmetic_});
   if (engine && engine->gpu) {
     arithmetic_ = engine->gpu->arithmetic();
@@ -112,19 +104,19 @@ Result<Backend> EngineFactory::make(const Model& model, const BackendRow& row, c
 
 Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup) {
   ASPIC_TRY(auto built, build_model(setup));
-  auto model = std::make_unique<Model>(std::move(built));
-  auto leader = make(*model, *like.leader().row, like.gpu());
+  const SharedModel model = shared(std::move(built));
+  auto leader = make(model, *like.leader().row, like.gpu());
   if (leader && like.shadowed()) {
-    ASPIC_TRY(auto shadow, make(*model, *like.shadow().row, like.gpu()));
-    return Engines(std::move(model), std::move(*leader), std::move(shadow));
+    ASPIC_TRY(auto shadow, make(model, *like.shadow().row, like.gpu()));
+    return Engines(model, std::move(*leader), std::move(shadow));
   }
   std::optional<std::string> departure;
   if (!leader && Engines::in_context(like.leader())) {
     departure = fmt::format("{} The reference takes over.", leader.error().message);
-    leader = make(*model, reference_backend(), nullptr);
+    leader = make(model, reference_backend(), nullptr);
   }
   if (!leader) return leader.error();
-  Engines engines(std::move(model), std::move(*leader), {});
+  Engines engines(model, std::move(*leader), {});
   engines.departure = std::move(departure);
   return engines;
 }

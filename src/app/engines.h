@@ -45,16 +45,14 @@ struct JobLimits {
 class Engines {
  public:
   Engines() = default;
-  Engines(std::unique_ptr<Model> model, Backend leader, Backend shadow)
+  Engines(SharedModel model, Backend leader, Backend shadow)
       : model_(std::move(model)), leader_(std::move(leader)), shadow_(std::move(shadow)) {}
-  Engines(Engines&&) = default;
-  /// Solvers go before the model that they refer to.
-  Engines& operator=(Engines&& other) noexcept;
 
   /// In what these engines are not like those they replace, in a sentence; nothing: in nothing.
   std::optional<std::string> departure;
 
   const Model& model() const { return *model_; }
+  const SharedModel& shared_model() const { return model_; }
   const Backend& leader() const { return leader_; }
   const Backend& shadow() const { return shadow_; }
   bool shadowed() const { return shadow_.solver != nullptr; }
@@ -89,7 +87,7 @@ class Engines {
   Status follow(Outcome& outcome);
 
  private:
-  std::unique_ptr<Model> model_;
+  SharedModel model_;
   Backend leader_, shadow_;
 };
 
@@ -100,7 +98,7 @@ class EngineFactory {
       : context_(&context), asked_(asked) {}
   void set_context(gl::Context& context);
   /// Errors: of make_backend().
-  Result<Backend> make(const Model& model, const BackendRow& row, const GpuSolver* like);
+  Result<Backend> make(const SharedModel& model, const BackendRow& row, const GpuSolver* like);
   /// A model with solvers on the same backends as `like`. Where a leader in the context refuses the model the
   /// reference takes its place without a shadow, as `departure` says. Without solvers in the context it may
   /// run on another thread.

@@ -20,9 +20,9 @@ Result<std::unique_ptr<Simulation>> Simulation::create(gl::Context& context, con
                                                        const BackendChoice& asked) {
   std::unique_ptr<Simulation> s(new Simulation(context, {scene.model, {}, {}}, asked));
   ASPIC_TRY(auto built, build_model(s->setup_));
-  auto model = std::make_unique<Model>(std::move(built));
-  ASPIC_TRY(auto leader, s->factory_.make(*model, backend, nullptr));
-  s->engines_ = Engines(std::move(model), std::move(leader), {});
+  const SharedModel model = shared(std::move(built));
+  ASPIC_TRY(auto leader, s->factory_.make(model, backend, nullptr));
+  s->engines_ = Engines(model, std::move(leader), {});
   ASPIC_CHECK(s->reset());
   return s;
 }
@@ -178,7 +178,7 @@ Status Simulation::set_backend(const BackendRow& row) {
   if (shadow_backend() == &row) {
     engines_.swap();  // both are at the same step
   } else {
-    ASPIC_TRY(auto engine, factory_.make(model(), row, engines_.gpu()));
+    ASPIC_TRY(auto engine, factory_.make(engines_.shared_model(), row, engines_.gpu()));
     engines_.set_leader(std::move(engine));
   }
   batch_ = 1;
@@ -193,7 +193,7 @@ Status Simulation::set_shadow(const BackendRow* row) {
   samples_.clear_differences();
   engines_.set_shadow({});
   if (!row) return {};
-  ASPIC_TRY(auto engine, factory_.make(model(), *row, engines_.gpu()));
+  ASPIC_TRY(auto engine, factory_.make(engines_.shared_model(), *row, engines_.gpu()));
   ASPIC_CHECK(engine.solver->load(snapshot_));
   engines_.set_shadow(std::move(engine));
   return {};
@@ -210,7 +210,7 @@ Status Simulation::fall_back(const Error& error) {
     message_ = fmt::format("{} Shadow mode has ended.", error.message);
     return load(State(snapshot_));  // the leader may be steps ahead of what was taken from it
   }
-  ASPIC_TRY(auto engine, factory_.make(model(), reference_backend(), nullptr));
+  ASPIC_TRY(auto engine, factory_.make(engines_.shared_model(), reference_backend(), nullptr));
   engines_.set_leader(std::move(engine));
   const double age = std::chrono::duration<double>(Clock::now() - snapshot_time_).count();
   const std::uint64_t lost = step_ > snapshot_.step ? step_ - snapshot_.step : 0;

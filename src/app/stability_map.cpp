@@ -111,8 +111,8 @@ void StabilityMap::begin(const Scene& scene) {
     const std::uint64_t count = row_of(integrator).traits.long_steps ? long_probe_steps : probe_steps;
     for (std::size_t row = 0; row < rows; ++row) {
       for (std::size_t column = 0; column < columns; ++column) {
-        const Model probed = with_constants(model, factors[row], 1.0, map.steps[column]);
-        const auto backend = make_backend(choice, probed);
+        const auto backend =
+            make_backend(choice, with_constants(model, factors[row], 1.0, map.steps[column]));
         if (!backend || hurry) return;
         backend->solver->set_stop_flag(&hurry);
         const auto grew = grows(*backend->solver, start, count);

@@ -69,7 +69,7 @@ class Window {
   GLFWwindow* window_ = nullptr;
   bool initialised_ = false, full_screen_ = false;
   std::array<int, 4> place_ = {};  // to come back to from full screen
-  std::unique_ptr<gl::Context> context_;
+  std::shared_ptr<gl::Context> context_;
   EventReceiver* receiver_ = nullptr;
 };
 

@@ -94,8 +94,9 @@ class Contestant {
   Measurement m;
 };
 
-/// A backend with a model, which must outlive it. Errors: as make_backend.
-Result<std::unique_ptr<Contestant>> make_backend_contestant(const BackendChoice& choice, const Model& model,
+/// A backend with a model. Errors: as make_backend.
+Result<std::unique_ptr<Contestant>> make_backend_contestant(const BackendChoice& choice,
+                                                            const SharedModel& shared_model,
                                                             const InterruptGuard& interrupt);
 
 /// A program of bench/peers/peers.txt.

@@ -77,9 +77,11 @@ class BackendContestant final : public Contestant {
 
 }  // namespace
 
-Result<std::unique_ptr<Contestant>> make_backend_contestant(const BackendChoice& choice, const Model& model,
+Result<std::unique_ptr<Contestant>> make_backend_contestant(const BackendChoice& choice,
+                                                            const SharedModel& shared_model,
                                                             const InterruptGuard& interrupt) {
-  ASPIC_TRY(auto backend, make_backend(choice, model));
+  ASPIC_TRY(auto backend, make_backend(choice, shared_model));
+  const Model& model = *shared_model;
   Measurement m;
   m.name = backend.variant();
   m.backend = backend.row->name;

@@ -48,15 +48,16 @@ class Case {
 
   /// Makes everyone ready. Errors: of model, time step, backends and peers.
   Status prepare(ModelSettings settings, const std::vector<PeerProgram>& peers) {
-    ASPIC_TRY(model_, build_model(settings));
-    ASPIC_TRY(model_.simulation.timestep, chosen_timestep(options_, model_));
-    settings.simulation = model_.simulation;
+    ASPIC_TRY(auto built, build_model(settings));
+    ASPIC_TRY(built.simulation.timestep, chosen_timestep(options_, built));
+    settings.simulation = simulation_ = built.simulation;
+    const SharedModel model = shared(std::move(built));
     const int size = settings.cubes.empty() ? 0 : settings.cubes.front().particles_per_edge;
-    const Integrator integrator = model_.simulation.integrator;
+    const Integrator integrator = settings.simulation.integrator;
     std::uint64_t most_steps = aspic::most_steps;
     std::optional<PeerLattice> lattice;
     if (!peers.empty()) {
-      ASPIC_TRY(lattice, peer_lattice(settings, model_));
+      ASPIC_TRY(lattice, peer_lattice(settings, *model));
       most_steps = lattice->most_steps;
     }
     for (const BackendChoice& choice : options_.backends) {
@@ -65,7 +66,7 @@ class Case {
                                   name_of(integrator), name_of(choice.force_path)));
         continue;
       }
-      ASPIC_TRY(auto made, make_backend_contestant(choice, model_, interrupt_));
+      ASPIC_TRY(auto made, make_backend_contestant(choice, model, interrupt_));
       made->m.size = size;
       contestants_.push_back(std::move(made));
     }
@@ -120,7 +121,7 @@ class Case {
     Measurement& m = contestant.m;
     if (m.peer && !m.peer->passed) return {};
     if (options_.duration) {
-      ASPIC_TRY(const auto steps, steps_of({std::nullopt, options_.duration}, model_.simulation));
+      ASPIC_TRY(const auto steps, steps_of({std::nullopt, options_.duration}, simulation_));
       m.steps = std::clamp<std::uint64_t>(steps, 1, most);
       return {};
     }
@@ -130,8 +131,8 @@ class Case {
 
   const BenchOptions& options_;
   const InterruptGuard& interrupt_;
-  Model model_;
-  std::vector<std::unique_ptr<Contestant>> contestants_;  // go before the model
+  SimulationSettings simulation_;
+  std::vector<std::unique_ptr<Contestant>> contestants_;
 };
 
 /// All sizes and integrators, into the report.

@@ -138,9 +138,9 @@ Result<std::vector<Vec3>> expected_positions(ModelSettings settings, const Hello
   cube.particles_per_edge = check_size;
   cube.position.y = 0.0;
   cube.structural.damping = cube.shear.damping = cube.bending.damping = hello.damping;
-  ASPIC_TRY(const auto model, build_model(settings));
-  ASPIC_TRY(auto backend, make_backend({&reference_backend(), Precision::double_}, model));
-  State state = initial_state(model, Precision::double_);
+  ASPIC_TRY(auto model, build_model(settings));
+  ASPIC_TRY(auto backend, make_backend({&reference_backend(), Precision::double_}, std::move(model)));
+  State state = initial_state(backend.solver->model(), Precision::double_);
   for (Vec3& x : state.position) x.y *= check_stretch;
   ASPIC_CHECK(backend.solver->load(state));
   ASPIC_TRY(const auto divergence, backend.solver->advance(check_steps));

@@ -30,7 +30,7 @@ struct Member {
   RunFiles files;
   std::uint64_t last_step = 0;
   std::string name;  ///< "run 2 (integrator implicit Euler)"
-  Model model;
+  SharedModel model;
   Backend backend;
   std::optional<RunLane> lane;
   std::optional<Outcome> outcome;
@@ -70,7 +70,8 @@ Result<Members> make_members(const RunOptions& options, const std::vector<Variat
     auto member = std::make_unique<Member>(std::move(run), std::move(files));
     const SimulationSettings& simulation = member->run.scene.model.simulation;
     ASPIC_TRY(member->last_step, as_long_as(scene.model.simulation, steps, simulation));
-    ASPIC_TRY(member->model, build_model(member->run.scene.model));
+    ASPIC_TRY(auto model, build_model(member->run.scene.model));
+    member->model = shared(std::move(model));
     members.push_back(std::move(member));
   }
   return members;
@@ -78,14 +79,14 @@ Result<Members> make_members(const RunOptions& options, const std::vector<Variat
 
 /// A context for all that needs one: pictures, and backends that may take it. Null where nothing must have
 /// one and there is none.
-Result<std::unique_ptr<gl::Context>> shared_context(const RunOptions& options, const Members& members) {
+Result<std::shared_ptr<gl::Context>> shared_context(const RunOptions& options, const Members& members) {
   const bool needed = options.pictures.any() || std::ranges::any_of(members, [](const auto& member) {
                         const BackendRow* const row = member->run.backend.row;
                         return row && row->needs_context;
                       });
   auto context = gl::Context::create_headless();
   if (context) return context;
-  if (!needed) return std::unique_ptr<gl::Context>();
+  if (!needed) return std::shared_ptr<gl::Context>();
   return Error{context.error().code,
                "pictures and the gpu backend need an OpenGL device. " + context.error().message};
 }
@@ -101,7 +102,7 @@ Status prepare(Members& members, const std::vector<Variation>& differences, gl::
     for (const OverlayLine& line : label)
       m.name += fmt::format("{}{} {}", &line == &label.front() ? " (" : ", ", line.label, line.value);
     m.name += ")";
-    warn_if_unstable(m.model, interrupt, m.name + ": ");
+    warn_if_unstable(*m.model, interrupt, m.name + ": ");
   }
   return {};
 }
@@ -153,7 +154,7 @@ Status print_summary(const RunOptions& options, const Members& members,
   if (options.json) {
     Json runs = Json::array();
     for (const auto& m : members) {
-      Json run = to_json({m->run.scene, m->model, m->backend, *m->outcome});
+      Json run = to_json({m->run.scene, *m->model, m->backend, *m->outcome});
       run["files"] = m->files.written();
       runs.push_back(std::move(run));
     }
@@ -162,7 +163,7 @@ Status print_summary(const RunOptions& options, const Members& members,
   }
   std::string text;
   for (const auto& m : members) {
-    text += fmt::format("{}\n{}", m->name, to_text({m->run.scene, m->model, m->backend, *m->outcome}));
+    text += fmt::format("{}\n{}", m->name, to_text({m->run.scene, *m->model, m->backend, *m->outcome}));
     for (const std::string& file : m->files.written()) text += fmt::format("wrote        {}\n", file);
     text += "\n";
   }
@@ -181,9 +182,9 @@ Status execute_beside(const RunOptions& options) {
     differences.push_back(std::move(difference));
   }
   const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
-  std::unique_ptr<gl::Context> context;  // outlives the members' solvers
+  std::shared_ptr<gl::Context> context;  // outlives the members' solvers
   ASPIC_TRY(auto members, make_members(options, differences, overwrite));
-  ASPIC_CHECK(check_pictures(options.pictures, members.front()->model.simulation.timestep, 0,
+  ASPIC_CHECK(check_pictures(options.pictures, members.front()->model->simulation.timestep, 0,
                              members.front()->last_step));
   ASPIC_TRY(auto film, RunFiles::open({}, options.pictures, {}, overwrite));
   ASPIC_TRY(context, shared_context(options, members));
@@ -192,7 +193,7 @@ Status execute_beside(const RunOptions& options) {
   std::vector<Span> spans;
   std::vector<PicturedRun> pictured;
   for (const auto& m : members) {
-    spans.push_back({m->model.simulation.timestep, m->last_step});
+    spans.push_back({m->model->simulation.timestep, m->last_step});
     pictured.push_back({&m->run.scene, &m->backend,
                         short_name(pictured.size(), differences, m->run.scene, m->backend.variant())});
   }
@@ -209,7 +210,7 @@ Status execute_beside(const RunOptions& options) {
   // Pictures last: an encoder may keep a run waiting.
   for (const auto& m : members) {
     const Outcome& outcome = *m->outcome;
-    (void)m->files.finish({m->model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
+    (void)m->files.finish({*m->model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
   }
   if (recorder && pictured_all) pictured_all = recorder->finish();
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};
@@ -225,7 +226,7 @@ Status execute_beside(const RunOptions& options) {
   ASPIC_CHECK(lost_error(lost, others));
   if (!summary) return summary;
   for (const auto& m : members)
-    if (m->outcome->divergence) return divergence_error(m->model, *m->outcome, interrupt, m->name);
+    if (m->outcome->divergence) return divergence_error(*m->model, *m->outcome, interrupt, m->name);
   if (members.front()->outcome->interrupted)
     return fail(ErrorCode::interrupted, "interrupted at step {} of {}; all files were completed.",
                 members.front()->outcome->state.step, members.front()->last_step);

@@ -102,7 +102,8 @@ Status execute(const CompareOptions& options) {
   const InterruptGuard interrupt;
   ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
   ASPIC_TRY(const auto steps, steps_of(options.length, scene.model.simulation));
-  ASPIC_TRY(const auto model, build_model(scene.model));
+  ASPIC_TRY(auto built, build_model(scene.model));
+  const SharedModel model = shared(std::move(built));
 
   std::array<Backend, 2> backends;
   for (std::size_t i = 0; i < backends.size(); ++i) {

@@ -55,7 +55,7 @@ Status execute(const InfoOptions& options) {
   AutomaticChoice automatic = choose_automatically({});
   const std::string_view chosen = automatic.row->name;
   // The device that --backend gpu would take: the hardware found just now, or whatever else there is.
-  std::unique_ptr<gl::Context> context = std::move(automatic.context);
+  std::shared_ptr<gl::Context> context = std::move(automatic.context);
   std::string no_context;
   if (!context) {
     auto made = gl::Context::create_headless();

@@ -156,11 +156,13 @@ Status execute(const RunOptions& options) {
   const RunFacts facts = {start.scene_toml, start.scene.model.simulation.integrator};
   ASPIC_TRY(auto files, RunFiles::open(options.outputs, options.pictures, facts,
                                        options.force ? Overwrite::allow : Overwrite::refuse));
-  ASPIC_TRY(const auto model, build_model(start.scene.model));
+  ASPIC_TRY(auto built, build_model(start.scene.model));
+  const SharedModel held_model = shared(std::move(built));
+  const Model& model = *held_model;
 
   BackendChoice choice = options.backend;
   if (start.state) choice.precision = start.state->precision;
-  ASPIC_TRY(auto backend, make_backend(choice, model));
+  ASPIC_TRY(auto backend, make_backend(choice, held_model));
   if (start.state) ASPIC_CHECK(backend.solver->load(*start.state));
   warn_if_unstable(model, interrupt);
 

@@ -83,7 +83,7 @@ Status execute(const VerifyOptions& options) {
   ASPIC_TRY(const auto checks, verify::select(verify::battery(), options.only, options.quick));
   if (options.list) return print_names(options, checks);
 
-  std::unique_ptr<gl::Context> context;
+  std::shared_ptr<gl::Context> context;
   std::string device = "none";
   const bool wanted =
       std::any_of(checks.begin(), checks.end(), [](const verify::Check& check) { return check.needs_gpu; });

@@ -22,33 +22,34 @@ constexpr std::size_t springs_per_thread = 8192;
 
 class CpuSolver final : public Solver {
  public:
-  CpuSolver(const Model& model, unsigned threads, Arithmetic arithmetic)
-      : model_(model),
-        reports_solves_(row_of(model.simulation.integrator).traits.reports_solves),
-        dynamics_(model),
-        balls_(model),
+  CpuSolver(SharedModel model, unsigned threads, Arithmetic arithmetic)
+      : held_(std::move(model)),
+        model_(*held_),
+        reports_solves_(row_of(model_.simulation.integrator).traits.reports_solves),
+        dynamics_(model_),
+        balls_(model_),
         workers_(threads) {
     std::size_t margin = slice;
-    for (const Body& body : model.bodies) {
+    for (const Body& body : model_.bodies) {
       if (body.lattice_edge > 0) {
-        springs_.emplace_back(std::in_place_type<Lattice>, model, body);
+        springs_.emplace_back(std::in_place_type<Lattice>, model_, body);
         margin = std::max(margin, std::get<Lattice>(springs_.back()).reach() + slice);
       } else {
-        springs_.emplace_back(std::in_place_type<SpringLists>, model, body);
+        springs_.emplace_back(std::in_place_type<SpringLists>, model_, body);
       }
     }
-    const std::size_t count = model.particle_count();
+    const std::size_t count = model_.particle_count();
     state_ = Particles(count, margin);
     next_ = Particles(count, margin);
     mass_ = FloatArray(count, slice);
     inverse_mass_ = FloatArray(count, slice);
     for (std::uint32_t i = 0; i < count; ++i) {
-      mass_[i] = static_cast<float>(model.mass[i]);
-      inverse_mass_[i] = static_cast<float>(model.inverse_mass[i]);
+      mass_[i] = static_cast<float>(model_.mass[i]);
+      inverse_mass_[i] = static_cast<float>(model_.inverse_mass[i]);
     }
-    steps_ = make_steps({model, dynamics_, springs_, mass_, inverse_mass_, margin, arithmetic, workers_});
+    steps_ = make_steps({model_, dynamics_, springs_, mass_, inverse_mass_, margin, arithmetic, workers_});
     bytes_ = sizeof(*this) + heap_bytes();
-    set(initial_state(model, Precision::single));
+    set(initial_state(model_, Precision::single));
   }
 
   std::string_view backend() const override { return "cpu"; }
@@ -97,6 +98,7 @@ class CpuSolver final : public Solver {
   void step();
   void move_balls();
 
+  const SharedModel held_;
   const Model& model_;
   const bool reports_solves_;
   reference::Dynamics<float> dynamics_;
@@ -195,10 +197,10 @@ void CpuSolver::move_balls() {
 }  // namespace
 }  // namespace parallel
 
-Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOptions& options) {
+Result<std::unique_ptr<Solver>> make_cpu_solver(SharedModel model, const CpuOptions& options) {
   ASPIC_TRY(const unsigned available, parallel::available_threads());
   try {
-    const std::size_t worth = spring_count(model) / parallel::springs_per_thread;
+    const std::size_t worth = spring_count(*model) / parallel::springs_per_thread;
     const unsigned threads = options.threads > 0
                                  ? options.threads
                                  : static_cast<unsigned>(std::clamp<std::size_t>(worth, 1, available));
@@ -206,7 +208,7 @@ Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOpt
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::scene_rejected,
                 "no memory left for the cpu solver of {} particles: use fewer particles-per-edge",
-                model.particle_count());
+                model->particle_count());
   }
 }
 

@@ -2,6 +2,7 @@
 // The parallel CPU solver: threads and vector instructions, in exact arithmetic with the bits of the
 // reference for any number of threads and any instruction set.
 #include <memory>
+#include <utility>
 
 #include "model/solver.h"
 
@@ -16,9 +17,12 @@ struct CpuOptions {
   Arithmetic arithmetic = Arithmetic::exact;
 };
 
-/// A parallel solver at the model's initial state, in single precision. The model must outlive the solver.
-/// Errors: usage where ASPIC_THREADS is no number of threads; scene_rejected where there is no memory left
-/// for its fields.
-Result<std::unique_ptr<Solver>> make_cpu_solver(const Model& model, const CpuOptions& options = {});
+/// A parallel solver at the model's initial state, in single precision. Errors: usage where ASPIC_THREADS is
+/// no number of threads; scene_rejected where there is no memory left for its fields.
+Result<std::unique_ptr<Solver>> make_cpu_solver(SharedModel model, const CpuOptions& options = {});
+/// With a model of its own: a copy, or what is moved here.
+inline Result<std::unique_ptr<Solver>> make_cpu_solver(Model model, const CpuOptions& options = {}) {
+  return make_cpu_solver(shared(std::move(model)), options);
+}
 
 }  // namespace aspic

@@ -39,14 +39,14 @@ template <class T>
 KindRow<T> kind_row(MethodKind kind);
 
 /// A reference solver at the model's initial state, with methods of this kind whatever the model's integrator
-/// is. make_reference_solver() calls it with the kind of that integrator. The model must outlive it.
+/// is. make_reference_solver() calls it with the kind of that integrator.
 template <class T>
-std::unique_ptr<Solver> solver_with(const KindRow<T>& kind, const Model& model);
+std::unique_ptr<Solver> solver_with(const KindRow<T>& kind, SharedModel model);
 
 // Compiled once, in method.cpp and reference_solver.cpp.
 extern template KindRow<float> kind_row(MethodKind);
 extern template KindRow<double> kind_row(MethodKind);
-extern template std::unique_ptr<Solver> solver_with(const KindRow<float>&, const Model&);
-extern template std::unique_ptr<Solver> solver_with(const KindRow<double>&, const Model&);
+extern template std::unique_ptr<Solver> solver_with(const KindRow<float>&, SharedModel);
+extern template std::unique_ptr<Solver> solver_with(const KindRow<double>&, SharedModel);
 
 }  // namespace aspic::reference

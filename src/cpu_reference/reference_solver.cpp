@@ -33,14 +33,15 @@ KindRow<T> kind_of(const Model& model) {
 template <class T>
 class ReferenceSolver final : public Solver {
  public:
-  ReferenceSolver(const KindRow<T>& kind, const Model& model)
-      : model_(model),
+  ReferenceSolver(const KindRow<T>& kind, SharedModel model)
+      : held_(std::move(model)),
+        model_(*held_),
         kind_(kind),
-        reports_solves_(row_of(model.simulation.integrator).traits.reports_solves),
-        dynamics_(model),
-        method_(kind.make(dynamics_, model)),
-        balls_(model) {
-    set(initial_state(model, precision()));
+        reports_solves_(row_of(model_.simulation.integrator).traits.reports_solves),
+        dynamics_(model_),
+        method_(kind.make(dynamics_, model_)),
+        balls_(model_) {
+    set(initial_state(model_, precision()));
   }
 
   std::string_view backend() const override { return "reference"; }
@@ -122,6 +123,7 @@ class ReferenceSolver final : public Solver {
     statistics_ = {};
   }
 
+  const SharedModel held_;
   const Model& model_;
   const KindRow<T> kind_;
   const bool reports_solves_;
@@ -138,23 +140,23 @@ class ReferenceSolver final : public Solver {
 }  // namespace
 
 template <class T>
-std::unique_ptr<Solver> solver_with(const KindRow<T>& kind, const Model& model) {
-  return std::make_unique<ReferenceSolver<T>>(kind, model);
+std::unique_ptr<Solver> solver_with(const KindRow<T>& kind, SharedModel model) {
+  return std::make_unique<ReferenceSolver<T>>(kind, std::move(model));
 }
-template std::unique_ptr<Solver> solver_with(const KindRow<float>&, const Model&);
-template std::unique_ptr<Solver> solver_with(const KindRow<double>&, const Model&);
+template std::unique_ptr<Solver> solver_with(const KindRow<float>&, SharedModel);
+template std::unique_ptr<Solver> solver_with(const KindRow<double>&, SharedModel);
 
 }  // namespace reference
 
-Result<std::unique_ptr<Solver>> make_reference_solver(const Model& model, Precision precision) {
+Result<std::unique_ptr<Solver>> make_reference_solver(SharedModel model, Precision precision) {
   try {
-    if (precision == Precision::single) return solver_with(reference::kind_of<float>(model), model);
-    return solver_with(reference::kind_of<double>(model), model);
+    if (precision == Precision::single) return solver_with(reference::kind_of<float>(*model), model);
+    return solver_with(reference::kind_of<double>(*model), model);
   } catch (const std::bad_alloc&) {
     return fail(
         ErrorCode::scene_rejected,
         "no memory left for the reference solver of {} particles ({} bytes): use fewer particles-per-edge",
-        model.particle_count(), reference_bytes(model, precision));
+        model->particle_count(), reference_bytes(*model, precision));
   }
 }
 

@@ -41,7 +41,7 @@ bool has_extension(std::string_view name) {
 
 Context::Context() : programs_(std::make_unique<ProgramCache>(*this)) {}
 
-Result<std::unique_ptr<Context>> Context::adopt_current(Loader loader, WindowContext window) {
+Result<std::shared_ptr<Context>> Context::adopt_current(Loader loader, WindowContext window) {
   const int version = gladLoadGL(loader);
   if (version == 0)
     return Error{
@@ -54,7 +54,7 @@ Result<std::unique_ptr<Context>> Context::adopt_current(Loader loader, WindowCon
                 "Install a newer driver, or use --backend reference.",
                 GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version),
                 reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
-  std::unique_ptr<Context> context(new Context);
+  std::shared_ptr<Context> context(new Context);
   context->window_ = std::move(window);
   context->thread_ = std::this_thread::get_id();
   context->note_egl();

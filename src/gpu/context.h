@@ -84,20 +84,21 @@ struct WindowContext {
 };
 
 /// A context and what was found out about its device. Buffers, programs and timers made with it must go
-/// before it. GL calls go to the context that is current on the calling thread: whoever makes them enters
-/// the context first (gpu/current.h). A context is current on one thread at a time; an adopted one belongs to
-/// the thread that adopted it. Not movable: the driver keeps its address for messages.
-class Context {
+/// before it; a gpu solver sees to that by holding it. GL calls go to the context that is current on the
+/// calling thread: whoever makes them enters the context first (gpu/current.h). A context is current on one
+/// thread at a time; an adopted one belongs to the thread that adopted it. Not movable: the driver keeps its
+/// address for messages.
+class Context : public std::enable_shared_from_this<Context> {
  public:
   /// A separate context, without a window, current on return.
   /// Error (no_device): says what was tried, what each attempt answered, and what to install.
-  static Result<std::unique_ptr<Context>> create_headless(const ContextOptions& options = {});
+  static Result<std::shared_ptr<Context>> create_headless(const ContextOptions& options = {});
 
   /// Takes on the context that is current on this thread, a window's say, without owning it. Debug and
   /// robustness follow from how it was made. A context of EGL is made current again by itself; others need
   /// `window`, or must be current in every call. Error (no_device): none is current, or it is older than
   /// OpenGL 4.3.
-  static Result<std::unique_ptr<Context>> adopt_current(Loader loader, WindowContext window = {});
+  static Result<std::shared_ptr<Context>> adopt_current(Loader loader, WindowContext window = {});
 
   ~Context();
   Context(const Context&) = delete;
@@ -194,7 +195,7 @@ class Context {
   };
   Context();
   /// The context on a candidate. The error says why it does not do.
-  static Result<std::unique_ptr<Context>> create_on(const EglCandidate& candidate,
+  static Result<std::shared_ptr<Context>> create_on(const EglCandidate& candidate,
                                                     const ContextOptions& options);
   void start(std::string platform, Loader loader);
   /// Whether an injected fault's time has come; it has only one.

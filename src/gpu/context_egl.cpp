@@ -214,6 +214,17 @@ Context::Place current_place() {
           eglGetCurrentSurface(EGL_READ)};
 }
 
+/// Takes the current context off a thread that ends. EGL does not, so it would be in use there for good.
+struct ThreadEnd {
+  bool entered = false;
+  ~ThreadEnd() {
+    // The first thread ends with the program, when drivers may be gone already.
+    if (entered && ::gettid() != ::getpid() && eglGetCurrentContext() != EGL_NO_CONTEXT)
+      eglMakeCurrent(eglGetCurrentDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+};
+thread_local ThreadEnd thread_end;
+
 /// An error in the words that follow a candidate's name.
 template <class... T>
 Error unfit(fmt::format_string<T...> why, T&&... arguments) {
@@ -229,7 +240,7 @@ std::vector<EglDevice> list_devices() {
   return result;
 }
 
-Result<std::unique_ptr<Context>> Context::create_on(const EglCandidate& candidate,
+Result<std::shared_ptr<Context>> Context::create_on(const EglCandidate& candidate,
                                                     const ContextOptions& options) {
   if (candidate.demand != DeviceChoice::hardware && vector_width_crashes())
     return unfit(
@@ -246,11 +257,12 @@ Result<std::unique_ptr<Context>> Context::create_on(const EglCandidate& candidat
   if (!eglBindAPI(EGL_OPENGL_API)) return unfit("has no desktop OpenGL ({})", egl_error());
   const EGLContext egl_context = create_context(display, options);
   if (egl_context == EGL_NO_CONTEXT) return unfit("provides no OpenGL 4.3 core context ({})", egl_error());
-  std::unique_ptr<Context> context(new Context);
+  std::shared_ptr<Context> context(new Context);
   context->egl_ = {display, egl_context};
   context->owned_ = true;
   if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context))
     return unfit("cannot make its context current ({})", egl_error());
+  thread_end.entered = true;
   if (gladLoadGL(eglGetProcAddress) < GLAD_MAKE_VERSION(4, 3)) return unfit("lacks functions of OpenGL 4.3");
   const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const bool software = is_software_renderer(renderer);
@@ -261,7 +273,7 @@ Result<std::unique_ptr<Context>> Context::create_on(const EglCandidate& candidat
   return context;
 }
 
-Result<std::unique_ptr<Context>> Context::create_headless(const ContextOptions& options) {
+Result<std::shared_ptr<Context>> Context::create_headless(const ContextOptions& options) {
   if (const std::string missing = missing_resource(); !missing.empty()) {
     return Error{ErrorCode::no_device, missing + ". Raise it, or use --backend reference without pictures."};
   }
@@ -305,6 +317,7 @@ Status Context::enter(Place& before) {
         return elsewhere_error();
       }
       before = current;
+      thread_end.entered = true;
     } else {
       if (window_.make_current) window_.make_current();
       if (!is_current())

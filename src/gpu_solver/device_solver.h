@@ -45,9 +45,15 @@ class DeviceSolver : public GpuSolver {
 
  protected:
   /// `states`: buffers that a state takes turns in; `pass_names`: of the kinds of passes but the balls'.
-  DeviceSolver(gl::Context& context, const Model& model, const ForcePathRow& path, std::size_t states,
+  DeviceSolver(gl::Context& context, SharedModel model, const ForcePathRow& path, std::size_t states,
                std::vector<std::string> pass_names)
-      : context_(context), model_(model), path_(path), states_(states), pass_names_(std::move(pass_names)) {}
+      : held_context_(context.weak_from_this().lock()),
+        held_model_(std::move(model)),
+        context_(context),
+        model_(*held_model_),
+        path_(path),
+        states_(states),
+        pass_names_(std::move(pass_names)) {}
 
   /// Invocations per group of the kernels.
   virtual std::uint32_t group_size(const GpuOptions& options) const = 0;
@@ -88,6 +94,9 @@ class DeviceSolver : public GpuSolver {
   /// after `steps` since the base step.
   Divergence divergence_from(std::uint32_t word, std::uint64_t steps) const;
 
+  // What goes after all else here; null: whoever has the context keeps it.
+  const std::shared_ptr<gl::Context> held_context_;
+  const SharedModel held_model_;
   gl::Context& context_;
   const Model& model_;
   const ForcePathRow& path_;
@@ -121,7 +130,7 @@ class DeviceSolver : public GpuSolver {
 /// device_method().
 struct DeviceMethod {
   /// Called by make_gpu_solver; same contract. `path`: one that the method takes.
-  Result<std::unique_ptr<GpuSolver>> (*make)(gl::Context& context, const Model& model,
+  Result<std::unique_ptr<GpuSolver>> (*make)(gl::Context& context, SharedModel model,
                                              const GpuOptions& options, const ForcePathRow& path);
   bool (*takes)(const ForcePathRow& path);  ///< all paths that `automatic` stands for, at least
   /// gpu_bytes() without what all kinds share.

@@ -33,11 +33,11 @@ bool keeps_sums(const Staged& method) {
 class ExplicitSolver final : public DeviceSolver {
  public:
   // The step's start, its end, and a place for stages in between; the roles rotate with every step.
-  ExplicitSolver(gl::Context& context, const Model& model, const ForcePathRow& path)
-      : DeviceSolver(context, model, path, 3,
+  ExplicitSolver(gl::Context& context, SharedModel model, const ForcePathRow& path)
+      : DeviceSolver(context, std::move(model), path, 3,
                      {std::string(path.spring_title), std::string(path.lattice_title),
                       std::string(path.particle_title)}),
-        method_(*free_flight_row(model.simulation.integrator).staged()) {}
+        method_(*free_flight_row(model_.simulation.integrator).staged()) {}
 
   void set_late(bool on) override { late_ = on; }
 
@@ -283,9 +283,9 @@ std::uint32_t ExplicitSolver::passes_per_step() const {
          counted(model_.ball_count());
 }
 
-Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, const Model& model,
+Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, SharedModel model,
                                                         const GpuOptions& options, const ForcePathRow& path) {
-  auto solver = std::make_unique<ExplicitSolver>(context, model, path);
+  auto solver = std::make_unique<ExplicitSolver>(context, std::move(model), path);
   ASPIC_CHECK(solver->build(options));
   return std::unique_ptr<GpuSolver>(std::move(solver));
 }

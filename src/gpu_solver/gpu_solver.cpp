@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "base/result.h"
 #include "gpu/current.h"
@@ -37,8 +38,9 @@ const DeviceMethod& device_method(Integrator integrator, std::uint64_t particles
   return staged_method;
 }
 
-Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
+Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, SharedModel shared_model,
                                                    const GpuOptions& options) {
+  const Model& model = *shared_model;
   const gl::Current here(context);
   ASPIC_CHECK(here.status());
   if (context.lost()) return context.lost_error();
@@ -47,7 +49,7 @@ Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const M
   if (context.free_memory()) ASPIC_CHECK(check_free_memory(context, model, options, path));
   const Integrator integrator = model.simulation.integrator;
   const DeviceMethod& method = device_method(integrator, model.particle_count());
-  if (method.takes(path)) return method.make(context, model, options, path);
+  if (method.takes(path)) return method.make(context, std::move(shared_model), options, path);
   return Error{ErrorCode::scene_rejected,
                fmt::format("{} does not take the force path {}: use auto or {}", name_of(integrator),
                            path.name, force_path_words(integrator, " or "))};

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "device/device_state.h"
@@ -41,8 +42,8 @@ struct GpuOptions {
   std::vector<gl::Define> defines;
   /// How to compile for this device's arithmetic; absent: the canary is asked first.
   std::optional<gl::Arithmetic> arithmetic;
-  /// A solver to share with: where both models have the same springs, its buffers of them serve both. It and
-  /// its model need to live no longer than the call; null: none.
+  /// A solver to share with: where both models have the same springs, its buffers of them serve both. It
+  /// needs to live no longer than the call; null: none.
   const GpuSolver* share_springs_of = nullptr;
 };
 
@@ -73,14 +74,19 @@ class GpuSolver : public Solver {
   virtual const std::shared_ptr<const SpringBuffers>& spring_buffers() const = 0;
 };
 
-/// A gpu solver at the model's initial state. Model and context must outlive it. This and every call of the
-/// solver enter the context (gpu/current.h), so that any number of solvers take turns on a thread; a call
-/// from another thread than the one that the context is in use on is an error. Errors: scene_rejected (not
-/// built yet, or larger than the device's buffers or index words, or the device has no memory left: the
-/// sentence gives the figures), no_device (the driver refuses a kernel, or the context is lost), io (a shader
-/// file cannot be read).
-Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, const Model& model,
+/// A gpu solver at the model's initial state. It keeps the context alive that a std::shared_ptr holds; any
+/// other must outlive it. This and every call of the solver enter the context (gpu/current.h), so that any
+/// number of solvers take turns on a thread; a call from another thread than the one that the context is in
+/// use on is an error. Errors: scene_rejected (not built yet, or larger than the device's buffers or index
+/// words, or the device has no memory left: the sentence gives the figures), no_device (the driver refuses a
+/// kernel, or the context is lost), io (a shader file cannot be read).
+Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, SharedModel model,
                                                    const GpuOptions& options = {});
+/// With a model of its own: a copy, or what is moved here.
+inline Result<std::unique_ptr<GpuSolver>> make_gpu_solver(gl::Context& context, Model model,
+                                                          const GpuOptions& options = {}) {
+  return make_gpu_solver(context, shared(std::move(model)), options);
+}
 
 /// Bytes of device memory a solver of the model would hold; of a path that its integrator does not take, as
 /// automatic. `block_bytes`: the device's largest storage block (passes over windows hold a little more), or

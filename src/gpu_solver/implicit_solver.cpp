@@ -41,8 +41,8 @@ std::uint64_t solve_bytes(std::uint64_t particles) {
 
 class ImplicitSolver final : public DeviceSolver {
  public:
-  ImplicitSolver(gl::Context& context, const Model& model, const ForcePathRow& path)
-      : DeviceSolver(context, model, path, 2, titles_of(implicit_kernels)) {}
+  ImplicitSolver(gl::Context& context, SharedModel model, const ForcePathRow& path)
+      : DeviceSolver(context, std::move(model), path, 2, titles_of(implicit_kernels)) {}
 
   std::optional<SolveStatistics> solve_statistics() override { return statistics_; }
   void set_late(bool on) override { late_ = on; }
@@ -332,9 +332,9 @@ Status ImplicitSolver::repeat_balls() {
   return {};
 }
 
-Result<std::unique_ptr<GpuSolver>> make_implicit_solver(gl::Context& context, const Model& model,
+Result<std::unique_ptr<GpuSolver>> make_implicit_solver(gl::Context& context, SharedModel model,
                                                         const GpuOptions& options, const ForcePathRow& path) {
-  auto solver = std::make_unique<ImplicitSolver>(context, model, path);
+  auto solver = std::make_unique<ImplicitSolver>(context, std::move(model), path);
   ASPIC_CHECK(solver->build(options));
   return std::unique_ptr<GpuSolver>(std::move(solver));
 }

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -123,6 +125,12 @@ struct Model {
   std::uint32_t particle_count() const { return static_cast<std::uint32_t>(mass.size()); }
   std::uint32_t ball_count() const { return static_cast<std::uint32_t>(balls.size()); }
 };
+
+/// A model that all who compute with it hold together: it lives as long as any of them.
+using SharedModel = std::shared_ptr<const Model>;
+inline SharedModel shared(Model model) {
+  return std::make_shared<const Model>(std::move(model));
+}
 
 /// Particles and balls of a model together at most: as many as signed 32-bit indices can name.
 inline constexpr std::uint64_t most_indices = 0x7fffffff;

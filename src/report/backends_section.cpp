@@ -20,7 +20,7 @@ struct Speed {
 };
 
 /// State hash after some steps; steps per second of those after them, over about `seconds`.
-Result<Speed> measured(const Model& model, const BackendRow& row, double seconds, const Study& study) {
+Result<Speed> measured(const SharedModel& model, const BackendRow& row, double seconds, const Study& study) {
   BackendChoice choice;
   choice.row = &row;
   ASPIC_TRY(const auto backend, make_backend(choice, model));
@@ -86,10 +86,11 @@ Result<Section> backends_section(const Study& study) {
                                          study.step_for(model, model.simulation.integrator).value_or(1e-4));
     const double springs = static_cast<double>(spring_count(model));
     const double evaluations = std::max(1, force_evaluations_per_step(model.simulation.integrator));
-    ASPIC_TRY(const auto reference, measured(model, reference_backend(), 0.0, study));
+    const SharedModel shared_model = shared(std::move(model));
+    ASPIC_TRY(const auto reference, measured(shared_model, reference_backend(), 0.0, study));
     for (std::size_t b = 0; b < backends().size(); ++b) {
       const BackendRow& row = backends()[b];
-      const auto speed = measured(model, row, study.thorough ? 1.0 : 0.25, study);
+      const auto speed = measured(shared_model, row, study.thorough ? 1.0 : 0.25, study);
       if (!speed && speed.error().code == ErrorCode::interrupted) return speed.error();
       if (!speed) {
         const std::string why = fmt::format("`{}`: {}", row.name, speed.error().message);

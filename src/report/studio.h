@@ -25,7 +25,7 @@ class Studio {
 
  private:
   Studio() = default;
-  std::unique_ptr<gl::Context> context_;  // goes last
+  std::shared_ptr<gl::Context> context_;  // goes last
   std::unique_ptr<Renderer> renderer_;
 };
 

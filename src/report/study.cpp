@@ -74,7 +74,7 @@ Result<TrialResult> Study::run(const Model& model, double duration, std::span<co
   options.interval = interval;
   options.picture_times = picture_times;
   options.stop = stop_;
-  return run_trial(model, options);
+  return run_trial(shared(model), options);
 }
 
 Result<double> Study::affordable(double wanted) const {

@@ -253,9 +253,9 @@ Status serve_sweep(Grid grid) {
     TrialResult result;
     if (auto run = grid_run(grid, index)) {
       if (!given && run->backend.row && run->backend.row->threaded) run->backend.threads = threads;
-      const auto model = build_model(run->scene.model);
+      auto model = build_model(run->scene.model);
       if (model) {
-        ASPIC_TRY(result, run_trial(*model, {run->backend, grid.length}));
+        ASPIC_TRY(result, run_trial(shared(std::move(*model)), {run->backend, grid.length}));
       } else {
         result = trial_error(model.error());
       }

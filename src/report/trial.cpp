@@ -28,10 +28,11 @@ double thread_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Result<TrialResult> run_trial(const Model& model, const TrialOptions& options) {
+Result<TrialResult> run_trial(SharedModel shared_model, const TrialOptions& options) {
+  const Model& model = *shared_model;
   const auto steps = steps_of(options.length, model.simulation);
   if (!steps) return trial_error(steps.error());
-  auto backend = make_backend(options.backend, model);
+  auto backend = make_backend(options.backend, shared_model);
   if (!backend) return trial_error(backend.error());
   Solver& solver = *backend->solver;
   const double h = model.simulation.timestep;

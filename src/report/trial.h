@@ -50,7 +50,7 @@ double thread_time();
 
 /// Runs a model, which must outlive the call. A model that a backend rejects, a lost device and a divergence
 /// are outcomes. Error (interrupted): `stop` said so.
-Result<TrialResult> run_trial(const Model& model, const TrialOptions& options);
+Result<TrialResult> run_trial(SharedModel model, const TrialOptions& options);
 
 /// A result without figures from an error: rejected for usage and scene_rejected, failed otherwise.
 TrialResult trial_error(const Error& error);

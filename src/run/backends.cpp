@@ -16,7 +16,7 @@ namespace {
 
 // ---- gpu ----
 
-Result<Backend> make_gpu(const Model& model, const BackendChoice& choice, const SolverHost& host) {
+Result<Backend> make_gpu(SharedModel model, const BackendChoice& choice, const SolverHost& host) {
   Backend backend;
   gl::Context* context = host.context;
   if (context == nullptr) {
@@ -30,7 +30,7 @@ Result<Backend> make_gpu(const Model& model, const BackendChoice& choice, const 
   options.share_springs_of = host.share_springs_of;
   options.arithmetic = host.arithmetic;
   options.spring_arithmetic = choice.arithmetic;
-  ASPIC_TRY(auto solver, make_gpu_solver(*context, model, options));
+  ASPIC_TRY(auto solver, make_gpu_solver(*context, std::move(model), options));
   backend.gpu = solver.get();
   backend.device = context->info().renderer;
   backend.force_path = name_of(solver->force_path());
@@ -78,15 +78,16 @@ Result<Backend> on_processor(Result<std::unique_ptr<Solver>> made) {
   return backend;
 }
 
-Result<Backend> make_cpu(const Model& model, const BackendChoice& choice, const SolverHost&) {
-  return on_processor(make_cpu_solver(model, {choice.threads, choice.arithmetic}));
+Result<Backend> make_cpu(SharedModel model, const BackendChoice& choice, const SolverHost&) {
+  return on_processor(make_cpu_solver(std::move(model), {choice.threads, choice.arithmetic}));
 }
 
 /// A solver counts what it holds: threads and the kinds of bodies decide it.
 std::optional<std::uint64_t> cpu_bytes(const Model& model) {
   const std::optional<std::uint64_t> memory = available_memory();
   if (memory && run_bytes(count(model)) > *memory) return std::nullopt;
-  const auto solver = make_cpu_solver(model);
+  // It goes before the model, which it need not hold.
+  const auto solver = make_cpu_solver(SharedModel(SharedModel(), &model));
   if (!solver) return std::nullopt;
   return (*solver)->bytes();
 }
@@ -103,9 +104,9 @@ Status check_reference_memory(const Model& model, Precision precision) {
               human_bytes(bytes), human_bytes(*memory));
 }
 
-Result<Backend> make_reference(const Model& model, const BackendChoice& choice, const SolverHost&) {
-  ASPIC_CHECK(check_reference_memory(model, choice.precision));
-  return on_processor(make_reference_solver(model, choice.precision));
+Result<Backend> make_reference(SharedModel model, const BackendChoice& choice, const SolverHost&) {
+  ASPIC_CHECK(check_reference_memory(*model, choice.precision));
+  return on_processor(make_reference_solver(std::move(model), choice.precision));
 }
 
 // ---- the table ----
@@ -219,19 +220,6 @@ std::string backend_words() {
   std::string words = "auto";
   for (const BackendRow& row : table) words += fmt::format(", {}", row.name);
   return words;
-}
-
-Backend& Backend::operator=(Backend&& other) noexcept {
-  if (this == &other) return *this;
-  solver = std::move(other.solver);
-  context = std::move(other.context);
-  gpu = std::exchange(other.gpu, nullptr);
-  row = other.row;
-  device = std::move(other.device);
-  force_path = std::move(other.force_path);
-  arithmetic = other.arithmetic;
-  reason = std::move(other.reason);
-  return *this;
 }
 
 std::string Backend::variant() const {
@@ -348,7 +336,7 @@ Status check_choice(const BackendChoice& choice) {
               with_path);
 }
 
-Result<Backend> make_backend(const BackendChoice& choice, const Model& model, const SolverHost& host) {
+Result<Backend> make_backend(const BackendChoice& choice, SharedModel model, const SolverHost& host) {
   ASPIC_CHECK(check_choice(choice));
   AutomaticChoice automatic;
   if (!choice.row) automatic = choose_automatically(choice, host.context);
@@ -361,7 +349,7 @@ Result<Backend> make_backend(const BackendChoice& choice, const Model& model, co
   }
   SolverHost place = host;
   if (automatic.context) place.context = automatic.context.get();
-  ASPIC_TRY(auto backend, row.make(model, choice, place));
+  ASPIC_TRY(auto backend, row.make(std::move(model), choice, place));
   backend.row = &row;
   backend.arithmetic = choice.arithmetic;
   if (automatic.context) backend.context = std::move(automatic.context);

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -30,7 +31,7 @@ struct BackendChoice {
 
 /// What a solver may use of its surroundings; nothing is required.
 struct SolverHost {
-  /// Where a backend that needs a context works; it must outlive the solver, and may be others' as well.
+  /// Where a backend that needs a context works, which may be others' as well; as make_gpu_solver() has it.
   /// Null: a headless one of its own.
   gl::Context* context = nullptr;
   /// A solver on the same context to share buffers with, see GpuOptions::share_springs_of.
@@ -39,22 +40,17 @@ struct SolverHost {
   std::optional<gl::Arithmetic> arithmetic;
 };
 
-/// A solver with what it needs to live and what a report says of it.
+/// A solver with what a report says of it. The solver holds what it needs, so that all of this may be moved,
+/// assigned and destroyed in any order.
 struct Backend {
   const BackendRow* row = nullptr;
-  std::unique_ptr<gl::Context> context;  ///< its own, which goes after the solver; null if none or given
+  std::shared_ptr<gl::Context> context;  ///< the solver's own; null if none or given
   std::unique_ptr<Solver> solver;
   GpuSolver* gpu = nullptr;  ///< the solver, where its state lies on a device: for drawing without a copy
   std::string device;        ///< GL_RENDERER, or what the solver says of itself
   std::string force_path;    ///< "gather", …; empty if the backend has none
   Arithmetic arithmetic = Arithmetic::exact;
   std::string reason;  ///< why `auto` took it; empty if it was named
-
-  Backend() = default;
-  Backend(Backend&&) = default;
-  /// What was there goes in the right order: the solver before its context.
-  Backend& operator=(Backend&& other) noexcept;
-  ~Backend() = default;
 
   /// "gpu:gather", "cpu:fast", "reference:double", "reference".
   std::string variant() const;
@@ -65,7 +61,7 @@ struct Suitability {
   bool suits = false;
   std::string reason;  ///< why or why not, as the end of a sentence; empty: there is nothing to say
   std::string detail;  ///< what was tried; may be empty
-  std::unique_ptr<gl::Context> context;  ///< the context found on the way, current; null without
+  std::shared_ptr<gl::Context> context;  ///< the context found on the way, current; null without
 };
 
 /// A backend.
@@ -76,9 +72,9 @@ struct BackendRow {
   std::span<const Precision> precisions;
   std::span<const ForcePathRow> (*paths)();  ///< force paths that can be chosen; null: it has no such choice
   bool needs_context = false;                ///< it computes in an OpenGL context, on that context's thread
-  /// Makes the solver at the model's initial state; the model must outlive it. The choice has passed
-  /// check_choice(). Errors: no_device, scene_rejected, io.
-  Result<Backend> (*make)(const Model& model, const BackendChoice& choice, const SolverHost& host) = nullptr;
+  /// Makes the solver at the model's initial state. The choice has passed check_choice(). Errors: no_device,
+  /// scene_rejected, io.
+  Result<Backend> (*make)(SharedModel model, const BackendChoice& choice, const SolverHost& host) = nullptr;
   /// Bytes that its solver holds for a model; nothing if there is no such memory. May make the solver to
   /// know.
   std::optional<std::uint64_t> (*bytes)(const Model& model, const BackendChoice& choice) = nullptr;
@@ -110,7 +106,7 @@ struct AutomaticChoice {
   const BackendRow* row = nullptr;
   std::string reason;                    ///< why, as the end of a sentence
   std::string detail;                    ///< what was tried on the way; may be empty
-  std::unique_ptr<gl::Context> context;  ///< the context found, current; null without
+  std::shared_ptr<gl::Context> context;  ///< the context found, current; null without
 };
 /// The first row of the table that has what the choice asks for and suits; `window` as for
 /// BackendRow::suitability. The choice has passed check_choice().
@@ -138,9 +134,13 @@ Status check_choice(const BackendChoice& choice);
 /// empty if it is not set. Error (io): it names no directory.
 Result<std::filesystem::path> shader_directory();
 
-/// Makes the solver of a choice, `auto` included, at the model's initial state; the model must outlive it.
-/// Errors: as check_choice and BackendRow::make.
-Result<Backend> make_backend(const BackendChoice& choice, const Model& model, const SolverHost& host = {});
+/// Makes the solver of a choice, `auto` included, at the model's initial state. Errors: as check_choice and
+/// BackendRow::make.
+Result<Backend> make_backend(const BackendChoice& choice, SharedModel model, const SolverHost& host = {});
+/// With a model of its own: a copy, or what is moved here.
+inline Result<Backend> make_backend(const BackendChoice& choice, Model model, const SolverHost& host = {}) {
+  return make_backend(choice, shared(std::move(model)), host);
+}
 
 /// Bytes that a backend in one of its variants holds for a model.
 struct BackendBytes {

@@ -48,8 +48,8 @@ void add(std::vector<gl::PassTime>& sums, const std::vector<gl::PassTime>& passe
 /// Draws as a recording does, and waits for each picture.
 class PictureCostMeter {
  public:
-  static Result<PictureCostMeter> create(const Scene& scene, const BackendChoice& choice, const Model& model,
-                                         const PictureSize& size) {
+  static Result<PictureCostMeter> create(const Scene& scene, const BackendChoice& choice,
+                                         const SharedModel& model, const PictureSize& size) {
     PictureCostMeter m(scene, size);
     ASPIC_TRY(m.backend_, make_backend(choice, model));
     if (!m.backend_.context) {
@@ -59,7 +59,7 @@ class PictureCostMeter {
     ASPIC_TRY(const auto directory, shader_directory());
     look.shaders = gl::ShaderLibrary(directory);
     ASPIC_TRY(m.renderer_, Renderer::create(*m.backend_.context, look));
-    ASPIC_CHECK(m.renderer_->set_model(model));
+    ASPIC_CHECK(m.renderer_->set_model(*model));
     ASPIC_TRY(auto ring, gl::PixelRing::create(*m.backend_.context, size.width, size.height));
     m.ring_.emplace(std::move(ring));
     return m;
@@ -131,8 +131,10 @@ class PictureCostMeter {
 Result<PictureCost> measure_pictures(const Scene& scene, const BackendChoice& choice,
                                      const PictureCostOptions& options,
                                      const std::function<bool()>& interrupted) {
-  ASPIC_TRY(const auto model, build_model(scene.model));
-  ASPIC_TRY(auto meter, PictureCostMeter::create(scene, choice, model, options.size));
+  ASPIC_TRY(auto built, build_model(scene.model));
+  const SharedModel shared_model = shared(std::move(built));
+  const Model& model = *shared_model;
+  ASPIC_TRY(auto meter, PictureCostMeter::create(scene, choice, shared_model, options.size));
   Solver& solver = meter.solver();
   ASPIC_TRY(const auto last, steps_of({std::nullopt, options.duration}, model.simulation));
   const FrameSchedule schedule(model.simulation.timestep, 0, last, 60.0, 1.0);

@@ -64,7 +64,7 @@ class Recorder {
   Following following_;
   std::uint64_t next_frame_ = 0, last_shown_ = 0;
   double simulate_seconds_ = 0.0;
-  std::unique_ptr<gl::Context> own_context_;
+  std::shared_ptr<gl::Context> own_context_;
   std::unique_ptr<FilmPainter> film_;
 };
 

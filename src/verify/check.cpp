@@ -20,7 +20,6 @@ Subject product(gl::Context* context, std::string program) {
   subject.reference = [](const Model& model, Precision precision) {
     return make_reference_solver(model, precision);
   };
-  // Its context outlives the solver; one of the backend's own would not.
   subject.other = [context](const Model& model,
                             const BackendChoice& choice) -> Result<std::unique_ptr<Solver>> {
     SolverHost host;

@@ -38,8 +38,8 @@ inline const BackendRow& endless_backend() {
     BackendRow made;
     made.name = made.title = "endless";
     made.precisions = single;
-    made.make = [](const Model& model, const BackendChoice&, const SolverHost&) -> Result<Backend> {
-      ASPIC_TRY(auto reference, make_reference_solver(model, Precision::single));
+    made.make = [](SharedModel model, const BackendChoice&, const SolverHost&) -> Result<Backend> {
+      ASPIC_TRY(auto reference, make_reference_solver(std::move(model), Precision::single));
       Backend backend;
       backend.solver = std::make_unique<Endless>(std::move(reference));
       return backend;

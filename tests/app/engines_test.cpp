@@ -30,18 +30,18 @@ const BackendRow in_context = [] {
 
 Engines engines_of(const BackendRow& leader, const BackendRow* shadow) {
   const std::vector<std::string> small = {"cube[0].particles-per-edge=3"};
-  auto model = build_model(load_scene("cube-plane", small)->model);
-  EXPECT_TRUE(model.ok());
-  auto own = std::make_unique<Model>(std::move(*model));
+  auto built = build_model(load_scene("cube-plane", small)->model);
+  EXPECT_TRUE(built.ok());
+  const SharedModel model = shared(std::move(*built));
   const auto engine = [&](const BackendRow& row) {
     Backend made;
     made.row = &row;
-    made.solver = std::move(*make_reference_solver(*own, Precision::single));
+    made.solver = std::move(*make_reference_solver(model, Precision::single));
     return made;
   };
   Backend first = engine(leader), second;
   if (shadow) second = engine(*shadow);
-  return {std::move(own), std::move(first), std::move(second)};
+  return {model, std::move(first), std::move(second)};
 }
 
 std::string hash_after(std::uint64_t steps) {

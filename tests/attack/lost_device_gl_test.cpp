@@ -62,7 +62,7 @@ class LostDeviceGl : public aspic::testing::GlTest, public ::testing::WithParamI
     EXPECT_THAT(error.message, HasSubstr("was reset or lost"));
   }
 
-  std::unique_ptr<gl::Context> device_;
+  std::shared_ptr<gl::Context> device_;
   Model model_;
 };
 

@@ -67,7 +67,7 @@ ModelSettings without_forces() {
 TEST(AnotherKind, RunsWhereverTheSolverTakesMethods) {
   const Model model = test::build(without_forces());
   const auto same = [&]<class T>(T, Precision precision) {
-    const auto stub = solver_with(kind<T, Inertia>(), model);
+    const auto stub = solver_with(kind<T, Inertia>(), shared(model));
     const auto product = test::solver_for(model, precision);
     EXPECT_EQ(test::advanced(*stub, 700), test::advanced(*product, 700));
     const State middle = *product->state();
@@ -90,16 +90,16 @@ TEST(AnotherKind, IsCountedInTheMemoryOfTheSolver) {
   const std::uint64_t stage = std::uint64_t{6} * sizeof(float) * model.particle_count();
   const std::uint64_t one = reference_bytes(model, Precision::single);
   EXPECT_EQ(reference_bytes(midpoint, Precision::single), one + stage);
-  EXPECT_EQ(solver_with(kind<float, Inertia>(), model)->bytes(), one - stage + 7);
+  EXPECT_EQ(solver_with(kind<float, Inertia>(), shared(model))->bytes(), one - stage + 7);
 }
 
 TEST(AnotherKind, ReportsItsSolvesWhereTheRowSaysSo) {
   Model model = test::build(without_forces());
-  auto solver = solver_with(kind<double, Inertia>(), model);
+  auto solver = solver_with(kind<double, Inertia>(), shared(model));
   test::advanced(*solver, 5);
   EXPECT_FALSE(solver->solve_statistics().has_value());
   model.simulation.integrator = Integrator::implicit_euler;
-  solver = solver_with(kind<double, Inertia>(), model);
+  solver = solver_with(kind<double, Inertia>(), shared(model));
   test::advanced(*solver, 5);
   EXPECT_EQ(solver->solve_statistics()->steps, 5u);
   EXPECT_EQ(solver->solve_statistics()->newton_iterations, 15u);
@@ -107,7 +107,7 @@ TEST(AnotherKind, ReportsItsSolvesWhereTheRowSaysSo) {
 
 TEST(AnotherKind, DivergesWhereItsResidualIsNotFinite) {
   const Model model = test::build(without_forces());
-  const auto solver = solver_with(kind<double, Lost>(), model);
+  const auto solver = solver_with(kind<double, Lost>(), shared(model));
   const auto divergence = *solver->advance(3);
   ASSERT_TRUE(divergence.has_value());
   EXPECT_TRUE(divergence->residual);

@@ -25,7 +25,7 @@ class FaultGl : public testing::GlTest {
     ASSERT_TRUE(context().make_current().ok());
     GlTest::TearDown();
   }
-  std::unique_ptr<Context> own_;
+  std::shared_ptr<Context> own_;
 };
 
 TEST_F(FaultGl, RobustContextsComeFromEglWhereTheyAreAskedFor) {

@@ -61,7 +61,7 @@ class FaultySolverGl : public aspic::testing::GlTest {
     return count;
   }
 
-  std::unique_ptr<gl::Context> own_;
+  std::shared_ptr<gl::Context> own_;
 };
 
 TEST_F(FaultySolverGl, ALostDeviceEndsEveryCallWithASentence) {

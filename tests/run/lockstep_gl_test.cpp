@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "gpu/pixel_ring.h"
@@ -35,13 +37,14 @@ ModelSettings cube(int edge, double height = 2.05) {
 
 class SeveralGpuSolvers : public aspic::testing::GlTest {
  protected:
-  static std::unique_ptr<gl::Context> another_context() {
+  static std::shared_ptr<gl::Context> another_context() {
     auto made = gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
     EXPECT_TRUE(made.ok()) << made.error().message;
     return std::move(*made);
   }
   /// A solver in `context`, or in one of its own if that is null.
-  static Backend make(const std::string& variant, const Model& model, gl::Context* context) {
+  template <class AnyModel>
+  static Backend make(const std::string& variant, const AnyModel& model, gl::Context* context) {
     const auto choice = parse_backend(variant);
     EXPECT_TRUE(choice.ok());
     auto own = context || !choice->row->needs_context ? nullptr : another_context();
@@ -62,7 +65,8 @@ class SeveralGpuSolvers : public aspic::testing::GlTest {
     EXPECT_TRUE(advanced.ok()) << advanced.error().message;
     return hash_of(backend);
   }
-  static std::string hash_alone(const std::string& variant, const Model& model, gl::Context* context) {
+  template <class AnyModel>
+  static std::string hash_alone(const std::string& variant, const AnyModel& model, gl::Context* context) {
     return hash_after(make(variant, model, context), steps);
   }
 };
@@ -130,6 +134,45 @@ TEST_F(SeveralGpuSolvers, ABackendIsAssignedOverALiveOne) {
   EXPECT_EQ(backend.context, nullptr);
 }
 
+// Of a backend the solver alone is left.
+TEST_F(SeveralGpuSolvers, ASolverHoldsItsModelAndItsContext) {
+  const std::string expected = hash_alone("reference", test::build(cube(4)), nullptr);
+  for (const char* variant : {"gpu", "cpu", "reference"}) {
+    SCOPED_TRACE(variant);
+    std::unique_ptr<Solver> solver;
+    std::weak_ptr<const Model> model;
+    std::weak_ptr<gl::Context> own;
+    {
+      const SharedModel held = shared(test::build(cube(4)));
+      Backend backend = make(variant, held, nullptr);
+      model = held;
+      own = backend.context;
+      EXPECT_EQ(&backend.solver->model(), held.get()) << "it was copied";
+      solver = std::move(backend.solver);
+    }
+    EXPECT_EQ(own.expired(), !find_backend(variant)->needs_context);
+    ASSERT_TRUE(solver->advance(steps).ok());
+    EXPECT_EQ(state_hash_text(*solver->state()), expected);
+    solver.reset();
+    EXPECT_TRUE(model.expired());
+    EXPECT_TRUE(own.expired());
+  }
+}
+
+TEST_F(SeveralGpuSolvers, BackendsAreSwappedAndMoved) {
+  const SharedModel model = shared(test::build(cube(4)));
+  const std::string expected = hash_alone("reference", model, nullptr);
+  Backend first = make("gpu", model, nullptr), second = make("gpu:gather", model, nullptr);
+  ASSERT_TRUE(first.solver->advance(steps / 2).ok());
+  std::swap(first, second);
+  EXPECT_EQ(first.variant(), "gpu:gather");
+  Backend third = std::move(second);
+  second = std::move(first);
+  EXPECT_EQ(hash_after(third, steps / 2), expected);
+  third = Backend();
+  EXPECT_EQ(hash_after(second, steps), expected);
+}
+
 // What was current stays so: programs with contexts of their own need not know of ours.
 TEST_F(SeveralGpuSolvers, LeaveTheThreadsContextAsItWas) {
   const Model model = test::build(cube(3));
@@ -179,6 +222,26 @@ TEST_F(SeveralGpuSolvers, ASolverMayGoOnAnotherThread) {
   EXPECT_LT(context().bytes_held(), held);
 }
 
+TEST_F(SeveralGpuSolvers, ABackendMayGoOnAnotherThreadWithItsContext) {
+  const SharedModel model = shared(test::build(cube(3)));
+  const std::string expected = hash_alone("reference", model, nullptr);
+  Backend backend = make("gpu", model, nullptr);
+  ASSERT_TRUE(backend.context->make_current().ok());
+  ASSERT_TRUE(backend.solver->advance(2).ok());
+  std::thread([&] { backend = Backend(); }).join();
+  backend = make("gpu", model, nullptr);
+  EXPECT_EQ(hash_after(backend, steps), expected);
+}
+
+// A context that is current on no thread goes to the one that calls, and one whose thread has ended is free.
+TEST_F(SeveralGpuSolvers, ASolverMadeOnAThreadThatEndedIsUsedOnAnother) {
+  const SharedModel model = shared(test::build(cube(3)));
+  const std::string expected = hash_alone("reference", model, nullptr);
+  Backend backend;
+  std::thread([&] { backend = make("gpu", model, nullptr); }).join();
+  EXPECT_EQ(hash_after(backend, steps), expected);
+}
+
 /// A renderer with the read-back of its pictures, in a context.
 struct Painter {
   Painter(gl::Context& context, const Model& model) {
@@ -212,7 +275,7 @@ TEST_F(SeveralGpuSolvers, PicturesInTwoContextsTakeTurnsAndGoInAnyOrder) {
                                           Painter(context(), models[1]).picture(states[1])};
   EXPECT_NE(alone[0], alone[1]);
   for (const std::size_t goes_first : {0u, 1u}) {
-    const std::unique_ptr<gl::Context> contexts[] = {another_context(), another_context()};
+    const std::shared_ptr<gl::Context> contexts[] = {another_context(), another_context()};
     std::optional<Painter> painters[2];
     for (std::size_t i = 0; i < 2; ++i) painters[i].emplace(*contexts[i], models[i]);
     for (int n = 0; n < 2; ++n)

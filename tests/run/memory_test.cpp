@@ -151,10 +151,10 @@ TEST_F(Memory, OfACpuSolverIsWhatSceneCheckSays) {
   for (ModelSettings settings : scenes()) {
     for (const Integrator integrator : all_integrators) {
       settings.simulation.integrator = integrator;
-      const auto model = build_model(settings);
+      const SharedModel model = shared(std::move(*build_model(settings)));
       const auto said = static_cast<std::int64_t>(row.bytes(*model, {&row}).value());
       SetUp();
-      const auto made = make_backend({&row}, *model);
+      const auto made = make_backend({&row}, model);
       ASSERT_TRUE(made.ok());
       EXPECT_LE(said, now()) << name_of(integrator);
       EXPECT_LE(now(), said + slack()) << name_of(integrator);
@@ -171,11 +171,11 @@ TEST_F(Memory, OfTheReferencesStepsIsWhatSceneCheckSays) {
     for (const Integrator integrator : all_integrators) {
       for (const Precision precision : row.precisions) {
         settings.simulation.integrator = integrator;
-        const auto model = build_model(settings);
+        const SharedModel model = shared(std::move(*build_model(settings)));
         const BackendChoice choice = {.row = &row, .precision = precision};
         const auto said = static_cast<std::int64_t>(row.bytes(*model, choice).value());
         SetUp();
-        const auto made = make_backend(choice, *model);
+        const auto made = make_backend(choice, model);
         ASSERT_TRUE(made.ok());
         most_held = held.load();
         ASSERT_FALSE((*made->solver->advance(2)).has_value());

@@ -13,8 +13,8 @@
 namespace aspic::testing {
 namespace {
 
-std::unique_ptr<gl::Context>& process_context() {
-  static std::unique_ptr<gl::Context> context;
+std::shared_ptr<gl::Context>& process_context() {
+  static std::shared_ptr<gl::Context> context;
   return context;
 }
 
