@@ -97,7 +97,7 @@ class Drawer {
   std::optional<SlotLayout> layout_;
   std::uint64_t slots_ = 0;
   SharedMemory memory_;
-  std::unique_ptr<gl::Context> context_;
+  std::shared_ptr<gl::Context> context_;
   std::unique_ptr<PicturePainter> painter_;
   std::vector<std::byte> scratch_;
 };

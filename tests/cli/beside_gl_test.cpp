@@ -82,6 +82,21 @@ TEST(Beside, EachRunHasTheBitsOfTheRunAlone) {
   EXPECT_NE(runs[0]["state_hash"], runs[1]["state_hash"]);
 }
 
+TEST(Beside, TheAuthorIsNamedInTheFirstPartAlone) {
+  const test::TemporaryDirectory dir;
+  const auto picture = [&](const std::string& name, const Words& more) {
+    Words words = {"--steps", "0", "--size", "642x240", "--beside", "h=0.002", "--frames", dir.file(name)};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto finished = run(words);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return read_png(dir.read(name + "/frame-000000.png"));
+  };
+  const Pixels nobody = picture("nobody", {}), named = picture("named", {"--set", "author=0356611"});
+  ASSERT_EQ(named.width, 642);
+  EXPECT_FALSE(part(named, 0, 0, 320, 240) == part(nobody, 0, 0, 320, 240));
+  EXPECT_TRUE(part(named, 322, 0, 320, 240) == part(nobody, 322, 0, 320, 240));
+}
+
 TEST(Beside, PartsOfThePictureAreThoseOfTheRunsAlone) {
   const test::TemporaryDirectory dir;
   const Words film = {"--duration", "0.2", "--fps", "10", "--no-text", "--frames"};

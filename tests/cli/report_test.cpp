@@ -229,14 +229,15 @@ TEST_F(Report, IsNotOverwrittenUnasked) {
 TEST(ReportWithoutADevice, SaysSoAndHasNoPictures) {
   const test::TemporaryDirectory dir;
   const test::ProcessOptions no_device = {{{"ASPIC_EGL_DEVICE", "97"}}, "", {}};
-  const auto made = aspic({"report", "cube-plane", "--set", "cube[0].particles-per-edge=3", "--only",
-                           "backends", "--out", dir.file("r"), "--json"},
+  const auto made = aspic({"report", "cube-plane", "--set", "cube[0].particles-per-edge=3", "--set",
+                           "author=0356611", "--only", "backends", "--out", dir.file("r"), "--json"},
                           no_device);
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("no pictures"));
   EXPECT_NE(test::json_member(made.out, "no_pictures"), "null");
   const std::string html = content(dir.file("r/report.html"));
   EXPECT_THAT(html, HasSubstr("There are no rendered pictures"));
+  EXPECT_THAT(html, HasSubstr("</h1><p class=\"by\">0356611</p>"));
   EXPECT_THAT(html, Not(HasSubstr("<img")));
 }
 
