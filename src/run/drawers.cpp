@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <charconv>
 #include <chrono>
@@ -21,9 +20,16 @@
 namespace aspic {
 namespace {
 
-/// Pictures under way at once in each process: one that is drawn, one that waits, one that is encoded.
-constexpr std::uint64_t slots = 3;
+/// Pictures under way at once in each process: one that is drawn, one that waits, one that is encoded, and as
+/// many more as small ones have room for, so that nobody waits for hiccups of the others.
+std::uint64_t slots_of(const SlotLayout& layout) {
+  constexpr std::uint64_t room = std::uint64_t{32} << 20;
+  return std::clamp<std::uint64_t>(room / layout.bytes(), 3, 16);
+}
+
 constexpr unsigned most_drawers = 64;
+/// A picture's threads and the encoder keep two processors busy by themselves (docs/performance.md).
+constexpr unsigned least_processors = 3;
 
 /// Pixels for which it pays to start a process: half a second of a processor.
 constexpr std::uint64_t least_pixels = std::uint64_t{20} * 1280 * 720;
@@ -33,7 +39,8 @@ constexpr std::uint64_t least_pixels = std::uint64_t{20} * 1280 * 720;
 constexpr std::uint64_t process_bytes = std::uint64_t{160} << 20, pixel_bytes = 128, particle_bytes = 512;
 
 std::uint64_t memory_of(const DrawingWork& work) {
-  std::uint64_t bytes = process_bytes + slots * SlotLayout(work.size, work.runs).bytes() +
+  const SlotLayout layout(work.size, work.runs);
+  std::uint64_t bytes = process_bytes + slots_of(layout) * layout.bytes() +
                         pixel_bytes * static_cast<std::uint64_t>(work.size.width) *
                             static_cast<std::uint64_t>(work.size.height);
   for (const PaintedRun& run : work.runs) bytes += particle_bytes * run.model->particle_count();
@@ -58,7 +65,9 @@ Result<unsigned> drawers_for(const DrawingWork& work) {
   if (work.command.empty()) return 0;
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(work.size.width) * static_cast<std::uint64_t>(work.size.height);
-  std::uint64_t count = std::min(most_drawers, parallel::own_processors());
+  const unsigned processors = parallel::own_processors();
+  if (processors < least_processors) return 0;
+  std::uint64_t count = std::min(most_drawers, processors);
   count = std::min(count, work.pictures / std::max<std::uint64_t>(least_pixels / pixels, 1));
   // Half of what is free: the run itself may want more later.
   if (const auto free = available_memory()) count = std::min(count, *free / 2 / memory_of(work));
@@ -66,13 +75,14 @@ Result<unsigned> drawers_for(const DrawingWork& work) {
 }
 
 struct Drawers::Drawer {
-  Drawer(ChildProcess started, SharedMemory shared) : child(std::move(started)), memory(std::move(shared)) {}
+  Drawer(ChildProcess started, SharedMemory shared, std::uint64_t slots)
+      : child(std::move(started)), memory(std::move(shared)), taken(slots) {}
 
   std::optional<ChildProcess> child;  // none: it is lost
   SharedMemory memory;
-  std::array<std::atomic<bool>, slots> taken = {};
-  unsigned asked = 0;  // pictures that have not come yet
-  bool ready = false;  // it has answered the greeting
+  std::vector<std::atomic<bool>> taken;  // slots
+  unsigned asked = 0;                    // pictures that have not come yet
+  bool ready = false;                    // it has answered the greeting
 };
 
 Drawers::Drawers(SlotLayout layout) : layout_(std::move(layout)) {}
@@ -80,24 +90,25 @@ Drawers::~Drawers() = default;
 
 Result<std::unique_ptr<Drawers::Drawer>> Drawers::start_one(const DrawingWork& work,
                                                             const std::string& greeting,
-                                                            std::uint64_t bytes) {
-  ASPIC_TRY(auto memory, SharedMemory::create(bytes));
+                                                            const SlotLayout& layout) {
+  const std::uint64_t slots = slots_of(layout);
+  ASPIC_TRY(auto memory, SharedMemory::create(slots * layout.bytes()));
   // Its own thread alone rasterises: there are as many processes as processors.
   ChildExtras extras = {{{"LP_NUM_THREADS", "0"}}, memory.descriptor()};
   if (!std::getenv("ASPIC_EGL_DEVICE")) extras.environment.emplace_back("ASPIC_EGL_DEVICE", "software");
   ASPIC_TRY(auto child, ChildProcess::start(work.command, ChildProcess::Output::answers, extras));
   (void)child.write(
       std::as_bytes(std::span(greeting)));  // that it has died comes out when it does not answer
-  return std::make_unique<Drawer>(std::move(child), std::move(memory));
+  return std::make_unique<Drawer>(std::move(child), std::move(memory), slots);
 }
 
 std::unique_ptr<Drawers> Drawers::start(const DrawingWork& work, const std::string& device, unsigned count) {
   std::unique_ptr<Drawers> d(new Drawers(SlotLayout(work.size, work.runs)));
-  DrawerGreeting greeting = {work.size, slots, device, {}};
+  DrawerGreeting greeting = {work.size, slots_of(d->layout_), device, {}};
   for (const PaintedRun& run : work.runs) greeting.scenes.push_back(to_toml(*run.scene));
   const std::string message = message_of(greeting);
   for (unsigned i = 0; i < count; ++i) {
-    auto drawer = start_one(work, message, slots * d->layout_.bytes());
+    auto drawer = start_one(work, message, d->layout_);
     if (!drawer) {
       print_warning(fmt::format("{} of {} processes draw pictures: {}", i, count, drawer.error().message));
       break;

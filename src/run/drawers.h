@@ -24,8 +24,8 @@ struct DrawingWork {
 };
 
 /// How many processes should draw it on a software rasteriser: what the environment variable ASPIC_DRAWERS
-/// says, else as many as there are processors, work and memory for; 0: none. Error (usage): ASPIC_DRAWERS is
-/// no number from 0 to 64.
+/// says, else as many as there are processors, if more than two, work and memory for; 0: none. Error (usage):
+/// ASPIC_DRAWERS is no number from 0 to 64.
 Result<unsigned> drawers_for(const DrawingWork& work);
 
 /// Some processes, each with slots of shared memory for the pictures that it is asked for. For one thread; a
@@ -77,7 +77,7 @@ class Drawers {
   struct Drawer;
   explicit Drawers(SlotLayout layout);
   static Result<std::unique_ptr<Drawer>> start_one(const DrawingWork& work, const std::string& greeting,
-                                                   std::uint64_t bytes);
+                                                   const SlotLayout& layout);
   void lose(Drawer& drawer);
 
   SlotLayout layout_;
