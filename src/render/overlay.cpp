@@ -55,6 +55,29 @@ Result<OverlayPainter> OverlayPainter::create(gl::Context& context, const gl::Sh
   return painter;
 }
 
+std::vector<OverlayLine> fitted_lines(const std::vector<OverlayLine>& lines, float room,
+                                      const std::function<float(std::string_view)>& width) {
+  std::vector<OverlayLine> result;
+  for (const OverlayLine& line : lines) {
+    OverlayLine part = line;
+    part.label.clear();
+    std::string_view rest = line.label;
+    while (!rest.empty()) {
+      const std::string_view word = rest.substr(0, rest.find(' '));
+      rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+      const std::string longer = (part.label.empty() ? "" : part.label + " ") + std::string(word);
+      if (part.label.empty() || width(longer) <= room) {
+        part.label = longer;
+        continue;
+      }
+      result.push_back({part.label, "", line.alarm, line.tint});
+      part.label = word;
+    }
+    result.push_back(part);
+  }
+  return result;
+}
+
 Status OverlayPainter::prepare_font(int pixel_height) {
   if (font_ && font_->pixel_height() == pixel_height) return {};
   auto font = std::make_unique<Font>(pixel_height);
@@ -103,37 +126,13 @@ void OverlayPainter::text(float x, float y, std::string_view utf8, const std::ar
   }
 }
 
-/// Labels that do not fit take several lines, of which the last has the value.
-std::vector<OverlayLine> OverlayPainter::fitted_lines(const std::vector<OverlayLine>& lines,
-                                                      float room) const {
-  std::vector<OverlayLine> result;
-  for (const OverlayLine& line : lines) {
-    OverlayLine part = line;
-    part.label.clear();
-    std::string_view rest = line.label;
-    while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find(' '), rest.size());
-      const std::string longer =
-          (part.label.empty() ? "" : part.label + " ") + std::string(rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-      if (!part.label.empty() && font_->width_of(longer) > room) {
-        result.push_back({part.label, "", line.alarm, line.tint});
-        part.label = longer.substr(part.label.size() + 1);
-      } else {
-        part.label = longer;
-      }
-    }
-    result.push_back(part);
-  }
-  return result;
-}
-
 void OverlayPainter::facts(const std::vector<OverlayLine>& all, float picture_width) {
   const auto em = static_cast<float>(font_->pixel_height());
   float widest_value = 0.0f;
   for (const OverlayLine& line : all) widest_value = std::max(widest_value, font_->width_of(line.value));
   const std::vector<OverlayLine> lines =
-      fitted_lines(all, picture_width - widest_value - (2.0f * (margin + padding) + column_gap) * em);
+      fitted_lines(all, picture_width - widest_value - (2.0f * (margin + padding) + column_gap) * em,
+                   [this](std::string_view label) { return font_->width_of(label); });
   const FactsPanel box = facts_panel(*font_, lines);
   // Colours are darker than the text that the usual backdrop is for.
   const bool tinted =

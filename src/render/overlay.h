@@ -1,9 +1,11 @@
 #pragma once
 // What is written over a picture: a panel of facts, and the scale of the colours.
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -34,6 +36,11 @@ FactsPanel facts_panel(const Font& font, const std::vector<OverlayLine>& lines);
 
 /// Height of text in a picture of this height, unless another is asked for [pixels].
 int text_height_in(int picture_height);
+
+/// The lines with labels that are wider than `room` divided between words; the last part has the value.
+/// `width` of a text and `room` in one unit.
+std::vector<OverlayLine> fitted_lines(const std::vector<OverlayLine>& lines, float room,
+                                      const std::function<float(std::string_view)>& width);
 
 /// A scale of colours with its ends, or a key of named colours, bottom right.
 struct Legend {
@@ -72,7 +79,6 @@ class OverlayPainter {
                  const std::array<float, 4>& tint, const std::array<float, 4>& shape);
   void panel(float x, float y, float width, float height, float opacity);
   void text(float x, float y, std::string_view utf8, const std::array<float, 4>& tint);
-  std::vector<OverlayLine> fitted_lines(const std::vector<OverlayLine>& lines, float room) const;
   void facts(const std::vector<OverlayLine>& all, float picture_width);
   /// Returns the height it takes, and the gap above it.
   float scale(const Legend& legend, float picture_width, float bottom);

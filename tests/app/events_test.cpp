@@ -55,7 +55,8 @@ bool waited_for(Condition condition) {
 app::KeptState one_picture_a_step(const FilmFormat* format) {
   app::KeptState kept;
   kept.window = app::WindowPlace{width, height, std::array<int, 2>{0, 0}};
-  for (const char* name : {"Simulation", "View", "Performance", "Energy"}) kept.layout.sections[name] = false;
+  for (const char* name : {"Simulation", "Springs", "View", "Performance", "Energy"})
+    kept.layout.sections[name] = false;
   kept.speed = 0.24;
   kept.film_fps = 240.0;
   kept.film_format = format;
@@ -269,7 +270,7 @@ TEST_F(Events, HeadingsOpenAtOnceAfterAShortcut) {
 
 TEST_F(Events, ControlClickTypesIntoANumberAndEveryTapArrives) {
   app::KeptState kept = one_picture_a_step(find_film_format("png"));
-  kept.layout.sections["View"] = true;
+  kept.layout.sections["View"] = kept.layout.sections["View: more"] = true;
   const auto boxes = widgets(kept);
   keep(kept);
   start();

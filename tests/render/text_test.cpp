@@ -147,5 +147,22 @@ TEST(Font, ScalesWithItsHeight) {
   EXPECT_NEAR(Font(40).width_of("aspic"), 2.0f * Font(20).width_of("aspic"), 0.01f);
 }
 
+TEST(OverlayText, LongLabelsTakeSeveralLines) {
+  const std::vector<OverlayLine> lines = {
+      {"explicit Euler, h 0.001 s", "1.500 s", false, Colour{1.0f, 0.5f, 0.0f}},
+      {"diverged", "at 2 s", true}};
+  const auto letters = [](std::string_view text) { return static_cast<float>(text.size()); };
+  EXPECT_EQ(fitted_lines(lines, 40.0f, letters), lines);
+  const std::vector<OverlayLine> two = fitted_lines(lines, 16.0f, letters);
+  ASSERT_EQ(two.size(), 3u);
+  EXPECT_EQ(two[0].label, "explicit Euler,");
+  EXPECT_EQ(two[0].value, "");
+  EXPECT_EQ(two[0].tint, lines[0].tint);
+  EXPECT_EQ(two[1].label, "h 0.001 s");
+  EXPECT_EQ(two[1].value, "1.500 s");
+  EXPECT_EQ(two[2], lines[1]);
+  EXPECT_EQ(fitted_lines(lines, 1.0f, letters).size(), 6u) << "a word stays whole";
+}
+
 }  // namespace
 }  // namespace aspic
