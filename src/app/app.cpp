@@ -113,7 +113,7 @@ void App::restore(const KeptState& kept, const std::vector<std::string>& overrid
   const auto sets_camera = [](const std::string& set) { return set.starts_with("view.camera"); };
   if (std::ranges::none_of(overrides, sets_camera)) view.recall_camera(scene.editor().source());
   if (!std::exchange(greeted_, true))
-    messages.info(
+    messages.greet(
         "Space starts and pauses. Drag to turn the view, the wheel zooms. Ctrl+drag pulls a body, B throws a "
         "ball. F1 shows all keys, Ctrl+P finds everything by name.",
         20.0);
@@ -273,6 +273,7 @@ Status App::frame(const WindowSize& size, double dt) {
   const double budget = context.info().is_software ? 0.030 : 0.012;
   film.update();
   beside.lead();
+  if (beside.clock_runs()) messages.greeting_is_over();
   ASPIC_CHECK(simulation.update(dt, budget));
   if (scene.finish_change()) picture.postpone();
   if (const auto message = simulation.take_message()) messages.error(*message);

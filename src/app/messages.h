@@ -17,6 +17,8 @@ struct Notice {
   bool is_error = false;
   Until until = Until::dismissed;
   double left = 0.0;  ///< until it disappears, if time ends it [s]
+  bool greeting =
+      false;  ///< it lies low in the picture, where nothing is before the motion, and ends with the start
 };
 
 /// The one message that is shown. An error that leaves nothing to decide disappears as other messages do.
@@ -24,6 +26,13 @@ class Messages {
  public:
   void info(const std::string& text, double seconds = 5.0) {
     notice_ = Notice{printable(text), false, Until::time, seconds};
+  }
+  void greet(const std::string& text, double seconds) {
+    notice_ = Notice{printable(text), false, Until::time, seconds, true};
+  }
+  /// The motion starts.
+  void greeting_is_over() {
+    if (notice_ && notice_->greeting) notice_.reset();
   }
   void error(const std::string& text, Until until = Until::dismissed) {
     notice_ = Notice{printable(text), true, until};

@@ -68,10 +68,11 @@ void notice_panel(const PanelParts& parts, const Box& view) {
   const double scale = parts.gui.scale();
   const double room = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
   if (room < 80.0 * scale) return;
-  const bool right = parts.picture.film && parts.picture.film->text, named = parts.beside.several();
+  const bool right = parts.picture.film && parts.picture.film->text,
+             low = parts.beside.several() || notice.greeting;
   ImGui::SetNextWindowPos(at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale,
-                             named ? view.bottom - 16.0 * scale : view.top + 16.0 * scale),
-                          ImGuiCond_Always, {right ? 1.0f : 0.0f, named ? 1.0f : 0.0f});
+                             low ? view.bottom - 16.0 * scale : view.top + 16.0 * scale),
+                          ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
   const Panel panel("##notice", 6.0 * scale,
                     notice.is_error ? ImVec4(0.23f, 0.11f, 0.09f, 0.94f) : ImVec4(0.10f, 0.13f, 0.14f, 0.90f),
                     // Taking the focus would end a drag, and typing.

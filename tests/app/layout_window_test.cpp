@@ -161,6 +161,7 @@ TEST_F(Layout, AFirstStartIsALessonInRealTimeAndSaysTheKeysOnce) {
     EXPECT_FALSE(has(widget)) << widget;
   EXPECT_EQ(app().layout.row().open.size(), 5u);
   ASSERT_TRUE(app().messages.notice().has_value());
+  EXPECT_GT(box("notice/close").top, app().view.box.centre_y()) << "below the body before it falls";
   for (const char* key : {"Space", "Ctrl+drag", "F1", "Ctrl+P"})
     EXPECT_THAT(app().messages.notice()->text, testing::HasSubstr(key));
   const app::KeptState kept = app().kept_state();

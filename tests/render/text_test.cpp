@@ -147,7 +147,7 @@ TEST(Font, ScalesWithItsHeight) {
   EXPECT_NEAR(Font(40).width_of("aspic"), 2.0f * Font(20).width_of("aspic"), 0.01f);
 }
 
-TEST(OverlayText, LongLabelsTakeSeveralLines) {
+TEST(Text, LongLabelsTakeSeveralLines) {
   const std::vector<OverlayLine> lines = {
       {"explicit Euler, h 0.001 s", "1.500 s", false, Colour{1.0f, 0.5f, 0.0f}},
       {"diverged", "at 2 s", true}};
