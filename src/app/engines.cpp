@@ -40,7 +40,7 @@ EnergySample Engines::measured(const State& state) const {
   return {static_cast<double>(state.step) * model_->simulation.timestep, measure(*model_, state), state.step};
 }
 
-Result<Outcome> Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry) {
+Result<Outcome> Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& cancelled) {
   Outcome outcome;
   const auto end = Clock::now() + std::chrono::duration<double>(limits.seconds);
   const bool shadow_first = shadow_paces();
@@ -53,23 +53,23 @@ Result<Outcome> Engines::advance_outside(const JobLimits& limits, const std::ato
     ASPIC_TRY(other_start, shadow_.solver->state());
   }
   std::uint64_t sample = next_sample_step(limits.from, model_->simulation.timestep);
-  first.set_stop_flag(&hurry);
-  for (std::uint64_t at = limits.from; at < limits.to && !hurry && !paced.divergence && Clock::now() < end;
-       ++at) {
+  first.set_stop_flag(&cancelled);
+  for (std::uint64_t at = limits.from;
+       at < limits.to && !cancelled && !paced.divergence && Clock::now() < end; ++at) {
     ASPIC_TRY(paced.divergence, first.advance(1));
     if (at + 1 != sample || paced.divergence || limits.alone) continue;
     sample = next_sample_step(sample, model_->simulation.timestep);
     ASPIC_TRY(const auto state, first.state());
-    // A step that was dropped in a hurry is none.
+    // A cancelled step does not count.
     if (state.step == at + 1) outcome.energies.push_back(measured(state));
   }
   ASPIC_TRY(paced.state, first.state());
   outcome.steps = paced.state.step - limits.from;
   if (both) {
-    shadow_.solver->set_stop_flag(&hurry);
+    shadow_.solver->set_stop_flag(&cancelled);
     ASPIC_CHECK(advance(shadow_, tried_steps(outcome, paced), outcome.shadow));
-    // A hurry that the shadow heeds takes back the steps of both: they stay together.
-    if (hurry && !outcome.shadow.divergence &&
+    // Where cancelling stops the shadow it takes back the steps of both: they stay together.
+    if (cancelled && !outcome.shadow.divergence &&
         outcome.shadow.state.step - limits.from < tried_steps(outcome, paced)) {
       ASPIC_CHECK(first.load(start));
       ASPIC_CHECK(shadow_.solver->load(other_start));

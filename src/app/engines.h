@@ -79,9 +79,9 @@ class Engines {
   Status load(const State& state);
   Status set_pull(const std::optional<Pull>& pull);
 
-  /// For a worker: advances the solvers that do without the context, until `hurry` at most, which drops the
-  /// step in progress. The first of them sets the pace.
-  Result<Outcome> advance_outside(const JobLimits& limits, const std::atomic<bool>& hurry);
+  /// For a worker: advances the solvers that do without the context, until `cancelled` at most, which drops
+  /// the step in progress. The first of them sets the pace.
+  Result<Outcome> advance_outside(const JobLimits& limits, const std::atomic<bool>& cancelled);
   /// With the context: the solver of shadow mode that did not takes the steps of an outcome too, if it needs
   /// the context.
   Status follow(Outcome& outcome);

@@ -27,7 +27,7 @@ void Simulation::set_running(bool running) {
   if (running_)
     single_steps_ = 0;
   else if (!change_ && !seek_)
-    worker_.hurry();
+    worker_.cancel();
   pacer_.restart();
 }
 
@@ -214,15 +214,15 @@ void Simulation::start_job(std::uint64_t to, double budget, bool alone, std::opt
     progress_ = Clock::now();
   }
   job_to_ = to;
-  const auto job = [=, this](const std::atomic<bool>& hurry) -> Result<Outcome> {
+  const auto job = [=, this](const std::atomic<bool>& cancelled) -> Result<Outcome> {
     ASPIC_CHECK(engines_.use_context() ? Status() : engines_.set_pull(pull));
     const JobLimits limits = {job_step_, std::max(to, job_step_), budget, alone};
-    ASPIC_TRY(Outcome outcome, engines_.advance_outside(limits, hurry));
+    ASPIC_TRY(Outcome outcome, engines_.advance_outside(limits, cancelled));
     outcome.pull = pull;
     job_step_ += outcome.steps;
     return outcome;
   };
-  worker_.start([this, job](const std::atomic<bool>& hurry) { outcomes_.put(job(hurry)); });
+  worker_.start([this, job](const std::atomic<bool>& cancelled) { outcomes_.put(job(cancelled)); });
 }
 
 Status Simulation::collect() {

@@ -73,7 +73,7 @@ void StabilityMap::update(const Scene& scene) {
   std::string key = stiffness ? key_of(scene) : "";
   if (key == key_ && (!cells() || map_.cell_at(step_, stiffness_))) return;
   key_ = std::move(key);
-  worker_.hurry();
+  worker_.cancel();
   ++generation_;
   map_ = {};
   if (stiffness) begin(scene);
@@ -81,14 +81,14 @@ void StabilityMap::update(const Scene& scene) {
 
 void StabilityMap::begin(const Scene& scene) {
   worker_.start([this, settings = scene.model, stiffness = stiffness_,
-                 generation = generation_](const std::atomic<bool>& hurry) {
+                 generation = generation_](const std::atomic<bool>& cancelled) {
     const auto built = build_model(settings);
     if (!built) return;
     const Model model = alone_in_space(*built);
     const Integrator integrator = settings.simulation.integrator;
     const auto limit_at = [&](double factor) {
       return stability_limit(with_constants(model, factor, 1.0, 1.0), integrator, StabilityEffort::quick,
-                             [&](double) { return !hurry; });
+                             [&](double) { return !cancelled; });
     };
     const std::optional<double> here = limit_at(1.0).step;
     const double step = settings.simulation.timestep;
@@ -99,10 +99,10 @@ void StabilityMap::begin(const Scene& scene) {
                           std::vector<double>(rows), std::vector<Stability>(rows * columns)};
     const std::vector<double> factors = around(1.0, span_of_stiffness, rows);
     news_.put({generation, map});
-    for (std::size_t row = 0; row < rows && !hurry; ++row)
+    for (std::size_t row = 0; row < rows && !cancelled; ++row)
       map.limit[row] = limit_at(factors[row]).step.value_or(0.0);
     news_.put({generation, map});
-    if (model.particle_count() >= most_particles || hurry) return;
+    if (model.particle_count() >= most_particles || cancelled) return;
 
     const ProbeStart start = probe_start(model);
     BackendChoice choice;
@@ -113,10 +113,10 @@ void StabilityMap::begin(const Scene& scene) {
       for (std::size_t column = 0; column < columns; ++column) {
         const auto backend =
             make_backend(choice, with_constants(model, factors[row], 1.0, map.steps[column]));
-        if (!backend || hurry) return;
-        backend->solver->set_stop_flag(&hurry);
+        if (!backend || cancelled) return;
+        backend->solver->set_stop_flag(&cancelled);
         const auto grew = grows(*backend->solver, start, count);
-        if (!grew || hurry) return;
+        if (!grew || cancelled) return;
         map.cells[row * columns + column] = *grew ? Stability::unstable : Stability::stable;
       }
       news_.put({generation, map});

@@ -35,13 +35,13 @@ void Worker::work() {
     lock.unlock();
     std::exception_ptr thrown;
     try {
-      job(hurry_);
+      job(cancelled_);
     } catch (...) {
       thrown = std::current_exception();
     }
     lock.lock();
     if (thrown) thrown_ = thrown;
-    hurry_ = false;
+    cancelled_ = false;
     jobs_.pop_front();
     changed_.notify_all();
   }
@@ -52,10 +52,10 @@ std::size_t Worker::jobs() const {
   return jobs_.size();
 }
 
-void Worker::hurry() {
+void Worker::cancel() {
   const std::scoped_lock lock(mutex_);
   if (jobs_.empty()) return;
-  hurry_ = true;
+  cancelled_ = true;
   jobs_.resize(1);
 }
 
@@ -66,12 +66,12 @@ void Worker::wait() {
 }
 
 void Worker::finish() {
-  hurry();
+  cancel();
   wait();
 }
 
 void Worker::abandon() noexcept {
-  hurry();
+  cancel();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return jobs_.empty(); });
 }

@@ -17,10 +17,10 @@ namespace aspic::app {
 class Worker {
  public:
   /// A job looks at the flag now and then and comes to an early end once it is true.
-  using Job = std::function<void(const std::atomic<bool>& hurry)>;
+  using Job = std::function<void(const std::atomic<bool>& cancelled)>;
 
   Worker() = default;
-  /// Hurries the job in progress and waits for it.
+  /// Cancels the job in progress and waits for it.
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
@@ -30,13 +30,13 @@ class Worker {
   /// Jobs that have not ended.
   std::size_t jobs() const;
   bool busy() const { return jobs() > 0; }
-  /// Hurries the job in progress, if any, without waiting for it, and forgets those that have not begun.
-  void hurry();
+  /// Cancels the job in progress, if any, without waiting for it, and forgets those that have not begun.
+  void cancel();
   /// The same, and waits for its end: its results may be read then.
   void finish();
   /// The same for destructors: a job's exception is kept.
   void abandon() noexcept;
-  /// Waits for all jobs without hurrying them.
+  /// Waits for all jobs without cancelling them.
   void wait();
 
  private:
@@ -47,8 +47,8 @@ class Worker {
   std::deque<Job> jobs_;  // the first one is in progress
   std::exception_ptr thrown_;
   bool ending_ = false;
-  std::atomic<bool> hurry_ = false;  // the job in progress alone
-  std::jthread thread_;              // from the first job on
+  std::atomic<bool> cancelled_ = false;  // the job in progress alone
+  std::jthread thread_;                  // from the first job on
 };
 
 /// Results on their way from one thread to another, in order.

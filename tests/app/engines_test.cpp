@@ -82,37 +82,37 @@ TEST(Engines, AloneTheLeaderLeavesItsShadowBehind) {
   EXPECT_EQ(engines.shadow().solver->state()->step, 0u);
 }
 
-TEST(Engines, AHurryOrASpentBudgetEndsAJobEarly) {
+TEST(Engines, CancellingOrASpentBudgetEndsAJobEarly) {
   Engines engines = engines_of(outside, nullptr);
   EXPECT_EQ(engines.advance_outside({0, 1000, 1e9}, true)->steps, 0u);
   EXPECT_EQ(engines.advance_outside({0, 1000, 0.0}, false)->steps, 0u);
 }
 
-/// Its steps never end but by a hurry, which comes when the first has begun.
-class Hurrying final : public Endless {
+/// Its steps never end but by being cancelled, which comes when the first has begun.
+class Cancelling final : public Endless {
  public:
-  Hurrying(std::unique_ptr<Solver> inner, std::atomic<bool>& hurry)
-      : Endless(std::move(inner)), hurry_(hurry) {}
+  Cancelling(std::unique_ptr<Solver> inner, std::atomic<bool>& cancelled)
+      : Endless(std::move(inner)), cancelled_(cancelled) {}
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
-    hurry_ = true;
+    cancelled_ = true;
     return Endless::advance(steps);
   }
 
  private:
-  std::atomic<bool>& hurry_;
+  std::atomic<bool>& cancelled_;
 };
 
-TEST(Engines, AHurryDropsTheStepInProgressOfBoth) {
+TEST(Engines, CancellingDropsTheStepInProgressOfBoth) {
   Engines engines = engines_of(outside, nullptr);
-  std::atomic<bool> hurry = false;
+  std::atomic<bool> cancelled = false;
   const BackendRow also_outside = outside;
   Backend endless;
   endless.row = &also_outside;
-  endless.solver = std::make_unique<Hurrying>(
-      std::move(*make_reference_solver(engines.model(), Precision::single)), hurry);
+  endless.solver = std::make_unique<Cancelling>(
+      std::move(*make_reference_solver(engines.model(), Precision::single)), cancelled);
   engines.set_shadow(std::move(endless));
   const std::string start = hash_after(0);
-  const auto outcome = engines.advance_outside({0, 3, 1e9}, hurry);
+  const auto outcome = engines.advance_outside({0, 3, 1e9}, cancelled);
   ASSERT_TRUE(outcome.ok()) << outcome.error().message;
   EXPECT_EQ(outcome->steps, 0u) << "the leader takes its steps back: the shadow has none";
   EXPECT_EQ(state_hash_text(outcome->leader.state), start);

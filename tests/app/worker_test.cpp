@@ -20,37 +20,37 @@ TEST(Worker, RunsOneJobAfterTheOther) {
   EXPECT_EQ(sum, 5050);
 }
 
-TEST(Worker, FinishHurriesAJobThatWouldNeverEnd) {
+TEST(Worker, FinishCancelsAJobThatWouldNeverEnd) {
   Worker worker;
   bool ended = false;
-  worker.start([&ended](const std::atomic<bool>& hurry) {
-    while (!hurry) std::this_thread::yield();
+  worker.start([&ended](const std::atomic<bool>& cancelled) {
+    while (!cancelled) std::this_thread::yield();
     ended = true;
   });
   EXPECT_TRUE(worker.busy());
   worker.finish();
   EXPECT_TRUE(ended);
-  // The hurry was that job's alone.
-  bool hurried = true;
-  worker.start([&hurried](const std::atomic<bool>& hurry) { hurried = hurry; });
+  // Cancelling was for that job's alone.
+  bool was_cancelled = true;
+  worker.start([&was_cancelled](const std::atomic<bool>& cancelled) { was_cancelled = cancelled; });
   worker.wait();
-  EXPECT_FALSE(hurried);
+  EXPECT_FALSE(was_cancelled);
 }
 
-TEST(Worker, JobsWaitForOneAnotherAndAHurryForgetsThoseThatWait) {
+TEST(Worker, JobsWaitForOneAnotherAndCancellingForgetsThoseThatWait) {
   Worker worker;
   std::string order;
   std::atomic<bool> begun = false;
-  worker.start([&](const std::atomic<bool>& hurry) {
+  worker.start([&](const std::atomic<bool>& cancelled) {
     begun = true;
-    while (!hurry) std::this_thread::yield();
+    while (!cancelled) std::this_thread::yield();
     order += "a";
   });
   worker.start([&](const std::atomic<bool>&) { order += "b"; });
   EXPECT_EQ(worker.jobs(), 2u);
   while (!begun) std::this_thread::yield();
-  worker.hurry();
-  worker.start([&](const std::atomic<bool>& hurry) { order += hurry ? "hurried" : "c"; });
+  worker.cancel();
+  worker.start([&](const std::atomic<bool>& cancelled) { order += cancelled ? "cancelled" : "c"; });
   worker.wait();
   EXPECT_EQ(order, "ac");
 }
@@ -76,8 +76,8 @@ TEST(Worker, EndsWithAJobUnderWay) {
   std::atomic<bool> ended = false;
   {
     Worker worker;
-    worker.start([&ended](const std::atomic<bool>& hurry) {
-      while (!hurry) std::this_thread::yield();
+    worker.start([&ended](const std::atomic<bool>& cancelled) {
+      while (!cancelled) std::this_thread::yield();
       ended = true;
     });
   }
