@@ -75,7 +75,7 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+B", "add a run side by side", GLFW_KEY_B, ctrl, 0, [this] { beside.add(); }},
       {"Ctrl+G", "keep this run as ghost", GLFW_KEY_G, ctrl, 0, [this] { beside.keep_ghost(); }},
       {"Ctrl+Shift+G", "remove the ghost", GLFW_KEY_G, ctrl | shift, 0, [this] { beside.remove_ghost(); }},
-      {"Ctrl+Shift+B", "leave side by side", GLFW_KEY_B, ctrl | shift, 0, [this] { beside.leave(); }},
+      {"Ctrl+Shift+B", "close the comparison", GLFW_KEY_B, ctrl | shift, 0, [this] { beside.leave(); }},
       {"", "Camera"},
       {"left drag", "turn the camera"},
       {"right or Shift drag", "move the camera"},

@@ -52,7 +52,7 @@ std::string Beside::name(std::size_t i) const {
 void Beside::add() {
   std::vector<Variation> beside = scene_.editor().beside();
   if (beside.size() + 1 >= most_beside)
-    return messages_.refuse(fmt::format("There are {} runs side by side, which is the most.", most_beside));
+    return messages_.refuse(fmt::format("At most {} runs can be compared.", most_beside));
   for (const Variation& wanted : suggestions(scene_.scene())) {
     const auto same = [&](const Variation& v) { return v.key == wanted.key && v.value == wanted.value; };
     if (std::ranges::any_of(beside, same)) continue;
@@ -218,8 +218,8 @@ std::optional<std::string> Beside::hands_refused() const {
   for (const auto& companion : companions_) {
     if (!companion->has_particles_of(leader_))
       return fmt::format(
-          "Pulls and pins act on all runs alike, and the one with {} has other particles: leave side by side "
-          "first, or choose another difference.",
+          "Pulls and pins apply to every run, but the run with {} has different particles. Close the "
+          "comparison first, or choose another difference.",
           words_of(companion->variation()));
   }
   return std::nullopt;

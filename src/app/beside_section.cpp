@@ -76,8 +76,7 @@ void difference_widget(Gui& gui, Beside& beside, const Scene& scene, std::size_t
   auto index = static_cast<std::size_t>(std::ranges::find(keys, own.key) - keys.begin());
   label_column("Differs in");
   if (choice(gui, fmt::format("beside/{}/key", i), names, labels, index,
-             "The one value in which this run differs from the scene's own. Another one starts all runs "
-             "anew."))
+             "The one value in which this run differs from the scene's own. Changing it restarts all runs."))
     return beside.set(i, {keys[index], present(keys[index], scene, beside.run(0))});
   label_column("Value");
   const std::string name = fmt::format("beside/{}/value", i);
@@ -90,7 +89,7 @@ void difference_widget(Gui& gui, Beside& beside, const Scene& scene, std::size_t
   }
   std::string text = own.value;
   const bool entered = ImGui::InputText("##value", &text, ImGuiInputTextFlags_EnterReturnsTrue);
-  named(gui, name, "The value of this run, as --set takes it. Enter starts all runs anew with it.");
+  named(gui, name, "The value of this run, as --set takes it. Enter restarts all runs with it.");
   if (entered) beside.set(i, {own.key, text});
 }
 
@@ -107,8 +106,8 @@ void beside_section(Gui& gui, SceneControl& scene, Beside& beside) {
     ImGui::PushID(static_cast<int>(i));
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(Beside::packed_colour(i)), "Run %zu", i + 1);
     ImGui::SameLine();
-    const bool removed =
-        button(gui, fmt::format("beside/{}/remove", i).c_str(), "Remove", "Ends this run. The others go on.");
+    const bool removed = button(gui, fmt::format("beside/{}/remove", i).c_str(), "Remove",
+                                "Ends this run. The others continue.");
     if (removed)
       beside.remove(i);
     else
@@ -118,17 +117,17 @@ void beside_section(Gui& gui, SceneControl& scene, Beside& beside) {
   }
   const float half = share_of_line(2);
   command_button(gui, "beside/add", differences.empty() ? "Compare side by side" : "Add a run",
-                 "Shows a further run of the scene beside its own, with one value that differs, on the same "
-                 "clock; up to four runs. All start anew.",
+                 "Adds a run of the scene in which one value differs, on the same clock; up to four runs. "
+                 "Restarts all of them.",
                  "add a run side by side", differences.size() + 1 < most_beside,
                  differences.empty() ? 0.0f : half);
   if (!differences.empty()) {
     ImGui::SameLine();
-    command_button(gui, "beside/leave", "Leave", "Goes back to the scene's own run alone, which goes on.",
-                   "leave side by side", true, half);
+    command_button(gui, "beside/leave", "Leave", "Closes the comparison and keeps the scene's own run.",
+                   "close the comparison", true, half);
   }
   if (beside.others_go_on())
-    ImGui::TextWrapped("The scene's own run diverged; the others go on. Space pauses them.");
+    ImGui::TextWrapped("The scene's own run diverged; the others continue. Space pauses them.");
   command_button(gui, "beside/ghost", "Keep as ghost",
                  "The run so far is shown pale over the scene's own from now on, at the same time: change a "
                  "value, press Reset, and see both. At most 128 MiB; what is not kept is simulated again.",

@@ -216,8 +216,8 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& bench, RawOptions& raw) {
   add(c, "--repeats", "N", bench.repeats, "runs of each case", repeats);
   add(c, "--warm-up", "N", bench.warm_up, "runs of each case before them, not counted", {0, repeats.most});
   auto* peers = c->add_flag("--peers", bench.with_peers,
-                            "beside other programs with the same cube, from a source checkout");
-  auto* peer = add(c, "--peer", "NAME", bench.peers, "beside this one alone, e.g. textbook")->delimiter(',');
+                            "next to other programs with the same cube, from a source checkout");
+  auto* peer = add(c, "--peer", "NAME", bench.peers, "only this one of them, e.g. textbook")->delimiter(',');
   add(c, "--pictures", "WxH", raw.bench_pictures,
       "what drawing the scene costs instead, by pass, 60 pictures a simulated second")
       ->excludes(peers, peer, seconds, sizes, integrators, timestep);
@@ -239,7 +239,7 @@ CLI::App* add_sweep(CLI::App& app, SweepOptions& sweep, RawOptions& raw) {
   add_overrides(c, sweep.overrides);
   add(c, "--jobs", "N", sweep.jobs, "runs at once; default: the processors, or 1 where runs take a GPU", few);
   add(c, "--part", "I/N", raw.part, "the I-th of N equal parts of the grid, for job arrays");
-  c->add_flag("--force", sweep.force, "overwrite the file, and begin anew");
+  c->add_flag("--force", sweep.force, "overwrite the file and start over");
   add_json(c, sweep.json, "numbers of rows on stdout as JSON");
   return c;
 }
