@@ -271,6 +271,10 @@ TEST_F(Events, HeadingsOpenAtOnceAfterAShortcut) {
 TEST_F(Events, ControlClickTypesIntoANumberAndEveryTapArrives) {
   app::KeptState kept = one_picture_a_step(find_film_format("png"));
   kept.layout.sections["View"] = kept.layout.sections["View: more"] = true;
+  // All rows down to the camera's in sight, in one column.
+  kept.layout.sections["Scene"] = false;
+  kept.layout.text_size = 0.75;
+  kept.window->height = 680;
   const auto boxes = widgets(kept);
   keep(kept);
   start();
