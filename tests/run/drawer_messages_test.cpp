@@ -15,10 +15,10 @@ DrawerRequest request() {
   DrawerRequest r = {2, {17, 34}, {}};
   r.shown.resize(2);
   r.shown[0].camera.fov = 33.5;
-  r.shown[0].text = {{"time", "0.1 s"}, {"", "diverged", true, Colour{0.1, 0.2, 0.3}}};
+  r.shown[0].text = {{"time", "0.1 s"}, {"", "diverged", true, Colour{0.1f, 0.2f, 0.3f}}};
   r.shown[0].text_height = 12;
   r.shown[0].legend = false;
-  r.shown[0].tint = Colour{0.4, 0.5, 0.6};
+  r.shown[0].tint = Colour{0.4f, 0.5f, 0.6f};
   r.shown[0].framed = true;
   r.shown[1].arrows = {{{{1, 2, 3}, {4, 5, 6}, ArrowKind::contact}}, 0.5, 1e-9};
   r.shown[1].ball_turns = {{0, 0, 0, 1}, {1, 0, 0, 0}};

@@ -9,6 +9,7 @@
 #include "render/camera.h"
 #include "render/overlay_text.h"
 #include "run/arrows.h"
+#include "run/beside.h"
 #include "run/film_painter.h"
 #include "scene/follow.h"
 #include "scene/load.h"
@@ -106,7 +107,9 @@ class FilmPainterTest : public aspic::testing::GlTest {
         ShownRun& s = shown.emplace_back();
         s.camera =
             fitted(moved(view.camera, a.following.offset(a.model, state)), tiles[i].width, tiles[i].height);
-        s.text = overlay_lines(a.scene.model, 1e-3 * f);
+        s.text = overlay_lines(a.scene, 1e-3 * f);
+        s.framed = takes.size() > 1;
+        if (s.framed) s.tint = run_tint(i);
         if (view.arrows.any()) s.arrows = arrows_of(a.model, state, view.arrows);
         EXPECT_TRUE(a.solver->advance(takes[i].every).ok());
       }
