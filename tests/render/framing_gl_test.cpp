@@ -139,6 +139,11 @@ const Framing framings[] = {{"cube-plane", {}, 0.075, 0.08},
                             {"cube-and-balls"},
                             {"flag"},
                             {"curtain"},
+                            {"course-2021-plane"},
+                            {"course-2021-tilted-plane"},
+                            {"course-2021-sphere"},
+                            {"course-2021-bowl"},
+                            {"course-2018"},
                             {"large-cube", {"cube[0].particles-per-edge=10", "simulation.timestep=0.001"}}};
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Framed, ::testing::ValuesIn(framings),

@@ -113,7 +113,7 @@ void watch(Shot& shot, std::uint64_t last_step, Look look) {
   }
 }
 
-TEST(Framing, BodiesOfTheCourseFillTheirShareOfThePicture) {
+TEST(PicturedScenes, BodiesOfTheCourseFillTheirShareOfThePicture) {
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
     if (builtin.group != "University course") continue;
     Shot shot{std::string(builtin.name)};
@@ -130,7 +130,7 @@ TEST(Framing, BodiesOfTheCourseFillTheirShareOfThePicture) {
   }
 }
 
-TEST(Framing, TextCoversNoBody) {
+TEST(PicturedScenes, TextCoversNoBody) {
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
     Shot shot{std::string(builtin.name)};
     // The start of a scene whose steps take long.
