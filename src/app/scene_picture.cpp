@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/stopwatch.h"
 #include "io/atomic_file.h"
 #include "io/film_format.h"
 #include "render/colour_map.h"
@@ -24,9 +25,6 @@ constexpr std::uint32_t many_particles = 8000;
 constexpr Colour behind_ghost = {0.55f, 0.60f, 0.66f};
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 int rounded(double length) {
   return static_cast<int>(std::lround(length));

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/simulation.h"
+#include "base/stopwatch.h"
 
 namespace aspic::app {
 

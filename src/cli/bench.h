@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "cli/json.h"
 #include "command_line/arguments.h"
 #include "gpu/pass_profiler.h"
@@ -15,10 +16,6 @@
 namespace aspic::cli {
 
 using Clock = std::chrono::steady_clock;
-inline double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// What a run took [s]: by the clock, and of all processors together.
 struct Took {
   double seconds = 0.0, processor_seconds = 0.0;

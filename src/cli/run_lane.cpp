@@ -5,16 +5,13 @@
 #include <utility>
 
 #include "analysis/energy.h"
+#include "base/stopwatch.h"
 #include "io/console.h"
 
 namespace aspic::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 }  // namespace
 

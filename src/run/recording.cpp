@@ -5,8 +5,8 @@
 #include <chrono>
 #include <new>
 
+#include "base/stopwatch.h"
 #include "gpu/current.h"
-#include "run/seconds_since.h"
 
 namespace aspic {
 namespace {
