@@ -37,12 +37,16 @@ bool is_bare_word(std::string_view text) {
                      [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-'; });
 }
 
-/// Of a key whose values are text: what may be a number elsewhere is a word here, such as a student's number.
+/// Of a key whose values are text: what may be a number elsewhere is a word here, such as a student's number;
+/// and a name may have letters of any language, hyphens and full stops.
 bool is_word_of_text(std::string_view text) {
-  const auto part = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  const auto letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
   };
-  return !text.empty() && std::all_of(text.begin(), text.end(), part);
+  const bool name = !text.empty() && letter(text.front());
+  return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
+    return letter(c) || (c >= '0' && c <= '9') || c == '_' || (name && (c == '-' || c == '.'));
+  });
 }
 
 /// A number as people write it with a comma, or with its unit.

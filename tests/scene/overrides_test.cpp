@@ -112,10 +112,11 @@ TEST(Set, TakesTheFormsOfTheFormat) {
   EXPECT_EQ(s.name, "two words");
 }
 
-TEST(Set, NumbersAreWordsWhereTextIsMeant) {
-  for (const char* author : {"0356611", "42", "7A_7", "true"})
+TEST(Set, NumbersAndNamesAreWordsWhereTextIsMeant) {
+  for (const char* author : {"0356611", "42", "7A_7", "true", "Zoë", "李明", "Anne-Marie", "B.Lee"})
     EXPECT_EQ(test::parsed(base, {std::string("author=") + author}).author, author);
   EXPECT_EQ(test::parsed(base, {"author=\"Ada Lovelace\""}).author, "Ada Lovelace");
+  EXPECT_EQ(test::parsed(base, {"author='Ada'"}).author, "Ada");
 }
 
 TEST(Set, LastOneWins) {
