@@ -191,9 +191,24 @@ std::string html_of(const Page& page) {
   return out + fmt::format("</dl><pre>{}</pre></footer></body></html>\n", xml(page.scene_toml));
 }
 
+/// Text that Markdown takes for nothing but text.
+std::string plain_markdown(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool numbers_a_list = i > 0 && (c == '.' || c == ')') && text.find_first_not_of("0123456789") == i;
+    const bool begins_a_list = i == 0 && (c == '-' || c == '+' || c == '=');
+    if (numbers_a_list || begins_a_list ||
+        std::string_view("\\`*_[]<>#|&~").find(c) != std::string_view::npos)
+      out += '\\';
+    out += c;
+  }
+  return out;
+}
+
 std::string markdown_of(const Page& page) {
   std::string out = fmt::format("# {}\n\n", page.title);
-  if (!page.author.empty()) out += fmt::format("{}\n\n", page.author);
+  if (!page.author.empty()) out += fmt::format("{}\n\n", plain_markdown(page.author));
   out += page.lead + "\n";
   std::size_t number = 0;
   for (const Section& section : page.sections) {

@@ -90,7 +90,7 @@ Result<Figure> map_figure(const Study& study, const Model& model, const ProbeSta
       Model probed = constant.with(model, factors[row], steps[column]);
       probed.simulation.integrator = integrator;
       ASPIC_TRY(const auto solver, study.make_solver()(probed));
-      // A long step costs many others, and damps what it is given at once.
+      // A long step costs as much as many explicit ones, and damps at once what it is given.
       const std::uint64_t count = row_of(integrator).traits.long_steps ? 30 : study.thorough ? 480 : 240;
       ASPIC_TRY(const bool grew, grows(*solver, start, count));
       stable[task / rows * cells + row * columns + column] = !grew;

@@ -48,7 +48,7 @@ struct TrialOptions {
 /// Processor time of the calling thread so far [s]: unlike the clock's it does not count what others do.
 double thread_time();
 
-/// Runs a model, which must outlive the call. A model that a backend rejects, a lost device and a divergence
+/// Runs a model. A model that a backend rejects, a lost device and a divergence
 /// are outcomes. Error (interrupted): `stop` said so.
 Result<TrialResult> run_trial(SharedModel model, const TrialOptions& options);
 

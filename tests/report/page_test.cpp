@@ -127,7 +127,15 @@ TEST(Page, NamesItsAuthorBelowTheTitle) {
   EXPECT_THAT(markdown_of(page), testing::StartsWith("# T\n\nLead.\n"));
   page.author = "A & B";
   EXPECT_THAT(html_of(page), HasSubstr("<h1>T</h1><p class=\"by\">A &amp; B</p><p>Lead.</p>"));
-  EXPECT_THAT(markdown_of(page), testing::StartsWith("# T\n\nA & B\n\nLead.\n"));
+  EXPECT_THAT(markdown_of(page), testing::StartsWith("# T\n\nA \\& B\n\nLead.\n"));
+  for (const auto& [author, written] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"# one <b>", "\\# one \\<b\\>"},
+                                                                  {"1. Ann", "1\\. Ann"},
+                                                                  {"- Ann", "\\- Ann"},
+                                                                  {"B. O'Neil-Lee", "B. O'Neil-Lee"}}) {
+    page.author = author;
+    EXPECT_THAT(markdown_of(page), testing::StartsWith(std::string("# T\n\n") + written + "\n\nLead.\n"));
+  }
 }
 
 TEST(Base64, FillsTheLastGroup) {
