@@ -57,29 +57,47 @@ step_lints() {
   ctest --test-dir "$aspic_build_dir" --output-on-failure --no-tests=error -R '^(TextLint|FileSizes|Rooms|PreciseLint|Reference)\.'
 }
 
-# The files of the last day's commits, the newest first, and those that are not committed yet: a header by the .cpp of its name.
+# C++ files of the last day's commits, the newest first, and those that are not committed yet.
 changed_files() {
-  local since=$(($(git show -s --format=%ct HEAD) - 86400))
-  { git diff --name-only HEAD; git -c log.showRoot=false log --since="$since" --name-only --format=; } |
-    awk '/\.(cpp|h)$/ { sub(/\.h$/, ".cpp"); if (!seen[$0]++) print }' |
-    while read -r file; do if [ -f "$file" ]; then echo "$file"; fi; done
+  local since changed
+  since=$(($(git show -s --format=%ct HEAD) - 86400)) || return 1
+  changed=$(git diff --name-only HEAD && git ls-files -o --exclude-standard &&
+    git -c log.showRoot=false log --since="$since" --name-only --format=) || return 1
+  awk '/\.(cpp|h)$/ && !seen[$0]++' <<<"$changed" | while read -r file; do if [ -f "$file" ]; then echo "$file"; fi; done
 }
 
-# In parts, until ASPIC_ALONE_SECONDS are over if they are set: says how many files were left then.
+# In parts, until ASPIC_ALONE_SECONDS are over if they are set: says how many files were left then. A header is compiled as the .cpp of
+# its name or, without one, included by an otherwise empty file.
 step_alone() {
-  local files at=0 part=24 started=$SECONDS
-  mapfile -t files < <(changed_files)
-  [ build/alone/build.ninja -nt CMakePresets.json ] || cmake --preset alone || return 1
-  # Files that this build does not know, of fuzzers for one, have no target.
-  mapfile -t files < <(printf '%s\n' "${files[@]}" | grep -xFf <(sed -n "s|.*\"file\": \"$aspic_root/\(.*\)\".*|\1|p" build/alone/compile_commands.json))
-  while [ "$at" -lt "${#files[@]}" ]; do
+  local files file targets=() headers=() at=0 part failed=0 started=$SECONDS
+  part=$((2 * $(nproc)))
+  files=$(changed_files) || return 1
+  cmake --preset alone || return 1
+  while read -r file; do
+    if [[ $file == *.h && -f ${file%.h}.cpp ]]; then file=${file%.h}.cpp; fi
+    if grep -qF "\"file\": \"$aspic_root/$file\"" build/alone/compile_commands.json; then
+      [[ " ${targets[*]} " == *" $aspic_root/$file^ "* ]] || targets+=("$aspic_root/$file^")
+    elif [[ $file == src/*.h ]]; then
+      headers+=("$file")
+    fi # others, of fuzzers for one, have no target in this build
+  done <<<"$files"
+  while [ "$at" -lt "${#targets[@]}" ]; do
     if [ $((SECONDS - started)) -ge "${ASPIC_ALONE_SECONDS:-86400}" ]; then
-      echo "alone: $at files compiled, $((${#files[@]} - at)) older ones left for want of time" | tee /dev/fd/3
+      echo "alone: $at files compiled, $((${#targets[@]} - at)) older ones left for want of time" | tee /dev/fd/3
       break
     fi
-    ninja -C build/alone --quiet $(printf "$aspic_root/%s^ " "${files[@]:at:part}") || return 1
+    ninja -C build/alone -k 0 --quiet "${targets[@]:at:part}" || failed=1
     at=$((at + part))
   done
+  local neighbour command
+  for file in "${headers[@]}"; do
+    neighbour=$(files "${file%/*}/*.cpp" | head -n 1)
+    [ -n "$neighbour" ] || continue
+    echo "$file"
+    command=$(ninja -C build/alone -t commands -s "$aspic_root/$neighbour^" | sed 's/ -MD .*//')
+    (cd build/alone && echo "#include \"${file#src/}\"" | eval "$command -fsyntax-only -x c++ -") || failed=1
+  done
+  return "$failed"
 }
 
 # tidy_one FILE: what was found clean is checked again once it changes. build/check/tidy keeps check sums of the file and of the

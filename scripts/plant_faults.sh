@@ -24,7 +24,7 @@ if [ "$check" = yes ]; then
   status=0
   while IFS=$'\t' read -r name file change _; do
     [[ $name == \#* || -z $name ]] && continue
-    if sed "$change" "$root/$file" | cmp -s - "$root/$file"; then
+    if ! changed=$(sed "$change" "$root/$file") || [ "$changed" = "$(<"$root/$file")" ]; then
       outdated "$name" "$file"
       status=1
     fi

@@ -14,7 +14,8 @@ core      each room's own tests; the gpu solvers on llvmpipe with a covering set
           models, force paths and bodies; pictures; the command line; the window's main tests
 full      core, and by label:
   products     equal bits in products of methods, terrains and paths, and for more particles
-  drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads and on zink
+  drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads, on zink and for
+               Khronos' reference compiler
   crowds       hundreds of balls in one place
   framing      how much of the picture bodies fill, in every built-in scene
   verify       aspic verify --quick
