@@ -91,6 +91,7 @@ FilmLook Film::look_of(std::size_t run) const {
   look.text_height = beside_text_height(size.height, beside_.count());
   look.label = beside_text(beside_.name(run), run, beside_.shown_time(run),
                            beside_.run(run).model().simulation.timestep, beside_.shown_divergence(run));
+  if (run == 0) look.label = below_author(beside_.scene(0), std::move(look.label));
   // One legend for all that share a scale.
   const ViewSettings &own = beside_.scene(run).view, &last = beside_.scene(beside_.count() - 1).view;
   look.legend = run + 1 == beside_.count() || own.scale != last.scale || own.colour != last.colour ||

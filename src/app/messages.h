@@ -16,9 +16,8 @@ struct Notice {
   std::string text;
   bool is_error = false;
   Until until = Until::dismissed;
-  double left = 0.0;  ///< until it disappears, if time ends it [s]
-  bool greeting =
-      false;  ///< it lies low in the picture, where nothing is before the motion, and ends with the start
+  double left = 0.0;      ///< until it disappears, if time ends it [s]
+  bool greeting = false;  ///< shown at the bottom of the picture until the motion starts
 };
 
 /// The one message that is shown. An error that leaves nothing to decide disappears as other messages do.

@@ -59,8 +59,8 @@ void notice_text(std::string_view text, float width) {
 
 }  // namespace
 
-/// As wide as its text needs. A film that writes on its pictures has that on the left: then it stands on the
-/// right; and below where runs have their names above.
+/// As wide as its text needs: at the left, or at the right of a film's text, or below where runs have their
+/// names above.
 void notice_panel(const PanelParts& parts, const Box& view) {
   Messages& messages = parts.messages;
   if (!messages.notice()) return;

@@ -110,10 +110,14 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
     const auto& energies = run.samples().energies();
     // Of several runs what the pictures show, which is of one time.
     const State& state = beside.active() ? beside.picture(i).shown_state() : run.snapshot();
-    if (!messages.check(format.over_time
-                            ? write_series(paths[i], overwrite, energies)
-                            : write_state(format, paths[i], overwrite, beside.scene(i), run, state)))
-      return;
+    const Status written = format.over_time
+                               ? write_series(paths[i], overwrite, energies)
+                               : write_state(format, paths[i], overwrite, beside.scene(i), run, state);
+    if (!written) {
+      // Those before it are there.
+      lines.insert(lines.begin(), written.error().message);
+      return messages.error(fmt::format("{}", fmt::join(lines, "\n")));
+    }
     lines.push_back(format.over_time
                         ? fmt::format("{} holds {} rows.", paths[i], energies.size())
                         : fmt::format("{} holds the {} at step {}.", paths[i], format.option, state.step));

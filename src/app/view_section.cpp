@@ -162,7 +162,7 @@ void view_section(Gui& gui, SceneControl& scene, CameraControl& camera, const Qu
   scale_rows(gui, scene, shown);
   cut_widgets(gui, scene, camera.goal());
   layout_widgets(gui, layout);
-  if (!folded(gui, layout, "View", "more", "Arrows, ground, shadows, axes, and the camera.")) return;
+  if (!folded(gui, layout, "View", "more", "Arrows, terrain, ground, shadows, axes, and the camera.")) return;
   edit(gui, scene, "view.arrows");
   if (scene.scene().view.arrows.any()) edit(gui, scene, "view.arrow-scale", 0, {"Force per length"});
   edit(gui, scene, "view.terrain");

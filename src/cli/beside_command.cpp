@@ -182,7 +182,7 @@ Status execute_beside(const RunOptions& options) {
     differences.push_back(std::move(difference));
   }
   const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
-  std::shared_ptr<gl::Context> context;  // outlives the members' solvers
+  std::shared_ptr<gl::Context> context;  // outlives the recorder
   ASPIC_TRY(auto members, make_members(options, differences, overwrite));
   ASPIC_CHECK(check_pictures(options.pictures, members.front()->model->simulation.timestep, 0,
                              members.front()->last_step));

@@ -123,7 +123,7 @@ struct SceneImportOptions {
 struct InfoOptions {
   bool json = false;
 };
-/// What a run starts to draw its pictures: a word of no person's, and none of --help.
+/// What a run starts to draw its pictures; internal, not listed in --help.
 struct DrawOptions {};
 inline constexpr std::string_view draw_word = "--draw-pictures";
 /// --help, --version: text for stdout and nothing else to do.

@@ -94,7 +94,7 @@ class DeviceSolver : public GpuSolver {
   /// after `steps` since the base step.
   Divergence divergence_from(std::uint32_t word, std::uint64_t steps) const;
 
-  // What goes after all else here; null: whoever has the context keeps it.
+  // Destroyed last. Null: the caller keeps the context alive.
   const std::shared_ptr<gl::Context> held_context_;
   const SharedModel held_model_;
   gl::Context& context_;

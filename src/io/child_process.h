@@ -1,5 +1,5 @@
 #pragma once
-// Other programs: one fed through its standard input, one listened to.
+// Other programs: fed through standard input, and those that answer are read from standard output.
 #include <sys/types.h>
 
 #include <chrono>

@@ -13,7 +13,8 @@ namespace aspic {
 namespace {
 
 Error refused(int reason) {
-  return fail(ErrorCode::io, "there is no memory to share with other processes: {}.", std::strerror(reason));
+  return fail(ErrorCode::io, "the memory shared with other processes cannot be made: {}.",
+              std::strerror(reason));
 }
 
 }  // namespace
@@ -23,8 +24,10 @@ Result<SharedMemory> SharedMemory::create(std::uint64_t bytes) {
   memory.descriptor_ = ::memfd_create("pictures", MFD_CLOEXEC);
   if (memory.descriptor_ < 0) return refused(errno);
   // Pages that could not be had later would end the process by a signal.
-  if (const int failed = ::posix_fallocate(memory.descriptor_, 0, static_cast<off_t>(bytes)); failed != 0)
-    return refused(failed);
+  int failed = 0;
+  do failed = ::posix_fallocate(memory.descriptor_, 0, static_cast<off_t>(bytes));
+  while (failed == EINTR);
+  if (failed != 0) return refused(failed);
   ASPIC_CHECK(memory.map());
   return memory;
 }

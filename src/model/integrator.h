@@ -160,6 +160,10 @@ inline constexpr std::size_t max_stages = 4;
 static_assert(std::all_of(integrator_table.begin(), integrator_table.end(), [](const IntegratorRow& row) {
   return !row.staged() || (!row.staged()->stages.empty() && row.staged()->stages.size() <= max_stages);
 }));
+/// The limit of a step is found from its stages.
+static_assert(std::all_of(integrator_table.begin(), integrator_table.end(), [](const IntegratorRow& row) {
+  return row.staged() || row.traits.stable_at_any_step;
+}));
 
 namespace integrator_rows {
 

@@ -86,7 +86,7 @@ Result<Backend> make_cpu(SharedModel model, const BackendChoice& choice, const S
 std::optional<std::uint64_t> cpu_bytes(const Model& model) {
   const std::optional<std::uint64_t> memory = available_memory();
   if (memory && run_bytes(count(model)) > *memory) return std::nullopt;
-  // It goes before the model, which it need not hold.
+  // The solver is destroyed before the caller's model, so it need not own it.
   const auto solver = make_cpu_solver(SharedModel(SharedModel(), &model));
   if (!solver) return std::nullopt;
   return (*solver)->bytes();

@@ -31,8 +31,8 @@ struct BackendChoice {
 
 /// What a solver may use of its surroundings; nothing is required.
 struct SolverHost {
-  /// Where a backend that needs a context works, which may be others' as well; as make_gpu_solver() has it.
-  /// Null: a headless one of its own.
+  /// Where a backend that needs a context works, which others may use too; as make_gpu_solver(), its solver
+  /// keeps it alive where a shared_ptr holds it. Null: a headless one of its own.
   gl::Context* context = nullptr;
   /// A solver on the same context to share buffers with, see GpuOptions::share_springs_of.
   const GpuSolver* share_springs_of = nullptr;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "render/overlay_text.h"
 #include "run/run_length.h"
 #include "scene/short_keys.h"
 
@@ -97,6 +98,13 @@ std::vector<OverlayLine> beside_text(const std::string& name, std::size_t run, d
     const double when = static_cast<double>(divergence->step) * timestep;
     text.push_back({"diverged", fmt::format("at {:.3f} s", when), true});
   }
+  return text;
+}
+
+std::vector<OverlayLine> below_author(const Scene& scene, std::vector<OverlayLine> text) {
+  // As one label, which takes several lines where a part is narrow.
+  for (const OverlayLine& line : author_lines(scene))
+    text.insert(text.begin(), {fmt::format("{} {}", line.label, line.value), ""});
   return text;
 }
 

@@ -51,6 +51,9 @@ std::string short_name(std::size_t run, const std::vector<Variation>& difference
 std::vector<OverlayLine> beside_text(const std::string& name, std::size_t run, double time, double timestep,
                                      const std::optional<Divergence>& divergence);
 
+/// The same for the first part of a picture, below a line with the scene's author if it names one.
+std::vector<OverlayLine> below_author(const Scene& scene, std::vector<OverlayLine> text);
+
 /// Height of the text on the parts of a picture of that height, which so many runs share [pixels].
 int beside_text_height(int picture_height, std::size_t runs);
 

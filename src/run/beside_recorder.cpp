@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "render/camera.h"
-#include "render/overlay_text.h"
 #include "run/arrows.h"
 
 namespace aspic {
@@ -76,10 +75,7 @@ ShownRun BesideRecorder::shown(const Part& part, const std::optional<Divergence>
   if (output_.text) {
     shown.text = beside_text(part.run.name, part.number, static_cast<double>(*part.step) * timestep, timestep,
                              divergence);
-    if (&part == &parts_.front()) {
-      const std::vector<OverlayLine> author = author_lines(*part.run.scene);
-      shown.text.insert(shown.text.begin(), author.begin(), author.end());
-    }
+    if (part.number == 0) shown.text = below_author(*part.run.scene, std::move(shown.text));
     shown.tint = run_tint(part.number);
     shown.framed = true;
   }

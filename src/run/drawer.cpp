@@ -7,12 +7,12 @@
 #include <chrono>
 #include <optional>
 
+#include "base/stopwatch.h"
 #include "gpu/pixel_ring.h"
 #include "io/child_process.h"
 #include "io/console.h"
 #include "io/shared_memory.h"
 #include "run/drawer_messages.h"
-#include "run/seconds_since.h"
 #include "scene/load.h"
 
 namespace aspic {
@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// False: there are not as many any more.
+/// False: the stream ended early.
 bool read_all(char* to, std::size_t size) {
   while (size > 0) {
     const ssize_t got = ::read(STDIN_FILENO, to, size);

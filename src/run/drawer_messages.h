@@ -36,7 +36,7 @@ Result<DrawerGreeting> read_greeting(std::string_view bytes);
 Result<DrawerRequest> read_request(std::string_view bytes);
 
 // A drawer answers in lines: "ready" to the greeting; to each request "done SLOT DRAW READ", with the seconds
-// spent, or "failed".
+// spent, or ends with an error.
 
 /// The shared memory of a drawer: as many slots, each with the pixels of a picture (FrameSink::write) and the
 /// states that it shows.

@@ -83,6 +83,7 @@ struct Drawers::Drawer {
   std::vector<std::atomic<bool>> taken;  // slots
   unsigned asked = 0;                    // pictures that have not come yet
   bool ready = false;                    // it has answered the greeting
+  bool drew = false;                     // a picture of its own has come
 };
 
 Drawers::Drawers(SlotLayout layout) : layout_(std::move(layout)) {}
@@ -97,8 +98,7 @@ Result<std::unique_ptr<Drawers::Drawer>> Drawers::start_one(const DrawingWork& w
   ChildExtras extras = {{{"LP_NUM_THREADS", "0"}}, memory.descriptor()};
   if (!std::getenv("ASPIC_EGL_DEVICE")) extras.environment.emplace_back("ASPIC_EGL_DEVICE", "software");
   ASPIC_TRY(auto child, ChildProcess::start(work.command, ChildProcess::Output::answers, extras));
-  (void)child.write(
-      std::as_bytes(std::span(greeting)));  // that it has died comes out when it does not answer
+  (void)child.write(std::as_bytes(std::span(greeting)));  // a dead process is noticed when it fails to answer
   return std::make_unique<Drawer>(std::move(child), std::move(memory), slots);
 }
 
@@ -122,6 +122,11 @@ std::unique_ptr<Drawers> Drawers::start(const DrawingWork& work, const std::stri
 unsigned Drawers::count() const {
   return static_cast<unsigned>(
       std::ranges::count_if(drawers_, [](const auto& drawer) { return drawer->child.has_value(); }));
+}
+
+unsigned Drawers::useful() const {
+  return static_cast<unsigned>(
+      std::ranges::count_if(drawers_, [](const auto& drawer) { return drawer->drew; }));
 }
 
 std::optional<Drawers::Place> Drawers::free_place() const {
@@ -175,6 +180,7 @@ std::optional<Drawers::Drawn> Drawers::take(const Place& place) {
   Drawn drawn;
   const bool answered = static_cast<bool>(words >> word >> slot >> drawn.draw >> drawn.read);
   if (answered && word == "done" && slot == place.slot) {
+    drawer.drew = true;
     drawn.rgb = layout_.pixels(drawer.memory.bytes(), place.slot);
     return drawn;
   }
@@ -196,8 +202,11 @@ void Drawers::lose(Drawer& drawer) {
                           : fmt::format("ended with exit code {}\n", end.exit_code);
   drawer.child.reset();
   how.pop_back();
-  print_warning(fmt::format("A process that draws pictures was lost ({}). Its pictures are drawn {}.", how,
-                            count() > 0 ? "again" : "by this one"));
+  // Whatever ends one may end all: it is said once.
+  if (!told_.insert(how).second) return;
+  print_warning(
+      fmt::format("A process that draws pictures was lost ({}). What it was to draw is drawn by this one{}.",
+                  how, count() > 0 ? ", the rest by the others" : ""));
 }
 
 void Drawers::end() {

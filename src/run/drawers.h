@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ class Drawers {
 
   /// How many work at present.
   unsigned count() const;
+  /// How many have drawn a picture so far.
+  unsigned useful() const;
 
   /// A slot of a process.
   struct Place {
@@ -82,6 +85,7 @@ class Drawers {
 
   SlotLayout layout_;
   std::vector<std::unique_ptr<Drawer>> drawers_;
+  std::set<std::string> told_;  // what has ended some of them
 };
 
 }  // namespace aspic

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "device/particles.h"
 #include "gpu/current.h"
-#include "run/seconds_since.h"
 
 namespace aspic {
 namespace {
@@ -165,7 +165,10 @@ Status FilmPainter::finish() {
       return taken;
     }
   }
-  if (drawers_) drawers_->end();
+  if (drawers_) {
+    processes_ = drawers_->useful();
+    drawers_->end();
+  }
   ASPIC_CHECK(recording_->end_complete());
   return recording_->result();
 }

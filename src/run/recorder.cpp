@@ -99,7 +99,7 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
 }
 
 Status Recorder::finish(Solver& solver, std::uint64_t step) {
-  if (film_->recording().pictures() == 0 || last_shown_ != step) {
+  if (last_shown_ != step) {
     if (const Status drawn = draw(solver, step, 1); !drawn) {
       film_->abandon();
       return drawn;

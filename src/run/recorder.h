@@ -62,7 +62,8 @@ class Recorder {
   const Backend& backend_;
   FrameSchedule schedule_;
   Following following_;
-  std::uint64_t next_frame_ = 0, last_shown_ = 0;
+  std::uint64_t next_frame_ = 0;
+  std::optional<std::uint64_t> last_shown_;
   double simulate_seconds_ = 0.0;
   std::shared_ptr<gl::Context> own_context_;
   std::unique_ptr<FilmPainter> film_;
