@@ -259,7 +259,7 @@ TEST_F(Beside, WhatCannotBeIsRefusedAndChangesNothing) {
   compare({"n", "5"});
   EXPECT_EQ(run(1).model().particle_count(), 125u);
   app().hands.toggle_pin(0);
-  EXPECT_THAT(error(), HasSubstr("other particles"));
+  EXPECT_THAT(error(), HasSubstr("different particles"));
   app().hands.begin_pull(0, {});
   EXPECT_FALSE(simulation().hand().has_value());
   beside().set(1, {"h", "-1"});

@@ -95,6 +95,18 @@ TEST(Beside, TextTellsOfADivergence) {
   EXPECT_EQ(beside_text("k 1 N/m", 1, 0.039, 0.001, {}).size(), 1u);
 }
 
+TEST(Beside, TheAuthorStandsAboveTheFirstText) {
+  Scene scene;
+  EXPECT_EQ(below_author(scene, {{"a", "1 s"}}).size(), 1u);
+  scene.author = "Ada Lovelace";
+  const auto lines = below_author(scene, {{"a", "1 s"}});
+  ASSERT_EQ(lines.size(), 2u);
+  // One label, which may take several lines.
+  EXPECT_EQ(lines[0].label, "author Ada Lovelace");
+  EXPECT_EQ(lines[0].value, "");
+  EXPECT_EQ(lines[1].label, "a");
+}
+
 TEST(Beside, NamesAreShort) {
   const std::vector<Variation> differences = {
       {"integrator", "implicit-euler"}, {"h", "0.002"}, {"h", "0.004"}, {"cube[0].shear.stiffness", "10"}};
