@@ -67,10 +67,10 @@ changed_files() {
 }
 
 # In parts, until ASPIC_ALONE_SECONDS are over if they are set: says how many files were left then. A header is compiled as the .cpp of
-# its name or, without one, included by an otherwise empty file.
+# its name or, without one, included by an otherwise empty file with the flags of a file of its room.
 step_alone() {
   local files file targets=() headers=() at=0 part failed=0 started=$SECONDS
-  part=$((2 * $(nproc)))
+  part=$((8 * $(nproc)))
   files=$(changed_files) || return 1
   cmake --preset alone || return 1
   while read -r file; do
@@ -91,8 +91,8 @@ step_alone() {
   done
   local neighbour command
   for file in "${headers[@]}"; do
-    neighbour=$(files "${file%/*}/*.cpp" | head -n 1)
-    [ -n "$neighbour" ] || continue
+    neighbour=$(files "${file%/*}/*.cpp" | grep -x "${file%/*}/[^/]*" | head -n 1)
+    [ -n "$neighbour" ] || continue # src/aspic.h, which the examples include
     echo "$file"
     command=$(ninja -C build/alone -t commands -s "$aspic_root/$neighbour^" | sed 's/ -MD .*//')
     (cd build/alone && echo "#include \"${file#src/}\"" | eval "$command -fsyntax-only -x c++ -") || failed=1
