@@ -202,9 +202,9 @@ Status check_state_name(std::string_view option, const std::string& path) {
               printable_line(path), fmt::join(endings, " or "));
 }
 
-const StateFormat& state_format_of(std::string_view option, const std::string& path) {
+const StateFormat& state_format_of(std::string_view option, std::string_view path) {
   const StateFormat* chosen = nullptr;
-  const std::string ending = ending_of(path);
+  const std::string ending = ending_of(std::string(path));
   for (const StateFormat& format : table) {
     if (format.option != option) continue;
     if (!chosen || format.ending == ending) chosen = &format;

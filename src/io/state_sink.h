@@ -77,6 +77,6 @@ std::string state_help(std::string_view option);
 Status check_state_name(std::string_view option, const std::string& path);
 /// The format of an option, which exists, that a file name's ending asks for; the option's default where no
 /// ending fits.
-const StateFormat& state_format_of(std::string_view option, const std::string& path);
+const StateFormat& state_format_of(std::string_view option, std::string_view path);
 
 }  // namespace aspic
