@@ -18,6 +18,13 @@
 namespace aspic::app {
 namespace {
 
+// Dear ImGui 1.87 gave it another name.
+#if IMGUI_VERSION_NUM >= 18700
+constexpr ImGuiKey keypad_enter = ImGuiKey_KeypadEnter;
+#else
+constexpr ImGuiKey keypad_enter = ImGuiKey_KeyPadEnter;
+#endif
+
 /// More than anyone reads: a longer query finds the rest.
 constexpr std::size_t most_hits = 14;
 
@@ -215,7 +222,7 @@ void Palette::draw(const PanelParts& p, double width, double height) {
   }
   if (hits.empty()) ImGui::TextDisabled("nothing has these words");
   // After a value was entered the next one can be looked for.
-  if (typed_row_ >= 0 && typed_row < 0 && (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter)))
+  if (typed_row_ >= 0 && typed_row < 0 && (pressed(ImGuiKey_Enter) || pressed(keypad_enter)))
     back_to_query_ = true;
   typed_row_ = typed_row;
   const bool elsewhere = ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
