@@ -116,11 +116,13 @@ Json to_json(const FrameTimes& t, const std::string& device) {
 
 void print_frame_times(const FrameTimes& t, const std::string& device) {
   const auto ms = [&](double seconds) { return 1000.0 * t.per_frame(seconds); };
+  const std::string drawers =
+      t.processes > 0 ? fmt::format(", drawn by {} process{}", t.processes, t.processes > 1 ? "es" : "") : "";
   print_message(fmt::format(
-      "{} pictures on {}{}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, encode {:.1f} "
+      "{} picture{} on {}{}; per picture: simulate {:.1f} ms, draw {:.1f} ms, read {:.1f} ms, encode {:.1f} "
       "ms.",
-      t.frames, device, t.processes > 0 ? fmt::format(", drawn by {} processes", t.processes) : "",
-      ms(t.simulate), ms(t.draw), ms(t.read), ms(t.encode)));
+      t.frames, t.frames == 1 ? "" : "s", device, drawers, ms(t.simulate), ms(t.draw), ms(t.read),
+      ms(t.encode)));
 }
 
 /// The infinite lattice clears most cubes at once; a large one's own spectrum takes seconds.

@@ -13,14 +13,21 @@ class Writer {
  public:
   template <class T>
   requires std::is_trivially_copyable_v<T>
-  void put(const T& item) { bytes_.append(reinterpret_cast<const char*>(&item), sizeof item); }
-  template <class T>
-  requires std::is_trivially_copyable_v<T>
-  void put_items(std::span<const T> items) {
-    put(std::uint64_t{items.size()});
-    bytes_.append(reinterpret_cast<const char*>(items.data()), items.size_bytes());
+  void operator()(const T& item) { append(&item, sizeof item); }
+  void operator()(const std::string& text) {
+    (*this)(std::uint64_t{text.size()});
+    append(text.data(), text.size());
   }
-  void put(const std::string& text) { put_items(std::span<const char>(text)); }
+  template <class T>
+  void operator()(const std::vector<T>& items) {
+    (*this)(std::uint64_t{items.size()});
+    append(items.data(), sizeof(T) * items.size());
+  }
+  template <class T, class Each>
+  void list(const std::vector<T>& things, Each each) {
+    (*this)(std::uint64_t{things.size()});
+    for (const T& thing : things) each(thing);
+  }
 
   /// With its length.
   std::string message() const {
@@ -29,6 +36,8 @@ class Writer {
   }
 
  private:
+  void append(const void* from, std::size_t size) { bytes_.append(static_cast<const char*>(from), size); }
+
   std::string bytes_;
 };
 
@@ -38,32 +47,36 @@ class Reader {
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
 
   template <class T>
-  void get(T& item) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    take(&item, sizeof item);
-  }
-  template <class T>
-  void get_items(std::vector<T>& items) {
-    items.resize(count(sizeof(T)));
-    take(items.data(), sizeof(T) * items.size());
-  }
-  void get(std::string& text) {
+  requires std::is_trivially_copyable_v<T>
+  void operator()(T& item) { take(&item, sizeof item); }
+  void operator()(std::string& text) {
     text.resize(count(1));
     take(text.data(), text.size());
   }
-  /// Of things that follow, each of at least `size` bytes.
-  std::size_t count(std::size_t size) {
-    std::uint64_t number = 0;
-    get(number);
-    whole_ = whole_ && number <= bytes_.size() / size;
-    return whole_ ? static_cast<std::size_t>(number) : 0;
+  template <class T>
+  void operator()(std::vector<T>& items) {
+    items.resize(count(sizeof(T)));
+    take(items.data(), sizeof(T) * items.size());
   }
+  template <class T, class Each>
+  void list(std::vector<T>& things, Each each) {
+    things.resize(count(1));
+    for (T& thing : things) each(thing);
+  }
+
   Status end() const {
     if (whole_ && bytes_.empty()) return {};
     return Error{ErrorCode::io, "a message to a process that draws pictures is damaged."};
   }
 
  private:
+  /// Of things that follow, each of at least `size` bytes.
+  std::size_t count(std::size_t size) {
+    std::uint64_t number = 0;
+    (*this)(number);
+    whole_ = whole_ && number <= bytes_.size() / size;
+    return whole_ ? static_cast<std::size_t>(number) : 0;
+  }
   void take(void* to, std::size_t size) {
     whole_ = whole_ && size <= bytes_.size();
     if (!whole_ || size == 0) return;
@@ -75,55 +88,37 @@ class Reader {
   bool whole_ = true;
 };
 
-void put(Writer& to, const std::optional<Colour>& colour) {
-  to.put(colour.has_value());
-  to.put(colour.value_or(Colour{}));
+// What a message holds, in its order, for a Writer and for a Reader.
+
+template <class Items, class Greeting>
+void greeting_items(Items& items, Greeting& greeting) {
+  items(greeting.size);
+  items(greeting.slots);
+  items(greeting.device);
+  items.list(greeting.scenes, [&](auto& scene) { items(scene); });
 }
 
-void get(Reader& from, std::optional<Colour>& colour) {
-  bool there = false;
-  Colour given;
-  from.get(there);
-  from.get(given);
-  if (there) colour = given;
-}
-
-void put(Writer& to, const ShownRun& shown) {
-  to.put(shown.camera);
-  to.put(std::uint64_t{shown.text.size()});
-  for (const OverlayLine& line : shown.text) {
-    to.put(line.label);
-    to.put(line.value);
-    to.put(line.alarm);
-    put(to, line.tint);
-  }
-  to.put(shown.text_height);
-  to.put(shown.legend);
-  put(to, shown.tint);
-  to.put(shown.framed);
-  to.put_items(std::span(shown.arrows.arrows));
-  to.put(shown.arrows.room);
-  to.put(shown.arrows.noise);
-  to.put_items(std::span(shown.ball_turns));
-}
-
-void get(Reader& from, ShownRun& shown) {
-  from.get(shown.camera);
-  shown.text.resize(from.count(1));
-  for (OverlayLine& line : shown.text) {
-    from.get(line.label);
-    from.get(line.value);
-    from.get(line.alarm);
-    get(from, line.tint);
-  }
-  from.get(shown.text_height);
-  from.get(shown.legend);
-  get(from, shown.tint);
-  from.get(shown.framed);
-  from.get_items(shown.arrows.arrows);
-  from.get(shown.arrows.room);
-  from.get(shown.arrows.noise);
-  from.get_items(shown.ball_turns);
+template <class Items, class Request>
+void request_items(Items& items, Request& request) {
+  items(request.slot);
+  items(request.steps);
+  items.list(request.shown, [&](auto& shown) {
+    items(shown.camera);
+    items.list(shown.text, [&](auto& line) {
+      items(line.label);
+      items(line.value);
+      items(line.alarm);
+      items(line.tint);
+    });
+    items(shown.text_height);
+    items(shown.legend);
+    items(shown.tint);
+    items(shown.framed);
+    items(shown.arrows.arrows);
+    items(shown.arrows.room);
+    items(shown.arrows.noise);
+    items(shown.ball_turns);
+  });
 }
 
 constexpr std::uint64_t rounded_up(std::uint64_t bytes) {
@@ -134,42 +129,28 @@ constexpr std::uint64_t rounded_up(std::uint64_t bytes) {
 
 std::string message_of(const DrawerGreeting& greeting) {
   Writer to;
-  to.put(greeting.size);
-  to.put(greeting.slots);
-  to.put(greeting.device);
-  to.put(std::uint64_t{greeting.scenes.size()});
-  for (const std::string& scene : greeting.scenes) to.put(scene);
+  greeting_items(to, greeting);
   return to.message();
 }
 
 Result<DrawerGreeting> read_greeting(std::string_view bytes) {
   Reader from(bytes);
   DrawerGreeting greeting;
-  from.get(greeting.size);
-  from.get(greeting.slots);
-  from.get(greeting.device);
-  greeting.scenes.resize(from.count(1));
-  for (std::string& scene : greeting.scenes) from.get(scene);
+  greeting_items(from, greeting);
   ASPIC_CHECK(from.end());
   return greeting;
 }
 
 std::string message_of(const DrawerRequest& request) {
   Writer to;
-  to.put(request.slot);
-  to.put_items(std::span(request.steps));
-  to.put(std::uint64_t{request.shown.size()});
-  for (const ShownRun& shown : request.shown) put(to, shown);
+  request_items(to, request);
   return to.message();
 }
 
 Result<DrawerRequest> read_request(std::string_view bytes) {
   Reader from(bytes);
   DrawerRequest request;
-  from.get(request.slot);
-  from.get_items(request.steps);
-  request.shown.resize(from.count(1));
-  for (ShownRun& shown : request.shown) get(from, shown);
+  request_items(from, request);
   ASPIC_CHECK(from.end());
   return request;
 }

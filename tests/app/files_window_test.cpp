@@ -30,6 +30,13 @@ class Files : public Stage {
         path, std::filesystem::last_write_time(path) + std::chrono::seconds(++writes_));
     return path;
   }
+  /// Opens the palette and types.
+  void ask(std::u32string_view query) {
+    press(GLFW_KEY_P, GLFW_MOD_CONTROL);
+    frames(3);
+    for (const char32_t c : query) type(c);
+    frames(2);
+  }
   static std::string scene_text(int n) {
     return "schema = 1\n[[cube]]\nparticles-per-edge = " + std::to_string(n) + "\n";
   }
@@ -233,12 +240,6 @@ TEST_F(Files, TheSearchOpensTheOnlySceneThatIsLeft) {
 
 TEST_F(Files, ThePaletteFindsActionsScenesAndValues) {
   open("cube-plane", {}, "reference");
-  const auto ask = [&](std::u32string_view query) {
-    press(GLFW_KEY_P, GLFW_MOD_CONTROL);
-    frames(3);
-    for (const char32_t c : query) type(c);
-    frames(2);
-  };
   ask(U"start pause");
   ASSERT_TRUE(has("palette/start or pause"));
   press(GLFW_KEY_ENTER);
@@ -259,12 +260,6 @@ TEST_F(Files, ThePaletteFindsActionsScenesAndValues) {
 
 TEST_F(Files, ThePaletteFindsValuesBeforeScenesAndSectionsToo) {
   open("cube-plane", {}, "reference");
-  const auto ask = [&](std::u32string_view query) {
-    press(GLFW_KEY_P, GLFW_MOD_CONTROL);
-    frames(3);
-    for (const char32_t c : query) type(c);
-    frames(2);
-  };
   const auto marked = [&](const std::string& widget) {
     const app::Box row = widgets().at("palette/marked"), own = widgets().at(widget);
     return std::abs(row.centre_y() - own.centre_y()) < 8.0;
