@@ -76,6 +76,26 @@ void set_theme(float scale) {
   style.ScaleAllSizes(scale);
 }
 
+#if IMGUI_VERSION_NUM >= 18900
+/// After the backend, which asks the keyboard: that may be ahead of the events.
+void tell_modifiers(const KeyEvent& event) {
+  struct Modifier {
+    ImGuiKey key;
+    int bit, left, right;
+  };
+  static constexpr Modifier modifiers[] = {
+      {ImGuiMod_Ctrl, GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL},
+      {ImGuiMod_Shift, GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT},
+      {ImGuiMod_Alt, GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT},
+      {ImGuiMod_Super, GLFW_MOD_SUPER, GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER}};
+  for (const Modifier& m : modifiers) {
+    // GLFW's bits lack the key of the event itself.
+    const bool own = event.key == m.left || event.key == m.right;
+    ImGui::GetIO().AddKeyEvent(m.key, own ? event.action != GLFW_RELEASE : (event.modifiers & m.bit) != 0);
+  }
+}
+#endif
+
 }  // namespace
 
 Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services, const Commands& commands,
@@ -85,6 +105,9 @@ Result<std::unique_ptr<Gui>> Gui::create(double scale, WindowServices services, 
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
+#if IMGUI_VERSION_NUM >= 18900
+  io.ConfigInputTrickleEventQueue = false;  // App spreads events over pictures itself: ready_for()
+#endif
   io.UserData = gui.get();
   gui->set_look();
   // Without its callbacks: events come through ours, so that tests can hand them over too.
@@ -129,6 +152,9 @@ void Gui::key(const KeyEvent& event) {
   if (event.character != 0) return ImGui::GetIO().AddInputCharacter(event.character);
   // What GLFW says of modifiers lacks the key of the event itself; this keeps its own account.
   ImGui_ImplGlfw_KeyCallback(services_.window, event.key, 0, event.action, event.modifiers);
+#if IMGUI_VERSION_NUM >= 18900
+  tell_modifiers(event);
+#endif
   if (event.action != GLFW_REPEAT) changed_.push_back(event.key);
   edited_ = edited_ || (event.action != GLFW_RELEASE && edits(event.key));
 }
@@ -167,10 +193,15 @@ void Gui::begin(double dt) {
   }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  // The mouse as events told it, which may be ahead of where it is by now.
   ImGuiIO& io = ImGui::GetIO();
   io.DeltaTime = static_cast<float>(std::max(dt, 1e-4));
-  io.MousePos = {static_cast<float>(mouse_x_), static_cast<float>(mouse_y_)};
+  // The mouse as events told it, which may be ahead of where it is by now.
+  const ImVec2 mouse{static_cast<float>(mouse_x_), static_cast<float>(mouse_y_)};
+#if IMGUI_VERSION_NUM >= 18900
+  io.AddMousePosEvent(mouse.x, mouse.y);  // after the one that ImGui_ImplGlfw_NewFrame() queued
+#else
+  io.MousePos = mouse;
+#endif
   for (int i = 0; i < 5; ++i) {
     io.MouseDown[i] = pressed_[i] || held_[i];
     pressed_[i] = false;
