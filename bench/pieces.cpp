@@ -13,6 +13,7 @@
 #include "cpu_parallel/lattice_kernels.h"
 #include "cpu_parallel/springs.h"
 #include "cpu_reference/reductions.h"
+#include "model/counts.h"
 #include "model/incident_springs.h"
 #include "rates.h"
 

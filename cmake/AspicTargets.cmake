@@ -3,7 +3,7 @@
 add_library(aspic_rules INTERFACE)
 # Whether a target is one of aspic_computes().
 set(computes "$<BOOL:$<TARGET_PROPERTY:ASPIC_COMPUTES>>")
-target_include_directories(aspic_rules INTERFACE "${PROJECT_SOURCE_DIR}/src")
+target_include_directories(aspic_rules INTERFACE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
 # Contraction to fused multiply-add would change bits: see docs/determinism.md.
 target_compile_options(aspic_rules INTERFACE -ffp-contract=off)
 target_compile_features(aspic_rules INTERFACE cxx_std_20)
@@ -43,6 +43,12 @@ function(aspic_level target level)
   endif()
 endfunction()
 
+# aspic_hidden(TARGET): the same objects make the static and the shared library, which shows nothing but what is ASPIC_API.
+function(aspic_hidden target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden
+                                             VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
 # aspic_headers(NAME LEVEL TARGETS library … HEADERS <header> …): headers of other libraries, compiled once for all targets of one level,
 # which use them by aspic_precompiled(TARGET NAME). No file relies on them: `scripts/check.sh clang` compiles each by itself, without them.
 function(aspic_headers name level)
@@ -75,6 +81,7 @@ function(aspic_library name)
   endif()
   add_library(${name} OBJECT ${arg_SOURCES})
   target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS})
+  aspic_hidden(${name})
   aspic_precompiled(${name} aspic_room_headers)
   set_property(GLOBAL APPEND PROPERTY ASPIC_ROOMS ${name})
 endfunction()
@@ -93,6 +100,7 @@ function(aspic_program_part name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(${name} STATIC ${arg_SOURCES})
   target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS} aspic::aspic)
+  aspic_hidden(${name})  # as the headers that it shares with the rooms
   aspic_precompiled(${name} aspic_room_headers)
 endfunction()
 

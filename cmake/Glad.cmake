@@ -31,3 +31,4 @@ add_custom_command(
 # Generated C: none of the project's warning flags.
 add_library(aspic_glad STATIC "${glad_directory}/src/gl.c" "${glad_directory}/include/glad/gl.h")
 target_include_directories(aspic_glad SYSTEM PUBLIC "${glad_directory}/include")
+aspic_hidden(aspic_glad)

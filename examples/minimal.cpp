@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "aspic.h"
+#include "aspic/aspic.h"
 
 namespace {
 

@@ -77,7 +77,7 @@ step_alone() {
     if [[ $file == *.h && -f ${file%.h}.cpp ]]; then file=${file%.h}.cpp; fi
     if grep -qF "\"file\": \"$aspic_root/$file\"" build/alone/compile_commands.json; then
       [[ " ${targets[*]} " == *" $aspic_root/$file^ "* ]] || targets+=("$aspic_root/$file^")
-    elif [[ $file == src/*.h ]]; then
+    elif [[ $file == src/*.h || $file == include/*.h ]]; then
       headers+=("$file")
     fi # others, of fuzzers for one, have no target in this build
   done <<<"$files"
@@ -92,10 +92,10 @@ step_alone() {
   local neighbour command
   for file in "${headers[@]}"; do
     neighbour=$(files "${file%/*}/*.cpp" | grep -x "${file%/*}/[^/]*" | head -n 1)
-    [ -n "$neighbour" ] || continue # src/aspic.h, which the examples include
+    [ -n "$neighbour" ] || neighbour=examples/minimal.cpp # public headers
     echo "$file"
     command=$(ninja -C build/alone -t commands -s "$aspic_root/$neighbour^" | sed 's/ -MD .*//')
-    (cd build/alone && echo "#include \"${file#src/}\"" | eval "$command -fsyntax-only -x c++ -") || failed=1
+    (cd build/alone && echo "#include \"${file#*/}\"" | eval "$command -fsyntax-only -x c++ -") || failed=1
   done
   return "$failed"
 }

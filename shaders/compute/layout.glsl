@@ -38,7 +38,7 @@
 // Elements of one block of a reduction, and the group size of every kernel that takes part in one (docs/determinism.md).
 #define REDUCTION_BLOCK 256
 
-// How a solve ended: SolveEnd in src/model/implicit.h.
+// How a solve ended: SolveEnd in include/aspic/solver.h.
 #define SOLVE_CONVERGED 0u
 #define SOLVE_STAGNATED 1u
 #define SOLVE_NOT_CONVERGED 2u
@@ -187,7 +187,7 @@ struct Pose {
   vec4 velocity;  // V [m/s]; w: unused
 };
 
-// A damped spring of rest length 0 to a fixed anchor, see src/model/pull.h.
+// A damped spring of rest length 0 to a fixed anchor, see include/aspic/inputs.h.
 struct Pull {
   vec4 anchor;      // [m]; w: unused
   float stiffness;  // k [N/m]

@@ -1,4 +1,4 @@
-// The pull of src/model/pull.h, summed after its particle's springs: a spring of rest length 0 whose other end rests
+// The pull of include/aspic/inputs.h, summed after its particle's springs: a spring of rest length 0 whose other end rests
 // at the anchor.
 #include "compute/spring.glsl"
 

@@ -1,9 +1,10 @@
-#include "analysis/compare.h"
-
 #include <bit>
 #include <cmath>
 #include <tuple>
 #include <vector>
+
+#include "aspic/analysis.h"
+#include "base/result.h"
 
 namespace aspic {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/counts.h"
 #include "model/terrain.h"
 
 namespace aspic {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/energy.h"
-#include "model/model.h"
-#include "model/state.h"
+#include "aspic/analysis.h"
+#include "aspic/model.h"
+#include "aspic/state.h"
 
 namespace aspic {
 

@@ -1,14 +1,18 @@
-#include "analysis/energy.h"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "aspic/analysis.h"
+#include "model/counts.h"
 #include "model/springs.h"
 
 namespace aspic {
+
+double Measures::total() const {
+  return kinetic + elastic + gravitational;
+}
 
 Measures measure(const Model& model, const State& state) {
   assert(check_sizes(model, state));

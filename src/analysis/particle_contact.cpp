@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "analysis/contact_force.h"
+#include "model/counts.h"
 
 namespace aspic {
 namespace {

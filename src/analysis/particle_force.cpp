@@ -6,6 +6,7 @@
 
 #include "analysis/contact_force.h"
 #include "cpu_reference/spring.h"
+#include "model/counts.h"
 #include "model/springs.h"
 
 namespace aspic {

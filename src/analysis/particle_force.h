@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "model/model.h"
-#include "model/pull.h"
-#include "model/state.h"
+#include "aspic/inputs.h"
+#include "aspic/model.h"
+#include "aspic/state.h"
 
 namespace aspic {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/model.h"
+#include "aspic/model.h"
 
 namespace aspic {
 

@@ -1,49 +1,12 @@
 #pragma once
-// The largest stable time step of the explicit integrators, from the scene's own linearisation
-// (docs/physics.md, section 3).
-#include <functional>
+// What else there is to say of the largest stable time step (docs/physics.md, section 3).
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
-#include "model/model.h"
+#include "aspic/analysis.h"
+#include "aspic/model.h"
 
 namespace aspic {
-
-/// A stable step.
-struct StabilityLimit {
-  /// Largest stable h [s]; infinite when nothing limits it (implicit Euler, no springs); nothing when some
-  /// mode grows at any step (undamped springs under explicit Euler or midpoint).
-  std::optional<double> step;
-  /// False: the true limit is this or larger.
-  bool exact = true;
-};
-
-/// How much time the estimate may take.
-enum class StabilityEffort {
-  quick,    ///< milliseconds for a thousand particles: before every run
-  thorough  ///< dense solves of bodies with up to 600 degrees of freedom: for reports
-};
-
-/// Called now and then while limits are computed, with the share of the work that is done at most; false ends
-/// the work, and what it had not reached is bounded instead.
-using StabilityWatch = std::function<bool(double)>;
-
-/// The smallest limit of all bodies. Springs are linearised at rest.
-///
-/// Where all springs of a body have one ratio of damping to stiffness, its modes are those of one operator
-/// with eigenvalues α in (0, α_max], each giving λ² + (αc/m)λ + αk/m = 0: the limit is the minimum over that
-/// interval, exact where α_max itself decides. Otherwise symplectic Euler's limit is the h with λ_max(h²K +
-/// 2hC) = 4, exact; the others' is exact by a dense solve where the body is small, and else the minimum over
-/// all (κ, γ) that Rayleigh quotients of K and C can take, which the true limit never falls below.
-///
-/// The work is bounded: a budget of spring evaluations, about a second's for quick and ten seconds' for
-/// thorough. Bodies for which nothing is left take part with Gershgorin bounds on κ and γ: then the limit is
-/// not exact, but the true one is not smaller. 0, not exact: k/m is beyond double precision.
-StabilityLimit stability_limit(const Model& model, Integrator integrator,
-                               StabilityEffort effort = StabilityEffort::thorough,
-                               const StabilityWatch& watch = {});
 
 /// Largest eigenvalue α of the infinite cube lattice with all spring constants and masses 1: the maximum over
 /// wave vectors of Σ 2(1 − cos θ·d)·nnᵀ, rounded up. A cube has springs missing at its surface, which only
@@ -53,11 +16,6 @@ inline constexpr double infinite_lattice_eigenvalue = 17.6334;
 /// True if `timestep` is stable beyond doubt, from the infinite lattice alone and in no time: cubes with one
 /// ratio of damping to stiffness. False says nothing: ask stability_limit.
 bool certainly_stable(const Model& model, Integrator integrator, double timestep);
-
-/// The limits of several integrators, sharing what they have in common; in the order of `integrators`.
-std::vector<StabilityLimit> stability_limits(const Model& model, std::span<const Integrator> integrators,
-                                             StabilityEffort effort = StabilityEffort::thorough,
-                                             const StabilityWatch& watch = {});
 
 /// Largest eigenvalue κ_max [1/s²] of M^(-1/2) K M^(-1/2) over all bodies: α_max·k/m for a uniform cube,
 /// whose α_max is 16.850 at n = 10.

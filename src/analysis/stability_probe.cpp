@@ -6,6 +6,7 @@
 
 #include "analysis/spectrum.h"
 #include "base/split_mix.h"
+#include "model/integrator.h"
 #include "model/springs.h"
 
 namespace aspic {

@@ -2,7 +2,7 @@
 // The camera under the mouse: orbit, pan and zoom of a goal that the shown camera follows smoothly.
 #include <optional>
 
-#include "scene/scene.h"
+#include "aspic/scene.h"
 
 namespace aspic::app {
 

@@ -9,9 +9,9 @@
 #include "app/scene_picture.h"
 #include "app/simulation.h"
 #include "app/view.h"
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "run/variation.h"
-#include "scene/scene.h"
 
 namespace aspic::app {
 

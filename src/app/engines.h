@@ -11,11 +11,11 @@
 
 #include "app/samples.h"
 #include "app/setup.h"
+#include "aspic/inputs.h"
+#include "aspic/solver.h"
+#include "aspic/state.h"
 #include "base/result.h"
 #include "gpu/context.h"
-#include "model/pull.h"
-#include "model/solver.h"
-#include "model/state.h"
 #include "run/backends.h"
 
 namespace aspic::app {

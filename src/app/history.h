@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/setup.h"
-#include "model/pull.h"
-#include "model/state.h"
+#include "aspic/inputs.h"
+#include "aspic/state.h"
 
 namespace aspic::app {
 

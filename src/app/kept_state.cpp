@@ -12,10 +12,10 @@
 #define JSON_DIAGNOSTICS 1  // errors name the key
 #include <nlohmann/json.hpp>
 
+#include "aspic/scene.h"
 #include "base/files.h"
 #include "base/printable.h"
 #include "io/atomic_file.h"
-#include "scene/load.h"
 
 namespace aspic {
 

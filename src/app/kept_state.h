@@ -7,9 +7,9 @@
 
 #include "app/layouts.h"
 #include "app/pacer.h"
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "io/film_format.h"
-#include "scene/scene.h"
 
 namespace aspic::app {
 

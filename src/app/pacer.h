@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "model/settings.h"
+#include "aspic/settings.h"
 
 namespace aspic::app {
 

@@ -13,7 +13,7 @@
 #include "app/new_body.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
-#include "scene/load.h"
+#include "aspic/scene.h"
 
 namespace aspic::app {
 namespace {

@@ -9,11 +9,11 @@
 #include "app/number_field.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "aspic/scene.h"
 #include "io/series_csv.h"
 #include "io/state_sink.h"
 #include "run/beside.h"
 #include "run/run_files.h"
-#include "scene/write.h"
 
 namespace aspic::app {
 namespace {

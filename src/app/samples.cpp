@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/compare.h"
+#include "aspic/analysis.h"
 
 namespace aspic::app {
 namespace {

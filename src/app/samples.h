@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <deque>
 
-#include "analysis/energy.h"
-#include "model/state.h"
+#include "aspic/analysis.h"
+#include "aspic/state.h"
 
 namespace aspic::app {
 

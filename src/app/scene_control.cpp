@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "aspic/scene.h"
 #include "scene/follow.h"
-#include "scene/load.h"
 
 namespace aspic::app {
 

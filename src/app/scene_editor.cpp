@@ -4,11 +4,12 @@
 #include <limits>
 #include <utility>
 
+#include "aspic/scene.h"
+#include "base/memory.h"
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
 #include "model/bodies.h"
 #include "scene/follow.h"
-#include "scene/load.h"
 #include "scene/scene_checks.h"
 #include "scene/write.h"
 

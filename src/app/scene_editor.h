@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "aspic/scene.h"
+#include "aspic/state.h"
 #include "base/result.h"
 #include "io/atomic_file.h"
-#include "model/state.h"
 #include "run/variation.h"
 #include "scene/parameters.h"
-#include "scene/scene.h"
 
 namespace aspic::app {
 

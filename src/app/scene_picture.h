@@ -12,9 +12,9 @@
 #include "app/simulation.h"
 #include "app/view.h"
 #include "app/window.h"
+#include "aspic/scene.h"
 #include "render/renderer.h"
 #include "scene/follow.h"
-#include "scene/scene.h"
 
 namespace aspic::app {
 

@@ -8,9 +8,9 @@
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
+#include "aspic/scene.h"
 #include "base/printable.h"
 #include "model/terrain.h"
-#include "scene/load.h"
 
 namespace aspic::app {
 namespace {

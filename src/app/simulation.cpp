@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/counts.h"
+
 namespace aspic::app {
 namespace {
 

@@ -14,13 +14,13 @@
 #include "app/samples.h"
 #include "app/setup.h"
 #include "app/worker.h"
+#include "aspic/scene.h"
+#include "aspic/solver.h"
 #include "base/result.h"
 #include "device/device_state.h"
 #include "gpu/context.h"
 #include "gpu_solver/gpu_solver.h"
-#include "model/solver.h"
 #include "run/backends.h"
-#include "scene/scene.h"
 
 namespace aspic::app {
 

@@ -5,10 +5,9 @@
 
 #include "analysis/stability.h"
 #include "analysis/stability_probe.h"
+#include "aspic/scene.h"
 #include "run/backends.h"
-#include "scene/load.h"
 #include "scene/short_keys.h"
-#include "scene/write.h"
 
 namespace aspic::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/worker.h"
-#include "scene/scene.h"
+#include "aspic/scene.h"
 
 namespace aspic::app {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "aspic/scene.h"
 #include "scene/follow.h"
-#include "scene/load.h"
 #include "scene/write.h"
 
 namespace aspic::app {

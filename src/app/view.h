@@ -11,10 +11,10 @@
 #include "app/gui.h"
 #include "app/kept_state.h"
 #include "app/messages.h"
-#include "model/model.h"
-#include "model/state.h"
+#include "aspic/model.h"
+#include "aspic/scene.h"
+#include "aspic/state.h"
 #include "render/camera.h"
-#include "scene/scene.h"
 
 namespace aspic::app {
 

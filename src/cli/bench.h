@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "base/stopwatch.h"
 #include "cli/json.h"
 #include "command_line/arguments.h"
 #include "gpu/pass_profiler.h"
 #include "io/program.h"
-#include "scene/scene.h"
 
 namespace aspic::cli {
 

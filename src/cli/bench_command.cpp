@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "analysis/stability.h"
+#include "aspic/scene.h"
 #include "cli/bench.h"
 #include "cli/commands.h"
-#include "scene/load.h"
 
 namespace aspic::cli {
 namespace {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/run_lane.h"
@@ -14,8 +15,6 @@
 #include "run/beside_recorder.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
-#include "scene/load.h"
-#include "scene/write.h"
 
 namespace aspic::cli {
 namespace {

@@ -4,11 +4,11 @@
 #include <array>
 #include <optional>
 
+#include "aspic/scene.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "io/program.h"
 #include "run/lockstep.h"
-#include "scene/load.h"
 
 namespace aspic::cli {
 namespace {

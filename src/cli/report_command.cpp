@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
+#include "aspic/scene.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "io/program.h"
 #include "report/report.h"
-#include "scene/load.h"
 
 namespace aspic::cli {
 Status execute(const ReportOptions& options) {

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "analysis/energy.h"
 #include "analysis/stability.h"
+#include "aspic/analysis.h"
+#include "aspic/scene.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/run_lane.h"
@@ -16,8 +17,6 @@
 #include "model/springs.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
-#include "scene/load.h"
-#include "scene/write.h"
 
 namespace aspic::cli {
 namespace {

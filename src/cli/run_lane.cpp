@@ -4,7 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include "analysis/energy.h"
+#include "aspic/analysis.h"
 #include "base/stopwatch.h"
 #include "io/console.h"
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "aspic/solver.h"
+#include "aspic/state.h"
 #include "base/result.h"
 #include "io/program.h"
-#include "model/solver.h"
-#include "model/state.h"
 #include "run/run_files.h"
 
 namespace aspic::cli {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/energy.h"
 #include "analysis/stability.h"
+#include "aspic/analysis.h"
 #include "io/console.h"
 #include "model/springs.h"
 

@@ -4,15 +4,15 @@
 #include <utility>
 
 #include "analysis/stability.h"
+#include "aspic/scene.h"
 #include "base/files.h"
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "io/program.h"
+#include "model/counts.h"
 #include "run/capacity.h"
 #include "scene/import_configuration.h"
-#include "scene/load.h"
-#include "scene/write.h"
 
 namespace aspic::cli {
 

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
+#include "aspic/scene.h"
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "io/program.h"
 #include "report/sweep.h"
-#include "scene/load.h"
 
 namespace aspic::cli {
 

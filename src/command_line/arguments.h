@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "aspic/state.h"
 #include "base/result.h"
-#include "model/state.h"
 #include "run/backends.h"
 #include "run/run_files.h"
 #include "run/run_length.h"

@@ -11,6 +11,8 @@
 #include "cpu_parallel/steps.h"
 #include "cpu_reference/balls.h"
 #include "cpu_reference/divergence.h"
+#include "model/counts.h"
+#include "model/pull.h"
 #include "model/springs.h"
 
 namespace aspic {

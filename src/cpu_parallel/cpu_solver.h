@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "model/solver.h"
+#include "aspic/solver.h"
 
 namespace aspic {
 

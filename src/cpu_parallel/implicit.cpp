@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "aspic/solver.h"
 #include "cpu_parallel/contact_pieces.h"
-#include "model/solver.h"
 
 namespace aspic::parallel {
 namespace {

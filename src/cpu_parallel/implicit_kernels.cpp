@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "cpu_parallel/lanes-inl.h"
+#include "model/integrator.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace aspic::parallel::HWY_NAMESPACE {

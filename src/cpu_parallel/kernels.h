@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <string_view>
 
+#include "aspic/solver.h"
 #include "cpu_parallel/particles.h"
 #include "cpu_parallel/springs.h"
 #include "model/integrator.h"
-#include "model/solver.h"
 
 namespace aspic::parallel {
 

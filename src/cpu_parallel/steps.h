@@ -6,11 +6,11 @@
 #include <variant>
 #include <vector>
 
+#include "aspic/solver.h"
 #include "cpu_parallel/springs.h"
 #include "cpu_parallel/workers.h"
 #include "cpu_reference/dynamics.h"
 #include "model/implicit.h"
-#include "model/solver.h"
 
 namespace aspic::parallel {
 

@@ -19,6 +19,7 @@
 #include "cpu_reference/ball_search.h"
 #include "cpu_reference/integrators.h"
 #include "cpu_reference/reductions.h"
+#include "model/integrator.h"
 
 namespace aspic::reference {
 

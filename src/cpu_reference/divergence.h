@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "aspic/solver.h"
 #include "cpu_reference/balls.h"
-#include "model/solver.h"
 
 namespace aspic::reference {
 

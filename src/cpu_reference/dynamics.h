@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/inputs.h"
+#include "aspic/model.h"
 #include "cpu_reference/coulomb.h"
 #include "cpu_reference/spring.h"
-#include "model/model.h"
-#include "model/pull.h"
 #include "model/springs.h"
 
 namespace aspic::reference {

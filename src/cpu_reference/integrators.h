@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cpu_reference/dynamics.h"
+#include "model/integrator.h"
 
 namespace aspic::reference {
 

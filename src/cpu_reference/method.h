@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <memory>
 
+#include "aspic/solver.h"
 #include "cpu_reference/integrators.h"
 #include "model/implicit.h"
 #include "model/integrator.h"
-#include "model/solver.h"
 
 namespace aspic::reference {
 

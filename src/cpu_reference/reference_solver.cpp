@@ -6,9 +6,12 @@
 #include <new>
 #include <utility>
 
+#include "base/result.h"
 #include "cpu_reference/balls.h"
 #include "cpu_reference/divergence.h"
 #include "cpu_reference/method.h"
+#include "model/counts.h"
+#include "model/pull.h"
 
 namespace aspic {
 namespace reference {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/vec3.h"
+#include "aspic/vec.h"
 
 #ifdef __FMA__
 #error \

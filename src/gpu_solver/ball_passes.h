@@ -14,6 +14,7 @@
 #include "gpu_solver/gpu_solver.h"
 #include "gpu_solver/kernels.h"
 #include "gpu_solver/layout.h"
+#include "model/counts.h"
 
 namespace aspic {
 

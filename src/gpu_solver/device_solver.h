@@ -13,6 +13,7 @@
 #include "gpu_solver/layout.h"
 #include "gpu_solver/step_inputs.h"
 #include "gpu_solver/windows.h"
+#include "model/counts.h"
 
 namespace aspic {
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "model/incident_springs.h"
+#include "model/integrator.h"
 
 namespace aspic {
 

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/solver.h"
 #include "device/device_state.h"
 #include "gpu/canary.h"
 #include "gpu/context.h"
 #include "gpu/pass_profiler.h"
 #include "gpu_solver/force_paths.h"
-#include "model/solver.h"
 
 namespace aspic {
 

@@ -7,14 +7,15 @@
 #include <cmath>
 #include <string_view>
 
+#include "aspic/solver.h"
 #include "device/particles.h"
 #include "gpu/loop_bound.h"
 #include "gpu_solver/ball_passes.h"
 #include "gpu_solver/layout.h"
 #include "model/incident_springs.h"
 #include "model/integrator.h"
-#include "model/solver.h"
 #include "model/springs.h"
+#include "model/terrain.h"
 
 namespace aspic {
 namespace {

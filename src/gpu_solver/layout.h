@@ -5,6 +5,7 @@
 
 #include "device/layout.h"
 #include "model/implicit.h"
+#include "model/integrator.h"
 #include "model/shapes/shape.h"
 
 namespace aspic::layout {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "device/particles.h"
+#include "model/pull.h"
 #include "model/terrain.h"
 
 namespace aspic {

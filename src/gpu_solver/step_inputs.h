@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "aspic/inputs.h"
+#include "aspic/model.h"
 #include "gpu/pass.h"
 #include "gpu_solver/layout.h"
-#include "model/model.h"
-#include "model/pull.h"
 
 namespace aspic {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "aspic/settings.h"
+#include "aspic/state.h"
 #include "base/result.h"
 #include "io/atomic_file.h"
-#include "model/settings.h"
-#include "model/state.h"
 
 namespace aspic {
 

@@ -3,11 +3,11 @@
 #include <string>
 #include <string_view>
 
-#include "analysis/energy.h"
+#include "aspic/analysis.h"
+#include "aspic/model.h"
 #include "base/result.h"
 #include "io/atomic_file.h"
 #include "model/implicit.h"
-#include "model/model.h"
 
 namespace aspic {
 

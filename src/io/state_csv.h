@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
+#include "aspic/state.h"
 #include "base/result.h"
 #include "io/atomic_file.h"
-#include "model/state.h"
 
 namespace aspic {
 

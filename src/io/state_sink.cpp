@@ -13,6 +13,7 @@
 #include "io/series_csv.h"
 #include "io/state_csv.h"
 #include "io/state_vtp.h"
+#include "model/integrator.h"
 
 namespace aspic {
 namespace {

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "aspic/model.h"
+#include "aspic/state.h"
 #include "io/atomic_file.h"
 #include "model/implicit.h"
-#include "model/model.h"
-#include "model/state.h"
 
 namespace aspic {
 

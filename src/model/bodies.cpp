@@ -7,7 +7,8 @@ namespace aspic {
 std::span<const BodyRow> body_rows() {
   static const std::vector<BodyRow> rows = [] {
     std::vector<BodyRow> all;
-    for (BodyRow (*const row)() : body_kinds) all.push_back(row());
+    for (BodyRow (*const row)() : {cube_row, goal_net_row, cloth_row, ball_row, launcher_row})
+      all.push_back(row());
     return all;
   }();
   return rows;
@@ -22,7 +23,7 @@ std::span<const SettingsList> settings_lists() {
   return lists;
 }
 
-BodyRow BallSettings::row() {
+BodyRow ball_row() {
   constexpr auto one = [](const BallSettings&) {
     ModelCounts counts;
     counts.balls = 1;

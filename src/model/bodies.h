@@ -4,8 +4,9 @@
 #include <span>
 #include <string_view>
 
+#include "aspic/model.h"
 #include "base/result.h"
-#include "model/model.h"
+#include "model/counts.h"
 #include "model/pins.h"
 
 namespace aspic {
@@ -55,7 +56,14 @@ BodyRow body_row(std::string_view key, std::string_view size_key, const PinNames
   return row;
 }
 
-/// Every kind of body, in the order in which the model makes them.
+/// The kinds, each in its own file.
+BodyRow cube_row();
+BodyRow goal_net_row();
+BodyRow cloth_row();
+BodyRow ball_row();
+BodyRow launcher_row();
+
+/// All of them, in the order in which the model makes them and files list them.
 std::span<const BodyRow> body_rows();
 
 /// Every list of a scene file: terrain, then the bodies.

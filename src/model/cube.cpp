@@ -100,7 +100,7 @@ Status add_cube(Model& model, const CubeSettings& cube) {
   return {};
 }
 
-BodyRow CubeSettings::row() {
+BodyRow cube_row() {
   constexpr auto counts = [](const CubeSettings& cube) { return cube_counts(cube.particles_per_edge); };
   return body_row<&ModelSettings::cubes, counts, add_cube>("cube", "particles-per-edge", &cube_pins);
 }

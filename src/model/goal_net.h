@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "model/model.h"
+#include "aspic/model.h"
+#include "model/counts.h"
 
 namespace aspic {
 

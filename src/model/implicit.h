@@ -1,32 +1,10 @@
 #pragma once
-// Implicit Euler: the constants of the solve that every backend shares, and what it reports.
-#include <cstdint>
-
-#include "model/settings.h"
-#include "model/state.h"
+// Implicit Euler: the constants of the solve that every backend shares.
+#include "aspic/settings.h"
+#include "aspic/solver.h"
+#include "aspic/state.h"
 
 namespace aspic {
-
-/// How a step's solve ended (docs/physics.md, section 4).
-enum class SolveEnd : std::uint32_t { converged = 0, stagnated = 1, not_converged = 2 };
-
-/// One step's solve.
-struct SolveReport {
-  std::uint32_t newton_iterations = 0;  ///< linear systems solved
-  std::uint32_t cg_iterations = 0;      ///< of all of them
-  double residual = 0.0;  ///< largest component of |(v' − v) − h·a|, on the ground |v' − P(v + h·a)| [m/s]
-  SolveEnd end = SolveEnd::converged;
-};
-
-/// A run's solves since the state was loaded.
-struct SolveStatistics {
-  std::uint64_t steps = 0, converged = 0, stagnated = 0, not_converged = 0;
-  std::uint64_t newton_iterations = 0, cg_iterations = 0;
-  double worst_residual = 0.0;  ///< [m/s]
-  SolveReport last;             ///< of the latest step
-
-  void add(const SolveReport& report);
-};
 
 /// Tolerance on the residual [m/s]: the scene's, or 1e-4 in single and 1e-9 in double precision.
 double implicit_tolerance(const ImplicitSettings& settings, Precision precision);

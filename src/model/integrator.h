@@ -1,8 +1,8 @@
 #pragma once
 // The integrators: one row each, with all that the rest of the program knows about it. A new explicit method
-// is an enumerator and a row here, its step matrix in integrator.cpp, and its textbook formula in
-// src/cpu_reference/integrators.h. A new kind of methods is an alternative of MethodData, and its steps in
-// each solver. docs/extending.md has both.
+// is an enumerator (aspic/settings.h) and a row here, its step matrix in integrator.cpp, and its textbook
+// formula in src/cpu_reference/integrators.h. A new kind of methods is an alternative of MethodData, and its
+// steps in each solver. docs/extending.md has both.
 //
 // Stage s of a staged method evaluates a_s = a(X_s, V_s) with X_0 = x, V_0 = v and
 //   V_{s+1} = v + (h·advance_s)·a_s,   X_{s+1} = x + (h·advance_s)·U_s;
@@ -18,19 +18,9 @@
 #include <type_traits>
 #include <variant>
 
-namespace aspic {
+#include "aspic/settings.h"
 
-/// Time integration methods.
-enum class Integrator {
-  explicit_euler,
-  symplectic_euler,
-  midpoint,
-  runge_kutta_4,
-  implicit_euler,
-  implicit_euler_one_pass,
-  heun_3,
-  velocity_verlet
-};
+namespace aspic {
 
 struct Stage {
   double advance = 0.0;  ///< fraction of h from the start of the step to the next stage; unused in the last
@@ -188,9 +178,6 @@ consteval auto list() {
 inline constexpr std::array all_integrators = integrator_rows::list<false>();
 /// The staged ones.
 inline constexpr std::array explicit_integrators = integrator_rows::list<true>();
-
-/// Name as it is written in scene files and reports.
-std::string_view name_of(Integrator integrator);
 
 /// Force evaluations one step takes (explicit methods); 0 where they differ from step to step.
 int force_evaluations_per_step(Integrator integrator);

@@ -1,4 +1,4 @@
-#include "model/model.h"
+#include "aspic/model.h"
 
 #include <algorithm>
 
@@ -86,6 +86,10 @@ Result<Model> build_model(const ModelSettings& settings) {
   return model;
 }
 
+double Ball::inertia() const {
+  return 0.4 * mass * radius * radius;
+}
+
 State initial_state(const Model& model, Precision precision) {
   State state;
   state.precision = precision;
@@ -112,14 +116,6 @@ Status check_sizes(const Model& model, const State& state) {
                 model.ball_count());
   }
   return {};
-}
-
-double resting_speed(const Model& model) {
-  return std::max(model.contact.epsilon, 2.0 * length(model.simulation.gravity) * model.simulation.timestep);
-}
-
-double fall_speed(const Model& model) {
-  return length(model.simulation.gravity) * model.simulation.timestep;
 }
 
 ModelCounts count(const Model& model) {

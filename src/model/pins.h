@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "aspic/settings.h"
 #include "base/result.h"
-#include "model/settings.h"
 
 namespace aspic {
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/result.h"
+
 namespace aspic {
 namespace {
 

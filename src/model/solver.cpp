@@ -1,8 +1,10 @@
-#include "model/solver.h"
+#include "aspic/solver.h"
 
 #include <fmt/format.h>
 
 namespace aspic {
+
+Solver::~Solver() = default;
 
 std::string body_text(const Divergence& divergence) {
   if (divergence.residual) return "the residual of the implicit solve";

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "model/model.h"
+#include "aspic/model.h"
 
 namespace aspic {
 

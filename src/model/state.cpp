@@ -1,4 +1,4 @@
-#include "model/state.h"
+#include "aspic/state.h"
 
 #include <fmt/format.h>
 

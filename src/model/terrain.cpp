@@ -74,4 +74,12 @@ double extent(const Terrain& terrain) {
   return size;
 }
 
+double resting_speed(const Model& model) {
+  return std::max(model.contact.epsilon, 2.0 * length(model.simulation.gravity) * model.simulation.timestep);
+}
+
+double fall_speed(const Model& model) {
+  return length(model.simulation.gravity) * model.simulation.timestep;
+}
+
 }  // namespace aspic

@@ -3,7 +3,8 @@
 #include <span>
 #include <string_view>
 
-#include "model/model.h"
+#include "aspic/model.h"
+#include "model/shapes/table.h"
 
 namespace aspic {
 
@@ -69,6 +70,12 @@ constexpr TerrainShapeRow shape_row(TerrainShape value) {
 #define ASPIC_SHAPE(name, Struct) shape_row<shapes::Struct>(TerrainShape::name),
 inline constexpr TerrainShapeRow terrain_shapes[] = {ASPIC_TERRAIN_SHAPES(ASPIC_SHAPE)};
 #undef ASPIC_SHAPE
+static_assert([] {
+  std::size_t index = 0;
+  for (const TerrainShapeRow& row : terrain_shapes)
+    if (static_cast<std::size_t>(row.value) != index++ || !is_listed(row.value)) return false;
+  return true;
+}());
 
 /// The row of a shape.
 constexpr const TerrainShapeRow& terrain_row(TerrainShape shape) {
@@ -101,5 +108,11 @@ TerrainGap<double> terrain_gap(const Terrain& terrain, const Vec3& x);
 
 /// The size of the numbers in a terrain's formulas [m], which bounds the rounding of distances.
 double extent(const Terrain& terrain);
+
+/// Approach speed below which a contact is at rest: max(ε, 2|g|h) [m/s].
+double resting_speed(const Model& model);
+
+/// |g|h: speed gained by a step of free fall [m/s].
+double fall_speed(const Model& model);
 
 }  // namespace aspic

@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "gpu/vertex_array.h"
 #include "render/overlay.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

@@ -3,8 +3,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-#include "model/vec3.h"
-#include "scene/scene.h"
+#include "aspic/scene.h"
+#include "aspic/vec.h"
 
 namespace aspic {
 

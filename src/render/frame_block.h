@@ -1,10 +1,10 @@
 #pragma once
 // The block that every drawing shader reads, of one picture.
-#include "model/model.h"
+#include "aspic/model.h"
+#include "aspic/scene.h"
 #include "render/camera.h"
 #include "render/layout.h"
 #include "render/quantity.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "render/layout.h"
 #include "render/model_buffers.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

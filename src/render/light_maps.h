@@ -3,9 +3,9 @@
 #include <array>
 #include <optional>
 
+#include "aspic/scene.h"
 #include "render/model_buffers.h"
 #include "render/targets.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "aspic/vec.h"
 #include "gpu/buffer.h"
 #include "gpu/vertex_array.h"
-#include "model/vec3.h"
 
 namespace aspic {
 

@@ -2,8 +2,8 @@
 // The text on a picture.
 #include <vector>
 
+#include "aspic/scene.h"
 #include "render/overlay.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "device/device_state.h"
 #include "gpu/context.h"
@@ -14,7 +15,6 @@
 #include "render/model_buffers.h"
 #include "render/section.h"
 #include "render/targets.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

@@ -2,9 +2,9 @@
 // What colours mean: range, unit and legend.
 #include <array>
 
-#include "model/model.h"
+#include "aspic/model.h"
+#include "aspic/scene.h"
 #include "render/overlay.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

@@ -1,11 +1,11 @@
 #pragma once
 // A level ground that pictures show and physics knows nothing of.
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "gpu/program.h"
 #include "render/camera.h"
 #include "render/mesh.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

@@ -5,6 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "aspic/model.h"
+#include "aspic/scene.h"
+#include "aspic/state.h"
 #include "base/result.h"
 #include "device/device_state.h"
 #include "device/layout.h"
@@ -13,8 +16,6 @@
 #include "gpu/pass_profiler.h"
 #include "gpu/shader_source.h"
 #include "gpu/texture.h"
-#include "model/model.h"
-#include "model/state.h"
 #include "render/arrows.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
@@ -22,7 +23,6 @@
 #include "render/overlay.h"
 #include "render/picker.h"
 #include "render/quantity.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

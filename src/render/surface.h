@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/model.h"
+#include "aspic/model.h"
 
 namespace aspic {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "model/model.h"
+#include "aspic/model.h"
 #include "render/mesh.h"
 
 namespace aspic {

@@ -8,11 +8,10 @@
 #include <optional>
 #include <string_view>
 
+#include "aspic/scene.h"
 #include "base/fnv.h"
 #include "base/printable.h"
-#include "scene/load.h"
 #include "scene/short_keys.h"
-#include "scene/write.h"
 
 namespace aspic::report {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "run/backends.h"
 #include "run/run_length.h"
 #include "run/variation.h"
-#include "scene/scene.h"
 
 namespace aspic::report {
 

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <filesystem>
 
+#include "aspic/scene.h"
 #include "base/files.h"
 #include "base/fnv.h"
 #include "base/printable.h"
@@ -17,7 +18,6 @@
 #include "io/console.h"
 #include "io/machine.h"
 #include "scene/diagnostics.h"
-#include "scene/write.h"
 
 namespace aspic::report {
 namespace {

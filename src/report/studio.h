@@ -3,11 +3,11 @@
 #include <memory>
 #include <string>
 
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "io/film_format.h"
 #include "render/renderer.h"
-#include "scene/scene.h"
 
 namespace aspic::report {
 

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "analysis/stability.h"
+#include "aspic/scene.h"
 #include "model/springs.h"
-#include "scene/load.h"
 
 namespace aspic::report {
 namespace {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "analysis/stability_probe.h"
+#include "aspic/scene.h"
 #include "report/page.h"
 #include "report/studio.h"
 #include "report/trial.h"
-#include "scene/scene.h"
 #include "verify/check.h"
 
 namespace aspic::report {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "analysis/course.h"
+#include "aspic/scene.h"
 #include "run/backends.h"
 #include "run/run_length.h"
-#include "scene/scene.h"
 
 namespace aspic::report {
 

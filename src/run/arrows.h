@@ -2,11 +2,11 @@
 // What the arrows of a picture show, from a state.
 #include <optional>
 
-#include "model/model.h"
-#include "model/pull.h"
-#include "model/state.h"
+#include "aspic/inputs.h"
+#include "aspic/model.h"
+#include "aspic/scene.h"
+#include "aspic/state.h"
 #include "render/arrows.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

@@ -10,6 +10,7 @@
 #include "base/printable.h"
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
+#include "model/counts.h"
 
 namespace aspic {
 namespace {

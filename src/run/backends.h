@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/solver.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "gpu_solver/gpu_solver.h"
-#include "model/solver.h"
 
 namespace aspic {
 

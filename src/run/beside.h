@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "aspic/solver.h"
 #include "base/result.h"
 #include "io/film_format.h"
 #include "io/frame_schedule.h"
-#include "model/solver.h"
 #include "render/colour_map.h"
 #include "render/overlay.h"
 #include "render/targets.h"

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "aspic/scene.h"
+#include "aspic/solver.h"
 #include "base/result.h"
-#include "model/solver.h"
 #include "render/overlay.h"
 #include "run/backends.h"
 #include "run/beside.h"
 #include "run/film_painter.h"
 #include "run/run_files.h"
 #include "scene/follow.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

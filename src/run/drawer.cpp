@@ -7,13 +7,13 @@
 #include <chrono>
 #include <optional>
 
+#include "aspic/scene.h"
 #include "base/stopwatch.h"
 #include "gpu/pixel_ring.h"
 #include "io/child_process.h"
 #include "io/console.h"
 #include "io/shared_memory.h"
 #include "run/drawer_messages.h"
-#include "scene/load.h"
 
 namespace aspic {
 namespace {

@@ -9,13 +9,13 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "aspic/scene.h"
 #include "base/memory.h"
 #include "base/printable.h"
 #include "cpu_parallel/workers.h"
 #include "io/child_process.h"
 #include "io/console.h"
 #include "io/shared_memory.h"
-#include "scene/write.h"
 
 namespace aspic {
 namespace {

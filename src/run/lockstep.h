@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "analysis/compare.h"
+#include "aspic/analysis.h"
+#include "aspic/solver.h"
 #include "base/result.h"
-#include "model/solver.h"
 
 namespace aspic {
 

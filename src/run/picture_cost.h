@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "gpu/pass_profiler.h"
 #include "io/film_format.h"
 #include "run/backends.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

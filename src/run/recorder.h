@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "io/frame_schedule.h"
 #include "run/backends.h"
 #include "run/film_painter.h"
 #include "run/run_files.h"
 #include "scene/follow.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

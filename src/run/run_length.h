@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "aspic/settings.h"
 #include "base/result.h"
-#include "model/settings.h"
 
 namespace aspic {
 

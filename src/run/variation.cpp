@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "model/integrator.h"
 #include "render/overlay_text.h"
-#include "scene/load.h"
 #include "scene/parameters.h"
 #include "scene/short_keys.h"
 #include "scene/write.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "run/backends.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

@@ -1,5 +1,5 @@
+#include "aspic/solver.h"
 #include "model/bodies.h"
-#include "model/solver.h"
 #include "scene/parameter_rows.h"
 
 namespace aspic {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "model/model.h"
-#include "model/state.h"
-#include "scene/scene.h"
+#include "aspic/model.h"
+#include "aspic/scene.h"
+#include "aspic/state.h"
 
 namespace aspic {
 

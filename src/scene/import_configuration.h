@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "base/result.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

@@ -1,13 +1,13 @@
-#include "scene/load.h"
-
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <utility>
 
+#include "aspic/scene.h"
 #include "base/embedded_file.h"
 #include "base/files.h"
 #include "base/lines.h"
+#include "base/memory.h"
 #include "base/printable.h"
 #include "scene/diagnostics.h"
 #include "scene/document.h"

@@ -4,6 +4,7 @@
 #include <deque>
 #include <string>
 
+#include "model/integrator.h"
 #include "model/terrain.h"
 #include "scene/parameter_rows.h"
 

@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "model/pins.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

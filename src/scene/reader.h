@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "scene/document.h"
 #include "scene/parameters.h"
-#include "scene/scene.h"
 #include "scene/scene_checks.h"
 
 namespace aspic::reader {

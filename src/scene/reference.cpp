@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "model/terrain.h"
 #include "scene/diagnostics.h"
-#include "scene/load.h"
 #include "scene/parameters.h"
 
 namespace aspic {

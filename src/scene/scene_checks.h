@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "scene/parameters.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

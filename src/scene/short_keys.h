@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "base/result.h"
 #include "scene/parameters.h"
-#include "scene/scene.h"
 
 namespace aspic {
 

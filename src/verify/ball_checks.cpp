@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "analysis/energy.h"
-#include "scene/load.h"
+#include "aspic/analysis.h"
+#include "aspic/scene.h"
 #include "verify/experiments.h"
 
 namespace aspic::verify {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "aspic/solver.h"
 #include "base/result.h"
 #include "gpu_solver/gpu_solver.h"
-#include "model/solver.h"
 #include "run/backends.h"
 
 namespace aspic::verify {

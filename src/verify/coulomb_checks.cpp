@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/pull.h"
+#include "aspic/inputs.h"
 #include "model/terrain.h"
 #include "verify/experiments.h"
 #include "verify/studies.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "aspic/scene.h"
 #include "io/child_process.h"
 #include "model/terrain.h"
-#include "scene/load.h"
 #include "verify/experiments.h"
 #include "verify/textbook.h"
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/compare.h"
+#include "aspic/analysis.h"
 #include "model/incident_springs.h"
 #include "model/integrator.h"
 #include "model/terrain.h"

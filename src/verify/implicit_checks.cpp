@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
-#include "analysis/energy.h"
 #include "analysis/stability.h"
-#include "scene/load.h"
+#include "aspic/analysis.h"
+#include "aspic/scene.h"
+#include "model/implicit.h"
 #include "verify/experiments.h"
 #include "verify/textbook.h"
 

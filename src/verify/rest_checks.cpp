@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "analysis/energy.h"
 #include "analysis/stability.h"
+#include "aspic/analysis.h"
 #include "model/terrain.h"
 #include "verify/experiments.h"
 

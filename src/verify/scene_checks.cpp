@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "aspic/scene.h"
 #include "model/terrain.h"
-#include "scene/load.h"
 #include "verify/experiments.h"
 
 namespace aspic::verify {

@@ -3,8 +3,8 @@
 // solvers.
 #include <Eigen/Core>
 
-#include "model/model.h"
-#include "model/state.h"
+#include "aspic/model.h"
+#include "aspic/state.h"
 
 namespace aspic::verify {
 

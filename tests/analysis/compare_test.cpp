@@ -1,9 +1,9 @@
-#include "analysis/compare.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "aspic/analysis.h"
 
 namespace aspic {
 namespace {

@@ -1,6 +1,6 @@
-#include "analysis/energy.h"
-
 #include <gtest/gtest.h>
+
+#include "aspic/analysis.h"
 
 namespace aspic {
 namespace {

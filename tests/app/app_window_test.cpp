@@ -6,9 +6,9 @@
 #include <set>
 
 #include "app/stage.h"
+#include "aspic/scene.h"
 #include "io/atomic_file.h"
 #include "render/camera.h"
-#include "scene/load.h"
 #include "support/projection.h"
 
 namespace aspic::test {

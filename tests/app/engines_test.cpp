@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/endless.h"
-#include "scene/load.h"
+#include "aspic/scene.h"
 
 namespace aspic::test {
 namespace {

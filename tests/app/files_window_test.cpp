@@ -8,9 +8,9 @@
 
 #include "app/parameter_widget.h"
 #include "app/stage.h"
+#include "aspic/scene.h"
 #include "model/integrator.h"
 #include "model/terrain.h"
-#include "scene/load.h"
 #include "support/projection.h"
 
 namespace aspic::test {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "app/stage.h"
-#include "scene/load.h"
+#include "aspic/scene.h"
 
 namespace aspic::test {
 namespace {

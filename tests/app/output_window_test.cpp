@@ -4,11 +4,11 @@
 #include <fstream>
 
 #include "app/stage.h"
+#include "aspic/scene.h"
 #include "cpu_reference/reference_solver.h"
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
 #include "io/series_csv.h"
-#include "scene/load.h"
 #include "support/state_csv_reader.h"
 
 namespace aspic::test {

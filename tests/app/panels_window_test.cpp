@@ -6,9 +6,10 @@
 
 #include "app/new_body.h"
 #include "app/stage.h"
+#include "aspic/scene.h"
+#include "base/memory.h"
 #include "model/bodies.h"
 #include "model/terrain.h"
-#include "scene/load.h"
 
 namespace aspic::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scene/load.h"
+#include "aspic/scene.h"
 #include "scene/write.h"
 
 namespace aspic::app {

@@ -5,7 +5,7 @@
 #include "analysis/stability.h"
 #include "app/stability_map.h"
 #include "app/stage.h"
-#include "scene/load.h"
+#include "aspic/scene.h"
 
 namespace aspic::test {
 namespace {

@@ -14,6 +14,7 @@
 
 #include "app/app.h"
 #include "app/window.h"
+#include "model/integrator.h"
 #include "render/image_comparison.h"
 #include "support/temporary_directory.h"
 

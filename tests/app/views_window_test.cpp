@@ -1,9 +1,9 @@
 // The default view of every built-in scene as the window shows it, at its start and after some steps, without
 // panels: byte for byte what the renderer draws by itself, which tests/render holds against golden pictures.
 #include "app/stage.h"
+#include "aspic/scene.h"
 #include "render/read_back.h"
 #include "scene/follow.h"
-#include "scene/load.h"
 
 namespace aspic::test {
 namespace {

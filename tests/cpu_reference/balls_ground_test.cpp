@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "model/integrator.h"
 #include "support/epsilon.h"
 #include "support/model_building.h"
 #include "support/reference_runs.h"

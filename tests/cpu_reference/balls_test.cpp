@@ -3,7 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "analysis/energy.h"
+#include "aspic/analysis.h"
+#include "model/integrator.h"
 #include "support/epsilon.h"
 #include "support/model_building.h"
 #include "support/reference_runs.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/energy.h"
-#include "model/pull.h"
+#include "aspic/analysis.h"
+#include "aspic/inputs.h"
 #include "model/terrain.h"
 #include "support/epsilon.h"
 #include "support/model_building.h"

@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "analysis/amplification.h"
+#include "aspic/state.h"
 #include "cpu_reference/reference_solver.h"
 #include "model/integrator.h"
-#include "model/state.h"
 #include "support/epsilon.h"
 #include "support/integrator_names.h"
 #include "support/model_building.h"

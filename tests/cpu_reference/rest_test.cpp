@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/energy.h"
-#include "model/pull.h"
+#include "aspic/analysis.h"
+#include "aspic/inputs.h"
 #include "model/terrain.h"
 #include "support/epsilon.h"
 #include "support/integrator_names.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "aspic.h"
+#include "aspic/aspic.h"
 #include "io/child_process.h"
 
 namespace aspic {
@@ -26,9 +26,6 @@ TEST(Minimal, EndsWithTheStateOfTheCommand) {
   EXPECT_EQ(word_after(*example, "state hash"), word_after(*command, "state hash"));
   EXPECT_EQ(word_after(*example, "total energy"), word_after(*command, ", total"));
 }
-
-// What a program of one's own writes a state with is there by the one header.
-static_assert(std::is_function_v<decltype(write_state_vtp)> && std::is_function_v<decltype(write_state_csv)>);
 
 TEST(Minimal, SaysWhatIsWrong) {
   const auto example = output_of(ASPIC_MINIMAL, {"no-such-scene"}, {});

@@ -1,11 +1,12 @@
 // Scene text, and what --set and --view do to it.
 #include <cmath>
 
-#include "analysis/energy.h"
 #include "analysis/stability.h"
+#include "aspic/analysis.h"
+#include "aspic/model.h"
+#include "aspic/scene.h"
 #include "fuzz/targets.h"
-#include "model/model.h"
-#include "scene/load.h"
+#include "model/counts.h"
 #include "scene/write.h"
 
 namespace aspic::fuzz {

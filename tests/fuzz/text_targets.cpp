@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "app/kept_state.h"
+#include "aspic/model.h"
+#include "aspic/scene.h"
 #include "base/files.h"
 #include "fuzz/targets.h"
-#include "model/model.h"
 #include "scene/import_configuration.h"
-#include "scene/load.h"
 #include "support/state_csv_reader.h"
 
 namespace aspic::fuzz {

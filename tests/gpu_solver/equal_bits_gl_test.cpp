@@ -8,11 +8,11 @@
 #include <span>
 #include <tuple>
 
+#include "aspic/scene.h"
 #include "cpu_reference/reference_solver.h"
 #include "gpu_solver/gpu_solver.h"
 #include "model/springs.h"
 #include "model/terrain.h"
-#include "scene/load.h"
 #include "support/equality_cases.h"
 #include "support/gl_fixture.h"
 #include "support/golden_runs.h"

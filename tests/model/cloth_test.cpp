@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "model/counts.h"
 #include "model/springs.h"
 #include "support/model_building.h"
 

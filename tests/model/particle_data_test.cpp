@@ -1,7 +1,8 @@
-#include "model/particle_data.h"
+#include "aspic/particle_data.h"
 
 #include <gtest/gtest.h>
 
+#include "model/counts.h"
 #include "model/springs.h"
 #include "support/model_building.h"
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <functional>
 
+#include "aspic/scene.h"
 #include "device/particles.h"
 #include "render/moving_part.h"
 #include "render/studio.h"
-#include "scene/load.h"
 
 namespace aspic {
 namespace {

@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
+#include "aspic/scene.h"
 #include "cpu_parallel/cpu_solver.h"
 #include "render/camera.h"
 #include "render/studio.h"
 #include "scene/follow.h"
-#include "scene/load.h"
 #include "support/projection.h"
 
 namespace aspic {

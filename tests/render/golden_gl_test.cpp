@@ -3,10 +3,10 @@
 // --gtest_filter='*Golden*', then look at tests/golden/*.png before committing them.
 #include <gtest/gtest.h>
 
+#include "aspic/scene.h"
 #include "render/overlay_text.h"
 #include "render/studio.h"
 #include "scene/follow.h"
-#include "scene/load.h"
 
 namespace aspic {
 namespace {

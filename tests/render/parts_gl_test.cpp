@@ -1,8 +1,8 @@
 // Pictures that are drawn in parts, with other work between.
 #include <gtest/gtest.h>
 
+#include "aspic/scene.h"
 #include "render/studio.h"
-#include "scene/load.h"
 
 namespace aspic {
 namespace {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "aspic/scene.h"
 #include "report/csv.h"
-#include "scene/load.h"
 #include "scene/short_keys.h"
 
 namespace aspic::report {

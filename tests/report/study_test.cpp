@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "scene/load.h"
+#include "aspic/scene.h"
 
 namespace aspic::report {
 namespace {

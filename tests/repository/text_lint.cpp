@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 /// Directories and files that people write.
 constexpr std::string_view written[] = {
-    ".ci",   "CHANGELOG.md", "CMakeLists.txt", "CMakePresets.json", "README.md", "assets", "bench",
-    "cmake", "docs",         "examples",       "scripts",           "shaders",   "src",    "tests"};
+    ".ci",  "CHANGELOG.md", "CMakeLists.txt", "CMakePresets.json", "README.md", "assets", "bench", "cmake",
+    "docs", "examples",     "include",        "scripts",           "shaders",   "src",    "tests"};
 /// Data, results of measurements, and the offences planted for this lint.
 constexpr std::string_view left_out[] = {"tests/repository", "bench/results", "tests/data",
                                          "tests/fuzz/regressions"};

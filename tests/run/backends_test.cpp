@@ -9,7 +9,7 @@
 #include <set>
 #include <thread>
 
-#include "scene/load.h"
+#include "aspic/scene.h"
 
 namespace aspic {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "scene/load.h"
+#include "aspic/scene.h"
 
 namespace aspic {
 namespace {

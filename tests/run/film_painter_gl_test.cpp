@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "aspic/scene.h"
 #include "cpu_reference/reference_solver.h"
 #include "render/camera.h"
 #include "render/overlay_text.h"
@@ -12,7 +13,6 @@
 #include "run/beside.h"
 #include "run/film_painter.h"
 #include "scene/follow.h"
-#include "scene/load.h"
 #include "support/gl_fixture.h"
 
 namespace aspic {

@@ -7,9 +7,10 @@
 #include <cstdlib>
 #include <new>
 
+#include "aspic/scene.h"
+#include "model/counts.h"
 #include "model/springs.h"
 #include "run/backends.h"
-#include "scene/load.h"
 
 namespace {
 

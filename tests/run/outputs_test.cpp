@@ -3,11 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "aspic/scene.h"
 #include "cpu_reference/reference_solver.h"
 #include "io/checkpoint.h"
 #include "run/run_files.h"
-#include "scene/load.h"
-#include "scene/write.h"
 #include "support/state_csv_reader.h"
 #include "support/temporary_directory.h"
 

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "render/font.h"
 #include "render/overlay.h"
 #include "render/overlay_text.h"
 #include "run/backends.h"
 #include "scene/follow.h"
-#include "scene/load.h"
 #include "support/model_building.h"
 #include "support/projection.h"
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "aspic/scene.h"
 #include "model/bodies.h"
-#include "scene/load.h"
 #include "scene/scene_support.h"
 
 namespace aspic {

@@ -1,5 +1,3 @@
-#include "scene/load.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +6,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "aspic/model.h"
+#include "aspic/scene.h"
 #include "base/files.h"
-#include "model/model.h"
+#include "base/memory.h"
+#include "model/counts.h"
 #include "scene/scene_support.h"
 #include "support/temporary_directory.h"
 

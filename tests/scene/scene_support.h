@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "model/terrain.h"
-#include "scene/load.h"
 #include "scene/parameters.h"
 
 namespace aspic::test {

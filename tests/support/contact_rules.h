@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
-#include "model/pull.h"
-#include "model/solver.h"
+#include "aspic/inputs.h"
+#include "aspic/solver.h"
 #include "model/terrain.h"
 #include "support/model_building.h"
 

@@ -8,8 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "aspic/scene.h"
 #include "cpu_reference/reference_solver.h"
-#include "scene/load.h"
+#include "model/counts.h"
 #include "support/model_building.h"
 
 namespace aspic::test {

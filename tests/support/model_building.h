@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "model/model.h"
+#include "aspic/model.h"
 
 namespace aspic::test {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "model/state.h"
+#include "aspic/state.h"
 
 namespace aspic::test {
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
-#include <variant>
 
-#include "model/vec3.h"
+#include "aspic/settings.h"
+#include "aspic/vec.h"
 
 namespace aspic {
 
@@ -16,9 +16,6 @@ enum class GeometryKind {
   length      ///< [m], > 0
 };
 
-/// The value of a geometry key: a vector (place, direction) or a number (length).
-using GeometryValue = std::variant<double, Vec3>;
-
 /// A key of a shape's geometry. Shapes that share a key give it the same kind; the first key of a shape is a
 /// place.
 struct GeometryKey {
@@ -26,17 +23,6 @@ struct GeometryKey {
   GeometryKind kind;
   std::string_view meaning;  ///< one sentence
   GeometryValue value;       ///< where the shape is by default
-};
-
-/// Most vectors, and most numbers, of one shape.
-inline constexpr std::size_t geometry_size = 3;
-
-/// A shape's geometry: its vectors in the order of the keys, and its numbers in the order of the keys. In
-/// GLSL, terrains[t].geometry[k] is (vector k, number k).
-template <class T>
-struct Geometry {
-  std::array<Vec<T>, geometry_size> vectors = {};
-  std::array<T, geometry_size> numbers = {};
 };
 
 /// Signed distance d [m], positive on the free side, and unit normal n towards the free side.

@@ -8,13 +8,42 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
-#include "model/integrator.h"
-#include "model/shapes/table.h"
-#include "model/vec3.h"
+#include "aspic/export.h"
+#include "aspic/vec.h"
 
 namespace aspic {
+
+/// Time integration methods.
+enum class Integrator {
+  explicit_euler,
+  symplectic_euler,
+  midpoint,
+  runge_kutta_4,
+  implicit_euler,
+  implicit_euler_one_pass,
+  heun_3,
+  velocity_verlet
+};
+
+/// Shapes of terrain; src/model/shapes has a file for each.
+enum class TerrainShape { plane, tilted_plane, sphere, bowl, torus, plane_with_hole };
+
+/// The value of a key of a terrain's geometry: a vector (place, direction) or a number (length).
+using GeometryValue = std::variant<double, Vec3>;
+
+/// Most vectors, and most numbers, of one shape.
+inline constexpr std::size_t geometry_size = 3;
+
+/// A shape's geometry: its vectors in the order of the keys, and its numbers in the order of the keys. In
+/// GLSL, terrains[t].geometry[k] is (vector k, number k).
+template <class T>
+struct Geometry {
+  std::array<Vec<T>, geometry_size> vectors = {};
+  std::array<T, geometry_size> numbers = {};
+};
 
 /// Contact models.
 enum class ContactModel { coulomb, course };
@@ -78,8 +107,6 @@ struct TerrainSettings {
   std::optional<TerrainMotion> motion = {};  ///< absent: it never moves
 };
 
-struct BodyRow;  // model/bodies.h
-
 /// Stiffness and damping of the springs of one type.
 struct SpringSettings {
   double stiffness = 2000.0;  ///< k [N/m], ≥ 0
@@ -116,8 +143,6 @@ struct CubeSettings {
   SpringSettings structural, shear, bending;
   std::optional<MaterialSettings> material;  ///< instead of particle_mass and the three spring settings
   PinnedSettings pinned;
-
-  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
 };
 
 /// Springs of a net that may be left out.
@@ -136,8 +161,6 @@ struct GoalNetSettings {
   SpringSettings structural = {1500.0, 50.0};
   OptionalSpringSettings shear, bending;
   bool cord = false;  ///< springs resist stretch only
-
-  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
 };
 
 /// A rectangular cloth: w × h particles, in the x–y plane before it is turned.
@@ -150,8 +173,6 @@ struct ClothSettings {
   double particle_mass = 0.02;      ///< m [kg], > 0
   SpringSettings structural = {400.0, 0.8}, shear = {200.0, 0.4}, bending = {20.0, 0.04};
   PinnedSettings pinned;
-
-  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
 };
 
 /// A ball: a solid sphere, inertia 2/5·m·R².
@@ -161,8 +182,6 @@ struct BallSettings {
   Vec3 position = {7.0, 2.6, 2.0};          ///< of the centre [m]
   Vec3 velocity = {-49.0, -14.0, -7.0};     ///< [m/s]
   Vec3 angular_velocity = {0.0, 0.0, 0.0};  ///< ω [rad/s]
-
-  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
 };
 
 /// A box from which points are drawn.
@@ -185,8 +204,6 @@ struct LauncherSettings {
   BoxSettings towards = {{0.0, 0.6, 0.0}, {0.0, 0.6, 2.0}};
   double speed_factor = 7.0;  ///< [1/s], velocity = factor · (target − start)
   LaunchedBallSettings ball;
-
-  static BodyRow row();  ///< the kind, as model, scene files and window know it (model/bodies.h)
 };
 
 /// Everything the physics needs from a scene.
@@ -201,8 +218,10 @@ struct ModelSettings {
   std::vector<LauncherSettings> launchers;
 };
 
-/// Every kind of body, in the order in which the model makes them and files list them.
-inline constexpr BodyRow (*body_kinds[])() = {&CubeSettings::row, &GoalNetSettings::row, &ClothSettings::row,
-                                              &BallSettings::row, &LauncherSettings::row};
+/// Names in scene files and reports.
+ASPIC_API std::string_view name_of(Integrator integrator);
+ASPIC_API std::string_view name_of(ContactModel model);
+ASPIC_API std::string_view name_of(SpringType type);
+ASPIC_API std::string_view name_of(TerrainShape shape);
 
 }  // namespace aspic

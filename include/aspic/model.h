@@ -10,11 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "base/result.h"
-#include "model/particle_data.h"
-#include "model/settings.h"
-#include "model/state.h"
-#include "model/vec3.h"
+#include "aspic/error.h"
+#include "aspic/export.h"
+#include "aspic/particle_data.h"
+#include "aspic/settings.h"
+#include "aspic/state.h"
+#include "aspic/vec.h"
 
 namespace aspic {
 
@@ -76,8 +77,8 @@ struct Rod {
 struct Body {
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
-  /// n of a complete cube: its n³ particles have the springs of lattice_directions() (model/springs.h), of
-  /// the classes from first_class on, none of them cords, and none in Model::listed_springs. 0: all its
+  /// n of a complete cube: its n³ particles have the springs of lattice_directions() (src/model/springs.h),
+  /// of the classes from first_class on, none of them cords, and none in Model::listed_springs. 0: all its
   /// springs are listed.
   std::uint32_t lattice_edge = 0;
 
@@ -90,8 +91,8 @@ struct Body {
 
 /// The quads of a body's surface patch by patch, j running before i: those of all cells, or larger ones, at
 /// most `most_along` of them along an edge of a patch.
-std::vector<Quad> quads_of(const Body& body,
-                           std::uint32_t most_along = std::numeric_limits<std::uint32_t>::max());
+ASPIC_API std::vector<Quad> quads_of(const Body& body,
+                                     std::uint32_t most_along = std::numeric_limits<std::uint32_t>::max());
 
 /// A ball: a solid sphere. Those of [[ball]] come first, in file order, then those of the launchers.
 struct Ball {
@@ -102,7 +103,7 @@ struct Ball {
   Vec3 initial_velocity;          ///< [m/s]
   Vec3 initial_angular_velocity;  ///< ω [rad/s]
 
-  double inertia() const { return 0.4 * mass * radius * radius; }  ///< I = 2/5·m·R² [kg·m²]
+  ASPIC_API double inertia() const;  ///< I = 2/5·m·R² [kg·m²]
   /// Whether it takes part in the step that begins with a state of this step number.
   bool launched(std::uint64_t step) const { return step >= launch_step; }
 };
@@ -137,46 +138,10 @@ inline constexpr std::uint64_t most_indices = 0x7fffffff;
 
 /// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
 /// particles than 32-bit indices or free memory hold. Values are taken as they are: it is
-/// scene/load.h that checks ranges, of a scene changed by code through with_overrides().
-Result<Model> build_model(const ModelSettings& settings);
+/// aspic/scene.h that checks ranges, of a scene changed by code through with_overrides().
+ASPIC_API Result<Model> build_model(const ModelSettings& settings);
 
 /// The state a run starts from, rounded to `precision`; −0 becomes +0.
-State initial_state(const Model& model, Precision precision);
-
-/// Approach speed below which a contact is at rest: max(ε, 2|g|h) [m/s].
-double resting_speed(const Model& model);
-
-/// |g|h: speed gained by a step of free fall [m/s].
-double fall_speed(const Model& model);
-
-/// Error (usage): the state has another number of particles or balls than the model.
-Status check_sizes(const Model& model, const State& state);
-
-/// Springs, pinned particles and balls of a model, for reports.
-struct ModelCounts {
-  std::uint64_t particles = 0, pinned = 0, structural = 0, shear = 0, bending = 0, balls = 0;
-  std::uint64_t listed = 0;  ///< of the springs: those in Model::listed_springs
-  std::uint64_t springs() const { return structural + shear + bending; }
-  ModelCounts& operator+=(const ModelCounts& other);
-};
-ModelCounts count(const Model& model);
-
-/// Counts without building: for memory checks before anything is allocated. Pinned particles are not counted.
-ModelCounts predict_counts(const ModelSettings& settings);
-
-/// Bytes the model holds.
-std::uint64_t model_bytes(const Model& model);
-
-/// Bytes that a State of the model holds.
-std::uint64_t state_bytes(const ModelCounts& counts);
-
-/// Bytes that a run with these counts takes at least: listed springs and balls, a state, and in a solver of
-/// single precision the start and the end of a step. For memory checks before anything is allocated.
-std::uint64_t run_bytes(const ModelCounts& counts);
-
-/// Names in scene files and reports.
-std::string_view name_of(ContactModel model);
-std::string_view name_of(SpringType type);
-std::string_view name_of(TerrainShape shape);
+ASPIC_API State initial_state(const Model& model, Precision precision);
 
 }  // namespace aspic

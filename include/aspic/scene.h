@@ -1,10 +1,15 @@
 #pragma once
-// A scene: the physics and the picture of one TOML file, as plain data.
+// A scene: the physics and the picture of one TOML file, as plain data; from text and back.
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "model/settings.h"
+#include "aspic/error.h"
+#include "aspic/export.h"
+#include "aspic/settings.h"
 
 namespace aspic {
 
@@ -121,11 +126,11 @@ struct ViewSettings {
 };
 
 /// Names in scene files.
-std::string_view name_of(ViewColour colour);
-std::string_view name_of(CutInside inside);
-std::string_view name_of(Projection projection);
-std::string_view name_of(ScaleMap map);
-std::string_view name_of(ScaleRange range);
+ASPIC_API std::string_view name_of(ViewColour colour);
+ASPIC_API std::string_view name_of(CutInside inside);
+ASPIC_API std::string_view name_of(Projection projection);
+ASPIC_API std::string_view name_of(ScaleMap map);
+ASPIC_API std::string_view name_of(ScaleRange range);
 
 /// Physics and picture of one scene. Default-constructed it has no terrain and no bodies, as an empty file
 /// would.
@@ -138,5 +143,53 @@ struct Scene {
 
 /// Version of the scene file format that this program reads and writes.
 inline constexpr int scene_schema = 1;
+
+/// What a scene has to fit into.
+struct LoadLimits {
+  std::optional<std::uint64_t> memory_bytes;  ///< absent: what the system says is available now
+};
+
+/// Reads a scene from TOML text. Messages name `file_name`. `overrides` are KEY=VALUE arguments of
+/// --set, later ones winning; a key is a path of the parameter table with indices
+/// (`cube[0].shear.stiffness`), a value is a TOML value or a bare word. Error (scene_rejected): the first
+/// TOML syntax error alone, or every semantic error at once, sorted by line and separated by blank lines.
+/// Each names file, line and column (or the --set argument) and shows the line with a caret.
+ASPIC_API Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
+                                    std::span<const std::string> overrides = {},
+                                    const LoadLimits& limits = {});
+
+/// A scene with KEY=VALUE arguments of --set applied to it, and checked. Errors: as parse_scene; a complaint
+/// that is not about an argument names the key instead of a line.
+ASPIC_API Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides,
+                                       const LoadLimits& limits = {});
+
+/// The same for arguments of --view: keys of the table `view`, without its name.
+ASPIC_API Result<Scene> with_view(Scene scene, std::span<const std::string> arguments,
+                                  const LoadLimits& limits = {});
+
+/// Reads a built-in scene by name, or else a file (write `./cube-plane` for a file with a built-in's name).
+/// Errors: as parse_scene; io for a path that cannot be read; scene_rejected for a name nobody knows, with
+/// the list of names and the nearest one, and for a file that is no text, a checkpoint for one.
+ASPIC_API Result<Scene> load_scene(const std::string& file_or_builtin,
+                                   std::span<const std::string> overrides = {},
+                                   const LoadLimits& limits = {});
+
+/// A scene that is part of the program.
+struct BuiltinScene {
+  std::string_view name;
+  std::string_view description;  ///< one line: the file's first comment
+  std::string_view group;        ///< the heading that it is listed under
+};
+
+/// All built-in scenes, in the order in which they are listed for users.
+ASPIC_API std::vector<BuiltinScene> list_builtin_scenes();
+
+/// The file of a built-in scene as it was written, comments and all; nothing for an unknown name.
+ASPIC_API std::optional<std::string_view> builtin_scene_text(std::string_view name);
+
+/// A complete scene file with every value the scene has, units as comments. Reading it back gives the same
+/// values bit for bit: numbers are the shortest that do. What is absent (an infinite terrain mass,
+/// restitution taken over from `contact`) stays absent and is given in a comment.
+ASPIC_API std::string to_toml(const Scene& scene);
 
 }  // namespace aspic

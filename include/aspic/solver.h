@@ -6,11 +6,11 @@
 #include <string>
 #include <string_view>
 
-#include "base/result.h"
-#include "model/implicit.h"
-#include "model/model.h"
-#include "model/pull.h"
-#include "model/state.h"
+#include "aspic/error.h"
+#include "aspic/export.h"
+#include "aspic/inputs.h"
+#include "aspic/model.h"
+#include "aspic/state.h"
 
 namespace aspic {
 
@@ -25,25 +25,46 @@ struct Divergence {
 };
 
 /// What diverged, for messages: `particle 7`, `ball 2`, `the residual of the implicit solve`.
-std::string body_text(const Divergence& divergence);
+ASPIC_API std::string body_text(const Divergence& divergence);
 /// How it did, after body_text: `became faster than 1000 m/s` or `is no longer a finite number`.
-std::string fault_text(const Divergence& divergence);
+ASPIC_API std::string fault_text(const Divergence& divergence);
+
+/// How a step's solve ended (docs/physics.md, section 4).
+enum class SolveEnd : std::uint32_t { converged = 0, stagnated = 1, not_converged = 2 };
+
+/// One step's solve.
+struct SolveReport {
+  std::uint32_t newton_iterations = 0;  ///< linear systems solved
+  std::uint32_t cg_iterations = 0;      ///< of all of them
+  double residual = 0.0;  ///< largest component of |(v' − v) − h·a|, on the ground |v' − P(v + h·a)| [m/s]
+  SolveEnd end = SolveEnd::converged;
+};
+
+/// A run's solves since the state was loaded.
+struct SolveStatistics {
+  std::uint64_t steps = 0, converged = 0, stagnated = 0, not_converged = 0;
+  std::uint64_t newton_iterations = 0, cg_iterations = 0;
+  double worst_residual = 0.0;  ///< [m/s]
+  SolveReport last;             ///< of the latest step
+
+  ASPIC_API void add(const SolveReport& report);
+};
 
 /// How a solver may round.
 enum class Arithmetic {
   exact,  ///< every operation once, in the documented order (docs/determinism.md): the reference's bits
   fast  ///< may fuse operations and use reciprocal roots: other last bits, on each kind of processor its own
 };
-std::string_view name_of(Arithmetic arithmetic);
+ASPIC_API std::string_view name_of(Arithmetic arithmetic);
 
 /// Speed above which a step counts as diverged [m/s].
 inline constexpr double divergence_speed = 1000.0;
 
 /// A backend with a model loaded. After a divergence the state stays the last good one, and further advances
 /// do nothing but report the same divergence again until load().
-class Solver {
+class ASPIC_API Solver {
  public:
-  virtual ~Solver() = default;
+  virtual ~Solver();
 
   /// "reference", "gpu", …
   virtual std::string_view backend() const = 0;

@@ -6,14 +6,15 @@
 #include <string_view>
 #include <vector>
 
-#include "model/vec3.h"
+#include "aspic/export.h"
+#include "aspic/vec.h"
 
 namespace aspic {
 
 /// The arithmetic a state was computed in.
 enum class Precision { single, double_ };
 
-std::string_view name_of(Precision precision);
+ASPIC_API std::string_view name_of(Precision precision);
 
 /// Positions and velocities of all particles and balls after `step` steps. Values are held as doubles
 /// whatever the precision: a single-precision value is held exactly.
@@ -46,14 +47,14 @@ void for_each_vector(AnyState& state, const F& f) {
 }
 
 /// The first body with a number that is not finite, in words: `particle 7`, `ball 2`; nothing if all are.
-std::optional<std::string> first_not_finite(const State& state);
+ASPIC_API std::optional<std::string> first_not_finite(const State& state);
 
 /// 64-bit FNV-1a (docs/files.md) of the little-endian values in the state's own precision:
 /// x, v of every particle,
 /// then x, v, ω of every ball, in index order.
-std::uint64_t state_hash(const State& state);
+ASPIC_API std::uint64_t state_hash(const State& state);
 
 /// The hash as 16 lower-case hexadecimal digits.
-std::string state_hash_text(const State& state);
+ASPIC_API std::string state_hash_text(const State& state);
 
 }  // namespace aspic

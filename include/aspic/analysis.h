@@ -1,0 +1,112 @@
+#pragma once
+// What a state is worth: energies and extremes in double precision whatever the state's own, differences of
+// two states, and the largest stable time step.
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "aspic/error.h"
+#include "aspic/export.h"
+#include "aspic/model.h"
+#include "aspic/state.h"
+
+namespace aspic {
+
+/// What a series row holds of one state.
+struct Measures {
+  double kinetic = 0.0;        ///< Σ ½ m v², of balls also ½ I ω² [J]
+  double elastic = 0.0;        ///< Σ ½ k (L − r)² [J]; a slack cord holds none
+  double gravitational = 0.0;  ///< −Σ m g·x [J], zero at the origin
+  Vec3 momentum;               ///< Σ m v [N·s]
+  double max_speed = 0.0;      ///< [m/s]
+  double min_height = 0.0;     ///< lowest y of all particles and balls' centres [m]; 0 without any
+
+  ASPIC_API double total() const;
+};
+
+/// The first figure that is not finite, in words such as `the kinetic energy`; nothing if all are.
+ASPIC_API std::optional<std::string_view> first_not_finite(const Measures& measures);
+
+/// Measures a state of the model. Pinned particles count for the potential energies and the height; they do
+/// not move, so they have no part in kinetic energy, momentum and speed. Balls count once they are launched.
+/// The state must have the model's numbers of particles and balls.
+ASPIC_API Measures measure(const Model& model, const State& state);
+
+/// The largest differences in one quantity. With no difference all members are 0.
+struct QuantityDifference {
+  double absolute = 0.0;             ///< largest |a − b| of any component, in the quantity's unit
+  std::uint32_t absolute_index = 0;  ///< the particle or ball it was found at, the lowest if several
+  std::uint64_t ulp = 0;             ///< largest distance of any component in units in the last place
+  std::uint32_t ulp_index = 0;
+};
+
+struct StateDifference {
+  QuantityDifference position;                                             ///< [m]
+  QuantityDifference velocity;                                             ///< [m/s]
+  QuantityDifference ball_position, ball_velocity, ball_angular_velocity;  ///< [m], [m/s], [rad/s]
+
+  /// Whether every bit is the same: −0 and +0 differ.
+  bool identical() const { return largest_ulp() == 0; }
+  std::uint64_t largest_ulp() const {
+    return std::max(
+        {position.ulp, velocity.ulp, ball_position.ulp, ball_velocity.ulp, ball_angular_velocity.ulp});
+  }
+  double largest_absolute() const {
+    return std::max({position.absolute, velocity.absolute, ball_position.absolute, ball_velocity.absolute,
+                     ball_angular_velocity.absolute});
+  }
+};
+
+/// Compares component by component. ULPs are counted in the states' own precision; where the two differ, in
+/// single precision, to which the other is rounded. Error (usage): another number of particles or balls.
+ASPIC_API Result<StateDifference> compare_states(const State& a, const State& b);
+
+/// Steps from one representable number to the other; −0 and +0 are one step apart. Finite numbers only.
+ASPIC_API std::uint64_t ulp_distance(float a, float b);
+ASPIC_API std::uint64_t ulp_distance(double a, double b);
+
+/// A stable step.
+struct StabilityLimit {
+  /// Largest stable h [s]; infinite when nothing limits it (implicit Euler, no springs); nothing when some
+  /// mode grows at any step (undamped springs under explicit Euler or midpoint).
+  std::optional<double> step;
+  /// False: the true limit is this or larger.
+  bool exact = true;
+};
+
+/// How much time the estimate may take.
+enum class StabilityEffort {
+  quick,    ///< milliseconds for a thousand particles: before every run
+  thorough  ///< dense solves of bodies with up to 600 degrees of freedom: for reports
+};
+
+/// Called now and then while limits are computed, with the share of the work that is done at most; false ends
+/// the work, and what it had not reached is bounded instead.
+using StabilityWatch = std::function<bool(double)>;
+
+/// The smallest limit of all bodies. Springs are linearised at rest.
+///
+/// Where all springs of a body have one ratio of damping to stiffness, its modes are those of one operator
+/// with eigenvalues α in (0, α_max], each giving λ² + (αc/m)λ + αk/m = 0: the limit is the minimum over that
+/// interval, exact where α_max itself decides. Otherwise symplectic Euler's limit is the h with λ_max(h²K +
+/// 2hC) = 4, exact; the others' is exact by a dense solve where the body is small, and else the minimum over
+/// all (κ, γ) that Rayleigh quotients of K and C can take, which the true limit never falls below.
+///
+/// The work is bounded: a budget of spring evaluations, about a second's for quick and ten seconds' for
+/// thorough. Bodies for which nothing is left take part with Gershgorin bounds on κ and γ: then the limit is
+/// not exact, but the true one is not smaller. 0, not exact: k/m is beyond double precision.
+ASPIC_API StabilityLimit stability_limit(const Model& model, Integrator integrator,
+                                         StabilityEffort effort = StabilityEffort::thorough,
+                                         const StabilityWatch& watch = {});
+
+/// The limits of several integrators, sharing what they have in common; in the order of `integrators`.
+ASPIC_API std::vector<StabilityLimit> stability_limits(const Model& model,
+                                                       std::span<const Integrator> integrators,
+                                                       StabilityEffort effort = StabilityEffort::thorough,
+                                                       const StabilityWatch& watch = {});
+
+}  // namespace aspic

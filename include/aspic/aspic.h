@@ -1,0 +1,14 @@
+#pragma once
+// All of libaspic: scenes, models and their solvers, measures, files. Link aspic::aspic. No window and no
+// command line is part of it. Fallible calls return a Result.
+
+#include "aspic/analysis.h"  // measure(), compare_states(), stability_limit()
+#include "aspic/error.h"     // Result, Status, Error
+#include "aspic/inputs.h"    // Pull
+#include "aspic/model.h"     // Model, build_model(), initial_state()
+#include "aspic/scene.h"     // Scene, load_scene(), parse_scene(), to_toml()
+#include "aspic/settings.h"  // ModelSettings
+#include "aspic/solver.h"    // Solver: load(), advance(), state(), set_pull()
+#include "aspic/state.h"     // State, state_hash_text()
+#include "aspic/vec.h"       // Vec3
+#include "run/backends.h"    // backends(), make_backend()
