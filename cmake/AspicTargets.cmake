@@ -1,9 +1,10 @@
 # Every target of the project is made by one of these functions, so that the language rules are in one place.
 
+configure_file("${PROJECT_SOURCE_DIR}/cmake/version.h.in" "${PROJECT_BINARY_DIR}/include/aspic/version.h" @ONLY)
 add_library(aspic_rules INTERFACE)
 # Whether a target is one of aspic_computes().
 set(computes "$<BOOL:$<TARGET_PROPERTY:ASPIC_COMPUTES>>")
-target_include_directories(aspic_rules INTERFACE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
+target_include_directories(aspic_rules INTERFACE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
 # Contraction to fused multiply-add would change bits: see docs/determinism.md.
 target_compile_options(aspic_rules INTERFACE -ffp-contract=off)
 target_compile_features(aspic_rules INTERFACE cxx_std_20)
@@ -86,20 +87,48 @@ function(aspic_library name)
   set_property(GLOBAL APPEND PROPERTY ASPIC_ROOMS ${name})
 endfunction()
 
-# aspic_link_library(): libaspic, made of all rooms.
+# aspic_link_library(library …): libaspic, made of all rooms and of what they are linked with: the archive, which is aspic::aspic in this
+# tree, and the shared library. Who links either gets the public headers and C++20. Our own programs and tests link aspic_internals,
+# the archive with the headers of all rooms.
 function(aspic_link_library)
   get_property(rooms GLOBAL PROPERTY ASPIC_ROOMS)
-  add_library(aspic_lib STATIC)
+  set(objects "$<TARGET_OBJECTS:aspic_glad>")
+  foreach(room IN LISTS rooms)
+    list(APPEND objects "$<TARGET_OBJECTS:${room}>")
+  endforeach()
+  set(made aspic_lib)
+  add_library(aspic_lib STATIC ${objects})
+  set_target_properties(aspic_lib PROPERTIES ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}" EXPORT_NAME static)
+  if(ASPIC_SHARED)
+    list(APPEND made aspic_shared)
+    add_library(aspic_shared SHARED ${objects})
+    set(map "${PROJECT_SOURCE_DIR}/cmake/aspic.map")
+    target_link_options(aspic_shared PRIVATE "LINKER:--version-script=${map},-Bsymbolic-functions,--no-undefined")
+    set_target_properties(aspic_shared PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}" EXPORT_NAME shared LINK_DEPENDS "${map}"
+                                                  VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  endif()
+  foreach(library IN LISTS made)
+    set_target_properties(${library} PROPERTIES OUTPUT_NAME aspic LINKER_LANGUAGE CXX)
+    target_compile_features(${library} PUBLIC cxx_std_20)
+    target_include_directories(${library} INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>" "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>"
+                                                    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+    target_link_libraries(${library} PRIVATE ${ARGN})
+  endforeach()
+  if(ASPIC_FUZZ)
+    target_link_options(aspic_lib INTERFACE -fsanitize=address,undefined)
+  elseif(ASPIC_SANITIZE)
+    target_link_options(aspic_lib INTERFACE -fsanitize=${ASPIC_SANITIZE})
+  endif()
   add_library(aspic::aspic ALIAS aspic_lib)
-  target_link_libraries(aspic_lib PUBLIC ${rooms})
-  set_target_properties(aspic_lib PROPERTIES OUTPUT_NAME aspic ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+  add_library(aspic_internals INTERFACE)
+  target_link_libraries(aspic_internals INTERFACE aspic_lib ${rooms})
 endfunction()
 
 # aspic_program_part(NAME SOURCES a.cpp … DEPENDS target …): what a program is made of besides the library.
 function(aspic_program_part name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(${name} STATIC ${arg_SOURCES})
-  target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS} aspic::aspic)
+  target_link_libraries(${name} PUBLIC aspic_rules ${arg_DEPENDS} aspic_internals)
   aspic_hidden(${name})  # as the headers that it shares with the rooms
   aspic_precompiled(${name} aspic_room_headers)
 endfunction()
@@ -120,7 +149,7 @@ function(aspic_test_program name)
   get_property(rooms GLOBAL PROPERTY ASPIC_ROOMS)
   list(REMOVE_ITEM arg_DEPENDS ${rooms})
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE aspic_rules ${arg_DEPENDS} aspic::aspic GTest::gtest GTest::gmock aspic_test_main)
+  target_link_libraries(${name} PRIVATE aspic_rules ${arg_DEPENDS} aspic_internals GTest::gtest GTest::gmock aspic_test_main)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   aspic_precompiled(${name} aspic_test_headers)
 endfunction()

@@ -29,6 +29,6 @@ add_custom_command(
   COMMENT "Generating the OpenGL 4.3 loader"
   VERBATIM)
 # Generated C: none of the project's warning flags.
-add_library(aspic_glad STATIC "${glad_directory}/src/gl.c" "${glad_directory}/include/glad/gl.h")
+add_library(aspic_glad OBJECT "${glad_directory}/src/gl.c" "${glad_directory}/include/glad/gl.h")
 target_include_directories(aspic_glad SYSTEM PUBLIC "${glad_directory}/include")
 aspic_hidden(aspic_glad)

@@ -25,10 +25,11 @@ ldd "$kit/bin/aspic" | awk '$2 == "=>" && $3 ~ /^\// { print $1, $3 }' | while r
   case $name in
     libc.so.* | libm.so.* | libpthread.so.* | libdl.so.* | librt.so.* | ld-linux*) ;;
     libstdc++.so.* | libgcc_s.so.*) cp -L "$file" "$kit/lib/cxx/$name" ;;
-    libEGL.so.* | libGLdispatch.so.*) cp -L "$file" "$kit/lib/loader/$name" ;;
     *) cp -L "$file" "$kit/lib/$name" ;;
   esac
 done
+# The EGL loader is no part of what ldd lists: it is loaded when it is needed.
+for name in libEGL.so.1 libGLdispatch.so.0; do cp -L "$(c++ -print-file-name="$name")" "$kit/lib/loader/$name"; done
 
 size=$(du -sm "$kit" | cut -f1)
 if [ "$size" -gt "$most_mebibytes" ]; then

@@ -1,147 +1,65 @@
 #pragma once
-// The immutable Model: topology, masses, springs, terrain. Solvers advance a State of it; nothing ever
-// changes it.
+// The immutable Model: particles, springs, terrain. Solvers advance a State of it; nothing ever changes it.
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
-#include <optional>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "aspic/error.h"
 #include "aspic/export.h"
-#include "aspic/particle_data.h"
 #include "aspic/settings.h"
 #include "aspic/state.h"
-#include "aspic/vec.h"
 
 namespace aspic {
 
-/// Springs that share their constants. A spring names its class by index.
-struct SpringClass {
+/// A model, whose members are the library's own (src/model/model.h).
+struct Model;
+/// A model that all who compute with it hold together: it lives as long as any of them.
+using SharedModel = std::shared_ptr<const Model>;
+
+/// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
+/// particles than 32-bit indices or free memory hold. Values are taken as they are: it is aspic/scene.h that
+/// checks ranges, of a scene changed by code through with_overrides().
+ASPIC_API Result<SharedModel> make_model(const ModelSettings& settings);
+
+/// The state a run starts from, rounded to `precision`; −0 becomes +0.
+ASPIC_API State initial_state(const Model& model, Precision precision);
+
+/// Consecutive particles that were made as one body.
+struct ParticleRange {
+  std::uint32_t first = 0, count = 0;
+};
+/// The bodies of particles, in the order of their kinds in ModelSettings and then of their lists.
+ASPIC_API std::vector<ParticleRange> particle_ranges(const Model& model);
+/// The mass of every particle [kg], > 0, of pinned ones too.
+ASPIC_API std::vector<double> particle_masses(const Model& model);
+/// Indices of the particles that are pinned, ascending.
+ASPIC_API std::vector<std::uint32_t> pinned_indices(const Model& model);
+
+/// A spring between the particles a < b.
+struct SpringFacts {
+  std::uint32_t a = 0, b = 0;
   SpringType type = SpringType::structural;
   double stiffness = 0.0;    ///< k [N/m]
   double damping = 0.0;      ///< c [N·s/m]
   double rest_length = 0.0;  ///< r [m]
   bool cord = false;         ///< resists stretch only
 };
-
-/// A spring between particles a < b (global indices).
-struct Spring {
-  std::uint32_t a = 0, b = 0;
-  std::uint32_t spring_class = 0;  ///< index into Model::spring_classes
-
-  friend bool operator==(const Spring&, const Spring&) = default;
-};
-
-/// A resting surface; by default the plane y = 0.
-struct Terrain {
-  TerrainShape shape = TerrainShape::plane;
-  /// Places [m], unit directions and lengths [m].
-  Geometry<double> geometry = {.vectors = {Vec3{}, Vec3{0.0, 1.0, 0.0}}};
-  double mass = std::numeric_limits<double>::infinity();  ///< M [kg]
-  double restitution = 0.8;                               ///< e
-  double friction = 0.3;                                  ///< μ
-  std::optional<TerrainMotion> motion = {};               ///< of unit direction; absent: it never moves
-};
-
-/// How a body is drawn when it is drawn solid.
-enum class SurfaceStyle {
-  flesh,  ///< a closed surface, the skin of a translucent solid
-  sheet,  ///< an open surface, opaque and lit from both sides
-  cords   ///< no surface: its structural springs, as cords
-};
-
-/// A grid of particles on a surface, whose cells are its quads. The particle at (i, j), each below its count,
-/// is first + i·stride[0] + j·stride[1].
-struct Patch {
-  std::uint32_t first = 0;                   ///< global index
-  std::array<std::uint32_t, 2> count = {};   ///< particles along i and j, ≥ 2
-  std::array<std::uint32_t, 2> stride = {};  ///< index differences
-  bool clockwise = false;                    ///< seen from outside, the turn from i to j
-};
+/// Every spring, sorted by (a, b).
+ASPIC_API std::vector<SpringFacts> spring_facts(const Model& model);
 
 /// Four particles anticlockwise, seen from outside or from the side that an open surface turns to.
 using Quad = std::array<std::uint32_t, 4>;
-
-/// A straight rod with round ends that is drawn with a body and never moves.
-struct Rod {
-  Vec3 from, to;        ///< [m], not the same point
-  double radius = 0.0;  ///< [m]
-};
-
-/// A run of consecutive particles that was made as one body. Solvers need only the particles and springs;
-/// the rest is for analysis, pictures and files.
-struct Body {
-  std::uint32_t first_particle = 0, particle_count = 0;
-  std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
-  /// n of a complete cube: its n³ particles have the springs of lattice_directions() (src/model/springs.h),
-  /// of the classes from first_class on, none of them cords, and none in Model::listed_springs. 0: all its
-  /// springs are listed.
-  std::uint32_t lattice_edge = 0;
-
-  SurfaceStyle style = SurfaceStyle::flesh;
-  std::vector<Patch> surface;  ///< none for cords
-  double size = 0.0;           ///< of flesh: its largest extent [m], for how deep light reaches
-  std::vector<Rod> rods;       ///< what it hangs on
-  bool footballs = false;      ///< balls are drawn as footballs where it is
-};
-
-/// The quads of a body's surface patch by patch, j running before i: those of all cells, or larger ones, at
-/// most `most_along` of them along an edge of a patch.
-ASPIC_API std::vector<Quad> quads_of(const Body& body,
-                                     std::uint32_t most_along = std::numeric_limits<std::uint32_t>::max());
+/// The surface of the body at an index of particle_ranges(); nothing for nets.
+ASPIC_API std::vector<Quad> surface_quads(const Model& model, std::size_t body);
 
 /// A ball: a solid sphere. Those of [[ball]] come first, in file order, then those of the launchers.
-struct Ball {
+struct BallFacts {
   double radius = 0.0;            ///< R [m]
   double mass = 0.0;              ///< m [kg], > 0
   std::uint64_t launch_step = 0;  ///< takes part in the steps that begin at this step number or later
-  Vec3 initial_position;          ///< [m]; a ball that is not launched yet waits here
-  Vec3 initial_velocity;          ///< [m/s]
-  Vec3 initial_angular_velocity;  ///< ω [rad/s]
-
-  ASPIC_API double inertia() const;  ///< I = 2/5·m·R² [kg·m²]
-  /// Whether it takes part in the step that begins with a state of this step number.
-  bool launched(std::uint64_t step) const { return step >= launch_step; }
 };
-
-/// The model. Its springs are walked by springs_of (model/springs.h) in the order of (a, b), so that adding
-/// their forces in this order adds to every particle in ascending neighbour index.
-struct Model {
-  SimulationSettings simulation;
-  ContactSettings contact;
-  std::vector<Terrain> terrain;  ///< in file order: each acts on what the one before left
-  Runs<double> mass;             ///< m [kg] of each particle, > 0, finite for pinned particles too
-  Runs<double> inverse_mass;     ///< w [1/kg], 0 = pinned
-  std::vector<SpringClass> spring_classes;
-  std::vector<Spring> listed_springs;  ///< sorted by (a, b); without those of lattices
-  std::vector<Body> bodies;
-  Places initial_position;
-  Runs<Vec3> initial_velocity;  ///< [m/s]
-  std::vector<Ball> balls;
-
-  std::uint32_t particle_count() const { return static_cast<std::uint32_t>(mass.size()); }
-  std::uint32_t ball_count() const { return static_cast<std::uint32_t>(balls.size()); }
-};
-
-/// A model that all who compute with it hold together: it lives as long as any of them.
-using SharedModel = std::shared_ptr<const Model>;
-inline SharedModel shared(Model model) {
-  return std::make_shared<const Model>(std::move(model));
-}
-
-/// Particles and balls of a model together at most: as many as signed 32-bit indices can name.
-inline constexpr std::uint64_t most_indices = 0x7fffffff;
-
-/// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
-/// particles than 32-bit indices or free memory hold. Values are taken as they are: it is
-/// aspic/scene.h that checks ranges, of a scene changed by code through with_overrides().
-ASPIC_API Result<Model> build_model(const ModelSettings& settings);
-
-/// The state a run starts from, rounded to `precision`; −0 becomes +0.
-ASPIC_API State initial_state(const Model& model, Precision precision);
+ASPIC_API std::vector<BallFacts> ball_facts(const Model& model);
 
 }  // namespace aspic

@@ -2,8 +2,6 @@
 // Three numbers with names. Solvers have their own types; formulas that they share with the model use these.
 #include <cmath>
 
-#include "aspic/export.h"
-
 // What rounds is inlined always: a program compiled to fuse multiplications and additions must not lend the
 // library its own copy.
 #define ASPIC_INLINE [[gnu::always_inline]]
@@ -38,21 +36,6 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double));
 ASPIC_INLINE inline bool is_finite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
-
-/// Turns vectors about `axis` (any length but zero) by `angle_degrees`, right-handed (Rodrigues, 1840).
-class ASPIC_API Rotation {
- public:
-  Rotation(const Vec3& axis, double angle_degrees);
-  Vec3 operator()(const Vec3& v) const;
-
- private:
-  bool none_;
-  Vec3 n_;
-  double c_ = 1.0, s_ = 0.0;
-};
-
-/// One vector turned so.
-ASPIC_API Vec3 rotated(const Vec3& v, const Vec3& axis, double angle_degrees);
 
 }  // namespace aspic
 

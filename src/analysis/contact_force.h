@@ -1,7 +1,7 @@
 #pragma once
 // The force of one contact, as the solvers' next step computes it; for particle_force() and contacts_of().
-#include "aspic/model.h"
 #include "cpu_reference/coulomb.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "aspic/analysis.h"
-#include "aspic/model.h"
 #include "aspic/state.h"
+#include "model/model.h"
 
 namespace aspic {
 

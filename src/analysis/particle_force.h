@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "aspic/inputs.h"
-#include "aspic/model.h"
 #include "aspic/state.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "aspic/model.h"
+#include "model/model.h"
 
 namespace aspic {
 

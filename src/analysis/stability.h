@@ -4,7 +4,7 @@
 #include <string>
 
 #include "aspic/analysis.h"
-#include "aspic/model.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -4,9 +4,9 @@
 #include <functional>
 #include <memory>
 
-#include "aspic/model.h"
 #include "aspic/solver.h"
 #include "base/result.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -12,6 +12,7 @@
 #include "app/panels.h"
 #include "run/backends.h"
 #include "run/run_files.h"
+#include "run/window_host.h"
 
 namespace aspic::app {
 

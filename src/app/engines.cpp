@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "run/window_host.h"
+
 namespace aspic::app {
 namespace {
 
@@ -95,9 +97,9 @@ void EngineFactory::set_context(gl::Context& context) {
 
 Result<Backend> EngineFactory::make(const SharedModel& model, const BackendRow& row, const GpuSolver* like) {
   auto engine = make_backend(choice_for(&row, asked_), model, {context_, like, arithmetic_});
-  if (engine && engine->gpu) {
-    arithmetic_ = engine->gpu->arithmetic();
-    engine->gpu->set_late(true);
+  if (GpuSolver* const gpu = engine ? gpu_of(*engine) : nullptr) {
+    arithmetic_ = gpu->arithmetic();
+    gpu->set_late(true);
   }
   return engine;
 }

@@ -17,6 +17,7 @@
 #include "base/result.h"
 #include "gpu/context.h"
 #include "run/backends.h"
+#include "run/window_host.h"
 
 namespace aspic::app {
 
@@ -64,7 +65,10 @@ class Engines {
   bool shadow_paces() const { return in_context(leader_) && shadowed() && !in_context(shadow_); }
   static bool in_context(const Backend& engine) { return engine.row && engine.row->needs_context; }
   /// One of the solvers on the context, to share buffers with; may be null.
-  const GpuSolver* gpu() const { return leader_.gpu ? leader_.gpu : shadow_.gpu; }
+  const GpuSolver* gpu() const {
+    const GpuSolver* const leader = gpu_of(leader_);
+    return leader ? leader : gpu_of(shadow_);
+  }
 
   /// Puts another solver of the same model in the place of one; it has no pull yet.
   void set_leader(Backend engine) { leader_ = std::move(engine); }

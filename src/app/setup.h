@@ -4,10 +4,10 @@
 #include <map>
 #include <vector>
 
-#include "aspic/model.h"
 #include "aspic/settings.h"
 #include "aspic/state.h"
 #include "base/result.h"
+#include "model/model.h"
 
 namespace aspic::app {
 

@@ -225,7 +225,7 @@ Status Simulation::fall_back(const Error& error) {
 }
 
 std::optional<DeviceState> Simulation::device_state() const {
-  const GpuSolver* const gpu = engines_.leader().gpu;
+  const GpuSolver* const gpu = gpu_of(engines_.leader());
   if (!gpu) return std::nullopt;
   return gpu->device_state();
 }

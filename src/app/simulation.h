@@ -73,7 +73,7 @@ class Simulation {
   void set_context(gl::Context& context) { factory_.set_context(context); }
   const BackendRow& backend() const { return *engines_.leader().row; }
   const Solver& solver() const { return *engines_.leader().solver; }
-  GpuSolver* gpu() { return engines_.leader().gpu; }
+  GpuSolver* gpu() { return gpu_of(engines_.leader()); }
   const Model& model() const { return engines_.model(); }
   /// Changes whenever model() became another.
   std::uint64_t model_number() const { return model_number_; }

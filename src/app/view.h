@@ -11,9 +11,9 @@
 #include "app/gui.h"
 #include "app/kept_state.h"
 #include "app/messages.h"
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "aspic/state.h"
+#include "model/model.h"
 #include "render/camera.h"
 
 namespace aspic::app {

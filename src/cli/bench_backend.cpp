@@ -6,6 +6,7 @@
 #include "cli/bench.h"
 #include "model/integrator.h"
 #include "model/springs.h"
+#include "run/window_host.h"
 
 namespace aspic::cli {
 namespace {
@@ -47,9 +48,10 @@ class BackendContestant final : public Contestant {
 
   /// Device time by pass, from separate steps, so that the time stamps do not disturb the measurement.
   Status finish() override {
-    if (!backend_.gpu) return {};
+    GpuSolver* const gpu = gpu_of(backend_);
+    if (!gpu) return {};
     ASPIC_CHECK(make_current());
-    backend_.gpu->set_profiling(true);
+    gpu->set_profiling(true);
     const auto start = Clock::now();
     for (std::size_t n = 0; n < gl::PassProfiler::window && (n == 0 || seconds_since(start) < 1.0); ++n) {
       if (interrupt_.interrupted()) break;
@@ -57,8 +59,8 @@ class BackendContestant final : public Contestant {
       // Reading waits for the device, so that every step finds a free place for its time stamps.
       ASPIC_CHECK(read());
     }
-    m.passes = backend_.gpu->pass_times();
-    backend_.gpu->set_profiling(false);
+    m.passes = gpu->pass_times();
+    gpu->set_profiling(false);
     return {};
   }
 
@@ -68,7 +70,10 @@ class BackendContestant final : public Contestant {
     return {};
   }
   /// Solvers enter their context themselves; so the change is none of what is measured.
-  Status make_current() { return backend_.context ? backend_.context->make_current() : Status(); }
+  Status make_current() {
+    gl::Context* const context = context_of(backend_);
+    return context ? context->make_current() : Status();
+  }
 
   Backend backend_;
   const InterruptGuard& interrupt_;

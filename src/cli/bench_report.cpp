@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "aspic/version.h"
 #include "cli/bench.h"
 #include "io/machine.h"
 

@@ -15,6 +15,7 @@
 #include "run/beside_recorder.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
+#include "run/window_host.h"
 
 namespace aspic::cli {
 namespace {

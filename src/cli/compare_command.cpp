@@ -9,6 +9,7 @@
 #include "cli/json.h"
 #include "io/program.h"
 #include "run/lockstep.h"
+#include "run/window_host.h"
 
 namespace aspic::cli {
 namespace {
@@ -36,12 +37,13 @@ Json to_json(const WorstDifference& worst, std::string_view body) {
 
 /// What the canary found on a device whose arithmetic is not that of IEEE 754; empty elsewhere.
 std::string inexact_arithmetic(const Backend& backend) {
-  if (!backend.gpu || backend.gpu->arithmetic().exact()) return "";
+  const GpuSolver* const gpu = gpu_of(backend);
+  if (!gpu || gpu->arithmetic().exact()) return "";
   return fmt::format(
       "{}: single operations are off by up to {} ULP; aspic verify --only equality tells whether that "
       "explains a "
       "difference",
-      backend.variant(), backend.gpu->arithmetic().worst_ulps());
+      backend.variant(), gpu->arithmetic().worst_ulps());
 }
 
 Json to_json(const CompareOptions& options, const Scene& scene, const std::array<Backend, 2>& backends,
@@ -58,12 +60,12 @@ Json to_json(const CompareOptions& options, const Scene& scene, const std::array
   json["interrupted"] = result.interrupted;
   for (std::size_t i = 0; i < backends.size(); ++i) {
     const std::optional<Divergence>& divergence = result.divergence[i];
-    json["backends"].push_back(
-        {{"backend", backends[i].variant()},
-         {"device", backends[i].device},
-         {"state_hash", result.hash[i]},
-         {"operation_ulps", backends[i].gpu ? Json(backends[i].gpu->arithmetic().worst_ulps()) : Json(0)},
-         {"diverged_in_step", divergence ? Json(divergence->step) : Json()}});
+    const GpuSolver* const gpu = gpu_of(backends[i]);
+    json["backends"].push_back({{"backend", backends[i].variant()},
+                                {"device", backends[i].device},
+                                {"state_hash", result.hash[i]},
+                                {"operation_ulps", gpu ? Json(gpu->arithmetic().worst_ulps()) : Json(0)},
+                                {"diverged_in_step", divergence ? Json(divergence->step) : Json()}});
   }
   return json;
 }
@@ -109,7 +111,7 @@ Status execute(const CompareOptions& options) {
   for (std::size_t i = 0; i < backends.size(); ++i) {
     // Solvers on a device work in one context, where their buffers have names of their own.
     SolverHost host;
-    host.context = backends[0].context.get();
+    host.context = context_of(backends[0]);
     ASPIC_TRY(backends[i], make_backend(i == 0 ? options.first : options.second, model, host));
   }
   const auto compare = [&] {

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include "aspic/version.h"
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "gpu/canary.h"
 #include "run/capacity.h"
+#include "run/window_host.h"
 
 namespace aspic::cli {
 namespace {

@@ -8,6 +8,7 @@
 #include "analysis/stability.h"
 #include "aspic/analysis.h"
 #include "aspic/scene.h"
+#include "aspic/version.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/run_lane.h"

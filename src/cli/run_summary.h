@@ -2,12 +2,12 @@
 // What `aspic run` says of a run: beforehand, at its end, and where it diverged.
 #include <string>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "cli/json.h"
 #include "cli/run_lane.h"
 #include "io/program.h"
+#include "model/model.h"
 #include "run/backends.h"
 #include "run/recording.h"
 

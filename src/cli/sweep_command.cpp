@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "aspic/scene.h"
+#include "aspic/version.h"
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"

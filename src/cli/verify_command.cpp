@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "aspic/version.h"
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"

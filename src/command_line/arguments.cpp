@@ -8,6 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "aspic/version.h"
 #include "base/printable.h"
 #include "command_line/checked_words.h"
 #include "command_line/command_words.h"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "aspic/solver.h"
+#include "model/model.h"
 
 namespace aspic {
 

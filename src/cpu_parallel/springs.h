@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "aspic/model.h"
 #include "cpu_parallel/particles.h"
+#include "model/model.h"
 
 namespace aspic::parallel {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "aspic/inputs.h"
-#include "aspic/model.h"
 #include "cpu_reference/coulomb.h"
 #include "cpu_reference/spring.h"
+#include "model/model.h"
 #include "model/springs.h"
 
 namespace aspic::reference {

@@ -1,7 +1,7 @@
 #pragma once
 // The damped spring (docs/physics.md, section 1).
-#include "aspic/model.h"
 #include "cpu_reference/vectors.h"
+#include "model/model.h"
 
 namespace aspic::reference {
 

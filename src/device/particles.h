@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "aspic/model.h"
 #include "aspic/state.h"
 #include "device/layout.h"
+#include "model/model.h"
 
 namespace aspic {
 

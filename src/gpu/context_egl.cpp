@@ -1,7 +1,4 @@
 // Contexts without a display, through EGL.
-#define EGL_NO_X11
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <fmt/format.h>
 #include <glad/gl.h>
 #include <sys/resource.h>
@@ -16,6 +13,7 @@
 #include "gpu/context.h"
 #include "gpu/current.h"
 #include "gpu/device_info.h"
+#include "gpu/egl.h"
 #include "gpu/program.h"
 #include "gpu/read_ring.h"
 
@@ -38,16 +36,16 @@ bool has_extension(const char* list, std::string_view name) {
 }
 
 bool client_has(std::string_view name) {
-  return has_extension(eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), name);
+  return has_extension(egl().QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), name);
 }
 
 template <class F>
 F function(const char* name) {
-  return reinterpret_cast<F>(eglGetProcAddress(name));
+  return reinterpret_cast<F>(egl().GetProcAddress(name));
 }
 
 std::string egl_error() {
-  const EGLint code = eglGetError();
+  const EGLint code = egl().GetError();
   constexpr std::pair<EGLint, const char*> names[] = {{EGL_SUCCESS, "no EGL error"},
                                                       {EGL_NOT_INITIALIZED, "EGL_NOT_INITIALIZED"},
                                                       {EGL_BAD_ACCESS, "EGL_BAD_ACCESS"},
@@ -62,6 +60,7 @@ std::string egl_error() {
 }
 
 std::vector<EGLDeviceEXT> egl_devices() {
+  if (!load_egl()) return {};
   if (!client_has("EGL_EXT_device_enumeration") && !client_has("EGL_EXT_device_base")) return {};
   const auto query = function<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
   EGLint count = 0;
@@ -186,10 +185,10 @@ bool vector_width_crashes() {
 
 EGLContext create_context(EGLDisplay display, const ContextOptions& options) {
   EGLConfig config = EGL_NO_CONFIG_KHR;
-  if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context")) {
+  if (!has_extension(egl().QueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context")) {
     const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLint count = 0;
-    if (!eglChooseConfig(display, wanted, &config, 1, &count) || count == 0) return EGL_NO_CONTEXT;
+    if (!egl().ChooseConfig(display, wanted, &config, 1, &count) || count == 0) return EGL_NO_CONTEXT;
   }
   // Robustness is a wish: drivers that know nothing of it refuse the attribute.
   for (const bool robust : {true, false}) {
@@ -203,15 +202,17 @@ EGLContext create_context(EGLDisplay display, const ContextOptions& options) {
                         {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
                          EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
     attributes.push_back(EGL_NONE);
-    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+    const EGLContext context = egl().CreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
     if (context != EGL_NO_CONTEXT) return context;
   }
   return EGL_NO_CONTEXT;
 }
 
+/// Nothing where EGL is not loaded and cannot be: windows of other systems need none.
 Context::Place current_place() {
-  return {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
-          eglGetCurrentSurface(EGL_READ)};
+  if (!load_egl()) return {};
+  return {egl().GetCurrentDisplay(), egl().GetCurrentContext(), egl().GetCurrentSurface(EGL_DRAW),
+          egl().GetCurrentSurface(EGL_READ)};
 }
 
 /// Takes the current context off a thread that ends. EGL does not, so it would be in use there for good.
@@ -219,8 +220,8 @@ struct ThreadEnd {
   bool entered = false;
   ~ThreadEnd() {
     // The first thread ends with the program, when drivers may be gone already.
-    if (entered && ::gettid() != ::getpid() && eglGetCurrentContext() != EGL_NO_CONTEXT)
-      eglMakeCurrent(eglGetCurrentDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (entered && ::gettid() != ::getpid() && egl().GetCurrentContext() != EGL_NO_CONTEXT)
+      egl().MakeCurrent(egl().GetCurrentDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
 };
 thread_local ThreadEnd thread_end;
@@ -247,29 +248,30 @@ Result<std::shared_ptr<Context>> Context::create_on(const EglCandidate& candidat
         "may be a software rasteriser, which the environment variable LP_NATIVE_VECTOR_WIDTH makes crash "
         "(allowed are 128, 256 and 512)");
   const EGLDisplay display = candidate.platform
-                                 ? eglGetPlatformDisplay(candidate.platform, candidate.native, nullptr)
-                                 : eglGetDisplay(EGL_DEFAULT_DISPLAY);
+                                 ? egl().GetPlatformDisplay(candidate.platform, candidate.native, nullptr)
+                                 : egl().GetDisplay(EGL_DEFAULT_DISPLAY);
   // A display is never terminated: EGL returns the same one to every caller in the process.
-  if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
+  if (display == EGL_NO_DISPLAY || !egl().Initialize(display, nullptr, nullptr))
     return unfit("cannot be opened ({})", egl_error());
-  if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
+  if (!has_extension(egl().QueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context"))
     return unfit("cannot work without a window surface");
-  if (!eglBindAPI(EGL_OPENGL_API)) return unfit("has no desktop OpenGL ({})", egl_error());
+  if (!egl().BindAPI(EGL_OPENGL_API)) return unfit("has no desktop OpenGL ({})", egl_error());
   const EGLContext egl_context = create_context(display, options);
   if (egl_context == EGL_NO_CONTEXT) return unfit("provides no OpenGL 4.3 core context ({})", egl_error());
   std::shared_ptr<Context> context(new Context);
   context->egl_ = {display, egl_context};
   context->owned_ = true;
-  if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context))
+  if (!egl().MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl_context))
     return unfit("cannot make its context current ({})", egl_error());
   thread_end.entered = true;
-  if (gladLoadGL(eglGetProcAddress) < GLAD_MAKE_VERSION(4, 3)) return unfit("lacks functions of OpenGL 4.3");
+  if (gladLoadGL(egl().GetProcAddress) < GLAD_MAKE_VERSION(4, 3))
+    return unfit("lacks functions of OpenGL 4.3");
   const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const bool software = is_software_renderer(renderer);
   if ((candidate.demand == DeviceChoice::hardware && software) ||
       (candidate.demand == DeviceChoice::software && !software))
     return unfit("is {}, {}", renderer, software ? "a software rasteriser" : "no software rasteriser");
-  context->start(candidate.name, eglGetProcAddress);
+  context->start(candidate.name, egl().GetProcAddress);
   return context;
 }
 
@@ -277,6 +279,7 @@ Result<std::shared_ptr<Context>> Context::create_headless(const ContextOptions& 
   if (const std::string missing = missing_resource(); !missing.empty()) {
     return Error{ErrorCode::no_device, missing + ". Raise it, or use --backend reference without pictures."};
   }
+  if (const auto& loaded = load_egl(); !loaded) return loaded.error();
   ASPIC_TRY(const Choice choice, choose(options));
   ASPIC_TRY(const std::vector<EglCandidate> ways, candidates(choice));
   const Place before = current_place();
@@ -300,7 +303,7 @@ void Context::note_egl() {
 }
 
 bool Context::is_current() const {
-  if (egl_.context) return eglGetCurrentContext() == egl_.context;
+  if (egl_.context) return egl().GetCurrentContext() == egl_.context;
   return std::this_thread::get_id() == thread_ && (!window_.is_current || window_.is_current());
 }
 
@@ -309,7 +312,7 @@ Status Context::enter(Place& before) {
     if (!owned_ && std::this_thread::get_id() != thread_) return elsewhere_error();
     if (egl_.context) {
       const Place current = current_place();
-      if (!eglMakeCurrent(egl_.display, egl_.draw, egl_.read, egl_.context)) {
+      if (!egl().MakeCurrent(egl_.display, egl_.draw, egl_.read, egl_.context)) {
         const std::string error = egl_error();
         if (error != "EGL_BAD_ACCESS")
           return fail(ErrorCode::no_device, "The OpenGL context on {} cannot be made current ({}).",
@@ -335,7 +338,7 @@ Status Context::make_current() {
 }
 
 void Context::put_back(const Place& before) {
-  eglMakeCurrent(before.display, before.draw, before.read, before.context);
+  egl().MakeCurrent(before.display, before.draw, before.read, before.context);
 }
 
 Context::~Context() {
@@ -345,9 +348,9 @@ Context::~Context() {
     if (!owned_ && info_.debug && here.status()) glDebugMessageCallback(nullptr, nullptr);
   }
   if (!owned_) return;
-  if (eglGetCurrentContext() == egl_.context)
-    eglMakeCurrent(egl_.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  eglDestroyContext(egl_.display, egl_.context);
+  if (egl().GetCurrentContext() == egl_.context)
+    egl().MakeCurrent(egl_.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  egl().DestroyContext(egl_.display, egl_.context);
 }
 
 }  // namespace aspic::gl

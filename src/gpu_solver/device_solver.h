@@ -33,6 +33,7 @@ class DeviceSolver : public GpuSolver {
   const Model& model() const final { return model_; }
   std::uint64_t bytes() const final { return bytes_ + balls_.grown_bytes(); }
   DeviceState device_state() const final;
+  gl::Context& context() const final { return context_; }
   ForcePath force_path() const final { return path_.path; }
   const gl::Arithmetic& arithmetic() const final { return arithmetic_; }
   const std::shared_ptr<const SpringBuffers>& spring_buffers() const final { return springs_; }

@@ -6,18 +6,11 @@
 #include <string>
 #include <string_view>
 
+#include "aspic/solver.h"
 #include "model/incident_springs.h"
 #include "model/integrator.h"
 
 namespace aspic {
-
-enum class ForcePath {
-  automatic,  ///< lattice where the model has a complete cube, else gather
-  lattice,    ///< gather on complete cubes without connectivity in memory, and as below on all else
-  tiles,      ///< lattice, with tiles of a cube in shared memory
-  gather,     ///< one invocation per particle evaluates its springs, everything fused
-  per_spring  ///< one invocation per spring writes its force, a second pass sums
-};
 
 /// A force path.
 struct ForcePathRow {

@@ -52,6 +52,8 @@ class GpuSolver : public Solver {
  public:
   /// The current state where it lies. Valid until the solver steps, loads or goes.
   virtual DeviceState device_state() const = 0;
+  /// Where it works.
+  virtual gl::Context& context() const = 0;
   /// The path in use, never automatic.
   virtual ForcePath force_path() const = 0;
   /// What the canary found on this device, and how the kernels were compiled for it.

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "aspic/inputs.h"
-#include "aspic/model.h"
 #include "gpu/pass.h"
 #include "gpu_solver/layout.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "aspic/model.h"
 #include "base/result.h"
 #include "device/device_state.h"
 #include "gpu/pass.h"
 #include "gpu_solver/layout.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -4,12 +4,11 @@
 #include <string>
 #include <string_view>
 
+#include "aspic/files.h"
 #include "base/files.h"
 #include "base/result.h"
 
 namespace aspic {
-
-enum class Overwrite { refuse, allow };
 
 /// An output file being written. Until commit() nothing has the final name; a file that is never
 /// committed (an error, an exception, Ctrl-C) leaves nothing behind. A symbolic link stays, and what it names

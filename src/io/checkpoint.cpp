@@ -8,13 +8,13 @@
 #include <optional>
 #include <span>
 
-#include "aspic/model.h"
 #include "base/files.h"
 #include "base/fnv.h"
 #include "base/memory.h"
 #include "base/printable.h"
 #include "io/state_csv.h"
 #include "model/counts.h"
+#include "model/model.h"
 
 namespace aspic {
 namespace {

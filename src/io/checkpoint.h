@@ -1,12 +1,11 @@
 #pragma once
-// A suspended run: the complete scene and the state at full precision in one file, format in docs/files.md.
+// The bytes of a checkpoint; format in docs/files.md.
 #include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "aspic/files.h"
 #include "aspic/settings.h"
-#include "aspic/state.h"
-#include "base/result.h"
 #include "io/atomic_file.h"
 
 namespace aspic {
@@ -19,14 +18,6 @@ inline constexpr std::size_t longest_program_version = 64;
 inline constexpr std::uint64_t longest_scene = std::uint64_t{64} << 20;  ///< bytes, as of a scene file
 inline constexpr std::uint64_t last_checkpoint_step = std::uint64_t{1}
                                                       << 53;  ///< as far as double precision counts
-
-struct Checkpoint {
-  std::string
-      program_version;    ///< of the program that wrote it: printable ASCII, at most longest_program_version
-  std::string scene;      ///< the complete scene as TOML, overrides applied
-  double timestep = 0.0;  ///< h [s], the scene's own: repeated to be seen without parsing
-  State state;            ///< with its precision and step
-};
 
 /// The bytes of a checkpoint.
 std::string encode_checkpoint(const Checkpoint& checkpoint);
@@ -42,9 +33,5 @@ Status write_checkpoint(AtomicFile& file, const Checkpoint& checkpoint);
 /// Error (io): the checkpoint's time step is not the scene's, or (scene_rejected) its state has other numbers
 /// of particles and balls than the scene; found without building the scene's model.
 Status check_against_scene(const Checkpoint& checkpoint, const ModelSettings& scene, const std::string& name);
-
-/// Reads a file. Errors (io): as decode_checkpoint; it cannot be read, is no regular file (a device or pipe
-/// may never end), has not the size that its counts want, or is larger than free memory.
-Result<Checkpoint> read_checkpoint(const std::string& path);
 
 }  // namespace aspic

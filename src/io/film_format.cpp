@@ -33,6 +33,8 @@ constexpr FilmFormat table[] = {
 
 }  // namespace
 
+FrameSink::~FrameSink() = default;
+
 std::span<const FilmFormat> film_formats() noexcept {
   return table;
 }

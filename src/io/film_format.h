@@ -6,30 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include "aspic/files.h"
 #include "io/atomic_file.h"
 
 namespace aspic {
-
-/// Width and height of a picture [pixels].
-struct PictureSize {
-  int width = 1280;
-  int height = 720;
-  friend bool operator==(const PictureSize&, const PictureSize&) = default;
-};
-
-/// Takes the pictures of a run in order. One that is destroyed before finish() leaves nothing that looks
-/// whole.
-class FrameSink {
- public:
-  virtual ~FrameSink() = default;
-  /// height·width·3 bytes RGB, sRGB encoded, rows from the top down. Error (io): it cannot be written; the
-  /// sink takes no more.
-  virtual Status write(std::span<const std::byte> rgb) = 0;
-  /// Completes the output. Error (io).
-  virtual Status finish() = 0;
-  /// What was written, for reports.
-  virtual const std::string& path() const = 0;
-};
 
 /// What pictures become: a video that ffmpeg encodes, or a directory of numbered pictures.
 struct FilmFormat {
@@ -50,10 +30,6 @@ struct FilmFormat {
 
 /// All formats, videos first; the first is the default.
 std::span<const FilmFormat> film_formats() noexcept;
-
-/// The format with that name, or with that ending, with or without its dot, in any case; null if there is
-/// none.
-const FilmFormat* find_film_format(std::string_view word);
 
 /// The video format that the ending of a file name says. Error (usage): no such ending.
 Result<const FilmFormat*> video_format_of(const std::string& path);

@@ -4,10 +4,10 @@
 #include <string_view>
 
 #include "aspic/analysis.h"
-#include "aspic/model.h"
 #include "base/result.h"
 #include "io/atomic_file.h"
 #include "model/implicit.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "aspic/version.h"
 #include "base/files.h"
 #include "base/printable.h"
 #include "io/checkpoint.h"
@@ -164,6 +165,18 @@ constexpr StateFormat table[] = {
 };
 
 }  // namespace
+
+Status write_state(const std::string& path, const Model& model, const State& state, Overwrite overwrite) {
+  ASPIC_CHECK(check_state_name("state", path));
+  ASPIC_TRY(const auto sink, state_format_of("state", path).open(path, 0, overwrite, {}));
+  return sink->finish({model, state});
+}
+
+Status write_checkpoint(const std::string& path, const std::string& scene_toml, const Model& model,
+                        const State& state, Overwrite overwrite) {
+  ASPIC_TRY(const auto sink, state_format_of("checkpoint", path).open(path, 0, overwrite, {scene_toml}));
+  return sink->finish({model, state});
+}
 
 std::span<const StateFormat> state_formats() {
   return table;

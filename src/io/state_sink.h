@@ -7,26 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "aspic/model.h"
-#include "aspic/state.h"
+#include "aspic/files.h"
 #include "io/atomic_file.h"
-#include "model/implicit.h"
 
 namespace aspic {
-
-/// What is known of a run before it starts.
-struct RunFacts {
-  std::string scene_toml;  ///< the complete scene, as a checkpoint keeps it
-  Integrator integrator = Integrator::explicit_euler;
-};
-
-/// A state of a run, with its model and scene.
-struct Sample {
-  const Model& model;
-  const State& state;
-  SolveStatistics solves = {};       ///< of the run so far; zeros unless the integrator is implicit-euler
-  std::string_view scene_toml = {};  ///< the complete scene; empty except within a sink that was told it
-};
 
 /// Takes states of a run in the order of their steps. One that is destroyed before finish() leaves nothing
 /// that looks complete, except the files of earlier steps.

@@ -1,10 +1,10 @@
 #pragma once
 // A state as VTK PolyData in XML, which ParaView, PyVista and VTK read: particles and balls as points, balls
 // as vertices, springs as lines, surfaces as quadrilaterals.
-#include "aspic/model.h"
 #include "aspic/state.h"
 #include "base/result.h"
 #include "io/atomic_file.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <string_view>
 
-#include "aspic/model.h"
 #include "base/result.h"
 #include "model/counts.h"
+#include "model/model.h"
 #include "model/pins.h"
 
 namespace aspic {

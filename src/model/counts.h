@@ -2,7 +2,7 @@
 // What a model has and what it takes: for reports, and for checks before anything is allocated.
 #include <cstdint>
 
-#include "aspic/model.h"
+#include "model/model.h"
 
 namespace aspic {
 

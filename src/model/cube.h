@@ -1,8 +1,8 @@
 #pragma once
 // The jelly cube: a lattice of n³ particles with structural, shear and bending springs.
-#include "aspic/model.h"
 #include "base/result.h"
 #include "model/counts.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "aspic/model.h"
 #include "model/counts.h"
+#include "model/model.h"
 
 namespace aspic {
 

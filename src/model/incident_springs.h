@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "aspic/model.h"
 #include "base/result.h"
+#include "model/model.h"
 
 namespace aspic {
 

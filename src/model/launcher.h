@@ -8,7 +8,7 @@
 // z of its start in `from`, then x, y, z of its target in `towards`.
 #include <cstdint>
 
-#include "aspic/model.h"
+#include "model/model.h"
 
 namespace aspic {
 

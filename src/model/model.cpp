@@ -1,4 +1,4 @@
-#include "aspic/model.h"
+#include "model/model.h"
 
 #include <algorithm>
 
@@ -84,10 +84,6 @@ Result<Model> build_model(const ModelSettings& settings) {
     }
   }
   return model;
-}
-
-double Ball::inertia() const {
-  return 0.4 * mass * radius * radius;
 }
 
 State initial_state(const Model& model, Precision precision) {

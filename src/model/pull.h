@@ -4,8 +4,8 @@
 
 #include "aspic/error.h"
 #include "aspic/inputs.h"
-#include "aspic/model.h"
 #include "aspic/state.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "aspic/model.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "aspic/model.h"
+#include "model/model.h"
 #include "model/shapes/table.h"
 
 namespace aspic {

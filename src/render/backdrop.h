@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "aspic/model.h"
 #include "gpu/vertex_array.h"
+#include "model/model.h"
 #include "render/colour_map.h"
 #include "render/layout.h"
 #include "render/programs.h"

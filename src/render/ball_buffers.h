@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "aspic/model.h"
 #include "base/result.h"
 #include "device/device_state.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/vertex_array.h"
+#include "model/model.h"
 #include "render/programs.h"
 
 namespace aspic {

@@ -2,9 +2,9 @@
 // Bodies, springs, particles and balls: everything of a picture that a solver moves.
 #include <optional>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "device/device_state.h"
+#include "model/model.h"
 #include "render/colour_map.h"
 #include "render/model_buffers.h"
 #include "render/programs.h"

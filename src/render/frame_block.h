@@ -1,7 +1,7 @@
 #pragma once
 // The block that every drawing shader reads, of one picture.
-#include "aspic/model.h"
 #include "aspic/scene.h"
+#include "model/model.h"
 #include "render/camera.h"
 #include "render/layout.h"
 #include "render/quantity.h"

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "aspic/model.h"
 #include "base/result.h"
 #include "device/device_state.h"
 #include "gpu/buffer.h"
 #include "gpu/vertex_array.h"
+#include "model/model.h"
 #include "render/ball_buffers.h"
 #include "render/layout.h"
 #include "render/programs.h"

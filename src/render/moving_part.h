@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "aspic/model.h"
 #include "device/layout.h"
 #include "gpu/texture.h"
+#include "model/model.h"
 #include "model/shapes/shape.h"
 #include "render/layout.h"
 #include "render/mesh.h"

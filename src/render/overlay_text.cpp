@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <string_view>
 
-#include "aspic/model.h"
 #include "base/printable.h"
 #include "model/cube.h"
 #include "model/integrator.h"
+#include "model/model.h"
 #include "model/terrain.h"
 
 namespace aspic {

@@ -2,8 +2,8 @@
 // What colours mean: range, unit and legend.
 #include <array>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
+#include "model/model.h"
 #include "render/overlay.h"
 
 namespace aspic {

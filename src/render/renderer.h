@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "aspic/state.h"
 #include "base/result.h"
@@ -16,6 +15,7 @@
 #include "gpu/pass_profiler.h"
 #include "gpu/shader_source.h"
 #include "gpu/texture.h"
+#include "model/model.h"
 #include "render/arrows.h"
 #include "render/camera.h"
 #include "render/colour_map.h"

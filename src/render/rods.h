@@ -1,7 +1,7 @@
 #pragma once
 // The rods that bodies hang on, drawn as tubes with round ends.
 
-#include "aspic/model.h"
+#include "model/model.h"
 #include "render/mesh.h"
 
 namespace aspic {

@@ -2,12 +2,12 @@
 // The inside of bodies where a plane cuts them.
 #include <memory>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "device/device_state.h"
 #include "gpu/buffer.h"
 #include "gpu/program.h"
+#include "model/model.h"
 #include "render/model_buffers.h"
 
 namespace aspic {

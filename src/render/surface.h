@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "aspic/model.h"
+#include "model/model.h"
 
 namespace aspic {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "aspic/model.h"
+#include "model/model.h"
 #include "render/mesh.h"
 
 namespace aspic {

@@ -2,8 +2,8 @@
 // Ground, solid surfaces and glass.
 #include <vector>
 
-#include "aspic/model.h"
 #include "gpu/texture.h"
+#include "model/model.h"
 #include "render/camera.h"
 #include "render/mesh.h"
 #include "render/moving_part.h"

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "aspic/scene.h"
+#include "aspic/version.h"
 #include "base/fnv.h"
 #include "base/printable.h"
 #include "scene/short_keys.h"

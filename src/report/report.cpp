@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "aspic/scene.h"
+#include "aspic/version.h"
 #include "base/files.h"
 #include "base/fnv.h"
 #include "base/printable.h"

@@ -22,6 +22,7 @@
 #include "io/console.h"
 #include "report/csv.h"
 #include "report/sweep_rows.h"
+#include "run/window_host.h"
 
 namespace aspic::report {
 namespace {

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "aspic/inputs.h"
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "aspic/state.h"
+#include "model/model.h"
 #include "render/arrows.h"
 
 namespace aspic {

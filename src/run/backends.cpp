@@ -11,6 +11,7 @@
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
 #include "model/counts.h"
+#include "run/window_host.h"
 
 namespace aspic {
 namespace {
@@ -20,9 +21,10 @@ namespace {
 Result<Backend> make_gpu(SharedModel model, const BackendChoice& choice, const SolverHost& host) {
   Backend backend;
   gl::Context* context = host.context;
+  std::shared_ptr<gl::Context> own;  // the solver holds it from then on
   if (context == nullptr) {
-    ASPIC_TRY(backend.context, gl::Context::create_headless());
-    context = backend.context.get();
+    ASPIC_TRY(own, gl::Context::create_headless());
+    context = own.get();
   }
   ASPIC_TRY(auto directory, shader_directory());
   GpuOptions options;
@@ -32,7 +34,6 @@ Result<Backend> make_gpu(SharedModel model, const BackendChoice& choice, const S
   options.arithmetic = host.arithmetic;
   options.spring_arithmetic = choice.arithmetic;
   ASPIC_TRY(auto solver, make_gpu_solver(*context, std::move(model), options));
-  backend.gpu = solver.get();
   backend.device = context->info().renderer;
   backend.force_path = name_of(solver->force_path());
   backend.solver = std::move(solver);
@@ -223,6 +224,23 @@ std::string backend_words() {
   return words;
 }
 
+std::vector<BackendInfo> list_backends() {
+  std::vector<BackendInfo> list;
+  for (const BackendRow& row : table)
+    list.push_back(
+        {row.name, row.title, row.summary, has(row.precisions, Precision::double_), row.fast, row.threaded});
+  return list;
+}
+
+GpuSolver* gpu_of(const Backend& backend) {
+  return dynamic_cast<GpuSolver*>(backend.solver.get());
+}
+
+gl::Context* context_of(const Backend& backend) {
+  const GpuSolver* const gpu = gpu_of(backend);
+  return gpu ? &gpu->context() : nullptr;
+}
+
 std::string Backend::variant() const {
   return variant_of(*row, force_path, solver->precision(), arithmetic);
 }
@@ -353,9 +371,12 @@ Result<Backend> make_backend(const BackendChoice& choice, SharedModel model, con
   ASPIC_TRY(auto backend, row.make(std::move(model), choice, place));
   backend.row = &row;
   backend.arithmetic = choice.arithmetic;
-  if (automatic.context) backend.context = std::move(automatic.context);
   backend.reason = std::move(automatic.reason);
   return backend;
+}
+
+Result<Backend> make_backend(const BackendChoice& choice, SharedModel model) {
+  return make_backend(choice, std::move(model), SolverHost{});
 }
 
 std::vector<BackendBytes> bytes_by_backend(const Model& model) {

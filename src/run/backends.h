@@ -9,60 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include "aspic/solver.h"
-#include "base/result.h"
-#include "gpu/context.h"
-#include "gpu_solver/gpu_solver.h"
+#include "aspic/run.h"
+#include "gpu_solver/force_paths.h"
 
 namespace aspic {
 
-struct BackendRow;
-
-/// What the user asked for.
-struct BackendChoice {
-  const BackendRow* row = nullptr;              ///< null: auto
-  Precision precision = Precision::single;      ///< one that the row has
-  ForcePath force_path = ForcePath::automatic;  ///< one that the row has, or automatic
-  Arithmetic arithmetic = Arithmetic::exact;    ///< fast: only if the row has it
-  unsigned threads = 0;  ///< 1 to 1024, only if the row takes a number; 0: as many as pay
-
-  friend bool operator==(const BackendChoice&, const BackendChoice&) = default;
-};
-
-/// What a solver may use of its surroundings; nothing is required.
-struct SolverHost {
-  /// Where a backend that needs a context works, which others may use too; as make_gpu_solver(), its solver
-  /// keeps it alive where a shared_ptr holds it. Null: a headless one of its own.
-  gl::Context* context = nullptr;
-  /// A solver on the same context to share buffers with, see GpuOptions::share_springs_of.
-  const GpuSolver* share_springs_of = nullptr;
-  /// What the canary found on that context's device before; absent: it is asked again.
-  std::optional<gl::Arithmetic> arithmetic;
-};
-
-/// A solver with what a report says of it. The solver holds what it needs, so that all of this may be moved,
-/// assigned and destroyed in any order.
-struct Backend {
-  const BackendRow* row = nullptr;
-  std::shared_ptr<gl::Context> context;  ///< the solver's own; null if none or given
-  std::unique_ptr<Solver> solver;
-  GpuSolver* gpu = nullptr;  ///< the solver, where its state lies on a device: for drawing without a copy
-  std::string device;        ///< GL_RENDERER, or what the solver says of itself
-  std::string force_path;    ///< "gather", …; empty if the backend has none
-  Arithmetic arithmetic = Arithmetic::exact;
-  std::string reason;  ///< why `auto` took it; empty if it was named
-
-  /// "gpu:gather", "cpu:fast", "reference:double", "reference".
-  std::string variant() const;
-};
-
-/// Whether `auto` takes a backend on this machine.
-struct Suitability {
-  bool suits = false;
-  std::string reason;  ///< why or why not, as the end of a sentence; empty: there is nothing to say
-  std::string detail;  ///< what was tried; may be empty
-  std::shared_ptr<gl::Context> context;  ///< the context found on the way, current; null without
-};
+/// What a solver may use of its surroundings, and whether `auto` takes a backend: run/window_host.h.
+struct SolverHost;
+struct Suitability;
+namespace gl {
+class Context;
+}
 
 /// A backend.
 struct BackendRow {
@@ -98,19 +55,6 @@ inline const BackendRow& reference_backend() {
 const BackendRow* find_backend(std::string_view name);
 /// The row after it in the table, the first after the last or a row of no table.
 const BackendRow& next_backend(const BackendRow& row);
-/// Every word of --backend: "auto, gpu, reference".
-std::string backend_words();
-
-/// What `auto` takes, and why.
-struct AutomaticChoice {
-  const BackendRow* row = nullptr;
-  std::string reason;                    ///< why, as the end of a sentence
-  std::string detail;                    ///< what was tried on the way; may be empty
-  std::shared_ptr<gl::Context> context;  ///< the context found, current; null without
-};
-/// The first row of the table that has what the choice asks for and suits; `window` as for
-/// BackendRow::suitability. The choice has passed check_choice().
-AutomaticChoice choose_automatically(const BackendChoice& choice, const gl::Context* window = nullptr);
 
 /// Words of --backend (null: auto), --precision, --force-path and --arithmetic. Error (usage): an unknown
 /// word, with those allowed.
@@ -122,10 +66,6 @@ Result<Arithmetic> parse_arithmetic(std::string_view word);
 /// What the row has of `asked`, with this row; all of it for auto (null).
 BackendChoice choice_for(const BackendRow* row, const BackendChoice& asked);
 
-/// A backend with its options after colons: "gpu:per-spring", "reference:double", "cpu:fast". What the text
-/// leaves open is as choice_for() has it. Errors as above.
-Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& asked = {});
-
 /// Finds choices that no machine could satisfy, before any work: a precision, a force path, an arithmetic or
 /// a number of threads that the backend does not have (usage); what is not built yet (scene_rejected).
 Status check_choice(const BackendChoice& choice);
@@ -134,12 +74,9 @@ Status check_choice(const BackendChoice& choice);
 /// empty if it is not set. Error (io): it names no directory.
 Result<std::filesystem::path> shader_directory();
 
-/// Makes the solver of a choice, `auto` included, at the model's initial state. Errors: as check_choice and
-/// BackendRow::make.
-Result<Backend> make_backend(const BackendChoice& choice, SharedModel model, const SolverHost& host = {});
 /// With a model of its own: a copy, or what is moved here.
-inline Result<Backend> make_backend(const BackendChoice& choice, Model model, const SolverHost& host = {}) {
-  return make_backend(choice, shared(std::move(model)), host);
+inline Result<Backend> make_backend(const BackendChoice& choice, Model model) {
+  return make_backend(choice, shared(std::move(model)));
 }
 
 /// Bytes that a backend in one of its variants holds for a model.

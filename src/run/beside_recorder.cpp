@@ -4,6 +4,7 @@
 
 #include "render/camera.h"
 #include "run/arrows.h"
+#include "run/window_host.h"
 
 namespace aspic {
 
@@ -39,9 +40,8 @@ Status BesideRecorder::add(const std::vector<std::uint64_t>& steps,
     Part& part = parts_[i];
     ASPIC_CHECK(take_state(part, steps[i]));
     const Backend& backend = *part.run.backend;
-    const bool there = backend.gpu && !film_->wants_copies();
-    states.push_back(there ? PaintedState{nullptr, backend.gpu->device_state()}
-                           : PaintedState{&part.copy, {}});
+    const GpuSolver* const gpu = film_->wants_copies() ? nullptr : gpu_of(backend);
+    states.push_back(gpu ? PaintedState{nullptr, gpu->device_state()} : PaintedState{&part.copy, {}});
     all.push_back(shown(part, divergences[i]));
   }
   return film_->add(states, std::move(all), 1);
@@ -51,7 +51,8 @@ Status BesideRecorder::add(const std::vector<std::uint64_t>& steps,
 Status BesideRecorder::take_state(Part& part, std::uint64_t step) {
   if (part.step == step) return {};
   const Backend& backend = *part.run.backend;
-  if (!backend.gpu || film_->wants_copies() || part.following.any() || part.run.scene->view.arrows.any()) {
+  if (!gpu_of(backend) || film_->wants_copies() || part.following.any() ||
+      part.run.scene->view.arrows.any()) {
     ASPIC_TRY(part.copy, backend.solver->state());
   }
   part.step = step;

@@ -14,6 +14,7 @@
 #include "render/picture_passes.h"
 #include "render/renderer.h"
 #include "run/run_length.h"
+#include "run/window_host.h"
 
 namespace aspic {
 namespace {
@@ -52,21 +53,23 @@ class PictureCostMeter {
                                          const SharedModel& model, const PictureSize& size) {
     PictureCostMeter m(scene, size);
     ASPIC_TRY(m.backend_, make_backend(choice, model));
-    if (!m.backend_.context) {
-      ASPIC_TRY(m.backend_.context, gl::Context::create_headless());
+    m.context_ = context_of(m.backend_);
+    if (!m.context_) {
+      ASPIC_TRY(m.own_context_, gl::Context::create_headless());
+      m.context_ = m.own_context_.get();
     }
     RendererOptions look;
     ASPIC_TRY(const auto directory, shader_directory());
     look.shaders = gl::ShaderLibrary(directory);
-    ASPIC_TRY(m.renderer_, Renderer::create(*m.backend_.context, look));
+    ASPIC_TRY(m.renderer_, Renderer::create(*m.context_, look));
     ASPIC_CHECK(m.renderer_->set_model(*model));
-    ASPIC_TRY(auto ring, gl::PixelRing::create(*m.backend_.context, size.width, size.height));
+    ASPIC_TRY(auto ring, gl::PixelRing::create(*m.context_, size.width, size.height));
     m.ring_.emplace(std::move(ring));
     return m;
   }
 
   Solver& solver() { return *backend_.solver; }
-  const std::string& device() const { return backend_.context->info().renderer; }
+  const std::string& device() const { return context_->info().renderer; }
 
   /// Adds a picture of the solver's state to the cost.
   Status picture(PictureCost& cost) {
@@ -82,7 +85,7 @@ class PictureCostMeter {
 
   /// The same pass by pass, into sums.
   Status passes(std::vector<gl::PassTime>& sums) {
-    const gl::Current here(*backend_.context);
+    const gl::Current here(*context_);
     ASPIC_CHECK(here.status());
     const Stopwatch uploading;
     ASPIC_TRY(const auto state, on_device());
@@ -106,7 +109,7 @@ class PictureCostMeter {
   PictureCostMeter(const Scene& scene, const PictureSize& size) : scene_(&scene), size_(size) {}
 
   Result<DeviceState> on_device() {
-    if (backend_.gpu) return backend_.gpu->device_state();
+    if (const GpuSolver* const gpu = gpu_of(backend_)) return gpu->device_state();
     ASPIC_TRY(const auto state, backend_.solver->state());
     return renderer_->upload(state);
   }
@@ -121,6 +124,8 @@ class PictureCostMeter {
   const Scene* scene_;
   PictureSize size_;
   Backend backend_;
+  gl::Context* context_ = nullptr;
+  std::shared_ptr<gl::Context> own_context_;  // where the backend has none
   std::unique_ptr<Renderer> renderer_;
   std::optional<gl::PixelRing> ring_;
   std::vector<std::byte> pixels_;

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "io/film_format.h"
+#include "model/model.h"
 #include "render/overlay.h"
 #include "render/quantity.h"
 #include "render/renderer.h"

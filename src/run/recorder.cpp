@@ -4,9 +4,15 @@
 
 #include <limits>
 
+#include "base/result.h"
+#include "io/frame_schedule.h"
 #include "render/camera.h"
 #include "render/overlay_text.h"
 #include "run/arrows.h"
+#include "run/film_painter.h"
+#include "run/run_files.h"
+#include "run/window_host.h"
+#include "scene/follow.h"
 
 namespace aspic {
 namespace {
@@ -28,11 +34,41 @@ Status check_pictures(const PictureOutput& output, double timestep, std::uint64_
       output.speed, fps, most_pictures);
 }
 
-Recorder::Recorder(const PictureOutput& output, const Scene& scene, const Backend& backend,
-                   const FrameSchedule& schedule)
-    : output_(output), scene_(scene), backend_(backend), schedule_(schedule) {}
+struct Recorder::Parts {
+  PictureOutput output;
+  const Scene& scene;
+  const Backend& backend;
+  FrameSchedule schedule;
+  Following following = {};
+  std::uint64_t next_frame = 0;
+  std::optional<std::uint64_t> last_shown = {};
+  double simulate_seconds = 0.0;
+  std::shared_ptr<gl::Context> own_context = nullptr;
+  std::unique_ptr<FilmPainter> film = nullptr;
+};
 
+Recorder::Recorder(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Recorder::~Recorder() = default;
+
+void Recorder::abandon() {
+  parts_->film->abandon();
+}
+
+std::vector<Error> Recorder::failures() const {
+  return parts_->film->recording().failures();
+}
+
+std::vector<std::string> Recorder::written() {
+  return parts_->film->recording().written();
+}
+
+void Recorder::add_simulation(double seconds) {
+  parts_->simulate_seconds += seconds;
+}
+
+const std::string& Recorder::device() const {
+  return parts_->film->device();
+}
 
 Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, const Scene& scene,
                                                    const Backend& backend,
@@ -42,70 +78,71 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
   const double fps = frames_per_second(output);
   ASPIC_CHECK(check_pictures(output, model.simulation.timestep, first_step, last_step));
   const FrameSchedule schedule(model.simulation.timestep, first_step, last_step, fps, output.speed);
-  std::unique_ptr<Recorder> r(new Recorder(output, scene, backend, schedule));
-  if (!backend.context) {
+  auto parts = std::make_unique<Parts>(Parts{output, scene, backend, schedule});
+  gl::Context* there = context_of(backend);
+  if (!there) {
     auto context = gl::Context::create_headless();
     if (!context)
       return Error{context.error().code,
                    "pictures need an OpenGL device; a software one is enough. " + context.error().message};
-    r->own_context_ = std::move(*context);
+    parts->own_context = std::move(*context);
+    there = parts->own_context.get();
   }
-  gl::Context& context = backend.context ? *backend.context : *r->own_context_;
-  r->following_ = Following(scene, model, backend.solver->precision());
-  ASPIC_TRY(r->film_,
-            FilmPainter::create(context, output, {{&scene, &model}}, schedule.count(), std::move(sinks)));
-  return r;
+  parts->following = Following(scene, model, backend.solver->precision());
+  ASPIC_TRY(parts->film,
+            FilmPainter::create(*there, output, {{&scene, &model}}, schedule.count(), std::move(sinks)));
+  return std::unique_ptr<Recorder>(new Recorder(std::move(parts)));
 }
 
 FrameTimes Recorder::times() const {
-  FrameTimes times = film_->times();
-  times.simulate = simulate_seconds_;
+  FrameTimes times = parts_->film->times();
+  times.simulate = parts_->simulate_seconds;
   return times;
 }
 
 std::uint64_t Recorder::next_step() const {
-  return next_frame_ < schedule_.count() ? schedule_.step_of(next_frame_)
-                                         : std::numeric_limits<std::uint64_t>::max();
+  return parts_->next_frame < parts_->schedule.count() ? parts_->schedule.step_of(parts_->next_frame)
+                                                       : std::numeric_limits<std::uint64_t>::max();
 }
 
 Status Recorder::reach(Solver& solver, std::uint64_t step) {
   std::uint64_t copies = 0;
-  for (; next_step() == step; ++next_frame_) ++copies;
+  for (; next_step() == step; ++parts_->next_frame) ++copies;
   return copies > 0 ? draw(solver, step, copies) : Status();
 }
 
 Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) {
-  const ViewSettings& view = scene_.view;
-  const bool on_device = backend_.gpu && !own_context_;
+  const ViewSettings& view = parts_->scene.view;
+  const GpuSolver* const gpu = gpu_of(parts_->backend);
   State copy;
   PaintedState state;
-  if (!on_device || film_->wants_copies() || following_.any() || view.arrows.any()) {
+  if (!gpu || parts_->film->wants_copies() || parts_->following.any() || view.arrows.any()) {
     ASPIC_TRY(copy, solver.state());
   }
-  if (on_device && !film_->wants_copies())
-    state.there = backend_.gpu->device_state();
+  if (gpu && !parts_->film->wants_copies())
+    state.there = gpu->device_state();
   else
     state.copy = &copy;
   ShownRun shown;
-  shown.camera = fitted(moved(view.camera, following_.offset(solver.model(), copy)), output_.size.width,
-                        output_.size.height);
-  shown.legend = output_.text;
+  shown.camera = fitted(moved(view.camera, parts_->following.offset(solver.model(), copy)),
+                        parts_->output.size.width, parts_->output.size.height);
+  shown.legend = parts_->output.text;
   if (view.arrows.any()) shown.arrows = arrows_of(solver.model(), copy, view.arrows);
-  if (output_.text)
-    shown.text = overlay_lines(scene_, static_cast<double>(step) * solver.model().simulation.timestep);
-  ASPIC_CHECK(film_->add({state}, {std::move(shown)}, copies));
-  last_shown_ = step;
+  if (parts_->output.text)
+    shown.text = overlay_lines(parts_->scene, static_cast<double>(step) * solver.model().simulation.timestep);
+  ASPIC_CHECK(parts_->film->add({state}, {std::move(shown)}, copies));
+  parts_->last_shown = step;
   return {};
 }
 
 Status Recorder::finish(Solver& solver, std::uint64_t step) {
-  if (last_shown_ != step) {
+  if (parts_->last_shown != step) {
     if (const Status drawn = draw(solver, step, 1); !drawn) {
-      film_->abandon();
+      parts_->film->abandon();
       return drawn;
     }
   }
-  return film_->finish();
+  return parts_->film->finish();
 }
 
 }  // namespace aspic

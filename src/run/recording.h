@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "aspic/run.h"
 #include "base/result.h"
 #include "gpu/pixel_ring.h"
 #include "io/film_format.h"
@@ -21,15 +22,6 @@ struct FilmOptions {
   std::string path;   ///< of the first sink
   double fps = 60.0;  ///< pictures shown per second, > 0
   PictureSize size;
-};
-
-/// Time spent on pictures [s], in all. A device works on while the program does: its time shows where it is
-/// waited for.
-struct FrameTimes {
-  std::uint64_t frames = 0;
-  double simulate = 0.0, draw = 0.0, read = 0.0, encode = 0.0;
-  unsigned processes = 0;  ///< that drew; 0: this one alone
-  double per_frame(double total) const { return frames > 0 ? total / static_cast<double>(frames) : 0.0; }
 };
 
 /// Takes pictures of one size. Nothing is dropped: while the encoder is behind, ready() is false. A sink that

@@ -7,6 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/result.h"
+#include "io/film_format.h"
+#include "io/state_sink.h"
+
 namespace aspic {
 namespace {
 
@@ -32,21 +36,52 @@ Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOu
 
 }  // namespace
 
+struct RunFiles::Parts {
+  struct Output {
+    std::unique_ptr<StateSink> sink;
+    bool failed = false;
+  };
+  void note_failure(Output& output, const Error& error);
+
+  std::vector<Output> outputs;
+  std::vector<std::unique_ptr<FrameSink>> frame_sinks;
+  std::vector<std::string> written;
+  std::vector<Error> failures;
+  bool begun = false;
+};
+
+RunFiles::RunFiles(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+RunFiles::RunFiles(RunFiles&&) noexcept = default;
+RunFiles& RunFiles::operator=(RunFiles&&) noexcept = default;
+RunFiles::~RunFiles() = default;
+
+const std::vector<Error>& RunFiles::failures() const {
+  return parts_->failures;
+}
+
+const std::vector<std::string>& RunFiles::written() const {
+  return parts_->written;
+}
+
+std::vector<std::unique_ptr<FrameSink>> RunFiles::take_frame_sinks() {
+  return std::move(parts_->frame_sinks);
+}
+
 Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
                                 const RunFacts& facts, Overwrite overwrite) {
   ASPIC_CHECK(check_endings(states));
   ASPIC_CHECK(refuse_duplicates(states, pictures));
-  RunFiles files;
+  auto files = std::make_unique<Parts>();
   for (const StateOutput& output : states) {
     if (output.path.empty()) continue;
     const StateFormat& format = state_format_of(output.option, output.path);
     ASPIC_TRY(auto sink,
               format.open(output.path, output.every.value_or(format.default_every), overwrite, facts));
-    files.outputs_.push_back({std::move(sink)});
+    files->outputs.push_back({std::move(sink)});
   }
   const auto add = [&](const FilmFormat& format, const std::string& path) -> Status {
     ASPIC_TRY(auto sink, open_film(format, path, pictures.size, frames_per_second(pictures), overwrite));
-    files.frame_sinks_.push_back(std::move(sink));
+    files->frame_sinks.push_back(std::move(sink));
     return {};
   };
   if (!pictures.frames.empty()) ASPIC_CHECK(add(*pictures.frames_format, pictures.frames));
@@ -54,48 +89,48 @@ Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const Pi
     ASPIC_TRY(const auto format, video_format_of(pictures.video));
     ASPIC_CHECK(add(*format, pictures.video));
   }
-  return files;
+  return RunFiles(std::move(files));
 }
 
 std::uint64_t RunFiles::next_step(std::uint64_t step) const {
   std::uint64_t next = std::numeric_limits<std::uint64_t>::max();
-  for (const auto& [sink, failed] : outputs_)
+  for (const auto& [sink, failed] : parts_->outputs)
     if (sink->every() > 0) next = std::min(next, step + (sink->every() - step % sink->every()));
   return next;
 }
 
-void RunFiles::note_failure(Output& output, const Error& error) {
-  if (!std::exchange(output.failed, true)) failures_.push_back(error);
+void RunFiles::Parts::note_failure(Output& output, const Error& error) {
+  if (!std::exchange(output.failed, true)) failures.push_back(error);
 }
 
 bool RunFiles::any_left() const {
-  return std::ranges::any_of(outputs_, [](const Output& output) { return !output.failed; });
+  return std::ranges::any_of(parts_->outputs, [](const Parts::Output& output) { return !output.failed; });
 }
 
 Status RunFiles::take(const Sample& sample) {
-  const bool first = !std::exchange(begun_, true);
-  for (Output& output : outputs_) {
+  const bool first = !std::exchange(parts_->begun, true);
+  for (Parts::Output& output : parts_->outputs) {
     const std::uint64_t every = output.sink->every();
     if (!first && (every == 0 || sample.state.step % every != 0)) continue;
     const Status taken = output.sink->take(sample);
     if (taken) continue;
     // Before the first step a run loses nothing by ending.
     if (first || taken.error().code != ErrorCode::io) return taken;
-    note_failure(output, taken.error());
+    parts_->note_failure(output, taken.error());
   }
   return {};
 }
 
 Status RunFiles::finish(const Sample& last) {
-  for (Output& output : outputs_) {
+  for (Parts::Output& output : parts_->outputs) {
     if (const Status finished = output.sink->finish(last); !finished)
-      note_failure(output, finished.error());
+      parts_->note_failure(output, finished.error());
     else
-      written_.push_back(output.sink->path());
+      parts_->written.push_back(output.sink->path());
     output.sink.reset();
   }
-  outputs_.clear();
-  return failures_.empty() ? Status() : Status(failures_.front());
+  parts_->outputs.clear();
+  return failures().empty() ? Status() : Status(failures().front());
 }
 
 Status check_endings(const std::vector<StateOutput>& outputs) {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "aspic/state.h"
+#include "model/model.h"
 
 namespace aspic {
 

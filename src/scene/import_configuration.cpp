@@ -9,10 +9,10 @@
 #include <map>
 #include <optional>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "base/lines.h"
 #include "base/printable.h"
+#include "model/model.h"
 #include "scene/diagnostics.h"
 #include "scene/parameters.h"
 #include "scene/write.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "aspic/model.h"
+#include "model/model.h"
 #include "scene/parameters.h"
 
 namespace aspic::rows {

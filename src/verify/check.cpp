@@ -11,6 +11,7 @@
 
 #include "base/printable.h"
 #include "cpu_reference/reference_solver.h"
+#include "run/window_host.h"
 #include "scene/diagnostics.h"
 
 namespace aspic::verify {

@@ -3,8 +3,8 @@
 // solvers.
 #include <Eigen/Core>
 
-#include "aspic/model.h"
 #include "aspic/state.h"
+#include "model/model.h"
 
 namespace aspic::verify {
 

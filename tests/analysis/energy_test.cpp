@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "aspic/analysis.h"
+#include "model/model.h"
 
 namespace aspic {
 namespace {

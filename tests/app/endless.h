@@ -7,6 +7,7 @@
 
 #include "cpu_reference/reference_solver.h"
 #include "run/backends.h"
+#include "run/window_host.h"
 
 namespace aspic::test {
 

@@ -360,7 +360,11 @@ unsigned reset_status() {
 }  // namespace
 
 extern "C" void* eglGetProcAddress(const char* name) {
-  void* const real = next<void* (*)(const char*)>("eglGetProcAddress")(name);
+  // Of a library that the program loads by itself, so that it is not the next one.
+  static void* const library = ::dlopen("libEGL.so.1", RTLD_NOW);
+  static const auto real_get =
+      reinterpret_cast<void* (*)(const char*)>(::dlsym(library, "eglGetProcAddress"));
+  void* const real = real_get(name);
   if (real == nullptr) return real;
   struct Wrapped {
     const char* name;

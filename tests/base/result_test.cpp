@@ -28,6 +28,16 @@ TEST(Status, IsOkUnlessAnError) {
   EXPECT_FALSE(Status(Error{ErrorCode::usage, "x"}).ok());
 }
 
+// In every build: what is not there is not read.
+TEST(ResultDeathTest, ReadingWhatItDoesNotHoldEndsTheProgramWithASentence) {
+  const Result<int> none = Error{ErrorCode::io, "no such file"};
+  EXPECT_DEATH((void)*none, "no such file");
+  EXPECT_DEATH((void)none.value(), "no such file");
+  const Result<int> seven = 7;
+  EXPECT_DEATH((void)seven.error(), "holds none");
+  EXPECT_DEATH((void)Status().error(), "holds none");
+}
+
 Result<std::unique_ptr<int>> half(int number) {
   if (number % 2 != 0) return Error{ErrorCode::usage, "odd"};
   return std::make_unique<int>(number / 2);

@@ -10,11 +10,11 @@
 #include <string>
 #include <thread>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "base/printable.h"
 #include "cli/process.h"
 #include "io/checkpoint.h"
+#include "model/model.h"
 
 namespace aspic {
 namespace {

@@ -2,12 +2,12 @@
 #include <cstdint>
 #include <span>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "base/fnv.h"
 #include "fuzz/targets.h"
 #include "io/checkpoint.h"
 #include "model/counts.h"
+#include "model/model.h"
 
 namespace aspic::fuzz {
 namespace {

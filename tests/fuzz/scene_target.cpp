@@ -3,10 +3,10 @@
 
 #include "analysis/stability.h"
 #include "aspic/analysis.h"
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "fuzz/targets.h"
 #include "model/counts.h"
+#include "model/model.h"
 #include "scene/write.h"
 
 namespace aspic::fuzz {

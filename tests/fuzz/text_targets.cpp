@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "app/kept_state.h"
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "base/files.h"
 #include "fuzz/targets.h"
+#include "model/model.h"
 #include "scene/import_configuration.h"
 #include "support/state_csv_reader.h"
 

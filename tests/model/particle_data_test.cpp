@@ -1,4 +1,4 @@
-#include "aspic/particle_data.h"
+#include "model/particle_data.h"
 
 #include <gtest/gtest.h>
 

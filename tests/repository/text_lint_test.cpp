@@ -76,7 +76,8 @@ TEST(FileSizes, EveryTrackedFileIsSmall) {
 
 /// The room that implements a public header.
 std::string room_of_public(const std::string& header) {
-  if (header == "error" || header == "export") return "base";
+  if (header == "error" || header == "export" || header == "version") return "base";
+  if (header == "files") return "io";
   return std::filesystem::is_directory(root / "src" / header) ? header : "model";
 }
 
@@ -125,6 +126,44 @@ TEST(Rooms, UseWhatTheArchitectureSaysAndNothingBelowThem) {
   for (const auto& entry : std::filesystem::directory_iterator(root / "src"))
     if (entry.is_directory()) present.insert(entry.path().filename().string());
   EXPECT_EQ(seen, present);
+}
+
+/// What the public headers may not have: other libraries, the program's rooms, and a device's types.
+std::vector<std::string> not_public(const std::string& text) {
+  static const std::regex include(R"re(#include\s+(<[a-z_]+>|"aspic/[a-z_]+\.h")?[^\n]*)re");
+  static const std::regex device(R"(\bgl::|\bGL[a-z]*_|\bGpuSolver\b|\bEgl|\.glsl\b|\bfmt::|\bEigen::)");
+  std::vector<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), include), end; match != end; ++match)
+    if (!(*match)[1].matched) found.push_back(match->str());
+  for (std::sregex_iterator match(text.begin(), text.end(), device), end; match != end; ++match)
+    found.push_back(match->str());
+  return found;
+}
+
+TEST(PublicHeaders, WhatIsNotPublicIsFound) {
+  EXPECT_THAT(not_public("#include <vector>\n#include \"aspic/model.h\"\nstruct Model;  // OpenGL\n"),
+              ::testing::IsEmpty());
+  EXPECT_THAT(
+      not_public("#include <fmt/core.h>\n#include \"model/model.h\"\n#include <stdio.h>\ngl::Context* c;\n"),
+      ::testing::SizeIs(4));
+}
+
+TEST(PublicHeaders, AreFewAndIncludeTheStandardLibraryAndEachOther) {
+  std::size_t lines = 0;
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(root / "include/aspic")) {
+    const std::string text = contents(entry.path());
+    lines += static_cast<std::size_t>(std::ranges::count(text, '\n'));
+    names.insert(entry.path().filename().string());
+    EXPECT_THAT(not_public(text), ::testing::IsEmpty()) << entry.path();
+  }
+  EXPECT_LE(lines, 1300u) << "a user reads them all";
+  names.insert("version.h");  // generated
+  const std::string all = contents(root / "include/aspic/aspic.h");
+  names.erase("aspic.h");
+  names.erase("export.h");
+  for (const std::string& name : names)
+    EXPECT_NE(all.find("\"aspic/" + name + "\""), std::string::npos) << "aspic.h leaves out " << name;
 }
 
 }  // namespace

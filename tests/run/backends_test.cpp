@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "aspic/scene.h"
+#include "run/window_host.h"
 
 namespace aspic {
 namespace {
@@ -113,7 +114,8 @@ TEST(Backends, ASolverSaysWhatItIs) {
   ASSERT_TRUE(backend.ok()) << backend.error().message;
   EXPECT_EQ(backend->variant(), "reference:double");
   EXPECT_EQ(backend->row, &reference_backend());
-  EXPECT_EQ(backend->gpu, nullptr);
+  EXPECT_EQ(gpu_of(*backend), nullptr);
+  EXPECT_EQ(context_of(*backend), nullptr);
   const auto fast = make_backend({.row = find_backend("cpu"), .arithmetic = Arithmetic::fast}, *model);
   ASSERT_TRUE(fast.ok()) << fast.error().message;
   EXPECT_EQ(fast->variant(), "cpu:fast");

@@ -16,6 +16,7 @@
 #include "render/renderer.h"
 #include "run/backends.h"
 #include "run/lockstep.h"
+#include "run/window_host.h"
 #include "support/gl_fixture.h"
 #include "support/model_building.h"
 
@@ -52,7 +53,6 @@ class SeveralGpuSolvers : public aspic::testing::GlTest {
     host.context = own ? own.get() : context;
     auto made = make_backend(*choice, model, host);
     EXPECT_TRUE(made.ok()) << variant << ": " << made.error().message;
-    made->context = std::move(own);
     return std::move(*made);
   }
   static std::string hash_of(const Backend& backend) {
@@ -125,13 +125,13 @@ TEST_F(SeveralGpuSolvers, ABackendIsAssignedOverALiveOne) {
   const Model model = test::build(cube(4));
   const std::string expected = hash_alone("reference", model, nullptr);
   Backend backend = make("gpu", model, nullptr);
-  backend.gpu->set_profiling(true);
+  gpu_of(backend)->set_profiling(true);
   ASSERT_TRUE(backend.solver->advance(5).ok());
   backend = make("gpu:gather", model, nullptr);
   EXPECT_EQ(hash_after(backend, steps), expected);
   backend = make("reference", model, nullptr);
   EXPECT_EQ(hash_after(backend, steps), expected);
-  EXPECT_EQ(backend.context, nullptr);
+  EXPECT_EQ(context_of(backend), nullptr);
 }
 
 // Of a backend the solver alone is left.
@@ -146,7 +146,7 @@ TEST_F(SeveralGpuSolvers, ASolverHoldsItsModelAndItsContext) {
       const SharedModel held = shared(test::build(cube(4)));
       Backend backend = make(variant, held, nullptr);
       model = held;
-      own = backend.context;
+      if (gl::Context* const context = context_of(backend)) own = context->weak_from_this();
       EXPECT_EQ(&backend.solver->model(), held.get()) << "it was copied";
       solver = std::move(backend.solver);
     }
@@ -182,8 +182,8 @@ TEST_F(SeveralGpuSolvers, LeaveTheThreadsContextAsItWas) {
   ASSERT_TRUE(backend.solver->advance(3).ok());
   EXPECT_EQ(eglGetCurrentContext(), before);
   (void)hash_of(backend);
-  backend.gpu->set_profiling(true);
-  (void)backend.gpu->pass_times();
+  gpu_of(backend)->set_profiling(true);
+  (void)gpu_of(backend)->pass_times();
   EXPECT_EQ(eglGetCurrentContext(), before);
   backend = Backend();
   EXPECT_EQ(eglGetCurrentContext(), before);
@@ -193,7 +193,7 @@ TEST_F(SeveralGpuSolvers, ACallFromAnotherThreadIsRefusedAndSaysSo) {
   const Model model = test::build(cube(3));
   const std::string expected = hash_alone("reference", model, nullptr);
   Backend backend = make("gpu", model, nullptr);
-  ASSERT_TRUE(backend.context->make_current().ok());
+  ASSERT_TRUE(context_of(backend)->make_current().ok());
   std::vector<std::string> answers;
   std::thread([&] {
     const auto note = [&](const auto& result) {
@@ -203,7 +203,7 @@ TEST_F(SeveralGpuSolvers, ACallFromAnotherThreadIsRefusedAndSaysSo) {
     note(backend.solver->state());
     note(backend.solver->load(initial_state(model, Precision::single)));
     note(backend.solver->set_pull(std::nullopt));
-    note(make_backend({find_backend("gpu")}, model, {backend.context.get(), nullptr, {}}));
+    note(make_backend({find_backend("gpu")}, model, {context_of(backend), nullptr, {}}));
   }).join();
   EXPECT_THAT(answers, ::testing::Each(HasSubstr("is in use on another thread")));
   EXPECT_EQ(hash_after(backend, steps), expected);  // and nothing has happened to it
@@ -226,7 +226,7 @@ TEST_F(SeveralGpuSolvers, ABackendMayGoOnAnotherThreadWithItsContext) {
   const SharedModel model = shared(test::build(cube(3)));
   const std::string expected = hash_alone("reference", model, nullptr);
   Backend backend = make("gpu", model, nullptr);
-  ASSERT_TRUE(backend.context->make_current().ok());
+  ASSERT_TRUE(context_of(backend)->make_current().ok());
   ASSERT_TRUE(backend.solver->advance(2).ok());
   std::thread([&] { backend = Backend(); }).join();
   backend = make("gpu", model, nullptr);

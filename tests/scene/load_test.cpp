@@ -6,11 +6,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "aspic/model.h"
 #include "aspic/scene.h"
 #include "base/files.h"
 #include "base/memory.h"
 #include "model/counts.h"
+#include "model/model.h"
 #include "scene/scene_support.h"
 #include "support/temporary_directory.h"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "aspic/model.h"
 #include "aspic/state.h"
+#include "model/model.h"
 #include "support/equality_cases.h"
 #include "support/kernel_variants.h"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "aspic/model.h"
 #include "gpu_solver/gpu_solver.h"
+#include "model/model.h"
 
 namespace aspic::test {
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "aspic/model.h"
+#include "model/model.h"
 
 namespace aspic::test {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "aspic/export.h"
 #include "aspic/vec.h"
+#include "model/rotation.h"
 
 namespace aspic {
 
@@ -121,11 +121,15 @@ struct LatticePlaces {
     const auto n = static_cast<std::size_t>(edge);
     return n * n * n;
   }
-  ASPIC_API Vec3 operator[](std::size_t local) const;
+  Vec3 operator[](std::size_t local) const {
+    const auto at = static_cast<int>(local);
+    const int i = at / (edge * edge), j = at / edge % edge, k = at % edge;
+    return centre + turned({i * spacing - half, j * spacing - half, k * spacing - half});
+  }
 };
 
 /// Where each particle is [m]. Any index must be below size().
-class ASPIC_API Places {
+class Places {
  public:
   using value_type = Vec3;
 
@@ -135,19 +139,35 @@ class ASPIC_API Places {
 
   std::size_t size() const { return lattices_.empty() ? listed_.size() : lattices_.back().end + tail(); }
   bool empty() const { return size() == 0; }
-  Vec3 operator[](std::size_t i) const;
+  Vec3 operator[](std::size_t i) const {
+    const auto next = std::ranges::upper_bound(lattices_, i, {}, &Piece::end);
+    if (next != lattices_.end() && i >= next->first()) return next->places[i - next->first()];
+    return listed_[next == lattices_.begin() ? i : i - std::prev(next)->end + std::prev(next)->listed_before];
+  }
   auto begin() const { return IndexIterator(*this, 0); }
   auto end() const { return IndexIterator(*this, size()); }
   /// Those of `count` particles from `first` on.
-  std::vector<Vec3> list(std::size_t first, std::size_t count) const;
+  std::vector<Vec3> list(std::size_t first, std::size_t count) const {
+    std::vector<Vec3> all;
+    all.reserve(count);
+    for (std::size_t i = first; i < first + count; ++i) all.push_back((*this)[i]);
+    return all;
+  }
 
   void push_back(const Vec3& place) { listed_.push_back(place); }
-  void append(const LatticePlaces& lattice);
+  void append(const LatticePlaces& lattice) {
+    lattices_.push_back({size() + lattice.count(), listed_.size(), lattice});
+  }
   /// From here on all are listed.
-  void set(std::size_t i, const Vec3& place);
+  void set(std::size_t i, const Vec3& place) {
+    if (!lattices_.empty()) *this = Places(list(0, size()));
+    listed_[i] = place;
+  }
 
   /// Bytes it holds on the heap.
-  std::uint64_t bytes() const;
+  std::uint64_t bytes() const {
+    return listed_.capacity() * sizeof(Vec3) + lattices_.capacity() * sizeof(Piece);
+  }
 
  private:
   struct Piece {

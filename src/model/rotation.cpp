@@ -1,4 +1,4 @@
-#include "aspic/vec.h"
+#include "model/rotation.h"
 
 namespace aspic {
 

@@ -1,0 +1,180 @@
+#pragma once
+// Runs: which backend computes, what is written and filmed while it does.
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "aspic/error.h"
+#include "aspic/export.h"
+#include "aspic/files.h"
+#include "aspic/model.h"
+#include "aspic/scene.h"
+#include "aspic/solver.h"
+
+namespace aspic {
+
+struct BackendRow;  // of the library's table
+
+/// What there is to know of a backend before one is made.
+struct BackendInfo {
+  std::string_view name;     ///< "gpu"
+  std::string_view title;    ///< in a sentence and on a button: "Switch to GPU"
+  std::string_view summary;  ///< what it is, in a line
+  bool doubles = false;      ///< it computes in double precision too
+  bool fast = false;         ///< it has fast arithmetic
+  bool threaded = false;     ///< its number of threads can be chosen
+};
+/// All backends, in the order in which `auto` tries them. The last is the reference, which runs everywhere
+/// and against which the others are measured.
+ASPIC_API std::vector<BackendInfo> list_backends();
+
+/// What the user asked for.
+struct BackendChoice {
+  const BackendRow* row = nullptr;              ///< null: auto
+  Precision precision = Precision::single;      ///< one that the row has
+  ForcePath force_path = ForcePath::automatic;  ///< one that the row has, or automatic
+  Arithmetic arithmetic = Arithmetic::exact;    ///< fast: only if the row has it
+  unsigned threads = 0;  ///< 1 to 1024, only if the row takes a number; 0: as many as are worthwhile
+
+  friend bool operator==(const BackendChoice&, const BackendChoice&) = default;
+};
+
+/// A backend with its options after colons: "gpu:per-spring", "reference:double", "cpu:fast". What the text
+/// leaves open is as in `asked`, where the backend has it. Error (usage): an unknown word, with those
+/// allowed.
+ASPIC_API Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& asked = {});
+
+/// Every word of --backend: "auto, gpu, reference".
+ASPIC_API std::string backend_words();
+
+/// A solver with what a report says of it. The solver holds what it needs, so that all of this may be moved,
+/// assigned and destroyed in any order.
+struct Backend {
+  const BackendRow* row = nullptr;  ///< of the table
+  std::unique_ptr<Solver> solver;
+  std::string device;      ///< the driver's name of it, or what the solver says of itself
+  std::string force_path;  ///< "gather", …; empty if the backend has none
+  Arithmetic arithmetic = Arithmetic::exact;
+  std::string reason;  ///< why `auto` took it; empty if it was named
+
+  /// "gpu:gather", "cpu:fast", "reference:double", "reference".
+  ASPIC_API std::string variant() const;
+};
+
+/// Makes the solver of a choice, `auto` included, at the model's initial state. Errors: usage, the backend
+/// has not all of it; no_device, which says what is missing; scene_rejected, larger than the device or
+/// memory.
+ASPIC_API Result<Backend> make_backend(const BackendChoice& choice, SharedModel model);
+
+/// A file of states.
+struct StateOutput {
+  std::string option;                  ///< "state", "series" or "checkpoint"
+  std::string path;                    ///< empty: none
+  std::optional<std::uint64_t> every;  ///< steps, ≥ 1; absent: what the format has
+};
+
+/// Pictures of a run.
+struct PictureOutput {
+  std::string video, frames;                                  ///< file and directory; empty: none
+  const FilmFormat* frames_format = find_film_format("png");  ///< of `frames`
+  std::optional<double> fps;  ///< pictures per second shown, > 0; absent: what the formats have
+  double speed = 1.0;         ///< simulated seconds per second shown, > 0
+  PictureSize size;
+  bool text = true;  ///< parameters and time are written on them
+  /// A program that draws when it is started so, as aspic --draw-pictures does, and its words: to draw on
+  /// software rasterisers with all processors; empty: this one draws alone.
+  std::vector<std::string> drawer = {};
+
+  bool any() const { return !video.empty() || !frames.empty(); }
+};
+
+/// The files of a run: opened before it, completed after it. One that fails on the way does not keep the
+/// others from being written.
+class ASPIC_API RunFiles {
+ public:
+  RunFiles(RunFiles&&) noexcept;
+  RunFiles& operator=(RunFiles&&) noexcept;
+  ~RunFiles();
+
+  /// Opens every file that is named. Errors: usage for one name given twice; io; interrupted.
+  static Result<RunFiles> open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
+                               const RunFacts& facts, Overwrite overwrite);
+
+  /// The first step after `step` at which a file wants the state; the largest number if none does.
+  std::uint64_t next_step(std::uint64_t step) const;
+  /// Hands a state to the files that want it: the first of the run, and those of next_step(). Errors: a file
+  /// refused the first state; a number is not finite. Later failures are those of failures().
+  Status take(const Sample& sample);
+  /// Completes all files with the last state. One that fails does not keep the others from being completed.
+  /// Error: the first of failures().
+  Status finish(const Sample& last);
+  /// The first failure of each file so far. States in files of their own are tried again the next time.
+  const std::vector<Error>& failures() const;
+  /// Whether the run writes anything besides pictures that is not lost.
+  bool any_left() const;
+
+  /// Hands over the sinks of the pictures.
+  std::vector<std::unique_ptr<FrameSink>> take_frame_sinks();
+  /// Names of the completed files.
+  const std::vector<std::string>& written() const;
+
+ private:
+  struct Parts;
+  explicit RunFiles(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Time spent on pictures [s], in all. A device works on while the program does: its time shows where it is
+/// waited for.
+struct FrameTimes {
+  std::uint64_t frames = 0;
+  double simulate = 0.0, draw = 0.0, read = 0.0, encode = 0.0;
+  unsigned processes = 0;  ///< that drew; 0: this one alone
+  double per_frame(double total) const { return frames > 0 ? total / static_cast<double>(frames) : 0.0; }
+};
+
+/// Pictures of a run while it runs, without a window.
+class ASPIC_API Recorder {
+ public:
+  /// Draws where a gpu backend's state lies, else in a separate headless context; the sinks have the size of
+  /// `output`. Everything given by reference must outlive the recorder. Errors: no_device,
+  /// scene_rejected (no device memory), io (a shader file).
+  static Result<std::unique_ptr<Recorder>> create(const PictureOutput& output, const Scene& scene,
+                                                  const Backend& backend,
+                                                  std::vector<std::unique_ptr<FrameSink>> sinks,
+                                                  std::uint64_t first_step, std::uint64_t last_step);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// The step that the next picture shows; after the last one, a step that no run reaches.
+  std::uint64_t next_step() const;
+  /// The solver is at `step` ≤ next_step(): draws every picture that shows it. Error: also that of the
+  /// encoder, as soon as all outputs are lost.
+  Status reach(Solver& solver, std::uint64_t step);
+  /// The run ended at `step`, perhaps early: its state is in the last picture, and the outputs are completed.
+  Status finish(Solver& solver, std::uint64_t step);
+  /// Ends without films, instead of finish(); pictures in directories stay.
+  void abandon();
+  /// Of the outputs that are lost so far; the others continue.
+  std::vector<Error> failures() const;
+  /// After finish(): the names of the completed outputs.
+  std::vector<std::string> written();
+
+  /// Counts time of the solver [s] for times().
+  void add_simulation(double seconds);
+  FrameTimes times() const;
+  /// The driver's name of the device that draws.
+  const std::string& device() const;
+
+ private:
+  struct Parts;
+  explicit Recorder(std::unique_ptr<Parts> parts);
+  Status draw(Solver& solver, std::uint64_t step, std::uint64_t copies);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace aspic

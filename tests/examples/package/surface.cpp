@@ -1,0 +1,58 @@
+// What the example leaves out of the public surface, as far as it makes no context. Exit code: the line that
+// failed.
+#include <aspic/aspic.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace {
+
+/// A sink outside the library.
+class Counter : public aspic::FrameSink {
+ public:
+  aspic::Status write(std::span<const std::byte>) override { return {}; }
+  aspic::Status finish() override { return {}; }
+  const std::string& path() const override { return path_; }
+
+ private:
+  std::string path_ = "none";
+};
+
+}  // namespace
+
+int main() {
+  if (aspic::library_version() != ASPIC_VERSION) return 1;
+  const std::vector<std::string> small = {"cube[0].particles-per-edge=3"};
+  const auto scene = aspic::load_scene("cube-plane", small);
+  if (!scene || !aspic::parse_scene(aspic::to_toml(*scene), "again")) return 2;
+  const auto model = aspic::make_model(scene->model);
+  if (!model) return 3;
+  if (aspic::particle_masses(**model).size() != 27 || aspic::particle_ranges(**model).size() != 1) return 4;
+  if (aspic::spring_facts(**model).empty() || aspic::surface_quads(**model, 0).size() != 24) return 5;
+  if (!aspic::pinned_indices(**model).empty() || !aspic::ball_facts(**model).empty()) return 6;
+  const aspic::State start = aspic::initial_state(**model, aspic::Precision::single);
+  const auto same = aspic::compare_states(start, start);
+  if (!same || !same->identical() || aspic::first_not_finite(start)) return 7;
+  if (!aspic::stability_limit(**model, aspic::Integrator::symplectic_euler).step) return 8;
+  aspic::BackendChoice cpu = *aspic::parse_backend("cpu");
+  cpu.threads = 2;
+  const auto backend = aspic::make_backend(cpu, *model);
+  if (!backend || backend->variant() != "cpu" || aspic::list_backends().back().name != "reference") return 9;
+  aspic::Pull pull;
+  pull.stiffness = 10.0;
+  if (!backend->solver->set_pull(pull) || !backend->solver->advance(10)) return 10;
+  const auto state = backend->solver->state();
+  const std::string toml = aspic::to_toml(*scene);
+  if (!aspic::write_checkpoint("lab.aspic", toml, **model, *state, aspic::Overwrite::allow)) return 11;
+  const auto read = aspic::read_checkpoint("lab.aspic");
+  if (!read || read->state != *state || read->scene != toml) return 12;
+  if (!aspic::write_state("lab.vtp", **model, *state, aspic::Overwrite::allow)) return 13;
+  if (aspic::write_state("lab.xyz", **model, *state, aspic::Overwrite::allow)) return 14;
+  auto files = aspic::RunFiles::open({{"series", "lab.csv", 1}}, {}, {toml}, aspic::Overwrite::allow);
+  if (!files || !files->take({**model, start}) || !files->finish({**model, *state})) return 15;
+  Counter counter;
+  aspic::FrameSink& sink = counter;
+  if (dynamic_cast<Counter*>(&sink) == nullptr || !sink.finish()) return 16;
+  return aspic::find_film_format("mp4") ? 0 : 17;
+}
