@@ -157,6 +157,17 @@ TEST(Coulomb, SlowApproachSinksToTheSurfaceAndRests) {
   EXPECT_EQ(y, V(0, 0, 0));
 }
 
+// A load above it turned it around within the step: its approach would bring it back fast, for ever.
+TEST(Coulomb, WhatRoseAndIsTurnedAroundNearTheSurfaceIsSetDown) {
+  const ContactConstants<double> contact = constants(1.0 / 1024.0);
+  const double fast = 2.0 * contact.resting_speed, d0 = 0.004, d = 0.005, u = -1.0;
+  const auto end = [&](double u0) {
+    return speed_after_contact<double>(plane(), contact, 1.0, d0, u0, d, u);
+  };
+  EXPECT_EQ(end(fast), least_normal_speed<double>(contact, d0));
+  EXPECT_EQ(end(-fast), u) << "what arrives fast is let through to the surface";
+}
+
 TEST(Coulomb, AStoppedParticleDoesNotRise) {
   const double h = 1.0 / 1024.0;
   const auto [x, v] = respond(plane(), h, {0, 0, 0}, {0, 0.0125, 0}, {2, 0.0125 * h, 0}, {0, 0, 0});
