@@ -78,8 +78,8 @@ Figures measure(const Case& c, double seconds) {
   auto app = app::App::create((*window)->context(), options, 1.0, (*window)->services());
   if (!app) fail(app.error().message);
   (*window)->set_receiver(app->get());
-  app::Simulation& simulation = (*app)->simulation;
-  simulation.pacer().pace = app::Pace::real_time;
+  Simulation& simulation = (*app)->simulation;
+  simulation.pacer().pace = Pace::real_time;
   simulation.set_running(true);
   Figures figures;
   // The first second compiles shaders and finds the resolution.

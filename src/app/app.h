@@ -19,9 +19,9 @@
 #include "app/run_control.h"
 #include "app/scene_control.h"
 #include "app/scene_picture.h"
-#include "app/simulation.h"
 #include "app/view.h"
 #include "app/window.h"
+#include "playback/simulation.h"
 
 namespace aspic::app {
 

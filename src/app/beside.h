@@ -13,10 +13,10 @@
 #include "app/messages.h"
 #include "app/scene_control.h"
 #include "app/scene_picture.h"
-#include "app/simulation.h"
 #include "app/view.h"
 #include "app/window.h"
 #include "base/result.h"
+#include "playback/simulation.h"
 #include "render/colour_map.h"
 #include "run/beside.h"
 

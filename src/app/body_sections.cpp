@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "app/new_body.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "base/memory.h"

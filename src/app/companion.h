@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "app/scene_picture.h"
-#include "app/simulation.h"
 #include "app/view.h"
 #include "aspic/scene.h"
 #include "base/result.h"
+#include "playback/simulation.h"
 #include "run/variation.h"
 
 namespace aspic::app {

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "app/beside.h"
-#include "app/film_pace.h"
 #include "app/messages.h"
 #include "app/scene_editor.h"
 #include "app/scene_picture.h"
-#include "app/simulation.h"
 #include "app/view.h"
 #include "io/film_format.h"
+#include "playback/film_pace.h"
+#include "playback/simulation.h"
 #include "run/recording.h"
 
 namespace aspic::app {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "app/messages.h"
-#include "app/simulation.h"
 #include "app/view.h"
+#include "playback/simulation.h"
 
 namespace aspic::app {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "app/layouts.h"
-#include "app/pacer.h"
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "io/film_format.h"
+#include "playback/pacer.h"
 
 namespace aspic::app {
 

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/new_body.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "aspic/scene.h"

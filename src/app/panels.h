@@ -22,8 +22,8 @@
 #include "app/run_control.h"
 #include "app/scene_control.h"
 #include "app/scene_picture.h"
-#include "app/simulation.h"
 #include "app/view.h"
+#include "playback/simulation.h"
 
 namespace aspic::app {
 

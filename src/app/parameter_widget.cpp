@@ -14,6 +14,7 @@
 #include "app/number_field.h"
 #include "base/printable.h"
 #include "model/integrator.h"
+#include "scene/new_body.h"
 
 namespace aspic::app {
 namespace {
@@ -250,6 +251,10 @@ std::string elided_path(const std::string& path, float width) {
     end.remove_prefix(bytes);
   }
   return std::string(dots) + std::string(end);
+}
+
+void add_body(SceneControl& scene, const SettingsList& list) {
+  scene.change("add " + spaced(list.key), [&](Scene& s) { aspic::add_body(s, list); });
 }
 
 std::string spaced(std::string_view key) {

@@ -10,6 +10,7 @@
 #include "app/gui.h"
 #include "app/layouts.h"
 #include "app/scene_control.h"
+#include "model/bodies.h"
 #include "scene/parameters.h"
 
 namespace aspic::app {
@@ -34,6 +35,9 @@ std::optional<WidgetChange> parameter_widget(Gui& gui, const Parameter& paramete
 /// The widget of a scene value by path, its changes carried out.
 void edit(Gui& gui, SceneControl& scene, std::string_view path, std::size_t index = 0,
           const WidgetWords& words = {});
+
+/// aspic::add_body(), as one change for undo.
+void add_body(SceneControl& scene, const SettingsList& list);
 
 /// "particle-mass" as "particle mass", and with a capital; not empty.
 std::string spaced(std::string_view key);

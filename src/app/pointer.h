@@ -10,8 +10,8 @@
 #include "analysis/particle_force.h"
 #include "app/hands.h"
 #include "app/scene_picture.h"
-#include "app/simulation.h"
 #include "app/view.h"
+#include "playback/simulation.h"
 
 namespace aspic::app {
 

@@ -5,7 +5,7 @@
 #include "analysis/stability.h"
 #include "app/messages.h"
 #include "app/scene_control.h"
-#include "app/simulation.h"
+#include "playback/simulation.h"
 
 namespace aspic::app {
 

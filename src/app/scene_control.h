@@ -9,8 +9,8 @@
 
 #include "app/messages.h"
 #include "app/scene_editor.h"
-#include "app/simulation.h"
 #include "app/view.h"
+#include "playback/simulation.h"
 
 namespace aspic::app {
 

@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "app/resolution.h"
-#include "app/simulation.h"
 #include "app/view.h"
 #include "app/window.h"
-#include "aspic/scene.h"
+#include "playback/simulation.h"
 #include "render/renderer.h"
 #include "scene/follow.h"
 

@@ -7,8 +7,8 @@
 
 #include "app/panels.h"
 #include "app/parameter_widget.h"
-#include "app/stability_map.h"
 #include "aspic/scene.h"
+#include "playback/stability_map.h"
 #include "scene/short_keys.h"
 
 namespace aspic::app {

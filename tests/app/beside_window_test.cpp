@@ -24,7 +24,7 @@ using testing::HasSubstr;
 class Beside : public Stage {
  protected:
   app::Beside& beside() { return app().beside; }
-  const app::Simulation& run(std::size_t i) { return beside().run(i); }
+  const Simulation& run(std::size_t i) { return beside().run(i); }
   void settled() {
     frames(1);
     frames_until([&] { return beside().settled(); });
@@ -297,7 +297,7 @@ TEST_F(Beside, FiguresOfAllRunsAreOfOneMoment) {
     const double time = beside().figures_time();
     EXPECT_LE(time, beside().clock_time());
     for (std::size_t i = 0; i < 2; ++i) {
-      const app::EnergySample* const sample = run(i).samples().nearest(time);
+      const EnergySample* const sample = run(i).samples().nearest(time);
       EXPECT_TRUE(!sample || std::abs(sample->time - time) < 1e-9) << "run " << i;
     }
     return simulation().step() >= 107;
@@ -310,7 +310,7 @@ TEST_F(Beside, FiguresOfAllRunsAreOfOneMoment) {
     settled();
   }
   const auto known = [&](std::size_t i) {
-    const app::EnergySample* const sample = run(i).samples().nearest(run(0).time());
+    const EnergySample* const sample = run(i).samples().nearest(run(0).time());
     return sample && sample->time == run(0).time();
   };
   for (int i = 0; i < 200 && !(known(0) && known(1)); ++i) frames(1);

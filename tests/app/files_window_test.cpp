@@ -474,7 +474,7 @@ TEST_F(Files, ANarrowViewKeepsTheSidesOfTheScene) {
 }
 
 TEST_F(Files, TheFirstPaceIsRealTime) {
-  EXPECT_EQ(app::KeptState().pace, app::Pace::real_time);
+  EXPECT_EQ(app::KeptState().pace, Pace::real_time);
 }
 
 // Nothing is drawn while nothing happens, and the file is looked at all the same.

@@ -161,7 +161,7 @@ TEST_F(Film, PicturesDependOnSimulatedTimeAlone) {
   film("wild", 1000);
   press(GLFW_KEY_G);
   film("gpu", 300);
-  simulation().pacer().pace = app::Pace::real_time;
+  simulation().pacer().pace = Pace::real_time;
   film("clock", 300);
   for (std::uint64_t i = 0; i < 8; ++i) {
     const std::string slow = picture("slow", i);

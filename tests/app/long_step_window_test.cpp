@@ -1,7 +1,7 @@
 // The real window while a step takes as long as one likes: nothing that the user does waits for its end.
 
-#include "app/endless.h"
 #include "app/stage.h"
+#include "playback/endless.h"
 
 namespace aspic::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <functional>
 
-#include "app/new_body.h"
+#include "app/parameter_widget.h"
 #include "app/stage.h"
 #include "aspic/scene.h"
 #include "base/memory.h"

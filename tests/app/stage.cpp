@@ -48,7 +48,7 @@ void Stage::TearDown() {
 void Stage::open(const std::string& scene, std::vector<std::string> overrides, std::string_view backend) {
   app::KeptState never_closed;
   never_closed.greeted = true;
-  never_closed.pace = app::Pace::steps_per_frame;  // as many steps a picture, however long it takes
+  never_closed.pace = Pace::steps_per_frame;  // as many steps a picture, however long it takes
   open(scene, std::move(overrides), backend, never_closed);
 }
 

@@ -10,8 +10,6 @@
 namespace aspic::test {
 namespace {
 
-using app::Moment;
-
 class Time : public Stage {
  protected:
   std::string hash() { return state_hash_text(simulation().snapshot()); }
@@ -146,7 +144,7 @@ TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
   run_to(simulation().step() + 40);
   EXPECT_NE(simulation().backend().name, GetParam());
   ASSERT_GT(simulation().samples().differences().size(), 5u);
-  for (const app::DifferenceSample& d : simulation().samples().differences()) {
+  for (const DifferenceSample& d : simulation().samples().differences()) {
     EXPECT_TRUE(d.identical) << d.time;
     EXPECT_EQ(d.ulp, 0u);
     EXPECT_EQ(d.metres, 0.0);
@@ -268,7 +266,7 @@ TEST_P(TimeOnBackend, InThePastFiguresAreThoseOfThatMoment) {
   };
   for (const std::uint64_t step : {137u, 3u, 255u}) {
     go_to({simulation().here().stretch, step});
-    const app::EnergySample* shown = nullptr;
+    const EnergySample* shown = nullptr;
     frames_until([&] {  // a thread measures
       shown = simulation().samples().nearest(simulation().time());
       return shown && shown->step == step;

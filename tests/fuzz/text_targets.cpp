@@ -96,7 +96,7 @@ std::vector<std::string> kept_state_seeds() {
   std::vector<std::string> seeds = {app::to_text(state)};
   state.window = app::WindowPlace{1600, 900, std::array<int, 2>{-7, 42}};
   state.layout.sections = {{"Scene", false}, {"Recording", true}};
-  state.pace = app::Pace::real_time;
+  state.pace = Pace::real_time;
   for (const BuiltinScene& scene : list_builtin_scenes())
     app::keep_camera(state.cameras, std::string(scene.name),
                      CameraSettings{{1.0, 2.0, 3.0}, {0.0, 0.5, 0.0}, 45.0});

@@ -1,14 +1,14 @@
-#include "app/film_pace.h"
+#include "playback/film_pace.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "app/pacer.h"
-#include "app/samples.h"
+#include "playback/pacer.h"
+#include "playback/samples.h"
 
-namespace aspic::app {
+namespace aspic::test {
 namespace {
 
 constexpr double h = 0.001;
@@ -89,14 +89,14 @@ TEST(FilmPace, BeginsAnewWhenTold) {
 }
 
 TEST(Slowness, SaysHowLongASecondTakesAndWhatWouldDo) {
-  EXPECT_EQ(app::slowness(0.4, 10), "the solver does not keep up");
-  EXPECT_EQ(app::slowness(0.02, 0), "1 s takes about 50 s here");
-  EXPECT_EQ(app::slowness(0.00045, 64), "1 s takes about 38 min here; try 6 particles an edge");
+  EXPECT_EQ(slowness(0.4, 10), "the solver does not keep up");
+  EXPECT_EQ(slowness(0.02, 0), "1 s takes about 50 s here");
+  EXPECT_EQ(slowness(0.00045, 64), "1 s takes about 38 min here; try 6 particles an edge");
 }
 
 TEST(Slowness, IsNotSaidOfARunThatIsAsFastAsWasAsked) {
   SimulationSettings settings;
-  app::Pacer pacer;
+  Pacer pacer;
   // Steps that are not done pile up: late.
   for (int i = 0; i < 10; ++i) pacer.steps_due(0.1, settings, 0);
   ASSERT_TRUE(pacer.late());
@@ -109,20 +109,20 @@ TEST(Slowness, IsNotSaidOfARunThatIsAsFastAsWasAsked) {
 }
 
 TEST(SampleSteps, RunsOfDifferentTimeStepsHavePointsAtTheSameTimes) {
-  EXPECT_EQ(app::next_sample_step(0, 0.001), 20u);
-  EXPECT_EQ(app::next_sample_step(19, 0.001), 20u);
-  EXPECT_EQ(app::next_sample_step(20, 0.001), 40u);
-  EXPECT_EQ(app::next_sample_step(20, 0.001, 4), 80u);
-  EXPECT_EQ(app::next_sample_step(7, 1.0 / 60.0), 8u) << "every step where that is about as long";
-  EXPECT_EQ(app::next_sample_step(7, 1.0 / 60.0, 2), 8u);
+  EXPECT_EQ(next_sample_step(0, 0.001), 20u);
+  EXPECT_EQ(next_sample_step(19, 0.001), 20u);
+  EXPECT_EQ(next_sample_step(20, 0.001), 40u);
+  EXPECT_EQ(next_sample_step(20, 0.001, 4), 80u);
+  EXPECT_EQ(next_sample_step(7, 1.0 / 60.0), 8u) << "every step where that is about as long";
+  EXPECT_EQ(next_sample_step(7, 1.0 / 60.0, 2), 8u);
   const double h = 0.0013;
   std::uint64_t step = 0;
   for (int i = 1; i <= 1000; ++i) {
-    step = app::next_sample_step(step, h);
+    step = next_sample_step(step, h);
     EXPECT_LE(std::abs(static_cast<double>(step) * h - 0.02 * i), 0.5 * h * (1.0 + 1e-9));
   }
-  EXPECT_GT(app::next_sample_step(std::uint64_t{1} << 60, 0.001), std::uint64_t{1} << 60);
+  EXPECT_GT(next_sample_step(std::uint64_t{1} << 60, 0.001), std::uint64_t{1} << 60);
 }
 
 }  // namespace
-}  // namespace aspic::app
+}  // namespace aspic::test

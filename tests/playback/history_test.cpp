@@ -1,4 +1,4 @@
-#include "app/history.h"
+#include "playback/history.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,6 @@
 
 namespace aspic::test {
 namespace {
-
-using app::History;
-using app::Moment;
-using app::Setup;
 
 constexpr std::uint64_t plenty = std::uint64_t{1} << 30;
 
@@ -44,7 +40,7 @@ TEST(History, PackingAStateKeepsEveryBit) {
   s.ball_position = {{1.0, 2.0, 3.0}};
   s.ball_velocity = {{4.0, 5.0, 6.0}};
   s.ball_angular_velocity = {{7.0, 8.0, -9.0}};
-  const State back = unpack(app::pack(s));
+  const State back = unpack(pack(s));
   EXPECT_EQ(back, s);
   EXPECT_EQ(state_hash(back), state_hash(s));
   EXPECT_TRUE(std::signbit(back.position[2].y));
@@ -141,7 +137,7 @@ TEST(History, ChangesWithoutAStepBetweenLeaveOneStretch) {
 }
 
 TEST(History, DropsTheOldestBeyondItsMemory) {
-  const std::uint64_t one = app::pack(state_at(0)).bytes();
+  const std::uint64_t one = pack(state_at(0)).bytes();
   History h(5 * one);
   h.begin(setup_with(0.01), state_at(0));
   for (std::uint64_t step = 10; step <= 30; step += 10) h.add_keyframe(state_at(step));

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/simulation.h"
 #include "base/stopwatch.h"
+#include "playback/simulation.h"
 
-namespace aspic::app {
+namespace aspic {
 
 Status Simulation::seek(const Moment& moment) {
   set_running(false);
@@ -73,4 +73,4 @@ Status Simulation::step_back() {
   return earlier ? seek(*earlier) : Status();
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-namespace aspic::app {
+namespace aspic {
 
 /// Jobs one after the other. All calls from one thread, the window's. An exception that leaves a job, such as
 /// running out of memory, comes out of the next start(), finish() or wait() there.
@@ -80,4 +80,4 @@ class Mailbox {
   std::deque<T> items_;
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

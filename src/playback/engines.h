@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include "app/samples.h"
-#include "app/setup.h"
-#include "aspic/inputs.h"
 #include "aspic/solver.h"
 #include "aspic/state.h"
 #include "base/result.h"
 #include "gpu/context.h"
+#include "model/pull.h"
+#include "playback/samples.h"
+#include "playback/setup.h"
 #include "run/backends.h"
 #include "run/window_host.h"
 
-namespace aspic::app {
+namespace aspic {
 
 /// What a solver did in a job.
 struct Advanced {
@@ -28,7 +28,7 @@ struct Advanced {
 };
 
 /// What a worker's job leaves: steps done, or the energies of a state.
-struct Outcome {
+struct JobResult {
   std::uint64_t steps = 0;
   Advanced leader, shadow;             ///< each where it took part
   std::vector<EnergySample> energies;  ///< of the one that set the pace, at each next_sample_step()
@@ -85,10 +85,10 @@ class Engines {
 
   /// For a worker: advances the solvers that do without the context, until `cancelled` at most, which drops
   /// the step in progress. The first of them sets the pace.
-  Result<Outcome> advance_outside(const JobLimits& limits, const std::atomic<bool>& cancelled);
+  Result<JobResult> advance_outside(const JobLimits& limits, const std::atomic<bool>& cancelled);
   /// With the context: the solver of shadow mode that did not takes the steps of an outcome too, if it needs
   /// the context.
-  Status follow(Outcome& outcome);
+  Status follow(JobResult& outcome);
 
  private:
   SharedModel model_;
@@ -114,4 +114,4 @@ class EngineFactory {
   std::optional<gl::Arithmetic> arithmetic_;  // what the canary found once; the device does not change
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "app/setup.h"
-#include "aspic/inputs.h"
 #include "aspic/state.h"
+#include "model/pull.h"
+#include "playback/setup.h"
 
-namespace aspic::app {
+namespace aspic {
 
 /// A step of the history. Stretches are numbered from the run's start and keep their numbers.
 struct Moment {
@@ -105,4 +105,4 @@ class History {
   std::deque<Stretch> stretches_;
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

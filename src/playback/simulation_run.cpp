@@ -3,11 +3,11 @@
 #include <limits>
 #include <utility>
 
-#include "app/simulation.h"
 #include "model/integrator.h"
 #include "model/springs.h"
+#include "playback/simulation.h"
 
-namespace aspic::app {
+namespace aspic {
 namespace {
 
 /// Keyframes are this far apart in running time, farther where memory would not hold the last half minute.
@@ -149,7 +149,7 @@ Status Simulation::start_steps(std::uint64_t to, double budget) {
   ASPIC_CHECK(advance_here(to - step_, budget));
   if (!shadowed()) return {};
   ASPIC_CHECK(refresh_snapshot());
-  Outcome outcome;
+  JobResult outcome;
   outcome.steps = step_ - before;
   outcome.leader = {snapshot_, divergence_};
   return follow(std::move(outcome));
@@ -200,7 +200,7 @@ Status Simulation::sample_here() {
 /// The energies of the snapshot.
 void Simulation::start_measuring() {
   worker_.start([this, state = snapshot_](const std::atomic<bool>&) {
-    Outcome outcome;
+    JobResult outcome;
     outcome.energies = {engines_.measured(state)};
     (engines_.shadow_paces() ? outcome.shadow : outcome.leader).state = state;
     outcomes_.put(std::move(outcome));
@@ -214,10 +214,10 @@ void Simulation::start_job(std::uint64_t to, double budget, bool alone, std::opt
     progress_ = Clock::now();
   }
   job_to_ = to;
-  const auto job = [=, this](const std::atomic<bool>& cancelled) -> Result<Outcome> {
+  const auto job = [=, this](const std::atomic<bool>& cancelled) -> Result<JobResult> {
     ASPIC_CHECK(engines_.use_context() ? Status() : engines_.set_pull(pull));
     const JobLimits limits = {job_step_, std::max(to, job_step_), budget, alone};
-    ASPIC_TRY(Outcome outcome, engines_.advance_outside(limits, cancelled));
+    ASPIC_TRY(JobResult outcome, engines_.advance_outside(limits, cancelled));
     outcome.pull = pull;
     job_step_ += outcome.steps;
     return outcome;
@@ -227,13 +227,13 @@ void Simulation::start_job(std::uint64_t to, double budget, bool alone, std::opt
 
 Status Simulation::collect() {
   while (auto outcome = outcomes_.take()) {
-    ASPIC_TRY(Outcome done, std::move(*outcome));
+    ASPIC_TRY(JobResult done, std::move(*outcome));
     ASPIC_CHECK(take(std::move(done)));
   }
   return {};
 }
 
-Status Simulation::take(Outcome outcome) {
+Status Simulation::take(JobResult outcome) {
   progress_ = Clock::now();
   if (change_) {
     Change change = std::move(*change_);
@@ -261,7 +261,7 @@ Status Simulation::take(Outcome outcome) {
 
 /// Shadow mode: the solver that needs the context does the steps that the job has done, and the two states
 /// are compared.
-Status Simulation::follow(Outcome outcome) {
+Status Simulation::follow(JobResult outcome) {
   ASPIC_CHECK(engines_.follow(outcome));
   take_snapshot(std::move(outcome.leader.state));
   note(snapshot_.step - step_, outcome.leader.divergence);
@@ -335,4 +335,4 @@ std::optional<double> Simulation::spring_evaluations_per_second() const {
          force_evaluations_per_step(integrator);
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -1,10 +1,10 @@
-#include "app/film_pace.h"
+#include "playback/film_pace.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-namespace aspic::app {
+namespace aspic {
 
 void FilmPace::count_from(std::uint64_t step) {
   schedule_ = FrameSchedule::open_ended(timestep_, step, fps_, speed_);
@@ -41,4 +41,4 @@ std::uint64_t FilmPace::next_step() const {
   return schedule_ ? schedule_->step_of(frame_) : 0;
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -1,4 +1,4 @@
-#include "app/worker.h"
+#include "playback/worker.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-namespace aspic::app {
+namespace aspic::test {
 namespace {
 
 TEST(Worker, RunsOneJobAfterTheOther) {
@@ -85,4 +85,4 @@ TEST(Worker, EndsWithAJobUnderWay) {
 }
 
 }  // namespace
-}  // namespace aspic::app
+}  // namespace aspic::test

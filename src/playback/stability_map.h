@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/worker.h"
 #include "aspic/scene.h"
+#include "playback/worker.h"
 
-namespace aspic::app {
+namespace aspic {
 
 /// What is known of a cell of the map.
 enum class Stability : char { unknown, stable, unstable };
@@ -54,4 +54,4 @@ class StabilityMap {
   Worker worker_;  // goes first
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -1,4 +1,4 @@
-#include "app/samples.h"
+#include "playback/samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "aspic/analysis.h"
 
-namespace aspic::app {
+namespace aspic {
 namespace {
 
 constexpr std::size_t most_samples = 2000;
@@ -77,4 +77,4 @@ void Samples::clear() {
   clear_differences();
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

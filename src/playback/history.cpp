@@ -1,10 +1,10 @@
-#include "app/history.h"
+#include "playback/history.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-namespace aspic::app {
+namespace aspic {
 Keyframe pack(const State& state) {
   assert(state.precision == Precision::single);
   Keyframe k;
@@ -202,4 +202,4 @@ std::size_t History::keyframe_count() const {
   return count;
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -1,13 +1,11 @@
-#include "app/engines.h"
+#include "playback/engines.h"
 
 #include <fmt/format.h>
 
 #include <chrono>
 #include <utility>
 
-#include "run/window_host.h"
-
-namespace aspic::app {
+namespace aspic {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -22,7 +20,7 @@ Status advance(const Backend& engine, std::uint64_t steps, Advanced& into) {
 }
 
 /// A step that failed on one side is tried on the other.
-std::uint64_t tried_steps(const Outcome& outcome, const Advanced& paced) {
+std::uint64_t tried_steps(const JobResult& outcome, const Advanced& paced) {
   return outcome.steps + (paced.divergence ? 1 : 0);
 }
 
@@ -42,8 +40,8 @@ EnergySample Engines::measured(const State& state) const {
   return {static_cast<double>(state.step) * model_->simulation.timestep, measure(*model_, state), state.step};
 }
 
-Result<Outcome> Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& cancelled) {
-  Outcome outcome;
+Result<JobResult> Engines::advance_outside(const JobLimits& limits, const std::atomic<bool>& cancelled) {
+  JobResult outcome;
   const auto end = Clock::now() + std::chrono::duration<double>(limits.seconds);
   const bool shadow_first = shadow_paces();
   const bool both = !shadow_first && !limits.alone && shadowed() && !in_context(shadow_);
@@ -84,7 +82,7 @@ Result<Outcome> Engines::advance_outside(const JobLimits& limits, const std::ato
   return outcome;
 }
 
-Status Engines::follow(Outcome& outcome) {
+Status Engines::follow(JobResult& outcome) {
   if (shadow_paces()) return advance(leader_, tried_steps(outcome, outcome.shadow), outcome.leader);
   if (!in_context(shadow_)) return {};
   return advance(shadow_, tried_steps(outcome, outcome.leader), outcome.shadow);
@@ -123,4 +121,4 @@ Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup
   return engines;
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

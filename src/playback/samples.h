@@ -6,7 +6,7 @@
 #include "aspic/analysis.h"
 #include "aspic/state.h"
 
-namespace aspic::app {
+namespace aspic {
 
 /// Energies at one time, a point of the plot.
 struct EnergySample {
@@ -55,4 +55,4 @@ class Samples {
   bool ever_differed_ = false;
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

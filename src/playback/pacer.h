@@ -8,7 +8,7 @@
 
 #include "aspic/settings.h"
 
-namespace aspic::app {
+namespace aspic {
 
 enum class Pace {
   steps_per_frame,  ///< the scene's steps for each picture, whatever time that takes
@@ -60,4 +60,4 @@ class Pacer {
   double steps_per_second_ = 0.0;
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -9,7 +9,7 @@
 #include "base/result.h"
 #include "model/model.h"
 
-namespace aspic::app {
+namespace aspic {
 
 struct Setup {
   ModelSettings settings;
@@ -28,4 +28,4 @@ Result<Model> build_model(const Setup& setup);
 /// model says, pinned particles do not move. The number of particles must be the model's.
 State grown_state(const Model& model, State state);
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -1,11 +1,11 @@
-#include "app/pacer.h"
+#include "playback/pacer.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace aspic::app {
+namespace aspic {
 
 std::string slowness(double factor, int particles_per_edge) {
   constexpr double slow = 0.05, quick = 0.5;  // × real time
@@ -58,4 +58,4 @@ void Pacer::did(std::uint64_t steps) {
   due_ = std::max(due_ - static_cast<double>(steps), 0.0);
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -1,14 +1,12 @@
 // The simulated setup and its backends: setups, backends, hands. simulation_run.cpp advances it.
-#include "app/simulation.h"
+#include "playback/simulation.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "model/counts.h"
-
-namespace aspic::app {
+namespace aspic {
 namespace {
 
 constexpr std::uint64_t most_history_bytes = std::uint64_t{512} << 20;
@@ -82,7 +80,7 @@ void Simulation::start_change() {
   progress_ = Clock::now();
   worker_.start([this](const std::atomic<bool>&) {
     change_->engines = factory_.make_like(engines_, change_->setup);
-    outcomes_.put(Outcome());
+    outcomes_.put(JobResult());
   });
 }
 
@@ -256,4 +254,4 @@ Status Simulation::clear_balls() {
   return change_setup(std::move(setup), true);
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

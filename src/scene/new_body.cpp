@@ -1,4 +1,4 @@
-#include "app/new_body.h"
+#include "scene/new_body.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,12 @@
 #include <optional>
 #include <string>
 
-#include "app/parameter_widget.h"
+#include "aspic/state.h"
+#include "model/model.h"
 #include "model/terrain.h"
+#include "scene/parameters.h"
 
-namespace aspic::app {
+namespace aspic {
 namespace {
 
 /// A box around bodies [m].
@@ -153,16 +155,14 @@ void place(Scene& scene, const SettingsList& list) {
 
 }  // namespace
 
-void add_body(SceneControl& scene, const SettingsList& list) {
-  scene.change("add " + spaced(list.key), [&](Scene& s) {
-    list.append(s.model);
-    const std::size_t last = list.size(s.model) - 1;
-    for (const Parameter& p : parameters()) {
-      if (last == 0 || !p.path.starts_with(key_of(list, ""))) continue;
-      if (const auto value = p.get(s, last - 1)) p.set(s, last, *value);
-    }
-    place(s, list);
-  });
+void add_body(Scene& scene, const SettingsList& list) {
+  list.append(scene.model);
+  const std::size_t last = list.size(scene.model) - 1;
+  for (const Parameter& p : parameters()) {
+    if (last == 0 || !p.path.starts_with(key_of(list, ""))) continue;
+    if (const auto value = p.get(scene, last - 1)) p.set(scene, last, *value);
+  }
+  place(scene, list);
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -8,21 +8,20 @@
 #include <utility>
 #include <vector>
 
-#include "app/engines.h"
-#include "app/history.h"
-#include "app/pacer.h"
-#include "app/samples.h"
-#include "app/setup.h"
-#include "app/worker.h"
-#include "aspic/scene.h"
 #include "aspic/solver.h"
 #include "base/result.h"
 #include "device/device_state.h"
 #include "gpu/context.h"
 #include "gpu_solver/gpu_solver.h"
+#include "playback/engines.h"
+#include "playback/history.h"
+#include "playback/pacer.h"
+#include "playback/samples.h"
+#include "playback/setup.h"
+#include "playback/worker.h"
 #include "run/backends.h"
 
-namespace aspic::app {
+namespace aspic {
 
 /// All calls from the window's thread, with its context current. A backend that needs the context advances in
 /// batches that keep within a frame; every other in a separate thread, while the state it finished last is
@@ -189,8 +188,8 @@ class Simulation {
   void start_measuring();
   Status sample_here();
   Status collect();
-  Status take(Outcome outcome);
-  Status follow(Outcome outcome);
+  Status take(JobResult outcome);
+  Status follow(JobResult outcome);
   /// The window does not wait for a job, so it may take longer than a picture [s].
   static constexpr double shortest_job = 0.030;
   Status seek_on(double budget);
@@ -232,8 +231,8 @@ class Simulation {
   Clock::time_point progress_ = {};  // the worker began, or had an outcome
   std::uint64_t job_to_ = 0;         // of the newest job
   std::uint64_t job_step_ = 0;       // where the solvers are; the jobs' own
-  Mailbox<Result<Outcome>> outcomes_;
+  Mailbox<Result<JobResult>> outcomes_;
   Worker worker_;  // last: its job uses all of the above
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

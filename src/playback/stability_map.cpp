@@ -1,4 +1,4 @@
-#include "app/stability_map.h"
+#include "playback/stability_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "run/backends.h"
 #include "scene/short_keys.h"
 
-namespace aspic::app {
+namespace aspic {
 namespace {
 
 constexpr std::size_t columns = 24, rows = 13;
@@ -123,4 +123,4 @@ void StabilityMap::begin(const Scene& scene) {
   });
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

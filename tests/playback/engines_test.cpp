@@ -1,4 +1,4 @@
-#include "app/engines.h"
+#include "playback/engines.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,11 @@
 #include <thread>
 #include <vector>
 
-#include "app/endless.h"
 #include "aspic/scene.h"
+#include "playback/endless.h"
 
 namespace aspic::test {
 namespace {
-
-using app::Engines;
 
 /// Rows of two backends that both compute as the reference does; one says that it needs the context.
 const BackendRow outside = [] {
@@ -58,7 +56,7 @@ TEST(Engines, AJobAndTheContextAdvanceAnyTwoByTheSameSteps) {
     EXPECT_FALSE(engines.only_context());
     auto advanced = engines.advance_outside({0, 7, 1e9}, false);
     ASSERT_TRUE(advanced.ok()) << advanced.error().message;
-    app::Outcome& outcome = *advanced;
+    JobResult& outcome = *advanced;
     ASSERT_TRUE(engines.follow(outcome).ok());
     EXPECT_EQ(outcome.steps, 7u);
     EXPECT_EQ(state_hash_text(outcome.leader.state), expected) << leader->name << ", " << shadow->name;
@@ -69,7 +67,7 @@ TEST(Engines, AJobAndTheContextAdvanceAnyTwoByTheSameSteps) {
 TEST(Engines, TheShadowOfALeaderInTheContextMayBeThereToo) {
   Engines engines = engines_of(in_context, &in_context);
   EXPECT_TRUE(engines.only_context());
-  app::Outcome outcome;
+  JobResult outcome;
   outcome.steps = 7;
   ASSERT_TRUE(engines.follow(outcome).ok());
   EXPECT_EQ(state_hash_text(outcome.shadow.state), hash_after(7));

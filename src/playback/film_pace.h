@@ -5,7 +5,7 @@
 
 #include "io/frame_schedule.h"
 
-namespace aspic::app {
+namespace aspic {
 
 /// Pictures of a film come speed/fps seconds of simulated time after one another, each at the nearest step,
 /// counted from where the film began: nothing adds up. Steps, speed and time step may change under way.
@@ -33,4 +33,4 @@ class FilmPace {
   std::uint64_t frame_ = 0, last_taken_ = 0, last_seen_ = 0;
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

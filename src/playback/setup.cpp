@@ -1,8 +1,8 @@
-#include "app/setup.h"
+#include "playback/setup.h"
 
 #include <cassert>
 
-namespace aspic::app {
+namespace aspic {
 
 Result<Model> build_model(const Setup& setup) {
   auto model = build_model(setup.settings);
@@ -29,4 +29,4 @@ State grown_state(const Model& model, State state) {
   return state;
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

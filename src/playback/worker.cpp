@@ -1,10 +1,10 @@
-#include "app/worker.h"
+#include "playback/worker.h"
 
 #ifdef __linux__
 #include <sys/resource.h>
 #endif
 
-namespace aspic::app {
+namespace aspic {
 
 Worker::~Worker() {
   abandon();
@@ -76,4 +76,4 @@ void Worker::abandon() noexcept {
   changed_.wait(lock, [this] { return jobs_.empty(); });
 }
 
-}  // namespace aspic::app
+}  // namespace aspic
