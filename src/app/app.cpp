@@ -25,7 +25,7 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   std::unique_ptr<App> app(new App(options, std::move(editor), std::move(simulation)));
   ASPIC_CHECK(app->attach(context, scale, std::move(services)));
   if (const auto& state = app->scene.editor().state()) {
-    ASPIC_CHECK(app->simulation.start_from(*state));
+    ASPIC_CHECK(app->simulation.rebuild().start_from(*state));
   }
   app->restore(options.kept, options.overrides);
   return app;
@@ -88,7 +88,7 @@ Status App::attach(gl::Context& context, double scale, WindowServices services) 
 Status App::release_context(const Error& why) {
   for (const std::string& line : film.finish()) messages.error(line);
   beside.detach();
-  ASPIC_CHECK(simulation.leave_context(why));
+  ASPIC_CHECK(simulation.rebuild().leave_context(why));
   // What the solver said when it noticed first says more.
   if (!messages.notice() || !messages.notice()->is_error) messages.error(why.message);
   pointer.forget();
@@ -98,7 +98,7 @@ Status App::release_context(const Error& why) {
 }
 
 Status App::adopt_context(gl::Context& context, double scale, WindowServices services) {
-  simulation.set_context(context);
+  simulation.rebuild().set_context(context);
   return attach(context, scale, std::move(services));
 }
 
@@ -157,8 +157,8 @@ bool App::idle() const {
   return !simulation.running() && !beside.running() && beside.settled() && !beside.busy() &&
          !picture.refining() && !beside.refining() &&
          std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
-         shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() && !simulation.changing() &&
-         !simulation.busy();
+         shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() &&
+         !simulation.rebuild().changing() && !simulation.busy();
 }
 
 bool App::asleep() const {
@@ -182,7 +182,7 @@ double App::wait(double since) const {
   // at no more than that pace, only what is new, and where steps are late for a third of the time at most.
   if (!picture.context().info().is_software) return 0.0;
   const bool nothing_new =
-      !beside.several() && simulation.busy() && !simulation.has_news() && !touched_ && !camera_moves_;
+      !beside.several() && simulation.busy() && !simulation.jobs().has_news() && !touched_ && !camera_moves_;
   const bool late = simulation.running() && simulation.pacer().late();
   const double interval = nothing_new ? longest
                           : late      ? std::clamp(3.0 * frame_seconds_, shortest, longest)
@@ -281,7 +281,8 @@ Status App::frame(const WindowSize& size, double dt) {
   film.update();
   ASPIC_CHECK(beside.follow(dt, budget));
   run.watch_divergence();
-  const bool moves = simulation.running() || simulation.seeking() || beside.running() || !beside.settled();
+  const bool moves =
+      simulation.running() || simulation.playback().seeking() || beside.running() || !beside.settled();
   still_for_ = camera_moves_ || moves ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
   const bool taken = shot_wanted_ == Shot::window || (shot_wanted_ == Shot::picture && beside.several());

@@ -44,7 +44,7 @@ std::string Beside::name(std::size_t i) const {
   std::vector<Variation> differences;
   for (const auto& companion : companions_) differences.push_back(companion->variation());
   return short_name(i, differences, i > 0 ? companions_[i - 1]->scene() : scene_.scene(),
-                    std::string(run(i).backend().title));
+                    std::string(run(i).present().backend().title));
 }
 
 // ---- what runs there are ----
@@ -117,7 +117,7 @@ void Beside::match_editor() {
   companions_ = std::move(next);
   shown_.clear();
   others_run_ = false;
-  if (any_new) messages_.check(leader_.reset());
+  if (any_new) messages_.check(leader_.rebuild().reset());
   if (!several()) end_waiting();
 }
 
@@ -165,24 +165,27 @@ void Beside::hold_at(std::optional<std::uint64_t> step) {
 }
 
 double Beside::end_time() const {
-  const auto end_of = [](const Simulation& s) { return s.history().time(s.history().end_moment()); };
+  const auto end_of = [](const Simulation& s) {
+    return s.playback().history().time(s.playback().history().end_moment());
+  };
   if (several() && clock_runs()) return clock_time();
   double end = end_of(leader_);
-  if (!leader_.ends_diverged()) return end;
+  if (!leader_.playback().ends_diverged()) return end;
   for (const auto& companion : companions_) end = std::max(end, end_of(companion->simulation()));
   return end;
 }
 
 bool Beside::go_to(double time) {
-  const History& own = leader_.history();
+  const History& own = leader_.playback().history();
   const double last = own.time(own.end_moment());
   recalled_.reset();
   const bool beyond = time > last + 0.5 * leader_.model().simulation.timestep;
-  if (!active() || !leader_.ends_diverged() || !beyond || !(end_time() > last)) return false;
+  if (!active() || !leader_.playback().ends_diverged() || !beyond || !(end_time() > last)) return false;
   // The window's own run stays at its end, or goes there.
   others_run_ = false;
   recalled_ = time;
-  if (leader_.here() != own.end_moment()) messages_.check(leader_.seek(own.end_moment()));
+  if (leader_.playback().here() != own.end_moment())
+    messages_.check(leader_.playback().seek(own.end_moment()));
   scene_.follow_history();
   return true;
 }
@@ -241,8 +244,8 @@ Status Beside::follow(double dt, double budget) {
   if (!ahead) others_run_ = false;
   was_running_ = leader_.running();
   const bool all_there = settled_;
-  settled_ = !leader_.seeking() && !leader_.changing();
-  if (!leader_.divergence() && !leader_.seeking()) recalled_.reset();
+  settled_ = !leader_.playback().seeking() && !leader_.rebuild().changing();
+  if (!leader_.divergence() && !leader_.playback().seeking()) recalled_.reset();
   if (recalled_) return recall(*recalled_, dt, budget);
   if (ahead) ASPIC_CHECK(ahead->lead(leader_.pacer(), others_run_, !all_there, dt, budget));
   for (const auto& companion : companions_) {
@@ -282,11 +285,11 @@ void Beside::keep_shown() {
   std::vector<Shown> now;
   bool changed = shown_.size() != count();
   for (std::size_t i = 0; i < count(); ++i) {
-    now.push_back({run(i).picture_number(), run(i).time(), run(i).divergence()});
+    now.push_back({run(i).present().picture_number(), run(i).time(), run(i).divergence()});
     changed = changed || now[i].picture != shown_[i].picture ||
               now[i].divergence.has_value() != shown_[i].divergence.has_value();
   }
-  if (ghost_) changed = changed || ghost_->shown != ghost_->simulation->picture_number();
+  if (ghost_) changed = changed || ghost_->shown != ghost_->simulation->present().picture_number();
   if (!changed) return;
   if (!messages_.check(leader_.refresh_snapshot())) return;
   picture_.keep(leader_.snapshot());
@@ -297,7 +300,7 @@ void Beside::keep_shown() {
   if (ghost_) {
     if (!messages_.check(ghost_->simulation->refresh_snapshot())) return;
     ghost_->picture->keep(ghost_->simulation->snapshot());
-    ghost_->shown = ghost_->simulation->picture_number();
+    ghost_->shown = ghost_->simulation->present().picture_number();
   }
   shown_ = std::move(now);
 }

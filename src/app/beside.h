@@ -82,7 +82,7 @@ class Beside {
   /// others follow.
   bool go_to(double time);
   /// Simulated seconds per second of the pictures; 0 before there is a measurement.
-  double real_time_factor() const { return several() ? factor_ : leader_.real_time_factor(); }
+  double real_time_factor() const { return several() ? factor_ : aspic::real_time_factor(leader_); }
   /// The newest time, up to that of the pictures, at which all runs but those that diverged have energies
   /// [s].
   double figures_time() const;

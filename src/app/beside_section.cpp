@@ -58,7 +58,7 @@ Words words_for(std::string_view key, const Scene& scene) {
 
 /// The present value as text that a difference takes.
 std::string present(std::string_view key, const Scene& scene, const Simulation& leader) {
-  if (key == backend_key) return std::string(next_backend(leader.backend()).name);
+  if (key == backend_key) return std::string(next_backend(leader.present().backend()).name);
   const ShortKey* const row = find_short_key(key);
   const auto place = row ? place_of(scene, *row) : place_of(key);
   const auto value = place ? place->parameter->get(scene, place->index) : std::nullopt;
@@ -136,7 +136,7 @@ void beside_section(Gui& gui, SceneControl& scene, Beside& beside) {
   command_button(gui, "beside/no-ghost", "Remove ghost", "Shows the run without its ghost.",
                  "remove the ghost", beside.ghost() != nullptr, half);
   if (const Simulation* const ghost = beside.ghost()) {
-    const History& history = ghost->history();
+    const History& history = ghost->playback().history();
     ImGui::TextDisabled("Ghost: %.3f to %.3f s, %s", history.time(history.begin_moment()), beside.ghost_end(),
                         human_bytes(history.bytes()).c_str());
     gui.mark("beside/ghost-reach");
@@ -151,7 +151,7 @@ std::uint32_t Beside::packed_colour(std::size_t i) {
 /// Tells where the ghost stands still, in the lower part of the picture.
 void Beside::draw_ghost_label(const Gui& gui) const {
   if (!ghost_) return;
-  const History& history = ghost_->simulation->history();
+  const History& history = ghost_->simulation->playback().history();
   const double begin = history.time(history.begin_moment()), end = ghost_end(), now = shown_time(0);
   const double half = 0.5 * ghost_->simulation->model().simulation.timestep;
   const std::string text = now > end + half     ? fmt::format("ghost: its run ends at {:.3f} s", end)

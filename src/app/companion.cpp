@@ -22,16 +22,16 @@ Result<std::unique_ptr<Companion>> Companion::create(gl::Context& context, const
                                                      const Variation& variation) {
   std::unique_ptr<Companion> c(new Companion(variation, asked));
   BackendChoice choice = asked;
-  choice.row = &leader.backend();
+  choice.row = &leader.present().backend();
   ASPIC_TRY(auto run, varied(scene, choice, std::span(&variation, 1)));
   c->own_backend_ = variation.key == backend_key;
   c->scene_ = std::move(run.scene);
   ASPIC_TRY(c->simulation_,
-            Simulation::create(context, c->scene_, run.backend.row ? *run.backend.row : leader.backend(),
-                               run.backend));
+            Simulation::create(context, c->scene_,
+                               run.backend.row ? *run.backend.row : leader.present().backend(), run.backend));
   c->picture_ = std::make_unique<ScenePicture>(*c->simulation_, c->scene_, view, full_quality);
   ASPIC_CHECK(c->picture_->attach(context));
-  c->leader_run_ = leader.run_number();
+  c->leader_run_ = leader.present().run_number();
   c->leader_view_ = scene.view;
   c->adopted_ = false;
   return c;
@@ -50,14 +50,15 @@ std::uint64_t Companion::step_at(double time) const {
 /// The run restarted, or is another one: so is this one.
 Status Companion::take_over(const Scene& scene, const Simulation& leader) {
   Simulation& own = *simulation_;
-  if (!own_backend_ && &leader.backend() != &own.backend()) ASPIC_CHECK(own.set_backend(leader.backend()));
-  if (adopted_model_ != leader.model_number()) {
-    adopted_model_ = leader.model_number();
+  if (!own_backend_ && &leader.present().backend() != &own.present().backend())
+    ASPIC_CHECK(own.rebuild().set_backend(leader.present().backend()));
+  if (adopted_model_ != leader.present().model_number()) {
+    adopted_model_ = leader.present().model_number();
     adopted_ = false;
   }
-  if (leader_run_ != leader.run_number()) {
-    leader_run_ = leader.run_number();
-    ASPIC_CHECK(own.reset());
+  if (leader_run_ != leader.present().run_number()) {
+    leader_run_ = leader.present().run_number();
+    ASPIC_CHECK(own.rebuild().reset());
   }
   // A change of the view needs no other solver.
   if (scene.view == leader_view_) return {};
@@ -72,35 +73,38 @@ Status Companion::adopt_setup(const Simulation& leader) {
   Simulation& own = *simulation_;
   adopted_ = true;
   Scene base = scene_;
-  base.model = leader.setup().settings;
+  base.model = leader.present().setup().settings;
   auto run = varied(base, asked_, std::span(&variation_, 1));
   if (!run) {
     message_ = run.error().message;
     return {};
   }
   const Effect effect = effect_between(scene_, run->scene);
-  Setup setup = {run->scene.model, leader.setup().thrown, leader.setup().pinned};
+  Setup setup = {run->scene.model, leader.present().setup().thrown, leader.present().setup().pinned};
   const double ratio = leader.model().simulation.timestep / setup.settings.simulation.timestep;
   for (Ball& ball : setup.thrown)
     ball.launch_step =
         static_cast<std::uint64_t>(std::llround(static_cast<double>(ball.launch_step) * ratio));
   if (!has_particles_of(leader)) setup.pinned.clear();
-  const bool hands = setup.pinned != own.setup().pinned || setup.thrown.size() != own.setup().thrown.size();
+  const bool hands = setup.pinned != own.present().setup().pinned ||
+                     setup.thrown.size() != own.present().setup().thrown.size();
   scene_ = std::move(run->scene);
-  return effect >= Effect::constants || hands ? own.adopt(std::move(setup), effect < Effect::restart)
-                                              : Status();
+  return effect >= Effect::constants || hands
+             ? own.rebuild().adopt(std::move(setup), effect < Effect::restart)
+             : Status();
 }
 
 /// Where the history has it, there; else forward from the end, or from here if nothing was before.
 Status Companion::go_to(std::uint64_t step) {
   Simulation& own = *simulation_;
   stuck_ = false;
-  if (own.seeking()) return {};
+  if (own.playback().seeking()) return {};
   if (step < own.step()) {
     own.pacer().goal.reset();
-    const Moment moment = own.history().nearest(static_cast<double>(step) * own.model().simulation.timestep);
-    stuck_ = moment == own.here();
-    return stuck_ ? Status() : own.seek(moment);
+    const Moment moment =
+        own.playback().history().nearest(static_cast<double>(step) * own.model().simulation.timestep);
+    stuck_ = moment == own.playback().here();
+    return stuck_ ? Status() : own.playback().seek(moment);
   }
   // A job on its way goes where it was sent, with the pull of that time.
   if (own.running() && own.busy() && own.pacer().goal) return {};
@@ -113,16 +117,16 @@ Status Companion::follow(const Scene& scene, const Simulation& leader, double dt
   Simulation& own = *simulation_;
   arrived_ = false;
   ASPIC_CHECK(take_over(scene, leader));
-  const History& history = leader.history();
-  const Moment here = leader.here();
-  if (!leader.at_end()) {
+  const History& history = leader.playback().history();
+  const Moment here = leader.playback().here();
+  if (!leader.playback().at_end()) {
     // In the past every run follows its own history.
     ASPIC_CHECK(recall(leader.time(), dt, budget));
-    arrived_ = arrived_ && !leader.seeking();
+    arrived_ = arrived_ && !leader.playback().seeking();
     return {};
   }
   std::uint64_t wanted = step_at(leader.time());
-  if (!adopted_ && !leader.seeking()) {
+  if (!adopted_ && !leader.playback().seeking()) {
     const std::uint64_t begins = step_at(history.time({here.stretch, history.stretch(here.stretch).first}));
     if (own.step() == begins || own.divergence())
       ASPIC_CHECK(adopt_setup(leader));
@@ -142,7 +146,7 @@ Status Companion::follow(const Scene& scene, const Simulation& leader, double dt
   ASPIC_CHECK(go_to(wanted));
   rest(wanted, !leader.running());
   ASPIC_CHECK(own.update(dt, budget));
-  const bool there = own.step() == step_at(leader.time()) && !own.seeking();
+  const bool there = own.step() == step_at(leader.time()) && !own.playback().seeking();
   arrived_ = adopted_ && (there || stuck_ || own.divergence());
   return {};
 }
@@ -157,10 +161,10 @@ void Companion::rest(std::uint64_t step, bool paused) {
 Status Companion::recall(double time, double dt, double budget) {
   Simulation& own = *simulation_;
   own.set_hand(std::nullopt);
-  const Moment moment = own.history().nearest(time);
-  if (!own.seeking() && moment != own.here()) ASPIC_CHECK(own.seek(moment));
+  const Moment moment = own.playback().history().nearest(time);
+  if (!own.playback().seeking() && moment != own.playback().here()) ASPIC_CHECK(own.playback().seek(moment));
   ASPIC_CHECK(own.update(dt, budget));
-  arrived_ = !own.seeking() && own.here() == moment;
+  arrived_ = !own.playback().seeking() && own.playback().here() == moment;
   return {};
 }
 
@@ -171,7 +175,7 @@ Status Companion::go_on_to(double time, bool paused, double dt, double budget) {
   ASPIC_CHECK(go_to(wanted));
   rest(wanted, paused);
   ASPIC_CHECK(own.update(dt, budget));
-  arrived_ = (own.step() == wanted && !own.seeking()) || stuck_ || own.divergence();
+  arrived_ = (own.step() == wanted && !own.playback().seeking()) || stuck_ || own.divergence();
   return {};
 }
 

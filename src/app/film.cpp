@@ -134,7 +134,7 @@ void Film::update() {
   // Nothing but an error completes a film by itself.
   if (recording_->completed()) return end();
   // States passed on the way through history are not filmed; the one it ends at is.
-  if (simulation_.seeking() || beside_.clock().seeking()) return;
+  if (simulation_.playback().seeking() || beside_.clock().playback().seeking()) return;
   // A job in progress goes to the step that the old speed asked for.
   if (simulation_.pacer().speed != pace_->speed()) messages_.check(simulation_.halt());
   if (scene_ != editor_.source()) pace_->restart();

@@ -13,7 +13,8 @@ namespace aspic::app {
 void App::follow_hovered() {
   const auto& h = pointer.hovered();
   std::optional<std::string> name;
-  if (h && h->ball && h->particle >= simulation.model().ball_count() - simulation.setup().thrown.size())
+  if (h && h->ball &&
+      h->particle >= simulation.model().ball_count() - simulation.present().setup().thrown.size())
     return messages.refuse(
         "The camera follows the scene's own bodies and balls; this one was thrown by hand.");
   if (h)

@@ -295,22 +295,24 @@ void energy_section(Gui& gui, Beside& beside, RunControl& run, Layouts& layout) 
 }
 
 void shadow_section(Gui& gui, const Simulation& s, RunControl& run) {
-  const std::vector<const BackendRow*> others = others_than(s.backend());
-  bool on = s.shadowed();
+  const std::vector<const BackendRow*> others = others_than(s.present().backend());
+  bool on = s.present().engines().shadowed();
   if (check_box(gui, "compare", "shadow/on", on,
                 "Another backend does the same steps, and after each job of steps the two states are "
                 "compared. The picture shows the leading backend; speed is limited by the slower one."))
     run.set_shadow(on ? others.front() : nullptr);
-  if (!s.shadowed()) return;
+  if (!s.present().engines().shadowed()) return;
   // A machine with two backends has no choice to offer.
   for (std::size_t i = 0; others.size() > 1 && i < others.size(); ++i) {
     const std::string label(others[i]->title);
-    if (ImGui::RadioButton(label.c_str(), others[i] == s.shadow_backend())) run.set_shadow(others[i]);
+    if (ImGui::RadioButton(label.c_str(), others[i] == s.present().engines().shadow().row))
+      run.set_shadow(others[i]);
     tooltip(others[i]->summary);
   }
-  ImGui::TextDisabled("%s ∥ %s", std::string(s.solver().backend()).c_str(),
-                      std::string(s.shadow()->backend()).c_str());
-  tooltip(fmt::format("Leads: {}. Alongside: {}.", s.solver().description(), s.shadow()->description()));
+  ImGui::TextDisabled("%s ∥ %s", std::string(s.present().solver().backend()).c_str(),
+                      std::string(s.present().engines().shadow().solver->backend()).c_str());
+  tooltip(fmt::format("Leads: {}. Alongside: {}.", s.present().solver().description(),
+                      s.present().engines().shadow().solver->description()));
   plot_differences(gui, s.samples().differences());
   if (s.samples().differences().empty()) {
     ImGui::TextDisabled("not compared yet");

@@ -20,12 +20,12 @@ void Beside::keep_ghost() {
   auto ghost = std::make_unique<Ghost>();
   ghost->scene = scene_.scene();
   ghost->source = scene_.editor().source();
-  auto made = Simulation::create(*context_, ghost->scene, leader_.backend(), asked_);
+  auto made = Simulation::create(*context_, ghost->scene, leader_.present().backend(), asked_);
   if (!messages_.check(made)) return;
   ghost->simulation = std::move(*made);
-  History history = leader_.history();
+  History history = leader_.playback().history();
   history.thin(most_ghost_bytes);
-  if (!messages_.check(ghost->simulation->replay(std::move(history)))) return;
+  if (!messages_.check(ghost->simulation->playback().replay(std::move(history)))) return;
   ghost->picture =
       std::make_unique<ScenePicture>(*ghost->simulation, ghost->scene, view_, picture_.full_quality);
   ghost->picture->ghost = true;
@@ -44,7 +44,7 @@ void Beside::remove_ghost() {
 }
 
 double Beside::ghost_end() const {
-  const History& history = ghost_->simulation->history();
+  const History& history = ghost_->simulation->playback().history();
   return history.time(history.end_moment());
 }
 
@@ -52,10 +52,10 @@ double Beside::ghost_end() const {
 Status Beside::follow_with_ghost(double time, double dt, double budget) {
   Simulation& run = *ghost_->simulation;
   ghost_->scene.view = scene_.scene().view;
-  const Moment moment = run.history().nearest(time);
-  if (!run.seeking() && moment != run.here()) ASPIC_CHECK(run.seek(moment));
+  const Moment moment = run.playback().history().nearest(time);
+  if (!run.playback().seeking() && moment != run.playback().here()) ASPIC_CHECK(run.playback().seek(moment));
   ASPIC_CHECK(run.update(dt, budget));
-  ghost_->arrived = !run.seeking() && run.here() == moment;
+  ghost_->arrived = !run.playback().seeking() && run.playback().here() == moment;
   settled_ = settled_ && ghost_->arrived;
   return {};
 }

@@ -20,7 +20,7 @@ BallSettings Hands::thrown_ball(const Ray& sight) const {
 }
 
 void Hands::throw_ball(const Ray& sight) {
-  messages_.check(simulation_.throw_balls({thrown_ball(sight)}));
+  messages_.check(simulation_.rebuild().throw_balls({thrown_ball(sight)}));
 }
 
 void Hands::throw_many() {
@@ -43,11 +43,11 @@ void Hands::throw_many() {
     ball.position = ball.position + (spread * dx) * right - (spread * dy) * up;
     balls.push_back(ball);
   }
-  messages_.check(simulation_.throw_balls(balls));
+  messages_.check(simulation_.rebuild().throw_balls(balls));
 }
 
 void Hands::clear_balls() {
-  messages_.check(simulation_.clear_balls());
+  messages_.check(simulation_.rebuild().clear_balls());
 }
 
 /// True with a message if pulls and pins are not possible.
@@ -60,7 +60,7 @@ bool Hands::refused() {
 void Hands::toggle_pin(std::uint32_t particle) {
   if (refused()) return;
   const bool pinned = simulation_.model().inverse_mass[particle] == 0.0;
-  if (messages_.check(simulation_.toggle_pin(particle)))
+  if (messages_.check(simulation_.rebuild().toggle_pin(particle)))
     messages_.info(fmt::format("Particle {} is {}.", particle, pinned ? "free" : "pinned"));
 }
 

@@ -22,9 +22,9 @@ void divergence_buttons(Gui& gui, const Simulation& simulation, RunControl& run,
       run.take_offered_step();
     ImGui::SameLine();
   }
-  if (simulation.can_step_back()) {
-    const std::string back =
-        fmt::format("Back to t = {:.3f} s", simulation.history().time(simulation.before_trouble()));
+  if (simulation.playback().can_step_back()) {
+    const std::string back = fmt::format(
+        "Back to t = {:.3f} s", simulation.playback().history().time(simulation.playback().before_trouble()));
     if (button(gui, "diverged/back", back.c_str(),
                "Returns to shortly before the divergence, with the values that the scene had then."))
       run.back_before_divergence();

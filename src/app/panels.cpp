@@ -96,7 +96,7 @@ void sections(Parts parts, std::span<const Heading> headings, std::string_view w
 
 int longest_edge(const Simulation& s) {
   int particles = 0;
-  for (const CubeSettings& cube : s.setup().settings.cubes)
+  for (const CubeSettings& cube : s.present().setup().settings.cubes)
     particles = std::max(particles, cube.particles_per_edge);
   return particles;
 }
@@ -114,10 +114,10 @@ void status_line(Parts parts, const Box& box) {
                              : beside.clock_runs()     ? "Running"
                                                        : "Paused";
   ImGui::TextColored(s.divergence() ? ImVec4(0.95f, 0.55f, 0.40f, 1.0f) : bright, "%s", motion);
-  const bool software = parts.picture.context().info().is_software && s.backend().needs_context;
+  const bool software = parts.picture.context().info().is_software && s.present().backend().needs_context;
   std::vector<std::string> facts = {
       fmt::format("t = {:.3f} s", beside.clock_time()),
-      fmt::format("{}{}", s.solver().backend(), software ? " (software)" : ""),
+      fmt::format("{}{}", s.present().solver().backend(), software ? " (software)" : ""),
       fmt::format("speed ×{:g}", s.pacer().speed),
   };
   if (film) facts.insert(facts.begin() + 1, fmt::format("● filming, {:.2f} s", film->seconds()));
@@ -129,9 +129,9 @@ void status_line(Parts parts, const Box& box) {
                                 : "";
     facts.push_back(fmt::format("{:.3g} × real time{}", factor, why));
   }
-  if (s.working())
-    facts.insert(facts.begin(), s.changing() ? "working: rebuilds the scene"
-                                             : fmt::format("working on step {}", s.step() + 1));
+  if (s.jobs().long_under_way())
+    facts.insert(facts.begin(), s.rebuild().changing() ? "working: rebuilds the scene"
+                                                       : fmt::format("working on step {}", s.step() + 1));
   const Simulation& setter = beside.clock();
   facts.push_back(
       fmt::format("step {}", std::llround(beside.clock_time() / setter.model().simulation.timestep)));
@@ -151,12 +151,12 @@ void status_line(Parts parts, const Box& box) {
 
 /// The bar of the history, under the picture: any step since the start.
 void timeline(Gui& gui, const Simulation& s, Beside& beside, RunControl& run, const Box& box) {
-  const History& history = s.history();
+  const History& history = s.playback().history();
   const double scale = gui.scale();
   const Panel panel("##timeline", box, at(12.0 * scale, 4.0 * scale), bar);
   const double first = history.time(history.begin_moment()), last = std::max(beside.end_time(), first);
   double now = std::clamp(beside.clock_time(), first, last);
-  const bool on_the_way = s.seeking() || beside.clock().seeking();
+  const bool on_the_way = s.playback().seeking() || beside.clock().playback().seeking();
   const std::string text = fmt::format("{:.3f} / {:.3f} s{}", now, last, on_the_way ? "  …" : "");
   ImGui::SetNextItemWidth(-1.0f);
   const bool moved = ImGui::SliderScalar("##history", ImGuiDataType_Double, &now, &first, &last, text.c_str(),

@@ -61,7 +61,7 @@ void performance_section(Gui& gui, Simulation& s, const Beside& beside, const Sc
   figure("Steps", runs ? short_number(setter.pacer().steps_per_second()) + "/s" : "paused",
          "Time steps per second.");
   gui.mark("performance/steps");
-  const auto evaluations = setter.spring_evaluations_per_second();
+  const auto evaluations = spring_evaluations_per_second(setter);
   figure("Spring evaluations",
          !runs         ? "paused"
          : evaluations ? short_number(*evaluations) + "/s"
@@ -81,20 +81,22 @@ void performance_section(Gui& gui, Simulation& s, const Beside& beside, const Sc
            "they "
            "are of full size.");
   }
-  if (s.gpu() && device.is_software) {
+  GpuSolver* const gpu = gpu_of(s.present().engines().leader());
+  if (gpu && device.is_software) {
     figure("Passes of a step", "not timed",
            "A software device's time stamps do not say when its passes ran.");
     gui.mark("performance/not-timed");
-  } else if (s.gpu()) {
-    pass_times(gui, *s.gpu());
+  } else if (gpu) {
+    pass_times(gui, *gpu);
   }
   const Model& model = s.model();
   figure("Particles", fmt::format("{}", model.particle_count()), "Particles of all bodies.");
   figure("Springs", fmt::format("{}", spring_count(model)), "Springs of all types.");
   if (model.ball_count() > 0)
     figure("Balls", fmt::format("{}", model.ball_count()), "Balls, launched or waiting.");
-  figure("Solver", fmt::format("{}, {}", s.solver().backend(), human_bytes(s.solver().bytes())),
-         s.solver().description());
+  figure("Solver",
+         fmt::format("{}, {}", s.present().solver().backend(), human_bytes(s.present().solver().bytes())),
+         s.present().solver().description());
   ImGui::TextDisabled("%s", device.renderer.substr(0, 40).c_str());
   tooltip(fmt::format("Draws the window: {}, OpenGL {}", device.renderer, device.version));
 }

@@ -93,9 +93,9 @@ Ray Pointer::sight(bool on_panel) const {
 void Pointer::describe(std::uint32_t particle) {
   const Model& model = simulation_.model();
   const State& state = simulation_.snapshot();
-  if (!incident_ || incident_model_ != simulation_.model_number()) {
+  if (!incident_ || incident_model_ != simulation_.present().model_number()) {
     incident_.emplace(model);
-    incident_model_ = simulation_.model_number();
+    incident_model_ = simulation_.present().model_number();
   }
   Hovered h;
   h.particle = particle;

@@ -74,7 +74,7 @@ Status write_series(const std::string& path, Overwrite overwrite, const std::deq
 
 Status write_state(const StateFormat& format, const std::string& path, Overwrite overwrite, Scene scene,
                    const Simulation& simulation, const State& state) {
-  scene.model = simulation.setup().settings;
+  scene.model = simulation.present().setup().settings;
   const RunFacts facts = {to_toml(scene), scene.model.simulation.integrator};
   ASPIC_TRY(auto sink, format.open(path, 0, overwrite, facts));
   return sink->finish({simulation.model(), state});
@@ -98,7 +98,7 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
     std::error_code unknown;
     if (beside.active() && overwrite == Overwrite::refuse && std::filesystem::exists(paths[i], unknown))
       return messages.refuse(fmt::format("{} already exists. Choose another name.", paths[i]));
-    const Setup& setup = beside.run(i).setup();
+    const Setup& setup = beside.run(i).present().setup();
     if (format.holds_scene && !(setup.thrown.empty() && setup.pinned.empty()))
       return messages.refuse(
           fmt::format("A {} holds the scene and the state, and balls thrown or particles pinned by hand are "

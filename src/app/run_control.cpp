@@ -22,7 +22,7 @@ void RunControl::single_step() {
 }
 
 void RunControl::reset() {
-  messages_.check(simulation_.reset());
+  messages_.check(simulation_.rebuild().reset());
 }
 
 void RunControl::change_speed(double factor) {
@@ -31,13 +31,14 @@ void RunControl::change_speed(double factor) {
 }
 
 void RunControl::switch_backend() {
-  const BackendRow& current = simulation_.backend();
+  const BackendRow& current = simulation_.present().backend();
   const BackendRow* row = &next_backend(current);
-  const Status first = simulation_.set_backend(*row);
+  const Status first = simulation_.rebuild().set_backend(*row);
   Status changed = first;
-  while (!changed && (row = &next_backend(*row)) != &current) changed = simulation_.set_backend(*row);
+  while (!changed && (row = &next_backend(*row)) != &current)
+    changed = simulation_.rebuild().set_backend(*row);
   scene_.follow_history();
-  const std::string now = fmt::format("Now on {}.", simulation_.solver().description());
+  const std::string now = fmt::format("Now on {}.", simulation_.present().solver().description());
   if (first)
     messages_.info(now);
   else
@@ -45,25 +46,26 @@ void RunControl::switch_backend() {
 }
 
 void RunControl::set_shadow(const BackendRow* backend) {
-  if (!messages_.check(simulation_.set_shadow(backend))) return;
-  messages_.info(backend ? fmt::format("Shadowed by {}.", simulation_.shadow()->description())
-                         : "Shadow mode is off.");
+  if (!messages_.check(simulation_.rebuild().set_shadow(backend))) return;
+  messages_.info(
+      backend ? fmt::format("Shadowed by {}.", simulation_.present().engines().shadow().solver->description())
+              : "Shadow mode is off.");
 }
 
 void RunControl::step_back() {
-  if (!simulation_.can_step_back()) return;
-  messages_.check(simulation_.step_back());
+  if (!simulation_.playback().can_step_back()) return;
+  messages_.check(simulation_.playback().step_back());
   scene_.follow_history();
 }
 
 void RunControl::go_to(double time) {
-  messages_.check(simulation_.seek(simulation_.history().nearest(time)));
+  messages_.check(simulation_.playback().seek(simulation_.playback().history().nearest(time)));
   scene_.follow_history();
 }
 
 void RunControl::back_before_divergence() {
   messages_.dismiss();
-  messages_.check(simulation_.seek(simulation_.before_trouble()));
+  messages_.check(simulation_.playback().seek(simulation_.playback().before_trouble()));
   scene_.follow_history();
 }
 
@@ -75,7 +77,7 @@ void RunControl::take_offered_step() {
   const auto step = offered_step();
   if (!step) return;
   messages_.dismiss();
-  messages_.check(simulation_.seek(simulation_.before_trouble()));
+  messages_.check(simulation_.playback().seek(simulation_.playback().before_trouble()));
   // The state of then, with the values of now.
   scene_.set_value(*find_parameter("simulation.timestep"), 0, Value(*step));
   scene_.hand_over();

@@ -16,8 +16,8 @@ void SceneControl::show_opened(const std::string& left) {
   pending_ = Effect::none;
   unchanged_for_ = 0.0;
   messages_.dismiss();
-  messages_.check(simulation_.reset());
-  if (editor_.state()) messages_.check(simulation_.start_from(*editor_.state()));
+  messages_.check(simulation_.rebuild().reset());
+  if (editor_.state()) messages_.check(simulation_.rebuild().start_from(*editor_.state()));
   view_.camera = CameraControl(scene().view.camera);
   view_.forget_followed();
   view_.recall_camera(editor_.source());
@@ -31,7 +31,8 @@ void SceneControl::list_file() {
 
 void SceneControl::open(const std::string& source) {
   auto loaded = editor_.other(source);
-  if (!messages_.check(loaded) || !messages_.check(simulation_.change(loaded->scene(), false))) return;
+  if (!messages_.check(loaded) || !messages_.check(simulation_.rebuild().change(loaded->scene(), false)))
+    return;
   const std::string left = editor_.source();
   editor_.open(std::move(*loaded));
   list_file();
@@ -59,7 +60,7 @@ void SceneControl::reread_file() {
   const auto loaded = editor_.other(editor_.source());
   if (!loaded) return messages_.error(loaded.error().message);
   const Effect effect = effect_between(editor_.scene(), loaded->scene());
-  if (!messages_.check(simulation_.change(loaded->scene(), effect != Effect::restart))) return;
+  if (!messages_.check(simulation_.rebuild().change(loaded->scene(), effect != Effect::restart))) return;
   const CameraSettings camera = editor_.scene().view.camera;
   const bool changed = editor_.changed();
   pending_ = Effect::none;
@@ -90,7 +91,7 @@ void SceneControl::undo() {
 bool SceneControl::undone(Effect effect, const std::string& left, Effect (SceneEditor::*back)()) {
   if (effect != Effect::opening) {
     take_effect(effect);
-  } else if (messages_.check(simulation_.change(scene(), false))) {
+  } else if (messages_.check(simulation_.rebuild().change(scene(), false))) {
     show_opened(left);
   } else {
     (editor_.*back)();
@@ -143,7 +144,7 @@ void SceneControl::take_effect(Result<Effect> effect) {
 
 void SceneControl::follow_history() {
   Scene scene = editor_.scene();
-  scene.model = simulation_.setup().settings;
+  scene.model = simulation_.present().setup().settings;
   if (effect_between(editor_.scene(), scene) < Effect::constants) return;
   pending_ = Effect::none;
   if (const auto applied = editor_.apply(std::move(scene), "going back in time", ""); !applied)
@@ -160,14 +161,14 @@ void SceneControl::update(double dt) {
     if (editor_.file_changed()) reread_file();
   }
   // A solver that takes long to build does not follow every step of a slider.
-  if (!pending() || simulation_.changing() || since_rebuild_ < 4.0 * rebuild_seconds_) return;
+  if (!pending() || simulation_.rebuild().changing() || since_rebuild_ < 4.0 * rebuild_seconds_) return;
   requested_ = std::exchange(pending_, Effect::none);
   requested_at_ = std::chrono::steady_clock::now();
-  simulation_.request_change(editor_.scene(), requested_ == Effect::constants);
+  simulation_.rebuild().request(editor_.scene(), requested_ == Effect::constants);
 }
 
 bool SceneControl::finish_change() {
-  const auto changed = simulation_.take_change();
+  const auto changed = simulation_.rebuild().take_change();
   if (!changed) return false;
   rebuild_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - requested_at_).count();
   since_rebuild_ = 0.0;

@@ -24,7 +24,7 @@ class SceneControl {
 
   const SceneEditor& editor() const { return editor_; }
   const Scene& scene() const { return editor_.scene(); }
-  const Solver& solver() const { return simulation_.solver(); }
+  const Solver& solver() const { return simulation_.present().solver(); }
 
   /// Opens a file or built-in scene, which undo() takes back; on an error the old one stays and a message
   /// says why.

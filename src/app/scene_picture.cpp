@@ -61,8 +61,8 @@ ScenePicture::Pixels ScenePicture::view_pixels(int window_height) const {
 
 ScenePicture::Content ScenePicture::wanted(bool fine) const {
   Content c;
-  c.model = simulation_.model_number();
-  c.state = kept() ? 0 : simulation_.picture_number();
+  c.model = simulation_.present().model_number();
+  c.state = kept() ? 0 : simulation_.present().picture_number();
   c.kept = kept() ? kept_number_ : 0;
   c.view = scene_.view;
   c.view.camera = view_.seen(offset_);
@@ -78,7 +78,7 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
            : PictureSize{std::max(rounded(scale * full.width), 1), std::max(rounded(scale * full.height), 1)};
   if (const auto& hand = simulation_.hand(); hand && !hand->ball)
     c.marks.pull = {hand->particle, hand->anchor};
-  for (const auto& [particle, pinned] : simulation_.setup().pinned)
+  for (const auto& [particle, pinned] : simulation_.present().setup().pinned)
     if (pinned) c.marks.marked.push_back(particle);
   c.marks.unit = view_.text_scale * c.size.width / view_.width();
   return c;
@@ -90,7 +90,7 @@ Status ScenePicture::follow() {
     offset_ = view_.offset();
     return {};
   }
-  const std::pair wanted(simulation_.model_number(), scene_.view.follow);
+  const std::pair wanted(simulation_.present().model_number(), scene_.view.follow);
   if (followed_ != wanted) following_ = Following(scene_, simulation_.model(), Precision::single);
   followed_ = wanted;
   if (following_.any() && !kept()) ASPIC_CHECK(refresh());
@@ -101,7 +101,7 @@ Status ScenePicture::follow() {
 
 /// The snapshot becomes the state that is drawn.
 Status ScenePicture::refresh() {
-  const bool old = simulation_.device_state() && simulation_.snapshot().step != simulation_.step();
+  const bool old = simulation_.present().device_state() && simulation_.snapshot().step != simulation_.step();
   return old ? simulation_.refresh_snapshot() : Status();
 }
 
@@ -199,7 +199,7 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
 
 /// Where the state that is drawn lies.
 Result<DeviceState> ScenePicture::on_device() {
-  if (const auto state = kept() ? std::nullopt : simulation_.device_state()) return *state;
+  if (const auto state = kept() ? std::nullopt : simulation_.present().device_state()) return *state;
   return renderer_->upload(shown_state());
 }
 
@@ -296,8 +296,8 @@ QuantityRange ScenePicture::own_range() {
   if (!follows_picture(scene_.view) || !is_of_model()) return alone;
   // Of what there is to measure: neither size nor camera.
   Content content;
-  content.model = simulation_.model_number();
-  content.state = kept() ? 0 : simulation_.picture_number();
+  content.model = simulation_.present().model_number();
+  content.state = kept() ? 0 : simulation_.present().picture_number();
   content.kept = kept() ? kept_number_ : 0;
   content.view = scene_.view;
   if (measured_ == content) return own_range_;

@@ -102,7 +102,7 @@ class ScenePicture {
   const Box& shown() const { return shown_; }
   std::uint64_t number() const { return number_; }
   /// Whether indices in the last picture are those of the simulation's model.
-  bool is_of_model() const { return drawn_ && drawn_->model == simulation_.model_number(); }
+  bool is_of_model() const { return drawn_ && drawn_->model == simulation_.present().model_number(); }
   /// Asks what lies at a place in the window [window units]; see Renderer::request_pick.
   Result<std::uint64_t> request_pick(double x, double y);
   PickAnswer picked() const { return renderer_->picked(); }

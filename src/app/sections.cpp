@@ -141,13 +141,13 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene, const Besi
   ImGui::SameLine();
   command_button(gui, "simulation/reset", "Reset", "Returns to the scene's start.", "reset to the start",
                  true, third);
-  const std::string other = fmt::format("Switch to {}", next_backend(s.backend()).title);
+  const std::string other = fmt::format("Switch to {}", next_backend(s.present().backend()).title);
   command_button(gui, "simulation/backend", other.c_str(),
                  "Switches to the other solver; the state keeps every bit.", "other backend", true, half);
   ImGui::SameLine();
   command_button(gui, "simulation/back", "Step back",
                  "Goes back one time step; the bar below the picture goes to any step since the start.",
-                 "step back", s.can_step_back(), half);
+                 "step back", s.playback().can_step_back(), half);
   edit(gui, scene, "simulation.integrator");
   edit(gui, scene, "simulation.timestep", 0, {"Time step"});
   label_column("Pace");
@@ -181,7 +181,7 @@ void balls_section(Gui& gui, const Simulation& simulation, Hands& hands) {
   if (button(gui, "balls/many", "Throw many", "Throws a dozen balls, side by side.", true, third))
     hands.throw_many();
   ImGui::SameLine();
-  const std::size_t thrown = simulation.setup().thrown.size();
+  const std::size_t thrown = simulation.present().setup().thrown.size();
   if (button(gui, "balls/clear", "Clear",
              thrown > 0 ? fmt::format("Remove the {} thrown balls; the scene's own stay.", thrown)
                         : std::string("There are no thrown balls; the scene's own stay."),

@@ -5,37 +5,6 @@
 #include <cmath>
 
 namespace aspic {
-Keyframe pack(const State& state) {
-  assert(state.precision == Precision::single);
-  Keyframe k;
-  k.step = state.step;
-  k.particles = static_cast<std::uint32_t>(state.position.size());
-  k.balls = static_cast<std::uint32_t>(state.ball_position.size());
-  k.numbers.reserve(std::size_t{6} * k.particles + std::size_t{9} * k.balls);
-  for_each_vector(state, [&](const Vec3& v) {
-    for (int axis = 0; axis < 3; ++axis) k.numbers.push_back(static_cast<float>(v[axis]));
-  });
-  return k;
-}
-
-State unpack(const Keyframe& keyframe) {
-  State s;
-  s.precision = Precision::single;
-  s.step = keyframe.step;
-  for (auto* const vectors : {&s.position, &s.velocity}) vectors->resize(keyframe.particles);
-  for (auto* const vectors : {&s.ball_position, &s.ball_velocity, &s.ball_angular_velocity})
-    vectors->resize(keyframe.balls);
-  const float* number = keyframe.numbers.data();
-  for_each_vector(s, [&](Vec3& v) {
-    for (int axis = 0; axis < 3; ++axis) v[axis] = static_cast<double>(*number++);
-  });
-  return s;
-}
-
-std::uint64_t Stretch::bytes() const {
-  // All keyframes hold as many numbers, for the setup has as many bodies throughout.
-  return sizeof(PullChange) * pulls.size() + keyframes.size() * keyframes.front().bytes();
-}
 
 void History::clear() {
   // Numbers continue, so that no moment of the old run is taken for one of the new.
@@ -44,7 +13,7 @@ void History::clear() {
 }
 
 void History::begin(const Setup& setup, const State& state) {
-  if (!empty() && last().first == last().last && last().keyframes.size() == 1) stretches_.pop_back();
+  if (!empty() && last().first == last().last && last().keyframes.count() == 1) stretches_.pop_back();
   stretches_.push_back({setup, state.step, state.step, {}, {}});
   add_keyframe(state);
 }
@@ -54,36 +23,26 @@ void History::reach(std::uint64_t step) {
 }
 
 void History::add_keyframe(const State& state) {
-  Stretch& stretch = last();
-  if (!stretch.keyframes.empty() && stretch.keyframes.back().step >= state.step) return;
+  if (!last().keyframes.add(state)) return;
   reach(state.step);
-  stretch.keyframes.push_back(pack(state));
   while (bytes() > most_bytes_ && keyframe_count() > 1) drop_oldest();
 }
 
 void History::set_pull(std::uint64_t step, const std::optional<Pull>& pull) {
-  std::vector<PullChange>& pulls = last().pulls;
-  assert(pulls.empty() || pulls.back().step <= step);
-  if (!pulls.empty() && pulls.back().step == step) pulls.pop_back();
-  pulls.push_back({step, pull});
+  last().pulls.set(step, pull);
 }
 
 void History::thin(std::uint64_t bytes) {
   most_bytes_ = bytes;
   while (this->bytes() > bytes && keyframe_count() > stretches_.size()) {
-    for (Stretch& stretch : stretches_) {
-      std::deque<Keyframe> fewer;
-      for (std::size_t i = 0; i < stretch.keyframes.size(); i += 2)
-        fewer.push_back(std::move(stretch.keyframes[i]));
-      stretch.keyframes = std::move(fewer);
-    }
+    for (Stretch& stretch : stretches_) stretch.keyframes.thin();
   }
   while (this->bytes() > bytes && keyframe_count() > 1) drop_oldest();
 }
 
 void History::drop_oldest() {
   Stretch& oldest = stretches_.front();
-  oldest.keyframes.pop_front();
+  oldest.keyframes.drop_first();
   if (!oldest.keyframes.empty()) {
     oldest.first = oldest.keyframes.front().step;
     return;
@@ -96,10 +55,9 @@ void History::truncate(const Moment& moment) {
   while (end_moment().stretch > moment.stretch) stretches_.pop_back();
   Stretch& stretch = last();
   stretch.last = std::min(stretch.last, moment.step);
-  while (stretch.keyframes.size() > 1 && stretch.keyframes.back().step > moment.step)
-    stretch.keyframes.pop_back();
+  stretch.keyframes.forget_after(moment.step);
   // A pull that begins with the step from `moment` on belongs to what is forgotten.
-  while (!stretch.pulls.empty() && stretch.pulls.back().step >= moment.step) stretch.pulls.pop_back();
+  stretch.pulls.forget_from(moment.step);
 }
 
 Moment History::begin_moment() const {
@@ -154,10 +112,7 @@ Moment History::nearest(double time) const {
 }
 
 const Keyframe& History::keyframe(const Moment& moment) const {
-  const Stretch& s = stretch(moment.stretch);
-  const auto later = std::ranges::upper_bound(s.keyframes, moment.step, {}, &Keyframe::step);
-  assert(later != s.keyframes.begin());
-  return *(later - 1);
+  return stretch(moment.stretch).keyframes.before(moment.step);
 }
 
 Moment History::keyframes_before(const Moment& moment, std::size_t count) const {
@@ -171,16 +126,11 @@ Moment History::keyframes_before(const Moment& moment, std::size_t count) const 
 }
 
 std::optional<Pull> History::pull_at(const Moment& moment) const {
-  const std::vector<PullChange>& pulls = stretch(moment.stretch).pulls;
-  const auto later = std::ranges::upper_bound(pulls, moment.step, {}, &PullChange::step);
-  return later == pulls.begin() ? std::nullopt : (later - 1)->pull;
+  return stretch(moment.stretch).pulls.at(moment.step);
 }
 
 std::optional<std::uint64_t> History::next_pull_change(const Moment& moment) const {
-  const std::vector<PullChange>& pulls = stretch(moment.stretch).pulls;
-  const auto later = std::ranges::upper_bound(pulls, moment.step, {}, &PullChange::step);
-  if (later == pulls.end()) return std::nullopt;
-  return later->step;
+  return stretch(moment.stretch).pulls.next_change(moment.step);
 }
 
 std::vector<double> History::changes() const {
@@ -198,7 +148,7 @@ std::uint64_t History::bytes() const {
 
 std::size_t History::keyframe_count() const {
   std::size_t count = 0;
-  for (const Stretch& s : stretches_) count += s.keyframes.size();
+  for (const Stretch& s : stretches_) count += s.keyframes.count();
   return count;
 }
 

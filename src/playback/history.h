@@ -8,6 +8,8 @@
 
 #include "aspic/state.h"
 #include "model/pull.h"
+#include "playback/keyframes.h"
+#include "playback/pull_log.h"
 #include "playback/setup.h"
 
 namespace aspic {
@@ -19,30 +21,13 @@ struct Moment {
   friend bool operator==(const Moment&, const Moment&) = default;
 };
 
-/// A pull that began, moved or (nothing) ended with the step that starts at `step`.
-struct PullChange {
-  std::uint64_t step = 0;
-  std::optional<Pull> pull;
-};
-
-/// A single-precision state, packed.
-struct Keyframe {
-  std::uint64_t step = 0;
-  std::uint32_t particles = 0, balls = 0;
-  std::vector<float> numbers;  ///< as for_each_vector() meets them
-  std::uint64_t bytes() const { return sizeof(Keyframe) + sizeof(float) * numbers.size(); }
-};
-
-Keyframe pack(const State& state);
-State unpack(const Keyframe& keyframe);
-
 /// A part of the run with the same setup throughout.
 struct Stretch {
   Setup setup;
   std::uint64_t first = 0, last = 0;  ///< restorable steps
-  std::deque<Keyframe> keyframes;     ///< ascending; the first one is of step `first`
-  std::vector<PullChange> pulls;      ///< ascending, at most one a step
-  std::uint64_t bytes() const;
+  Keyframes keyframes;                ///< not empty; the first one is of step `first`
+  PullLog pulls;
+  std::uint64_t bytes() const { return pulls.bytes() + keyframes.bytes(); }
   double timestep() const { return setup.settings.simulation.timestep; }
   double time(std::uint64_t step) const { return static_cast<double>(step) * timestep(); }
 };

@@ -71,10 +71,10 @@ TEST_F(AppWindow, TwentyChangesOfBackendLeaveTheBitsAsTheyWere) {
   press(GLFW_KEY_SPACE);
   for (int i = 0; i < 20; ++i) {
     const std::uint64_t before = simulation().step();
-    const BackendRow& next = next_backend(simulation().backend());
+    const BackendRow& next = next_backend(simulation().present().backend());
     press(GLFW_KEY_G);
     EXPECT_TRUE(simulation().running()) << "a change of backend does not pause";
-    EXPECT_EQ(simulation().backend().name, next.name);
+    EXPECT_EQ(simulation().present().backend().name, next.name);
     frames_to_step(before + 10);
   }
   press(GLFW_KEY_SPACE);
@@ -86,7 +86,7 @@ TEST_F(AppWindow, TwentyChangesOfBackendLeaveTheBitsAsTheyWere) {
 
 TEST_F(AppWindow, GpuDrawsItsOwnParticlesAndStepsSingly) {
   open("cube-plane", {}, "gpu");
-  EXPECT_TRUE(simulation().device_state().has_value()) << "drawn without a copy";
+  EXPECT_TRUE(simulation().present().device_state().has_value()) << "drawn without a copy";
   for (int i = 0; i < 7; ++i) type(U'.');
   EXPECT_EQ(simulation().step(), 7u);
   EXPECT_EQ(state_hash_text(simulation().snapshot()), reference_hash(app().scene.editor().scene(), 7));

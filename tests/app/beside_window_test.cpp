@@ -48,7 +48,7 @@ class Beside : public Stage {
   /// The state of a run as the reference alone comes to it.
   std::string hash_alone(std::size_t i) {
     Scene scene = app().scene.scene();
-    scene.model = run(i).setup().settings;
+    scene.model = run(i).present().setup().settings;
     return reference_hash(scene, run(i).step());
   }
   static app::KeptState only_recording() {
@@ -74,7 +74,7 @@ TEST_F(Beside, ARunIsAddedAndLeftAndComesBackByUndo) {
   frames(1);
   ASSERT_EQ(beside().count(), 2u);
   EXPECT_EQ(simulation().step(), 0u) << "all runs start anew";
-  EXPECT_EQ(run(1).setup().settings.simulation.integrator, Integrator::implicit_euler);
+  EXPECT_EQ(run(1).present().setup().settings.simulation.integrator, Integrator::implicit_euler);
   EXPECT_TRUE(has("beside/0/label"));
   EXPECT_TRUE(has("beside/1/label"));
   const auto& boxes = beside().boxes();
@@ -212,7 +212,7 @@ TEST_F(Beside, HandsAndValuesActOnAllRunsAlike) {
   EXPECT_EQ(hash(0), hash(1)) << "a ball";
   app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}));
   run_to(simulation().step() + 60);
-  EXPECT_EQ(run(1).setup().settings.simulation.gravity, (Vec3{0.0, -3.0, 0.0}));
+  EXPECT_EQ(run(1).present().setup().settings.simulation.gravity, (Vec3{0.0, -3.0, 0.0}));
   EXPECT_EQ(run(0).step(), run(1).step());
   EXPECT_EQ(hash(0), hash(1)) << "a value";
 }
@@ -279,10 +279,10 @@ TEST_F(Beside, TheSectionAndThePaletteAddEditAndRemove) {
   EXPECT_TRUE(has("beside/1/value"));
   beside().set(1, {"k", "3000"});
   settled();
-  EXPECT_EQ(run(1).setup().settings.cubes[0].structural.stiffness, 3000.0);
+  EXPECT_EQ(run(1).present().setup().settings.cubes[0].structural.stiffness, 3000.0);
   app().scene.undo();
   settled();
-  EXPECT_EQ(run(1).setup().settings.simulation.integrator, Integrator::implicit_euler);
+  EXPECT_EQ(run(1).present().setup().settings.simulation.integrator, Integrator::implicit_euler);
   click("beside/1/remove");
   frames(2);
   EXPECT_EQ(beside().count(), 1u);

@@ -12,7 +12,7 @@ class LongStep : public Stage {
   void run_endlessly() {
     open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "cpu");
     for (int i = 0; i < 5; ++i) type(U'.');
-    ASSERT_TRUE(simulation().set_backend(endless_backend()).ok());
+    ASSERT_TRUE(simulation().rebuild().set_backend(endless_backend()).ok());
     press(GLFW_KEY_SPACE);
     frames(5);
     ASSERT_TRUE(simulation().running());
@@ -22,7 +22,7 @@ class LongStep : public Stage {
   std::string hash() { return state_hash_text(simulation().snapshot()); }
   /// Goes on where the endless backend stood, and has the bits of a run without it.
   void goes_on() {
-    ASSERT_TRUE(simulation().set_backend(reference_backend()).ok());
+    ASSERT_TRUE(simulation().rebuild().set_backend(reference_backend()).ok());
     simulation().set_running(true);
     frames_to_step(simulation().step() + 10);
     simulation().set_running(false);
@@ -44,10 +44,10 @@ TEST_F(LongStep, PauseAndOtherBackendsComeAtOnce) {
 
 TEST_F(LongStep, TheWindowSaysThatItWorks) {
   run_endlessly();
-  frames_until([&] { return simulation().working(); });
+  frames_until([&] { return simulation().jobs().long_under_way(); });
   EXPECT_GT(app().wait(0.0), 0.0) << "with nothing new to show pictures wait";
   press(GLFW_KEY_R);
-  EXPECT_FALSE(simulation().working());
+  EXPECT_FALSE(simulation().jobs().long_under_way());
   EXPECT_EQ(simulation().step(), 0u);
   EXPECT_EQ(hash(), reference_hash(app().scene.scene(), 0));
 }
@@ -57,7 +57,7 @@ TEST_F(LongStep, PinsBallsPullsAndTimeTravelActAtTheStepShown) {
   simulation().set_hand(Pull{5, {0.0, 5.0, 0.0}, 2000.0, 10.0});
   frames(2);
   simulation().set_hand(std::nullopt);
-  ASSERT_TRUE(simulation().toggle_pin(3).ok());
+  ASSERT_TRUE(simulation().rebuild().toggle_pin(3).ok());
   EXPECT_EQ(simulation().model().inverse_mass[3], 0.0);
   frames(2);
   app().gui().commands().run("throw a ball");
@@ -65,8 +65,9 @@ TEST_F(LongStep, PinsBallsPullsAndTimeTravelActAtTheStepShown) {
   EXPECT_EQ(simulation().model().balls[0].launch_step, 5u);
   frames(2);
   EXPECT_EQ(simulation().step(), 5u);
-  ASSERT_TRUE(simulation().set_backend(*find_backend("cpu")).ok());
-  ASSERT_TRUE(simulation().seek({simulation().history().begin_moment().stretch, 2}).ok());
+  ASSERT_TRUE(simulation().rebuild().set_backend(*find_backend("cpu")).ok());
+  ASSERT_TRUE(
+      simulation().playback().seek({simulation().playback().history().begin_moment().stretch, 2}).ok());
   ASSERT_TRUE(simulation().settle().ok());
   EXPECT_EQ(simulation().model().ball_count(), 0u);
   EXPECT_EQ(hash(), reference_hash(app().scene.scene(), 2));
@@ -74,11 +75,11 @@ TEST_F(LongStep, PinsBallsPullsAndTimeTravelActAtTheStepShown) {
 
 TEST_F(LongStep, AWayThroughHistoryGoesOnOnAnotherBackend) {
   run_endlessly();
-  ASSERT_TRUE(simulation().seek({simulation().here().stretch, 3}).ok());
+  ASSERT_TRUE(simulation().playback().seek({simulation().playback().here().stretch, 3}).ok());
   frames(5);
-  EXPECT_TRUE(simulation().seeking());
-  ASSERT_TRUE(simulation().set_backend(*find_backend("cpu")).ok());
-  frames_until([&] { return !simulation().seeking(); });
+  EXPECT_TRUE(simulation().playback().seeking());
+  ASSERT_TRUE(simulation().rebuild().set_backend(*find_backend("cpu")).ok());
+  frames_until([&] { return !simulation().playback().seeking(); });
   EXPECT_EQ(simulation().step(), 3u);
   EXPECT_EQ(hash(), reference_hash(app().scene.scene(), 3));
 }
@@ -96,25 +97,25 @@ TEST_F(LongStep, ReloadAndOtherScenesComeAtOnce) {
 
 TEST_F(LongStep, AShadowThatTakesLongHoldsNothingUp) {
   run_endlessly();
-  ASSERT_TRUE(simulation().set_backend(*find_backend("cpu")).ok());
-  ASSERT_TRUE(simulation().set_shadow(&endless_backend()).ok());
+  ASSERT_TRUE(simulation().rebuild().set_backend(*find_backend("cpu")).ok());
+  ASSERT_TRUE(simulation().rebuild().set_shadow(&endless_backend()).ok());
   frames(5);
   EXPECT_EQ(simulation().step(), 5u) << "the leader waits for its shadow";
-  ASSERT_TRUE(simulation().set_shadow(&reference_backend()).ok());
+  ASSERT_TRUE(simulation().rebuild().set_shadow(&reference_backend()).ok());
   frames_to_step(12);
   EXPECT_FALSE(simulation().samples().ever_differed());
-  ASSERT_TRUE(simulation().set_shadow(nullptr).ok());
+  ASSERT_TRUE(simulation().rebuild().set_shadow(nullptr).ok());
   goes_on();
 }
 
 TEST_F(LongStep, ASingleStepIsDoneByTheBackendThatCan) {
   open("cube-plane", {"cube[0].particles-per-edge=15", "simulation.integrator=implicit-euler"}, "reference");
-  ASSERT_TRUE(simulation().set_backend(endless_backend()).ok());
+  ASSERT_TRUE(simulation().rebuild().set_backend(endless_backend()).ok());
   type(U'.');
   frames(5);
   EXPECT_TRUE(simulation().busy());
   EXPECT_EQ(simulation().step(), 0u);
-  ASSERT_TRUE(simulation().set_backend(reference_backend()).ok());
+  ASSERT_TRUE(simulation().rebuild().set_backend(reference_backend()).ok());
   frames_until([&] { return !simulation().busy(); });
   EXPECT_EQ(simulation().step(), 1u);
   EXPECT_EQ(hash(), reference_hash(app().scene.scene(), 1));
@@ -122,10 +123,10 @@ TEST_F(LongStep, ASingleStepIsDoneByTheBackendThatCan) {
 
 TEST_F(LongStep, ASingleStepThatTheDeviceTakesOnIsDoneOnce) {
   open("cube-plane", {"cube[0].particles-per-edge=15", "simulation.integrator=implicit-euler"}, "reference");
-  ASSERT_TRUE(simulation().set_backend(endless_backend()).ok());
+  ASSERT_TRUE(simulation().rebuild().set_backend(endless_backend()).ok());
   type(U'.');
   frames(2);
-  ASSERT_TRUE(simulation().set_backend(*find_backend("gpu")).ok());
+  ASSERT_TRUE(simulation().rebuild().set_backend(*find_backend("gpu")).ok());
   frames_until([&] { return !simulation().busy(); });
   EXPECT_EQ(simulation().step(), 1u);
 }

@@ -49,7 +49,7 @@ TEST_F(Panels, ButtonsRunStepAndReset) {
   click("simulation/reset");
   EXPECT_EQ(simulation().step(), 0u);
   click("simulation/backend");
-  EXPECT_EQ(simulation().backend().name, "gpu");
+  EXPECT_EQ(simulation().present().backend().name, "gpu");
 }
 
 TEST_F(Panels, ScenesAreChosenByClick) {

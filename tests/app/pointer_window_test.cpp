@@ -122,7 +122,7 @@ TEST_P(PointerOn, ReadsAndPullsABallAndTheRunComesBack) {
   EXPECT_EQ(h.contact, "touches plane");
   EXPECT_TRUE(has("particle")) << "the readout";
   app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_PRESS, GLFW_MOD_CONTROL);
-  EXPECT_TRUE(simulation().setup().pinned.empty());
+  EXPECT_TRUE(simulation().present().setup().pinned.empty());
   app().mouse_button(GLFW_MOUSE_BUTTON_RIGHT, GLFW_RELEASE, GLFW_MOD_CONTROL);
   app().mouse_button(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, GLFW_MOD_CONTROL);
   ASSERT_TRUE(simulation().hand() && simulation().hand()->ball);
@@ -193,7 +193,7 @@ TEST_F(Pointer, FollowingEndsWithWhatIsFollowed) {
   frames(2);
   app().scene.change("one less", [](Scene& s) { s.model.cubes.pop_back(); });
   EXPECT_FALSE(follow().has_value());
-  frames_until([&] { return !simulation().changing() && simulation().model().bodies.size() == 1; });
+  frames_until([&] { return !simulation().rebuild().changing() && simulation().model().bodies.size() == 1; });
   ASSERT_TRUE(app().messages.notice().has_value());
   EXPECT_NE(app().messages.notice()->text.find("no cube[1] any more"), std::string::npos);
   app().scene.undo();

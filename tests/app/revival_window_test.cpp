@@ -27,7 +27,7 @@ TEST_F(Revival, ARunOnTheGpuGoesOnOnTheReferenceFromTheLastCopy) {
   const CameraSettings camera = app().view.camera.goal();
   const std::uint64_t copy = simulation().snapshot().step, step = simulation().step();
   lose_device(0);
-  EXPECT_EQ(simulation().backend().name, "reference");
+  EXPECT_EQ(simulation().present().backend().name, "reference");
   EXPECT_TRUE(simulation().running()) << "it goes on";
   EXPECT_EQ(simulation().step(), copy);
   EXPECT_LE(copy, step);
@@ -45,7 +45,7 @@ TEST_F(Revival, ARunOnTheGpuGoesOnOnTheReferenceFromTheLastCopy) {
   EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), 10));
   // And the gpu of the new window is as good as the old one.
   press(GLFW_KEY_G);
-  EXPECT_EQ(simulation().backend().name, "gpu");
+  EXPECT_EQ(simulation().present().backend().name, "gpu");
   for (int i = 0; i < 3; ++i) type(U'.');
   EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), 13));
 }
@@ -56,7 +56,7 @@ TEST_F(Revival, ADeviceLostWithinAStepIsNoticedByTheSolver) {
   frames_to_step(60);
   // The window looks first, the solver next.
   lose_device(1);
-  EXPECT_EQ(simulation().backend().name, "reference");
+  EXPECT_EQ(simulation().present().backend().name, "reference");
   EXPECT_THAT(notice(), HasSubstr(" s old"));
   frames_to_step(simulation().step() + 20);
   pause();
@@ -78,11 +78,11 @@ TEST_F(Revival, ARunOnTheReferenceLosesNothing) {
 
 TEST_F(Revival, ShadowModeEndsWithTheDevice) {
   open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "reference");
-  ASSERT_TRUE(simulation().set_shadow(&next_backend(simulation().backend())).ok());
+  ASSERT_TRUE(simulation().rebuild().set_shadow(&next_backend(simulation().present().backend())).ok());
   simulation().set_running(true);
   frames_to_step(30);
   lose_device(0);
-  EXPECT_FALSE(simulation().shadowed());
+  EXPECT_FALSE(simulation().present().engines().shadowed());
   frames(1);
   EXPECT_THAT(notice(), HasSubstr("Shadow mode has ended"));
   frames_to_step(simulation().step() + 20);
@@ -96,12 +96,13 @@ TEST_F(Revival, NoMemoryForTheGpuLeavesTheReferenceAtWork) {
   const std::string before = hash();
   context().inject_fault(gl::Fault::out_of_memory);
   press(GLFW_KEY_G);
-  EXPECT_EQ(simulation().backend().name, next_backend(*find_backend("gpu")).name) << "the next that works";
+  EXPECT_EQ(simulation().present().backend().name, next_backend(*find_backend("gpu")).name)
+      << "the next that works";
   EXPECT_TRUE(app().messages.notice() && app().messages.notice()->is_error);
   EXPECT_THAT(notice(), HasSubstr("memory"));
   EXPECT_EQ(hash(), before);
-  while (simulation().backend().name != "gpu") press(GLFW_KEY_G);
-  EXPECT_EQ(simulation().backend().name, "gpu") << "once there is memory it works";
+  while (simulation().present().backend().name != "gpu") press(GLFW_KEY_G);
+  EXPECT_EQ(simulation().present().backend().name, "gpu") << "once there is memory it works";
   EXPECT_EQ(hash(), before);
 }
 
@@ -111,7 +112,7 @@ TEST_F(Revival, AChangeTheGpuHasNoMemoryForGoesToTheReference) {
   context().inject_fault(gl::Fault::out_of_memory, 1);  // not at the read-back, but at the first new buffer
   app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -1.0, 0.0}), "");
   frames(2);
-  EXPECT_EQ(simulation().backend().name, "reference");
+  EXPECT_EQ(simulation().present().backend().name, "reference");
   EXPECT_EQ(simulation().model().simulation.gravity, (Vec3{0.0, -1.0, 0.0})) << "the change holds";
   EXPECT_EQ(simulation().step(), 5u);
   EXPECT_THAT(notice(), HasSubstr("The reference takes over"));

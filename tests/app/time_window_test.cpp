@@ -20,8 +20,8 @@ class Time : public Stage {
     ASSERT_TRUE(simulation().settle().ok());
   }
   void go_to(const Moment& moment) {
-    ASSERT_TRUE(simulation().seek(moment).ok());
-    for (int i = 0; simulation().seeking(); ++i) {
+    ASSERT_TRUE(simulation().playback().seek(moment).ok());
+    for (int i = 0; simulation().playback().seeking(); ++i) {
       ASSERT_LT(i, 10000);
       frames(1);
     }
@@ -37,12 +37,12 @@ TEST_P(TimeOnBackend, EveryStepOfTheRunComesBackWithItsBits) {
   const std::uint64_t end = simulation().step();
   const std::string last = hash();
   for (const std::uint64_t step : {end - 1, end / 2, std::uint64_t{1}, std::uint64_t{0}, end - 3}) {
-    go_to({simulation().here().stretch, step});
+    go_to({simulation().playback().here().stretch, step});
     EXPECT_EQ(simulation().step(), step);
     EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), step));
     EXPECT_FALSE(simulation().running());
   }
-  go_to(simulation().history().end_moment());
+  go_to(simulation().playback().history().end_moment());
   EXPECT_EQ(hash(), last);
 }
 
@@ -79,14 +79,14 @@ TEST_P(TimeOnBackend, APullIsAnInputThatComesBack) {
   run_to(simulation().step() + 30);
   const std::uint64_t end = simulation().step();
   const std::string last = hash();
-  go_to({simulation().here().stretch, 5});
+  go_to({simulation().playback().here().stretch, 5});
   EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), 5));
-  go_to({simulation().here().stretch, end});
+  go_to({simulation().playback().here().stretch, end});
   EXPECT_EQ(hash(), last) << "the same hand did the same";
   // A run from the past without a hand is another one.
-  go_to({simulation().here().stretch, 5});
+  go_to({simulation().playback().here().stretch, 5});
   run_to(end);
-  go_to({simulation().here().stretch, end});
+  go_to({simulation().playback().here().stretch, end});
   EXPECT_EQ(hash(), reference_hash(app().scene.editor().scene(), end));
   EXPECT_NE(hash(), last);
 }
@@ -95,7 +95,7 @@ TEST_P(TimeOnBackend, PinsAndThrownBallsComeAndGoWithTime) {
   open("cube-plane", {"cube[0].position=[0,4,0]"}, GetParam());
   run_to(30);
   const Vec3 held = simulation().snapshot().position[0];
-  ASSERT_TRUE(simulation().toggle_pin(0).ok());
+  ASSERT_TRUE(simulation().rebuild().toggle_pin(0).ok());
   run_to(simulation().step() + 30);
   EXPECT_EQ(simulation().snapshot().position[0], held) << "a pinned particle stays where it was";
   app().hands.throw_many();
@@ -103,14 +103,14 @@ TEST_P(TimeOnBackend, PinsAndThrownBallsComeAndGoWithTime) {
   const Vec3 thrown = simulation().snapshot().ball_position[0];
   run_to(simulation().step() + 30);
   EXPECT_GT(length(simulation().snapshot().ball_position[0] - thrown), 0.1);
-  ASSERT_TRUE(simulation().toggle_pin(0).ok());
+  ASSERT_TRUE(simulation().rebuild().toggle_pin(0).ok());
   run_to(simulation().step() + 30);
   EXPECT_NE(simulation().snapshot().position[0], held) << "freed again";
-  const Moment end = simulation().history().end_moment();
+  const Moment end = simulation().playback().history().end_moment();
   const std::string last = hash();
-  ASSERT_EQ(end.stretch - simulation().history().begin_moment().stretch, 3u);
+  ASSERT_EQ(end.stretch - simulation().playback().history().begin_moment().stretch, 3u);
 
-  go_to({end.stretch - 2, simulation().history().stretch(end.stretch - 2).first + 3});
+  go_to({end.stretch - 2, simulation().playback().history().stretch(end.stretch - 2).first + 3});
   EXPECT_EQ(simulation().snapshot().position[0], held);
   EXPECT_EQ(simulation().model().ball_count(), 0u);
   go_to({end.stretch - 3, 10});
@@ -133,7 +133,7 @@ TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
   click("section/Energy");
   click("section/Compare backends");
   click("shadow/on");
-  ASSERT_TRUE(simulation().shadowed());
+  ASSERT_TRUE(simulation().present().engines().shadowed());
   run_to(120);
   for (int i = 0; i < 3; ++i) type(U'.');
   simulation().set_hand(Pull{5, {0.0, 5.0, 0.0}, 2000.0, 10.0});
@@ -142,7 +142,7 @@ TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
   app().gui().commands().run("throw a ball");
   press(GLFW_KEY_G);
   run_to(simulation().step() + 40);
-  EXPECT_NE(simulation().backend().name, GetParam());
+  EXPECT_NE(simulation().present().backend().name, GetParam());
   ASSERT_GT(simulation().samples().differences().size(), 5u);
   for (const DifferenceSample& d : simulation().samples().differences()) {
     EXPECT_TRUE(d.identical) << d.time;
@@ -150,9 +150,9 @@ TEST_P(TimeOnBackend, TheSecondBackendRunsAlongsideWithTheSameBits) {
     EXPECT_EQ(d.metres, 0.0);
   }
   EXPECT_FALSE(simulation().samples().ever_differed());
-  EXPECT_EQ(simulation().shadow()->model().ball_count(), 1u);
+  EXPECT_EQ(simulation().present().engines().shadow().solver.get()->model().ball_count(), 1u);
   click("shadow/on");
-  EXPECT_FALSE(simulation().shadowed());
+  EXPECT_FALSE(simulation().present().engines().shadowed());
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, TimeOnBackend, testing::Values("reference", "gpu"),
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, TimeOnBackend, testing::Values("reference", "
 
 TEST_F(Time, PausedWithAShadowTheEnergiesOfTheRunStay) {
   open("cube-plane", {}, "gpu");
-  ASSERT_TRUE(simulation().set_shadow(&reference_backend()).ok());
+  ASSERT_TRUE(simulation().rebuild().set_shadow(&reference_backend()).ok());
   for (int i = 0; i < 3; ++i) type(U'.');
   frames_until([&] { return !simulation().busy(); });
   frames(3);
@@ -176,13 +176,13 @@ TEST_F(Time, PausedWithAShadowTheEnergiesOfTheRunStay) {
 
 TEST_F(Time, ADifferenceIsShown) {
   open("cube-plane", {}, "reference");
-  ASSERT_TRUE(simulation().set_shadow(&next_backend(simulation().backend())).ok());
+  ASSERT_TRUE(simulation().rebuild().set_shadow(&next_backend(simulation().present().backend())).ok());
   for (int i = 0; i < 3; ++i) type(U'.');
   EXPECT_FALSE(simulation().samples().ever_differed());
   // The second solver is led astray behind the window's back.
   State other = simulation().snapshot();
   other.position[7].y = static_cast<double>(std::nextafter(static_cast<float>(other.position[7].y), 0.0f));
-  ASSERT_TRUE(const_cast<Solver*>(simulation().shadow())->load(other).ok());
+  ASSERT_TRUE(const_cast<Solver*>(simulation().present().engines().shadow().solver.get())->load(other).ok());
   type(U'.');
   EXPECT_TRUE(simulation().samples().ever_differed());
   EXPECT_FALSE(simulation().samples().differences().back().identical);
@@ -235,7 +235,9 @@ TEST_P(TimeOnBackend, AStableStepKeepsTheSceneAndThePlot) {
   frames_until([&] { return simulation().divergence().has_value(); });
   frames(2);
   click("diverged/stable");
-  frames_until([&] { return !simulation().seeking() && !simulation().changing() && !app().scene.pending(); });
+  frames_until([&] {
+    return !simulation().playback().seeking() && !simulation().rebuild().changing() && !app().scene.pending();
+  });
   frames(3);
   EXPECT_FALSE(simulation().divergence().has_value());
   const ModelSettings& now = app().scene.scene().model;
@@ -243,7 +245,7 @@ TEST_P(TimeOnBackend, AStableStepKeepsTheSceneAndThePlot) {
   EXPECT_EQ(now.simulation.integrator, Integrator::explicit_euler);
   EXPECT_LT(now.simulation.timestep, 1e-3);
   EXPECT_EQ(simulation().model().simulation.timestep, now.simulation.timestep);
-  EXPECT_EQ(simulation().setup().settings.cubes[0].structural.stiffness, 1e6);
+  EXPECT_EQ(simulation().present().setup().settings.cubes[0].structural.stiffness, 1e6);
   EXPECT_GT(simulation().time(), 0.3 * t) << "the state of shortly before";
   const auto& energies = simulation().samples().energies();
   EXPECT_NEAR(energies.back().time, simulation().time(), 1e-9);
@@ -265,7 +267,7 @@ TEST_P(TimeOnBackend, InThePastFiguresAreThoseOfThatMoment) {
     return measure(simulation().model(), state).kinetic;
   };
   for (const std::uint64_t step : {137u, 3u, 255u}) {
-    go_to({simulation().here().stretch, step});
+    go_to({simulation().playback().here().stretch, step});
     const EnergySample* shown = nullptr;
     frames_until([&] {  // a thread measures
       shown = simulation().samples().nearest(simulation().time());
@@ -284,10 +286,11 @@ TEST_F(Time, ALargeModelIsBuiltAsideAndNothingThatHandsDoIsLost) {
   app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}), "");
   frames(1);
   // In the midst of it: a pin, a ball, another value.
-  ASSERT_TRUE(simulation().toggle_pin(7).ok());
+  ASSERT_TRUE(simulation().rebuild().toggle_pin(7).ok());
   app().gui().commands().run("throw a ball");
   app().scene.set_value(*find_parameter("contact.friction"), 0, Value(0.7), "");
-  frames_until([&] { return !simulation().changing() && simulation().model().contact.friction == 0.7; });
+  frames_until(
+      [&] { return !simulation().rebuild().changing() && simulation().model().contact.friction == 0.7; });
   EXPECT_EQ(simulation().model().simulation.gravity, (Vec3{0.0, -3.0, 0.0}));
   EXPECT_EQ(simulation().model().ball_count(), 1u);
   EXPECT_EQ(simulation().model().inverse_mass[7], 0.0);

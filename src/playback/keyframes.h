@@ -1,0 +1,44 @@
+#pragma once
+// States of a run that are kept, packed.
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "aspic/state.h"
+
+namespace aspic {
+
+/// A single-precision state, packed.
+struct Keyframe {
+  std::uint64_t step = 0;
+  std::uint32_t particles = 0, balls = 0;
+  std::vector<float> numbers;  ///< as for_each_vector() meets them
+  std::uint64_t bytes() const { return sizeof(Keyframe) + sizeof(float) * numbers.size(); }
+};
+
+Keyframe pack(const State& state);
+State unpack(const Keyframe& keyframe);
+
+/// Those of a run of one setup, in ascending order of steps.
+class Keyframes {
+ public:
+  std::size_t count() const { return frames_.size(); }
+  bool empty() const { return frames_.empty(); }
+  const Keyframe& front() const { return frames_.front(); }
+  /// A state later than the last one; one of the same step is not taken again. False: it was not taken.
+  bool add(const State& state);
+  /// The newest at or before `step`, which is none before the first one's.
+  const Keyframe& before(std::uint64_t step) const;
+  void drop_first() { frames_.pop_front(); }
+  /// Drops every second one; the first stays.
+  void thin();
+  /// Drops those after `step`; the first stays.
+  void forget_after(std::uint64_t step);
+  /// Not empty. All hold as many numbers, for a setup has as many bodies throughout.
+  std::uint64_t bytes() const { return frames_.size() * frames_.front().bytes(); }
+
+ private:
+  std::deque<Keyframe> frames_;
+};
+
+}  // namespace aspic

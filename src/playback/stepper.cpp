@@ -1,0 +1,264 @@
+#include "playback/stepper.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "model/integrator.h"
+#include "model/springs.h"
+
+namespace aspic {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double copy_every = 0.1;  // s
+/// What a job takes [s]: nobody waits for it, so it may be longer than a picture.
+constexpr double shortest_job = 0.030, longest_job = 0.1;
+
+}  // namespace
+
+void Stepper::set_running(bool running) {
+  running_ = running && !present_.divergence();
+  if (running_)
+    single_steps_ = 0;
+  else if (!timeline_.seeking())
+    jobs_.cancel();
+  pacer_.restart();
+}
+
+void Stepper::forget_future(double now) {
+  timeline_.forget_future();
+  figures_.samples().truncate(now);
+}
+
+/// Before steps that are not history yet. The solvers in the context must be idle.
+Status Stepper::prepare() {
+  if (!timeline_.at_end()) forget_future(present_.time());
+  if (!present_.engines().use_context()) return {};  // else the job takes the pull along
+  History& history = timeline_.history();
+  if (history.pull_at(timeline_.here()) != hand_) history.set_pull(present_.step(), hand_);
+  return present_.engines().set_pull(hand_);
+}
+
+bool Stepper::steps_quickly() const {
+  // Of springs by force evaluations, about 50 ms on the slowest backend.
+  constexpr double quick = 4e6, solve = 100.0;
+  const Model& model = present_.model();
+  const Integrator method = model.simulation.integrator;
+  const double evaluations = row_of(method).traits.long_steps ? solve : force_evaluations_per_step(method);
+  return Engines::in_context(present_.engines().leader()) ||
+         evaluations * static_cast<double>(spring_count(model)) < quick;
+}
+
+void Stepper::note(std::uint64_t steps, const std::optional<Divergence>& divergence) {
+  present_.advance(steps);
+  pacer_.did(steps);
+  if (!timeline_.seeking()) {
+    timeline_.history().reach(present_.step());
+    single_steps_ -= std::min(single_steps_, steps);
+  }
+  if (divergence) {
+    set_running(false);
+    single_steps_ = 0;
+    timeline_.stop();
+    present_.set_divergence(divergence);
+  }
+}
+
+/// The leader in the context is at this step, or will be: it tells of a divergence up to two queues late.
+void Stepper::reach(std::uint64_t step, const std::optional<Divergence>& divergence) {
+  const bool back = step < present_.step();
+  note(back ? 0 : step - present_.step(), divergence);
+  if (!back) return;
+  present_.set_step(step);
+  forget_future(present_.time());
+}
+
+Status Stepper::advance(double dt, double budget) {
+  const Engines& engines = present_.engines();
+  const std::uint64_t steps = pacer_.steps_due(dt, present_.model().simulation, present_.step());
+  if (steps == 0) return {};
+  const std::uint64_t to = present_.step() + steps;
+  // Where no solver needs the context a second job is queued, so that the solvers never idle while a picture
+  // is drawn.
+  const bool queues = !engines.use_context() && jobs_.count() < 2 && to > job_to_;
+  if (!engines.only_context() && !jobs_.idle() && !queues) return {};
+  return advance_to(
+      to, engines.only_context() ? budget : std::max({budget, shortest_job, std::min(dt, longest_job)}));
+}
+
+Status Stepper::advance_to(std::uint64_t to, double budget) {
+  ASPIC_CHECK(prepare());
+  if (!present_.engines().only_context()) {
+    start_job(to, budget, false, hand_);
+    return {};
+  }
+  const std::uint64_t before = present_.step();
+  ASPIC_CHECK(advance_here(to - before, budget));
+  if (!present_.engines().shadowed()) return {};
+  ASPIC_CHECK(refresh_snapshot());
+  JobResult result;
+  result.steps = present_.step() - before;
+  result.leader = {present_.snapshot(), present_.divergence()};
+  return follow(std::move(result));
+}
+
+Status Stepper::repeat_to(std::uint64_t to, double budget, const std::optional<Pull>& pull) {
+  ASPIC_CHECK(present_.engines().set_pull(pull));
+  if (Engines::in_context(present_.engines().leader())) return advance_here(to - present_.step(), budget);
+  start_job(to, std::max(budget, shortest_job), true, pull);
+  return {};
+}
+
+/// Steps of the leader, in the context, in batches.
+Status Stepper::advance_here(std::uint64_t steps, double budget) {
+  const auto start = Clock::now();
+  std::uint64_t done = 0;
+  while (done < steps && !present_.divergence()) {
+    const bool seeking = timeline_.seeking();
+    const std::uint64_t sample = figures_.next_step();
+    const std::uint64_t count = std::min({batch_, steps - done, seeking ? steps : sample - present_.step()});
+    const auto before = Clock::now();
+    ASPIC_TRY(const auto advanced, present_.engines().leader().solver->advance(count));
+    reach(advanced ? advanced->step - 1 : present_.step() + count, advanced);
+    done += count;
+    const double took = seconds_since(before);
+    // A batch is about a quarter of the budget, so that its end is not far beyond.
+    if (count == batch_ && took < 0.125 * std::min(budget, shortest_job))
+      batch_ = std::min<std::uint64_t>(2 * batch_, 256);
+    if (took > 0.5 * budget) batch_ = std::max<std::uint64_t>(batch_ / 2, 1);
+    if (!timeline_.seeking() && !present_.divergence() && present_.step() == sample)
+      ASPIC_CHECK(sample_here());
+    if (seconds_since(start) > 0.75 * budget) break;
+  }
+  if (timeline_.seeking() || (!present_.divergence() && present_.snapshot_age() <= copy_every)) return {};
+  ASPIC_CHECK(refresh_snapshot());
+  figures_.remember(present_.snapshot(), {});
+  return {};
+}
+
+/// The energies of a backend in the context.
+Status Stepper::sample_here() {
+  if (!figures_.begin_reading()) return {};
+  ASPIC_CHECK(refresh_snapshot());
+  figures_.remember(present_.snapshot(), {});
+  figures_.measure(present_.snapshot());
+  figures_.end_reading();
+  return {};
+}
+
+/// Steps of the solvers without the context; those within it have this pull already.
+void Stepper::start_job(std::uint64_t to, double budget, bool alone, const std::optional<Pull>& pull) {
+  if (!jobs_.busy()) job_step_ = present_.step();
+  job_to_ = to;
+  const auto advance = [=, this](const std::atomic<bool>& cancelled) -> Result<JobResult> {
+    Engines& engines = present_.engines();
+    ASPIC_CHECK(engines.use_context() ? Status() : engines.set_pull(pull));
+    const JobLimits limits = {job_step_, std::max(to, job_step_), budget, alone};
+    ASPIC_TRY(JobResult result, engines.advance_outside(limits, cancelled));
+    result.pull = pull;
+    job_step_ += result.steps;
+    return result;
+  };
+  jobs_.start([this, advance](const std::atomic<bool>& cancelled) -> Jobs::TakeUp {
+    return [this, result = advance(cancelled)]() mutable -> Status {
+      if (!result) return result.error();
+      return take_up(std::move(*result));
+    };
+  });
+}
+
+Status Stepper::take_up(JobResult result) {
+  const Engines& engines = present_.engines();
+  const bool seeking = timeline_.seeking();
+  const bool stepped = result.steps > 0 || result.leader.divergence || result.shadow.divergence;
+  if (stepped && !seeking && timeline_.history().pull_at(timeline_.here()) != result.pull)
+    timeline_.history().set_pull(present_.step(), result.pull);
+  if (engines.shadowed() && stepped && !seeking) return follow(std::move(result));
+  const bool in_context = Engines::in_context(engines.leader());
+  const State& paced = engines.shadow_paces() ? result.shadow.state : result.leader.state;
+  if (!in_context && stepped) {
+    present_.take_snapshot(std::move(result.leader.state));
+    note(result.steps, result.leader.divergence);
+  }
+  if (timeline_.seeking()) return {};
+  figures_.remember(in_context || !stepped ? paced : present_.snapshot(), result.energies);
+  return {};
+}
+
+/// Shadow mode: the solver that needs the context does the steps that the job has done, and the two states
+/// are compared.
+Status Stepper::follow(JobResult result) {
+  Engines& engines = present_.engines();
+  ASPIC_CHECK(engines.follow(result));
+  present_.take_snapshot(std::move(result.leader.state));
+  const State& snapshot = present_.snapshot();
+  note(snapshot.step - present_.step(), result.leader.divergence);
+  const bool one_diverged = result.leader.divergence.has_value() != result.shadow.divergence.has_value();
+  figures_.samples().compare(present_.time(), snapshot, result.shadow.state, one_diverged);
+  if (one_diverged) set_running(false);
+  figures_.remember(engines.shadow_paces() ? result.shadow.state : snapshot, result.energies);
+  return {};
+}
+
+Status Stepper::refresh_snapshot() {
+  const Backend& leader = present_.engines().leader();
+  // The solver may be further than what was taken up of it.
+  if (!Engines::in_context(leader) && !jobs_.idle()) return {};
+  auto state = leader.solver->state();
+  if (!state) return fall_back(state.error());
+  present_.take_snapshot(std::move(*state));
+  if (Engines::in_context(leader) && !present_.divergence()) {
+    ASPIC_TRY(const auto found, leader.solver->advance(0));
+    if (found) reach(present_.snapshot().step, found);
+  }
+  present_.set_step(present_.snapshot().step);
+  return {};
+}
+
+Status Stepper::install(Setup setup, Result<Engines> engines) {
+  ASPIC_CHECK(present_.install(std::move(setup), std::move(engines)));
+  const Model& model = present_.model();
+  if (hand_ && hand_->particle >= (hand_->ball ? model.ball_count() : model.particle_count()))
+    hand_.reset();  // what it held is no more
+  batch_ = 1;
+  figures_.restart_stride();
+  return {};
+}
+
+Status Stepper::load(const State& state) {
+  ASPIC_CHECK(present_.load(state));
+  pacer_.drop_due();
+  return {};
+}
+
+Status Stepper::fall_back(const Error& error) {
+  Engines& engines = present_.engines();
+  if (!engines.use_context()) return error;
+  jobs_.finish();
+  jobs_.forget();
+  engines.set_shadow({});
+  timeline_.stop();
+  const State copy = present_.snapshot();
+  if (!Engines::in_context(engines.leader())) {
+    present_.tell(fmt::format("{} Shadow mode has ended.", error.message));
+    return load(copy);  // the leader may be steps ahead of what was taken from it
+  }
+  ASPIC_TRY(auto engine, factory_.make(engines.shared_model(), reference_backend(), nullptr));
+  engines.set_leader(std::move(engine));
+  const std::uint64_t step = present_.step(), lost = step > copy.step ? step - copy.step : 0;
+  History& history = timeline_.history();
+  const std::uint64_t stretch = timeline_.here().stretch;
+  if (copy.step >= history.stretch(stretch).first && copy.step < step) history.truncate({stretch, copy.step});
+  present_.tell(fmt::format(
+      "{} The reference continues from the last copy, {:.2f} s old (t = {:.6g} s; {} steps are repeated).",
+      error.message, present_.snapshot_age(),
+      static_cast<double>(copy.step) * present_.model().simulation.timestep, lost));
+  return load(copy);
+}
+
+}  // namespace aspic

@@ -1,0 +1,84 @@
+#pragma once
+// Moves the solvers of a run forward.
+#include <cstdint>
+#include <optional>
+
+#include "base/result.h"
+#include "model/pull.h"
+#include "playback/engines.h"
+#include "playback/figures.h"
+#include "playback/jobs.h"
+#include "playback/pacer.h"
+#include "playback/present.h"
+#include "playback/timeline.h"
+
+namespace aspic {
+
+/// A leader in the context advances on this thread, in batches that keep within a frame; without it in jobs,
+/// while the state it finished last is drawn.
+class Stepper {
+ public:
+  /// The references must outlive it.
+  Stepper(Present& present, Timeline& timeline, Jobs& jobs, Figures& figures, EngineFactory& factory)
+      : present_(present), timeline_(timeline), jobs_(jobs), figures_(figures), factory_(factory) {}
+
+  Pacer& pacer() { return pacer_; }
+  const Pacer& pacer() const { return pacer_; }
+  void set_running(bool running);
+  bool running() const { return running_; }
+  /// From the next step on; nothing lets go.
+  void set_hand(const std::optional<Pull>& hand) { hand_ = hand; }
+  const std::optional<Pull>& hand() const { return hand_; }
+  /// Single steps that were asked for and not done.
+  std::uint64_t single_steps() const { return single_steps_; }
+  void ask_single_step() { ++single_steps_; }
+  void drop_single_steps() { single_steps_ = 0; }
+  void single_step_done() { --single_steps_; }
+  /// A step takes so little time that the window can wait for it.
+  bool steps_quickly() const;
+
+  /// The steps that are due `dt` after the last call [s], for about `budget` seconds.
+  Status advance(double dt, double budget);
+  /// New steps up to this one at most.
+  Status advance_to(std::uint64_t to, double budget);
+  /// Steps of the history up to this one at most, with this pull. The leader goes alone.
+  Status repeat_to(std::uint64_t to, double budget, const std::optional<Pull>& pull);
+  /// Reads the state back; of a backend outside the context the newest that is finished.
+  Status refresh_snapshot();
+
+  /// Another setup with its solvers; on an error nothing changes.
+  Status install(Setup setup, Result<Engines> engines);
+  /// Another solver is the leader.
+  void leader_changed() { batch_ = 1; }
+  Status load(const State& state);
+  /// What comes after the present is no more: `now` is its time, as samples have it [s].
+  void forget_future(double now);
+  /// A run that uses the context continues without it from the last copy of its state; another returns the
+  /// error.
+  Status fall_back(const Error& error);
+
+ private:
+  Status prepare();
+  Status advance_here(std::uint64_t steps, double budget);
+  void start_job(std::uint64_t to, double budget, bool alone, const std::optional<Pull>& pull);
+  Status take_up(JobResult result);
+  Status follow(JobResult result);
+  Status sample_here();
+  void note(std::uint64_t steps, const std::optional<Divergence>& divergence);
+  void reach(std::uint64_t step, const std::optional<Divergence>& divergence);
+
+  Present& present_;
+  Timeline& timeline_;
+  Jobs& jobs_;
+  Figures& figures_;
+  EngineFactory& factory_;
+  Pacer pacer_;
+  std::optional<Pull> hand_;
+  bool running_ = false;
+  std::uint64_t single_steps_ = 0;
+  std::uint64_t batch_ = 1;     // steps between two looks at the clock, of a backend in the context
+  std::uint64_t job_to_ = 0;    // of the newest job
+  std::uint64_t job_step_ = 0;  // where the solvers are; the jobs' own
+};
+
+}  // namespace aspic

@@ -1,0 +1,108 @@
+// A run in motion without a window, with a backend on another thread and with one in the context.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "aspic/scene.h"
+#include "playback/simulation.h"
+#include "support/gl_fixture.h"
+
+namespace aspic::test {
+namespace {
+
+class InMotion : public aspic::testing::GlTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    scene = load_scene("cube-plane", std::vector<std::string>{"cube[0].particles-per-edge=4"}).value();
+    auto made = Simulation::create(context(), scene, *find_backend(GetParam()));
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    run = std::move(*made);
+  }
+  void TearDown() override {
+    run.reset();
+    GlTest::TearDown();
+  }
+  void go_to(const Moment& moment) {
+    ASSERT_TRUE(run->playback().seek(moment).ok());
+    ASSERT_TRUE(run->settle().ok());
+  }
+  /// Single steps up to this one; the hashes of all states on the way.
+  void step_to(std::uint64_t step) {
+    while (run->step() < step) {
+      ASSERT_TRUE(run->single_step().ok());
+      ASSERT_TRUE(run->settle().ok());
+      ASSERT_TRUE(run->refresh_snapshot().ok());
+      hashes[run->step()] = state_hash_text(run->snapshot());
+    }
+  }
+
+  Scene scene;
+  std::unique_ptr<Simulation> run;
+  std::map<std::uint64_t, std::string> hashes;
+};
+
+TEST_P(InMotion, EveryStepOfThePastHasTheSameBits) {
+  step_to(10);
+  run->set_hand(Pull{5, {1.0, 3.0, 0.0}, 400.0, 2.0});
+  step_to(25);
+  run->set_hand(std::nullopt);
+  step_to(40);
+  for (const std::uint64_t step : {31u, 12u, 0u, 10u, 40u}) {
+    go_to({0, step});
+    EXPECT_EQ(run->step(), step);
+    if (step > 0) EXPECT_EQ(state_hash_text(run->snapshot()), hashes[step]) << "step " << step;
+  }
+  EXPECT_TRUE(run->playback().at_end());
+  EXPECT_TRUE(run->playback().can_step_back());
+}
+
+TEST_P(InMotion, AnotherRunRepeatsItsHistory) {
+  step_to(5);
+  run->set_hand(Pull{5, {1.0, 3.0, 0.0}, 400.0, 2.0});
+  step_to(20);
+  auto other = Simulation::create(context(), scene, run->present().backend());
+  ASSERT_TRUE(other.ok());
+  ASSERT_TRUE((*other)->playback().replay(run->playback().history()).ok());
+  ASSERT_TRUE((*other)->playback().seek({0, 18}).ok());
+  ASSERT_TRUE((*other)->settle().ok());
+  EXPECT_EQ(state_hash_text((*other)->snapshot()), hashes[18]);
+}
+
+TEST_P(InMotion, AChangeThatHasNotBegunIsDroppedByAWayBack) {
+  step_to(10);
+  Scene other = scene;
+  other.model.cubes[0].structural.stiffness *= 2.0;
+  run->rebuild().request(other, true);
+  EXPECT_TRUE(run->rebuild().changing());
+  go_to({0, 4});
+  EXPECT_FALSE(run->rebuild().changing());
+  ASSERT_TRUE(run->update(0.016, 0.01).ok());
+  EXPECT_FALSE(run->rebuild().take_change().has_value());
+  run->rebuild().request(other, true);
+  ASSERT_TRUE(run->update(0.016, 0.01).ok());
+  ASSERT_TRUE(run->settle().ok());
+  const auto changed = run->rebuild().take_change();
+  ASSERT_TRUE(changed.has_value());
+  EXPECT_TRUE(changed->ok());
+  EXPECT_EQ(run->playback().here(), (Moment{1, 4})) << "another stretch begins where it was";
+  EXPECT_EQ(run->model().spring_classes.front().stiffness, other.model.cubes[0].structural.stiffness);
+}
+
+TEST_P(InMotion, FiguresOfAPausedRunAreOfItsState) {
+  step_to(7);
+  for (int i = 0; i < 1000 && run->samples().nearest(run->time())->step != 7; ++i) {
+    ASSERT_TRUE(run->update(0.016, 0.01).ok());
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(run->samples().nearest(run->time())->step, 7u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, InMotion, ::testing::Values("reference", "gpu"));
+
+}  // namespace
+}  // namespace aspic::test
