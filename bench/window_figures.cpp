@@ -79,7 +79,7 @@ Figures measure(const Case& c, double seconds) {
   if (!app) fail(app.error().message);
   (*window)->set_receiver(app->get());
   Simulation& simulation = (*app)->simulation;
-  simulation.pacer().pace = Pace::real_time;
+  simulation.pacer().set_pace(Pace::real_time);
   simulation.set_running(true);
   Figures figures;
   // The first second compiles shaders and finds the resolution.

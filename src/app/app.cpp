@@ -107,8 +107,8 @@ Status App::adopt_context(gl::Context& context, double scale, WindowServices ser
 void App::restore(const KeptState& kept, const std::vector<std::string>& overrides) {
   layout = kept.layout;
   greeted_ = kept.greeted;
-  simulation.pacer().pace = kept.pace;
-  simulation.pacer().speed = kept.speed;
+  simulation.pacer().set_pace(kept.pace);
+  simulation.pacer().set_speed(kept.speed);
   film.settings = {kept.film_format, kept.film_fps, kept.film_text, ""};
   view.kept = kept.cameras;
   const auto sets_camera = [](const std::string& set) { return set.starts_with("view.camera"); };
@@ -118,9 +118,9 @@ void App::restore(const KeptState& kept, const std::vector<std::string>& overrid
         "Space starts and pauses. Drag to turn the view, the wheel zooms. Ctrl+drag pulls a body, B throws a "
         "ball. F1 shows all keys, Ctrl+P finds everything by name.",
         20.0);
-  else if (simulation.pacer().speed != 1.0)
+  else if (simulation.pacer().speed() != 1.0)
     messages.info(fmt::format("The speed is ×{:g}, as it was left: + and - change it.{}",
-                              simulation.pacer().speed, layout.panels ? "" : " Tab shows the panels."),
+                              simulation.pacer().speed(), layout.panels ? "" : " Tab shows the panels."),
                   10.0);
   else if (!layout.panels)
     messages.info("Tab shows the panels, F1 all keys.");
@@ -129,8 +129,8 @@ void App::restore(const KeptState& kept, const std::vector<std::string>& overrid
 KeptState App::kept_state() const {
   KeptState kept;
   kept.layout = layout;
-  kept.pace = simulation.pacer().pace;
-  kept.speed = simulation.pacer().speed;
+  kept.pace = simulation.pacer().pace();
+  kept.speed = simulation.pacer().speed();
   kept.film_format = film.settings.format;
   kept.film_fps = film.settings.fps;
   kept.film_text = film.settings.text;
@@ -272,7 +272,6 @@ Status App::frame(const WindowSize& size, double dt) {
   scene.update(dt);
   // A picture of a software rasteriser takes longer anyway, so steps may too.
   const double budget = context.info().is_software ? 0.030 : 0.012;
-  film.update();
   beside.lead();
   if (beside.clock_runs()) messages.greeting_is_over();
   ASPIC_CHECK(simulation.update(dt, budget));

@@ -9,9 +9,9 @@ namespace aspic::app {
 std::vector<Command> App::make_commands() {
   constexpr int ctrl = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
   const auto step = [this] {
-    film.update();
+    film.take();
     run.single_step();
-    film.update();
+    film.take();
   };
   const auto step_back = [this] {
     // After the window's own run diverged, of those that went on.

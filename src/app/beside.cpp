@@ -36,7 +36,7 @@ void Beside::detach() {
   boxes_.clear();
   shown_.clear();
   picture_.release();
-  leader_.pacer().waits = false;
+  leader_.pacer().limit(Hold::comparison, std::nullopt);
   context_ = nullptr;
 }
 
@@ -158,10 +158,10 @@ bool Beside::shows_clock() const {
   return false;
 }
 
-void Beside::hold_at(std::optional<std::uint64_t> step) {
-  leader_.pacer().pause_step.reset();
-  for (const auto& companion : companions_) companion->simulation().pacer().pause_step.reset();
-  (others_go_on() ? stand_in()->simulation() : leader_).pacer().pause_step = step;
+void Beside::limit(Hold source, std::optional<std::uint64_t> step) {
+  leader_.pacer().limit(source, std::nullopt);
+  for (const auto& companion : companions_) companion->simulation().pacer().limit(source, std::nullopt);
+  (others_go_on() ? stand_in()->simulation() : leader_).pacer().limit(source, step);
 }
 
 double Beside::end_time() const {
@@ -232,7 +232,7 @@ void Beside::lead() {
   match_editor();
   if (ghost_ && ghost_->source != scene_.editor().source()) remove_ghost();
   if (!several()) return;
-  leader_.pacer().waits = !settled_;
+  leader_.pacer().limit(Hold::comparison, settled_ ? std::nullopt : std::optional(leader_.step()));
 }
 
 Status Beside::follow(double dt, double budget) {
@@ -276,7 +276,7 @@ Status Beside::recall(double time, double dt, double budget) {
 
 void Beside::end_waiting() {
   picture_.release();
-  leader_.pacer().waits = false;
+  leader_.pacer().limit(Hold::comparison, std::nullopt);
   settled_ = true;
 }
 

@@ -74,8 +74,8 @@ class Beside {
   double clock_time() const;
   /// All pictures show the very step that the run of the clock is at.
   bool shows_clock() const;
-  /// The step of the clock's run that it does not pass (Pacer::pause_step); absent: none.
-  void hold_at(std::optional<std::uint64_t> step);
+  /// Pacer::limit() of the clock's run, and of no other.
+  void limit(Hold source, std::optional<std::uint64_t> step);
   /// The last time that there is to go to [s]: of the run that came furthest, while they move what is shown.
   double end_time() const;
   /// To the moment nearest to a time [s]; false if the window's own run has it: that goes then, and the

@@ -98,17 +98,18 @@ Status Companion::adopt_setup(const Simulation& leader) {
 Status Companion::go_to(std::uint64_t step) {
   Simulation& own = *simulation_;
   stuck_ = false;
+  own.pacer().catch_up(true);
   if (own.playback().seeking()) return {};
   if (step < own.step()) {
-    own.pacer().goal.reset();
+    own.pacer().limit(Hold::comparison, std::nullopt);
     const Moment moment =
         own.playback().history().nearest(static_cast<double>(step) * own.model().simulation.timestep);
     stuck_ = moment == own.playback().here();
     return stuck_ ? Status() : own.playback().seek(moment);
   }
   // A job on its way goes where it was sent, with the pull of that time.
-  if (own.running() && own.busy() && own.pacer().goal) return {};
-  own.pacer().goal = step;
+  if (own.running() && own.busy() && own.pacer().limit()) return {};
+  own.pacer().limit(Hold::comparison, step);
   if (step > own.step() && !own.running() && !own.divergence()) own.set_running(true);
   return {};
 }
@@ -182,10 +183,10 @@ Status Companion::go_on_to(double time, bool paused, double dt, double budget) {
 Status Companion::lead(const Pacer& pace, bool running, bool waits, double dt, double budget) {
   Simulation& own = *simulation_;
   own.set_hand(std::nullopt);
-  own.pacer().goal.reset();
-  own.pacer().pace = pace.pace;
-  own.pacer().speed = pace.speed;
-  own.pacer().waits = waits;
+  own.pacer().catch_up(false);
+  own.pacer().set_pace(pace.pace());
+  own.pacer().set_speed(pace.speed());
+  own.pacer().limit(Hold::comparison, waits ? std::optional(own.step()) : std::nullopt);
   if (own.running() != running) own.set_running(running);
   ASPIC_CHECK(own.update(dt, budget));
   arrived_ = true;

@@ -63,7 +63,7 @@ void Film::start() {
   scene_ = editor_.source();
   taken_.reset();
   messages_.info(fmt::format("Recording to {}, in step with simulated time.", recording_->options().path));
-  update();
+  take();
 }
 
 void Film::stop() {
@@ -77,7 +77,7 @@ void Film::end() {
   recording_->end();
   completing_.push_back(std::move(recording_));
   pace_.reset();
-  beside_.hold_at(std::nullopt);
+  for (const Hold hold : {Hold::film, Hold::encoder}) beside_.limit(hold, std::nullopt);
   for (std::size_t i = 0; i < beside_.count(); ++i) beside_.picture(i).film.reset();
   canvas_.reset();
 }
@@ -123,20 +123,24 @@ std::uint64_t Film::wanted_copies() {
   const Simulation& clock = beside_.clock();
   if (!beside_.shows_clock()) return 0;
   const double timestep = clock.model().simulation.timestep;
-  const std::uint64_t copies = pace_->take(clock.step(), timestep, simulation_.pacer().speed);
+  const std::uint64_t copies = pace_->take(clock.step(), timestep, simulation_.pacer().speed());
   if (copies > 0) taken_ = clock.step();
   return copies;
 }
 
 void Film::update() {
   report_completed();
+  take();
+}
+
+void Film::take() {
   if (!recording_) return;
   // Nothing but an error completes a film by itself.
   if (recording_->completed()) return end();
   // States passed on the way through history are not filmed; the one it ends at is.
   if (simulation_.playback().seeking() || beside_.clock().playback().seeking()) return;
   // A job in progress goes to the step that the old speed asked for.
-  if (simulation_.pacer().speed != pace_->speed()) messages_.check(simulation_.halt());
+  if (simulation_.pacer().speed() != pace_->speed()) messages_.check(simulation_.halt());
   if (scene_ != editor_.source()) pace_->restart();
   scene_ = editor_.source();
   const std::uint64_t copies = wanted_copies();
@@ -150,7 +154,8 @@ void Film::update() {
   // to another state, until that is shown.
   const std::uint64_t step = beside_.clock().step();
   const bool on_the_way = taken_ && *taken_ <= step && step <= pace_->next_step();
-  beside_.hold_at(recording_->ready() && on_the_way ? pace_->next_step() : step);
+  beside_.limit(Hold::film, on_the_way ? pace_->next_step() : step);
+  beside_.limit(Hold::encoder, recording_->ready() ? std::nullopt : std::optional(step));
 }
 
 void Film::report_completed() {

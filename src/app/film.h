@@ -52,8 +52,11 @@ class Film {
   /// The film is completed in the background; a message tells when.
   void stop();
   void toggle() { recording_ ? stop() : start(); }
-  /// Before and after the run moves: takes the pictures that show the state, and says how far the run may go.
+  /// Once for each picture of the window, after the run moved: takes the pictures that show the state, says
+  /// how far the run may go (Pacer::limit), and what became of films that ended.
   void update();
+  /// The first of these alone: also where a state would be passed between two pictures of the window.
+  void take();
   /// The film that is made, or null.
   const Recording* recording() const { return recording_.get(); }
   /// Films that have ended and are not complete yet.

@@ -118,7 +118,7 @@ void status_line(Parts parts, const Box& box) {
   std::vector<std::string> facts = {
       fmt::format("t = {:.3f} s", beside.clock_time()),
       fmt::format("{}{}", s.present().solver().backend(), software ? " (software)" : ""),
-      fmt::format("speed ×{:g}", s.pacer().speed),
+      fmt::format("speed ×{:g}", s.pacer().speed()),
   };
   if (film) facts.insert(facts.begin() + 1, fmt::format("● filming, {:.2f} s", film->seconds()));
   const double factor = beside.clock_runs() ? beside.real_time_factor() : 0.0;
@@ -144,7 +144,7 @@ void status_line(Parts parts, const Box& box) {
     if (left + width > end) break;
     ImGui::SameLine(&fact == &facts.back() ? end - width : left);
     // A speed that is not that of the clock is easily forgotten.
-    const bool odd = fact.starts_with("speed") && s.pacer().speed != 1.0;
+    const bool odd = fact.starts_with("speed") && s.pacer().speed() != 1.0;
     ImGui::TextColored(odd ? bright : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s", fact.c_str());
   }
 }

@@ -26,8 +26,8 @@ void RunControl::reset() {
 }
 
 void RunControl::change_speed(double factor) {
-  double& speed = simulation_.pacer().speed;
-  speed = std::clamp(speed * factor, slowest_speed, fastest_speed);
+  Pacer& pacer = simulation_.pacer();
+  pacer.set_speed(pacer.speed() * factor);
 }
 
 void RunControl::switch_backend() {

@@ -153,14 +153,16 @@ void simulation_section(Gui& gui, Simulation& s, SceneControl& scene, const Besi
   label_column("Pace");
   static constexpr std::string_view paces[] = {"steps per frame", "real time"};
   Pacer& pacer = s.pacer();
-  auto pace = static_cast<std::size_t>(pacer.pace);
+  auto pace = static_cast<std::size_t>(pacer.pace());
   if (choice(gui, "simulation/pace", paces, paces, pace,
              "How fast simulated time passes: a fixed number of steps for each picture, or real time. Where "
              "the solver cannot keep up, the factor in the status line says so."))
-    pacer.pace = static_cast<Pace>(pace);
-  if (pacer.pace == Pace::steps_per_frame) edit(gui, scene, "simulation.steps-per-frame");
-  slider(gui, "Speed", "simulation/speed", pacer.speed, slowest_speed, fastest_speed, "×%.4g",
+    pacer.set_pace(static_cast<Pace>(pace));
+  if (pacer.pace() == Pace::steps_per_frame) edit(gui, scene, "simulation.steps-per-frame");
+  double speed = pacer.speed();
+  slider(gui, "Speed", "simulation/speed", speed, slowest_speed, fastest_speed, "×%.4g",
          "Factor on the pace, from 1/1024 to 1024. Keys + and - double and halve it.");
+  pacer.set_speed(speed);
   edit(gui, scene, "simulation.gravity");
   // The cube that the assignments speak of; the rest of it, and other bodies, are under Bodies.
   if (!scene.scene().model.cubes.empty()) placed_cube(gui, scene, 0);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace aspic {
 
@@ -19,6 +20,16 @@ std::string slowness(double factor, int particles_per_edge) {
   return text;
 }
 
+void Pacer::set_speed(double speed) {
+  const double before = std::exchange(speed_, std::clamp(speed, slowest_speed, fastest_speed));
+  film_is_behind_ = film_is_behind_ || speed_ != before;
+}
+
+void Pacer::drop_due() {
+  due_ = 0.0;
+  film_is_behind_ = true;
+}
+
 void Pacer::restart() {
   due_ = 0.0;
   behind_ = false;
@@ -28,15 +39,24 @@ void Pacer::restart() {
   steps_per_second_ = 0.0;
 }
 
+std::optional<std::uint64_t> Pacer::limit() const {
+  std::optional<std::uint64_t> least;
+  for (const auto& step : limits_)
+    if (step && (!least || *step < *least)) least = step;
+  return least;
+}
+
 std::uint64_t Pacer::steps_due(double dt, const SimulationSettings& settings, std::uint64_t step) {
-  if (goal) return *goal > step ? *goal - step : 0;
+  const std::optional<std::uint64_t> end = limit();
+  const std::uint64_t left = end && *end > step ? *end - step : 0;
+  if (catches_up_) return left;
   constexpr double rate_window = 0.5;  // s
   const double asked =
-      pace == Pace::real_time ? speed * dt / settings.timestep : speed * settings.steps_per_frame;
+      pace_ == Pace::real_time ? speed_ * dt / settings.timestep : speed_ * settings.steps_per_frame;
   due_ += asked;
   // What was not done within two pictures or a tenth of a second is dropped: the motion slows down, and does
   // not jump.
-  const double tenth = pace == Pace::real_time ? speed * 0.1 / settings.timestep : 0.0;
+  const double tenth = pace_ == Pace::real_time ? speed_ * 0.1 / settings.timestep : 0.0;
   const double most = std::max({2.0 * asked, tenth, 1.0});
   behind_ = due_ > most;
   since_behind_ = behind_ ? 0.0 : since_behind_ + dt;
@@ -48,9 +68,10 @@ std::uint64_t Pacer::steps_due(double dt, const SimulationSettings& settings, st
     rate_steps_ = 0;
   }
   const auto steps = static_cast<std::uint64_t>(due_);
-  if (waits) return 0;
-  if (!pause_step) return steps;
-  return std::min(steps, *pause_step > step ? *pause_step - step : 0);
+  // A film sees each state that the run is put to, and each speed, before the run goes on.
+  const bool filmed = limits_[static_cast<std::size_t>(Hold::film)].has_value();
+  if (std::exchange(film_is_behind_, false) && filmed) return 0;
+  return end ? std::min(steps, left) : steps;
 }
 
 void Pacer::did(std::uint64_t steps) {

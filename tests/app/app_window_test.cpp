@@ -171,9 +171,9 @@ TEST_F(AppWindow, KeysOfTheView) {
   EXPECT_EQ(full_screen_toggles, 1);
   type(U'+');
   type(U'+');
-  EXPECT_EQ(simulation().pacer().speed, 4.0);
+  EXPECT_EQ(simulation().pacer().speed(), 4.0);
   type(U'-');
-  EXPECT_EQ(simulation().pacer().speed, 2.0);
+  EXPECT_EQ(simulation().pacer().speed(), 2.0);
   drag(GLFW_MOUSE_BUTTON_RIGHT, middle_x(), middle_y(), 400, 0);
   press(GLFW_KEY_F);
   frames_to_rest();

@@ -161,7 +161,7 @@ TEST_F(Film, PicturesDependOnSimulatedTimeAlone) {
   film("wild", 1000);
   press(GLFW_KEY_G);
   film("gpu", 300);
-  simulation().pacer().pace = Pace::real_time;
+  simulation().pacer().set_pace(Pace::real_time);
   film("clock", 300);
   for (std::uint64_t i = 0; i < 8; ++i) {
     const std::string slow = picture("slow", i);
@@ -225,7 +225,7 @@ TEST_F(Film, RunsOnAtItsOwnPaceOnceTheFilmHasEnded) {
   record(find_film_format("png"), 10.0, "film");
   frames(1);
   end_film();
-  EXPECT_FALSE(simulation().pacer().pause_step.has_value());
+  EXPECT_FALSE(simulation().pacer().limit().has_value());
   frames_to_step(200);
 }
 

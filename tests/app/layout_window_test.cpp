@@ -116,8 +116,8 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   app().view.camera.zoom(3);
   rest();
   const CameraSettings sphere = app().view.camera.goal();
-  simulation().pacer().pace = Pace::real_time;
-  simulation().pacer().speed = 0.5;
+  simulation().pacer().set_pace(Pace::real_time);
+  simulation().pacer().set_speed(0.5);
   app().film.settings.format = find_film_format("webm");
   const app::KeptState kept = app().kept_state();
   close();
@@ -129,8 +129,8 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   EXPECT_NEAR(app().view.box.left, left, 1e-9);
   EXPECT_TRUE(has("contact.model"));
   EXPECT_TRUE(has("section/Performance"));
-  EXPECT_EQ(simulation().pacer().pace, Pace::real_time);
-  EXPECT_EQ(simulation().pacer().speed, 0.5);
+  EXPECT_EQ(simulation().pacer().pace(), Pace::real_time);
+  EXPECT_EQ(simulation().pacer().speed(), 0.5);
   EXPECT_EQ(app().film.settings.format, find_film_format("webm"));
   app().scene.open("cube-plane");
   EXPECT_EQ(app().view.camera.shown(), plane);
@@ -146,7 +146,7 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
 
 TEST_F(Layout, AFirstStartIsALessonInRealTimeAndSaysTheKeysOnce) {
   open("cube-plane", {}, "", app::KeptState());
-  EXPECT_EQ(simulation().pacer().pace, Pace::real_time);
+  EXPECT_EQ(simulation().pacer().pace(), Pace::real_time);
   for (const char* widget :
        {"scene/search", "simulation/run", "springs/all/stiffness", "view.colour", "energy/plot"})
     EXPECT_TRUE(has(widget)) << widget;

@@ -104,8 +104,63 @@ TEST(Slowness, IsNotSaidOfARunThatIsAsFastAsWasAsked) {
   EXPECT_TRUE(pacer.falls_short(0.5));
   EXPECT_FALSE(pacer.falls_short(0.98));
   EXPECT_FALSE(pacer.falls_short(1.04));
-  pacer.speed = 2.0;
+  pacer.set_speed(2.0);
   EXPECT_TRUE(pacer.falls_short(1.04));
+}
+
+TEST(Limits, TheLeastOfThemHolds) {
+  SimulationSettings settings;
+  Pacer pacer;
+  pacer.set_pace(Pace::steps_per_frame);
+  const auto due = [&](std::uint64_t step) {
+    pacer.drop_due();
+    return pacer.steps_due(0.0, settings, step);
+  };
+  const auto pace = static_cast<std::uint64_t>(settings.steps_per_frame);
+  ASSERT_GT(pace, 4u);
+  EXPECT_EQ(due(100), pace);
+  EXPECT_FALSE(pacer.limit().has_value());
+  pacer.limit(Hold::comparison, 103);
+  EXPECT_EQ(due(100), 3u);
+  pacer.limit(Hold::encoder, 101);
+  EXPECT_EQ(due(100), 1u);
+  EXPECT_EQ(due(105), 0u) << "it is beyond already";
+  pacer.limit(Hold::encoder, std::nullopt);
+  EXPECT_EQ(pacer.limit(), 103u) << "each takes back its own alone";
+  pacer.limit(Hold::comparison, std::nullopt);
+  EXPECT_EQ(due(100), pace);
+}
+
+TEST(Limits, ARunThatCatchesUpGoesToItsLimitWhateverThePace) {
+  SimulationSettings settings;
+  Pacer pacer;
+  pacer.catch_up(true);
+  EXPECT_EQ(pacer.steps_due(0.0, settings, 7), 0u) << "without a limit it goes nowhere";
+  pacer.limit(Hold::comparison, 1000);
+  EXPECT_EQ(pacer.steps_due(0.0, settings, 7), 993u);
+  EXPECT_EQ(pacer.steps_due(0.0, settings, 1000), 0u);
+  pacer.catch_up(false);
+  EXPECT_EQ(pacer.steps_due(0.0, settings, 7), 0u);
+}
+
+TEST(Limits, AFilmSeesEachStateAndSpeedBeforeTheRunGoesOn) {
+  SimulationSettings settings;
+  Pacer pacer;
+  pacer.set_pace(Pace::steps_per_frame);
+  const auto due = [&] { return pacer.steps_due(0.0, settings, 0); };
+  pacer.limit(Hold::film, 500);
+  EXPECT_GT(due(), 0u);
+  pacer.drop_due();
+  EXPECT_EQ(due(), 0u) << "the run was put to another state";
+  EXPECT_GT(due(), 0u);
+  pacer.set_speed(2.0);
+  EXPECT_EQ(due(), 0u);
+  EXPECT_GT(due(), 0u);
+  pacer.set_speed(2.0);
+  EXPECT_GT(due(), 0u) << "the same";
+  pacer.limit(Hold::film, std::nullopt);
+  pacer.drop_due();
+  EXPECT_GT(due(), 0u) << "without a film it goes on at once";
 }
 
 TEST(SampleSteps, RunsOfDifferentTimeStepsHavePointsAtTheSameTimes) {

@@ -55,7 +55,8 @@ TEST_P(InMotion, EveryStepOfThePastHasTheSameBits) {
   for (const std::uint64_t step : {31u, 12u, 0u, 10u, 40u}) {
     go_to({0, step});
     EXPECT_EQ(run->step(), step);
-    if (step > 0) EXPECT_EQ(state_hash_text(run->snapshot()), hashes[step]) << "step " << step;
+    if (step == 0) continue;
+    EXPECT_EQ(state_hash_text(run->snapshot()), hashes[step]) << "step " << step;
   }
   EXPECT_TRUE(run->playback().at_end());
   EXPECT_TRUE(run->playback().can_step_back());
@@ -84,8 +85,11 @@ TEST_P(InMotion, AChangeThatHasNotBegunIsDroppedByAWayBack) {
   ASSERT_TRUE(run->update(0.016, 0.01).ok());
   EXPECT_FALSE(run->rebuild().take_change().has_value());
   run->rebuild().request(other, true);
-  ASSERT_TRUE(run->update(0.016, 0.01).ok());
-  ASSERT_TRUE(run->settle().ok());
+  // It begins once the figures of the state are measured.
+  for (int i = 0; i < 1000 && run->rebuild().changing(); ++i) {
+    ASSERT_TRUE(run->update(0.016, 0.01).ok());
+    std::this_thread::yield();
+  }
   const auto changed = run->rebuild().take_change();
   ASSERT_TRUE(changed.has_value());
   EXPECT_TRUE(changed->ok());
