@@ -41,15 +41,16 @@ App::App(const AppOptions& options, SceneEditor editor, std::unique_ptr<Simulati
       run(simulation, scene, messages),
       picture(simulation, scene.scene(), view, options.full_quality),
       hands(simulation, view, messages),
-      beside(simulation, scene, view, picture, messages, options.asked),
-      film(simulation, scene.editor(), view, picture, beside, messages),
+      comparison(simulation, scene.scene(), options.asked),
+      comparison_view(comparison, scene, view, picture, messages, options.asked),
+      film(simulation, scene.editor(), view, picture, comparison, comparison_view, messages),
       pointer(simulation, view, picture, hands) {
-  hands.refusal = [this] { return beside.hands_refused(); };
+  hands.refusal = [this] { return comparison.hands_refused(); };
 }
 
 void App::go_back(double time) {
-  const double to = beside.clock_time() - time;
-  if (!beside.go_to(to)) run.go_to(to);
+  const double to = comparison.clock().time() - time;
+  if (!comparison_view.go_to(to)) run.go_to(to);
 }
 
 /// One at a time.
@@ -80,14 +81,14 @@ void App::ask_where_to_save() {
 
 Status App::attach(gl::Context& context, double scale, WindowServices services) {
   ASPIC_CHECK(picture.attach(context));
-  beside.attach(context);
+  comparison_view.attach(context);
   ASPIC_TRY(gui_, Gui::create(scale, std::move(services), commands_, watcher_));
   return {};
 }
 
 Status App::release_context(const Error& why) {
   for (const std::string& line : film.finish()) messages.error(line);
-  beside.detach();
+  comparison_view.detach();
   ASPIC_CHECK(simulation.rebuild().leave_context(why));
   // What the solver said when it noticed first says more.
   if (!messages.notice() || !messages.notice()->is_error) messages.error(why.message);
@@ -154,8 +155,8 @@ std::string App::title() const {
 }
 
 bool App::idle() const {
-  return !simulation.running() && !beside.running() && beside.settled() && !beside.busy() &&
-         !picture.refining() && !beside.refining() &&
+  return !simulation.running() && !comparison.clock().others_run() && comparison.settled() &&
+         !comparison.busy() && !picture.refining() && !comparison_view.refining() &&
          std::min({still_for_, mouse_still_for_, scene.unchanged_for()}) > 0.5 &&
          shot_wanted_ == Shot::none && keys_.empty() && !scene.pending() &&
          !simulation.rebuild().changing() && !simulation.busy();
@@ -181,8 +182,8 @@ double App::wait(double since) const {
   // Displays set the pace of hardware. A software rasteriser draws on the processors that simulate: it draws
   // at no more than that pace, only what is new, and where steps are late for a third of the time at most.
   if (!picture.context().info().is_software) return 0.0;
-  const bool nothing_new =
-      !beside.several() && simulation.busy() && !simulation.jobs().has_news() && !touched_ && !camera_moves_;
+  const bool nothing_new = !comparison.several() && simulation.busy() && !simulation.jobs().has_news() &&
+                           !touched_ && !camera_moves_;
   const bool late = simulation.running() && simulation.pacer().late();
   const double interval = nothing_new ? longest
                           : late      ? std::clamp(3.0 * frame_seconds_, shortest, longest)
@@ -272,19 +273,22 @@ Status App::frame(const WindowSize& size, double dt) {
   scene.update(dt);
   // A picture of a software rasteriser takes longer anyway, so steps may too.
   const double budget = context.info().is_software ? 0.030 : 0.012;
-  beside.lead();
-  if (beside.clock_runs()) messages.greeting_is_over();
+  comparison_view.match_editor();
+  comparison.lead();
+  film.lead();
+  if (comparison.clock().runs()) messages.greeting_is_over();
   ASPIC_CHECK(simulation.update(dt, budget));
   if (scene.finish_change()) picture.postpone();
   if (const auto message = simulation.take_message()) messages.error(*message);
   film.update();
-  ASPIC_CHECK(beside.follow(dt, budget));
+  ASPIC_CHECK(comparison.follow(dt, budget));
+  comparison_view.update();
   run.watch_divergence();
-  const bool moves =
-      simulation.running() || simulation.playback().seeking() || beside.running() || !beside.settled();
+  const bool moves = simulation.running() || simulation.playback().seeking() ||
+                     comparison.clock().others_run() || !comparison.settled();
   still_for_ = camera_moves_ || moves ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
-  const bool taken = shot_wanted_ == Shot::window || (shot_wanted_ == Shot::picture && beside.several());
+  const bool taken = shot_wanted_ == Shot::window || (shot_wanted_ == Shot::picture && comparison.several());
   picture.set_at_rest(taken || std::min(still_for_, scene.unchanged_for()) > 0.25, taken);
   const auto start = std::chrono::steady_clock::now();
   const Status made = make_picture(size, dt);
@@ -295,7 +299,7 @@ Status App::frame(const WindowSize& size, double dt) {
 /// Of several runs the picture is the window's view of all, with their names.
 Status App::save_shot(Shot wanted, const WindowSize& size, const std::string& path) {
   if (wanted == Shot::window) return save_pixels(0, {size.pixel_width, size.pixel_height}, path);
-  if (!beside.several()) return picture.save(path);
+  if (!comparison.several()) return picture.save(path);
   const auto pixels = [&](double length) {
     return static_cast<int>(std::lround(length * view.pixels_per_unit));
   };
@@ -314,13 +318,13 @@ Status App::make_picture(const WindowSize& size, double dt) {
   gui_->begin(dt);
   view.text_scale = gui_->scale();
   draw_panels({*gui_, messages, simulation, view, scene, run, picture, hands, film, pointer, layout, files,
-               palette, beside, closing, help_visible},
+               palette, comparison, comparison_view, closing, help_visible},
               size.width, size.height);
   if (std::exchange(view.recalled, false) && !view.sees_bodies(simulation.snapshot()))
     view.frame_bodies(simulation.model(), simulation.snapshot());
-  beside.share_colours();
+  comparison_view.share_colours();
   ASPIC_CHECK(picture.show(size));
-  ASPIC_CHECK(beside.show(size));
+  ASPIC_CHECK(comparison_view.show(size));
   if (const auto refusal = picture.take_refusal()) messages.error(*refusal);
   ASPIC_CHECK(pointer.mark_and_ask(gui_->takes_mouse()));
   gui_->end();

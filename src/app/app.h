@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/beside.h"
 #include "app/commands.h"
+#include "app/comparison_view.h"
 #include "app/file_dialog.h"
 #include "app/film.h"
 #include "app/gui.h"
@@ -93,7 +93,8 @@ class App final : public EventReceiver {
   RunControl run;
   ScenePicture picture;
   Hands hands;
-  Beside beside;
+  Comparison comparison;
+  ComparisonView comparison_view;
   Film film;
   Pointer pointer;
   Layouts layout;

@@ -15,8 +15,8 @@ std::vector<Command> App::make_commands() {
   };
   const auto step_back = [this] {
     // After the window's own run diverged, of those that went on.
-    if (beside.others_go_on())
-      go_back(beside.clock().model().simulation.timestep);
+    if (comparison.clock().others_go_on())
+      go_back(comparison.clock().setter().model().simulation.timestep);
     else
       run.step_back();
   };
@@ -27,7 +27,7 @@ std::vector<Command> App::make_commands() {
           "The bodies are outside the picture: Home shows the scene's camera, F frames the bodies.");
   };
   const auto toggle = [this] {
-    if (!beside.toggle()) run.toggle();
+    if (!comparison.clock().toggle()) run.toggle();
   };
   const auto throw_ball = [this] { hands.throw_ball(pointer.sight(gui_->takes_mouse())); };
   const auto frame_bodies = [this] {
@@ -72,10 +72,12 @@ std::vector<Command> App::make_commands() {
       {"Ctrl+Shift+Z", "redo", GLFW_KEY_Z, ctrl | shift, 0, [this] { scene.redo(); }, true},
       {"Ctrl+Y", "redo", GLFW_KEY_Y, ctrl, 0, [this] { scene.redo(); }, true},
       {"", "Runs side by side"},
-      {"Ctrl+B", "add a run side by side", GLFW_KEY_B, ctrl, 0, [this] { beside.add(); }},
-      {"Ctrl+G", "keep this run as ghost", GLFW_KEY_G, ctrl, 0, [this] { beside.keep_ghost(); }},
-      {"Ctrl+Shift+G", "remove the ghost", GLFW_KEY_G, ctrl | shift, 0, [this] { beside.remove_ghost(); }},
-      {"Ctrl+Shift+B", "close the comparison", GLFW_KEY_B, ctrl | shift, 0, [this] { beside.leave(); }},
+      {"Ctrl+B", "add a run side by side", GLFW_KEY_B, ctrl, 0, [this] { comparison_view.add(); }},
+      {"Ctrl+G", "keep this run as ghost", GLFW_KEY_G, ctrl, 0, [this] { comparison_view.keep_ghost(); }},
+      {"Ctrl+Shift+G", "remove the ghost", GLFW_KEY_G, ctrl | shift, 0,
+       [this] { comparison_view.remove_ghost(); }},
+      {"Ctrl+Shift+B", "close the comparison", GLFW_KEY_B, ctrl | shift, 0,
+       [this] { comparison_view.leave(); }},
       {"", "Camera"},
       {"left drag", "turn the camera"},
       {"right or Shift drag", "move the camera"},

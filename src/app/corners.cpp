@@ -65,7 +65,7 @@ std::vector<Box> label_boxes() {
   std::vector<Box> boxes;
   for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
     const std::string_view name(w->Name);
-    if (!w->Active || !(name.starts_with("##beside") || name.starts_with("##ghost"))) continue;
+    if (!w->Active || !(name.starts_with("##comparison") || name.starts_with("##ghost"))) continue;
     const auto left = static_cast<double>(w->Pos.x), top = static_cast<double>(w->Pos.y);
     boxes.push_back({left, top, left + static_cast<double>(w->Size.x), top + static_cast<double>(w->Size.y)});
   }
@@ -102,7 +102,7 @@ Box window_box() {
 }
 
 void draw_corners(const PanelParts& p, const Box& view) {
-  p.beside.draw_labels(p.gui);
+  p.comparison_view.draw_labels(p.gui);
   const std::vector<Box> labels = label_boxes();
   std::vector<Box> taken = {draw_legend(p.gui, "legend", p.picture.legend(), view)};
   const Box above = {view.left, view.top, view.right, taken.front().top};
@@ -114,7 +114,7 @@ void draw_corners(const PanelParts& p, const Box& view) {
     if (label.right > view.centre_x()) below.top = std::max(below.top, label.bottom);
   taken.insert(taken.end(), labels.begin(), labels.end());
   // Labels of runs side by side tell the time themselves.
-  if (p.layout.clock && !p.beside.active()) {
+  if (p.layout.clock && !p.comparison.active()) {
     taken.push_back(draw_clock(p.gui, p.simulation, below));
     below.top = taken.back().bottom;
   }

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "render/quantity.h"
-#include "run/beside.h"
+#include "run/comparison.h"
 #include "run/run_files.h"
 
 namespace aspic::app {
@@ -77,51 +77,53 @@ void Film::end() {
   recording_->end();
   completing_.push_back(std::move(recording_));
   pace_.reset();
-  for (const Hold hold : {Hold::film, Hold::encoder}) beside_.limit(hold, std::nullopt);
-  for (std::size_t i = 0; i < beside_.count(); ++i) beside_.picture(i).film.reset();
+  for (const Hold hold : {Hold::film, Hold::encoder}) comparison_.clock().limit(hold, std::nullopt);
+  for (std::size_t i = 0; i < comparison_.count(); ++i) comparison_view_.picture(i).film.reset();
   canvas_.reset();
 }
 
 /// What the picture of a run is like: as aspic run draws it, alone or with --beside.
 FilmLook Film::look_of(std::size_t run) const {
   const PictureSize& size = recording_->options().size;
-  if (!beside_.active()) return {size, settings.text};
-  const Tile tile = tiles_of(size, beside_.count())[run];
+  if (!comparison_.active()) return {size, settings.text};
+  const Tile tile = tiles_of(size, comparison_.count())[run];
   FilmLook look = {{tile.width, tile.height}, settings.text};
-  look.text_height = beside_text_height(size.height, beside_.count());
-  look.label = beside_text(beside_.name(run), run, beside_.shown_time(run),
-                           beside_.run(run).model().simulation.timestep, beside_.shown_divergence(run));
-  if (run == 0) look.label = below_author(beside_.scene(0), std::move(look.label));
+  look.text_height = comparison_text_height(size.height, comparison_.count());
+  look.label =
+      comparison_text(comparison_view_.name(run), run, comparison_.shown_time(run),
+                      comparison_.run(run).model().simulation.timestep, comparison_.shown_divergence(run));
+  if (run == 0) look.label = below_author(comparison_.scene(0), std::move(look.label));
   // One legend for all that share a scale.
-  const ViewSettings &own = beside_.scene(run).view, &last = beside_.scene(beside_.count() - 1).view;
-  look.legend = run + 1 == beside_.count() || own.scale != last.scale || own.colour != last.colour ||
+  const ViewSettings &own = comparison_.scene(run).view,
+                     &last = comparison_.scene(comparison_.count() - 1).view;
+  look.legend = run + 1 == comparison_.count() || own.scale != last.scale || own.colour != last.colour ||
                 (own.arrows.any() && !own.arrow_scale);
   return look;
 }
 
 /// The picture of all runs, as they are shown.
 Status Film::draw() {
-  for (std::size_t i = 0; i < beside_.count(); ++i) beside_.picture(i).film = look_of(i);
-  beside_.share_colours();
-  if (!beside_.active()) {
+  for (std::size_t i = 0; i < comparison_.count(); ++i) comparison_view_.picture(i).film = look_of(i);
+  comparison_view_.share_colours();
+  if (!comparison_.active()) {
     canvas_.reset();
     return picture_.draw();
   }
   if (!canvas_) {
-    ASPIC_TRY(canvas_, BesideCanvas::create(picture_.context(), recording_->options().size));
+    ASPIC_TRY(canvas_, ComparisonCanvas::create(picture_.context(), recording_->options().size));
   }
-  canvas_->divide(beside_.count());
-  for (std::size_t i = 0; i < beside_.count(); ++i) {
-    ASPIC_CHECK(beside_.picture(i).draw());
-    canvas_->place(i, beside_.picture(i).pixels(), settings.text);
+  canvas_->divide(comparison_.count());
+  for (std::size_t i = 0; i < comparison_.count(); ++i) {
+    ASPIC_CHECK(comparison_view_.picture(i).draw());
+    canvas_->place(i, comparison_view_.picture(i).pixels(), settings.text);
   }
   return {};
 }
 
 /// How many pictures the film wants of what is shown; none before all runs have come to the clock's step.
 std::uint64_t Film::wanted_copies() {
-  const Simulation& clock = beside_.clock();
-  if (!beside_.shows_clock()) return 0;
+  const Simulation& clock = comparison_.clock().setter();
+  if (!comparison_.clock().is_shown()) return 0;
   const double timestep = clock.model().simulation.timestep;
   const std::uint64_t copies = pace_->take(clock.step(), timestep, simulation_.pacer().speed());
   if (copies > 0) taken_ = clock.step();
@@ -133,29 +135,33 @@ void Film::update() {
   take();
 }
 
+void Film::lead() {
+  if (!recording_) return;
+  if (!recording_->completed() && !messages_.check(recording_->progress())) return end();
+  ComparisonClock& clock = comparison_.clock();
+  clock.limit(Hold::encoder, recording_->ready() ? std::nullopt : std::optional(clock.setter().step()));
+}
+
 void Film::take() {
   if (!recording_) return;
   // Nothing but an error completes a film by itself.
   if (recording_->completed()) return end();
   // States passed on the way through history are not filmed; the one it ends at is.
-  if (simulation_.playback().seeking() || beside_.clock().playback().seeking()) return;
+  if (simulation_.playback().seeking() || comparison_.clock().setter().playback().seeking()) return;
   // A job in progress goes to the step that the old speed asked for.
   if (simulation_.pacer().speed() != pace_->speed()) messages_.check(simulation_.halt());
   if (scene_ != editor_.source()) pace_->restart();
   scene_ = editor_.source();
   const std::uint64_t copies = wanted_copies();
-  Status taken;
-  if (copies == 0)
-    taken = recording_->progress();
-  else if (taken = draw(); taken)
-    taken = recording_->add(drawn(), copies);
-  if (!messages_.check(taken)) return end();
-  // While the encoder is behind, the motion waits and the window does not. So it does where the run was put
-  // to another state, until that is shown.
-  const std::uint64_t step = beside_.clock().step();
+  if (copies > 0) {
+    Status taken = draw();
+    if (taken) taken = recording_->add(drawn(), copies);
+    if (!messages_.check(taken)) return end();
+  }
+  // Where the run was put to another state it waits until that is shown.
+  const std::uint64_t step = comparison_.clock().setter().step();
   const bool on_the_way = taken_ && *taken_ <= step && step <= pace_->next_step();
-  beside_.limit(Hold::film, on_the_way ? pace_->next_step() : step);
-  beside_.limit(Hold::encoder, recording_->ready() ? std::nullopt : std::optional(step));
+  comparison_.clock().limit(Hold::film, on_the_way ? pace_->next_step() : step);
 }
 
 void Film::report_completed() {

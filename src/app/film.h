@@ -1,12 +1,12 @@
 #pragma once
-// Films of the scene, or of all runs side by side, while the user plays with it, in step with simulated time.
+// Films of the scene, or of all runs compared, while the user plays with it, in step with simulated time.
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/beside.h"
+#include "app/comparison_view.h"
 #include "app/messages.h"
 #include "app/scene_editor.h"
 #include "app/scene_picture.h"
@@ -14,6 +14,7 @@
 #include "io/film_format.h"
 #include "playback/film_pace.h"
 #include "playback/simulation.h"
+#include "run/comparison.h"
 #include "run/recording.h"
 
 namespace aspic::app {
@@ -35,12 +36,13 @@ class Film {
  public:
   /// The references must outlive it.
   Film(Simulation& simulation, const SceneEditor& editor, const View& view, ScenePicture& picture,
-       Beside& beside, Messages& messages)
+       Comparison& comparison, ComparisonView& comparison_view, Messages& messages)
       : simulation_(simulation),
         editor_(editor),
         view_(view),
         picture_(picture),
-        beside_(beside),
+        comparison_(comparison),
+        comparison_view_(comparison_view),
         messages_(messages) {}
   /// Completes the film.
   ~Film() { stop(); }
@@ -57,6 +59,9 @@ class Film {
   void update();
   /// The first of these alone: also where a state would be passed between two pictures of the window.
   void take();
+  /// Before the run moves: pictures that were read go to the encoder. While that is behind, the motion waits
+  /// and the window does not.
+  void lead();
   /// The film that is made, or null.
   const Recording* recording() const { return recording_.get(); }
   /// Films that have ended and are not complete yet.
@@ -76,13 +81,14 @@ class Film {
   const SceneEditor& editor_;
   const View& view_;
   ScenePicture& picture_;
-  Beside& beside_;
+  Comparison& comparison_;
+  ComparisonView& comparison_view_;
   Messages& messages_;
   std::unique_ptr<Recording> recording_;
   std::optional<FilmPace> pace_;
-  std::optional<BesideCanvas> canvas_;  // of several runs
-  std::optional<std::uint64_t> taken_;  // step of the last picture
-  std::string scene_;                   // that was filmed last
+  std::optional<ComparisonCanvas> canvas_;  // of several runs
+  std::optional<std::uint64_t> taken_;      // step of the last picture
+  std::string scene_;                       // that was filmed last
   std::vector<std::unique_ptr<Recording>> completing_;
 };
 

@@ -211,7 +211,10 @@ std::vector<const BackendRow*> others_than(const BackendRow& leader) {
 
 /// One quantity of all runs in their colours.
 void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, std::size_t& compared,
-                   const char* unit, std::string_view help, Beside& beside, RunControl& run) {
+                   const char* unit, std::string_view help, ComparisonView& comparison_view,
+                   RunControl& run) {
+  const Comparison& comparison = comparison_view.comparison();
+
   std::vector<std::string_view> names;
   for (const Curve& c : curves) names.emplace_back(c.name);
   label_column("Compare");
@@ -219,16 +222,16 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
          "The quantity that the plot shows, of each run in the colour of its name.");
   const Curve& curve = curves[compared];
   std::vector<Line> lines;
-  for (std::size_t i = 0; i < beside.count(); ++i)
-    lines.push_back({&beside.run(i).samples().energies(), Beside::packed_colour(i), curve.value,
-                     !beside.run(i).divergence().has_value()});
+  for (std::size_t i = 0; i < comparison.count(); ++i)
+    lines.push_back({&comparison.run(i).samples().energies(), ComparisonView::packed_colour(i), curve.value,
+                     !comparison.run(i).divergence().has_value()});
   // All figures are of one moment: the newest that all runs have come to.
-  const double now = beside.figures_time();
+  const double now = comparison.clock().figures_time();
   const auto pointed = plot(gui, name, lines, unit, help, now);
-  if (pointed && pointed->pressed && !beside.go_to(pointed->time)) run.go_to(pointed->time);
+  if (pointed && pointed->pressed && !comparison_view.go_to(pointed->time)) run.go_to(pointed->time);
   const double time = pointed ? pointed->time : now;
-  const EnergySample* const first = beside.run(0).samples().nearest(time);
-  const bool first_has_it = first && !beside.run(0).divergence();
+  const EnergySample* const first = comparison.run(0).samples().nearest(time);
+  const bool first_has_it = first && !comparison.run(0).divergence();
   const double shown = pointed && first_has_it ? first->time : time;
   figure(pointed ? "t under the mouse" : "t", fmt::format("{:.4g} s", shown), help);
   gui.mark("{}/time", name);
@@ -236,17 +239,17 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
   const double size = largest(lines);
   bool fits = true;
   const float column = ImGui::GetWindowContentRegionMax().x * figure_column;
-  for (std::size_t i = 0; i < beside.count(); ++i) {
-    const EnergySample* const sample = beside.run(i).samples().nearest(shown);
-    runs.push_back(beside.name(i));
+  for (std::size_t i = 0; i < comparison.count(); ++i) {
+    const EnergySample* const sample = comparison.run(i).samples().nearest(shown);
+    runs.push_back(comparison_view.name(i));
     values.push_back(sample ? with_prefix(without_noise(curve.value(sample->measures), size), unit, 5) : "-");
     // Another time step comes to another time, and a run that diverged to none later.
     if (sample && std::abs(sample->time - shown) > 1e-6 * std::max(shown, 1e-3))
       values.back() += fmt::format(" at {:.4g} s", sample->time);
     fits = fits && ImGui::CalcTextSize(runs.back().c_str()).x + ImGui::GetStyle().ItemSpacing.x < column;
   }
-  for (std::size_t i = 0; i < beside.count(); ++i) {
-    ImGui::PushStyleColor(ImGuiCol_Text, Beside::packed_colour(i));
+  for (std::size_t i = 0; i < comparison.count(); ++i) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ComparisonView::packed_colour(i));
     wrapped_text(runs[i], ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
     gui.mark("{}/run {}/name", name, i + 1);
@@ -261,14 +264,17 @@ void compared_runs(Gui& gui, const char* name, std::span<const Curve> curves, st
 
 }  // namespace
 
-void energy_section(Gui& gui, Beside& beside, RunControl& run, Layouts& layout) {
-  const Simulation& s = beside.run(0);
+void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, Layouts& layout) {
+  const Comparison& comparison = comparison_view.comparison();
+
+  const Simulation& s = comparison.run(0);
   const auto show = [&](const char* name, std::span<const Curve> curves, std::size_t& compared,
                         const char* unit, std::string_view help) {
-    if (beside.active()) return compared_runs(gui, name, curves, compared, unit, help, beside, run);
+    if (comparison.active())
+      return compared_runs(gui, name, curves, compared, unit, help, comparison_view, run);
     std::vector<Line> lines;
     for (const Curve& c : curves) lines.push_back({&s.samples().energies(), c.colour, c.value});
-    const double now = beside.clock_time();
+    const double now = comparison.clock().time();
     const auto pointed = plot(gui, name, lines, unit, help, now);
     if (pointed && pointed->pressed) run.go_to(pointed->time);
     // Without figures, as after a restart, their rows stay: what is below keeps its place under the mouse.
@@ -282,13 +288,13 @@ void energy_section(Gui& gui, Beside& beside, RunControl& run, Layouts& layout) 
       gui.mark("{}/{}", name, c.name);
     }
   };
-  show("energy/plot", energy_curves, beside.compared[0], "J",
+  show("energy/plot", energy_curves, comparison_view.compared[0], "J",
        "Energies of the run over time [J]. The gravitational one is zero at the origin. A click goes to that "
        "moment. At rest explicit Euler keeps a little kinetic energy: within a step gravity and contact act "
        "one "
        "after the other.");
   if (!folded(gui, layout, "Energy", "momentum", "Momentum over time.")) return;
-  show("energy/momentum", momentum_curves, beside.compared[1], "N·s",
+  show("energy/momentum", momentum_curves, comparison_view.compared[1], "N·s",
        "Momentum Σ m·v of everything that moves over time [N·s], by axis and in magnitude. A click goes to "
        "that "
        "moment.");

@@ -69,7 +69,7 @@ void notice_panel(const PanelParts& parts, const Box& view) {
   const double room = std::min(view.right - view.left - 32.0 * scale, 640.0 * scale);
   if (room < 80.0 * scale) return;
   const bool right = parts.picture.film && parts.picture.film->text,
-             low = parts.beside.several() || notice.greeting;
+             low = parts.comparison.several() || notice.greeting;
   ImGui::SetNextWindowPos(at(right ? view.right - 16.0 * scale : view.left + 16.0 * scale,
                              low ? view.bottom - 16.0 * scale : view.top + 16.0 * scale),
                           ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});

@@ -13,6 +13,7 @@
 #include "app/panel.h"
 #include "app/parameter_widget.h"
 #include "base/printable.h"
+#include "run/comparison.h"
 
 namespace aspic::app {
 namespace {
@@ -31,7 +32,7 @@ struct Heading {
 };
 using Parts = const PanelParts&;
 constexpr Heading left_sections[] = {
-    {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene, p.beside); },
+    {"Simulation", [](Parts p) { simulation_section(p.gui, p.simulation, p.scene, p.comparison); },
      "Motion, integrator, time step, pace and gravity."},
     {"Springs", [](Parts p) { springs_section(p.gui, p.scene, p.layout); },
      "Stiffness and damping, of all types together or by type, or a material."},
@@ -44,14 +45,14 @@ constexpr Heading left_sections[] = {
     {"Balls", [](Parts p) { balls_section(p.gui, p.simulation, p.hands); },
      "Balls thrown by hand, and the strength of pulls."}};
 constexpr Heading right_sections[] = {
-    {"Energy", [](Parts p) { energy_section(p.gui, p.beside, p.run, p.layout); },
+    {"Energy", [](Parts p) { energy_section(p.gui, p.comparison_view, p.run, p.layout); },
      "Energies and momentum over time."},
     {"View",
      [](Parts p) {
        view_section(p.gui, p.scene, p.view.camera, p.picture.range(), p.picture.shadows, p.layout);
      },
      "What is drawn, its colours, the camera, and the size of text."},
-    {"Side by side", [](Parts p) { beside_section(p.gui, p.scene, p.beside); },
+    {"Side by side", [](Parts p) { comparison_section(p.gui, p.scene, p.comparison_view); },
      "Further runs of the scene, each with one difference, on the same clock."},
     {"Recording",
      [](Parts p) {
@@ -59,12 +60,12 @@ constexpr Heading right_sections[] = {
        ImGui::Separator();
        picture_files(p.gui, p.picture.saved);
        ImGui::Separator();
-       state_files(p.gui, p.scene.editor().source(), p.simulation, p.beside, p.messages, p.files);
+       state_files(p.gui, p.scene.editor().source(), p.simulation, p.comparison_view, p.messages, p.files);
      },
      "Films of the scene; its states, energies and checkpoints as files."},
     {"Stability", [](Parts p) { stability_section(p.gui, p.scene); },
      "Which time steps and stiffnesses are stable, and where the scene is among them."},
-    {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.beside, p.picture); },
+    {"Performance", [](Parts p) { performance_section(p.gui, p.simulation, p.comparison, p.picture); },
      "Speed of simulation and drawing, and the devices used."},
     {"Compare backends", [](Parts p) { shadow_section(p.gui, p.simulation, p.run); },
      "A second backend on the same run, and how far the two differ."}};
@@ -108,23 +109,23 @@ void status_line(Parts parts, const Box& box) {
   const Recording* const film = parts.film.recording();
   const Panel panel("##status", box, at(12.0 * scale, 6.0 * scale), bar);
   const ImVec4 bright = ImGui::GetStyleColorVec4(ImGuiCol_CheckMark);
-  const Beside& beside = parts.beside;
-  const bool others = beside.others_go_on();
-  const char* const motion = s.divergence() && !others ? "Diverged"
-                             : beside.clock_runs()     ? "Running"
-                                                       : "Paused";
+  const Comparison& comparison = parts.comparison;
+  const bool others = comparison.clock().others_go_on();
+  const char* const motion = s.divergence() && !others   ? "Diverged"
+                             : comparison.clock().runs() ? "Running"
+                                                         : "Paused";
   ImGui::TextColored(s.divergence() ? ImVec4(0.95f, 0.55f, 0.40f, 1.0f) : bright, "%s", motion);
   const bool software = parts.picture.context().info().is_software && s.present().backend().needs_context;
   std::vector<std::string> facts = {
-      fmt::format("t = {:.3f} s", beside.clock_time()),
+      fmt::format("t = {:.3f} s", comparison.clock().time()),
       fmt::format("{}{}", s.present().solver().backend(), software ? " (software)" : ""),
       fmt::format("speed ×{:g}", s.pacer().speed()),
   };
   if (film) facts.insert(facts.begin() + 1, fmt::format("● filming, {:.2f} s", film->seconds()));
-  const double factor = beside.clock_runs() ? beside.real_time_factor() : 0.0;
+  const double factor = comparison.clock().runs() ? comparison.clock().real_time_factor() : 0.0;
   if (factor > 0.0) {
     const std::string why = film && !film->ready() ? " (waits for the encoder)"
-                            : beside.clock().pacer().falls_short(factor) && !film
+                            : comparison.clock().setter().pacer().falls_short(factor) && !film
                                 ? " (" + slowness(factor, longest_edge(s)) + ")"
                                 : "";
     facts.push_back(fmt::format("{:.3g} × real time{}", factor, why));
@@ -132,9 +133,9 @@ void status_line(Parts parts, const Box& box) {
   if (s.jobs().long_under_way())
     facts.insert(facts.begin(), s.rebuild().changing() ? "working: rebuilds the scene"
                                                        : fmt::format("working on step {}", s.step() + 1));
-  const Simulation& setter = beside.clock();
+  const Simulation& setter = comparison.clock().setter();
   facts.push_back(
-      fmt::format("step {}", std::llround(beside.clock_time() / setter.model().simulation.timestep)));
+      fmt::format("step {}", std::llround(comparison.clock().time() / setter.model().simulation.timestep)));
   facts.emplace_back("F1 all keys");
   const float gap = 22.0f * static_cast<float>(scale);
   const float end = ImGui::GetWindowContentRegionMax().x;
@@ -150,13 +151,17 @@ void status_line(Parts parts, const Box& box) {
 }
 
 /// The bar of the history, under the picture: any step since the start.
-void timeline(Gui& gui, const Simulation& s, Beside& beside, RunControl& run, const Box& box) {
+void timeline(Gui& gui, const Simulation& s, ComparisonView& comparison_view, RunControl& run,
+              const Box& box) {
+  const Comparison& comparison = comparison_view.comparison();
+
   const History& history = s.playback().history();
   const double scale = gui.scale();
   const Panel panel("##timeline", box, at(12.0 * scale, 4.0 * scale), bar);
-  const double first = history.time(history.begin_moment()), last = std::max(beside.end_time(), first);
-  double now = std::clamp(beside.clock_time(), first, last);
-  const bool on_the_way = s.playback().seeking() || beside.clock().playback().seeking();
+  const double first = history.time(history.begin_moment()),
+               last = std::max(comparison.clock().end_time(), first);
+  double now = std::clamp(comparison.clock().time(), first, last);
+  const bool on_the_way = s.playback().seeking() || comparison.clock().setter().playback().seeking();
   const std::string text = fmt::format("{:.3f} / {:.3f} s{}", now, last, on_the_way ? "  …" : "");
   ImGui::SetNextItemWidth(-1.0f);
   const bool moved = ImGui::SliderScalar("##history", ImGuiDataType_Double, &now, &first, &last, text.c_str(),
@@ -176,7 +181,7 @@ void timeline(Gui& gui, const Simulation& s, Beside& beside, RunControl& run, co
                                           IM_COL32(242, 176, 92, 255), static_cast<float>(1.5 * scale));
     }
   }
-  if (moved && last > first && !beside.go_to(now)) run.go_to(now);
+  if (moved && last > first && !comparison_view.go_to(now)) run.go_to(now);
 }
 
 /// The buttons of a lesson, large, at the bottom of the picture. Returns the view above them.
@@ -204,11 +209,11 @@ Box action_bar(Parts p, const Box& view) {
       ImGui::PopID();
       if (pressed) p.gui.commands().run(command);
     };
-    const Beside& beside = p.beside;
-    const bool runs = beside.clock_runs(), films = p.film.recording() != nullptr;
+    const Comparison& comparison = p.comparison;
+    const bool runs = comparison.clock().runs(), films = p.film.recording() != nullptr;
     ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrabActive));
     large("actions/start", runs ? "Pause" : "Start", "Starts or pauses the motion.", "start or pause",
-          !p.simulation.divergence() || beside.others_go_on());
+          !p.simulation.divergence() || comparison.clock().others_go_on());
     ImGui::PopStyleColor();
     ImGui::SameLine();
     large("actions/reset", "Reset", "Returns to the scene's start.", "reset to the start", true);
@@ -216,7 +221,7 @@ Box action_bar(Parts p, const Box& view) {
     large("actions/compare", "Compare",
           "Adds a run side by side: first another integrator, then half the time step, then four times the "
           "stiffness. What differs is changed in the section Side by side.",
-          "add a run side by side", beside.count() < most_beside);
+          "add a run side by side", comparison.count() < most_compared);
     ImGui::SameLine();
     large("actions/film", films ? "End film" : "Film",
           "Films the picture from now on, all runs of a comparison together, or completes the film. Format "
@@ -289,12 +294,12 @@ void draw_panels(const PanelParts& p, double width, double height) {
     }
     status_line(p, {0.0, bottom, width, height});
     view = {left, 0.0, width - right, bottom - timeline_height * scale};
-    timeline(p.gui, p.simulation, p.beside, p.run, {view.left, view.bottom, view.right, bottom});
+    timeline(p.gui, p.simulation, p.comparison_view, p.run, {view.left, view.bottom, view.right, bottom});
     drag_edge(p.gui, "layout/left", left, bottom, 1.0, layout.left_width);
     if (two) drag_edge(p.gui, "layout/right", width - right, bottom, -1.0, layout.right_width);
   }
   if (const auto error = take_typing_error()) p.messages.refuse(*error);
-  p.beside.place(view);
+  p.comparison_view.place(view);
   const Box corners = layout.panels ? action_bar(p, view) : view;
   draw_corners(p, corners);
   notice_panel(p, corners);

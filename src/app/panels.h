@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/beside.h"
+#include "app/comparison_view.h"
 #include "app/file_dialog.h"
 #include "app/film.h"
 #include "app/gui.h"
@@ -45,7 +45,8 @@ struct PanelParts {
   Layouts& layout;
   FileDialog& files;
   Palette& palette;
-  Beside& beside;
+  Comparison& comparison;
+  ComparisonView& comparison_view;
   Closing& closing;
   bool& help_visible;
 };
@@ -61,7 +62,7 @@ void draw_panels(const PanelParts& parts, double width, double height);
 
 // ---- sections of the panels; each a heading with its widgets ----
 void scene_section(Gui& gui, SceneControl& scene);
-void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene, const Beside& beside);
+void simulation_section(Gui& gui, Simulation& simulation, SceneControl& scene, const Comparison& comparison);
 void bodies_section(Gui& gui, SceneControl& scene);
 /// Size, place and turn of a cube.
 void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube);
@@ -82,11 +83,12 @@ void recording_section(Gui& gui, const std::string& source, Film& film);
 void picture_files(Gui& gui, SavedLook& look);
 /// A button for each format of states; part of the recording section. The references but `source` must
 /// outlive `files`.
-void state_files(Gui& gui, const std::string& source, Simulation& simulation, Beside& beside,
+void state_files(Gui& gui, const std::string& source, Simulation& simulation, ComparisonView& comparison_view,
                  Messages& messages, FileDialog& files);
-void performance_section(Gui& gui, Simulation& simulation, const Beside& beside, const ScenePicture& picture);
-void energy_section(Gui& gui, Beside& beside, RunControl& run, Layouts& layout);
-void beside_section(Gui& gui, SceneControl& scene, Beside& beside);
+void performance_section(Gui& gui, Simulation& simulation, const Comparison& comparison,
+                         const ScenePicture& picture);
+void energy_section(Gui& gui, ComparisonView& comparison_view, RunControl& run, Layouts& layout);
+void comparison_section(Gui& gui, SceneControl& scene, ComparisonView& comparison_view);
 void shadow_section(Gui& gui, const Simulation& simulation, RunControl& run);
 void stability_section(Gui& gui, SceneControl& scene);
 
@@ -98,9 +100,9 @@ Box particle_readout(const Gui& gui, const Simulation& simulation, const Hovered
 void ball_mark(const Gui& gui, const std::optional<Pull>& hand, const Hovered& hovered, const View& view,
                const Box& picture);
 /// What the colours mean, in the lower right corner of the view. Returns its place, with the gap below and
-/// beside it; empty if there is none. `name` is that of its widget.
+/// next to it; empty if there is none. `name` is that of its widget.
 Box draw_legend(const Gui& gui, const char* name, const Legend& legend, const Box& view);
-/// Labels of runs beside each other; what colours and arrows mean, one above the other; the time in large
+/// Labels of the runs compared; what colours and arrows mean, one above the other; the time in large
 /// figures; what is under the mouse; and the world's axes where these leave room, in the upper right corner
 /// if they can.
 void draw_corners(const PanelParts& parts, const Box& view);

@@ -53,11 +53,11 @@ void pass_times(Gui& gui, GpuSolver& solver) {
 
 }  // namespace
 
-void performance_section(Gui& gui, Simulation& s, const Beside& beside, const ScenePicture& picture) {
+void performance_section(Gui& gui, Simulation& s, const Comparison& comparison, const ScenePicture& picture) {
   const gl::DeviceInfo& device = picture.context().info();
   // After a divergence of the window's own run, figures of the one that sets the clock.
-  const Simulation& setter = beside.clock();
-  const bool runs = beside.clock_runs();
+  const Simulation& setter = comparison.clock().setter();
+  const bool runs = comparison.clock().runs();
   figure("Steps", runs ? short_number(setter.pacer().steps_per_second()) + "/s" : "paused",
          "Time steps per second.");
   gui.mark("performance/steps");
@@ -68,7 +68,7 @@ void performance_section(Gui& gui, Simulation& s, const Beside& beside, const Sc
                        : "varies",
          "Springs × force evaluations of a step × steps per second. Implicit Euler has no fixed number per "
          "step.");
-  figure("Real-time factor", runs ? fmt::format("{:.3g}", beside.real_time_factor()) : "paused",
+  figure("Real-time factor", runs ? fmt::format("{:.3g}", comparison.clock().real_time_factor()) : "paused",
          "Simulated seconds per second.");
   figure("Pictures",
          picture.at_rest() ? fmt::format("at rest, {:.0f} ms", 1e3 * picture.draw_seconds())

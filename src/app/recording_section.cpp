@@ -12,7 +12,7 @@
 #include "aspic/scene.h"
 #include "io/series_csv.h"
 #include "io/state_sink.h"
-#include "run/beside.h"
+#include "run/comparison.h"
 #include "run/run_files.h"
 
 namespace aspic::app {
@@ -81,38 +81,40 @@ Status write_state(const StateFormat& format, const std::string& path, Overwrite
 }
 
 /// A name that nothing has yet, of several runs none of their numbered ones either.
-std::string free_state_name(const std::string& source, std::string_view ending, const Beside& beside) {
-  if (!beside.active()) return free_name(source, ending);
+std::string free_state_name(const std::string& source, std::string_view ending,
+                            const Comparison& comparison) {
+  if (!comparison.active()) return free_name(source, ending);
   const std::string number = "-1", first = free_name(source, number + std::string(ending));
   return first.substr(0, first.size() - ending.size() - number.size()) + std::string(ending);
 }
 
-/// Writes the state now, or with a format over time the energies of the plot, to a file; of runs side by side
+/// Writes the state now, or with a format over time the energies of the plot, to a file; of runs compared
 /// each to its own, numbered as aspic run --beside does. A message says what became of it.
 void save(const StateFormat& format, const std::string& path, Overwrite overwrite, Simulation& simulation,
-          Beside& beside, Messages& messages) {
+          ComparisonView& comparison_view, Messages& messages) {
+  const Comparison& comparison = comparison_view.comparison();
   if (!messages.check(simulation.settle())) return;
   std::vector<std::string> paths, lines;
-  for (std::size_t i = 0; i < beside.count(); ++i) {
-    paths.push_back(beside.active() ? numbered_path(path, i + 1) : path);
+  for (std::size_t i = 0; i < comparison.count(); ++i) {
+    paths.push_back(comparison.active() ? numbered_path(path, i + 1) : path);
     std::error_code unknown;
-    if (beside.active() && overwrite == Overwrite::refuse && std::filesystem::exists(paths[i], unknown))
+    if (comparison.active() && overwrite == Overwrite::refuse && std::filesystem::exists(paths[i], unknown))
       return messages.refuse(fmt::format("{} already exists. Choose another name.", paths[i]));
-    const Setup& setup = beside.run(i).present().setup();
+    const Setup& setup = comparison.run(i).present().setup();
     if (format.holds_scene && !(setup.thrown.empty() && setup.pinned.empty()))
       return messages.refuse(
           fmt::format("A {} holds the scene and the state, and balls thrown or particles pinned by hand are "
                       "not part of the scene. Remove them first (Balls, or Reset), or save the state alone.",
                       format.option));
   }
-  for (std::size_t i = 0; i < beside.count(); ++i) {
-    const Simulation& run = beside.run(i);
+  for (std::size_t i = 0; i < comparison.count(); ++i) {
+    const Simulation& run = comparison.run(i);
     const auto& energies = run.samples().energies();
     // Of several runs what the pictures show, which is of one time.
-    const State& state = beside.active() ? beside.picture(i).shown_state() : run.snapshot();
+    const State& state = comparison.active() ? comparison_view.picture(i).shown_state() : run.snapshot();
     const Status written = format.over_time
                                ? write_series(paths[i], overwrite, energies)
-                               : write_state(format, paths[i], overwrite, beside.scene(i), run, state);
+                               : write_state(format, paths[i], overwrite, comparison.scene(i), run, state);
     if (!written) {
       // Those before it are there.
       lines.insert(lines.begin(), written.error().message);
@@ -167,23 +169,24 @@ void picture_files(Gui& gui, SavedLook& look) {
             "Leaves sky and terrain out of saved pictures; what the bodies do not cover is transparent.");
 }
 
-void state_files(Gui& gui, const std::string& source, Simulation& simulation, Beside& beside,
+void state_files(Gui& gui, const std::string& source, Simulation& simulation, ComparisonView& comparison_view,
                  Messages& messages, FileDialog& files) {
+  const Comparison& comparison = comparison_view.comparison();
   for (const StateFormat& format : state_formats()) {
     const std::string name = fmt::format("save/{}{}", format.option, format.ending);
     const std::string label = fmt::format("Save {}… ({})", format.option, format.ending);
     std::string help = format.over_time
                            ? "Writes the energies and momentum of the plot to a file, a row for each point."
                            : fmt::format("Writes the {} at this step to a file.", format.option);
-    if (beside.active())
+    if (comparison.active())
       help += fmt::format(" Each run has its own: name-1{0}, name-2{0} and so on.", format.ending);
     if (!button(gui, name.c_str(), label.c_str(), help, true, -1.0f)) continue;
     // The page outlives this picture.
-    const auto write = [&format, &simulation, &beside, &messages](const std::string& path,
-                                                                  Overwrite overwrite) {
-      save(format, path, overwrite, simulation, beside, messages);
+    const auto write = [&format, &simulation, &comparison_view, &messages](const std::string& path,
+                                                                           Overwrite overwrite) {
+      save(format, path, overwrite, simulation, comparison_view, messages);
     };
-    files.ask({"Save", {format.ending}, true, write}, free_state_name(source, format.ending, beside));
+    files.ask({"Save", {format.ending}, true, write}, free_state_name(source, format.ending, comparison));
   }
 }
 

@@ -46,8 +46,8 @@ class SceneControl {
   void change(const std::string& name, const std::function<void(Scene&)>& make,
               const std::string& gesture = "");
   /// The runs that are compared with the scene's own: see SceneEditor.
-  void set_beside(std::vector<Variation> beside, const std::string& name) {
-    editor_.set_beside(std::move(beside), name);
+  void set_differences(std::vector<Difference> differences, const std::string& name) {
+    editor_.set_differences(std::move(differences), name);
     unchanged_for_ = 0.0;
   }
   /// The next change is another entry for undo.

@@ -19,11 +19,6 @@ namespace {
 /// More than anyone goes back.
 constexpr std::size_t longest_past = 256;
 
-Effect effect_of(const Parameter& p) {
-  if (p.only_shown()) return Effect::view;
-  return p.live ? Effect::constants : Effect::restart;
-}
-
 /// "structural stiffness": a key as people call it, with what it belongs to where that is more than a list.
 std::string words_of(const Parameter& p) {
   std::string words(p.path.substr(p.path.find("].") == std::string_view::npos ? p.path.find('.') + 1
@@ -40,21 +35,6 @@ std::optional<std::filesystem::file_time_type> time_of(const std::string& path) 
 }
 
 }  // namespace
-
-Effect effect_between(const Scene& before, const Scene& after) {
-  for (const BodyRow& row : body_rows()) {
-    if (row.list.size(before.model) != row.list.size(after.model)) return Effect::restart;
-  }
-  Effect effect = Effect::none;
-  if (before.model.terrain.size() != after.model.terrain.size()) effect = Effect::constants;
-  for (const Parameter& p : parameters()) {
-    const std::size_t count = std::min(index_count(p, before), index_count(p, after));
-    for (std::size_t i = 0; i < count; ++i) {
-      if (p.get(before, i) != p.get(after, i)) effect = std::max(effect, effect_of(p));
-    }
-  }
-  return effect;
-}
 
 Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std::string> overrides) {
   SceneEditor editor;
@@ -77,12 +57,12 @@ Result<SceneEditor> SceneEditor::other(const std::string& source) const {
 }
 
 void SceneEditor::open(SceneEditor other) {
-  const bool same = origin_->source == other.source() && !changed() && beside_ == other.beside_ &&
+  const bool same = origin_->source == other.source() && !changed() && differences_ == other.differences_ &&
                     effect_between(scene_, other.scene_) == Effect::none;
   if (same) return;
   begin_entry("open " + std::filesystem::path(other.source()).filename().string(), "");
   scene_ = std::move(other.scene_);
-  beside_ = std::move(other.beside_);
+  differences_ = std::move(other.differences_);
   origin_ = std::move(other.origin_);
   mark_saved();
 }
@@ -120,9 +100,9 @@ Result<Effect> SceneEditor::apply(Scene changed, const std::string& name, const 
   return effect;
 }
 
-void SceneEditor::set_beside(std::vector<Variation> beside, const std::string& name) {
+void SceneEditor::set_differences(std::vector<Difference> differences, const std::string& name) {
   begin_entry(name, "");
-  beside_ = std::move(beside);
+  differences_ = std::move(differences);
 }
 
 constexpr auto never = std::numeric_limits<std::size_t>::max();
@@ -132,7 +112,7 @@ void SceneEditor::begin_entry(const std::string& name, const std::string& gestur
   if (gesture.empty() || gesture != gesture_ || undo_.empty()) {
     if (origin_->saved > undo_.size()) origin_->saved = never;
     if (undo_.size() == longest_past) forget_oldest();
-    undo_.push_back({scene_, beside_, name, origin_});
+    undo_.push_back({scene_, differences_, name, origin_});
   }
   gesture_ = gesture;
   redo_.clear();
@@ -154,9 +134,9 @@ Effect SceneEditor::swap_with(std::vector<Entry>& from, std::vector<Entry>& to) 
   Entry entry = std::move(from.back());
   from.pop_back();
   const Effect effect = entry.origin == origin_ ? effect_between(scene_, entry.scene) : Effect::opening;
-  to.push_back({std::move(scene_), std::move(beside_), entry.name, std::move(origin_)});
+  to.push_back({std::move(scene_), std::move(differences_), entry.name, std::move(origin_)});
   scene_ = std::move(entry.scene);
-  beside_ = std::move(entry.beside);
+  differences_ = std::move(entry.differences);
   origin_ = std::move(entry.origin);
   gesture_.clear();
   return effect;

@@ -10,22 +10,11 @@
 #include "aspic/state.h"
 #include "base/result.h"
 #include "io/atomic_file.h"
-#include "run/variation.h"
+#include "playback/effect.h"
+#include "run/variant.h"
 #include "scene/parameters.h"
 
 namespace aspic::app {
-
-/// What a change asks of the simulation.
-enum class Effect {
-  none,       ///< nothing changed
-  view,       ///< the picture alone
-  constants,  ///< other constants; the state goes on
-  restart,    ///< another body or another start: the simulation restarts
-  opening     ///< another source, or the same one again: as if it had been opened
-};
-
-/// What lies between two scenes, by the parameter table.
-Effect effect_between(const Scene& before, const Scene& after);
 
 class SceneEditor {
  public:
@@ -37,7 +26,7 @@ class SceneEditor {
   /// File or built-in name.
   const std::string& source() const { return origin_->source; }
   bool is_file() const { return origin_->modified.has_value(); }
-  /// What a checkpoint holds beside its scene: where the run goes on.
+  /// What a checkpoint holds besides its scene: where the run continues.
   const std::optional<State>& state() const { return origin_->state; }
   /// Since it was opened, saved or read again.
   bool changed() const { return undo_.size() != origin_->saved; }
@@ -58,10 +47,10 @@ class SceneEditor {
                      const std::string& gesture);
   /// Replaces the scene, under a name for undo. Errors as set.
   Result<Effect> apply(Scene scene, const std::string& name, const std::string& gesture);
-  /// In what runs beside the scene's own differ from it; no part of the scene's file.
-  const std::vector<Variation>& beside() const { return beside_; }
+  /// In what the runs compared with the scene's own differ from it; no part of the scene's file.
+  const std::vector<Difference>& differences() const { return differences_; }
   /// Replaces that, under a name for undo.
-  void set_beside(std::vector<Variation> beside, const std::string& name);
+  void set_differences(std::vector<Difference> differences, const std::string& name);
   /// The next change begins a new entry, whatever its gesture.
   void end_gesture() { gesture_.clear(); }
 
@@ -95,7 +84,7 @@ class SceneEditor {
   };
   struct Entry {
     Scene scene;
-    std::vector<Variation> beside;
+    std::vector<Difference> differences;
     std::string name;
     std::shared_ptr<Origin> origin;  ///< of all entries since it was opened
   };
@@ -104,7 +93,7 @@ class SceneEditor {
   Effect swap_with(std::vector<Entry>& from, std::vector<Entry>& to);
 
   Scene scene_;
-  std::vector<Variation> beside_;
+  std::vector<Difference> differences_;
   std::string gesture_;
   std::shared_ptr<Origin> origin_ = std::make_shared<Origin>();  // never null
   std::vector<Entry> undo_, redo_;

@@ -47,7 +47,7 @@ class ScenePicture {
   std::optional<FilmLook> film;               ///< while a film is made
   SavedLook saved;                            ///< of the next save()
   std::optional<Colour> tint;                 ///< of bodies coloured by material; absent: their own
-  std::optional<QuantityRange> common_range;  ///< of colours, with runs beside it; absent: its own
+  std::optional<QuantityRange> common_range;  ///< of colours, where runs are compared; absent: its own
   bool ghost = false;  ///< its bodies alone, pale and translucent over what the window shows
 
   /// Everything of OpenGL, in a context that must outlive it or be detached. Errors: of Renderer::create.

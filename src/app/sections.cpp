@@ -129,12 +129,12 @@ void scene_section(Gui& gui, SceneControl& scene) {
   scene_buttons(gui, scene.editor());
 }
 
-void simulation_section(Gui& gui, Simulation& s, SceneControl& scene, const Beside& beside) {
+void simulation_section(Gui& gui, Simulation& s, SceneControl& scene, const Comparison& comparison) {
   const float third = share_of_line(3), half = share_of_line(2);
   const bool diverged = s.divergence().has_value();
-  const bool runs = s.running() || beside.running();
+  const bool runs = s.running() || comparison.clock().others_run();
   command_button(gui, "simulation/run", runs ? "Pause" : "Start", "Starts or pauses the motion.",
-                 "start or pause", !diverged || beside.others_go_on(), third);
+                 "start or pause", !diverged || comparison.clock().others_go_on(), third);
   ImGui::SameLine();
   command_button(gui, "simulation/step", "Step", "Takes one time step; pauses first.", "single step",
                  !diverged, third);

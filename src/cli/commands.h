@@ -17,7 +17,7 @@ inline Status execute(const ShowText& shown) {
 /// both after the files are complete.
 Status execute(const RunOptions& options);
 /// The same for options with --beside.
-Status execute_beside(const RunOptions& options);
+Status execute_comparison(const RunOptions& options);
 
 /// Draws pictures for the process that started this one: what `run` starts on software rasterisers.
 Status execute(const DrawOptions& options);

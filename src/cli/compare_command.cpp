@@ -26,7 +26,7 @@ constexpr std::array<Quantity, compared_quantities.size()> quantities = {{
     {"ball_angular_velocity", "ball ω", "rad/s", "ball"},
 }};
 
-Json to_json(const WorstDifference& worst, std::string_view body) {
+Json json_of(const WorstDifference& worst, std::string_view body) {
   return {{"largest_absolute", worst.absolute},
           {fmt::format("largest_absolute_{}", body), worst.absolute_index},
           {"largest_absolute_step", worst.absolute_step},
@@ -46,7 +46,7 @@ std::string inexact_arithmetic(const Backend& backend) {
       backend.variant(), gpu->arithmetic().worst_ulps());
 }
 
-Json to_json(const CompareOptions& options, const Scene& scene, const std::array<Backend, 2>& backends,
+Json json_of(const CompareOptions& options, const Scene& scene, const std::array<Backend, 2>& backends,
              const LockstepResult& result, bool within) {
   Json json = {{"scene", scene.name},
                {"integrator", name_of(scene.model.simulation.integrator)},
@@ -56,7 +56,7 @@ Json to_json(const CompareOptions& options, const Scene& scene, const std::array
                {"identical", !result.first_difference},
                {"first_differing_step", or_null(result.first_difference)}};
   for (std::size_t i = 0; i < result.worst.size(); ++i)
-    json[std::string(quantities[i].key)] = to_json(result.worst[i], quantities[i].body);
+    json[std::string(quantities[i].key)] = json_of(result.worst[i], quantities[i].body);
   json["interrupted"] = result.interrupted;
   for (std::size_t i = 0; i < backends.size(); ++i) {
     const std::optional<Divergence>& divergence = result.divergence[i];
@@ -72,7 +72,7 @@ Json to_json(const CompareOptions& options, const Scene& scene, const std::array
 
 Status print_result(const CompareOptions& options, const Scene& scene, const std::array<Backend, 2>& backends,
                     const LockstepResult& result, bool within) {
-  if (options.json) return print_data(to_text(to_json(options, scene, backends, result, within)));
+  if (options.json) return print_data(to_text(json_of(options, scene, backends, result, within)));
   std::string text = fmt::format("scene       {}, {}, {} steps compared\n", scene.name,
                                  name_of(scene.model.simulation.integrator), result.steps);
   for (std::size_t i = 0; i < backends.size(); ++i) {

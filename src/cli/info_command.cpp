@@ -15,7 +15,7 @@ std::string_view kind_of(const gl::EglDevice& device) {
   return device.software ? "software" : "hardware";
 }
 
-Json to_json(const gl::DeviceInfo& info) {
+Json json_of(const gl::DeviceInfo& info) {
   const gl::DeviceLimits& l = info.limits;
   return {{"vendor", info.vendor},
           {"renderer", info.renderer},
@@ -83,7 +83,7 @@ Status execute(const InfoOptions& options) {
     return print_data(to_text({{"version", ASPIC_VERSION},
                                {"backends", rows},
                                {"devices", list},
-                               {"gpu", context ? to_json(context->info()) : Json()},
+                               {"gpu", context ? json_of(context->info()) : Json()},
                                {"gpu_free_bytes", or_null(free_memory)},
                                {"gpu_error", context ? Json() : Json(no_context)},
                                {"arithmetic", arithmetic},

@@ -10,8 +10,8 @@
 #include "aspic/scene.h"
 #include "aspic/version.h"
 #include "cli/commands.h"
+#include "cli/headless_run.h"
 #include "cli/json.h"
-#include "cli/run_lane.h"
 #include "cli/run_summary.h"
 #include "io/checkpoint.h"
 #include "io/program.h"
@@ -89,29 +89,29 @@ Result<Start> load_start(const RunOptions& options) {
 
 /// `recorder` is null where no pictures are wanted. A run that loses its pictures continues if it writes
 /// anything else.
-Result<Outcome> simulate(RunLane& lane, Recorder* recorder, std::uint64_t last_step,
+Result<Outcome> simulate(HeadlessRun& headless, Recorder* recorder, std::uint64_t last_step,
                          const InterruptGuard& interrupt) {
-  ASPIC_CHECK(lane.begin());
+  ASPIC_CHECK(headless.begin());
   ProgressBar bar(last_step);
   const auto started = Clock::now();
   Losses losses;
   const auto take_picture = [&]() -> Status {
     if (!recorder) return {};
-    const Status drawn = recorder->reach(lane.solver(), lane.step());
-    ASPIC_CHECK(losses.after_picture(*recorder, drawn, lane.files().any_left()));
+    const Status drawn = recorder->reach(headless.solver(), headless.step());
+    ASPIC_CHECK(losses.after_picture(*recorder, drawn, headless.files().any_left()));
     if (!losses.pictured()) recorder = nullptr;
     return {};
   };
   ASPIC_CHECK(take_picture());
-  while (lane.step() < last_step && !lane.stopped()) {
-    const double before = lane.seconds();
-    ASPIC_CHECK(lane.advance_to(recorder ? std::min(recorder->next_step(), last_step) : last_step, interrupt,
-                                [&](std::uint64_t step) { bar.update(step); }));
-    if (!recorder || lane.stopped()) continue;
-    recorder->add_simulation(lane.seconds() - before);
+  while (headless.step() < last_step && !headless.stopped()) {
+    const double before = headless.seconds();
+    ASPIC_CHECK(headless.advance_to(recorder ? std::min(recorder->next_step(), last_step) : last_step,
+                                    interrupt, [&](std::uint64_t step) { bar.update(step); }));
+    if (!recorder || headless.stopped()) continue;
+    recorder->add_simulation(headless.seconds() - before);
     ASPIC_CHECK(take_picture());
   }
-  ASPIC_TRY(auto outcome, lane.outcome(last_step));
+  ASPIC_TRY(auto outcome, headless.outcome(last_step));
   outcome.pictured = losses.pictured();
   outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - started).count();
   return outcome;
@@ -141,7 +141,7 @@ Status print_summary(const RunOptions& options, const RunReport& run, const std:
 }  // namespace
 
 Status execute(const RunOptions& options) {
-  if (!options.beside.empty()) return execute_beside(options);
+  if (!options.differences.empty()) return execute_comparison(options);
   const InterruptGuard interrupt;
   ASPIC_TRY(auto start, load_start(options));
   ASPIC_TRY(const auto steps, steps_of(options.length, start.scene.model.simulation));
@@ -174,8 +174,8 @@ Status execute(const RunOptions& options) {
     ASPIC_TRY(recorder,
               Recorder::create(pictures, start.scene, backend, files.take_frame_sinks(), first_step, steps));
   }
-  RunLane lane(*backend.solver, files, first_step, options.pictures.any());
-  ASPIC_TRY(auto outcome, simulate(lane, recorder.get(), steps, interrupt));
+  HeadlessRun headless(*backend.solver, files, first_step, options.pictures.any());
+  ASPIC_TRY(auto outcome, simulate(headless, recorder.get(), steps, interrupt));
   (void)files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
   if (recorder) finish_pictures(*recorder, *backend.solver, outcome);
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};

@@ -4,8 +4,8 @@
 
 #include "aspic/scene.h"
 #include "base/result.h"
+#include "cli/headless_run.h"
 #include "cli/json.h"
-#include "cli/run_lane.h"
 #include "io/program.h"
 #include "model/model.h"
 #include "run/backends.h"

@@ -156,7 +156,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
   add_overrides(c, run.overrides);
   add_outputs(c, run.outputs);
   add_pictures(c, run, raw);
-  add(c, "--beside", "KEY=VALUE", run.beside,
+  add(c, "--beside", "KEY=VALUE", run.differences,
       "a further run with this difference, e.g. integrator=implicit-euler, h=0.002; up to three");
   add(c, "--resume", "FILE", run.resume_file,
       "continue from a checkpoint; --steps and --duration count from its start");

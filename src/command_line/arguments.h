@@ -24,8 +24,8 @@ struct RunOptions {
   std::string resume_file;           ///< empty: none
   std::vector<StateOutput> outputs;  ///< one for each of state_options()
   PictureOutput pictures;
-  std::vector<std::string> view;    ///< KEY=VALUE of the scene's view table, for the pictures
-  std::vector<std::string> beside;  ///< KEY=VALUE, one for each further run
+  std::vector<std::string> view;         ///< KEY=VALUE of the scene's view table, for the pictures
+  std::vector<std::string> differences;  ///< KEY=VALUE, one for each further run
   bool force = false;
   bool json = false;
 };

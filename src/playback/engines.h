@@ -72,7 +72,7 @@ class Engines {
 
   /// Puts another solver of the same model in the place of one; it has no pull yet.
   void set_leader(Backend engine) { leader_ = std::move(engine); }
-  /// Of another backend than the leader's: beside its like a shadow would show nothing.
+  /// Of another backend than the leader's: next to its like a shadow would show nothing.
   void set_shadow(Backend engine) {
     assert(!engine.row || engine.row != leader_.row);
     shadow_ = std::move(engine);
@@ -97,7 +97,7 @@ class Engines {
 
 class EngineFactory {
  public:
-  /// `asked`: what solvers that have it are asked for, beside their row.
+  /// `asked`: what solvers that have it are asked for, besides their row.
   explicit EngineFactory(gl::Context& context, const BackendChoice& asked = {})
       : context_(&context), asked_(asked) {}
   void set_context(gl::Context& context);

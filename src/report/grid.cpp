@@ -167,9 +167,9 @@ Result<Grid> make_grid(Scene scene, const BackendChoice& backend, const RunLengt
 
 Result<Variant> grid_run(const Grid& grid, std::size_t index) {
   const std::vector<std::string> values = grid.values(index);
-  std::vector<Variation> variations;
-  for (std::size_t a = 0; a < values.size(); ++a) variations.push_back({grid.axes[a].key, values[a]});
-  return varied(grid.scene, grid.backend, variations);
+  std::vector<Difference> differences;
+  for (std::size_t a = 0; a < values.size(); ++a) differences.push_back({grid.axes[a].key, values[a]});
+  return varied(grid.scene, grid.backend, differences);
 }
 
 }  // namespace aspic::report

@@ -8,7 +8,7 @@
 #include "aspic/scene.h"
 #include "run/backends.h"
 #include "run/run_length.h"
-#include "run/variation.h"
+#include "run/variant.h"
 
 namespace aspic::report {
 

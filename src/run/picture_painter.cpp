@@ -25,7 +25,7 @@ Result<std::unique_ptr<PicturePainter>> PicturePainter::create(gl::Context& cont
     p->parts_.push_back(std::move(part));
   }
   if (runs.size() == 1) return p;
-  ASPIC_TRY(p->together_, BesideCanvas::create(context, size));
+  ASPIC_TRY(p->together_, ComparisonCanvas::create(context, size));
   p->together_->divide(runs.size());
   return p;
 }

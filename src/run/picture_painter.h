@@ -13,7 +13,7 @@
 #include "render/overlay.h"
 #include "render/quantity.h"
 #include "render/renderer.h"
-#include "run/beside.h"
+#include "run/comparison.h"
 
 namespace aspic {
 
@@ -35,7 +35,7 @@ struct ShownRun {
   std::vector<BallTurn> ball_turns;  ///< as PictureOptions::ball_turns
 };
 
-/// Draws pictures of one size, which one to most_beside runs share. The context must outlive it; every call
+/// Draws pictures of one size, which one to most_compared runs share. The context must outlive it; every call
 /// enters it (gpu/current.h).
 class PicturePainter {
  public:
@@ -70,7 +70,7 @@ class PicturePainter {
   gl::Context* context_ = nullptr;
   PictureSize size_;
   std::vector<Part> parts_;
-  std::optional<BesideCanvas> together_;  // of several runs
+  std::optional<ComparisonCanvas> together_;  // of several runs
 };
 
 }  // namespace aspic

@@ -78,15 +78,15 @@ TEST_F(Gallery, TheFirstScreen) {
 TEST_F(Gallery, FourRunsSideBySide) {
   open("cube-plane", {"simulation.steps-per-frame=20", "cube[0].position=[0,6,0]"}, "reference");
   for (int i = 0; i < 3; ++i) press(GLFW_KEY_B, GLFW_MOD_CONTROL);
-  frames_until([&] { return app().beside.count() == 4 && app().beside.settled(); });
+  frames_until([&] { return app().comparison.count() == 4 && app().comparison.settled(); });
   app().layout.reset();
   run_to(1010);
   press(GLFW_KEY_SPACE);
-  frames_until([&] { return app().beside.settled(); });
+  frames_until([&] { return app().comparison.settled(); });
   app().messages.dismiss();
   app().cursor(middle_x(), app().view.box.top + 100.0);
   frames(30);
-  EXPECT_EQ(app().beside.count(), 4u);
+  EXPECT_EQ(app().comparison.count(), 4u);
   take("window-beside-four");
 }
 
@@ -99,12 +99,12 @@ TEST_F(Gallery, TwoIntegratorsSideBySide) {
   app().layout.reset();
   run_to(1700);
   press(GLFW_KEY_SPACE);
-  frames_until([&] { return app().beside.settled(); });
+  frames_until([&] { return app().comparison.settled(); });
   app().messages.dismiss();
   // Into the sky, where the mouse points at nothing.
   app().cursor(middle_x(), app().view.box.top + 150.0);
   frames(3);
-  EXPECT_EQ(app().beside.count(), 2u);
+  EXPECT_EQ(app().comparison.count(), 2u);
   take("window-beside");
 }
 

@@ -15,7 +15,6 @@ namespace aspic::test {
 namespace {
 
 using app::Box;
-using app::Effect;
 
 class Panels : public Stage {
  protected:
@@ -337,8 +336,8 @@ TEST_F(Panels, LargeButtonsRunResetCompareAndFilm) {
   click("actions/film");
   EXPECT_EQ(app().film.recording(), nullptr);
   click("actions/compare");
-  frames_until([&] { return app().beside.settled(); });
-  EXPECT_EQ(app().beside.count(), 2u);
+  frames_until([&] { return app().comparison.settled(); });
+  EXPECT_EQ(app().comparison.count(), 2u);
   press(GLFW_KEY_TAB);
   frames(2);
   EXPECT_FALSE(has("actions/start")) << "with the panels";
@@ -468,7 +467,7 @@ TEST_F(Panels, NewBodiesStandBesideOthersAndAboveTheGroundAndAreSaved) {
   app().scene.save_as(path);
   const auto saved = load_scene(path);
   ASSERT_TRUE(saved.ok()) << saved.error().message;
-  EXPECT_EQ(app::effect_between(*saved, app().scene.scene()), Effect::none);
+  EXPECT_EQ(effect_between(*saved, app().scene.scene()), Effect::none);
   for (int i = 0; i < 10; ++i) press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   EXPECT_EQ(settings().cubes.size(), 1u);
   for (const BodyRow& row : body_rows().subspan(1)) EXPECT_EQ(row.list.size(settings()), 0u) << row.list.key;

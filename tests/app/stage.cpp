@@ -84,7 +84,7 @@ void Stage::frame(double apart) {
 
 void Stage::frames(int count, double apart) {
   for (int i = 0; i < count && !HasFatalFailure(); ++i) frame(apart);
-  while ((app_->picture.refining() || app_->beside.refining()) && !HasFatalFailure()) frame(0.0);
+  while ((app_->picture.refining() || app_->comparison_view.refining()) && !HasFatalFailure()) frame(0.0);
 }
 
 void Stage::lose_device(std::uint64_t chance) {

@@ -10,7 +10,7 @@
 #include "render/camera.h"
 #include "render/overlay_text.h"
 #include "run/arrows.h"
-#include "run/beside.h"
+#include "run/comparison.h"
 #include "run/film_painter.h"
 #include "scene/follow.h"
 #include "support/gl_fixture.h"

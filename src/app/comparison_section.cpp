@@ -1,4 +1,4 @@
-// The section of runs side by side, and the names on their pictures.
+// The section of runs compared, and the names on their pictures.
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -8,13 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "app/beside.h"
+#include "app/comparison_view.h"
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "base/printable.h"
 #include "model/integrator.h"
 #include "render/colour_map.h"
 #include "run/backends.h"
+#include "run/comparison.h"
 #include "scene/parameters.h"
 #include "scene/short_keys.h"
 #include "scene/write.h"
@@ -68,29 +69,31 @@ std::string present(std::string_view key, const Scene& scene, const Simulation& 
 }
 
 /// Key and value of run i ≥ 1.
-void difference_widget(Gui& gui, Beside& beside, const Scene& scene, std::size_t i, const Variation& own) {
+void difference_widget(Gui& gui, ComparisonView& comparison_view, const Scene& scene, std::size_t i,
+                       const Difference& own) {
   const std::vector<std::string> keys = keys_of(scene);
   std::vector<std::string> titles;
   for (const std::string& key : keys) titles.push_back(title_of(key));
   const std::vector<std::string_view> names(keys.begin(), keys.end()), labels(titles.begin(), titles.end());
   auto index = static_cast<std::size_t>(std::ranges::find(keys, own.key) - keys.begin());
   label_column("Differs in");
-  if (choice(gui, fmt::format("beside/{}/key", i), names, labels, index,
+  if (choice(gui, fmt::format("comparison/{}/key", i), names, labels, index,
              "The one value in which this run differs from the scene's own. Changing it restarts all runs."))
-    return beside.set(i, {keys[index], present(keys[index], scene, beside.run(0))});
+    return comparison_view.set(
+        i, {keys[index], present(keys[index], scene, comparison_view.comparison().run(0))});
   label_column("Value");
-  const std::string name = fmt::format("beside/{}/value", i);
+  const std::string name = fmt::format("comparison/{}/value", i);
   if (const Words words = words_for(own.key, scene); !words.names.empty()) {
     auto word = static_cast<std::size_t>(std::ranges::find(words.names, own.value) - words.names.begin());
     if (choice(gui, name, words.names, words.titles, word,
                "The value of this run. Changing it restarts all runs."))
-      beside.set(i, {own.key, std::string(words.names[word])});
+      comparison_view.set(i, {own.key, std::string(words.names[word])});
     return;
   }
   std::string text = own.value;
   const bool entered = ImGui::InputText("##value", &text, ImGuiInputTextFlags_EnterReturnsTrue);
   named(gui, name, "The value of this run, as --set takes it. Enter restarts all runs with it.");
-  if (entered) beside.set(i, {own.key, text});
+  if (entered) comparison_view.set(i, {own.key, text});
 }
 
 constexpr ImGuiWindowFlags label_flags =
@@ -100,60 +103,63 @@ constexpr ImGuiWindowFlags label_flags =
 
 }  // namespace
 
-void beside_section(Gui& gui, SceneControl& scene, Beside& beside) {
-  const std::vector<Variation> differences = scene.editor().beside();
+void comparison_section(Gui& gui, SceneControl& scene, ComparisonView& comparison_view) {
+  const Comparison& comparison = comparison_view.comparison();
+  const std::vector<Difference> differences = scene.editor().differences();
   for (std::size_t i = 1; i <= differences.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(Beside::packed_colour(i)), "Run %zu", i + 1);
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(ComparisonView::packed_colour(i)), "Run %zu", i + 1);
     ImGui::SameLine();
-    const bool removed = button(gui, fmt::format("beside/{}/remove", i).c_str(), "Remove",
+    const bool removed = button(gui, fmt::format("comparison/{}/remove", i).c_str(), "Remove",
                                 "Ends this run. The others continue.");
     if (removed)
-      beside.remove(i);
+      comparison_view.remove(i);
     else
-      difference_widget(gui, beside, scene.scene(), i, differences[i - 1]);
+      difference_widget(gui, comparison_view, scene.scene(), i, differences[i - 1]);
     ImGui::PopID();
     if (removed) return;
   }
   const float half = share_of_line(2);
-  command_button(gui, "beside/add", differences.empty() ? "Compare side by side" : "Add a run",
+  command_button(gui, "comparison/add", differences.empty() ? "Compare side by side" : "Add a run",
                  "Adds a run of the scene in which one value differs, on the same clock; up to four runs. "
                  "Restarts all of them.",
-                 "add a run side by side", differences.size() + 1 < most_beside,
+                 "add a run side by side", differences.size() + 1 < most_compared,
                  differences.empty() ? 0.0f : half);
   if (!differences.empty()) {
     ImGui::SameLine();
-    command_button(gui, "beside/leave", "Leave", "Closes the comparison and keeps the scene's own run.",
+    command_button(gui, "comparison/leave", "Leave", "Closes the comparison and keeps the scene's own run.",
                    "close the comparison", true, half);
   }
-  if (beside.others_go_on())
+  if (comparison.clock().others_go_on())
     ImGui::TextWrapped("The scene's own run diverged; the others continue. Space pauses them.");
-  command_button(gui, "beside/ghost", "Keep as ghost",
+  command_button(gui, "comparison/ghost", "Keep as ghost",
                  "The run so far is shown pale over the scene's own from now on, at the same time: change a "
                  "value, press Reset, and see both. At most 128 MiB; what is not kept is simulated again.",
                  "keep this run as ghost", true, half);
   ImGui::SameLine();
-  command_button(gui, "beside/no-ghost", "Remove ghost", "Shows the run without its ghost.",
-                 "remove the ghost", beside.ghost() != nullptr, half);
-  if (const Simulation* const ghost = beside.ghost()) {
-    const History& history = ghost->playback().history();
-    ImGui::TextDisabled("Ghost: %.3f to %.3f s, %s", history.time(history.begin_moment()), beside.ghost_end(),
-                        human_bytes(history.bytes()).c_str());
-    gui.mark("beside/ghost-reach");
+  command_button(gui, "comparison/no-ghost", "Remove ghost", "Shows the run without its ghost.",
+                 "remove the ghost", comparison.ghost() != nullptr, half);
+  if (const GhostRun* const ghost = comparison.ghost()) {
+    const History& history = ghost->simulation().playback().history();
+    ImGui::TextDisabled("Ghost: %.3f to %.3f s, %s", history.time(history.begin_moment()),
+                        comparison.ghost()->end(), human_bytes(history.bytes()).c_str());
+    gui.mark("comparison/ghost-reach");
   }
 }
 
-std::uint32_t Beside::packed_colour(std::size_t i) {
+std::uint32_t ComparisonView::packed_colour(std::size_t i) {
   const auto& colour = run_colours[i];
   return IM_COL32(colour[0], colour[1], colour[2], 255);
 }
 
 /// Tells where the ghost stands still, in the lower part of the picture.
-void Beside::draw_ghost_label(const Gui& gui) const {
-  if (!ghost_) return;
-  const History& history = ghost_->simulation->playback().history();
-  const double begin = history.time(history.begin_moment()), end = ghost_end(), now = shown_time(0);
-  const double half = 0.5 * ghost_->simulation->model().simulation.timestep;
+void ComparisonView::draw_ghost_label(const Gui& gui) const {
+  const GhostRun* const ghost = comparison_.ghost();
+  if (!ghost) return;
+  const History& history = ghost->simulation().playback().history();
+  const double begin = history.time(history.begin_moment()), end = ghost->end(),
+               now = comparison_.shown_time(0);
+  const double half = 0.5 * ghost->simulation().model().simulation.timestep;
   const std::string text = now > end + half     ? fmt::format("ghost: its run ends at {:.3f} s", end)
                            : now < begin - half ? fmt::format("ghost: kept from {:.3f} s on", begin)
                                                 : std::string("ghost: an earlier run");
@@ -172,13 +178,13 @@ void Beside::draw_ghost_label(const Gui& gui) const {
 }
 
 /// "implicit Euler · 1.501 s" in a frame of the run's colour, to be read from the last row.
-void Beside::draw_labels(const Gui& gui) const {
+void ComparisonView::draw_labels(const Gui& gui) const {
   draw_ghost_label(gui);
-  if (!active()) return;
+  if (!comparison_.active()) return;
   const auto scale = static_cast<float>(gui.scale());
   const float gap = 14.0f * scale, thickness = 3.0f * scale;
-  for (std::size_t i = 0; i < count(); ++i) {
-    const Simulation& s = run(i);
+  for (std::size_t i = 0; i < comparison_.count(); ++i) {
+    const Simulation& s = comparison_.run(i);
     const Box& box = boxes_[i];
     const ImVec2 low = {static_cast<float>(box.left), static_cast<float>(box.top)},
                  high = {static_cast<float>(box.right), static_cast<float>(box.bottom)};
@@ -190,9 +196,9 @@ void Beside::draw_labels(const Gui& gui) const {
     ImGui::SetNextWindowPos({low.x + gap, low.y + gap});
     ImGui::SetNextWindowBgAlpha(0.72f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * gap);
-    ImGui::Begin(fmt::format("##beside{}", i).c_str(), nullptr, label_flags);
+    ImGui::Begin(fmt::format("##comparison{}", i).c_str(), nullptr, label_flags);
     ImGui::SetWindowFontScale(1.35f);
-    const std::string time = fmt::format("{:.3f} s", shown_time(i)), own = name(i);
+    const std::string time = fmt::format("{:.3f} s", comparison_.shown_time(i)), own = name(i);
     const std::string line = fmt::format("{} · {}", own, time);
     const float room = high.x - low.x - 2.0f * (gap + ImGui::GetStyle().WindowPadding.x);
     ImGui::BeginGroup();
@@ -207,11 +213,11 @@ void Beside::draw_labels(const Gui& gui) const {
       ImGui::PopStyleColor();
       ImGui::TextUnformatted(time.c_str());
     }
-    if (const auto divergence = shown_divergence(i))
+    if (const auto divergence = comparison_.shown_divergence(i))
       ImGui::TextColored(ImVec4(0.98f, 0.55f, 0.38f, 1.0f), "diverged at %.3f s",
                          static_cast<double>(divergence->step) * s.model().simulation.timestep);
     ImGui::EndGroup();
-    gui.mark("beside/{}/label", i);
+    gui.mark("comparison/{}/label", i);
     ImGui::End();
     ImGui::PopStyleVar();
   }

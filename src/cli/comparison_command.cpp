@@ -7,12 +7,13 @@
 
 #include "aspic/scene.h"
 #include "cli/commands.h"
+#include "cli/headless_run.h"
 #include "cli/json.h"
-#include "cli/run_lane.h"
 #include "cli/run_summary.h"
 #include "io/program.h"
-#include "run/beside.h"
-#include "run/beside_recorder.h"
+#include "playback/common_clock.h"
+#include "run/comparison.h"
+#include "run/comparison_recorder.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
 #include "run/window_host.h"
@@ -21,10 +22,10 @@ namespace aspic::cli {
 namespace {
 
 /// One of several runs, with all that it holds. Not movable: its parts refer to each other.
-struct Member {
-  Member(Variant variant, RunFiles opened) : run(std::move(variant)), files(std::move(opened)) {}
-  Member(const Member&) = delete;
-  Member& operator=(const Member&) = delete;
+struct HeadlessVariant {
+  HeadlessVariant(Variant variant, RunFiles opened) : run(std::move(variant)), files(std::move(opened)) {}
+  HeadlessVariant(const HeadlessVariant&) = delete;
+  HeadlessVariant& operator=(const HeadlessVariant&) = delete;
 
   Variant run;
   RunFiles files;
@@ -32,10 +33,10 @@ struct Member {
   std::string name;  ///< "run 2 (integrator implicit Euler)"
   SharedModel model;
   Backend backend;
-  std::optional<RunLane> lane;
+  std::optional<HeadlessRun> headless;
   std::optional<Outcome> outcome;
 };
-using Members = std::vector<std::unique_ptr<Member>>;
+using HeadlessVariants = std::vector<std::unique_ptr<HeadlessVariant>>;
 
 Status refuse_what_needs_one_run(const RunOptions& options) {
   if (!options.resume_file.empty())
@@ -58,30 +59,31 @@ Result<RunFiles> open_files(const RunOptions& options, const Scene& scene, std::
   return RunFiles::open(outputs, {}, {to_toml(scene), scene.model.simulation.integrator}, overwrite);
 }
 
-Result<Members> make_members(const RunOptions& options, const std::vector<Variation>& differences,
-                             Overwrite overwrite) {
+Result<HeadlessVariants> make_variants(const RunOptions& options, const std::vector<Difference>& differences,
+                                       Overwrite overwrite) {
   ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides));
   ASPIC_TRY(scene, with_view(std::move(scene), options.view));
   ASPIC_TRY(const auto steps, steps_of(options.length, scene.model.simulation));
-  ASPIC_TRY(auto runs, runs_beside(scene, options.backend, differences));
-  Members members;
+  ASPIC_TRY(auto runs, variants_of(scene, options.backend, differences));
+  HeadlessVariants variants;
   for (Variant& run : runs) {
-    ASPIC_TRY(auto files, open_files(options, run.scene, members.size() + 1, overwrite));
-    auto member = std::make_unique<Member>(std::move(run), std::move(files));
-    const SimulationSettings& simulation = member->run.scene.model.simulation;
-    ASPIC_TRY(member->last_step, as_long_as(scene.model.simulation, steps, simulation));
-    ASPIC_TRY(auto model, build_model(member->run.scene.model));
-    member->model = shared(std::move(model));
-    members.push_back(std::move(member));
+    ASPIC_TRY(auto files, open_files(options, run.scene, variants.size() + 1, overwrite));
+    auto variant = std::make_unique<HeadlessVariant>(std::move(run), std::move(files));
+    const SimulationSettings& simulation = variant->run.scene.model.simulation;
+    ASPIC_TRY(variant->last_step, as_long_as(scene.model.simulation, steps, simulation));
+    ASPIC_TRY(auto model, build_model(variant->run.scene.model));
+    variant->model = shared(std::move(model));
+    variants.push_back(std::move(variant));
   }
-  return members;
+  return variants;
 }
 
 /// A context for all that needs one: pictures, and backends that may take it. Null where nothing must have
 /// one and there is none.
-Result<std::shared_ptr<gl::Context>> shared_context(const RunOptions& options, const Members& members) {
-  const bool needed = options.pictures.any() || std::ranges::any_of(members, [](const auto& member) {
-                        const BackendRow* const row = member->run.backend.row;
+Result<std::shared_ptr<gl::Context>> shared_context(const RunOptions& options,
+                                                    const HeadlessVariants& variants) {
+  const bool needed = options.pictures.any() || std::ranges::any_of(variants, [](const auto& variant) {
+                        const BackendRow* const row = variant->run.backend.row;
                         return row && row->needs_context;
                       });
   auto context = gl::Context::create_headless();
@@ -91,12 +93,12 @@ Result<std::shared_ptr<gl::Context>> shared_context(const RunOptions& options, c
                "pictures and the gpu backend need an OpenGL device. " + context.error().message};
 }
 
-Status prepare(Members& members, const std::vector<Variation>& differences, gl::Context* context,
+Status prepare(HeadlessVariants& variants, const std::vector<Difference>& differences, gl::Context* context,
                const InterruptGuard& interrupt) {
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    Member& m = *members[i];
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    HeadlessVariant& m = *variants[i];
     ASPIC_TRY(m.backend, make_backend(m.run.backend, m.model, {context, nullptr, {}}));
-    m.lane.emplace(*m.backend.solver, m.files, 0, true);
+    m.headless.emplace(*m.backend.solver, m.files, 0, true);
     const std::vector<OverlayLine> label = label_of(differences, m.run.scene, m.backend.variant());
     m.name = fmt::format("run {}", i + 1);
     for (const OverlayLine& line : label)
@@ -107,53 +109,54 @@ Status prepare(Members& members, const std::vector<Variation>& differences, gl::
   return {};
 }
 
-Status draw(BesideRecorder& recorder, const Members& members) {
+Status draw(ComparisonRecorder& recorder, const HeadlessVariants& variants) {
   std::vector<std::uint64_t> steps;
   std::vector<std::optional<Divergence>> divergences;
-  for (const auto& m : members) {
-    steps.push_back(m->lane->step());
-    divergences.push_back(m->lane->divergence());
+  for (const auto& m : variants) {
+    steps.push_back(m->headless->step());
+    divergences.push_back(m->headless->divergence());
   }
   return recorder.add(steps, divergences);
 }
 
 /// Picture by picture: a run that diverged stands still while the others go on, and all do without pictures
 /// if those fail and there are other files. The result says whether all pictures were drawn.
-Result<Status> simulate(Members& members, const CommonClock& clock, BesideRecorder* recorder,
+Result<Status> simulate(HeadlessVariants& variants, const CommonClock& clock, ComparisonRecorder* recorder,
                         const InterruptGuard& interrupt) {
-  for (const auto& m : members) ASPIC_CHECK(m->lane->begin());
+  for (const auto& m : variants) ASPIC_CHECK(m->headless->begin());
   ProgressBar bar(clock.count(), "picture");
   bool interrupted = false;
   Losses losses;
   for (std::uint64_t frame = 0; frame < clock.count() && !interrupted; ++frame) {
-    for (std::size_t i = 0; i < members.size() && !interrupted; ++i) {
-      RunLane& lane = *members[i]->lane;
-      const double before = lane.seconds();
-      ASPIC_CHECK(lane.advance_to(std::max(clock.step_of(i, frame), lane.step()), interrupt));
-      if (recorder) recorder->add_simulation(lane.seconds() - before);
-      interrupted = lane.interrupted();
+    for (std::size_t i = 0; i < variants.size() && !interrupted; ++i) {
+      HeadlessRun& headless = *variants[i]->headless;
+      const double before = headless.seconds();
+      ASPIC_CHECK(headless.advance_to(std::max(clock.step_of(i, frame), headless.step()), interrupt));
+      if (recorder) recorder->add_simulation(headless.seconds() - before);
+      interrupted = headless.interrupted();
     }
     if (recorder) {
-      const bool files = std::ranges::any_of(members, [](const auto& m) { return m->files.any_left(); });
-      ASPIC_CHECK(losses.after_picture(*recorder, draw(*recorder, members), files));
+      const bool files = std::ranges::any_of(variants, [](const auto& m) { return m->files.any_left(); });
+      ASPIC_CHECK(losses.after_picture(*recorder, draw(*recorder, variants), files));
       if (!losses.pictured()) recorder = nullptr;
     }
     bar.update(frame + 1);
     interrupted = interrupted || interrupt.interrupted();
-    if (std::ranges::all_of(members, [](const auto& m) { return m->lane->divergence().has_value(); })) break;
+    if (std::ranges::all_of(variants, [](const auto& m) { return m->headless->divergence().has_value(); }))
+      break;
   }
-  for (const auto& m : members) {
-    ASPIC_TRY(m->outcome, m->lane->outcome(m->last_step));
+  for (const auto& m : variants) {
+    ASPIC_TRY(m->outcome, m->headless->outcome(m->last_step));
     m->outcome->interrupted = interrupted;
   }
   return losses.pictured();
 }
 
-Status print_summary(const RunOptions& options, const Members& members,
-                     const std::vector<std::string>& pictures, const BesideRecorder* recorder) {
+Status print_summary(const RunOptions& options, const HeadlessVariants& variants,
+                     const std::vector<std::string>& pictures, const ComparisonRecorder* recorder) {
   if (options.json) {
     Json runs = Json::array();
-    for (const auto& m : members) {
+    for (const auto& m : variants) {
       Json run = to_json({m->run.scene, *m->model, m->backend, *m->outcome});
       run["files"] = m->files.written();
       runs.push_back(std::move(run));
@@ -162,7 +165,7 @@ Status print_summary(const RunOptions& options, const Members& members,
     return print_data(to_text(Json{{"runs", runs}, {"pictures", times}, {"files", pictures}}));
   }
   std::string text;
-  for (const auto& m : members) {
+  for (const auto& m : variants) {
     text += fmt::format("{}\n{}", m->name, to_text({m->run.scene, *m->model, m->backend, *m->outcome}));
     for (const std::string& file : m->files.written()) text += fmt::format("wrote        {}\n", file);
     text += "\n";
@@ -173,42 +176,42 @@ Status print_summary(const RunOptions& options, const Members& members,
 
 }  // namespace
 
-Status execute_beside(const RunOptions& options) {
+Status execute_comparison(const RunOptions& options) {
   const InterruptGuard interrupt;
   ASPIC_CHECK(refuse_what_needs_one_run(options));
-  std::vector<Variation> differences;
-  for (const std::string& text : options.beside) {
-    ASPIC_TRY(auto difference, parse_variation(text));
+  std::vector<Difference> differences;
+  for (const std::string& text : options.differences) {
+    ASPIC_TRY(auto difference, parse_difference(text));
     differences.push_back(std::move(difference));
   }
   const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
   std::shared_ptr<gl::Context> context;  // outlives the recorder
-  ASPIC_TRY(auto members, make_members(options, differences, overwrite));
-  ASPIC_CHECK(check_pictures(options.pictures, members.front()->model->simulation.timestep, 0,
-                             members.front()->last_step));
+  ASPIC_TRY(auto variants, make_variants(options, differences, overwrite));
+  ASPIC_CHECK(check_pictures(options.pictures, variants.front()->model->simulation.timestep, 0,
+                             variants.front()->last_step));
   ASPIC_TRY(auto film, RunFiles::open({}, options.pictures, {}, overwrite));
-  ASPIC_TRY(context, shared_context(options, members));
-  ASPIC_CHECK(prepare(members, differences, context.get(), interrupt));
+  ASPIC_TRY(context, shared_context(options, variants));
+  ASPIC_CHECK(prepare(variants, differences, context.get(), interrupt));
 
   std::vector<Span> spans;
   std::vector<PicturedRun> pictured;
-  for (const auto& m : members) {
+  for (const auto& m : variants) {
     spans.push_back({m->model->simulation.timestep, m->last_step});
     pictured.push_back({&m->run.scene, &m->backend,
                         short_name(pictured.size(), differences, m->run.scene, m->backend.variant())});
   }
   const CommonClock clock(std::move(spans), frames_per_second(options.pictures), options.pictures.speed);
-  std::unique_ptr<BesideRecorder> recorder;
+  std::unique_ptr<ComparisonRecorder> recorder;
   if (options.pictures.any()) {
     PictureOutput pictures = options.pictures;
     pictures.drawer = drawer_command();
-    ASPIC_TRY(recorder, BesideRecorder::create(*context, pictures, std::move(pictured), clock.count(),
-                                               film.take_frame_sinks()));
+    ASPIC_TRY(recorder, ComparisonRecorder::create(*context, pictures, std::move(pictured), clock.count(),
+                                                   film.take_frame_sinks()));
   }
-  ASPIC_TRY(Status pictured_all, simulate(members, clock, recorder.get(), interrupt));
+  ASPIC_TRY(Status pictured_all, simulate(variants, clock, recorder.get(), interrupt));
 
   // Pictures last: an encoder may keep a run waiting.
-  for (const auto& m : members) {
+  for (const auto& m : variants) {
     const Outcome& outcome = *m->outcome;
     (void)m->files.finish({*m->model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
   }
@@ -216,20 +219,20 @@ Status execute_beside(const RunOptions& options) {
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};
   if (!pictured_all && lost.empty()) lost.push_back(pictured_all.error());
   bool others = recorder && !recorder->written().empty();
-  for (const auto& m : members) {
+  for (const auto& m : variants) {
     lost.insert(lost.end(), m->files.failures().begin(), m->files.failures().end());
     others = others || !m->files.written().empty();
   }
   const Status summary = print_summary(
-      options, members, recorder ? recorder->written() : std::vector<std::string>{}, recorder.get());
+      options, variants, recorder ? recorder->written() : std::vector<std::string>{}, recorder.get());
   if (recorder) print_frame_times(recorder->times(), recorder->device());
   ASPIC_CHECK(lost_error(lost, others));
   if (!summary) return summary;
-  for (const auto& m : members)
+  for (const auto& m : variants)
     if (m->outcome->divergence) return divergence_error(*m->model, *m->outcome, interrupt, m->name);
-  if (members.front()->outcome->interrupted)
+  if (variants.front()->outcome->interrupted)
     return fail(ErrorCode::interrupted, "interrupted at step {} of {}; all files were completed.",
-                members.front()->outcome->state.step, members.front()->last_step);
+                variants.front()->outcome->state.step, variants.front()->last_step);
   return {};
 }
 

@@ -1,4 +1,4 @@
-#include "cli/run_lane.h"
+#include "cli/headless_run.h"
 
 #include <algorithm>
 #include <chrono>
@@ -36,7 +36,7 @@ Status lost_error(const std::vector<Error>& failures, bool others) {
 
 // A State takes as much memory as all of a solver's: one is held where it is looked at, and none while
 // steps are made.
-Status RunLane::sample() {
+Status HeadlessRun::sample() {
   ASPIC_TRY(const auto state, solver_.state());
   ASPIC_CHECK(files_.take({solver_.model(), state, solver_.solve_statistics().value_or(SolveStatistics{})}));
   const std::vector<Error>& failures = files_.failures();
@@ -45,8 +45,8 @@ Status RunLane::sample() {
   return {};
 }
 
-Status RunLane::advance_to(std::uint64_t step, const InterruptGuard& interrupt,
-                           const std::function<void(std::uint64_t)>& did) {
+Status HeadlessRun::advance_to(std::uint64_t step, const InterruptGuard& interrupt,
+                               const std::function<void(std::uint64_t)>& did) {
   const auto started = Clock::now();
   while (step_ < step && !divergence_ && !(interrupted_ = interrupt.interrupted())) {
     const std::uint64_t wanted = files_.next_step(step_);
@@ -66,7 +66,7 @@ Status RunLane::advance_to(std::uint64_t step, const InterruptGuard& interrupt,
   return {};
 }
 
-Result<Outcome> RunLane::outcome(std::uint64_t last_step) {
+Result<Outcome> HeadlessRun::outcome(std::uint64_t last_step) {
   const auto before = Clock::now();
   Outcome outcome;
   outcome.first_step = first_step_;

@@ -1,4 +1,4 @@
-#include "run/beside_recorder.h"
+#include "run/comparison_recorder.h"
 
 #include <utility>
 
@@ -8,10 +8,10 @@
 
 namespace aspic {
 
-Result<std::unique_ptr<BesideRecorder>> BesideRecorder::create(
+Result<std::unique_ptr<ComparisonRecorder>> ComparisonRecorder::create(
     gl::Context& context, const PictureOutput& output, std::vector<PicturedRun> runs, std::uint64_t pictures,
     std::vector<std::unique_ptr<FrameSink>> sinks) {
-  std::unique_ptr<BesideRecorder> r(new BesideRecorder());
+  std::unique_ptr<ComparisonRecorder> r(new ComparisonRecorder());
   r->output_ = output;
   const std::vector<Tile> tiles = tiles_of(output.size, runs.size());
   std::vector<PaintedRun> painted;
@@ -26,14 +26,14 @@ Result<std::unique_ptr<BesideRecorder>> BesideRecorder::create(
   return r;
 }
 
-FrameTimes BesideRecorder::times() const {
+FrameTimes ComparisonRecorder::times() const {
   FrameTimes times = film_->times();
   times.simulate = simulate_seconds_;
   return times;
 }
 
-Status BesideRecorder::add(const std::vector<std::uint64_t>& steps,
-                           const std::vector<std::optional<Divergence>>& divergences) {
+Status ComparisonRecorder::add(const std::vector<std::uint64_t>& steps,
+                               const std::vector<std::optional<Divergence>>& divergences) {
   std::vector<PaintedState> states;
   std::vector<ShownRun> all;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -48,7 +48,7 @@ Status BesideRecorder::add(const std::vector<std::uint64_t>& steps,
 }
 
 /// A copy of the state of a part's run, where one is needed.
-Status BesideRecorder::take_state(Part& part, std::uint64_t step) {
+Status ComparisonRecorder::take_state(Part& part, std::uint64_t step) {
   if (part.step == step) return {};
   const Backend& backend = *part.run.backend;
   if (!gpu_of(backend) || film_->wants_copies() || part.following.any() ||
@@ -59,7 +59,7 @@ Status BesideRecorder::take_state(Part& part, std::uint64_t step) {
   return {};
 }
 
-ShownRun BesideRecorder::shown(const Part& part, const std::optional<Divergence>& divergence) const {
+ShownRun ComparisonRecorder::shown(const Part& part, const std::optional<Divergence>& divergence) const {
   const Model& model = part.run.backend->solver->model();
   const double timestep = model.simulation.timestep;
   const ViewSettings& view = part.run.scene->view;
@@ -72,10 +72,10 @@ ShownRun BesideRecorder::shown(const Part& part, const std::optional<Divergence>
       view.scale != last.scale || view.colour != last.colour || (view.arrows.any() && !view.arrow_scale);
   shown.legend = output_.text && (own_scale || &part == &parts_.back());
   if (view.arrows.any()) shown.arrows = arrows_of(model, part.copy, view.arrows);
-  shown.text_height = beside_text_height(output_.size.height, parts_.size());
+  shown.text_height = comparison_text_height(output_.size.height, parts_.size());
   if (output_.text) {
-    shown.text = beside_text(part.run.name, part.number, static_cast<double>(*part.step) * timestep, timestep,
-                             divergence);
+    shown.text = comparison_text(part.run.name, part.number, static_cast<double>(*part.step) * timestep,
+                                 timestep, divergence);
     if (part.number == 0) shown.text = below_author(*part.run.scene, std::move(shown.text));
     shown.tint = run_tint(part.number);
     shown.framed = true;
@@ -83,7 +83,7 @@ ShownRun BesideRecorder::shown(const Part& part, const std::optional<Divergence>
   return shown;
 }
 
-Status BesideRecorder::finish() {
+Status ComparisonRecorder::finish() {
   return film_->finish();
 }
 

@@ -60,7 +60,7 @@ std::string part(const Pixels& whole, int left, int top, int width, int height) 
   return rgb;
 }
 
-TEST(Beside, EachRunHasTheBitsOfTheRunAlone) {
+TEST(Comparison, EachRunHasTheBitsOfTheRunAlone) {
   const auto beside = run({"--duration", "0.4", "--beside", "integrator=implicit-euler", "--beside",
                            "h=0.0016", "--beside", "backend=cpu"});
   ASSERT_EQ(beside.exit_code, 0) << beside.err;
@@ -82,7 +82,7 @@ TEST(Beside, EachRunHasTheBitsOfTheRunAlone) {
   EXPECT_NE(runs[0]["state_hash"], runs[1]["state_hash"]);
 }
 
-TEST(Beside, TheAuthorIsNamedInTheFirstPartAlone) {
+TEST(Comparison, TheAuthorIsNamedInTheFirstPartAlone) {
   const test::TemporaryDirectory dir;
   const auto picture = [&](const std::string& name, const Words& more) {
     Words words = {"--steps", "0", "--size", "642x240", "--beside", "h=0.002", "--frames", dir.file(name)};
@@ -97,7 +97,7 @@ TEST(Beside, TheAuthorIsNamedInTheFirstPartAlone) {
   EXPECT_TRUE(part(named, 322, 0, 320, 240) == part(nobody, 322, 0, 320, 240));
 }
 
-TEST(Beside, PartsOfThePictureAreThoseOfTheRunsAlone) {
+TEST(Comparison, PartsOfThePictureAreThoseOfTheRunsAlone) {
   const test::TemporaryDirectory dir;
   const Words film = {"--duration", "0.2", "--fps", "10", "--no-text", "--frames"};
   const auto frames = [&](const std::string& name, const std::string& size, const Words& more) {
@@ -126,7 +126,7 @@ TEST(Beside, PartsOfThePictureAreThoseOfTheRunsAlone) {
   }
 }
 
-TEST(Beside, ADivergenceEndsOneRunAndNotTheFilm) {
+TEST(Comparison, ADivergenceEndsOneRunAndNotTheFilm) {
   const test::TemporaryDirectory dir;
   const Words words = {"--duration", "0.3",
                        "--set",      "simulation.timestep=0.003",
@@ -158,7 +158,7 @@ TEST(Beside, ADivergenceEndsOneRunAndNotTheFilm) {
   EXPECT_FALSE(part(last, 66, 0, 64, 96) == part(before, 66, 0, 64, 96));
 }
 
-TEST(Beside, EachRunWritesFilesOfItsOwn) {
+TEST(Comparison, EachRunWritesFilesOfItsOwn) {
   const test::TemporaryDirectory dir;
   const auto beside =
       run({"--steps", "20", "--beside", "h=0.0005", "--state", dir.file("s.csv"), "--checkpoint",
@@ -177,7 +177,7 @@ TEST(Beside, EachRunWritesFilesOfItsOwn) {
   EXPECT_THAT(again.err, HasSubstr("--force"));
 }
 
-TEST(Beside, WhatCannotBeIsRefused) {
+TEST(Comparison, WhatCannotBeIsRefused) {
   const auto refused = [](const Words& words) {
     const auto finished = run(words);
     EXPECT_EQ(finished.exit_code, 2) << finished.err;

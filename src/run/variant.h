@@ -10,14 +10,14 @@
 
 namespace aspic {
 
-/// The key of a variation that names a backend, with its options: "gpu:per-spring".
+/// The key of a difference that names a backend, with its options: "gpu:per-spring".
 inline constexpr std::string_view backend_key = "backend";
 
 /// A key with its value.
-struct Variation {
+struct Difference {
   std::string key;    ///< a short name (scene/short_keys.h), a path of --set, or backend_key
   std::string value;  ///< as --set or --backend takes it
-  friend bool operator==(const Variation&, const Variation&) = default;
+  friend bool operator==(const Difference&, const Difference&) = default;
 };
 
 /// A run's scene and backend.
@@ -26,10 +26,10 @@ struct Variant {
   BackendChoice backend;
 };
 
-/// A scene and a backend with variations applied. Errors: those of assignments(), of with_overrides() and of
+/// A scene and a backend with differences applied. Errors: those of assignments(), of with_overrides() and of
 /// the backend's name and options.
 Result<Variant> varied(const Scene& scene, const BackendChoice& backend,
-                       std::span<const Variation> variations);
+                       std::span<const Difference> differences);
 
 /// What a key is called on a picture: "integrator", "time step h", "cube[1].shear.stiffness".
 std::string title_of(std::string_view key);

@@ -1,4 +1,4 @@
-#include "run/beside.h"
+#include "run/comparison.h"
 
 #include <fmt/format.h>
 
@@ -8,29 +8,28 @@
 
 #include "base/printable.h"
 #include "render/overlay_text.h"
-#include "run/run_length.h"
 #include "scene/short_keys.h"
 
 namespace aspic {
 
-Result<Variation> parse_variation(const std::string& text) {
+Result<Difference> parse_difference(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     return fail(ErrorCode::usage,
                 "--beside {}: a difference is KEY=VALUE, such as integrator=implicit-euler, h=0.002, k=500, "
                 "backend=reference or any key of --set.",
                 printable_line(text));
-  return Variation{text.substr(0, equals), text.substr(equals + 1)};
+  return Difference{text.substr(0, equals), text.substr(equals + 1)};
 }
 
-Result<std::vector<Variant>> runs_beside(const Scene& scene, const BackendChoice& backend,
-                                         const std::vector<Variation>& differences) {
-  if (differences.size() >= most_beside)
+Result<std::vector<Variant>> variants_of(const Scene& scene, const BackendChoice& backend,
+                                         const std::vector<Difference>& differences) {
+  if (differences.size() >= most_compared)
     return fail(ErrorCode::usage,
                 "--beside is given {} times; at most {} runs are compared with the scene's own.",
-                differences.size(), most_beside - 1);
+                differences.size(), most_compared - 1);
   std::vector<Variant> runs = {{scene, backend}};
-  for (const Variation& difference : differences) {
+  for (const Difference& difference : differences) {
     auto run = varied(scene, backend, std::span(&difference, 1));
     if (!run) {
       return fail(run.error().code, "the variant {}={} cannot be run:\n{}", printable_line(difference.key),
@@ -41,10 +40,10 @@ Result<std::vector<Variant>> runs_beside(const Scene& scene, const BackendChoice
   return runs;
 }
 
-std::vector<OverlayLine> label_of(const std::vector<Variation>& differences, const Scene& scene,
+std::vector<OverlayLine> label_of(const std::vector<Difference>& differences, const Scene& scene,
                                   const std::string& backend) {
   std::vector<OverlayLine> label;
-  for (const Variation& difference : differences) {
+  for (const Difference& difference : differences) {
     const std::string title = title_of(difference.key);
     if (std::ranges::find(label, title, &OverlayLine::label) == label.end())
       label.push_back({title, value_of(difference.key, scene, backend)});
@@ -80,19 +79,19 @@ std::string short_difference(const std::string& key, const Scene& scene, const s
 
 }  // namespace
 
-std::string short_name(std::size_t run, const std::vector<Variation>& differences, const Scene& scene,
+std::string short_name(std::size_t run, const std::vector<Difference>& differences, const Scene& scene,
                        const std::string& backend) {
   if (run > 0) return short_difference(differences[run - 1].key, scene, backend);
   std::vector<std::string> parts;
-  for (const Variation& difference : differences) {
+  for (const Difference& difference : differences) {
     std::string part = short_difference(difference.key, scene, backend);
     if (std::ranges::find(parts, part) == parts.end()) parts.push_back(std::move(part));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::vector<OverlayLine> beside_text(const std::string& name, std::size_t run, double time, double timestep,
-                                     const std::optional<Divergence>& divergence) {
+std::vector<OverlayLine> comparison_text(const std::string& name, std::size_t run, double time,
+                                         double timestep, const std::optional<Divergence>& divergence) {
   std::vector<OverlayLine> text = {{name, fmt::format("{:.3f} s", time), false, run_tint(run)}};
   if (divergence) {
     const double when = static_cast<double>(divergence->step) * timestep;
@@ -108,25 +107,8 @@ std::vector<OverlayLine> below_author(const Scene& scene, std::vector<OverlayLin
   return text;
 }
 
-int beside_text_height(int picture_height, std::size_t runs) {
+int comparison_text_height(int picture_height, std::size_t runs) {
   return std::clamp(picture_height / (runs > 2 ? 40 : 32), 11, 256);
-}
-
-Result<std::uint64_t> as_long_as(const SimulationSettings& first, std::uint64_t steps,
-                                 const SimulationSettings& run) {
-  if (run.timestep == first.timestep) return steps;
-  return steps_of({{}, static_cast<double>(steps) * first.timestep}, run);
-}
-
-CommonClock::CommonClock(std::vector<Span> runs, double fps, double speed)
-    : runs_(std::move(runs)),
-      count_(FrameSchedule(runs_.front().timestep, 0, runs_.front().last_step, fps, speed).count()) {
-  for (const Span& run : runs_) schedules_.push_back(FrameSchedule::open_ended(run.timestep, 0, fps, speed));
-}
-
-std::uint64_t CommonClock::step_of(std::size_t run, std::uint64_t frame) const {
-  const std::uint64_t last = runs_[run].last_step;
-  return frame + 1 == count_ ? last : std::min(schedules_[run].step_of(frame), last);
 }
 
 std::vector<Tile> tiles_of(const PictureSize& picture, std::size_t runs) {
@@ -144,14 +126,14 @@ std::vector<Tile> tiles_of(const PictureSize& picture, std::size_t runs) {
   return tiles;
 }
 
-Result<BesideCanvas> BesideCanvas::create(gl::Context& context, const PictureSize& size) {
-  BesideCanvas canvas;
+Result<ComparisonCanvas> ComparisonCanvas::create(gl::Context& context, const PictureSize& size) {
+  ComparisonCanvas canvas;
   ASPIC_TRY(canvas.image_, DrawableImage::create(context, "runs side by side",
                                                  {.width = size.width, .height = size.height}, false));
   return canvas;
 }
 
-void BesideCanvas::divide(std::size_t runs) {
+void ComparisonCanvas::divide(std::size_t runs) {
   const gl::Framebuffer& whole = image_.framebuffer;
   std::vector<Tile> tiles = tiles_of({whole.width(), whole.height()}, runs);
   if (tiles == tiles_) return;
@@ -159,7 +141,7 @@ void BesideCanvas::divide(std::size_t runs) {
   whole.clear();
 }
 
-void BesideCanvas::place(std::size_t run, const gl::Framebuffer& picture, bool framed) {
+void ComparisonCanvas::place(std::size_t run, const gl::Framebuffer& picture, bool framed) {
   const gl::Framebuffer& whole = image_.framebuffer;
   const Tile& tile = tiles_[run];
   const int bottom = whole.height() - tile.top - tile.height, right = tile.left + tile.width,

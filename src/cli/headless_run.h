@@ -68,11 +68,11 @@ class BatchSize {
 };
 
 /// A solver with the files that take its states. Both must outlive it.
-class RunLane {
+class HeadlessRun {
  public:
   /// The solver is at `first_step`. `others`: the run also writes what is not among these files, so that it
   /// goes on when all of them are lost.
-  RunLane(Solver& solver, RunFiles& files, std::uint64_t first_step, bool others)
+  HeadlessRun(Solver& solver, RunFiles& files, std::uint64_t first_step, bool others)
       : solver_(solver), files_(files), others_(others), first_step_(first_step), step_(first_step) {}
 
   /// Hands the first state to the files.

@@ -1,43 +1,39 @@
 #pragma once
-// A run compared with the window's own: the same scene with one difference, on the same clock.
+// One of the runs compared: the scene with a difference, on the clock of the scene's own run.
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "app/scene_picture.h"
-#include "app/view.h"
 #include "aspic/scene.h"
 #include "base/result.h"
 #include "playback/simulation.h"
-#include "run/variation.h"
+#include "run/variant.h"
 
-namespace aspic::app {
+namespace aspic {
 
-class Companion {
+class VariantRun {
  public:
-  /// `scene` is that of the window's own run, `leader`; all but the variation is taken from them. The
-  /// references must outlive it. Errors: those of varied() and of Simulation::create().
-  static Result<std::unique_ptr<Companion>> create(gl::Context& context, const Scene& scene,
-                                                   const Simulation& leader, View& view,
-                                                   const BackendChoice& asked, bool full_quality,
-                                                   const Variation& variation);
+  /// `scene` is that of the leader, the scene's own run; all but the difference is taken from them. Errors:
+  /// those of varied() and of Simulation::create().
+  static Result<std::unique_ptr<VariantRun>> create(gl::Context& context, const Scene& scene,
+                                                    const Simulation& leader, const BackendChoice& asked,
+                                                    const Difference& difference);
 
-  const Variation& variation() const { return variation_; }
+  const Difference& difference() const { return difference_; }
   const Scene& scene() const { return scene_; }
   const Simulation& simulation() const { return *simulation_; }
   Simulation& simulation() { return *simulation_; }
-  ScenePicture& picture() { return *picture_; }
 
-  /// Once for each picture: follows the window's own run to its time, resets and changes included. `dt` and
-  /// `budget` as of Simulation::update(). Errors: those of Simulation.
+  /// Once for each picture: follows the leader to its time, resets and changes included. `dt` and `budget` as
+  /// of Simulation::update(). Errors: those of Simulation.
   Status follow(const Scene& scene, const Simulation& leader, double dt, double budget);
   /// Goes to a time [s] that only runs like this one have come to, and rests there if those have `paused`.
   Status go_on_to(double time, bool paused, double dt, double budget);
   /// Goes to the moment of its own history that is nearest to a time [s].
   Status recall(double time, double dt, double budget);
-  /// Sets the pace itself.
+  /// Sets the pace itself, that of `pace`; it `waits` for the others.
   Status lead(const Pacer& pace, bool running, bool waits, double dt, double budget);
   /// It shows the time it was last asked for, or diverged on the way there.
   bool arrived() const { return arrived_; }
@@ -49,7 +45,8 @@ class Companion {
   std::optional<std::string> take_message() { return std::exchange(message_, std::nullopt); }
 
  private:
-  Companion(const Variation& variation, const BackendChoice& asked) : variation_(variation), asked_(asked) {}
+  VariantRun(const Difference& difference, const BackendChoice& asked)
+      : difference_(difference), asked_(asked) {}
   Status take_over(const Scene& scene, const Simulation& leader);
   Status adopt_setup(const Simulation& leader);
   Status go_to(std::uint64_t step);
@@ -57,12 +54,11 @@ class Companion {
   bool can_pull(const Simulation& leader, const Pull& pull) const;
   std::uint64_t step_at(double time) const;
 
-  Variation variation_;
+  Difference difference_;
   BackendChoice asked_;
-  Scene scene_;  // the variation's
+  Scene scene_;  // the variant's
   std::unique_ptr<Simulation> simulation_;
-  std::unique_ptr<ScenePicture> picture_;
-  bool own_backend_ = false;  // the variation says which
+  bool own_backend_ = false;  // the difference says which
   bool arrived_ = false;
   bool stuck_ = false;   // its history does not reach the time it was asked for
   bool adopted_ = true;  // the leader's setup of adopted_model_
@@ -71,4 +67,4 @@ class Companion {
   std::optional<std::string> message_;
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -1,4 +1,4 @@
-#include "run/variation.h"
+#include "run/variant.h"
 
 #include <fmt/format.h>
 
@@ -17,16 +17,16 @@
 namespace aspic {
 
 Result<Variant> varied(const Scene& scene, const BackendChoice& backend,
-                       std::span<const Variation> variations) {
+                       std::span<const Difference> differences) {
   Variant run = {scene, backend};
   std::vector<std::string> overrides;
-  for (const Variation& variation : variations) {
-    if (variation.key == backend_key) {
-      ASPIC_TRY(run.backend, parse_backend(variation.value, backend));
+  for (const Difference& difference : differences) {
+    if (difference.key == backend_key) {
+      ASPIC_TRY(run.backend, parse_backend(difference.value, backend));
       ASPIC_CHECK(check_choice(run.backend));
       continue;
     }
-    ASPIC_TRY(auto more, assignments(scene, variation.key, variation.value));
+    ASPIC_TRY(auto more, assignments(scene, difference.key, difference.value));
     overrides.insert(overrides.end(), std::make_move_iterator(more.begin()),
                      std::make_move_iterator(more.end()));
   }

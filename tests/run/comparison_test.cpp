@@ -1,6 +1,6 @@
-// Runs side by side as plain data: what differs, when each shows what, and where its picture lies.
+// Runs compared, as plain data: what differs, and where its picture lies.
 
-#include "run/beside.h"
+#include "run/comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,23 +20,23 @@ Scene small_scene() {
   return load_scene("cube-plane", small).value();
 }
 
-TEST(Beside, DifferenceIsKeyAndValue) {
-  const auto variation = parse_variation("cube[0].name-of=a=b");
+TEST(Comparison, DifferenceIsKeyAndValue) {
+  const auto variation = parse_difference("cube[0].name-of=a=b");
   ASSERT_TRUE(variation.ok());
   EXPECT_EQ(variation->key, "cube[0].name-of");
   EXPECT_EQ(variation->value, "a=b");
   for (const char* text : {"", "k", "=5", "k="}) {
-    const auto bad = parse_variation(text);
+    const auto bad = parse_difference(text);
     ASSERT_FALSE(bad.ok()) << text;
     EXPECT_EQ(bad.error().code, ErrorCode::usage);
     EXPECT_THAT(bad.error().message, HasSubstr("KEY=VALUE"));
   }
 }
 
-TEST(Beside, EachRunHasItsOwnDifferenceAlone) {
+TEST(Comparison, EachRunHasItsOwnDifferenceAlone) {
   const Scene scene = small_scene();
   const auto runs =
-      runs_beside(scene, {}, {{"integrator", "implicit-euler"}, {"h", "0.002"}, {"backend", "cpu"}});
+      variants_of(scene, {}, {{"integrator", "implicit-euler"}, {"h", "0.002"}, {"backend", "cpu"}});
   ASSERT_TRUE(runs.ok()) << runs.error().message;
   ASSERT_EQ(runs->size(), 4u);
   const auto simulation = [&](std::size_t i) { return (*runs)[i].scene.model.simulation; };
@@ -50,9 +50,9 @@ TEST(Beside, EachRunHasItsOwnDifferenceAlone) {
   EXPECT_EQ((*runs)[3].backend.row->name, "cpu");
 }
 
-TEST(Beside, WrongDifferencesSayWhichAndWhy) {
-  const auto message = [](const std::vector<Variation>& differences) {
-    const auto runs = runs_beside(small_scene(), {}, differences);
+TEST(Comparison, WrongDifferencesSayWhichAndWhy) {
+  const auto message = [](const std::vector<Difference>& differences) {
+    const auto runs = variants_of(small_scene(), {}, differences);
     EXPECT_FALSE(runs.ok());
     return runs.ok() ? std::string() : runs.error().message;
   };
@@ -65,12 +65,12 @@ TEST(Beside, WrongDifferencesSayWhichAndWhy) {
   EXPECT_THAT(message({{"h", "0.1"}, {"h", "0.2"}, {"h", "0.3"}, {"h", "0.4"}}), HasSubstr("at most 3"));
 }
 
-TEST(Beside, LabelHasALineForEachKeyOnce) {
-  const std::vector<Variation> differences = {{"integrator", "implicit-euler"},
-                                              {"h", "0.002"},
-                                              {"h", "0.004"},
-                                              {"backend", "cpu"},
-                                              {"cube[0].shear.stiffness", "10"}};
+TEST(Comparison, LabelHasALineForEachKeyOnce) {
+  const std::vector<Difference> differences = {{"integrator", "implicit-euler"},
+                                               {"h", "0.002"},
+                                               {"h", "0.004"},
+                                               {"backend", "cpu"},
+                                               {"cube[0].shear.stiffness", "10"}};
   const auto label = label_of(differences, small_scene(), "reference");
   std::vector<std::string> keys, values;
   for (const OverlayLine& line : label) {
@@ -81,10 +81,10 @@ TEST(Beside, LabelHasALineForEachKeyOnce) {
   EXPECT_THAT(values, ElementsAre("explicit Euler", "0.001 s", "reference", testing::EndsWith(" N/m")));
 }
 
-TEST(Beside, TextTellsOfADivergence) {
+TEST(Comparison, TextTellsOfADivergence) {
   Divergence divergence;
   divergence.step = 40;
-  const auto lines = beside_text("k 1 N/m", 1, 0.039, 0.001, divergence);
+  const auto lines = comparison_text("k 1 N/m", 1, 0.039, 0.001, divergence);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].label, "k 1 N/m");
   EXPECT_EQ(lines[0].value, "0.039 s");
@@ -92,10 +92,10 @@ TEST(Beside, TextTellsOfADivergence) {
   EXPECT_FALSE(lines[0].alarm);
   EXPECT_EQ(lines[1].value, "at 0.040 s");
   EXPECT_TRUE(lines[1].alarm);
-  EXPECT_EQ(beside_text("k 1 N/m", 1, 0.039, 0.001, {}).size(), 1u);
+  EXPECT_EQ(comparison_text("k 1 N/m", 1, 0.039, 0.001, {}).size(), 1u);
 }
 
-TEST(Beside, TheAuthorStandsAboveTheFirstText) {
+TEST(Comparison, TheAuthorStandsAboveTheFirstText) {
   Scene scene;
   EXPECT_EQ(below_author(scene, {{"a", "1 s"}}).size(), 1u);
   scene.author = "Ada Lovelace";
@@ -107,14 +107,14 @@ TEST(Beside, TheAuthorStandsAboveTheFirstText) {
   EXPECT_EQ(lines[1].label, "a");
 }
 
-TEST(Beside, NamesAreShort) {
-  const std::vector<Variation> differences = {
+TEST(Comparison, NamesAreShort) {
+  const std::vector<Difference> differences = {
       {"integrator", "implicit-euler"}, {"h", "0.002"}, {"h", "0.004"}, {"cube[0].shear.stiffness", "10"}};
   const Scene scene = small_scene();
   EXPECT_EQ(short_name(0, {differences[0]}, scene, "cpu"), "explicit Euler");
   EXPECT_EQ(short_name(0, {differences[0], differences[1], differences[2]}, scene, "cpu"),
             "explicit Euler, h 0.001 s");
-  const auto runs = runs_beside(scene, {}, {differences[0], differences[1], differences[3]});
+  const auto runs = variants_of(scene, {}, {differences[0], differences[1], differences[3]});
   ASSERT_TRUE(runs.ok());
   const auto name = [&](std::size_t run) {
     return short_name(run, {differences[0], differences[1], differences[3]}, (*runs)[run].scene, "cpu");
@@ -124,46 +124,7 @@ TEST(Beside, NamesAreShort) {
   EXPECT_EQ(name(3), "shear stiffness 10 N/m");
 }
 
-TEST(Beside, ClockShowsTheNearestStepOfEachRun) {
-  const double steps[] = {0.001, 0.0015, 0.0007, 0.016};
-  std::vector<Span> runs;
-  for (const double h : steps) runs.push_back({h, static_cast<std::uint64_t>(std::llround(1.0 / h))});
-  const double fps = 60.0, speed = 0.5;
-  const CommonClock clock(runs, fps, speed);
-  EXPECT_EQ(clock.count(), 121u);  // 2 s shown at 60 a second
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    std::uint64_t before = 0;
-    for (std::uint64_t f = 0; f < clock.count(); ++f) {
-      const std::uint64_t step = clock.step_of(run, f);
-      EXPECT_GE(step, before);
-      EXPECT_LE(step, runs[run].last_step);
-      before = step;
-      const double off = static_cast<double>(step) * steps[run] - static_cast<double>(f) * speed / fps;
-      EXPECT_LE(std::abs(off), 0.5 * steps[run] * (1.0 + 1e-9)) << "run " << run << ", picture " << f;
-    }
-    EXPECT_EQ(before, runs[run].last_step);
-  }
-}
-
-TEST(Beside, ClockOfEqualStepsIsThatOfARunAlone) {
-  const FrameSchedule alone(0.001, 0, 503, 60.0, 1.0);
-  const CommonClock clock({{0.001, 503}, {0.001, 503}}, 60.0, 1.0);
-  ASSERT_EQ(clock.count(), alone.count());
-  for (std::uint64_t f = 0; f < alone.count(); ++f)
-    for (std::size_t run = 0; run < 2; ++run) EXPECT_EQ(clock.step_of(run, f), alone.step_of(f));
-}
-
-TEST(Beside, RunsLastAsLongAsTheFirst) {
-  SimulationSettings first, other;
-  first.timestep = 0.001;
-  other.timestep = 0.003;
-  EXPECT_EQ(as_long_as(first, 4000, first).value(), 4000u);
-  EXPECT_EQ(as_long_as(first, 4000, other).value(), 1333u);
-  other.timestep = 1e-300;
-  EXPECT_FALSE(as_long_as(first, 4000, other).ok());
-}
-
-TEST(Beside, TilesAreEqualAndApart) {
+TEST(Comparison, TilesAreEqualAndApart) {
   EXPECT_THAT(tiles_of({640, 360}, 1), ElementsAre(Tile{0, 0, 640, 360}));
   EXPECT_THAT(tiles_of({640, 360}, 2), ElementsAre(Tile{0, 0, 319, 360}, Tile{321, 0, 319, 360}));
   EXPECT_THAT(tiles_of({360, 640}, 2), ElementsAre(Tile{0, 0, 360, 319}, Tile{0, 321, 360, 319}));
@@ -172,7 +133,7 @@ TEST(Beside, TilesAreEqualAndApart) {
   EXPECT_EQ(tiles_of({640, 360}, 3).size(), 3u);
 }
 
-TEST(Beside, FilesAreNumberedBeforeTheirEnding) {
+TEST(Comparison, FilesAreNumberedBeforeTheirEnding) {
   EXPECT_EQ(numbered_path("energy.csv", 2), "energy-2.csv");
   EXPECT_EQ(numbered_path("out.d/states", 1), "out.d/states-1");
 }

@@ -1,54 +1,44 @@
-#include "app/companion.h"
+#include "playback/variant_run.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
 
-#include "app/scene_editor.h"
+#include "playback/common_clock.h"
+#include "playback/effect.h"
 
-namespace aspic::app {
-namespace {
-
-std::uint64_t nearest_step(double time, double timestep) {
-  return static_cast<std::uint64_t>(std::llround(std::clamp(time / timestep, 0.0, 0x1p62)));
-}
-
-}  // namespace
-
-Result<std::unique_ptr<Companion>> Companion::create(gl::Context& context, const Scene& scene,
-                                                     const Simulation& leader, View& view,
-                                                     const BackendChoice& asked, bool full_quality,
-                                                     const Variation& variation) {
-  std::unique_ptr<Companion> c(new Companion(variation, asked));
+namespace aspic {
+Result<std::unique_ptr<VariantRun>> VariantRun::create(gl::Context& context, const Scene& scene,
+                                                       const Simulation& leader, const BackendChoice& asked,
+                                                       const Difference& difference) {
+  std::unique_ptr<VariantRun> made(new VariantRun(difference, asked));
   BackendChoice choice = asked;
   choice.row = &leader.present().backend();
-  ASPIC_TRY(auto run, varied(scene, choice, std::span(&variation, 1)));
-  c->own_backend_ = variation.key == backend_key;
-  c->scene_ = std::move(run.scene);
-  ASPIC_TRY(c->simulation_,
-            Simulation::create(context, c->scene_,
+  ASPIC_TRY(auto run, varied(scene, choice, std::span(&difference, 1)));
+  made->own_backend_ = difference.key == backend_key;
+  made->scene_ = std::move(run.scene);
+  ASPIC_TRY(made->simulation_,
+            Simulation::create(context, made->scene_,
                                run.backend.row ? *run.backend.row : leader.present().backend(), run.backend));
-  c->picture_ = std::make_unique<ScenePicture>(*c->simulation_, c->scene_, view, full_quality);
-  ASPIC_CHECK(c->picture_->attach(context));
-  c->leader_run_ = leader.present().run_number();
-  c->leader_view_ = scene.view;
-  c->adopted_ = false;
-  return c;
+  made->leader_run_ = leader.present().run_number();
+  made->leader_view_ = scene.view;
+  made->adopted_ = false;
+  return made;
 }
 
 /// What is pulled is here too.
-bool Companion::can_pull(const Simulation& leader, const Pull& pull) const {
+bool VariantRun::can_pull(const Simulation& leader, const Pull& pull) const {
   return pull.ball ? simulation_->model().ball_count() == leader.model().ball_count()
                    : has_particles_of(leader);
 }
 
-std::uint64_t Companion::step_at(double time) const {
+std::uint64_t VariantRun::step_at(double time) const {
   return nearest_step(time, simulation_->model().simulation.timestep);
 }
 
 /// The run restarted, or is another one: so is this one.
-Status Companion::take_over(const Scene& scene, const Simulation& leader) {
+Status VariantRun::take_over(const Scene& scene, const Simulation& leader) {
   Simulation& own = *simulation_;
   if (!own_backend_ && &leader.present().backend() != &own.present().backend())
     ASPIC_CHECK(own.rebuild().set_backend(leader.present().backend()));
@@ -63,18 +53,18 @@ Status Companion::take_over(const Scene& scene, const Simulation& leader) {
   // A change of the view needs no other solver.
   if (scene.view == leader_view_) return {};
   leader_view_ = scene.view;
-  const auto run = varied(scene, asked_, std::span(&variation_, 1));
+  const auto run = varied(scene, asked_, std::span(&difference_, 1));
   if (run) scene_.view = run->scene.view;
   return {};
 }
 
 /// The leader's scene with the difference, and its hands, from the time at which it got them.
-Status Companion::adopt_setup(const Simulation& leader) {
+Status VariantRun::adopt_setup(const Simulation& leader) {
   Simulation& own = *simulation_;
   adopted_ = true;
   Scene base = scene_;
   base.model = leader.present().setup().settings;
-  auto run = varied(base, asked_, std::span(&variation_, 1));
+  auto run = varied(base, asked_, std::span(&difference_, 1));
   if (!run) {
     message_ = run.error().message;
     return {};
@@ -95,7 +85,7 @@ Status Companion::adopt_setup(const Simulation& leader) {
 }
 
 /// Where the history has it, there; else forward from the end, or from here if nothing was before.
-Status Companion::go_to(std::uint64_t step) {
+Status VariantRun::go_to(std::uint64_t step) {
   Simulation& own = *simulation_;
   stuck_ = false;
   own.pacer().catch_up(true);
@@ -114,7 +104,7 @@ Status Companion::go_to(std::uint64_t step) {
   return {};
 }
 
-Status Companion::follow(const Scene& scene, const Simulation& leader, double dt, double budget) {
+Status VariantRun::follow(const Scene& scene, const Simulation& leader, double dt, double budget) {
   Simulation& own = *simulation_;
   arrived_ = false;
   ASPIC_CHECK(take_over(scene, leader));
@@ -154,12 +144,12 @@ Status Companion::follow(const Scene& scene, const Simulation& leader, double dt
 
 /// Where the others pause at the step that it has come to, so does this: paused runs have figures of the very
 /// state that is shown.
-void Companion::rest(std::uint64_t step, bool paused) {
+void VariantRun::rest(std::uint64_t step, bool paused) {
   Simulation& own = *simulation_;
   if (paused && own.running() && own.step() == step && !own.busy()) own.set_running(false);
 }
 
-Status Companion::recall(double time, double dt, double budget) {
+Status VariantRun::recall(double time, double dt, double budget) {
   Simulation& own = *simulation_;
   own.set_hand(std::nullopt);
   const Moment moment = own.playback().history().nearest(time);
@@ -169,7 +159,7 @@ Status Companion::recall(double time, double dt, double budget) {
   return {};
 }
 
-Status Companion::go_on_to(double time, bool paused, double dt, double budget) {
+Status VariantRun::go_on_to(double time, bool paused, double dt, double budget) {
   Simulation& own = *simulation_;
   own.set_hand(std::nullopt);
   const std::uint64_t wanted = step_at(time);
@@ -180,7 +170,7 @@ Status Companion::go_on_to(double time, bool paused, double dt, double budget) {
   return {};
 }
 
-Status Companion::lead(const Pacer& pace, bool running, bool waits, double dt, double budget) {
+Status VariantRun::lead(const Pacer& pace, bool running, bool waits, double dt, double budget) {
   Simulation& own = *simulation_;
   own.set_hand(std::nullopt);
   own.pacer().catch_up(false);
@@ -193,4 +183,4 @@ Status Companion::lead(const Pacer& pace, bool running, bool waits, double dt, d
   return {};
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -1,5 +1,5 @@
 #pragma once
-// Several runs of one scene, each with a difference, on one clock and in one picture.
+// Several runs of one scene, each with a difference, in one picture.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,79 +11,50 @@
 #include "aspic/solver.h"
 #include "base/result.h"
 #include "io/film_format.h"
-#include "io/frame_schedule.h"
 #include "render/colour_map.h"
 #include "render/overlay.h"
 #include "render/targets.h"
-#include "run/variation.h"
+#include "run/variant.h"
 
 namespace aspic {
 
 /// Most runs in a picture.
-inline constexpr std::size_t most_beside = 4;
+inline constexpr std::size_t most_compared = 4;
 
-/// KEY=VALUE as a variation. Error (usage): a part is missing.
-Result<Variation> parse_variation(const std::string& text);
+/// KEY=VALUE as a difference. Error (usage): a part is missing.
+Result<Difference> parse_difference(const std::string& text);
 
-/// The run of the scene itself, and one for each KEY=VALUE, each with that difference alone. Errors: usage,
-/// more than most_beside runs, or no KEY=VALUE; those of varied(), which then say which one it is.
-Result<std::vector<Variant>> runs_beside(const Scene& scene, const BackendChoice& backend,
-                                         const std::vector<Variation>& differences);
+/// The run of the scene itself, and a variant for each KEY=VALUE, each with that difference alone. Errors:
+/// usage, more than most_compared runs, or no KEY=VALUE; those of varied(), which then say which one it is.
+Result<std::vector<Variant>> variants_of(const Scene& scene, const BackendChoice& backend,
+                                         const std::vector<Difference>& differences);
 
 /// How a run differs from the others: a line for each key that differs in one of them, once.
 /// `backend`: what computes this one.
-std::vector<OverlayLine> label_of(const std::vector<Variation>& differences, const Scene& scene,
+std::vector<OverlayLine> label_of(const std::vector<Difference>& differences, const Scene& scene,
                                   const std::string& backend);
 
 /// The colours of runs in pictures and plots, as sRGB stores them.
-inline constexpr std::array<std::array<std::uint8_t, 3>, most_beside> run_colours = {
+inline constexpr std::array<std::array<std::uint8_t, 3>, most_compared> run_colours = {
     {{242, 176, 92}, {110, 165, 240}, {120, 205, 140}, {224, 130, 200}}};
 /// The same in linear light, for bodies that are coloured by material.
 Colour run_tint(std::size_t run);
 
 /// What distinguishes run `run` from the others, in few words: "implicit Euler", "h 0.0005 s". Of the first
 /// all values that others differ in. `scene` and `backend` are its own; run ≤ differences.size().
-std::string short_name(std::size_t run, const std::vector<Variation>& differences, const Scene& scene,
+std::string short_name(std::size_t run, const std::vector<Difference>& differences, const Scene& scene,
                        const std::string& backend);
 
 /// The text on the picture of a run: its name in its colour with its time [s], and that it diverged, if it
 /// did.
-std::vector<OverlayLine> beside_text(const std::string& name, std::size_t run, double time, double timestep,
-                                     const std::optional<Divergence>& divergence);
+std::vector<OverlayLine> comparison_text(const std::string& name, std::size_t run, double time,
+                                         double timestep, const std::optional<Divergence>& divergence);
 
 /// The same for the first part of a picture, below a line with the scene's author if it names one.
 std::vector<OverlayLine> below_author(const Scene& scene, std::vector<OverlayLine> text);
 
 /// Height of the text on the parts of a picture of that height, which so many runs share [pixels].
-int beside_text_height(int picture_height, std::size_t runs);
-
-/// How far a run with its own time step goes.
-struct Span {
-  double timestep = 0.0;        ///< [s], > 0
-  std::uint64_t last_step = 0;  ///< where it ends
-};
-
-/// The step of a run that lasts as long as `steps` steps of `first`, to its nearest step. Error (usage): more
-/// steps than can be counted.
-Result<std::uint64_t> as_long_as(const SimulationSettings& first, std::uint64_t steps,
-                                 const SimulationSettings& run);
-
-/// Which state of each run a picture shows: that of its own step nearest to the picture's time, at most half
-/// of its time step away; in the last picture its last. The first run says when that is.
-class CommonClock {
- public:
-  /// At least one run, each from step 0. fps and speed as of FrameSchedule.
-  CommonClock(std::vector<Span> runs, double fps, double speed);
-  /// Pictures in all, ≥ 1.
-  std::uint64_t count() const { return count_; }
-  /// The step of run `run` in picture `frame` < count(); never decreases.
-  std::uint64_t step_of(std::size_t run, std::uint64_t frame) const;
-
- private:
-  std::vector<Span> runs_;
-  std::vector<FrameSchedule> schedules_;
-  std::uint64_t count_;
-};
+int comparison_text_height(int picture_height, std::size_t runs);
 
 /// A run's part of a picture [pixels from left and top].
 struct Tile {
@@ -91,15 +62,15 @@ struct Tile {
   friend bool operator==(const Tile&, const Tile&) = default;
 };
 
-/// The parts of 1 to most_beside runs, all of one size, with two or three pixels between them: two side by
+/// The parts of 1 to most_compared runs, all of one size, with two or three pixels between them: two side by
 /// side, in a picture that is higher than wide one above the other; three and four in two rows.
 std::vector<Tile> tiles_of(const PictureSize& picture, std::size_t runs);
 
 /// A picture with a part for each run.
-class BesideCanvas {
+class ComparisonCanvas {
  public:
   /// Error (scene_rejected): no device memory. The context must outlive it and be current in every call.
-  static Result<BesideCanvas> create(gl::Context& context, const PictureSize& size);
+  static Result<ComparisonCanvas> create(gl::Context& context, const PictureSize& size);
   /// For so many runs from now on. Clears it where that changes something.
   void divide(std::size_t runs);
   const std::vector<Tile>& tiles() const { return tiles_; }

@@ -12,6 +12,7 @@
 #include "cpu_reference/reference_solver.h"
 #include "io/atomic_file.h"
 #include "render/read_back.h"
+#include "run/comparison.h"
 #include "scene/follow.h"
 #include "support/projection.h"
 #include "support/state_csv_reader.h"
@@ -21,22 +22,23 @@ namespace {
 
 using testing::HasSubstr;
 
-class Beside : public Stage {
+class Comparison : public Stage {
  protected:
-  app::Beside& beside() { return app().beside; }
-  const Simulation& run(std::size_t i) { return beside().run(i); }
+  aspic::Comparison& comparison() { return app().comparison; }
+  app::ComparisonView& comparison_view() { return app().comparison_view; }
+  const Simulation& run(std::size_t i) { return comparison().run(i); }
   void settled() {
     frames(1);
-    frames_until([&] { return beside().settled(); });
+    frames_until([&] { return comparison().settled(); });
   }
-  /// A run beside the scene's own, whatever suggests itself replaced by this.
-  void compare(const Variation& variation) {
+  /// A run compared with the scene's own, whatever suggests itself replaced by this.
+  void compare(const Difference& difference) {
     press(GLFW_KEY_B, GLFW_MOD_CONTROL);
     frames(1);
-    ASSERT_EQ(beside().count(), 2u);
-    beside().set(1, variation);
+    ASSERT_EQ(comparison().count(), 2u);
+    comparison_view().set(1, difference);
     settled();
-    ASSERT_EQ(beside().count(), 2u);
+    ASSERT_EQ(comparison().count(), 2u);
   }
   void run_to(std::uint64_t step) {
     simulation().set_running(true);
@@ -65,19 +67,19 @@ class Beside : public Stage {
   static constexpr const char* low = "cube[0].position=[0,1.2,0]";
 };
 
-TEST_F(Beside, ARunIsAddedAndLeftAndComesBackByUndo) {
+TEST_F(Comparison, ARunIsAddedAndLeftAndComesBackByUndo) {
   open("cube-plane", {small});
   run_to(20);
-  EXPECT_FALSE(has("beside/0/label"));
+  EXPECT_FALSE(has("comparison/0/label"));
   press(GLFW_KEY_B, GLFW_MOD_CONTROL);
   settled();
   frames(1);
-  ASSERT_EQ(beside().count(), 2u);
+  ASSERT_EQ(comparison().count(), 2u);
   EXPECT_EQ(simulation().step(), 0u) << "all runs start anew";
   EXPECT_EQ(run(1).present().setup().settings.simulation.integrator, Integrator::implicit_euler);
-  EXPECT_TRUE(has("beside/0/label"));
-  EXPECT_TRUE(has("beside/1/label"));
-  const auto& boxes = beside().boxes();
+  EXPECT_TRUE(has("comparison/0/label"));
+  EXPECT_TRUE(has("comparison/1/label"));
+  const auto& boxes = comparison_view().boxes();
   ASSERT_EQ(boxes.size(), 2u);
   EXPECT_DOUBLE_EQ(boxes[0].right - boxes[0].left, boxes[1].right - boxes[1].left);
   EXPECT_TRUE(boxes[0].right < boxes[1].left || boxes[0].bottom < boxes[1].top);
@@ -85,7 +87,7 @@ TEST_F(Beside, ARunIsAddedAndLeftAndComesBackByUndo) {
   press(GLFW_KEY_B, GLFW_MOD_CONTROL);
   press(GLFW_KEY_B, GLFW_MOD_CONTROL);
   settled();
-  EXPECT_EQ(beside().count(), 4u);
+  EXPECT_EQ(comparison().count(), 4u);
   press(GLFW_KEY_B, GLFW_MOD_CONTROL);
   EXPECT_THAT(error(), HasSubstr("4 runs"));
   frames(30, 0.3);
@@ -95,24 +97,24 @@ TEST_F(Beside, ARunIsAddedAndLeftAndComesBackByUndo) {
   press(GLFW_KEY_B, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
   frames(2);
   EXPECT_EQ(error(), "") << "there is room again";
-  EXPECT_EQ(beside().count(), 1u);
-  EXPECT_FALSE(has("beside/0/label"));
+  EXPECT_EQ(comparison().count(), 1u);
+  EXPECT_FALSE(has("comparison/0/label"));
   app().scene.undo();
   settled();
-  EXPECT_EQ(beside().count(), 4u);
+  EXPECT_EQ(comparison().count(), 4u);
 }
 
-TEST_F(Beside, EachRunHasTheBitsOfTheRunAloneAtTheSameTime) {
+TEST_F(Comparison, EachRunHasTheBitsOfTheRunAloneAtTheSameTime) {
   open("cube-plane", {small, low});
   compare({"h", "0.0013"});
   simulation().set_running(true);
   int pictures = 0;
   double last = 0.0;
   frames_until([&] {
-    EXPECT_NEAR(beside().shown_time(1), beside().shown_time(0), 0.5 * 0.0013 * (1.0 + 1e-9));
-    EXPECT_GE(beside().shown_time(0), last);
-    if (beside().shown_time(0) > last) ++pictures;
-    last = beside().shown_time(0);
+    EXPECT_NEAR(comparison().shown_time(1), comparison().shown_time(0), 0.5 * 0.0013 * (1.0 + 1e-9));
+    EXPECT_GE(comparison().shown_time(0), last);
+    if (comparison().shown_time(0) > last) ++pictures;
+    last = comparison().shown_time(0);
     return last > 0.3;
   });
   EXPECT_GT(pictures, 2);
@@ -123,7 +125,7 @@ TEST_F(Beside, EachRunHasTheBitsOfTheRunAloneAtTheSameTime) {
   EXPECT_NEAR(run(1).time(), run(0).time(), 0.5 * 0.0013 * (1.0 + 1e-9));
 }
 
-TEST_F(Beside, EachPictureFollowsItsOwnRunsBody) {
+TEST_F(Comparison, EachPictureFollowsItsOwnRunsBody) {
   open("cube-plane", {small, "view.follow=cube"});
   compare({"simulation.gravity", "[0,-3,0]"});
   run_to(300);
@@ -137,13 +139,13 @@ TEST_F(Beside, EachPictureFollowsItsOwnRunsBody) {
   ASSERT_EQ(app().view.others.size(), 1u);
   EXPECT_EQ(app().view.others[0].offset, moved(1));
   // What the middles of both pictures show lies as far apart.
-  const auto& boxes = beside().boxes();
+  const auto& boxes = comparison_view().boxes();
   const Vec3 first = app().view.sight(boxes[0].centre_x(), boxes[0].centre_y()).origin;
   const Vec3 second = app().view.sight(boxes[1].centre_x(), boxes[1].centre_y()).origin;
   EXPECT_NEAR(second.y - first.y, moved(1).y - moved(0).y, 1e-4) << "matrices are of single precision";
 }
 
-TEST_F(Beside, ColoursHaveOneRangeInAllPictures) {
+TEST_F(Comparison, ColoursHaveOneRangeInAllPictures) {
   open("cube-plane", {small, low, "view.colour=strain", "view.scale.range=automatic"}, "reference");
   compare({"k", "9000"});
   run_to(250);
@@ -151,17 +153,17 @@ TEST_F(Beside, ColoursHaveOneRangeInAllPictures) {
   const QuantityRange own = app().picture.own_range(), shown = app().picture.range();
   ASSERT_TRUE(app().picture.common_range.has_value());
   EXPECT_EQ(shown, *app().picture.common_range);
-  EXPECT_EQ(beside().picture(1).range(), shown);
-  const QuantityRange other = beside().picture(1).own_range();
+  EXPECT_EQ(comparison_view().picture(1).range(), shown);
+  const QuantityRange other = comparison_view().picture(1).own_range();
   EXPECT_NE(own, other) << "else there is nothing to share";
   EXPECT_EQ(shown, widest(own, other));
-  beside().leave();
+  comparison_view().leave();
   frames(3);
   EXPECT_FALSE(app().picture.common_range.has_value());
   EXPECT_EQ(app().picture.range(), app().picture.own_range());
 }
 
-TEST_F(Beside, TimeTravelTakesAllRunsAlong) {
+TEST_F(Comparison, TimeTravelTakesAllRunsAlong) {
   open("cube-plane", {small, low});
   compare({"integrator", "midpoint"});
   run_to(200);
@@ -188,7 +190,7 @@ TEST_F(Beside, TimeTravelTakesAllRunsAlong) {
   EXPECT_EQ(run(1).step(), 0u);
 }
 
-TEST_F(Beside, HandsAndValuesActOnAllRunsAlike) {
+TEST_F(Comparison, HandsAndValuesActOnAllRunsAlike) {
   open("cube-plane", {small, low}, "reference");
   compare({"backend", "cpu"});
   run_to(30);
@@ -217,19 +219,19 @@ TEST_F(Beside, HandsAndValuesActOnAllRunsAlike) {
   EXPECT_EQ(hash(0), hash(1)) << "a value";
 }
 
-TEST_F(Beside, ADivergenceOfOneRunLeavesTheOthersGoing) {
+TEST_F(Comparison, ADivergenceOfOneRunLeavesTheOthersGoing) {
   open("cube-plane", {small, "simulation.timestep=0.003", "cube[0].structural.stiffness=20000"});
   compare({"integrator", "implicit-euler"});
   simulation().set_running(true);
   frames_until([&] { return run(0).divergence().has_value(); });
   const double when = run(0).time();
-  frames_until([&] { return beside().shown_time(1) > when + 0.1; });
-  EXPECT_TRUE(beside().others_go_on());
-  EXPECT_TRUE(beside().shown_divergence(0).has_value());
-  EXPECT_FALSE(beside().shown_divergence(1).has_value());
+  frames_until([&] { return comparison().shown_time(1) > when + 0.1; });
+  EXPECT_TRUE(comparison().clock().others_go_on());
+  EXPECT_TRUE(comparison().shown_divergence(0).has_value());
+  EXPECT_FALSE(comparison().shown_divergence(1).has_value());
   press(GLFW_KEY_SPACE);
   settled();
-  EXPECT_FALSE(beside().running());
+  EXPECT_FALSE(comparison().clock().others_run());
   EXPECT_EQ(hash(1), hash_alone(1));
   const std::uint64_t paused = run(1).step();
   frames(5);
@@ -242,10 +244,10 @@ TEST_F(Beside, ADivergenceOfOneRunLeavesTheOthersGoing) {
   EXPECT_FALSE(run(0).divergence().has_value());
 }
 
-TEST_F(Beside, ADivergenceOfAnotherRunDoesNotHoldUpTheFirst) {
+TEST_F(Comparison, ADivergenceOfAnotherRunDoesNotHoldUpTheFirst) {
   open("cube-plane", {small, "simulation.integrator=implicit-euler"});
   compare({"h", "0.5"});
-  beside().set(1, {"integrator", "explicit-euler"});
+  comparison_view().set(1, {"integrator", "explicit-euler"});
   settled();
   app().scene.set_value(*find_parameter("cube[].structural.stiffness"), 0, Value(1e6));
   run_to(300);
@@ -254,7 +256,7 @@ TEST_F(Beside, ADivergenceOfAnotherRunDoesNotHoldUpTheFirst) {
   EXPECT_EQ(hash(0), hash_alone(0));
 }
 
-TEST_F(Beside, WhatCannotBeIsRefusedAndChangesNothing) {
+TEST_F(Comparison, WhatCannotBeIsRefusedAndChangesNothing) {
   open("cube-plane", {small});
   compare({"n", "5"});
   EXPECT_EQ(run(1).model().particle_count(), 125u);
@@ -262,40 +264,40 @@ TEST_F(Beside, WhatCannotBeIsRefusedAndChangesNothing) {
   EXPECT_THAT(error(), HasSubstr("different particles"));
   app().hands.begin_pull(0, {});
   EXPECT_FALSE(simulation().hand().has_value());
-  beside().set(1, {"h", "-1"});
+  comparison_view().set(1, {"h", "-1"});
   EXPECT_THAT(error(), HasSubstr("simulation.timestep"));
   frames(1);
   EXPECT_EQ(run(1).model().particle_count(), 125u);
 }
 
-TEST_F(Beside, TheSectionAndThePaletteAddEditAndRemove) {
+TEST_F(Comparison, TheSectionAndThePaletteAddEditAndRemove) {
   open("cube-plane", {small});
   click("section/Side by side");
-  click("beside/add");
+  click("comparison/add");
   settled();
   frames(1);
-  ASSERT_EQ(beside().count(), 2u);
-  EXPECT_TRUE(has("beside/1/key"));
-  EXPECT_TRUE(has("beside/1/value"));
-  beside().set(1, {"k", "3000"});
+  ASSERT_EQ(comparison().count(), 2u);
+  EXPECT_TRUE(has("comparison/1/key"));
+  EXPECT_TRUE(has("comparison/1/value"));
+  comparison_view().set(1, {"k", "3000"});
   settled();
   EXPECT_EQ(run(1).present().setup().settings.cubes[0].structural.stiffness, 3000.0);
   app().scene.undo();
   settled();
   EXPECT_EQ(run(1).present().setup().settings.simulation.integrator, Integrator::implicit_euler);
-  click("beside/1/remove");
+  click("comparison/1/remove");
   frames(2);
-  EXPECT_EQ(beside().count(), 1u);
+  EXPECT_EQ(comparison().count(), 1u);
 }
 
-TEST_F(Beside, FiguresOfAllRunsAreOfOneMoment) {
+TEST_F(Comparison, FiguresOfAllRunsAreOfOneMoment) {
   open("cube-plane", {small});
   compare({"integrator", "implicit-euler"});
   simulation().set_running(true);
   frames_until([&] {
     // Each run has the energies of the time that is printed.
-    const double time = beside().figures_time();
-    EXPECT_LE(time, beside().clock_time());
+    const double time = comparison().clock().figures_time();
+    EXPECT_LE(time, comparison().clock().time());
     for (std::size_t i = 0; i < 2; ++i) {
       const EnergySample* const sample = run(i).samples().nearest(time);
       EXPECT_TRUE(!sample || std::abs(sample->time - time) < 1e-9) << "run " << i;
@@ -316,17 +318,17 @@ TEST_F(Beside, FiguresOfAllRunsAreOfOneMoment) {
   for (int i = 0; i < 200 && !(known(0) && known(1)); ++i) frames(1);
   EXPECT_TRUE(known(0));
   EXPECT_TRUE(known(1)) << "a point of every run at a pause";
-  EXPECT_EQ(beside().figures_time(), run(0).time());
+  EXPECT_EQ(comparison().clock().figures_time(), run(0).time());
 }
 
-TEST_F(Beside, NamesAndFiguresOfFourRunsLieApart) {
+TEST_F(Comparison, NamesAndFiguresOfFourRunsLieApart) {
   open("cube-plane", {small, low});
   for (int i = 0; i < 3; ++i) {
     press(GLFW_KEY_B, GLFW_MOD_CONTROL);
     frames(1);
   }
   settled();
-  ASSERT_EQ(beside().count(), 4u);
+  ASSERT_EQ(comparison().count(), 4u);
   run_to(60);
   frames(2);
   for (const char* const plot : {"energy/plot", "energy/momentum"}) {
@@ -343,36 +345,36 @@ TEST_F(Beside, NamesAndFiguresOfFourRunsLieApart) {
       }
     }
   }
-  EXPECT_EQ(beside().name(0), "explicit Euler, h 0.001 s, k 2000 N/m");
-  EXPECT_EQ(beside().name(1), "implicit Euler");
-  EXPECT_EQ(beside().name(2), "h 0.0005 s");
+  EXPECT_EQ(comparison_view().name(0), "explicit Euler, h 0.001 s, k 2000 N/m");
+  EXPECT_EQ(comparison_view().name(1), "implicit Euler");
+  EXPECT_EQ(comparison_view().name(2), "h 0.0005 s");
 }
 
-TEST_F(Beside, RunsAreToldApartByFrameTintAndALineThatGrowsWithTheText) {
+TEST_F(Comparison, RunsAreToldApartByFrameTintAndALineThatGrowsWithTheText) {
   open("cube-plane", {small, "cube[0].position=[0,3,0]"});
   EXPECT_FALSE(app().picture.tint.has_value());
   resize(roomy[0], roomy[1]);
   compare({"integrator", "implicit-euler"});
   frames(2);
   EXPECT_EQ(app().picture.tint, run_tint(0));
-  EXPECT_EQ(beside().picture(1).tint, run_tint(1));
+  EXPECT_EQ(comparison_view().picture(1).tint, run_tint(1));
   // The frame is the run's colour along the edge of its picture.
   const Image picture = image();
   for (std::size_t i = 0; i < 2; ++i) {
-    const app::Box& box = beside().boxes()[i];
+    const app::Box& box = comparison_view().boxes()[i];
     const auto x = static_cast<std::size_t>(box.left) + 1, y = static_cast<std::size_t>(box.centre_y());
     const std::size_t at = 3 * (y * static_cast<std::size_t>(picture.width) + x);
-    const std::uint32_t colour = app::Beside::packed_colour(i);
+    const std::uint32_t colour = app::ComparisonView::packed_colour(i);
     for (std::size_t channel = 0; channel < 3; ++channel)
       EXPECT_NEAR(std::to_integer<int>(picture.rgb[at + channel]),
                   static_cast<int>((colour >> (8 * channel)) & 255u), 3)
           << i << " " << channel;
   }
-  const app::Box label = widgets().at("beside/1/label");
+  const app::Box label = widgets().at("comparison/1/label");
   EXPECT_LT(label.bottom - label.top, 30.0) << "one line";
   app().layout.text_size = 1.5;
   frames(3);
-  const app::Box larger = widgets().at("beside/1/label");
+  const app::Box larger = widgets().at("comparison/1/label");
   EXPECT_NEAR(larger.bottom - larger.top, 1.5 * (label.bottom - label.top), 3.0);
 }
 
@@ -387,7 +389,7 @@ std::string film_pixels(const std::filesystem::path& film, int number) {
   return bytes.ok() ? *bytes : "";
 }
 
-TEST_F(Beside, AFilmShowsAllRunsAsEachIsDrawnAlone) {
+TEST_F(Comparison, AFilmShowsAllRunsAsEachIsDrawnAlone) {
   open("cube-plane", {small, low});
   compare({"integrator", "implicit-euler"});
   app().film.settings = {find_film_format("png"), 20.0, false, "film"};
@@ -399,10 +401,10 @@ TEST_F(Beside, AFilmShowsAllRunsAsEachIsDrawnAlone) {
   simulation().set_running(true);
   frames_until([&] { return app().film.recording()->pictures() >= 4; });
   EXPECT_EQ(simulation().step(), 150u) << "the motion waits for each picture";
-  EXPECT_DOUBLE_EQ(beside().shown_time(1), beside().shown_time(0));
+  EXPECT_DOUBLE_EQ(comparison().shown_time(1), comparison().shown_time(0));
   press(GLFW_KEY_R, GLFW_MOD_CONTROL);
   frames_until([&] { return app().film.completing() == 0; });
-  EXPECT_FALSE(app().picture.film || beside().picture(1).film);
+  EXPECT_FALSE(app().picture.film || comparison_view().picture(1).film);
   EXPECT_THAT(app().messages.notice()->text, HasSubstr("film holds 4 pictures"));
 
   const std::string film = film_pixels(directory() / "film", 3);
@@ -434,7 +436,7 @@ TEST_F(Beside, AFilmShowsAllRunsAsEachIsDrawnAlone) {
   }
 }
 
-TEST_F(Beside, AFilmWithTextTellsRunsApartAndGoesOnAfterADivergence) {
+TEST_F(Comparison, AFilmWithTextTellsRunsApartAndGoesOnAfterADivergence) {
   open("cube-plane", {small, "simulation.timestep=0.003", "cube[0].structural.stiffness=20000"});
   compare({"integrator", "implicit-euler"});
   app().film.settings = {find_film_format("png"), 20.0, true, "film"};
@@ -445,8 +447,8 @@ TEST_F(Beside, AFilmWithTextTellsRunsApartAndGoesOnAfterADivergence) {
   frames_until([&] { return run(0).divergence().has_value(); });
   const std::uint64_t then = app().film.recording()->pictures();
   frames_until([&] { return app().film.recording()->pictures() >= then + 3; });
-  EXPECT_EQ(&beside().clock(), &run(1));
-  EXPECT_FALSE(has("beside/0/label")) << "names are in the film's pictures";
+  EXPECT_EQ(&comparison().clock().setter(), &run(1));
+  EXPECT_FALSE(has("comparison/0/label")) << "names are in the film's pictures";
   app().film.stop();
   frames_until([&] { return app().film.completing() == 0; });
   const std::string last = film_pixels(directory() / "film", static_cast<int>(then) + 2),
@@ -474,7 +476,7 @@ TEST_F(Beside, AFilmWithTextTellsRunsApartAndGoesOnAfterADivergence) {
   EXPECT_GT(changes(tiles[1]), 10);
 }
 
-TEST_F(Beside, EveryRunIsSavedUnderItsNumber) {
+TEST_F(Comparison, EveryRunIsSavedUnderItsNumber) {
   open("cube-plane", {small, low}, "", only_recording());
   compare({"h", "0.0005"});
   run_to(100);
@@ -502,46 +504,46 @@ TEST_F(Beside, EveryRunIsSavedUnderItsNumber) {
   }
 }
 
-TEST_F(Beside, ARunThatGoesOnAfterTheFirstDivergedCanBeScrubbed) {
+TEST_F(Comparison, ARunThatGoesOnAfterTheFirstDivergedCanBeScrubbed) {
   open("cube-plane", {small, "simulation.timestep=0.003", "cube[0].structural.stiffness=20000"});
   compare({"integrator", "implicit-euler"});
   simulation().set_running(true);
   frames_until([&] { return run(0).divergence().has_value(); });
   const double diverged = run(0).time();
-  frames_until([&] { return beside().shown_time(1) > diverged + 0.3; });
-  EXPECT_EQ(&beside().clock(), &run(1));
-  EXPECT_TRUE(beside().clock_runs());
-  frames_until([&] { return beside().real_time_factor() > 0.0; });
+  frames_until([&] { return comparison().shown_time(1) > diverged + 0.3; });
+  EXPECT_EQ(&comparison().clock().setter(), &run(1));
+  EXPECT_TRUE(comparison().clock().runs());
+  frames_until([&] { return comparison().clock().real_time_factor() > 0.0; });
   press(GLFW_KEY_SPACE);
   settled();
   const double end = run(1).time();
-  EXPECT_DOUBLE_EQ(beside().end_time(), end) << "the bar reaches as far";
-  EXPECT_DOUBLE_EQ(beside().clock_time(), end);
+  EXPECT_DOUBLE_EQ(comparison().clock().end_time(), end) << "the bar reaches as far";
+  EXPECT_DOUBLE_EQ(comparison().clock().time(), end);
   frames(2);
   // A click in the middle of the bar.
   click("timeline");
   settled();
-  const double middle = beside().clock_time();
+  const double middle = comparison().clock().time();
   EXPECT_GT(middle, diverged);
   EXPECT_LT(middle, end - 0.05);
   EXPECT_TRUE(run(0).divergence().has_value());
   EXPECT_EQ(hash(1), hash_alone(1));
-  EXPECT_DOUBLE_EQ(beside().end_time(), end) << "nothing is lost";
+  EXPECT_DOUBLE_EQ(comparison().clock().end_time(), end) << "nothing is lost";
   // Before the divergence both go there, and back again.
-  EXPECT_FALSE(beside().go_to(0.5 * diverged));
+  EXPECT_FALSE(comparison_view().go_to(0.5 * diverged));
   app().run.go_to(0.5 * diverged);
   settled();
   EXPECT_NEAR(run(0).time(), 0.5 * diverged, 0.003);
   EXPECT_NEAR(run(1).time(), 0.5 * diverged, 0.003);
   EXPECT_FALSE(run(0).divergence().has_value());
-  EXPECT_TRUE(beside().go_to(end));
+  EXPECT_TRUE(comparison_view().go_to(end));
   frames(1);
   settled();
   EXPECT_TRUE(run(0).divergence().has_value());
   EXPECT_DOUBLE_EQ(run(1).time(), end);
 }
 
-TEST_F(Beside, PlotsShowAQuantityOfAllRuns) {
+TEST_F(Comparison, PlotsShowAQuantityOfAllRuns) {
   open("cube-plane", {small, low});
   compare({"h", "0.002"});
   run_to(200);
@@ -551,7 +553,7 @@ TEST_F(Beside, PlotsShowAQuantityOfAllRuns) {
   EXPECT_TRUE(has("energy/momentum/run 2"));
 }
 
-TEST_F(Beside, AGhostShowsAnEarlierRunAtTheSameTime) {
+TEST_F(Comparison, AGhostShowsAnEarlierRunAtTheSameTime) {
   open("cube-plane", {small, low});
   const Scene earlier = app().scene.scene();
   run_to(60);
@@ -564,15 +566,15 @@ TEST_F(Beside, AGhostShowsAnEarlierRunAtTheSameTime) {
   const std::string pulled = hash(0);
   run_to(pulled_to + 50);
   const std::uint64_t end = simulation().step();
-  EXPECT_EQ(beside().ghost(), nullptr);
+  EXPECT_EQ(comparison().ghost(), nullptr);
   press(GLFW_KEY_G, GLFW_MOD_CONTROL);
   settled();
-  ASSERT_NE(beside().ghost(), nullptr);
-  EXPECT_EQ(beside().count(), 1u);
+  ASSERT_NE(comparison().ghost(), nullptr);
+  EXPECT_EQ(comparison().count(), 1u);
   app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -3.0, 0.0}));
   press(GLFW_KEY_R);
   settled();
-  EXPECT_EQ(beside().ghost()->step(), 0u);
+  EXPECT_EQ(comparison().ghost()->simulation().step(), 0u);
   const auto to = [&](std::uint64_t step) {
     while (simulation().step() < step && !HasFailure()) {
       type(U'.');
@@ -580,7 +582,7 @@ TEST_F(Beside, AGhostShowsAnEarlierRunAtTheSameTime) {
     }
   };
   to(30);
-  EXPECT_EQ(state_hash_text(beside().ghost()->snapshot()), reference_hash(earlier, 30));
+  EXPECT_EQ(state_hash_text(comparison().ghost()->simulation().snapshot()), reference_hash(earlier, 30));
   EXPECT_NE(hash(0), reference_hash(earlier, 30));
   frames(1);
   EXPECT_TRUE(has("ghost/label"));
@@ -589,17 +591,17 @@ TEST_F(Beside, AGhostShowsAnEarlierRunAtTheSameTime) {
   ASSERT_TRUE(has("notice/close"));
   EXPECT_GT(widgets().at("notice/close").top, widgets().at("ghost/label").bottom + 100.0);
   run_to(end + 40);
-  EXPECT_EQ(beside().ghost()->step(), end) << "its run goes no further";
+  EXPECT_EQ(comparison().ghost()->simulation().step(), end) << "its run goes no further";
   app().run.go_to(static_cast<double>(pulled_to) * earlier.model.simulation.timestep);
   settled();
-  EXPECT_EQ(state_hash_text(beside().ghost()->snapshot()), pulled) << "hands are part of it";
+  EXPECT_EQ(state_hash_text(comparison().ghost()->simulation().snapshot()), pulled) << "hands are part of it";
   press(GLFW_KEY_G, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
   frames(2);
-  EXPECT_EQ(beside().ghost(), nullptr);
+  EXPECT_EQ(comparison().ghost(), nullptr);
   EXPECT_FALSE(has("ghost/label"));
 }
 
-TEST_F(Beside, AGhostIsSeenOverThePicture) {
+TEST_F(Comparison, AGhostIsSeenOverThePicture) {
   open("cube-plane", {small});
   run_to(400);
   press(GLFW_KEY_G, GLFW_MOD_CONTROL);
@@ -623,7 +625,7 @@ TEST_F(Beside, AGhostIsSeenOverThePicture) {
   EXPECT_GT(differs, 30);
 }
 
-TEST_F(Beside, TheSavedPictureHasAllRuns) {
+TEST_F(Comparison, TheSavedPictureHasAllRuns) {
   open("cube-plane", {small});
   compare({"h", "0.002"});
   press(GLFW_KEY_F12);
@@ -635,12 +637,12 @@ TEST_F(Beside, TheSavedPictureHasAllRuns) {
   EXPECT_EQ(error(), "");
 }
 
-TEST_F(Beside, TheCameraTurnsInEveryPicture) {
+TEST_F(Comparison, TheCameraTurnsInEveryPicture) {
   open("cube-plane", {small});
   compare({"h", "0.002"});
   frames_to_rest();
   const CameraSettings before = app().view.camera.goal();
-  const app::Box& other = beside().boxes()[1];
+  const app::Box& other = comparison_view().boxes()[1];
   drag(GLFW_MOUSE_BUTTON_LEFT, other.centre_x(), other.centre_y(), 40.0, 0.0);
   EXPECT_NE(app().view.camera.goal(), before);
 }

@@ -10,7 +10,7 @@
 #include "base/result.h"
 #include "render/overlay.h"
 #include "run/backends.h"
-#include "run/beside.h"
+#include "run/comparison.h"
 #include "run/film_painter.h"
 #include "run/run_files.h"
 #include "scene/follow.h"
@@ -24,14 +24,15 @@ struct PicturedRun {
   std::string name;  ///< what distinguishes it from the others: short_name()
 };
 
-class BesideRecorder {
+class ComparisonRecorder {
  public:
   /// Draws in `context`, the one of all backends that need one. The sinks have the
-  /// size of `output`. One to most_beside runs. `pictures`: in all, as planned. Errors: as
+  /// size of `output`. One to most_compared runs. `pictures`: in all, as planned. Errors: as
   /// Recorder::create().
-  static Result<std::unique_ptr<BesideRecorder>> create(gl::Context& context, const PictureOutput& output,
-                                                        std::vector<PicturedRun> runs, std::uint64_t pictures,
-                                                        std::vector<std::unique_ptr<FrameSink>> sinks);
+  static Result<std::unique_ptr<ComparisonRecorder>> create(gl::Context& context, const PictureOutput& output,
+                                                            std::vector<PicturedRun> runs,
+                                                            std::uint64_t pictures,
+                                                            std::vector<std::unique_ptr<FrameSink>> sinks);
 
   /// Adds a picture of the runs' states: run i is at `steps[i]`, and diverged in the step after if
   /// `divergences[i]` says so. The part of a run that has stopped is not drawn again. Error: also that of
@@ -60,7 +61,7 @@ class BesideRecorder {
     std::optional<std::uint64_t> step = {};  // of what follows
     State copy = {};                         // where it is needed
   };
-  BesideRecorder() = default;
+  ComparisonRecorder() = default;
   Status take_state(Part& part, std::uint64_t step);
   ShownRun shown(const Part& part, const std::optional<Divergence>& divergence) const;
 

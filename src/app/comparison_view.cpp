@@ -1,0 +1,216 @@
+#include "app/comparison_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "model/integrator.h"
+#include "run/comparison.h"
+#include "scene/short_keys.h"
+
+namespace aspic::app {
+namespace {
+
+/// Differences that suggest themselves, those that are no difference left out.
+std::vector<Difference> suggestions(const Scene& scene) {
+  const bool stable = row_of(scene.model.simulation.integrator).traits.stable_at_any_step;
+  std::vector<Difference> all = {{"integrator", stable ? "explicit-euler" : "implicit-euler"},
+                                 {"h", fmt::format("{:g}", 0.5 * scene.model.simulation.timestep)}};
+  if (const auto stiffness = present_value(scene, *find_short_key("k")))
+    all.push_back({"k", fmt::format("{:g}", 4.0 * *stiffness)});
+  all.push_back({"h", fmt::format("{:g}", 0.25 * scene.model.simulation.timestep)});
+  return all;
+}
+
+std::string words_of(const Difference& difference) {
+  return fmt::format("{} = {}", title_of(difference.key), difference.value);
+}
+
+}  // namespace
+
+// ---- what is compared ----
+
+void ComparisonView::add() {
+  std::vector<Difference> differences = scene_.editor().differences();
+  if (differences.size() + 1 >= most_compared)
+    return messages_.refuse(fmt::format("At most {} runs can be compared.", most_compared));
+  for (const Difference& wanted : suggestions(scene_.scene())) {
+    if (std::ranges::find(differences, wanted) != differences.end()) continue;
+    differences.push_back(wanted);
+    return scene_.set_differences(std::move(differences), "comparison with " + words_of(wanted));
+  }
+}
+
+void ComparisonView::set(std::size_t i, const Difference& difference) {
+  std::vector<Difference> differences = scene_.editor().differences();
+  Difference& own = differences[i - 1];
+  if (own == difference) return;
+  if (const auto run = varied(scene_.scene(), asked_, std::span(&difference, 1)); !run)
+    return messages_.error(run.error().message);
+  own = difference;
+  messages_.dismiss_error();
+  scene_.set_differences(std::move(differences), "comparison with " + words_of(difference));
+}
+
+void ComparisonView::remove(std::size_t i) {
+  std::vector<Difference> differences = scene_.editor().differences();
+  differences.erase(differences.begin() + static_cast<std::ptrdiff_t>(i) - 1);
+  scene_.set_differences(std::move(differences), "fewer runs compared");
+}
+
+void ComparisonView::leave() {
+  if (!scene_.editor().differences().empty()) scene_.set_differences({}, "end of the comparison");
+}
+
+/// As if it had not been asked for.
+void ComparisonView::refuse(const Difference& difference, const std::string& why) {
+  messages_.error(why);
+  std::vector<Difference> rest = scene_.editor().differences();
+  std::erase(rest, difference);
+  scene_.set_differences(std::move(rest), "fewer runs compared");
+}
+
+Result<ComparisonView::Pictured> ComparisonView::pictured(std::size_t i) {
+  Pictured made = {
+      &comparison_.run(i),
+      std::make_unique<ScenePicture>(comparison_.run(i), comparison_.scene(i), view_, picture_.full_quality)};
+  ASPIC_CHECK(made.picture->attach(*context_));
+  return made;
+}
+
+void ComparisonView::match_editor() {
+  if (comparison_.ghost() && ghost_source_ != scene_.editor().source()) remove_ghost();
+  const std::vector<Difference> wanted = scene_.editor().differences();
+  if (comparison_.differences() == wanted) return;
+  const std::size_t before = comparison_.count();
+  if (const auto refusal = comparison_.set(*context_, wanted))
+    return refuse(refusal->difference, refusal->why);
+  if (comparison_.count() < before) messages_.dismiss_refusal();
+  std::vector<Pictured> next;
+  for (std::size_t i = 1; i < comparison_.count(); ++i) {
+    const auto known = std::ranges::find(pictures_, &comparison_.run(i), &Pictured::run);
+    if (known != pictures_.end()) {
+      next.push_back(std::move(*known));
+    } else if (auto made = pictured(i)) {
+      next.push_back(std::move(*made));
+    } else {
+      // Without a picture there is no run.
+      pictures_.clear();
+      comparison_.end();
+      return refuse(wanted[i - 1], made.error().message);
+    }
+  }
+  pictures_ = std::move(next);
+  if (!comparison_.several()) picture_.release();
+}
+
+void ComparisonView::detach() {
+  pictures_.clear();
+  ghost_.reset();
+  boxes_.clear();
+  comparison_.end();
+  comparison_.remove_ghost();
+  picture_.release();
+  context_ = nullptr;
+}
+
+void ComparisonView::keep_ghost() {
+  ghost_.reset();
+  if (!messages_.check(comparison_.keep_ghost(*context_))) return;
+  GhostRun& ghost = *comparison_.ghost();
+  ghost_source_ = scene_.editor().source();
+  ghost_ = std::make_unique<ScenePicture>(ghost.simulation(), ghost.scene(), view_, picture_.full_quality);
+  ghost_->ghost = true;
+  if (!messages_.check(ghost_->attach(*context_))) return remove_ghost();
+  messages_.info(
+      fmt::format("This run is the ghost from now on, up to t = {:.3f} s. Change something and press Reset.",
+                  ghost.end()));
+}
+
+void ComparisonView::remove_ghost() {
+  ghost_.reset();
+  comparison_.remove_ghost();
+  if (!comparison_.several()) picture_.release();
+}
+
+bool ComparisonView::go_to(double time) {
+  const auto gone = comparison_.clock().go_to(time);
+  if (!gone) messages_.error(gone.error().message);
+  if (gone && !*gone) return false;
+  scene_.follow_history();
+  return true;
+}
+
+// ---- pictures ----
+
+std::string ComparisonView::name(std::size_t i) const {
+  return short_name(i, comparison_.differences(), comparison_.scene(i),
+                    std::string(comparison_.run(i).present().backend().title));
+}
+
+void ComparisonView::update() {
+  for (const std::string& message : comparison_.take_messages()) messages_.error(message);
+  if (std::exchange(shown_number_, comparison_.shown_number()) == comparison_.shown_number()) return;
+  for (std::size_t i = 0; i < comparison_.count(); ++i) picture(i).keep(comparison_.run(i).snapshot());
+  if (ghost_) ghost_->keep(comparison_.ghost()->simulation().snapshot());
+}
+
+void ComparisonView::place(const Box& whole) {
+  const std::vector<Tile> tiles = tiles_of({std::max(static_cast<int>(whole.right - whole.left), 1),
+                                            std::max(static_cast<int>(whole.bottom - whole.top), 1)},
+                                           comparison_.count());
+  boxes_.clear();
+  for (const Tile& tile : tiles)
+    boxes_.push_back({whole.left + tile.left, whole.top + tile.top, whole.left + tile.left + tile.width,
+                      whole.top + tile.top + tile.height});
+  if (!comparison_.active()) boxes_ = {whole};
+  view_.whole = whole;
+  view_.box = boxes_.front();
+  view_.others.clear();
+  for (std::size_t i = 1; i < comparison_.count(); ++i)
+    view_.others.push_back({boxes_[i], picture(i).offset()});
+}
+
+void ComparisonView::share_colours() {
+  const bool active = comparison_.active();
+  picture_.common_range.reset();
+  // A film without names shows each run as it would be alone.
+  const bool marked = active && !(picture_.film && !picture_.film->text);
+  for (std::size_t i = 0; i < comparison_.count(); ++i)
+    picture(i).tint = marked ? std::optional(run_tint(i)) : std::nullopt;
+  const ViewSettings& view = comparison_.scene(0).view;
+  if (!active || !has_scale(view.colour)) return;
+  QuantityRange range = picture_.own_range();
+  const auto shares = [&](std::size_t i) { return share_scale(comparison_.scene(i).view, view); };
+  for (std::size_t i = 1; i < comparison_.count(); ++i)
+    if (shares(i)) range = widest(range, picture(i).own_range());
+  picture_.common_range = range;
+  for (std::size_t i = 1; i < comparison_.count(); ++i)
+    picture(i).common_range = shares(i) ? std::optional(range) : std::nullopt;
+}
+
+bool ComparisonView::refining() const {
+  return (ghost_ && ghost_->refining()) ||
+         std::ranges::any_of(pictures_, [](const Pictured& p) { return p.picture->refining(); });
+}
+
+Status ComparisonView::show(const WindowSize& window) {
+  if (ghost_) {
+    ghost_->shadows = false;
+    ghost_->set_at_rest(picture_.at_rest(), picture_.at_once());
+    ASPIC_CHECK(ghost_->show(window, boxes_.front()));
+  }
+  for (std::size_t i = 1; i < comparison_.count(); ++i) {
+    ScenePicture& other = picture(i);
+    other.shadows = picture_.shadows;
+    other.full_quality = picture_.full_quality;
+    other.set_at_rest(picture_.at_rest(), picture_.at_once());
+    ASPIC_CHECK(other.show(window, boxes_[i]));
+    if (const auto refusal = other.take_refusal()) messages_.error(*refusal);
+  }
+  return {};
+}
+
+}  // namespace aspic::app
