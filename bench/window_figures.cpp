@@ -129,7 +129,8 @@ Figures measure(const Case& c, double seconds) {
   const ProcessorTime used = processor_time();
   figures.stepping = (used.stepping - used_from.stepping) / (simulation.time() - time_from);
   figures.drawing = (used.drawing - used_from.drawing) / pictures;
-  figures.resolution = (*app)->picture.resolution();
+  const FramePolicy* const policy = (*app)->picture.policy();
+  figures.resolution = policy ? policy->resolution.share() : 1.0;
   (*window)->set_receiver(nullptr);
   return figures;
 }
@@ -178,7 +179,7 @@ void rest(const std::string& scene) {
     last = now;
     // A new picture for each look at the events, as when the mouse moves.
     if (seconds_between(start, now) > 1.0) (*app)->simulation.set_running(false);
-    if ((*app)->picture.at_rest()) longest = std::max(longest, dt);
+    if ((*app)->picture.at_rest) longest = std::max(longest, dt);
     if (const Status drawn = (*app)->frame((*window)->size(), std::min(dt, 0.25)); !drawn)
       fail(drawn.error().message);
     (*window)->show_picture();
@@ -186,7 +187,7 @@ void rest(const std::string& scene) {
   fmt::print(
       "{{\"case\": \"rest\", \"scene\": \"{}\", \"fine_picture_seconds\": {:.3f}, \"longest_gap_seconds\": "
       "{:.3f}}}\n",
-      scene, (*app)->picture.draw_seconds(), longest);
+      scene, (*app)->picture.rate.draw_seconds, longest);
   std::fflush(stdout);
   (*window)->set_receiver(nullptr);
 }

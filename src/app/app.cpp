@@ -177,18 +177,14 @@ bool App::doze(double dt) {
 }
 
 double App::wait(double since) const {
-  constexpr double shortest = 1.0 / 60.0, longest = 0.1, nap = 0.004;  // s
+  constexpr double nap = 0.004;  // s
   if (idle()) return std::max(0.5 - since, 0.0);
-  // Displays set the pace of hardware. A software rasteriser draws on the processors that simulate: it draws
-  // at no more than that pace, only what is new, and where steps are late for a third of the time at most.
-  if (!picture.context().info().is_software) return 0.0;
+  // Displays set the pace of hardware.
+  if (!picture.policy()) return 0.0;
   const bool nothing_new = !comparison.several() && simulation.busy() && !simulation.jobs().has_news() &&
                            !touched_ && !camera_moves_;
   const bool late = simulation.running() && simulation.pacer().late();
-  const double interval = nothing_new ? longest
-                          : late      ? std::clamp(3.0 * frame_seconds_, shortest, longest)
-                                      : shortest;
-  return std::clamp(interval - since, 0.0, nap);
+  return std::clamp(picture.policy()->interval(nothing_new, late, frame_seconds_) - since, 0.0, nap);
 }
 
 // ---- events ----
@@ -271,14 +267,13 @@ Status App::frame(const WindowSize& size, double dt) {
   touched_ = false;
   camera_moves_ = view.camera.update(dt);
   scene.update(dt);
-  // A picture of a software rasteriser takes longer anyway, so steps may too.
-  const double budget = context.info().is_software ? 0.030 : 0.012;
+  const double budget = picture.policy() ? FramePolicy::step_seconds : FramePolicy::hardware_step_seconds;
   comparison_view.match_editor();
   comparison.lead();
   film.lead();
   if (comparison.clock().runs()) messages.greeting_is_over();
   ASPIC_CHECK(simulation.update(dt, budget));
-  if (scene.finish_change()) picture.postpone();
+  if (scene.finish_change()) picture.postponed = true;
   if (const auto message = simulation.take_message()) messages.error(*message);
   film.update();
   ASPIC_CHECK(comparison.follow(dt, budget));
@@ -289,7 +284,8 @@ Status App::frame(const WindowSize& size, double dt) {
   still_for_ = camera_moves_ || moves ? 0.0 : still_for_ + dt;
   mouse_still_for_ += dt;
   const bool taken = shot_wanted_ == Shot::window || (shot_wanted_ == Shot::picture && comparison.several());
-  picture.set_at_rest(taken || std::min(still_for_, scene.unchanged_for()) > 0.25, taken);
+  picture.at_rest = taken || std::min(still_for_, scene.unchanged_for()) > 0.25;
+  picture.at_once = taken;
   const auto start = std::chrono::steady_clock::now();
   const Status made = make_picture(size, dt);
   frame_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -313,7 +309,7 @@ Status App::make_picture(const WindowSize& size, double dt) {
   ASPIC_CHECK(picture.follow());
   pointer.find_hovered();
   view.pixels_per_unit = static_cast<double>(size.pixel_width) / size.width;
-  picture.count(dt);
+  picture.rate.count(dt);
   gui_->set_text_size(layout.text_size);
   gui_->begin(dt);
   view.text_scale = gui_->scale();

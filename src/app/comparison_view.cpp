@@ -103,7 +103,7 @@ void ComparisonView::match_editor() {
     }
   }
   pictures_ = std::move(next);
-  if (!comparison_.several()) picture_.release();
+  if (!comparison_.several()) picture_.keep(std::nullopt);
 }
 
 void ComparisonView::detach() {
@@ -112,7 +112,7 @@ void ComparisonView::detach() {
   boxes_.clear();
   comparison_.end();
   comparison_.remove_ghost();
-  picture_.release();
+  picture_.keep(std::nullopt);
   context_ = nullptr;
 }
 
@@ -132,7 +132,7 @@ void ComparisonView::keep_ghost() {
 void ComparisonView::remove_ghost() {
   ghost_.reset();
   comparison_.remove_ghost();
-  if (!comparison_.several()) picture_.release();
+  if (!comparison_.several()) picture_.keep(std::nullopt);
 }
 
 bool ComparisonView::go_to(double time) {
@@ -199,14 +199,16 @@ bool ComparisonView::refining() const {
 Status ComparisonView::show(const WindowSize& window) {
   if (ghost_) {
     ghost_->shadows = false;
-    ghost_->set_at_rest(picture_.at_rest(), picture_.at_once());
+    ghost_->at_rest = picture_.at_rest;
+    ghost_->at_once = picture_.at_once;
     ASPIC_CHECK(ghost_->show(window, boxes_.front()));
   }
   for (std::size_t i = 1; i < comparison_.count(); ++i) {
     ScenePicture& other = picture(i);
     other.shadows = picture_.shadows;
     other.full_quality = picture_.full_quality;
-    other.set_at_rest(picture_.at_rest(), picture_.at_once());
+    other.at_rest = picture_.at_rest;
+    other.at_once = picture_.at_once;
     ASPIC_CHECK(other.show(window, boxes_[i]));
     if (const auto refusal = other.take_refusal()) messages_.error(*refusal);
   }

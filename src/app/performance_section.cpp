@@ -71,12 +71,13 @@ void performance_section(Gui& gui, Simulation& s, const Comparison& comparison, 
   figure("Real-time factor", runs ? fmt::format("{:.3g}", comparison.clock().real_time_factor()) : "paused",
          "Simulated seconds per second.");
   figure("Pictures",
-         picture.at_rest() ? fmt::format("at rest, {:.0f} ms", 1e3 * picture.draw_seconds())
-                           : fmt::format("{:.0f}/s, {:.1f} ms each", picture.pictures_per_second(),
-                                         1e3 * picture.draw_seconds()),
+         picture.at_rest ? fmt::format("at rest, {:.0f} ms", 1e3 * picture.rate.draw_seconds)
+                         : fmt::format("{:.0f}/s, {:.1f} ms each", picture.rate.per_second(),
+                                       1e3 * picture.rate.draw_seconds),
          "Pictures of the window per second, and how long the last one of the scene took.");
-  if (device.is_software) {
-    figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * picture.resolution()),
+  if (const FramePolicy* const policy = picture.policy()) {
+    const double share = picture.full_quality ? 1.0 : policy->resolution.share();
+    figure("Resolution", fmt::format("{:.0f} % in motion", 100.0 * share),
            "A software rasteriser draws: pictures are coarser while something moves. At rest and when saved "
            "they "
            "are of full size.");

@@ -39,6 +39,7 @@ Status ScenePicture::attach(gl::Context& context) {
   look.shaders = gl::ShaderLibrary(directory);
   ASPIC_TRY(renderer_, Renderer::create(context, look));
   drawn_.reset();
+  drawn_particles_ = 0;
   return {};
 }
 
@@ -71,7 +72,7 @@ ScenePicture::Content ScenePicture::wanted(bool fine) const {
   c.tint = tint;
   c.film = film;
   c.fine = in_full() || (fine && !film);
-  const double scale = c.fine ? 1.0 : resolution_.share();
+  const double scale = c.fine ? 1.0 : policy()->resolution.share();
   const Pixels full = view_pixels(0);
   c.size =
       film ? film->size
@@ -107,9 +108,9 @@ Status ScenePicture::refresh() {
 
 Status ScenePicture::draw() {
   ASPIC_CHECK(follow());
-  const Content content = wanted(at_rest_);
+  const Content content = wanted(at_rest);
   if (drawn_ == content || (drawn_ && drawn_->fine && drawn_ == wanted(true))) return {};
-  if (content.fine && !in_full() && !at_once_ && drawn_ == wanted(false)) return refine(content);
+  if (content.fine && !in_full() && !at_once && drawn_ == wanted(false)) return refine(content);
   return draw(content, film && film->draws_legend(), ghost ? std::optional(behind_ghost) : std::nullopt);
 }
 
@@ -135,7 +136,7 @@ Status ScenePicture::refine(const Content& content) {
   refined_.reset();
   drawn_ = content;
   ++number_;
-  draw_seconds_ = refined_seconds_;
+  rate.draw_seconds = refined_seconds_;
   return {};
 }
 
@@ -166,15 +167,16 @@ Result<PictureOptions> ScenePicture::options_of(const Content& content, bool leg
 Status ScenePicture::draw(const Content& content, bool legend, const std::optional<Colour>& background) {
   const auto start = Clock::now();
   const bool new_model = !is_of_model(), adapts = !content.fine && !film;
-  const double share = resolution_.share();
+  FramePolicy* const spared = renderer_->policy();
+  const double share = spared ? spared->resolution.share() : 1.0;
   refined_.reset();
   ASPIC_TRY(PictureOptions options, options_of(content, legend, background));
   options.coarse_skin = adapts && share < 1.0;
   if (new_model) {
     const Model& model = simulation_.model();
     ASPIC_CHECK(renderer_->set_model(model));
-    if (drawn_particles_ != model.particle_count())
-      resolution_.reset(model.particle_count() > many_particles);
+    if (spared && drawn_particles_ != model.particle_count())
+      spared->resolution.reset(model.particle_count() > many_particles);
     drawn_particles_ = model.particle_count();
   }
   ASPIC_TRY(const DeviceState state, on_device());
@@ -186,13 +188,13 @@ Status ScenePicture::draw(const Content& content, bool legend, const std::option
     drawn = renderer_->draw(content.size.width, content.size.height, state, options);
   }
   if (!drawn) return drawn.error();
-  if (context_->info().is_software) glFinish();
+  if (spared) spared->wait();
   drawn_ = content;
   ++number_;
-  draw_seconds_ = seconds_since(start);
+  rate.draw_seconds = seconds_since(start);
   if (adapts && !new_model) {
     const bool late = simulation_.running() && simulation_.pacer().late();
-    resolution_.took(share, draw_seconds_, late ? Resolution::hurried : Resolution::in_motion);
+    spared->resolution.took(share, rate.draw_seconds, late ? Resolution::hurried : Resolution::in_motion);
   }
   return {};
 }
@@ -203,8 +205,8 @@ Result<DeviceState> ScenePicture::on_device() {
   return renderer_->upload(shown_state());
 }
 
-void ScenePicture::keep(const State& state) {
-  kept_ = state;
+void ScenePicture::keep(std::optional<State> state) {
+  kept_ = std::move(state);
   ++kept_number_;
 }
 
@@ -231,7 +233,7 @@ Status ScenePicture::show(const WindowSize& window) {
 Status ScenePicture::present(const WindowSize& window) {
   const Pixels view = view_pixels(window.pixel_height);
   // Nothing but the picture may be used of the renderer while it is postponed: its model is gone.
-  if (!std::exchange(postponed_, false) || !drawn_ || film) {
+  if (!std::exchange(postponed, false) || !drawn_ || film) {
     ASPIC_CHECK(draw());
   }
   Pixels& p = shown_pixels_ = view;
@@ -267,16 +269,6 @@ Status ScenePicture::mark(std::uint32_t particle) {
 Result<std::uint64_t> ScenePicture::request_pick(double x, double y) {
   return renderer_->request_pick(
       {x - shown_.left, y - shown_.top, shown_.right - shown_.left, shown_.bottom - shown_.top});
-}
-
-void ScenePicture::count(double dt) {
-  constexpr double window = 0.5;  // s
-  rate_time_ += dt;
-  ++rate_pictures_;
-  if (rate_time_ <= window) return;
-  pictures_per_second_ = rate_pictures_ / rate_time_;
-  rate_time_ = 0.0;
-  rate_pictures_ = 0;
 }
 
 Legend ScenePicture::arrow_legend() const {

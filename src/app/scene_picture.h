@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/resolution.h"
+#include "app/picture_rate.h"
 #include "app/view.h"
 #include "app/window.h"
 #include "playback/simulation.h"
@@ -42,10 +42,16 @@ class ScenePicture {
       : full_quality(in_full_quality), simulation_(simulation), scene_(scene), view_(view) {}
 
   bool full_quality;
-  double part_seconds = 0.02;                 ///< of a fine picture, before events are looked at again [s]
-  bool shadows = true;                        ///< on terrain
-  std::optional<FilmLook> film;               ///< while a film is made
-  SavedLook saved;                            ///< of the next save()
+  /// Nothing has moved for a while, or something does: at rest a software rasteriser draws one picture as
+  /// finely as hardware does, which stays until something in it changes. It does so a part at a time, between
+  /// which the window answers, and shows the picture before meanwhile; or `at_once`.
+  bool at_rest = false, at_once = false;
+  double part_seconds = 0.02;    ///< of a fine picture, before events are looked at again [s]
+  bool postponed = false;        ///< show() shows the last picture once more: events come first
+  bool shadows = true;           ///< on terrain
+  std::optional<FilmLook> film;  ///< while a film is made
+  SavedLook saved;               ///< of the next save()
+  PictureRate rate;
   std::optional<Colour> tint;                 ///< of bodies coloured by material; absent: their own
   std::optional<QuantityRange> common_range;  ///< of colours, where runs are compared; absent: its own
   bool ghost = false;  ///< its bodies alone, pale and translucent over what the window shows
@@ -55,15 +61,8 @@ class ScenePicture {
   void detach();
   gl::Context& context() const { return *context_; }
 
-  /// Nothing has moved for a while, or something does: at rest a software rasteriser draws one picture as
-  /// finely as hardware does, which stays until something in it changes. It does so a part at a time, between
-  /// which the window answers, and shows the picture before meanwhile; or `at_once`.
-  void set_at_rest(bool at_rest, bool at_once = false) {
-    at_rest_ = at_rest;
-    at_once_ = at_once;
-  }
-  bool at_rest() const { return at_rest_; }
-  bool at_once() const { return at_once_; }
+  /// Between attach() and detach(): null where hardware draws.
+  const FramePolicy* policy() const { return renderer_->policy(); }
   /// A part of the fine picture is drawn, and more is to come.
   bool refining() const { return refined_.has_value(); }
   /// Moves the camera along with what the scene's view follows, to the very state that draw() draws; draw()
@@ -73,16 +72,14 @@ class ScenePicture {
   const Vec3& offset() const { return offset_; }
   /// Draws the picture, if anything in it changed. Error: of Renderer.
   Status draw();
-  /// Draws it and puts it into the window; after postpone() the last one once more, so that events come
-  /// first.
+  /// Draws it and puts it into the window.
   Status show(const WindowSize& window);
   /// The same for the picture of another run at a place of its own in the window, which keeps what else is
   /// there.
   Status show(const WindowSize& window, const Box& place);
-  /// From now on this state is shown, whatever becomes of the simulation, until the next one or release().
-  void keep(const State& state);
-  void release() { kept_.reset(); }
-  void postpone() { postponed_ = true; }
+  /// From now on this state is shown, whatever becomes of the simulation, until the next one; nothing: the
+  /// simulation's again.
+  void keep(std::optional<State> state);
   /// Why the last picture does not have the colour that was asked for, once.
   std::optional<std::string> take_refusal() { return std::exchange(refusal_, std::nullopt); }
   /// Marks a particle in the window, on top of what show() put there. So the mark follows the mouse however
@@ -107,9 +104,6 @@ class ScenePicture {
   Result<std::uint64_t> request_pick(double x, double y);
   PickAnswer picked() const { return renderer_->picked(); }
 
-  /// The picture's share of the full resolution, 0 … 1: below 1 where a software rasteriser would be too
-  /// slow.
-  double resolution() const { return in_full() ? 1.0 : resolution_.share(); }
   /// The ends of the scale of its colours.
   QuantityRange range() const;
   /// Those that the picture to come would have if it were the only one; of one that has not been drawn since
@@ -119,11 +113,6 @@ class ScenePicture {
   Legend legend() const;
   /// The same of its arrows.
   Legend arrow_legend() const;
-  /// How long the last picture took [s].
-  double draw_seconds() const { return draw_seconds_; }
-  /// Once for each picture of the window, `dt` after the last [s].
-  void count(double dt);
-  double pictures_per_second() const { return pictures_per_second_; }
 
  private:
   /// What the last picture shows, and how.
@@ -141,7 +130,7 @@ class ScenePicture {
   struct Pixels {
     int left = 0, bottom = 0, width = 1, height = 1;
   };
-  bool in_full() const { return full_quality || !context_->info().is_software; }
+  bool in_full() const { return full_quality || !policy(); }
   Pixels view_pixels(int window_height) const;
   Status present(const WindowSize& window);
   /// What is kept, if it is one of the simulation's model.
@@ -173,14 +162,10 @@ class ScenePicture {
   std::optional<Content> refined_;  // the fine picture that is drawn in parts
   double refined_seconds_ = 0.0;    // what they took
   ArrowSet arrows_;                 // of the last picture
-  bool at_rest_ = false, at_once_ = false, postponed_ = false;
   std::uint64_t number_ = 0;
   Box shown_;
   Pixels shown_pixels_;
-  Resolution resolution_;
   std::uint32_t drawn_particles_ = 0;
-  double draw_seconds_ = 0.0, rate_time_ = 0.0, pictures_per_second_ = 0.0;
-  int rate_pictures_ = 0;
 };
 
 /// Saves the pixels of a framebuffer (0: the window's), from (left, bottom) on, as a new PNG file. Error

@@ -79,7 +79,6 @@ class ModelBuffers {
   const std::vector<Surface::Part>& parts() const { return coarse_ ? coarse_parts_ : parts_; }
   /// From now on skins of fewer triangles, where a body has many.
   void use_coarse_skin(bool coarse) { coarse_ = coarse; }
-  bool has_skin() const { return skin_vertices_ > 0; }
   const BallBuffers& balls() const { return *balls_; }
   const DeviceMesh& rods() const { return rods_; }
   /// Empty before prepare_lines().
@@ -89,6 +88,7 @@ class ModelBuffers {
   const gl::Buffer& light_boxes() const { return light_boxes_; }
   /// SkinVertex each, in the order of Surface::fan_vertex.
   const gl::Buffer& skin() const { return skin_; }
+  /// 0: there is no skin.
   std::uint32_t skin_vertices() const { return skin_vertices_; }
   const gl::Buffer& quantity() const { return quantity_; }
 

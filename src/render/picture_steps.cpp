@@ -1,5 +1,6 @@
 // A picture step by step, at once or with other work in between.
 #include "render/renderer_parts.h"
+#include "render/surroundings.h"
 
 namespace aspic {
 
@@ -52,7 +53,7 @@ std::span<const Renderer::Parts::Step> Renderer::Parts::steps() {
       {PicturePass::surroundings,
        [](Parts& p, Drawing& d) {
          if (!d.kept)
-           p.draw_ground(d.terrain, d.camera, d.options, d.options.shadows);
+           p.draw_ground(d, d.options.shadows);
          else if (d.options.shadows)
            p.terrain.draw_shadows(p.programs, d.terrain, d.options.view.camera, d.camera, *p.targets);
        }},
@@ -85,7 +86,9 @@ std::span<const Renderer::Parts::Step> Renderer::Parts::steps() {
       {PicturePass::behind,
        [](Parts& p, Drawing& d) {
          if (!p.draws_flesh(d)) return;
-         halve_samples(p.programs, p.nothing, *p.targets, p.around_flesh(d.state));
+         const auto& kept = p.surroundings;
+         halve_samples(p.programs, p.nothing, *p.targets,
+                       kept ? kept->around_flesh(p, d.state) : std::vector{p.targets->box()});
          p.targets->samples.framebuffer.bind();
        }},
       {PicturePass::jelly,
@@ -110,7 +113,7 @@ std::span<const Renderer::Parts::Step> Renderer::Parts::steps() {
        }},
       {PicturePass::resolve,
        [](Parts& p, Drawing& d) {
-         if (d.kept) p.backdrop.put_picture(*p.targets);
+         if (d.kept) p.surroundings->put_picture(*p.targets);
          resolve_samples(*p.targets, d.boxes);
        }},
       {PicturePass::text,

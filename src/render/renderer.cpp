@@ -12,6 +12,7 @@
 #include "model/terrain.h"
 #include "render/frame_block.h"
 #include "render/renderer_parts.h"
+#include "render/surroundings.h"
 
 namespace aspic {
 namespace {
@@ -23,6 +24,12 @@ bool shows_springs(ViewColour colour) {
 
 Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Renderer::~Renderer() = default;
+Renderer::Parts::Parts() = default;
+Renderer::Parts::~Parts() = default;
+
+FramePolicy* Renderer::policy() const {
+  return parts_->policy.get();
+}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const RendererOptions& options) {
   const gl::Current here(context);
@@ -30,6 +37,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context, const R
   auto parts = std::make_unique<Parts>();
   parts->context = &context;
   parts->shaders = options.shaders;
+  parts->policy = FramePolicy::create(context);
+  if (parts->policy) parts->surroundings = std::make_unique<Parts::Surroundings>();
   ASPIC_TRY(parts->programs, RenderPrograms::create(context, options.shaders));
   ASPIC_TRY(parts->overlay, OverlayPainter::create(context, options.shaders));
   ASPIC_TRY(parts->terrain, TerrainPainter::create(context));
@@ -53,8 +62,7 @@ Status Renderer::set_model(const Model& model) {
   ASPIC_CHECK(parts_->terrain.set_terrain(*parts_->context, model.terrain));
   parts_->buffers.reset();
   parts_->buffers.emplace(std::move(buffers));
-  parts_->rods = extent_of(rod_mesh(model));
-  parts_->backdrop.forget();
+  if (parts_->surroundings) parts_->surroundings->reset(model);
   parts_->lights.hold({});
   parts_->model = &model;
   parts_->drawn_state.reset();
@@ -111,7 +119,7 @@ void Renderer::Parts::prepare_light(const DeviceState& state, const PictureOptio
     buffers->compute_light_boxes(programs, state);
     mark(PicturePass::bounds);
   }
-  if (view.draw.solid && buffers->has_skin()) buffers->compute_skin(programs, *state.particles);
+  if (view.draw.solid && buffers->skin_vertices() > 0) buffers->compute_skin(programs, *state.particles);
   mark(PicturePass::skin);
   if (held) {
     lights.bind(*buffers);
@@ -226,7 +234,7 @@ Result<bool> Renderer::proceed() {
   p.resume();
   steps[d.step].draw(p, d);
   p.leave();
-  if (p.context->info().is_software) glFinish();
+  if (p.policy) p.policy->wait();
   if (++d.step < steps.size()) return false;
   ASPIC_CHECK(p.finish());
   return true;
@@ -329,8 +337,7 @@ void Renderer::set_profiling(bool on) {
   p.profiler.reset();
   if (on)
     p.profiler = std::make_unique<gl::PassProfiler>(
-        *p.context, picture_pass_names(),
-        p.context->info().is_software ? gl::PassStamps::waiting : gl::PassStamps::queued);
+        *p.context, picture_pass_names(), p.policy ? gl::PassStamps::waiting : gl::PassStamps::queued);
 }
 
 std::vector<gl::PassTime> Renderer::pass_times() {

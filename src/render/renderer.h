@@ -19,6 +19,7 @@
 #include "render/arrows.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
+#include "render/frame_policy.h"
 #include "render/highlight.h"
 #include "render/overlay.h"
 #include "render/picker.h"
@@ -71,6 +72,9 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
+  /// What spares a software rasteriser; null: hardware draws.
+  FramePolicy* policy() const;
+
   /// Takes on a model, which must outlive the renderer or the next set_model.
   /// Error (scene_rejected): no device memory for it.
   Status set_model(const Model& model);
@@ -98,7 +102,7 @@ class Renderer {
   /// drawn is shown on until proceed() says that this one is finished. Everything must stay as it is till
   /// then; draw() and set_model() give it up. Errors: those of draw().
   Status begin(int width, int height, const DeviceState& state, const PictureOptions& options);
-  /// Draws the next part, and waits for it on a software rasteriser. Whether the picture is finished: it has
+  /// Draws the next part, and waits for it where there is a policy. Whether the picture is finished: it has
   /// every byte that draw() would have given it. Legal after begin(). Errors: those of draw().
   Result<bool> proceed();
 

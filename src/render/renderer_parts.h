@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "render/backdrop.h"
 #include "render/body_painter.h"
+#include "render/frame_policy.h"
 #include "render/light_maps.h"
 #include "render/model_buffers.h"
-#include "render/moving_part.h"
 #include "render/picture_passes.h"
 #include "render/programs.h"
 #include "render/reference_ground.h"
@@ -43,6 +44,9 @@ struct Renderer::Parts {
   /// In their order; picture_steps.cpp.
   static std::span<const Step> steps();
 
+  Parts();
+  ~Parts();
+
   gl::Context* context = nullptr;
   RenderPrograms programs;
   std::optional<OverlayPainter> overlay;
@@ -63,10 +67,11 @@ struct Renderer::Parts {
   gl::Buffer uploaded, uploaded_balls;
   std::vector<layout::Particle> uploaded_particles;  // the same again, unless there are too many
   std::vector<layout::Ball> uploaded_ball_items;
-  std::uint64_t uploads = 0;     // of states that differ from the one before
-  bool upload_is_whole = false;  // what the device has is all of the last one
-  Extent rods;
-  Backdrop backdrop;
+  std::uint64_t uploads = 0;            // of states that differ from the one before
+  bool upload_is_whole = false;         // what the device has is all of the last one
+  std::unique_ptr<FramePolicy> policy;  // null: hardware
+  class Surroundings;
+  std::unique_ptr<Surroundings> surroundings;  // where there is a policy
   gl::ShaderLibrary shaders;
   // Of the picture last drawn, for what is asked about it afterwards.
   std::optional<DeviceState> drawn_state;
@@ -99,14 +104,9 @@ struct Renderer::Parts {
     if (profiler) profiler->mark(static_cast<std::size_t>(pass));
   }
   void bind_frame(const render_layout::Frame& block);
-  bool prepare_backdrop(const std::vector<Terrain>& placed, const Camera& camera,
-                        const PictureOptions& options);
-  void draw_ground(const std::vector<Terrain>& placed, const Camera& camera, const PictureOptions& options,
-                   bool shadows) const;
+  void draw_ground(const Drawing& drawing, bool shadows) const;
+  /// Whether what is in the state is known here: where other states are, only the device knows.
   bool knows(const DeviceState& state) const;
-  std::vector<gl::PixelBox> around_flesh(const DeviceState& state) const;
-  std::vector<gl::PixelBox> changing(const DeviceState& state, const Camera& camera,
-                                     const std::vector<Terrain>& placed, const PictureOptions& options) const;
   void prepare_surroundings(Drawing& drawing);
   void prepare_light(const DeviceState& state, const PictureOptions& options);
   void prepare_scale(const DeviceState& state, const PictureOptions& options);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace aspic::app {
+namespace aspic {
 
 /// Chooses the share of the full resolution, in each direction, from what pictures took: a time that does not
 /// depend on the pixels and one that grows with them. The two finest shares tried
@@ -38,4 +38,4 @@ class Resolution {
   int slow_ = 0, patience_ = 0;  // pictures that were too slow, and before a finer share
 };
 
-}  // namespace aspic::app
+}  // namespace aspic

@@ -1,9 +1,9 @@
-#include "app/resolution.h"
+#include "render/resolution.h"
 
 #include <algorithm>
 #include <cassert>
 
-namespace aspic::app {
+namespace aspic {
 namespace {
 
 /// A finer share is taken up only with room to spare, so that it is not left again at once.
@@ -76,4 +76,4 @@ std::size_t Resolution::choose(double time, std::size_t now) const {
   return shares.size() - 1;
 }
 
-}  // namespace aspic::app
+}  // namespace aspic

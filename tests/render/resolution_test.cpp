@@ -1,4 +1,4 @@
-#include "app/resolution.h"
+#include "render/resolution.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,6 @@
 
 namespace aspic::test {
 namespace {
-
-using app::Resolution;
 
 /// A rasteriser that takes so long for a picture: a fixed part, and one by pixels [s].
 struct Machine {

@@ -1,0 +1,34 @@
+#pragma once
+// What of a picture stays as it is while bodies move, for software rasterisers: for a renderer's own sources
+// alone.
+#include <vector>
+
+#include "render/backdrop.h"
+#include "render/moving_part.h"
+#include "render/renderer_parts.h"
+
+namespace aspic {
+
+/// Hardware does without: what it would save there is little.
+class Renderer::Parts::Surroundings {
+ public:
+  /// There is another model.
+  void reset(const Model& model);
+  /// Whether the picture may begin with the backdrop, which is drawn if need be.
+  bool prepare(Parts& parts, const Drawing& drawing);
+  /// Puts the backdrop's samples, where the picture differs from it, or its picture into the targets.
+  void put_samples(PictureTargets& targets, const std::vector<gl::PixelBox>& boxes) const {
+    backdrop_.put_samples(targets, boxes);
+  }
+  void put_picture(PictureTargets& targets) const { backdrop_.put_picture(targets); }
+  /// Where the picture differs from its backdrop.
+  std::vector<gl::PixelBox> changing(const Parts& parts, const Drawing& drawing) const;
+  /// Where translucent bodies are, and as far around them as they bend sight (shaders/render/jelly.frag).
+  std::vector<gl::PixelBox> around_flesh(const Parts& parts, const DeviceState& state) const;
+
+ private:
+  Backdrop backdrop_;
+  Extent rods_;
+};
+
+}  // namespace aspic
