@@ -28,6 +28,8 @@ struct Checkpoint {
   std::string scene;            ///< the complete scene as TOML, as to_toml() writes it
   double timestep = 0.0;        ///< h [s], the scene's own: repeated to be seen without parsing
   State state;                  ///< with its precision and step
+  /// The run's input log as TOML, as to_toml() writes it, of later steps too; empty: none.
+  std::string inputs = {};
 };
 
 /// Reads a file. Errors (io): it cannot be read, is no regular file (a device or pipe may never end), no
@@ -42,14 +44,15 @@ ASPIC_API Status write_checkpoint(const std::string& path, const std::string& sc
 struct RunFacts {
   std::string scene_toml;  ///< the complete scene, as a checkpoint keeps it
   Integrator integrator = Integrator::explicit_euler;
+  std::string inputs_toml = {};  ///< the run's input log; empty: none
 };
 
-/// A state of a run, with its model and scene.
+/// A state of a run, with its model.
 struct Sample {
   const Model& model;
   const State& state;
-  SolveStatistics solves = {};       ///< of the run so far; zeros unless the integrator is implicit-euler
-  std::string_view scene_toml = {};  ///< the complete scene; empty except within a sink that was told it
+  SolveStatistics solves = {};      ///< of the run so far; zeros unless the integrator is implicit-euler
+  const RunFacts* facts = nullptr;  ///< null except within a sink that was told them
 };
 
 /// Width and height of a picture [pixels].

@@ -1,8 +1,13 @@
 #pragma once
-// Pulling a particle or a ball: an input of the model that may change from step to step, the same on every
-// backend.
+// Inputs: what acts on a run from outside and may change from step to step, the same on every backend.
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "aspic/export.h"
 #include "aspic/vec.h"
 
 namespace aspic {
@@ -21,6 +26,66 @@ struct Pull {
   bool ball = false;           ///< pulls a ball instead of a particle
 
   friend bool operator==(const Pull&, const Pull&) = default;
+};
+
+/// Inputs at most: what a solver's tables have room for.
+inline constexpr std::size_t most_pulls = 256;
+inline constexpr std::size_t most_channels = 65536;
+
+/// Valid from the beginning of a step until others take their place. A step's result depends on its inputs
+/// alone, not on those before.
+struct Inputs {
+  /// Added in this order, several to one particle or ball too. At most most_pulls.
+  std::vector<Pull> pulls = {};
+  /// Particles that are pinned where they are, in addition to the scene's: their velocity is 0 from the
+  /// beginning of the step on, and w is 0. Global indices, each once.
+  std::vector<std::uint32_t> pinned = {};
+  /// Particles that the scene pins and that are free: w = 1/m. Global indices, each once, none of `pinned`.
+  std::vector<std::uint32_t> released = {};
+  /// Numbers by channel, for what reads them by index; nothing in a model does yet. At most most_channels.
+  std::vector<double> channels = {};
+
+  bool empty() const { return pulls.empty() && pinned.empty() && released.empty() && channels.empty(); }
+  bool moves_pins() const { return !pinned.empty() || !released.empty(); }
+  friend bool operator==(const Inputs&, const Inputs&) = default;
+};
+
+/// The inputs of one hand; nothing: none.
+ASPIC_API Inputs inputs_of(const std::optional<Pull>& hand);
+
+/// The inputs of a run by step: with them it repeats to the bit.
+class ASPIC_API InputLog {
+ public:
+  struct Entry {
+    std::uint64_t step = 0;  ///< valid from the step that begins with the state of this number
+    Inputs inputs;
+    friend bool operator==(const Entry&, const Entry&) = default;
+  };
+
+  /// Before the first entry there are no inputs.
+  bool empty() const { return entries_.empty(); }
+  /// Ascending; neighbours differ.
+  std::span<const Entry> entries() const { return entries_; }
+  /// Inputs from this step on; those of this step and later ones are forgotten.
+  void set(std::uint64_t step, Inputs inputs);
+  /// Forgets all from this step on.
+  void forget_from(std::uint64_t step);
+  /// Those of the step that begins with the state of this number.
+  const Inputs& at(std::uint64_t step) const;
+  /// The first step after this one with other inputs.
+  std::optional<std::uint64_t> next_change(std::uint64_t step) const;
+  /// The same inputs in a run with another time step: each from the step nearest to its time on. Both [s].
+  InputLog with_timestep(double from, double to) const;
+  /// 64-bit FNV-1a of all entries; the same for equal logs only, so far as hashes go.
+  std::uint64_t hash() const;
+  std::string hash_text() const;
+  /// Bytes it holds on the heap.
+  std::uint64_t bytes() const;
+
+  friend bool operator==(const InputLog&, const InputLog&) = default;
+
+ private:
+  std::vector<Entry> entries_;
 };
 
 }  // namespace aspic

@@ -9,6 +9,8 @@
 
 #include "aspic/error.h"
 #include "aspic/export.h"
+#include "aspic/inputs.h"
+#include "aspic/model.h"
 #include "aspic/settings.h"
 
 namespace aspic {
@@ -191,5 +193,23 @@ ASPIC_API std::optional<std::string_view> builtin_scene_text(std::string_view na
 /// values bit for bit: numbers are the shortest that do. What is absent (an infinite terrain mass,
 /// restitution taken over from `contact`) stays absent and is given in a comment.
 ASPIC_API std::string to_toml(const Scene& scene);
+
+/// What a log is read for: names in it are those of the settings' bodies, indices those of their model. A log
+/// that names another time step is read with_timestep() of the settings'.
+struct LoggedRun {
+  const ModelSettings& settings;
+  const Model& model;  ///< that of the settings
+};
+
+/// Reads a log. Messages name `file_name`. Error (scene_rejected): the first TOML syntax error alone, or the
+/// first twenty others, sorted by line, with a caret: an unknown key, a value of another kind, steps that do
+/// not ascend, and what Solver::set_inputs() refuses in double precision.
+ASPIC_API Result<InputLog> parse_inputs(std::string_view text, const std::string& file_name, const LoggedRun& run);
+
+/// Reads a file. Errors: as parse_inputs; io.
+ASPIC_API Result<InputLog> read_inputs(const std::string& path, const LoggedRun& run);
+
+/// A log as TOML: parse_inputs() of it gives the same log, to the bit. `timestep`: that of its run [s].
+ASPIC_API std::string to_toml(const InputLog& log, double timestep);
 
 }  // namespace aspic

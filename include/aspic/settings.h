@@ -143,6 +143,9 @@ struct CubeSettings {
   SpringSettings structural, shear, bending;
   std::optional<MaterialSettings> material;  ///< instead of particle_mass and the three spring settings
   PinnedSettings pinned;
+
+  /// Particles along each axis.
+  std::array<int, 3> lattice() const { return {particles_per_edge, particles_per_edge, particles_per_edge}; }
 };
 
 /// Springs of a net that may be left out.
@@ -173,6 +176,8 @@ struct ClothSettings {
   double particle_mass = 0.02;      ///< m [kg], > 0
   SpringSettings structural = {400.0, 0.8}, shear = {200.0, 0.4}, bending = {20.0, 0.04};
   PinnedSettings pinned;
+
+  std::array<int, 3> lattice() const { return {particles[0], particles[1], 1}; }
 };
 
 /// A ball: a solid sphere, inertia 2/5·m·R².

@@ -87,10 +87,15 @@ class ASPIC_API Solver {
   /// Takes over a state: rounds it to the solver's own precision, keeps its step number, forgets any
   /// divergence. Error (usage): the state has another number of particles or balls.
   virtual Status load(const State& state) = 0;
-  /// Pulls a particle from the next step on, until it is called again; nothing: lets go. A new solver pulls
-  /// nobody; load() leaves the pull as it is. Cheap enough for every picture, and ordered after the steps
-  /// that advance() did. Errors as rounded_pull (usage): then the pull stays what it was.
-  virtual Status set_pull(const std::optional<Pull>& pull) = 0;
+  /// What acts from outside from the next step on, until it is called again. A new solver has none; load()
+  /// leaves them as they are. Cheap enough for every picture, ordered after the steps that advance() was
+  /// asked for, and without a say in the state before the next step begins: state() is what it was. Errors
+  /// (usage), which name the list and the index in it: a particle or ball that the model does not have, or that
+  /// is listed twice; a released one that the scene does not pin; a number that is not finite or too large; a
+  /// negative stiffness or damping; more than there may be. Then the inputs stay what they were.
+  Status set_inputs(const Inputs& inputs);
+  /// Those that hold, as the solver rounded them.
+  const Inputs& inputs() const { return inputs_; }
   /// Advances by `steps`, fewer only after a divergence, which is returned, and while the stop flag is set.
   /// Error (no_device): the device was lost or ran out of memory; the solver is of no use from then on.
   virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;
@@ -104,10 +109,18 @@ class ASPIC_API Solver {
   virtual Result<State> state() = 0;
 
  protected:
+  /// Inputs for the next step: rounded, and others than inputs(), which are still the ones before.
+  virtual Status take_inputs(const Inputs& inputs) = 0;
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
 
  private:
   const std::atomic<bool>* flag_ = nullptr;
+  Inputs inputs_;
 };
+
+/// Solver::advance() from the state of number `step`, where the solver is, with every step's inputs; afterwards
+/// those of the next one hold. Errors: those of the solver.
+ASPIC_API Result<std::optional<Divergence>> advance(Solver& solver, const InputLog& log, std::uint64_t step,
+                                                    std::uint64_t steps);
 
 }  // namespace aspic

@@ -1,4 +1,4 @@
-// Balls, first of a step: flight by all stages of the integrator at once, under gravity and a hand's pull (backward
+// Balls, first of a step: flight by all stages of the integrator at once, under gravity and pulls (backward
 // Euler of free flight is symplectic Euler, whose stages are in the table then), and the terrain's response. Start
 // slot to the slot between.
 #include "compute/layout.glsl"
@@ -56,7 +56,7 @@ void main() {
     w = body.ball_inverse_mass;
     precise vec3 weight = body.ball_mass * gravity.xyz;
     uint number = particle_count + b;
-    precise vec3 f = with_pull(number, x, v, weight);
+    precise vec3 f = with_pulls(number, x, v, weight);
     fly(start, body, f, x, v);
     for (uint t = 0u; t < terrain_count; ++t) {
       if (contact_model == CONTACT_COURSE) {

@@ -26,9 +26,10 @@ vec4 apply(uint i) {
     precise vec3 d = p - direction(link.other);
     product += times(H, d);
   }
-  if (i == pull.particle) {
+  for (uint k = 0u; k < pull_count; ++k) {
+    if (i != pulls[k].particle) continue;
     SpringJacobian H;
-    linearised_pull(particle.position.xyz, v, H);
+    linearised_pull(pulls[k], particle.position.xyz, v, H);
     product += times(H, p);
   }
   precise vec4 ground = own4(OWN_GROUND, i);

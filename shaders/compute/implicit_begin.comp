@@ -19,7 +19,7 @@ vec3 held_contact_force(uint i, Particle p) {
     Particle other = state(link.other);
     f += spring_force(link.spring, p.position.xyz, p.velocity.xyz, other.position.xyz, other.velocity.xyz).xyz;
   }
-  f = with_pull(i, p.position.xyz, p.velocity.xyz, f);
+  f = with_pulls(i, p.position.xyz, p.velocity.xyz, f);
   precise vec3 held = with_contact_force(p.position.xyz, p.velocity.xyz, f) - f;
   return held;
 }

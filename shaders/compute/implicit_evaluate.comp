@@ -53,9 +53,10 @@ vec4 evaluate(uint i) {
     f += linearised(link.spring, e, dv, H);
     block = with_spring(block, H);
   }
-  if (i == pull.particle) {
+  for (uint k = 0u; k < pull_count; ++k) {
+    if (i != pulls[k].particle) continue;
     SpringJacobian H;
-    f += linearised_pull(p.position.xyz, v, H);
+    f += linearised_pull(pulls[k], p.position.xyz, v, H);
     block = with_spring(block, H);
   }
   precise vec3 r = vec3(0.0);

@@ -24,11 +24,11 @@ vec3 linearised(SpringClass spring, vec3 e, vec3 v, out SpringJacobian H) {
   return f;
 }
 
-// The same of the pull, for its particle where the step began and its trial velocity: the other end neither moves nor
+// The same of a pull, for its particle where the step began and its trial velocity: the other end neither moves nor
 // gives way.
-vec3 linearised_pull(vec3 x, vec3 v, out SpringJacobian H) {
+vec3 linearised_pull(Pull pull, vec3 x, vec3 v, out SpringJacobian H) {
   precise vec3 e = (x - pull.anchor.xyz) + time_step * v;
-  precise vec3 f = linearised(pull_spring(), e, v, H);
+  precise vec3 f = linearised(spring_of(pull), e, v, H);
   return f;
 }
 

@@ -5,6 +5,7 @@
 #define MAX_STAGES 4
 #define MAX_SPRING_CLASSES 256
 #define MAX_TERRAINS 64
+#define MAX_PULLS 256  // most_pulls of src/model/inputs.h
 #define MAX_POSES 510  // of moving terrain, in the table of the next steps: 16 KiB with its head
 // Particles of a tile of a cube along i, j and k: a group's. With two on each side it takes 27 KiB, of 32 that are certain.
 #define TILE_I 4
@@ -192,7 +193,7 @@ struct Pull {
   vec4 anchor;      // [m]; w: unused
   float stiffness;  // k [N/m]
   float damping;    // c [N·s/m]
-  uint particle;    // balls count on after the particles; NO_BODY: nobody is pulled
+  uint particle;    // balls count on after the particles
   uint pull_padding;
 };
 

@@ -1,4 +1,4 @@
-// What follows the springs, the same for every force path: pull, contact force or the ground's reaction, acceleration,
+// What follows the springs, the same for every force path: pulls, contact force or the ground's reaction, acceleration,
 // the stage of the explicit method (src/model/integrator.h has the formulas), and after the last stage the terrain's
 // response and the watch for divergence. Expects the state blocks below to be bound. With ASPIC_ONE_STAGE the method has
 // one stage, which begins where the step does and leaves no sums.
@@ -26,7 +26,7 @@ void finish_step(uint i, Particle start, vec3 slope_x, vec3 slope_v) {
 // p: the particle in this stage; f_springs: gravity and springs [N].
 void finish_stage(uint i, Particle p, vec3 f_springs) {
   count_item(i, particle_count);
-  precise vec3 f = with_pull(i, p.position.xyz, p.velocity.xyz, f_springs);
+  precise vec3 f = with_pulls(i, p.position.xyz, p.velocity.xyz, f_springs);
 #ifdef ASPIC_ONE_STAGE
   Particle start = p;
 #else

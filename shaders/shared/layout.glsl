@@ -44,7 +44,7 @@
 
 // Uniform blocks of the solvers' kernels, and of pictures.
 #define BINDING_SIMULATION 0
-#define BINDING_PULL 1
+#define BINDING_PULLS 1
 #define BINDING_POSES 2
 #define BINDING_LATTICES 3
 #define BINDING_FRAME 1

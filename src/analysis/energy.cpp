@@ -22,7 +22,6 @@ Measures measure(const Model& model, const State& state) {
   for (std::size_t i = 0; i < model.mass.size(); ++i) {
     m.gravitational -= model.mass[i] * dot(model.simulation.gravity, state.position[i]);
     lowest = std::min(lowest, state.position[i].y);
-    if (model.inverse_mass[i] == 0.0) continue;
     const double speed_squared = dot(state.velocity[i], state.velocity[i]);
     m.kinetic += 0.5 * model.mass[i] * speed_squared;
     m.momentum = m.momentum + model.mass[i] * state.velocity[i];

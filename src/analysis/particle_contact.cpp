@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "analysis/contact_force.h"
+#include "model/inputs.h"
 #include "model/counts.h"
 
 namespace aspic {
@@ -14,7 +15,7 @@ using Vector = reference::Vector<double>;
 }  // namespace
 
 std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder& springs, const State& state,
-                                         const std::optional<Pull>& pull) {
+                                         const Inputs& inputs) {
   assert(check_sizes(model, state));
   const reference::ContactConstants<double> constants(model);
   std::vector<Ground<double>> grounds(model.terrain.begin(), model.terrain.end());
@@ -22,19 +23,19 @@ std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder&
   const auto back = [](const Vector& a) { return Vec3{a.x(), a.y(), a.z()}; };
   std::vector<ParticleContact> contacts;
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
-    if (model.inverse_mass[i] == 0.0) continue;
+    const double w = inverse_mass_of(model, inputs, i);
+    if (w == 0.0) continue;
     const Vector x = reference::rounded<double>(state.position[i]);
     std::optional<Vector> f;
     for (std::size_t k = 0; k < grounds.size(); ++k) {
       const Ground<double>& ground = grounds[k];
       if (!(reference::distance<double>(ground, ground.start, x) < constants.epsilon)) continue;
       if (!f) {
-        const ParticleForce force = particle_force(model, springs, state, i, pull);
+        const ParticleForce force = particle_force(model, springs, state, i, inputs);
         f = reference::rounded<double>(force.gravity + force.springs + force.pull);
       }
       const Vector before = *f;
-      f = with_contact(model, constants, ground, model.inverse_mass[i], x,
-                       reference::rounded<double>(state.velocity[i]), before);
+      f = with_contact(model, constants, ground, w, x, reference::rounded<double>(state.velocity[i]), before);
       contacts.push_back({i, k, back(reference::gap<double>(ground, ground.start, x).n), back(*f - before)});
     }
   }

@@ -21,8 +21,8 @@ struct ParticleContact {
 };
 
 /// All contacts at a state, in ascending order of particles, then of terrains. Pinned particles have none.
-/// `state`, `springs` and `pull` as in particle_force().
+/// `state`, `springs` and `inputs` as in particle_force().
 std::vector<ParticleContact> contacts_of(const Model& model, const SpringFinder& springs, const State& state,
-                                         const std::optional<Pull>& pull = {});
+                                         const Inputs& inputs = {});
 
 }  // namespace aspic

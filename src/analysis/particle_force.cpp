@@ -6,6 +6,7 @@
 
 #include "analysis/contact_force.h"
 #include "cpu_reference/spring.h"
+#include "model/inputs.h"
 #include "model/counts.h"
 #include "model/springs.h"
 
@@ -51,7 +52,7 @@ std::vector<Spring> SpringFinder::of(const Model& model, std::uint32_t particle)
 }
 
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
-                             std::uint32_t particle, const std::optional<Pull>& pull) {
+                             std::uint32_t particle, const Inputs& inputs) {
   using Vector = reference::Vector<double>;
   assert(check_sizes(model, state) && particle < model.particle_count());
   const auto exact = [](const Vec3& v) { return reference::rounded<double>(v); };
@@ -72,12 +73,15 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
     net += f;
   }
   force.springs = back(sum);
-  if (pull && !pull->ball && pull->particle == particle) {
-    const Vector f = pulled(spring_of(*pull), pull->anchor, {});
-    force.pull = back(f);
+  Vector pulls = Vector::Zero();
+  for (const Pull& pull : inputs.pulls) {
+    if (pull.ball || pull.particle != particle) continue;
+    const Vector f = pulled(spring_of(pull), pull.anchor, {});
+    pulls += f;
     net += f;
   }
-  const double w = model.inverse_mass[particle];
+  force.pull = back(pulls);
+  const double w = inverse_mass_of(model, inputs, particle);
   force.applied = back(net);
   if (w == 0.0) {
     force.pin = -1.0 * force.applied;
@@ -96,17 +100,17 @@ ParticleForce particle_force(const Model& model, const SpringFinder& springs, co
   return force;
 }
 
-ParticleForce ball_force(const Model& model, const State& state, std::uint32_t ball,
-                         const std::optional<Pull>& pull) {
+ParticleForce ball_force(const Model& model, const State& state, std::uint32_t ball, const Inputs& inputs) {
   assert(check_sizes(model, state) && ball < model.ball_count());
   ParticleForce force;
   force.gravity = model.balls[ball].mass * model.simulation.gravity;
-  if (pull && pull->ball && pull->particle == ball) {
+  for (const Pull& pull : inputs.pulls) {
+    if (!pull.ball || pull.particle != ball) continue;
     const auto exact = [](const Vec3& v) { return reference::rounded<double>(v); };
     const reference::Vector<double> f = reference::spring_force<double>(
-        reference::SpringConstants<double>(spring_of(*pull)), exact(state.ball_position[ball]),
-        exact(state.ball_velocity[ball]), exact(pull->anchor), exact({}));
-    force.pull = {f.x(), f.y(), f.z()};
+        reference::SpringConstants<double>(spring_of(pull)), exact(state.ball_position[ball]),
+        exact(state.ball_velocity[ball]), exact(pull.anchor), exact({}));
+    force.pull = force.pull + Vec3{f.x(), f.y(), f.z()};
   }
   force.net = force.applied = force.gravity + force.pull;
   return force;

@@ -27,7 +27,7 @@ class SpringFinder {
 struct ParticleForce {
   Vec3 gravity;  ///< m·g
   Vec3 springs;  ///< sum over its springs
-  Vec3 pull;     ///< a hand's, where it pulls this particle
+  Vec3 pull;     ///< sum over the pulls on it
   Vec3 applied;  ///< f: all but pins and the Coulomb model's reaction, summed in the solvers' order
   Vec3 contact;  ///< of terrain: the course model's force, or the reaction in the step that begins here
   Vec3 pin;      ///< what holds a pinned particle against the others
@@ -36,15 +36,15 @@ struct ParticleForce {
   Vec3 net;
 };
 
-/// The state must have the model's numbers of particles; `particle` is one of them; `pull` is that of the
-/// solver, on whatever particle.
+/// The state must have the model's numbers of particles; `particle` is one of them; `inputs` are
+/// those of the solver (Solver::inputs()).
 ParticleForce particle_force(const Model& model, const SpringFinder& springs, const State& state,
-                             std::uint32_t particle, const std::optional<Pull>& pull = {});
+                             std::uint32_t particle, const Inputs& inputs = {});
 
-/// Forces on one ball at a state [N]: gravity and the pull, which are all of `net`; terrain, particles and
-/// other balls act by impulses. The state must have the model's numbers; `ball` is one of them; `pull` is
-/// that of the solver.
+/// Forces on one ball at a state [N]: gravity and pulls, which are all of `net`; terrain, particles and
+/// other balls act by impulses. The state must have the model's numbers; `ball` is one of them; `inputs`
+/// are those of the solver.
 ParticleForce ball_force(const Model& model, const State& state, std::uint32_t ball,
-                         const std::optional<Pull>& pull = {});
+                         const Inputs& inputs = {});
 
 }  // namespace aspic

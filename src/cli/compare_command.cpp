@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "io/program.h"
+#include "model/inputs.h"
 #include "run/lockstep.h"
 #include "run/window_host.h"
 
@@ -114,12 +115,19 @@ Status execute(const CompareOptions& options) {
     host.context = context_of(backends[0]);
     ASPIC_TRY(backends[i], make_backend(i == 0 ? options.first : options.second, model, host));
   }
+  InputLog inputs;
+  if (!options.replay_file.empty()) {
+    ASPIC_TRY(inputs, read_inputs(options.replay_file, {scene.model, *model}));
+    for (const Backend& backend : backends)
+      ASPIC_CHECK(check_log(*model, inputs, backend.solver->precision()));
+  }
   const auto compare = [&] {
     ProgressBar bar(steps);
-    return compare_in_lockstep(*backends[0].solver, *backends[1].solver, steps, [&](std::uint64_t done) {
+    const auto go_on = [&](std::uint64_t done) {
       bar.update(done);
       return !interrupt.interrupted();
-    });
+    };
+    return compare_in_lockstep(*backends[0].solver, *backends[1].solver, steps, go_on, inputs);
   };
   ASPIC_TRY(const auto result, compare());
   const bool within =

@@ -11,6 +11,7 @@
 #include "cli/json.h"
 #include "cli/run_summary.h"
 #include "io/program.h"
+#include "model/inputs.h"
 #include "playback/common_clock.h"
 #include "run/comparison.h"
 #include "run/comparison_recorder.h"
@@ -23,15 +24,17 @@ namespace {
 
 /// One of several runs, with all that it holds. Not movable: its parts refer to each other.
 struct HeadlessVariant {
-  HeadlessVariant(Variant variant, RunFiles opened) : run(std::move(variant)), files(std::move(opened)) {}
+  HeadlessVariant(Variant variant, SharedModel built, InputLog log, RunFiles opened)
+      : run(std::move(variant)), model(std::move(built)), inputs(std::move(log)), files(std::move(opened)) {}
   HeadlessVariant(const HeadlessVariant&) = delete;
   HeadlessVariant& operator=(const HeadlessVariant&) = delete;
 
   Variant run;
+  SharedModel model;
+  InputLog inputs;  ///< until its run has them
   RunFiles files;
   std::uint64_t last_step = 0;
   std::string name;  ///< "run 2 (integrator implicit Euler)"
-  SharedModel model;
   Backend backend;
   std::optional<HeadlessRun> headless;
   std::optional<Outcome> outcome;
@@ -51,12 +54,14 @@ Status refuse_what_needs_one_run(const RunOptions& options) {
 }
 
 /// The files of a run's states; those of pictures belong to all runs.
-Result<RunFiles> open_files(const RunOptions& options, const Scene& scene, std::size_t number,
-                            Overwrite overwrite) {
+Result<RunFiles> open_files(const RunOptions& options, const Scene& scene, const InputLog& inputs,
+                            std::size_t number, Overwrite overwrite) {
   std::vector<StateOutput> outputs = options.outputs;
   for (StateOutput& output : outputs)
     if (!output.path.empty()) output.path = numbered_path(output.path, number);
-  return RunFiles::open(outputs, {}, {to_toml(scene), scene.model.simulation.integrator}, overwrite);
+  const SimulationSettings& simulation = scene.model.simulation;
+  const std::string log = inputs.empty() ? "" : to_toml(inputs, simulation.timestep);
+  return RunFiles::open(outputs, {}, {to_toml(scene), simulation.integrator, log}, overwrite);
 }
 
 Result<HeadlessVariants> make_variants(const RunOptions& options, const std::vector<Difference>& differences,
@@ -66,13 +71,20 @@ Result<HeadlessVariants> make_variants(const RunOptions& options, const std::vec
   ASPIC_TRY(const auto steps, steps_of(options.length, scene.model.simulation));
   ASPIC_TRY(auto runs, variants_of(scene, options.backend, differences));
   HeadlessVariants variants;
+  InputLog inputs;
+  if (!options.replay_file.empty()) {
+    ASPIC_TRY(const auto model, build_model(scene.model));
+    ASPIC_TRY(inputs, read_inputs(options.replay_file, {scene.model, model}));
+  }
   for (Variant& run : runs) {
-    ASPIC_TRY(auto files, open_files(options, run.scene, variants.size() + 1, overwrite));
-    auto variant = std::make_unique<HeadlessVariant>(std::move(run), std::move(files));
-    const SimulationSettings& simulation = variant->run.scene.model.simulation;
-    ASPIC_TRY(variant->last_step, as_long_as(scene.model.simulation, steps, simulation));
-    ASPIC_TRY(auto model, build_model(variant->run.scene.model));
-    variant->model = shared(std::move(model));
+    const SimulationSettings& simulation = run.scene.model.simulation;
+    ASPIC_TRY(auto model, build_model(run.scene.model));
+    InputLog own = inputs.with_timestep(scene.model.simulation.timestep, simulation.timestep);
+    ASPIC_TRY(auto files, open_files(options, run.scene, own, variants.size() + 1, overwrite));
+    ASPIC_TRY(const auto last_step, as_long_as(scene.model.simulation, steps, simulation));
+    auto variant = std::make_unique<HeadlessVariant>(std::move(run), shared(std::move(model)),
+                                                     std::move(own), std::move(files));
+    variant->last_step = last_step;
     variants.push_back(std::move(variant));
   }
   return variants;
@@ -98,7 +110,8 @@ Status prepare(HeadlessVariants& variants, const std::vector<Difference>& differ
   for (std::size_t i = 0; i < variants.size(); ++i) {
     HeadlessVariant& m = *variants[i];
     ASPIC_TRY(m.backend, make_backend(m.run.backend, m.model, {context, nullptr, {}}));
-    m.headless.emplace(*m.backend.solver, m.files, 0, true);
+    ASPIC_CHECK(check_log(*m.model, m.inputs, m.backend.solver->precision()));
+    m.headless.emplace(*m.backend.solver, m.files, 0, true, std::move(m.inputs));
     const std::vector<OverlayLine> label = label_of(differences, m.run.scene, m.backend.variant());
     m.name = fmt::format("run {}", i + 1);
     for (const OverlayLine& line : label)
@@ -157,7 +170,7 @@ Status print_summary(const RunOptions& options, const HeadlessVariants& variants
   if (options.json) {
     Json runs = Json::array();
     for (const auto& m : variants) {
-      Json run = to_json({m->run.scene, *m->model, m->backend, *m->outcome});
+      Json run = to_json({m->run.scene, *m->model, m->backend, *m->outcome, m->headless->inputs()});
       run["files"] = m->files.written();
       runs.push_back(std::move(run));
     }
@@ -166,7 +179,8 @@ Status print_summary(const RunOptions& options, const HeadlessVariants& variants
   }
   std::string text;
   for (const auto& m : variants) {
-    text += fmt::format("{}\n{}", m->name, to_text({m->run.scene, *m->model, m->backend, *m->outcome}));
+    text += fmt::format("{}\n{}", m->name,
+                        to_text({m->run.scene, *m->model, m->backend, *m->outcome, m->headless->inputs()}));
     for (const std::string& file : m->files.written()) text += fmt::format("wrote        {}\n", file);
     text += "\n";
   }

@@ -45,6 +45,11 @@ Status HeadlessRun::sample() {
   return {};
 }
 
+Status HeadlessRun::begin() {
+  ASPIC_CHECK(solver_.set_inputs(inputs_.at(step_)));
+  return sample();
+}
+
 Status HeadlessRun::advance_to(std::uint64_t step, const InterruptGuard& interrupt,
                                const std::function<void(std::uint64_t)>& did) {
   const auto started = Clock::now();
@@ -52,7 +57,7 @@ Status HeadlessRun::advance_to(std::uint64_t step, const InterruptGuard& interru
     const std::uint64_t wanted = files_.next_step(step_);
     const std::uint64_t count = std::min({batch_.next(), step - step_, wanted - step_});
     const auto before = Clock::now();
-    ASPIC_TRY(divergence_, solver_.advance(count));
+    ASPIC_TRY(divergence_, aspic::advance(solver_, inputs_, step_, count));
     if (divergence_) {
       step_ = divergence_->step - 1;
       break;

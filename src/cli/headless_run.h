@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "aspic/solver.h"
@@ -70,13 +71,18 @@ class BatchSize {
 /// A solver with the files that take its states. Both must outlive it.
 class HeadlessRun {
  public:
-  /// The solver is at `first_step`. `others`: the run also writes what is not among these files, so that it
-  /// goes on when all of them are lost.
-  HeadlessRun(Solver& solver, RunFiles& files, std::uint64_t first_step, bool others)
-      : solver_(solver), files_(files), others_(others), first_step_(first_step), step_(first_step) {}
+  /// The solver is at `first_step`, and has the log's inputs on the way. `others`: the run also writes what
+  /// is not among these files, so that it goes on when all of them are lost.
+  HeadlessRun(Solver& solver, RunFiles& files, std::uint64_t first_step, bool others, InputLog inputs = {})
+      : solver_(solver),
+        files_(files),
+        others_(others),
+        first_step_(first_step),
+        step_(first_step),
+        inputs_(std::move(inputs)) {}
 
   /// Hands the first state to the files.
-  Status begin() { return sample(); }
+  Status begin();
   /// Advances to `step` ≥ step(); less far after a divergence, a step() of which is the last good one, and an
   /// interrupt. Calls `did` with the step after each batch. Errors: of the solver and of the files.
   Status advance_to(std::uint64_t step, const InterruptGuard& interrupt,
@@ -90,6 +96,7 @@ class HeadlessRun {
   double seconds() const { return seconds_; }
   Solver& solver() const { return solver_; }
   const RunFiles& files() const { return files_; }
+  const InputLog& inputs() const { return inputs_; }
 
   /// Where it ended; waits for the device. `wall_seconds` is that of its steps. Error (diverged): a sum over
   /// the state is not a finite number.
@@ -102,6 +109,7 @@ class HeadlessRun {
   RunFiles& files_;
   bool others_;
   std::uint64_t first_step_, step_;
+  InputLog inputs_;
   std::optional<Divergence> divergence_;
   bool interrupted_ = false;
   double seconds_ = 0.0;

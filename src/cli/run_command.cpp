@@ -9,12 +9,14 @@
 #include "aspic/analysis.h"
 #include "aspic/scene.h"
 #include "aspic/version.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/headless_run.h"
 #include "cli/json.h"
 #include "cli/run_summary.h"
 #include "io/checkpoint.h"
 #include "io/program.h"
+#include "model/inputs.h"
 #include "model/springs.h"
 #include "run/recorder.h"
 #include "run/run_files.h"
@@ -29,6 +31,7 @@ struct Start {
   Scene scene;
   std::string scene_toml;      ///< for a checkpoint; empty where none is asked for
   std::optional<State> state;  ///< absent: the scene's own
+  std::string inputs_toml;     ///< of a checkpoint
 };
 
 /// Where two scene texts part, for a message.
@@ -83,8 +86,30 @@ Result<Start> load_start(const RunOptions& options) {
   }
   ASPIC_TRY(start.scene, with_view(std::move(*scene), options.view));
   start.scene_toml = std::move(checkpoint.scene);
+  start.inputs_toml = std::move(checkpoint.inputs);
   start.state = std::move(checkpoint.state);
   return start;
+}
+
+/// The inputs of the run: those of the file, which agree with those that a checkpoint's run had so far.
+Result<InputLog> inputs_of_run(const RunOptions& options, const Start& start, const Model& model) {
+  const LoggedRun run = {start.scene.model, model};
+  InputLog kept;
+  if (!start.inputs_toml.empty()) {
+    ASPIC_TRY(kept, parse_inputs(start.inputs_toml, options.resume_file, run));
+  }
+  if (options.replay_file.empty()) return kept;
+  ASPIC_TRY(auto given, read_inputs(options.replay_file, run));
+  if (!start.state) return given;
+  InputLog before = given;
+  before.forget_from(start.state->step);
+  kept.forget_from(start.state->step);
+  if (before == kept) return given;
+  return fail(
+      ErrorCode::scene_rejected,
+      "{} has other inputs before step {}, where {} continues, than the run had so far: omit --resume "
+      "to replay from the start, or omit --replay to continue with the checkpoint's inputs.",
+      printable_line(options.replay_file), start.state->step, printable_line(options.resume_file));
 }
 
 /// `recorder` is null where no pictures are wanted. A run that loses its pictures continues if it writes
@@ -153,17 +178,20 @@ Status execute(const RunOptions& options) {
   }
   const std::uint64_t first_step = start.state ? start.state->step : 0;
   ASPIC_CHECK(check_pictures(options.pictures, start.scene.model.simulation.timestep, first_step, steps));
-  const RunFacts facts = {start.scene_toml, start.scene.model.simulation.integrator};
-  ASPIC_TRY(auto files, RunFiles::open(options.outputs, options.pictures, facts,
-                                       options.force ? Overwrite::allow : Overwrite::refuse));
   ASPIC_TRY(auto built, build_model(start.scene.model));
   const SharedModel held_model = shared(std::move(built));
   const Model& model = *held_model;
+  ASPIC_TRY(const InputLog inputs, inputs_of_run(options, start, model));
+  const RunFacts facts = {start.scene_toml, start.scene.model.simulation.integrator,
+                          inputs.empty() ? "" : to_toml(inputs, model.simulation.timestep)};
+  ASPIC_TRY(auto files, RunFiles::open(options.outputs, options.pictures, facts,
+                                       options.force ? Overwrite::allow : Overwrite::refuse));
 
   BackendChoice choice = options.backend;
   if (start.state) choice.precision = start.state->precision;
   ASPIC_TRY(auto backend, make_backend(choice, held_model));
   if (start.state) ASPIC_CHECK(backend.solver->load(*start.state));
+  ASPIC_CHECK(check_log(model, inputs, backend.solver->precision()));
   warn_if_unstable(model, interrupt);
 
   start.state.reset();
@@ -174,7 +202,7 @@ Status execute(const RunOptions& options) {
     ASPIC_TRY(recorder,
               Recorder::create(pictures, start.scene, backend, files.take_frame_sinks(), first_step, steps));
   }
-  HeadlessRun headless(*backend.solver, files, first_step, options.pictures.any());
+  HeadlessRun headless(*backend.solver, files, first_step, options.pictures.any(), inputs);
   ASPIC_TRY(auto outcome, simulate(headless, recorder.get(), steps, interrupt));
   (void)files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
   if (recorder) finish_pictures(*recorder, *backend.solver, outcome);
@@ -184,7 +212,7 @@ Status execute(const RunOptions& options) {
   std::vector<std::string> written = recorder ? recorder->written() : std::vector<std::string>{};
   written.insert(written.end(), files.written().begin(), files.written().end());
   const Status summary =
-      print_summary(options, {start.scene, model, backend, outcome}, written, recorder.get());
+      print_summary(options, {start.scene, model, backend, outcome, inputs}, written, recorder.get());
   if (recorder) print_frame_times(recorder->times(), recorder->device());
   if (!lost.empty() && outcome.divergence) print_message(divergence_error(model, outcome, interrupt).message);
   ASPIC_CHECK(lost_error(lost, !written.empty()));

@@ -30,13 +30,15 @@ Json to_json(const Divergence& d, double timestep) {
 }  // namespace
 
 Json to_json(const RunReport& run) {
-  const auto& [scene, model, backend, outcome] = run;
+  const auto& [scene, model, backend, outcome, inputs] = run;
   const State& state = outcome.state;
   const Measures m = measure(model, state);
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
   const std::string hash = state_hash_text(state);
   // Not within the list: g++ 12 destroys what it has not made yet when memory runs out in a list with `?:`.
   const Json diverged = outcome.divergence ? to_json(*outcome.divergence, model.simulation.timestep) : Json();
+  const Json logged =
+      inputs.empty() ? Json() : Json{{"entries", inputs.entries().size()}, {"hash", inputs.hash_text()}};
   const Json solves = outcome.solves ? to_json(*outcome.solves) : Json();
   return {
       {"scene", scene.name},
@@ -57,6 +59,7 @@ Json to_json(const RunReport& run) {
       {"wall_seconds", outcome.wall_seconds},
       {"steps_per_second", outcome.steps_per_second()},
       {"state_hash", hash},
+      {"inputs", logged},
       {"diverged", diverged},
       {"interrupted", outcome.interrupted},
       {"implicit_solves", solves},
@@ -71,7 +74,7 @@ Json to_json(const RunReport& run) {
 }
 
 std::string to_text(const RunReport& run) {
-  const auto& [scene, model, backend, outcome] = run;
+  const auto& [scene, model, backend, outcome, inputs] = run;
   const State& state = outcome.state;
   const Measures m = measure(model, state);
   const double time = static_cast<double>(state.step) * model.simulation.timestep;
@@ -98,6 +101,10 @@ std::string to_text(const RunReport& run) {
         "solves       {} converged, {} stagnated, {} not converged; worst residual {:.3g} m/s; {} Newton and "
         "{} conjugate gradient iterations\n",
         s.converged, s.stagnated, s.not_converged, s.worst_residual, s.newton_iterations, s.cg_iterations);
+  }
+  if (!inputs.empty()) {
+    text += fmt::format("inputs       {} {}, hash {}\n", inputs.entries().size(),
+                        inputs.entries().size() == 1 ? "entry" : "entries", inputs.hash_text());
   }
   text += fmt::format("state hash   {}\n", state_hash_text(state));
   return text;

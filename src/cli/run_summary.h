@@ -19,6 +19,7 @@ struct RunReport {
   const Model& model;
   const Backend& backend;
   const Outcome& outcome;
+  const InputLog& inputs;
 };
 
 /// All of it but pictures and files.

@@ -160,6 +160,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run, RawOptions& raw) {
       "a further run with this difference, e.g. integrator=implicit-euler, h=0.002; up to three");
   add(c, "--resume", "FILE", run.resume_file,
       "continue from a checkpoint; --steps and --duration count from its start");
+  add(c, "--replay", "FILE", run.replay_file, "pulls and pins by step, as the window records them");
   c->add_flag("--force", run.force, "overwrite files");
   add_json(c, run.json, "summary on stdout as JSON");
   return c;
@@ -190,6 +191,7 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& compare, RawOptions& raw) {
   add_arithmetic(c, raw);
   add_length(c, compare.length);
   add_overrides(c, compare.overrides);
+  add(c, "--replay", "FILE", compare.replay_file, "pulls and pins by step, as the window records them");
   add(c, "--tolerance", "T", compare.tolerance,
       "largest difference allowed, in m and m/s; 0: identical bits");
   add_json(c, compare.json);

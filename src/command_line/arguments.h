@@ -22,6 +22,7 @@ struct RunOptions {
   bool precision_given = false;
   RunLength length;
   std::string resume_file;           ///< empty: none
+  std::string replay_file;           ///< of inputs; empty: none
   std::vector<StateOutput> outputs;  ///< one for each of state_options()
   PictureOutput pictures;
   std::vector<std::string> view;         ///< KEY=VALUE of the scene's view table, for the pictures
@@ -35,7 +36,8 @@ struct CompareOptions {
   std::vector<std::string> overrides;
   BackendChoice first, second;
   RunLength length;
-  double tolerance = 0.0;  ///< [m] and [m/s], ≥ 0; 0: every bit the same
+  std::string replay_file;  ///< of inputs; empty: none
+  double tolerance = 0.0;   ///< [m] and [m/s], ≥ 0; 0: every bit the same
   bool json = false;
 };
 

@@ -54,7 +54,8 @@ inline constexpr const char* run_examples = R"(Examples:
   aspic run cube-plane --beside integrator=implicit-euler --beside h=0.002 --video beside.mp4
   aspic run cube-plane --frames out --fps 30 --size 640x360 --no-text
   aspic run cube-plane --duration 2 --checkpoint half.aspic
-  aspic run --resume half.aspic --duration 4 --state end.csv)";
+  aspic run --resume half.aspic --duration 4 --state end.csv
+  aspic run cube-plane --replay hands.toml          pulls and pins by step, see docs/files.md)";
 
 inline constexpr const char* view_examples = R"(Examples:
   aspic view                                        the first built-in scene; F1 shows all keys

@@ -22,6 +22,15 @@ namespace {
 /// Springs that pay for another thread: a stage of about 7 µs.
 constexpr std::size_t springs_per_thread = 8192;
 
+/// A number of every particle.
+void fill(FloatArray& to, const Runs<double>& from) {
+  std::size_t first = 0;
+  for (const auto& [end, value] : from.runs()) {
+    std::fill(to.data() + first, to.data() + end, static_cast<float>(value));
+    first = end;
+  }
+}
+
 class CpuSolver final : public Solver {
  public:
   CpuSolver(SharedModel model, unsigned threads, Arithmetic arithmetic)
@@ -45,10 +54,8 @@ class CpuSolver final : public Solver {
     next_ = Particles(count, margin);
     mass_ = FloatArray(count, slice);
     inverse_mass_ = FloatArray(count, slice);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      mass_[i] = static_cast<float>(model_.mass[i]);
-      inverse_mass_[i] = static_cast<float>(model_.inverse_mass[i]);
-    }
+    fill(mass_, model_.mass);
+    fill(inverse_mass_, model_.inverse_mass);
     steps_ = make_steps({model_, dynamics_, springs_, mass_, inverse_mass_, margin, arithmetic, workers_});
     bytes_ = sizeof(*this) + heap_bytes();
     set(initial_state(model_, Precision::single));
@@ -70,13 +77,6 @@ class CpuSolver final : public Solver {
     return {};
   }
 
-  Status set_pull(const std::optional<Pull>& pull) override {
-    ASPIC_TRY(const auto taken, rounded_pull(model_, pull, Precision::single));
-    dynamics_.set_pull(taken);
-    balls_.set_pull(taken);
-    return {};
-  }
-
   void set_stop_flag(const std::atomic<bool>* flag) override {
     Solver::set_stop_flag(flag);
     dynamics_.set_stop_flag(flag);
@@ -95,6 +95,8 @@ class CpuSolver final : public Solver {
   Result<State> state() override;
 
  private:
+  Status take_inputs(const Inputs& inputs) override;
+  std::vector<reference::Vector<float>> hold_pins();
   std::uint64_t heap_bytes() const;
   void set(const State& state);
   void step();
@@ -112,6 +114,7 @@ class CpuSolver final : public Solver {
   FloatArray mass_, inverse_mass_;
   Particles state_, next_;
   reference::BallPhase<float> ball_phase_, next_balls_;
+  bool pins_held_ = false;  // as inputs() say
   std::uint64_t step_ = 0;
   std::uint64_t bytes_;  ///< without contacts, which come and go
   std::optional<Divergence> divergence_;
@@ -134,6 +137,7 @@ void CpuSolver::set(const State& state) {
   take(state.velocity, state_.v);
   ball_phase_ = {reference::field<float>(state.ball_position), reference::field<float>(state.ball_velocity),
                  reference::field<float>(state.ball_angular_velocity)};
+  pins_held_ = false;
   step_ = state.step;
   divergence_.reset();
   statistics_ = {};
@@ -157,12 +161,34 @@ Result<State> CpuSolver::state() {
   return state;
 }
 
+Status CpuSolver::take_inputs(const Inputs& taken) {
+  if (taken.moves_pins() || inputs().moves_pins()) fill(inverse_mass_, inverse_mass_under(model_, taken));
+  dynamics_.set_inputs(taken);
+  balls_.set_inputs(taken);
+  pins_held_ = false;
+  return {};
+}
+
+/// Particles that inputs pin stop where a step begins. Returns their velocities before; none if none changes.
+std::vector<reference::Vector<float>> CpuSolver::hold_pins() {
+  std::vector<reference::Vector<float>> before;
+  if (std::exchange(pins_held_, true)) return before;
+  for (const std::uint32_t i : inputs().pinned) {
+    before.push_back(vector_of(state_.v, i));
+    parallel::set(state_.v, i, reference::Vector<float>::Zero());
+  }
+  return before;
+}
+
 void CpuSolver::step() {
+  const auto before = hold_pins();
   dynamics_.begin_step(step_);
   SolveReport report;
   bool sound = steps_->step(state_, next_, report);
   if (interrupted()) {  // the step is dropped
     steps_->forget();
+    for (std::size_t n = 0; n < before.size(); ++n) parallel::set(state_.v, inputs().pinned[n], before[n]);
+    pins_held_ = before.empty();
     return;
   }
   if (model_.ball_count() > 0) {

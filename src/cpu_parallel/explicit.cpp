@@ -165,14 +165,14 @@ void put_force(const Forces& forces, std::size_t n, const Vector& f) {
 }  // namespace
 
 void ExplicitSteps::pull(const StageMove& stage, Range range, const Forces& forces) {
-  const auto& pull = dynamics_.pull();
-  if (!pull) return;
-  const auto i = static_cast<std::size_t>(pull->particle);
-  if (i - range.first >= range.count) return;
-  put_force(forces, i - range.first,
-            force_at(forces, i - range.first) +
-                reference::spring_force<float>(pull->spring, vector_of(stage.at->x, i),
-                                               vector_of(stage.at->v, i), pull->anchor, Vector::Zero()));
+  for (const reference::PullConstants<float>& pull : dynamics_.pulls()) {
+    const auto i = static_cast<std::size_t>(pull.particle);
+    if (i - range.first >= range.count) continue;
+    put_force(forces, i - range.first,
+              force_at(forces, i - range.first) +
+                  reference::spring_force<float>(pull.spring, vector_of(stage.at->x, i),
+                                                 vector_of(stage.at->v, i), pull.anchor, Vector::Zero()));
+  }
 }
 
 /// Calls f(part) for the slices of a range with a particle that may be near terrain.

@@ -153,7 +153,7 @@ void ImplicitEuler::hold_contact_force(const Block& block) {
   }
 }
 
-/// Springs and pull, at the trial velocity and with the step of `at`.
+/// Springs and pulls, at the trial velocity and with the step of `at`.
 void ImplicitEuler::forces(const Block& block, const Linearisation& at, BlockForces& out) {
   for (const Segment& segment : block.segments) {
     const std::size_t n = segment.first - block.range.first;
@@ -162,17 +162,18 @@ void ImplicitEuler::forces(const Block& block, const Linearisation& at, BlockFor
     std::visit([&](const auto& springs) { linearise(springs, jacobians_[segment.body], at, segment, to); },
                springs_[segment.body]);
   }
-  const auto& pull = dynamics_.pull();
-  if (!pull) return;
-  const auto i = static_cast<std::size_t>(pull->particle);
-  const std::size_t n = i - block.range.first;
-  if (n >= block.range.count) return;
-  const Vector v = parallel::vector_of(*at.v, i);
-  const Vector e = (parallel::vector_of(*at.x, i) - pull->anchor) + at.h * v;
-  const auto [f, H] = reference::linearised<float>(pull->spring, at.h, e, v);
-  set(out.f, n, vector_of(out.f, n) + f);
-  add(out.diagonal, n, H);
-  pull_jacobian_ = H;
+  for (std::size_t k = 0; k < dynamics_.pulls().size(); ++k) {
+    const reference::PullConstants<float>& pull = dynamics_.pulls()[k];
+    const auto i = static_cast<std::size_t>(pull.particle);
+    const std::size_t n = i - block.range.first;
+    if (n >= block.range.count) continue;
+    const Vector v = parallel::vector_of(*at.v, i);
+    const Vector e = (parallel::vector_of(*at.x, i) - pull.anchor) + at.h * v;
+    const auto [f, H] = reference::linearised<float>(pull.spring, at.h, e, v);
+    set(out.f, n, vector_of(out.f, n) + f);
+    add(out.diagonal, n, H);
+    pull_jacobian_[k] = H;
+  }
 }
 
 reference::Trial<float> ImplicitEuler::start() {
@@ -271,11 +272,11 @@ void ImplicitEuler::multiply_block(const Block& block, const VectorArray& p) {
         },
         springs_[segment.body]);
   }
-  if (const auto& pull = dynamics_.pull()) {
-    const auto i = static_cast<std::size_t>(pull->particle);
-    if (i - range.first < range.count)
-      set(product, i - range.first,
-          vector_of(product, i - range.first) + pull_jacobian_ * parallel::vector_of(p, i));
+  for (std::size_t k = 0; k < dynamics_.pulls().size(); ++k) {
+    const auto i = static_cast<std::size_t>(dynamics_.pulls()[k].particle);
+    if (i - range.first >= range.count) continue;
+    set(product, i - range.first,
+        vector_of(product, i - range.first) + pull_jacobian_[k] * parallel::vector_of(p, i));
   }
   for (const Held& held : block.held) {
     const std::size_t n = held.particle - range.first;
@@ -337,6 +338,7 @@ void ImplicitEuler::turn(float beta) {
 bool ImplicitEuler::step(Particles& start, Particles& end, SolveReport& report) {
   start_ = &start;
   end_ = &end;
+  pull_jacobian_.resize(dynamics_.pulls().size());
   const bool accepted = reference::solve_step(*this, limits_, report);
   std::atomic<bool> sound = true;
   for_each_block([&](Block& block, std::size_t) {

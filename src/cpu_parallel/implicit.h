@@ -85,8 +85,8 @@ class ImplicitEuler final : public Steps {
   FloatArray clearance_;    // as BlockResidual::clearance
   bool prescribes_ = false;
   const Particles* start_ = nullptr;
-  Particles* end_ = nullptr;  // its velocities are the trial
-  reference::SpringJacobian<float> pull_jacobian_;
+  Particles* end_ = nullptr;                                     // its velocities are the trial
+  std::vector<reference::SpringJacobian<float>> pull_jacobian_;  // of every pull
 };
 
 }  // namespace aspic::parallel

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,10 +44,13 @@ class Balls {
     for (const Terrain& terrain : model.terrain) grounds_.emplace_back(terrain);
   }
 
-  /// Holds until it is set again. A ball must exist; particles feel theirs elsewhere (dynamics.h).
-  void set_pull(const std::optional<Pull>& pull) {
-    pull_.reset();
-    if (pull && pull->ball) pull_.emplace(*pull);
+  /// Inputs of the model that rounded_inputs() returned hold until others are set; particles feel their pulls
+  /// elsewhere (dynamics.h).
+  void set_inputs(const Inputs& inputs) {
+    pulls_.clear();
+    for (const Pull& pull : inputs.pulls)
+      if (pull.ball) pulls_.emplace_back(pull);
+    particle_weight_ = Runs<T>(inverse_mass_under(model_, inputs));
   }
 
   /// Bytes it holds on the heap, without contacts.
@@ -88,11 +90,13 @@ class Balls {
     Impulse<T> total() { return {linear.total(), turning.total()}; }
   };
 
-  /// What acts on a ball throughout a step from `start`: gravity, and the pull as it is then [N].
+  /// What acts on a ball throughout a step from `start`: gravity, and the pulls as they are then [N].
   Vector<T> constant_force(const BallPhase<T>& start, Eigen::Index b) const {
     Vector<T> f = bodies_[static_cast<std::size_t>(b)].mass * gravity_;
-    if (pull_ && pull_->particle == b)
-      f += spring_force<T>(pull_->spring, start.x.col(b), start.v.col(b), pull_->anchor, Vector<T>::Zero());
+    for (const PullConstants<T>& pull : pulls_) {
+      if (pull.particle != b) continue;
+      f += spring_force<T>(pull.spring, start.x.col(b), start.v.col(b), pull.anchor, Vector<T>::Zero());
+    }
     return f;
   }
 
@@ -191,7 +195,7 @@ class Balls {
   double largest_radius_ = 0.0;
   std::vector<BallBody<T>> bodies_;
   std::vector<Ground<T>> grounds_;
-  std::optional<PullConstants<T>> pull_;
+  std::vector<PullConstants<T>> pulls_;
   Runs<T> particle_weight_;  // w of every particle
   // Of the step under way.
   Contacts ball_ball_, ball_particle_, particle_ball_;

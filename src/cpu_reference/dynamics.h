@@ -1,13 +1,14 @@
 #pragma once
-// Force and acceleration of all particles: a(x, v) = w·f(x, v) with f = m·g + springs + pull + contact force.
+// Force and acceleration of all particles: a(x, v) = w·f(x, v) with f = m·g + springs + pulls + contact
+// force.
 #include <atomic>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "aspic/inputs.h"
 #include "cpu_reference/coulomb.h"
 #include "cpu_reference/spring.h"
+#include "model/inputs.h"
 #include "model/model.h"
 #include "model/springs.h"
 
@@ -84,17 +85,21 @@ class Dynamics {
     return f - before;
   }
 
-  /// Holds until it is set again. The particle must exist; balls feel theirs elsewhere (balls.h).
-  void set_pull(const std::optional<Pull>& pull) {
-    pull_.reset();
-    if (pull && !pull->ball) pull_.emplace(*pull);
+  /// Inputs of the model that rounded_inputs() returned hold until others are set; balls feel their pulls
+  /// elsewhere (balls.h).
+  void set_inputs(const Inputs& inputs) {
+    pulls_.clear();
+    for (const Pull& pull : inputs.pulls)
+      if (!pull.ball) pulls_.emplace_back(pull);
+    inverse_mass_ = Runs<T>(inverse_mass_under(model_, inputs));
   }
   /// Bytes it holds on the heap.
   std::uint64_t bytes() const {
     return mass_.bytes() + inverse_mass_.bytes() + classes_.capacity() * sizeof(SpringConstants<T>) +
            grounds_.capacity() * sizeof(Ground<T>);
   }
-  const std::optional<PullConstants<T>>& pull() const { return pull_; }
+  /// Those on particles, in the order in which they are added.
+  const std::vector<PullConstants<T>>& pulls() const { return pulls_; }
 
   /// Terrains in file order.
   const std::vector<Ground<T>>& grounds() const { return grounds_; }
@@ -156,8 +161,8 @@ class Dynamics {
   }
 
  private:
-  /// m·g, then the springs, then the pull. Springs are sorted by (a, b), so each particle's sum runs over its
-  /// springs in ascending neighbour index.
+  /// m·g, then the springs, then the pulls. Springs are sorted by (a, b), so each particle's sum runs over
+  /// its springs in ascending neighbour index.
   Field<T> force_without_contact(const Field<T>& x, const Field<T>& v) const {
     Field<T> f(3, x.cols());
     for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass(i) * gravity_;
@@ -168,9 +173,9 @@ class Dynamics {
       f.col(spring.a) += on_a;
       f.col(spring.b) -= on_a;
     }
-    if (pull_) {
-      const Eigen::Index i = pull_->particle;
-      f.col(i) += spring_force<T>(pull_->spring, x.col(i), v.col(i), pull_->anchor, Vector<T>::Zero());
+    for (const PullConstants<T>& pull : pulls_) {
+      const Eigen::Index i = pull.particle;
+      f.col(i) += spring_force<T>(pull.spring, x.col(i), v.col(i), pull.anchor, Vector<T>::Zero());
     }
     return f;
   }
@@ -187,7 +192,7 @@ class Dynamics {
   ContactConstants<T> contact_;
   std::vector<SpringConstants<T>> classes_;
   std::vector<Ground<T>> grounds_;
-  std::optional<PullConstants<T>> pull_;
+  std::vector<PullConstants<T>> pulls_;
   Runs<T> mass_, inverse_mass_;
 };
 

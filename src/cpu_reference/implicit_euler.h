@@ -145,8 +145,8 @@ class ImplicitEuler final : public Method<T> {
   Field<T> base_, trial_, delta_;  ///< velocities [m/s]: trial = base + λ·δ
   Field<T> r_, z_, p_, q_;         ///< of the linear system; r begins as m·(v − v') + h·f [kg·m/s]
   // At the trial.
-  std::vector<SpringJacobian<T>> jacobian_;  ///< of every spring
-  SpringJacobian<T> pull_jacobian_;          ///< of the pull, where there is one
+  std::vector<SpringJacobian<T>> jacobian_;       ///< of every spring
+  std::vector<SpringJacobian<T>> pull_jacobian_;  ///< of every pull
   std::vector<DiagonalBlock<T>> preconditioner_;
   std::vector<GroundReaction<T>> ground_;  ///< on every particle
   Field<T> prescribed_;                    ///< the part of δ that the ground leaves no choice in [m/s]
@@ -199,13 +199,14 @@ Trial<T> ImplicitEuler<T>::evaluate() {
     blocks[spring.b].add(H);
     jacobian_.push_back(H);
   }
-  if (const auto& pull = dynamics_.pull()) {  // a spring whose other end neither moves nor gives way
-    const Vector<T> v = trial_.col(pull->particle);
-    const Vector<T> e = (s.x.col(pull->particle) - pull->anchor) + h_ * v;
-    const auto [on_particle, H] = linearised<T>(pull->spring, h_, e, v);
-    f.col(pull->particle) += on_particle;
-    blocks[static_cast<std::size_t>(pull->particle)].add(H);
-    pull_jacobian_ = H;
+  pull_jacobian_.clear();
+  for (const PullConstants<T>& pull : dynamics_.pulls()) {  // springs whose other end does not move
+    const Vector<T> v = trial_.col(pull.particle);
+    const Vector<T> e = (s.x.col(pull.particle) - pull.anchor) + h_ * v;
+    const auto [on_particle, H] = linearised<T>(pull.spring, h_, e, v);
+    f.col(pull.particle) += on_particle;
+    blocks[static_cast<std::size_t>(pull.particle)].add(H);
+    pull_jacobian_.push_back(H);
   }
   r_ = prescribed_ = Field<T>::Zero(3, count);
   preconditioner_.clear();
@@ -266,8 +267,9 @@ Field<T> ImplicitEuler<T>::product(const Field<T>& p) const {
     product.col(spring.a) += on_a;
     product.col(spring.b) -= on_a;
   }
-  if (const auto& pull = dynamics_.pull()) {
-    product.col(pull->particle) += pull_jacobian_ * Vector<T>(p.col(pull->particle));
+  for (std::size_t k = 0; k < pull_jacobian_.size(); ++k) {
+    const Eigen::Index i = dynamics_.pulls()[k].particle;
+    product.col(i) += pull_jacobian_[k] * Vector<T>(p.col(i));
   }
   for (Eigen::Index i = 0; i < p.cols(); ++i) {
     const GroundReaction<T>& ground = ground_[static_cast<std::size_t>(i)];

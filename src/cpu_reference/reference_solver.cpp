@@ -62,13 +62,6 @@ class ReferenceSolver final : public Solver {
     return {};
   }
 
-  Status set_pull(const std::optional<Pull>& pull) override {
-    ASPIC_TRY(const auto taken, rounded_pull(model_, pull, precision()));
-    dynamics_.set_pull(taken);
-    balls_.set_pull(taken);
-    return {};
-  }
-
   void set_stop_flag(const std::atomic<bool>* flag) override {
     Solver::set_stop_flag(flag);
     dynamics_.set_stop_flag(flag);
@@ -77,10 +70,15 @@ class ReferenceSolver final : public Solver {
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) {
       SolveReport report;
+      const Field<T> before = hold_pins();
       dynamics_.begin_step(step_);
       Phase<T> next = method_->step(phase_, report);
       method_->respond(phase_, next);
-      if (interrupted()) break;
+      if (interrupted()) {  // the step is dropped
+        if (before.cols() > 0) phase_.v = before;
+        pins_held_ = before.cols() == 0;
+        break;
+      }
       BallPhase<T> next_balls;
       if (model_.ball_count() > 0) {
         next_balls = balls_.step(step_, ball_phase_, view_of(std::as_const(phase_)), view_of(next));
@@ -117,11 +115,28 @@ class ReferenceSolver final : public Solver {
   }
 
  private:
+  Status take_inputs(const Inputs& inputs) override {
+    dynamics_.set_inputs(inputs);
+    balls_.set_inputs(inputs);
+    pins_held_ = false;
+    return {};
+  }
+
+  /// Particles that inputs pin stop where a step begins. Returns the velocities before; nothing if none
+  /// changes.
+  Field<T> hold_pins() {
+    if (std::exchange(pins_held_, true) || inputs().pinned.empty()) return {};
+    Field<T> before = phase_.v;
+    for (const std::uint32_t i : inputs().pinned) phase_.v.col(i).setZero();
+    return before;
+  }
+
   void set(const State& state) {
     phase_ = {field<T>(state.position), field<T>(state.velocity)};
     ball_phase_ = {field<T>(state.ball_position), field<T>(state.ball_velocity),
                    field<T>(state.ball_angular_velocity)};
     step_ = state.step;
+    pins_held_ = false;
     divergence_.reset();
     statistics_ = {};
   }
@@ -136,6 +151,7 @@ class ReferenceSolver final : public Solver {
   Balls<T> balls_;
   Phase<T> phase_;
   BallPhase<T> ball_phase_;
+  bool pins_held_ = false;  // as inputs() say
   std::uint64_t step_ = 0;
   std::optional<Divergence> divergence_;
 };

@@ -208,7 +208,7 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
         {BINDING_BALL_GRID, &grid_words_},
         {BINDING_BALL_WORK, &work_},
         {BINDING_CONTROL, surroundings.control}};
-    if (k == fly) bindings.push_back(surroundings.pull);
+    if (k == fly) bindings.push_back(surroundings.pulls);
     ASPIC_TRY(programs_[k], context.programs().compute(kernels.library, ball_kernels[k].path, defines));
     passes_[k].emplace(*programs_[k], bindings, ReadBy::compute_pass);
   }

@@ -43,7 +43,7 @@ class BallPasses {
     const gl::Buffer* control = nullptr;  ///< Control, or Solve under implicit Euler
     bool implicit = false;
     gl::Binding poses = {};  ///< of moving terrain
-    gl::Binding pull = {};   ///< a hand's
+    gl::Binding pulls = {};
   };
 
   /// Makes buffers and passes; nothing at all for a model without balls. Errors as make_gpu_solver.

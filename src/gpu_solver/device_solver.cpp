@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
 
 #include "device/particles.h"
 #include "gpu/current.h"
@@ -41,7 +44,7 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
   }
   ASPIC_TRY(simulation_,
             Buffer::of(context_, "simulation constants", std::span(&block, 1), gl::BufferKind::uniform));
-  ASPIC_CHECK(pull_.build(context_));
+  ASPIC_CHECK(pulls_.build(context_));
   ASPIC_CHECK(poses_.build(context_, model_));
   if (const GpuSolver* other = options.share_springs_of) {
     const auto& theirs = other->spring_buffers();
@@ -76,6 +79,8 @@ Status DeviceSolver::take(const State& state) {
   poses_.set_base_step(base_step_);
   steps_since_ = 0;
   divergence_.reset();
+  held_ = {};
+  pins_held_ = false;
   restart();
   return {};
 }
@@ -83,6 +88,7 @@ Status DeviceSolver::take(const State& state) {
 Result<std::optional<Divergence>> DeviceSolver::advance(std::uint64_t steps) {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
+  if (steps > 0) ASPIC_CHECK(hold_pins());
   ASPIC_CHECK(take_steps(steps));
   return divergence_;
 }
@@ -94,14 +100,41 @@ Status DeviceSolver::load(const State& state) {
   return context_.check();
 }
 
-Status DeviceSolver::set_pull(const std::optional<Pull>& pull) {
+Status DeviceSolver::take_inputs(const Inputs& taken) {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
-  ASPIC_TRY(const bool changes, pull_.changes(model_, pull));
-  if (!changes) return {};
-  // Steps of balls that found no room are repeated, with the pull that they had.
-  if (repeats_steps()) ASPIC_CHECK(settle());
-  return pull_.set(model_, pull);
+  if (taken.pulls != inputs().pulls) {
+    // Steps that found no room, or take more rounds than were queued, are repeated with the pulls they had.
+    if (repeats_steps()) ASPIC_CHECK(settle());
+    pulls_.set(model_, taken.pulls);
+  }
+  pins_held_ = false;
+  return {};
+}
+
+/// Gives particles the weights of the inputs' pins; those that are pinned stop. The next step begins with it.
+Status DeviceSolver::hold_pins() {
+  if (std::exchange(pins_held_, true)) return {};
+  if (held_.pinned == inputs().pinned && held_.released == inputs().released) return {};
+  // So that the state is that of the last step asked for.
+  ASPIC_CHECK(settle());
+  if (divergence_) return {};
+  // Inverse mass and velocity lie side by side.
+  constexpr std::uint64_t floats = sizeof(layout::Particle) / sizeof(float), weight_at = 3;
+  static_assert(offsetof(layout::Particle, velocity) == (weight_at + 1) * sizeof(float));
+  const auto weigh = [&](std::uint32_t i, double w) {
+    const auto weight = static_cast<float>(w);
+    states_[current_].upload_items(std::span(&weight, 1), i * floats + weight_at);
+  };
+  for (const std::uint32_t i : held_.pinned) weigh(i, model_.inverse_mass[i]);
+  for (const std::uint32_t i : held_.released) weigh(i, model_.inverse_mass[i]);
+  for (const std::uint32_t i : inputs().released) weigh(i, 1.0 / model_.mass[i]);
+  constexpr std::array<float, 4> stopped = {};
+  for (const std::uint32_t i : inputs().pinned)
+    states_[current_].upload_items(stopped, i * floats + weight_at);
+  held_.pinned = inputs().pinned;
+  held_.released = inputs().released;
+  return {};
 }
 
 Result<State> DeviceSolver::state() {

@@ -1,5 +1,5 @@
 #pragma once
-// What the explicit and the implicit solver share: the state's buffers, springs, balls, the pull, profiling.
+// What the explicit and the implicit solver share: the state's buffers, springs, balls, inputs, profiling.
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,7 +40,6 @@ class DeviceSolver : public GpuSolver {
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) final;
   Status load(const State& state) final;
-  Status set_pull(const std::optional<Pull>& pull) final;
   Result<State> state() final;
   void set_profiling(bool on) final;
   std::vector<gl::PassTime> pass_times() final;
@@ -106,7 +105,7 @@ class DeviceSolver : public GpuSolver {
   std::size_t current_ = 0;      // the state's buffer
   std::uint32_t ball_slot_ = 0;  // the slot of its balls
   std::shared_ptr<const SpringBuffers> springs_;
-  PullBuffer pull_;
+  PullBuffer pulls_;
   PoseBuffer poses_;  // of moving terrain
   BallPasses balls_;
   gl::Buffer simulation_;
@@ -120,10 +119,14 @@ class DeviceSolver : public GpuSolver {
  private:
   Status build_shared(const GpuOptions& options);
   Status take(const State& state);
+  Status take_inputs(const Inputs& inputs) final;
+  Status hold_pins();
 
   std::vector<std::string> pass_names_;
   std::vector<std::shared_ptr<const gl::Program>> programs_;  // of the passes
   gl::Arithmetic arithmetic_;
+  Inputs held_;                       // whose pins the state's weights have
+  bool pins_held_ = false;            // those are inputs()
   std::uint64_t largest_sliced_ = 0;  // bytes
   std::uint64_t bytes_ = 0;
 };

@@ -109,7 +109,7 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   const Binding control = {BINDING_CONTROL, &control_};
   std::vector<Binding> bindings = {constants(),
                                    control,
-                                   pull_.binding(),
+                                   pulls_.binding(),
                                    poses_.binding(),
                                    {BINDING_INCIDENT_START, &springs_->incident_start},
                                    lattices()};
@@ -136,7 +136,7 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                           seen_by_listed(model_, *springs_)));
   }
   return balls_.build(context_, model_, kernels,
-                      {&simulation_, &control_, false, poses_.binding(), pull_.binding()},
+                      {&simulation_, &control_, false, poses_.binding(), pulls_.binding()},
                       options.ball_search);
 }
 

@@ -61,7 +61,7 @@ std::uint64_t gpu_bytes(const Model& model, ForcePath path, std::uint64_t block_
   const DeviceMethod& method = device_method(integrator, counts.particles);
   const ForcePathRow& wanted = row_of(path, model);
   const ForcePathRow& row = method.takes(wanted) ? wanted : row_of(ForcePath::automatic, model);
-  return ball_bytes(counts) + sizeof(layout::Simulation) + sizeof(layout::Pull) +
+  return ball_bytes(counts) + sizeof(layout::Simulation) + pull_table_bytes +
          method.bytes(counts, integrator, block_bytes) + spring_buffer_bytes(model, row.words) +
          row.spring_bytes * counts.springs();
 }

@@ -62,8 +62,8 @@ class GpuSolver : public Solver {
   /// divergence, a lost device and the end of the steps before it come out of the next advance(), at most two
   /// queues late, and device_state() is what will be there; of implicit-euler, where a solve takes more
   /// rounds than were queued for it, it may be a step or two before until the next call. state() waits, and
-  /// its step is that of a good state; so does set_pull() of another pull with balls or implicit-euler. Off
-  /// at first.
+  /// its step is that of a good state; so does set_inputs() of other pulls with balls or implicit-euler,
+  /// and the first advance() with other pins. Off at first.
   virtual void set_late(bool on) = 0;
   /// Measures device time by pass from now on, or no longer. Off at first; never affects the bits. One step
   /// in each queue of an advance() is measured; implicit-euler waits for the device once more

@@ -55,7 +55,7 @@ class ImplicitSolver final : public DeviceSolver {
     passes_[kernel].dispatch(arrays_, readers);
     mark(kernel);
   }
-  // A step may end in a later queue than its own, and would meet the pull of that one.
+  // A step may end in a later queue than its own, and would meet the pulls of that one.
   bool repeats_steps() const override { return true; }
   Status take_steps(std::uint64_t steps) override;
   Status settle() override { return carry_out(0, true); }
@@ -102,7 +102,7 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   ASPIC_TRY(solve_buffer_, Buffer::create(context_, "solve control", solve_bytes(particles)));
   looks_.emplace(context_, sizeof(layout::Solve));
   const std::vector<Binding> bindings = {
-      constants(),      pull_.binding(),
+      constants(),      pulls_.binding(),
       poses_.binding(), {BINDING_INCIDENT_START, &springs_->incident_start},
       lattices(),       {BINDING_SOLVE, &solve_buffer_}};
   constexpr std::uint64_t particle = sizeof(layout::Particle), own = OWN_VECTORS * sizeof(layout::vec4);
@@ -119,7 +119,7 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
     passes_.push_back(std::move(made));
   }
   return balls_.build(context_, model_, kernels,
-                      {&simulation_, &solve_buffer_, true, poses_.binding(), pull_.binding()},
+                      {&simulation_, &solve_buffer_, true, poses_.binding(), pulls_.binding()},
                       options.ball_search);
 }
 

@@ -1,7 +1,7 @@
 #include "gpu_solver/step_inputs.h"
 
 #include <algorithm>
-#include <span>
+#include <cstddef>
 
 #include "device/particles.h"
 #include "model/pull.h"
@@ -10,17 +10,12 @@
 namespace aspic {
 namespace {
 
-/// Balls count on after the particles.
-layout::Pull block_of(const std::optional<Pull>& pull, std::uint32_t particles) {
-  layout::Pull block{};
-  block.particle = NO_BODY;
-  if (!pull) return block;
-  block.anchor = rounded(pull->anchor, 0.0);
-  block.stiffness = static_cast<float>(pull->stiffness);
-  block.damping = static_cast<float>(pull->damping);
-  block.particle = pull->particle + (pull->ball ? particles : 0u);
-  return block;
-}
+/// PullBlock of shaders/compute/pull.glsl.
+struct PullTable {
+  std::uint32_t count = 0, padding0 = 0, padding1 = 0, padding2 = 0;
+  layout::Pull pulls[MAX_PULLS] = {};
+};
+static_assert(sizeof(PullTable) == pull_table_bytes && sizeof(PullTable) <= 16384 && MAX_PULLS == most_pulls);
 
 /// PoseBlock of shaders/compute/motion.glsl.
 struct PoseTable {
@@ -34,23 +29,23 @@ static_assert(MAX_POSES >= 2 * MAX_TERRAINS);
 }  // namespace
 
 Status PullBuffer::build(gl::Context& context) {
-  const layout::Pull block = block_of(std::nullopt, 0);
-  ASPIC_TRY(buffer_, gl::Buffer::of(context, "pull", std::span(&block, 1), gl::BufferKind::uniform));
+  const PullTable none;
+  ASPIC_TRY(buffer_, gl::Buffer::of(context, "pulls", std::span(&none, 1), gl::BufferKind::uniform));
   return {};
 }
 
-Result<bool> PullBuffer::changes(const Model& model, const std::optional<Pull>& pull) const {
-  ASPIC_TRY(const std::optional<Pull> taken, rounded_pull(model, pull, Precision::single));
-  return taken != pull_;
-}
-
-Status PullBuffer::set(const Model& model, const std::optional<Pull>& pull) {
-  ASPIC_TRY(const std::optional<Pull> taken, rounded_pull(model, pull, Precision::single));
-  if (taken == pull_) return {};
-  pull_ = taken;
-  const layout::Pull block = block_of(pull_, model.particle_count());
-  buffer_.upload_items(std::span(&block, 1));
-  return {};
+void PullBuffer::set(const Model& model, std::span<const Pull> pulls) {
+  PullTable table;
+  for (const Pull& pull : pulls) {
+    layout::Pull& row = table.pulls[table.count++];
+    row.anchor = rounded(pull.anchor, 0.0);
+    row.stiffness = static_cast<float>(pull.stiffness);
+    row.damping = static_cast<float>(pull.damping);
+    // Balls count on after the particles.
+    row.particle = pull.particle + (pull.ball ? model.particle_count() : 0u);
+  }
+  buffer_.upload(std::as_bytes(std::span(&table, 1))
+                     .first(offsetof(PullTable, pulls) + pulls.size() * sizeof(layout::Pull)));
 }
 
 Status PoseBuffer::build(gl::Context& context, const Model& model) {

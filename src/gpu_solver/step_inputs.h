@@ -1,30 +1,32 @@
 #pragma once
-// What the host tells the kernels between steps, in small uniform blocks: a hand's pull and where terrain is.
+// What the host tells the kernels between steps, in small uniform blocks: pulls, and where terrain is.
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "aspic/inputs.h"
 #include "gpu/pass.h"
 #include "gpu_solver/layout.h"
+#include "model/inputs.h"
 #include "model/model.h"
 
 namespace aspic {
 
-/// The pull, which every force kernel reads.
+/// The table of pulls with its head.
+inline constexpr std::uint64_t pull_table_bytes = 16 + sizeof(layout::Pull) * MAX_PULLS;
+
+/// The pulls, which every force kernel reads.
 class PullBuffer {
  public:
-  /// Nobody is pulled. Errors as Buffer::create.
+  /// Nothing is pulled. Errors as Buffer::create.
   Status build(gl::Context& context);
-  /// Whether it is another than the one that holds. Errors: those of set().
-  Result<bool> changes(const Model& model, const std::optional<Pull>& pull) const;
-  /// See Solver::set_pull. An upload of 32 bytes, queued after the steps before; nothing if nothing changed.
-  Status set(const Model& model, const std::optional<Pull>& pull);
-  gl::Binding binding() const { return {BINDING_PULL, &buffer_, gl::BufferKind::uniform}; }
+  /// Pulls that rounded_inputs() returned for the model. An upload of 32 bytes for each and 16, queued after
+  /// the steps before.
+  void set(const Model& model, std::span<const Pull> pulls);
+  gl::Binding binding() const { return {BINDING_PULLS, &buffer_, gl::BufferKind::uniform}; }
 
  private:
   gl::Buffer buffer_;
-  std::optional<Pull> pull_;
 };
 
 /// Moving terrain: the poses of the next steps, made here in double precision and rounded once, so that many

@@ -95,6 +95,7 @@ std::string encode_checkpoint(const Checkpoint& checkpoint) {
   append(out, state_hash(state), 8);
   append_text(out, checkpoint.program_version);
   append_text(out, checkpoint.scene);
+  append_text(out, checkpoint.inputs);
   append(out, state.position.size(), 8);
   append(out, state.ball_position.size(), 8);
   for_each_vector(state, [&](const Vec3& v) {
@@ -105,6 +106,12 @@ std::string encode_checkpoint(const Checkpoint& checkpoint) {
 }
 
 namespace {
+
+constexpr std::uint32_t first_with_inputs = 3;
+
+bool is_read(std::uint32_t version) {
+  return version >= oldest_checkpoint_version && version <= checkpoint_version;
+}
 
 constexpr std::string_view damaged =
     "the checkpoint is damaged or cut short, and resuming from it would give a wrong result. Use another "
@@ -135,9 +142,9 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
   in.take(magic.size());
   const auto version = static_cast<std::uint32_t>(in.get(4));
   if (in.failed()) return error(damaged);
-  if (version != checkpoint_version) {
-    return error(fmt::format("the checkpoint has format version {}, this program reads version {}. {}",
-                             version, checkpoint_version,
+  if (!is_read(version)) {
+    return error(fmt::format("the checkpoint has format version {}, this program reads versions {} to {}. {}",
+                             version, oldest_checkpoint_version, checkpoint_version,
                              version > checkpoint_version ? "Use the newer aspic that wrote it."
                                                           : "Run the scene again to make a new one."));
   }
@@ -153,10 +160,11 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
   state.step = in.get(8);
   checkpoint.timestep = std::bit_cast<double>(in.get(8));
   const std::uint64_t hash = in.get(8);
-  const std::string_view program_version = in.text(), scene = in.text();
+  const std::string_view program_version = in.text(), scene = in.text(),
+                         inputs = version >= first_with_inputs ? in.text() : std::string_view();
   const std::uint64_t particles = in.get(8);
   const std::uint64_t balls = in.get(8);
-  if (!is_version_text(program_version) || scene.size() > longest_scene ||
+  if (!is_version_text(program_version) || scene.size() > longest_scene || inputs.size() > longest_inputs ||
       state.step > last_checkpoint_step || !(checkpoint.timestep > 0.0 && std::isfinite(checkpoint.timestep)))
     return error(damaged);
   // Sizes are compared before anything is allocated: 6 numbers a particle, 9 a ball and the checksum must be
@@ -166,6 +174,7 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
     return error(damaged);
   checkpoint.program_version = program_version;
   checkpoint.scene = scene;
+  checkpoint.inputs = inputs;
   state.position.resize(particles);
   state.velocity.resize(particles);
   state.ball_position.resize(balls);
@@ -210,12 +219,20 @@ namespace {
 Status check_size(const std::string& path, std::uint64_t size, std::uint64_t before_texts) {
   ASPIC_TRY(const auto head, read_regular_file(path, before_texts + 8 + longest_program_version + 8));
   Decoder in(head.content);
-  in.take(magic.size() + 4);
-  const std::uint64_t width = in.get(4);
+  in.take(magic.size());
+  const std::uint64_t format = in.get(4), width = in.get(4);
   in.take(before_texts - magic.size() - 8);
   const std::uint64_t version = in.text().size(), scene = in.get(8);
   if (in.failed() || scene > longest_scene) return error_in(path, damaged);
-  const std::uint64_t counts = before_texts + 8 + version + 8 + scene;
+  std::uint64_t counts = before_texts + 8 + version + 8 + scene;
+  if (format >= first_with_inputs) {
+    ASPIC_TRY(const auto texts, read_regular_file(path, counts + 8));
+    Decoder length(
+        std::string_view(texts.content).substr(std::min<std::size_t>(counts, texts.content.size())));
+    const std::uint64_t inputs = length.get(8);
+    if (length.failed() || inputs > longest_inputs) return error_in(path, damaged);
+    counts += 8 + inputs;
+  }
   ASPIC_TRY(const auto start, read_regular_file(path, counts + 16));
   Decoder numbers(std::string_view(start.content).substr(std::min(counts, start.content.size())));
   const std::uint64_t particles = numbers.get(8), balls = numbers.get(8);
@@ -232,7 +249,7 @@ Result<Checkpoint> read_checkpoint(const std::string& path) {
   constexpr std::uint64_t before_texts = magic.size() + 4 + 4 + 3 * 8;  // as encode_checkpoint() writes them
   ASPIC_TRY(const auto start, read_regular_file(path, before_texts));
   Decoder in(start.content);
-  if (in.take(magic.size()) != magic || in.get(4) != checkpoint_version)
+  if (in.take(magic.size()) != magic || !is_read(static_cast<std::uint32_t>(in.get(4))))
     return decode_checkpoint(start.content, path);  // which says why not
   // Once as bytes, and as doubles whatever the precision in the file.
   const std::optional<std::uint64_t> memory = available_memory();

@@ -10,12 +10,14 @@
 
 namespace aspic {
 
-/// Version of the checkpoint format this program writes, and the only one it reads.
-inline constexpr std::uint32_t checkpoint_version = 2;
+/// Version of the checkpoint format this program writes, and the oldest that it reads.
+inline constexpr std::uint32_t checkpoint_version = 3;
+inline constexpr std::uint32_t oldest_checkpoint_version = 2;
 
 /// Bounds of a checkpoint's contents: no aspic writes more.
 inline constexpr std::size_t longest_program_version = 64;
 inline constexpr std::uint64_t longest_scene = std::uint64_t{64} << 20;  ///< bytes, as of a scene file
+inline constexpr std::uint64_t longest_inputs = longest_scene;           ///< bytes
 inline constexpr std::uint64_t last_checkpoint_step = std::uint64_t{1}
                                                       << 53;  ///< as far as double precision counts
 

@@ -68,7 +68,7 @@ class StateFiles final : public StateSink {
     auto sink = std::make_unique<StateFiles>(numbers ? numbered(path, "*") : path, every);
     sink->overwrite_ = overwrite;
     sink->writer_ = Writer;
-    sink->scene_toml_ = facts.scene_toml;
+    sink->facts_ = facts;
     if (numbers) {
       sink->pattern_ = path;
     } else {
@@ -100,7 +100,7 @@ class StateFiles final : public StateSink {
     }
     AtomicFile file = std::move(*file_);
     file_.reset();
-    ASPIC_CHECK(writer_(file, {sample.model, sample.state, sample.solves, scene_toml_}));
+    ASPIC_CHECK(writer_(file, {sample.model, sample.state, sample.solves, &facts_}));
     ASPIC_CHECK(file.commit());
     last_step_ = sample.state.step;
     return {};
@@ -108,7 +108,7 @@ class StateFiles final : public StateSink {
   std::string pattern_;  // of the names of many files; empty: there is one
   Overwrite overwrite_ = Overwrite::refuse;
   StateWriter writer_ = nullptr;
-  std::string scene_toml_;
+  RunFacts facts_;
   std::optional<AtomicFile> file_;
   std::optional<std::uint64_t> last_step_;  // written
   bool begun_ = false;
@@ -145,8 +145,8 @@ Status write_vtp(AtomicFile& file, const Sample& sample) {
 }
 
 Status write_whole_run(AtomicFile& file, const Sample& sample) {
-  return write_checkpoint(
-      file, {ASPIC_VERSION, std::string(sample.scene_toml), sample.model.simulation.timestep, sample.state});
+  return write_checkpoint(file, {ASPIC_VERSION, sample.facts->scene_toml, sample.model.simulation.timestep,
+                                 sample.state, sample.facts->inputs_toml});
 }
 
 constexpr std::string_view state_summary = "write the final state";

@@ -1,5 +1,6 @@
 #pragma once
 // The table of bodies: the kinds that a scene may list, and how the model is built from each.
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -28,6 +29,8 @@ struct BodyRow {
   Status (*add)(Model&, const ModelSettings&, std::size_t);
   const PinNames* pins = nullptr;  ///< what its key `pinned` may name; null: it has no such key
   const PinnedSettings* (*pinned)(const ModelSettings&, std::size_t) = nullptr;  ///< null where `pins` is
+  /// Of the particles that those names speak of: pinned_particles(). Null where `pins` is.
+  std::array<int, 3> (*lattice)(const ModelSettings&, std::size_t) = nullptr;
 };
 
 /// A list that is a vector of the settings.
@@ -52,6 +55,7 @@ BodyRow body_row(std::string_view key, std::string_view size_key, const PinNames
                  pins};
   if constexpr (requires(const ModelSettings& s) { (s.*Member)[0].pinned; }) {
     row.pinned = [](const ModelSettings& s, std::size_t i) { return &(s.*Member)[i].pinned; };
+    row.lattice = [](const ModelSettings& s, std::size_t i) { return (s.*Member)[i].lattice(); };
   }
   return row;
 }

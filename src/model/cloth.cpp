@@ -57,7 +57,7 @@ std::vector<Rod> rods_of(const Model& model, std::uint32_t first, std::uint32_t 
 Status add_cloth(Model& model, const ClothSettings& cloth) {
   const auto [w, h] = cloth.particles;
   const double sx = cloth.size[0] / (w - 1), sy = cloth.size[1] / (h - 1);
-  ASPIC_TRY(const std::vector<bool> pinned, pinned_particles(cloth_pins, cloth.pinned, {w, h, 1}));
+  ASPIC_TRY(const std::vector<bool> pinned, pinned_particles(cloth_pins, cloth.pinned, cloth.lattice()));
 
   Body body;
   body.first_particle = model.particle_count();

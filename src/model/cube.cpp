@@ -62,7 +62,7 @@ SpringSettings material_springs(const MaterialSettings& material, int particles_
 Status add_cube(Model& model, const CubeSettings& cube) {
   const int n = cube.particles_per_edge;
   const double s = cube.edge_length / (n - 1);
-  ASPIC_TRY(const auto pinned, pinned_particles(cube_pins, cube.pinned, {n, n, n}));
+  ASPIC_TRY(const auto pinned, pinned_particles(cube_pins, cube.pinned, cube.lattice()));
 
   SpringSettings structural = cube.structural, shear = cube.shear, bending = cube.bending;
   double mass = cube.particle_mass;

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "base/result.h"
+#include "model/inputs.h"
+
 namespace aspic {
 
 Solver::~Solver() = default;
@@ -14,6 +19,14 @@ std::string body_text(const Divergence& divergence) {
 std::string fault_text(const Divergence& divergence) {
   return divergence.finite ? fmt::format("became faster than {} m/s", divergence_speed)
                            : "is no longer a finite number";
+}
+
+Status Solver::set_inputs(const Inputs& inputs) {
+  ASPIC_TRY(Inputs rounded, rounded_inputs(model(), inputs, precision()));
+  if (rounded == inputs_) return {};
+  ASPIC_CHECK(take_inputs(rounded));
+  inputs_ = std::move(rounded);
+  return {};
 }
 
 std::string_view name_of(Arithmetic arithmetic) {

@@ -32,8 +32,8 @@ Status Engines::load(const State& state) {
 }
 
 Status Engines::set_pull(const std::optional<Pull>& pull) {
-  ASPIC_CHECK(leader_.solver->set_pull(pull));
-  return shadowed() ? shadow_.solver->set_pull(pull) : Status();
+  ASPIC_CHECK(leader_.solver->set_inputs(inputs_of(pull)));
+  return shadowed() ? shadow_.solver->set_inputs(inputs_of(pull)) : Status();
 }
 
 EnergySample Engines::measured(const State& state) const {

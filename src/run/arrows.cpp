@@ -67,7 +67,7 @@ double noise_of(const Model& model, const State& state) {
 }  // namespace
 
 ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& wanted,
-                   const std::optional<Pull>& pull) {
+                   const Inputs& inputs) {
   ArrowSet set;
   if (!wanted.any()) return set;
   double spacing = 0.0;
@@ -87,7 +87,7 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
     const Body& body = model.bodies[b];
     for (std::uint32_t i = body.first_particle; i < body.first_particle + body.particle_count; ++i) {
       if (!(wanted.springs || wanted.external || wanted.net) || !bodies[b].shows(i, false)) continue;
-      const ParticleForce f = particle_force(model, springs, state, i, pull);
+      const ParticleForce f = particle_force(model, springs, state, i, inputs);
       add(wanted.springs, i, f.springs, ArrowKind::springs);
       add(wanted.external, i, f.gravity + f.pull, ArrowKind::external);
       add(wanted.net, i, f.net, ArrowKind::net);
@@ -95,7 +95,7 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
   }
   if (!wanted.contacts) return set;
   std::size_t b = 0;
-  for (const ParticleContact& c : contacts_of(model, springs, state, pull)) {
+  for (const ParticleContact& c : contacts_of(model, springs, state, inputs)) {
     while (b < bodies.size() && c.particle - model.bodies[b].first_particle >= model.bodies[b].particle_count)
       ++b;
     if (b < bodies.size() && !bodies[b].shows(c.particle, true)) continue;

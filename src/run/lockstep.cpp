@@ -36,7 +36,8 @@ double LockstepResult::largest_absolute() const {
 }
 
 Result<LockstepResult> compare_in_lockstep(Solver& first, Solver& second, std::uint64_t steps,
-                                           const std::function<bool(std::uint64_t)>& go_on) {
+                                           const std::function<bool(std::uint64_t)>& go_on,
+                                           const InputLog& inputs) {
   LockstepResult result;
   if (&first == &second) return one_state(first, second);
   bool apart = false;
@@ -54,6 +55,7 @@ Result<LockstepResult> compare_in_lockstep(Solver& first, Solver& second, std::u
     result.interrupted = !go_on(step);
     if (step == steps || result.interrupted) return result;
 
+    for (Solver* const solver : {&first, &second}) ASPIC_CHECK(solver->set_inputs(inputs.at(a.step)));
     ASPIC_TRY(result.divergence[0], first.advance(1));
     if (!apart) {
       ASPIC_TRY(const auto stepped, first.state());

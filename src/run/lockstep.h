@@ -38,9 +38,11 @@ struct LockstepResult {
 /// Advances both from where they are, a step at a time, and compares their states before the first step and
 /// after each. Until it has seen that a step of the first leaves the second's state alone, it looks: two
 /// solvers that write into one state would agree, whatever they compute. `go_on` is told the steps done and
-/// says whether to continue. Errors: those of the solvers; usage: their models have another number of
-/// particles or balls; check_failed: both work on one state.
+/// says whether to continue. Both have the same `inputs`, by the first one's step number. Errors: those of
+/// the solvers; usage: their models have another number of particles or balls; check_failed: both work on one
+/// state.
 Result<LockstepResult> compare_in_lockstep(Solver& first, Solver& second, std::uint64_t steps,
-                                           const std::function<bool(std::uint64_t)>& go_on);
+                                           const std::function<bool(std::uint64_t)>& go_on,
+                                           const InputLog& inputs = {});
 
 }  // namespace aspic

@@ -127,7 +127,7 @@ Status Recorder::draw(Solver& solver, std::uint64_t step, std::uint64_t copies) 
   shown.camera = fitted(moved(view.camera, parts_->following.offset(solver.model(), copy)),
                         parts_->output.size.width, parts_->output.size.height);
   shown.legend = parts_->output.text;
-  if (view.arrows.any()) shown.arrows = arrows_of(solver.model(), copy, view.arrows);
+  if (view.arrows.any()) shown.arrows = arrows_of(solver.model(), copy, view.arrows, solver.inputs());
   if (parts_->output.text)
     shown.text = overlay_lines(parts_->scene, static_cast<double>(step) * solver.model().simulation.timestep);
   ASPIC_CHECK(parts_->film->add({state}, {std::move(shown)}, copies));

@@ -135,7 +135,7 @@ Result<Finding> no_adhesion(const Subject& subject) {
       Pull pull;
       pull.stiffness = force;  // the anchor is 1 m above
       pull.anchor = {0, 1, 0};
-      ASPIC_CHECK(solver->set_pull(pull));
+      ASPIC_CHECK(solver->set_inputs(inputs_of(pull)));
       return run(*solver, 200);
     };
     ASPIC_TRY(auto free, pulled(airborne, strong));

@@ -51,7 +51,7 @@ Result<State> run_with_hand(Solver& solver, std::uint64_t steps) {
                                         Pull{last, {4.0, 2.0, -3.0}, 900.0, 20.0},
                                         Pull{last / 2, {-2.0, 4.0, 1.0 / 3.0}, 1e4 / 3.0, 0.0}, std::nullopt};
   for (const std::optional<Pull>& pull : inputs) {
-    ASPIC_CHECK(solver.set_pull(pull));
+    ASPIC_CHECK(solver.set_inputs(inputs_of(pull)));
     ASPIC_CHECK(require_good(solver.advance(steps / 4)));
   }
   return solver.state();

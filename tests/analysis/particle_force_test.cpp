@@ -51,11 +51,11 @@ void expect_references_force(const Model& model, const State& state, const std::
     v.col(i) = reference::rounded<double>(state.velocity[static_cast<std::size_t>(i)]);
   }
   reference::Dynamics<double> dynamics(model);
-  dynamics.set_pull(pull);
+  dynamics.set_inputs(inputs_of(pull));
   const Field<double> f = dynamics.force(x, v);
   const SpringFinder incident(model);
   for (std::uint32_t i = 0; i < model.particle_count(); ++i) {
-    const ParticleForce force = particle_force(model, incident, state, i, pull);
+    const ParticleForce force = particle_force(model, incident, state, i, inputs_of(pull));
     // The same operations in the same order.
     const Vec3 expected = {f(0, i), f(1, i), f(2, i)};
     EXPECT_EQ(force.applied, expected) << "particle " << i;
@@ -89,8 +89,8 @@ TEST(ParticleForceTest, CountsThePullOfAHand) {
   const Pull pull = {123, {1.0, 5.0, -2.0}, 700.0, 30.0};
   expect_references_force(model, state, pull);
   const SpringFinder incident(model);
-  EXPECT_NE(particle_force(model, incident, state, 123, pull).pull, Vec3{});
-  EXPECT_EQ(particle_force(model, incident, state, 124, pull).pull, Vec3{});
+  EXPECT_NE(particle_force(model, incident, state, 123, inputs_of(pull)).pull, Vec3{});
+  EXPECT_EQ(particle_force(model, incident, state, 124, inputs_of(pull)).pull, Vec3{});
 }
 
 TEST(ParticleForceTest, PartsByHand) {

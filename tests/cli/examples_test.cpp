@@ -226,6 +226,7 @@ class Reader {
                   dir_.file("Configuration.txt"));
     const auto scene = test::aspic({"scene", "show", "cube-plane", "--set", "cube[0].particles-per-edge=4"});
     dir_.write("my-scene.toml", scene.out);
+    dir_.write("hands.toml", "[[inputs]]\nstep = 5\npinned = [0]\n");
   }
 
   void run(const Example& example, Checks checks = Checks::listed) {

@@ -205,12 +205,12 @@ TEST(CpuSolver, PullsAsTheReferenceDoes) {
     for (const std::uint32_t particle : {0u, 215u, 100u}) {
       const Pull pull = {particle, {0.3, 4.0, 0.1}, 800.0, 20.0};
       for (Solver* const each : {expected.get(), solver.get()}) {
-        ASSERT_TRUE(each->set_pull(pull).ok());
+        ASSERT_TRUE(each->set_inputs(inputs_of(pull)).ok());
         ASSERT_TRUE(each->advance(60).ok());
       }
       EXPECT_EQ(*expected->state(), *solver->state());
     }
-    EXPECT_FALSE(solver->set_pull(Pull{216, {}, 1.0, 1.0}).ok());
+    EXPECT_FALSE(solver->set_inputs({{Pull{216, {}, 1.0, 1.0}}}).ok());
   }
 }
 
@@ -222,7 +222,7 @@ TEST(CpuSolver, PullsBallsAsTheReferenceDoes) {
     const Model model = test::build(settings);
     const auto expected = reference(model), solver = cpu(model, 2), untouched = reference(model);
     for (Solver* const each : {expected.get(), solver.get()}) {
-      ASSERT_TRUE(each->set_pull(Pull{0, {0.3, 4.0, 0.1}, 300.0, 20.0, true}).ok());
+      ASSERT_TRUE(each->set_inputs({{Pull{0, {0.3, 4.0, 0.1}, 300.0, 20.0, true}}}).ok());
       ASSERT_TRUE(each->advance(200).ok());
     }
     EXPECT_EQ(*expected->state(), *solver->state());
@@ -303,13 +303,13 @@ TEST(FastArithmetic, StaysNearExactArithmeticAndIsTheSameForAnyNumberOfThreads) 
       const unsigned threads[] = {1, 2, 5};
       for (std::size_t n = 0; n < 3; ++n) {
         const auto solver = cpu(model, threads[n], Arithmetic::fast);
-        ASSERT_TRUE(solver->set_pull(pull).ok());
+        ASSERT_TRUE(solver->set_inputs(inputs_of(pull)).ok());
         states[n] = after(*solver, 100);
       }
       EXPECT_EQ(states[0], states[1]);
       EXPECT_EQ(states[0], states[2]);
       const auto exact = cpu(model);
-      ASSERT_TRUE(exact->set_pull(pull).ok());
+      ASSERT_TRUE(exact->set_inputs(inputs_of(pull)).ok());
       const State expected = after(*exact, 100);
       EXPECT_NE(states[0], expected) << "fast arithmetic is exact";
       // A step adds at most 100 roundings of a coordinate below 16 m, and motion here does not grow them

@@ -74,7 +74,7 @@ TEST_P(IntegratorTable, StepMatrixIsOneStepOfTheSolver) {
         model.simulation.integrator = GetParam();
         model.simulation.implicit.tolerance = 1e-15;
         auto solver = solver_for(model);
-        ASSERT_TRUE(solver->set_pull(Pull{0, {}, kappa, gamma}).ok());
+        ASSERT_TRUE(solver->set_inputs({{Pull{0, {}, kappa, gamma}}}).ok());
         ASSERT_FALSE((*solver->advance(1)).has_value());
         const State end = *solver->state();
         const StepMatrix m = row().step_matrix(h, kappa, gamma);

@@ -42,7 +42,7 @@ class PullClosedForm : public testing::TestWithParam<Integrator> {
     model.simulation.integrator = GetParam();
     model.simulation.implicit.tolerance = 1e-15;
     auto solver = test::solver_for(model, Precision::double_);
-    EXPECT_TRUE(solver->set_pull(Pull{0, anchor, k, c}).ok());
+    EXPECT_TRUE(solver->set_inputs({{Pull{0, anchor, k, c}}}).ok());
     const Eigen::Matrix2d R = amplification(GetParam(), h, k, c, m);
     Eigen::Matrix<double, 2, 3> y;
     y << from_anchor.x, from_anchor.y, from_anchor.z, velocity.x, velocity.y, velocity.z;
@@ -81,7 +81,7 @@ TEST(Pull, HangsWhereWeightAndPullBalance) {
     model.simulation.integrator = integrator;
     model.simulation.timestep = h;
     auto solver = test::solver_for(model, Precision::double_);
-    ASSERT_TRUE(solver->set_pull(Pull{0, {0.0, 4.0, 0.0}, k, c}).ok());
+    ASSERT_TRUE(solver->set_inputs({{Pull{0, {0.0, 4.0, 0.0}, k, c}}}).ok());
     ASSERT_FALSE((*solver->advance(30000)).has_value());
     // It comes to rest where h·v, with c·v = k·(distance to the balance), no longer changes a position of 4
     // m.
@@ -120,7 +120,7 @@ TEST(Pull, IsASpringToAPinnedParticleToTheBit) {
         const Pull pull{17, {2.0, 3.0, -1.0}, 700.0, 15.0};
         const Model other = with_spring_instead(model, pull);
         auto pulled = test::solver_for(model, precision), sprung = test::solver_for(other, precision);
-        ASSERT_TRUE(pulled->set_pull(pull).ok());
+        ASSERT_TRUE(pulled->set_inputs(inputs_of(pull)).ok());
         const std::uint64_t steps = integrator == Integrator::implicit_euler ? 40 : 200;
         ASSERT_FALSE((*pulled->advance(steps)).has_value());
         ASSERT_FALSE((*sprung->advance(steps)).has_value());
@@ -142,14 +142,14 @@ TEST(Pull, LightensWhatPressesOnTheGround) {
   model.terrain[0].friction = 0.5;
   reference::Dynamics<double> dynamics(model);
   const reference::Phase<double> s = reference::start_of(model);
-  dynamics.set_pull(Pull{0, {0, 1, 0}, 4.0, 9.0});
+  dynamics.set_inputs({{Pull{0, {0, 1, 0}, 4.0, 9.0}}});
   const double N = 3.0 * 9.8 - 2.0 * 4.0;
   const reference::Field<double> f = dynamics.force(s.x, s.v);
   EXPECT_NEAR(f(0, 0), -0.5 * N * 2.0, 8 * eps * N);
   EXPECT_NEAR(f(1, 0), 0.0, 8 * eps * N);
   const reference::Field<double> held = dynamics.held_contact_force(s.x, s.v);
   EXPECT_NEAR(held(1, 0), N, 8 * eps * N);
-  dynamics.set_pull(std::nullopt);
+  dynamics.set_inputs({});
   EXPECT_NEAR(dynamics.force(s.x, s.v)(0, 0), -0.5 * (3.0 * 9.8) * 2.0, 8 * eps * 30.0);
 }
 
@@ -159,7 +159,7 @@ TEST(Pull, IsPartOfTheEquationThatImplicitEulerSolves) {
   const Model model = test::build(settings);
   reference::Dynamics<double> dynamics(model);
   reference::ImplicitEuler<double> method(dynamics, model);
-  dynamics.set_pull(Pull{21, {3.0, 4.0, 0.0}, 5000.0, 40.0});
+  dynamics.set_inputs({{Pull{21, {3.0, 4.0, 0.0}, 5000.0, 40.0}}});
   const double h = model.simulation.timestep;
   reference::Phase<double> s = reference::start_of(model);
   for (int n = 0; n < 10; ++n) {
@@ -178,8 +178,8 @@ TEST(Pull, HoldsUntilChangedAndSurvivesALoad) {
   const Model model = test::build(test::cube_on_plane(3, 5.0));
   const Pull pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0};
   auto whole = test::solver_for(model, Precision::single), split = test::solver_for(model, Precision::single);
-  ASSERT_TRUE(whole->set_pull(pull).ok());
-  ASSERT_TRUE(split->set_pull(pull).ok());
+  ASSERT_TRUE(whole->set_inputs(inputs_of(pull)).ok());
+  ASSERT_TRUE(split->set_inputs(inputs_of(pull)).ok());
   ASSERT_FALSE((*whole->advance(40)).has_value());
   ASSERT_FALSE((*split->advance(15)).has_value());
   ASSERT_TRUE(split->load(*split->state()).ok());
@@ -187,7 +187,7 @@ TEST(Pull, HoldsUntilChangedAndSurvivesALoad) {
   EXPECT_EQ(*split->state(), *whole->state());
 
   // Let go: from here on as a new solver, which pulls nobody.
-  ASSERT_TRUE(whole->set_pull(std::nullopt).ok());
+  ASSERT_TRUE(whole->set_inputs({}).ok());
   auto fresh = test::solver_for(model, Precision::single);
   ASSERT_TRUE(fresh->load(*whole->state()).ok());
   ASSERT_FALSE((*whole->advance(20)).has_value());
@@ -198,10 +198,10 @@ TEST(Pull, HoldsUntilChangedAndSurvivesALoad) {
 TEST(Pull, RefusedLeavesTheOneBefore) {
   const Model model = test::build(test::cube_on_plane(3, 5.0));
   auto one = test::solver_for(model, Precision::single), other = test::solver_for(model, Precision::single);
-  ASSERT_TRUE(one->set_pull(Pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0}).ok());
-  ASSERT_TRUE(other->set_pull(Pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0}).ok());
-  EXPECT_EQ(one->set_pull(Pull{27, {}, 1.0, 0.0}).error().code, ErrorCode::usage);
-  EXPECT_EQ(one->set_pull(Pull{0, {0.0, 1e39, 0.0}, 1.0, 0.0}).error().code, ErrorCode::usage);
+  ASSERT_TRUE(one->set_inputs({{Pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0}}}).ok());
+  ASSERT_TRUE(other->set_inputs({{Pull{13, {0.5, 6.0, 0.0}, 400.0, 3.0}}}).ok());
+  EXPECT_EQ(one->set_inputs({{Pull{27, {}, 1.0, 0.0}}}).error().code, ErrorCode::usage);
+  EXPECT_EQ(one->set_inputs({{Pull{0, {0.0, 1e39, 0.0}, 1.0, 0.0}}}).error().code, ErrorCode::usage);
   ASSERT_FALSE((*one->advance(20)).has_value());
   ASSERT_FALSE((*other->advance(20)).has_value());
   EXPECT_EQ(*one->state(), *other->state());
@@ -219,7 +219,7 @@ TEST(PullOnABall, HangsAtMgOverK) {
     settings.simulation.integrator = integrator;
     const Model model = test::build(settings);
     auto solver = test::solver_for(model, Precision::double_);
-    ASSERT_TRUE(solver->set_pull(Pull{0, {1.0, 4.0, 0.0}, k, c, true}).ok());
+    ASSERT_TRUE(solver->set_inputs({{Pull{0, {1.0, 4.0, 0.0}, k, c, true}}}).ok());
     ASSERT_FALSE((*solver->advance(5000)).has_value());
     const State state = *solver->state();
     const double height = 4.0 - m * 9.8 / k;
@@ -236,10 +236,10 @@ TEST(PullOnABall, DoesNothingToOneThatWaitsForItsLaunch) {
   settings.launchers.emplace_back().count = 3;
   const Model model = test::build(settings);
   auto solver = test::solver_for(model, Precision::double_);
-  ASSERT_TRUE(solver->set_pull(Pull{2, {0.0, 50.0, 0.0}, 100.0, 1.0, true}).ok());
+  ASSERT_TRUE(solver->set_inputs({{Pull{2, {0.0, 50.0, 0.0}, 100.0, 1.0, true}}}).ok());
   ASSERT_FALSE((*solver->advance(100)).has_value());
   EXPECT_EQ(solver->state()->ball_position[2], model.balls[2].initial_position);
-  EXPECT_EQ(solver->set_pull(Pull{3, {}, 1.0, 1.0, true}).error().code, ErrorCode::usage);
+  EXPECT_EQ(solver->set_inputs({{Pull{3, {}, 1.0, 1.0, true}}}).error().code, ErrorCode::usage);
 }
 
 }  // namespace

@@ -244,7 +244,7 @@ TEST_P(Rest, APulledParticleLeavesWithoutAdhesion) {
   for (const double share : {0.999, 1.001}) {
     Model model = loose({{0, 0, 0}}, {{}}, {plane({}, {0, 1, 0}, 0.8, 0.3)});
     const auto solver = solver_for(model);
-    ASSERT_TRUE(solver->set_pull(Pull{0, {0, share * g / stiffness, 0}, stiffness, 0.0}).ok());
+    ASSERT_TRUE(solver->set_inputs({{Pull{0, {0, share * g / stiffness, 0}, stiffness, 0.0}}}).ok());
     const State end = advanced(*solver, 200);
     if (share < 1.0) {
       EXPECT_EQ(end.position[0], Vec3{});

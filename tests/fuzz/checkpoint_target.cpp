@@ -14,7 +14,7 @@ namespace {
 
 constexpr LoadLimits small = {.memory_bytes = std::uint64_t{1} << 20};
 // Places in the header, docs/files.md.
-constexpr std::size_t hash_at = 34, version_text_at = 42;
+constexpr std::size_t version_at = 10, hash_at = 34, version_text_at = 42;
 
 std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
   std::uint64_t value = 0;
@@ -37,7 +37,8 @@ std::uint64_t hash_of(std::string_view bytes) {
 /// Where the numbers of the state begin, or 0 if the lengths before them lead out of the file.
 std::size_t state_begin(std::string_view bytes) {
   std::size_t at = version_text_at;
-  for (int text = 0; text < 2; ++text) {
+  const int texts = number_at(bytes, version_at, 4) >= 3 ? 3 : 2;
+  for (int text = 0; text < texts; ++text) {
     if (at + 8 > bytes.size()) return 0;
     const std::uint64_t length = number_at(bytes, at, 8);
     if (length > bytes.size() - at - 8) return 0;
@@ -59,13 +60,16 @@ std::string repaired(std::string_view bytes) {
 void demand(std::string_view bytes) {
   const auto read = decode_checkpoint(bytes, "fuzz.aspic");
   if (!read) return require_message(read.error(), {ErrorCode::io});
-  require(encode_checkpoint(*read) == bytes, "an accepted checkpoint is written as it was read");
+  if (number_at(bytes, version_at, 4) == checkpoint_version)
+    require(encode_checkpoint(*read) == bytes, "an accepted checkpoint is written as it was read");
   const auto scene = parse_scene(read->scene, "fuzz.aspic", {}, small);
   if (!scene) return require_message(scene.error(), {ErrorCode::scene_rejected});
   const auto model = build_model(scene->model);
   if (!model) return require_message(model.error(), {ErrorCode::scene_rejected});
   if (const Status fits = check_sizes(*model, read->state); !fits)
     require_message(fits.error(), {ErrorCode::usage});
+  const auto inputs = parse_inputs(read->inputs, "fuzz.aspic", {scene->model, *model});
+  if (!inputs) require_message(inputs.error(), {ErrorCode::scene_rejected});
 }
 
 void run(std::string_view bytes) {
@@ -82,8 +86,9 @@ std::vector<std::string> seeds() {
     const auto model = build_model(scene->model);
     if (!model) continue;
     for (const Precision precision : {Precision::single, Precision::double_})
-      made.push_back(encode_checkpoint(
-          {"0.2.0", to_toml(*scene), model->simulation.timestep, initial_state(*model, precision)}));
+      made.push_back(encode_checkpoint({"0.2.0", to_toml(*scene), model->simulation.timestep,
+                                        initial_state(*model, precision),
+                                        "timestep = 0.001\n[[inputs]]\nstep = 3\npinned = [0]\n"}));
   }
   return made;
 }

@@ -41,6 +41,8 @@ extern const Target set_target;
 extern const Target view_target;
 /// A checkpoint: the bytes as they are, and once more with checksum and state hash made right.
 extern const Target checkpoint_target;
+/// An input log.
+extern const Target inputs_target;
 /// Configuration.txt.
 extern const Target configuration_target;
 /// A state table, in both precisions.

@@ -97,8 +97,8 @@ TEST_F(LateGl, RepeatedStepsKeepTheirPull) {
   auto reference = std::move(make_reference_solver(model, Precision::single)).value();
   for (std::uint32_t n = 0; n < 12; ++n) {
     const std::optional<Pull> pull = Pull{5 * n, {1.0, 3.0, -0.1 * n}, 700.0, 10.0};
-    ASSERT_TRUE(late->set_pull(pull).ok());
-    ASSERT_TRUE(reference->set_pull(pull).ok());
+    ASSERT_TRUE(late->set_inputs(inputs_of(pull)).ok());
+    ASSERT_TRUE(reference->set_inputs(inputs_of(pull)).ok());
     context().inject_fault(Fault::late);
     ASSERT_FALSE((*late->advance(4)).has_value());
     ASSERT_FALSE((*reference->advance(4)).has_value());
@@ -127,8 +127,8 @@ TEST_F(LateGl, ImplicitEulerQueuesBehindStepsOfWhichItHasNotHeard) {
     for (std::uint32_t n = 0; n < 20; ++n) {
       if (n % 5 == 4) {
         const Pull pull = {3 * n, {0.5, 2.0, -0.1}, 300.0, 10.0};
-        ASSERT_TRUE(late->set_pull(pull).ok());
-        ASSERT_TRUE(reference->set_pull(pull).ok());
+        ASSERT_TRUE(late->set_inputs(inputs_of(pull)).ok());
+        ASSERT_TRUE(reference->set_inputs(inputs_of(pull)).ok());
       }
       context().inject_fault(Fault::late, n % 3);
       ASSERT_FALSE((*late->advance(1 + n % 3)).has_value());

@@ -4,6 +4,7 @@
 #include "gpu/shader_source.h"
 #include "gpu_solver/layout.h"
 #include "model/terrain.h"
+#include "gpu_solver/step_inputs.h"
 #include "support/gl_fixture.h"
 #include "support/program_reflection.h"
 
@@ -63,13 +64,16 @@ TEST_F(Layout, PullBlockMatchesTheDriver) {
   for (const char* path : {"compute/gather.comp", "compute/sum_springs.comp", "compute/implicit_begin.comp",
                            "compute/implicit_evaluate.comp", "compute/implicit_apply.comp"}) {
     const gl::Program p = program(path);
-    EXPECT_EQ(Reflection(p).uniform_block_binding("PullBlock"), BINDING_PULL) << path;
-    EXPECT_EQ(Reflection(p).uniform_block_data_size("PullBlock"), bytes(sizeof(layout::Pull))) << path;
-    EXPECT_EQ(Reflection(p).uniform_offset("pull.anchor"), 0) << path;
-    EXPECT_EQ(Reflection(p).uniform_offset("pull.stiffness"), bytes(offsetof(layout::Pull, stiffness)))
+    EXPECT_EQ(Reflection(p).uniform_block_binding("PullBlock"), BINDING_PULLS) << path;
+    EXPECT_EQ(Reflection(p).uniform_block_data_size("PullBlock"), bytes(pull_table_bytes)) << path;
+    EXPECT_EQ(Reflection(p).uniform_offset("pulls[0].anchor"), 16) << path;
+    EXPECT_EQ(Reflection(p).uniform_offset("pulls[0].stiffness"),
+              bytes(16 + offsetof(layout::Pull, stiffness)))
         << path;
-    EXPECT_EQ(Reflection(p).uniform_offset("pull.damping"), bytes(offsetof(layout::Pull, damping))) << path;
-    EXPECT_EQ(Reflection(p).uniform_offset("pull.particle"), bytes(offsetof(layout::Pull, particle))) << path;
+    EXPECT_EQ(Reflection(p).uniform_offset("pulls[0].damping"), bytes(16 + offsetof(layout::Pull, damping)))
+        << path;
+    EXPECT_EQ(Reflection(p).uniform_offset("pulls[0].particle"), bytes(16 + offsetof(layout::Pull, particle)))
+        << path;
   }
 }
 

@@ -33,7 +33,7 @@ class PullOnTheDevice : public aspic::testing::GlTest {
     std::uint64_t at = solver.state()->step;
     for (const Input& input : inputs) {
       EXPECT_FALSE((*solver.advance(input.step - at)).has_value());
-      EXPECT_TRUE(solver.set_pull(input.pull).ok());
+      EXPECT_TRUE(solver.set_inputs(inputs_of(input.pull)).ok());
       at = input.step;
     }
     EXPECT_FALSE((*solver.advance(steps - at)).has_value());
@@ -121,8 +121,8 @@ TEST_F(PullOnTheDevice, HoldsOverBatchesAndLoad) {
     const Model model = test::build(low_cube(integrator, ContactModel::coulomb));
     const Pull pull{63, {3.0, 4.0, 2.0}, 900.0, 20.0};
     auto whole = solver_for(model), split = solver_for(model);
-    ASSERT_TRUE(whole->set_pull(pull).ok());
-    ASSERT_TRUE(split->set_pull(pull).ok());
+    ASSERT_TRUE(whole->set_inputs(inputs_of(pull)).ok());
+    ASSERT_TRUE(split->set_inputs(inputs_of(pull)).ok());
     ASSERT_FALSE((*whole->advance(60)).has_value());
     for (const std::uint64_t steps : {1u, 7u, 22u}) ASSERT_FALSE((*split->advance(steps)).has_value());
     ASSERT_TRUE(split->load(*split->state()).ok());
@@ -141,7 +141,7 @@ TEST_F(PullOnTheDevice, DivergesWhereTheReferenceDoes) {
     auto solver = solver_for(model);
     for (Solver* each : {static_cast<Solver*>(reference.get()), static_cast<Solver*>(solver.get())}) {
       ASSERT_FALSE((*each->advance(5)).has_value());
-      ASSERT_TRUE(each->set_pull(pull).ok());
+      ASSERT_TRUE(each->set_inputs(inputs_of(pull)).ok());
     }
     const auto expected = *reference->advance(100), found = *solver->advance(100);
     ASSERT_TRUE(expected && found) << name_of(integrator);
@@ -164,7 +164,7 @@ TEST_F(PullOnTheDevice, AtItsAnchorAndOnAPinnedParticleItDoesNothing) {
     while (model.inverse_mass[pinned] != 0.0) ++pinned;
     const State start = initial_state(model, Precision::single);
     auto free = solver_for(model), held = solver_for(model);
-    ASSERT_TRUE(held->set_pull(Pull{pinned, {50.0, 3.0, 0.0}, 1000.0, 10.0}).ok());
+    ASSERT_TRUE(held->set_inputs({{Pull{pinned, {50.0, 3.0, 0.0}, 1000.0, 10.0}}}).ok());
     ASSERT_FALSE((*free->advance(20)).has_value());
     ASSERT_FALSE((*held->advance(20)).has_value());
     EXPECT_EQ(held->state()->position[pinned], start.position[pinned]);
@@ -174,7 +174,7 @@ TEST_F(PullOnTheDevice, AtItsAnchorAndOnAPinnedParticleItDoesNothing) {
     still.simulation.gravity = {};
     still.simulation.integrator = integrator;
     auto alone = solver_for(still);
-    ASSERT_TRUE(alone->set_pull(Pull{0, {1.0, 2.0, 3.0}, 1e6, 1e3}).ok());
+    ASSERT_TRUE(alone->set_inputs({{Pull{0, {1.0, 2.0, 3.0}, 1e6, 1e3}}}).ok());
     ASSERT_FALSE((*alone->advance(10)).has_value());
     EXPECT_EQ(alone->state()->position, initial_state(still, Precision::single).position);
   }
@@ -184,10 +184,10 @@ TEST_F(PullOnTheDevice, RefusedPullLeavesTheOneBefore) {
   const Model model = test::build(low_cube(Integrator::explicit_euler, ContactModel::coulomb));
   const Pull pull{63, {3.0, 4.0, 2.0}, 900.0, 20.0};
   auto solver = solver_for(model), other = solver_for(model);
-  ASSERT_TRUE(solver->set_pull(pull).ok());
-  ASSERT_TRUE(other->set_pull(pull).ok());
-  EXPECT_EQ(solver->set_pull(Pull{64, {}, 1.0, 1.0}).error().code, ErrorCode::usage);
-  EXPECT_EQ(solver->set_pull(Pull{1, {}, -1.0, 1.0}).error().code, ErrorCode::usage);
+  ASSERT_TRUE(solver->set_inputs(inputs_of(pull)).ok());
+  ASSERT_TRUE(other->set_inputs(inputs_of(pull)).ok());
+  EXPECT_EQ(solver->set_inputs({{Pull{64, {}, 1.0, 1.0}}}).error().code, ErrorCode::usage);
+  EXPECT_EQ(solver->set_inputs({{Pull{1, {}, -1.0, 1.0}}}).error().code, ErrorCode::usage);
   ASSERT_FALSE((*solver->advance(30)).has_value());
   ASSERT_FALSE((*other->advance(30)).has_value());
   EXPECT_EQ(*solver->state(), *other->state());

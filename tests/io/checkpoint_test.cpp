@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 
+#include "base/fnv.h"
 #include "support/random_state.h"
 #include "support/temporary_directory.h"
 
@@ -19,6 +21,7 @@ Checkpoint example(Precision precision) {
   Checkpoint checkpoint;
   checkpoint.program_version = "1.2.3";
   checkpoint.scene = "schema = 1\nname = \"jelly\"\n";
+  checkpoint.inputs = "timestep = 0.001\n";
   checkpoint.timestep = 0.001;
   checkpoint.state = test::random_bits_state(37, precision);
   checkpoint.state.step = 123456789012345ull;
@@ -36,6 +39,7 @@ TEST_P(CheckpointOf, ReadsBackWhole) {
   ASSERT_TRUE(back.ok()) << back.error().message;
   EXPECT_EQ(back->program_version, checkpoint.program_version);
   EXPECT_EQ(back->scene, checkpoint.scene);
+  EXPECT_EQ(back->inputs, checkpoint.inputs);
   EXPECT_EQ(back->timestep, checkpoint.timestep);
   EXPECT_EQ(back->state.step, checkpoint.state.step);
   EXPECT_EQ(back->state.precision, GetParam());
@@ -49,6 +53,34 @@ TEST_P(CheckpointOf, EveryTruncationIsRefused) {
     ASSERT_FALSE(back.ok()) << size;
     EXPECT_EQ(back.error().code, ErrorCode::io);
   }
+}
+
+/// As aspic 0.2 wrote it: without inputs.
+std::string of_version_2(Checkpoint checkpoint) {
+  checkpoint.inputs.clear();
+  std::string bytes = encode_checkpoint(checkpoint);
+  bytes[10] = 2;
+  const std::size_t texts = 42 + 8 + checkpoint.program_version.size() + 8 + checkpoint.scene.size();
+  bytes.erase(texts, 8);
+  bytes.resize(bytes.size() - 8);
+  Fnv1a sum;
+  sum.add_bytes(std::as_bytes(std::span(bytes)));
+  for (int i = 0; i < 8; ++i) bytes.push_back(static_cast<char>(sum.value() >> (8 * i)));
+  return bytes;
+}
+
+TEST_P(CheckpointOf, TheVersionBeforeIsRead) {
+  const test::TemporaryDirectory dir;
+  const Checkpoint checkpoint = example(GetParam());
+  const std::string bytes = of_version_2(checkpoint);
+  std::ofstream(dir.file("old"), std::ios::binary) << bytes;
+  const auto back = read_checkpoint(dir.file("old"));
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(back->scene, checkpoint.scene);
+  EXPECT_EQ(back->inputs, "");
+  EXPECT_EQ(back->state, checkpoint.state);
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(decode_checkpoint(std::string_view(bytes).substr(0, size), "c").ok()) << size;
 }
 
 TEST_P(CheckpointOf, EveryFlippedBitIsRefused) {
@@ -69,10 +101,10 @@ TEST(Checkpoint, SaysWhatIsWrong) {
   std::string bytes = encode_checkpoint(example(Precision::single));
   EXPECT_THAT(decode_checkpoint(bytes.substr(0, bytes.size() / 2), "c").error().message,
               HasSubstr("cut short"));
-  bytes[10] = 3;  // the format version follows the ten bytes of the mark
+  bytes[10] = 4;  // the format version follows the ten bytes of the mark
   const auto newer = decode_checkpoint(bytes, "c");
   ASSERT_FALSE(newer.ok());
-  EXPECT_THAT(newer.error().message, HasSubstr("format version 3"));
+  EXPECT_THAT(newer.error().message, HasSubstr("format version 4"));
   EXPECT_THAT(newer.error().message, HasSubstr("newer aspic"));
   EXPECT_FALSE(read_checkpoint("/nonexistent/c").ok());
 }

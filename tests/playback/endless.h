@@ -21,7 +21,6 @@ class Endless : public Solver {
   const Model& model() const override { return inner_->model(); }
   std::uint64_t bytes() const override { return inner_->bytes(); }
   Status load(const State& state) override { return inner_->load(state); }
-  Status set_pull(const std::optional<Pull>& pull) override { return inner_->set_pull(pull); }
   Result<std::optional<Divergence>> advance(std::uint64_t) override {
     while (!interrupted()) std::this_thread::yield();
     return std::optional<Divergence>();
@@ -29,6 +28,7 @@ class Endless : public Solver {
   Result<State> state() override { return inner_->state(); }
 
  private:
+  Status take_inputs(const Inputs& inputs) override { return inner_->set_inputs(inputs); }
   std::unique_ptr<Solver> inner_;
 };
 

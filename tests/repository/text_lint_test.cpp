@@ -157,7 +157,7 @@ TEST(PublicHeaders, AreFewAndIncludeTheStandardLibraryAndEachOther) {
     names.insert(entry.path().filename().string());
     EXPECT_THAT(not_public(text), ::testing::IsEmpty()) << entry.path();
   }
-  EXPECT_LE(lines, 1300u) << "a user reads them all";
+  EXPECT_LE(lines, 1500u) << "a user reads them all";
   names.insert("version.h");  // generated
   const std::string all = contents(root / "include/aspic/aspic.h");
   names.erase("aspic.h");

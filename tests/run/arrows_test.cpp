@@ -21,11 +21,12 @@ TEST(Arrows, AreTheReferencesForces) {
   State state = initial_state(model, Precision::single);
   for (std::size_t i = 0; i < state.position.size(); i += 3) state.position[i].x += 0.05;
   const Pull pull = {.particle = 7, .anchor = {1.0, 2.0, 3.0}, .stiffness = 50.0, .damping = 1.0};
-  const ArrowSet set = arrows_of(model, state, {.springs = true, .external = true, .net = true}, pull);
+  const ArrowSet set =
+      arrows_of(model, state, {.springs = true, .external = true, .net = true}, inputs_of(pull));
   ASSERT_EQ(set.arrows.size(), 3u * 125u);
   const SpringFinder springs(model);
   for (std::uint32_t i = 0; i < 125; ++i) {
-    const ParticleForce f = particle_force(model, springs, state, i, pull);
+    const ParticleForce f = particle_force(model, springs, state, i, inputs_of(pull));
     const std::size_t first = std::size_t{3} * i;
     EXPECT_EQ(set.arrows[first], (Arrow{state.position[i], f.springs, ArrowKind::springs}));
     EXPECT_EQ(set.arrows[first + 1], (Arrow{state.position[i], f.gravity + f.pull, ArrowKind::external}));

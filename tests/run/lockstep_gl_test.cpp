@@ -202,7 +202,7 @@ TEST_F(SeveralGpuSolvers, ACallFromAnotherThreadIsRefusedAndSaysSo) {
     note(backend.solver->advance(1));
     note(backend.solver->state());
     note(backend.solver->load(initial_state(model, Precision::single)));
-    note(backend.solver->set_pull(std::nullopt));
+    note(backend.solver->set_inputs({{Pull{0, {}, 1.0, 0.0}}}));
     note(make_backend({find_backend("gpu")}, model, {context_of(backend), nullptr, {}}));
   }).join();
   EXPECT_THAT(answers, ::testing::Each(HasSubstr("is in use on another thread")));

@@ -27,7 +27,6 @@ class Stepper final : public Solver {
     state_ = state;
     return {};
   }
-  Status set_pull(const std::optional<Pull>&) override { return {}; }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     state_.step += steps;
     if (state_.step > still_) state_.position[0].x += static_cast<double>(steps);
@@ -36,6 +35,7 @@ class Stepper final : public Solver {
   Result<State> state() override { return state_; }
 
  private:
+  Status take_inputs(const Inputs&) override { return {}; }
   const Model& model_;
   State& state_;
   std::uint64_t still_;

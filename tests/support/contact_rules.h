@@ -44,7 +44,7 @@ void expect_landing_to_rest(const Make& make) {
     pull.particle = 0;
     pull.anchor = 1.001 * n;
     pull.stiffness = 1000.0;
-    ASSERT_TRUE(solver->set_pull(pull).ok());
+    ASSERT_TRUE(solver->set_inputs(inputs_of(pull)).ok());
     ASSERT_FALSE((*solver->advance(1)).has_value());
     const State state = *solver->state();
     EXPECT_NEAR(dot(state.velocity[0], n), fall, 1e-6) << "normal " << k;

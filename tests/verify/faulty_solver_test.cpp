@@ -28,12 +28,12 @@ class FaultySolver final : public Solver {
   const Model& model() const override { return right_; }
   std::uint64_t bytes() const override { return inner_->bytes(); }
   Status load(const State& state) override { return inner_->load(state); }
-  Status set_pull(const std::optional<Pull>& pull) override { return inner_->set_pull(pull); }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override { return inner_->advance(steps); }
   std::optional<SolveStatistics> solve_statistics() override { return inner_->solve_statistics(); }
   Result<State> state() override { return inner_->state(); }
 
  private:
+  Status take_inputs(const Inputs& inputs) override { return inner_->set_inputs(inputs); }
   const Model& right_;
   std::unique_ptr<Model> wrong_;
   std::unique_ptr<Solver> inner_;
