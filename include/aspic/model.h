@@ -26,6 +26,11 @@ ASPIC_API Result<SharedModel> make_model(const ModelSettings& settings);
 /// The state a run starts from, rounded to `precision`; −0 becomes +0.
 ASPIC_API State initial_state(const Model& model, Precision precision);
 
+/// Whether a solver of the one model can go over to the other (Solver::set_constants()): both have the same
+/// particles, balls, springs and their classes, lattices, kinds of terrain and of its motion, contact model
+/// and integrator. Error (usage): the first of these that differs.
+ASPIC_API Status check_same_topology(const Model& from, const Model& to);
+
 /// Consecutive particles that were made as one body.
 struct ParticleRange {
   std::uint32_t first = 0, count = 0;

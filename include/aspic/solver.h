@@ -96,6 +96,12 @@ class ASPIC_API Solver {
   Status set_inputs(const Inputs& inputs);
   /// Those that hold, as the solver rounded them.
   const Inputs& inputs() const { return inputs_; }
+  /// Goes over to another model with the same topology (check_same_topology()), so that only constants
+  /// differ: of springs, masses, gravity, contact, terrain, balls, the time step and the solve's limits. From
+  /// here on the bits are those of a new solver of that model which has load()ed this state and has the same
+  /// inputs. Forgets a divergence; solve_statistics() count on. Error (usage): another topology, or inputs
+  /// that the other model refuses; then nothing changes. Error (no_device): as advance().
+  Status set_constants(SharedModel model);
   /// Advances by `steps`, fewer only after a divergence, which is returned, and while the stop flag is set.
   /// Error (no_device): the device was lost or ran out of memory; the solver is of no use from then on.
   virtual Result<std::optional<Divergence>> advance(std::uint64_t steps) = 0;
@@ -111,6 +117,9 @@ class ASPIC_API Solver {
  protected:
   /// Inputs for the next step: rounded, and others than inputs(), which are still the ones before.
   virtual Status take_inputs(const Inputs& inputs) = 0;
+  /// A model with the same topology, which takes inputs().
+  virtual Status take_constants(SharedModel model) = 0;
+  const std::atomic<bool>* stop_flag() const { return flag_; }
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
 
  private:

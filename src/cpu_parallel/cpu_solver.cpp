@@ -34,31 +34,30 @@ void fill(FloatArray& to, const Runs<double>& from) {
 class CpuSolver final : public Solver {
  public:
   CpuSolver(SharedModel model, unsigned threads, Arithmetic arithmetic)
-      : held_(std::move(model)),
-        model_(*held_),
-        reports_solves_(row_of(model_.simulation.integrator).traits.reports_solves),
-        dynamics_(model_),
-        balls_(model_),
+      : model_(std::move(model)),
+        reports_solves_(row_of(model_->simulation.integrator).traits.reports_solves),
+        dynamics_(*model_),
+        balls_(*model_),
         workers_(threads) {
     std::size_t margin = slice;
-    for (const Body& body : model_.bodies) {
+    for (const Body& body : model_->bodies) {
       if (body.lattice_edge > 0) {
-        springs_.emplace_back(std::in_place_type<Lattice>, model_, body);
+        springs_.emplace_back(std::in_place_type<Lattice>, *model_, body);
         margin = std::max(margin, std::get<Lattice>(springs_.back()).reach() + slice);
       } else {
-        springs_.emplace_back(std::in_place_type<SpringLists>, model_, body);
+        springs_.emplace_back(std::in_place_type<SpringLists>, *model_, body);
       }
     }
-    const std::size_t count = model_.particle_count();
+    const std::size_t count = model_->particle_count();
     state_ = Particles(count, margin);
     next_ = Particles(count, margin);
     mass_ = FloatArray(count, slice);
     inverse_mass_ = FloatArray(count, slice);
-    fill(mass_, model_.mass);
-    fill(inverse_mass_, model_.inverse_mass);
+    fill(mass_, model_->mass);
+    fill(inverse_mass_, model_->inverse_mass);
     steps_ = make_steps({model_, dynamics_, springs_, mass_, inverse_mass_, margin, arithmetic, workers_});
     bytes_ = sizeof(*this) + heap_bytes();
-    set(initial_state(model_, Precision::single));
+    set(initial_state(*model_, Precision::single));
   }
 
   std::string_view backend() const override { return "cpu"; }
@@ -68,11 +67,11 @@ class CpuSolver final : public Solver {
                        steps_->arithmetic() == Arithmetic::fast ? ", fast arithmetic" : "");
   }
   Precision precision() const override { return Precision::single; }
-  const Model& model() const override { return model_; }
+  const Model& model() const override { return *model_; }
   std::uint64_t bytes() const override { return bytes_; }
 
   Status load(const State& state) override {
-    ASPIC_CHECK(check_sizes(model_, state));
+    ASPIC_CHECK(check_sizes(*model_, state));
     set(state);
     return {};
   }
@@ -96,14 +95,14 @@ class CpuSolver final : public Solver {
 
  private:
   Status take_inputs(const Inputs& inputs) override;
+  Status take_constants(SharedModel model) override;
   std::vector<reference::Vector<float>> hold_pins();
   std::uint64_t heap_bytes() const;
   void set(const State& state);
   void step();
   void move_balls();
 
-  const SharedModel held_;
-  const Model& model_;
+  SharedModel model_;
   const bool reports_solves_;
   reference::Dynamics<float> dynamics_;
   reference::Balls<float> balls_;
@@ -123,7 +122,7 @@ class CpuSolver final : public Solver {
 std::uint64_t CpuSolver::heap_bytes() const {
   std::uint64_t sum = bytes_of(state_) + bytes_of(next_) + bytes_of(mass_) + bytes_of(inverse_mass_) +
                       bytes_of(springs_) + dynamics_.bytes() + balls_.bytes() +
-                      std::uint64_t{model_.ball_count()} * 18 * sizeof(float);
+                      std::uint64_t{model_->ball_count()} * 18 * sizeof(float);
   for (const Springs& springs : springs_)
     sum += std::visit([](const auto& each) { return each.bytes(); }, springs);
   return sum + steps_->bytes();
@@ -149,8 +148,8 @@ Result<State> CpuSolver::state() {
   state.precision = Precision::single;
   state.step = step_;
   const auto copy = [&](const VectorArray& from, std::vector<Vec3>& to) {
-    to.reserve(model_.particle_count());
-    for (std::size_t i = 0; i < model_.particle_count(); ++i)
+    to.reserve(model_->particle_count());
+    for (std::size_t i = 0; i < model_->particle_count(); ++i)
       to.push_back({from[0][i], from[1][i], from[2][i]});
   };
   copy(state_.x, state.position);
@@ -162,10 +161,27 @@ Result<State> CpuSolver::state() {
 }
 
 Status CpuSolver::take_inputs(const Inputs& taken) {
-  if (taken.moves_pins() || inputs().moves_pins()) fill(inverse_mass_, inverse_mass_under(model_, taken));
+  if (taken.moves_pins() || inputs().moves_pins()) fill(inverse_mass_, inverse_mass_under(*model_, taken));
   dynamics_.set_inputs(taken);
   balls_.set_inputs(taken);
   pins_held_ = false;
+  return {};
+}
+
+Status CpuSolver::take_constants(SharedModel model) {
+  // Others refer to these, which stay in their places.
+  model_ = std::move(model);
+  dynamics_ = reference::Dynamics<float>(*model_);
+  dynamics_.set_stop_flag(stop_flag());
+  dynamics_.set_inputs(inputs());
+  balls_ = reference::Balls<float>(*model_);
+  balls_.set_inputs(inputs());
+  for (Springs& springs : springs_) std::visit([&](auto& each) { each.set_constants(*model_); }, springs);
+  fill(mass_, model_->mass);
+  fill(inverse_mass_, inverse_mass_under(*model_, inputs()));
+  steps_->constants_changed();
+  pins_held_ = false;
+  divergence_.reset();
   return {};
 }
 
@@ -191,14 +207,14 @@ void CpuSolver::step() {
     pins_held_ = before.empty();
     return;
   }
-  if (model_.ball_count() > 0) {
+  if (model_->ball_count() > 0) {
     move_balls();
     sound = steps_->look_at(next_);
-    divergence_ = reference::find_divergence(model_, next_balls_, step_ + 1);
+    divergence_ = reference::find_divergence(*model_, next_balls_, step_ + 1);
   }
   if (!sound) {
     divergence_ = reference::find_divergence<float>(
-        model_, [&](Eigen::Index i) { return vector_of(next_.x, static_cast<std::size_t>(i)); },
+        *model_, [&](Eigen::Index i) { return vector_of(next_.x, static_cast<std::size_t>(i)); },
         [&](Eigen::Index i) { return vector_of(next_.v, static_cast<std::size_t>(i)); }, next_balls_,
         step_ + 1);
   }
@@ -207,7 +223,7 @@ void CpuSolver::step() {
   if (divergence_) return;
   if (reports_solves_) statistics_.add(report);
   std::swap(state_, next_);
-  if (model_.ball_count() > 0) std::swap(ball_phase_, next_balls_);
+  if (model_->ball_count() > 0) std::swap(ball_phase_, next_balls_);
   ++step_;
 }
 

@@ -25,7 +25,7 @@ void for_parts(Range range, std::size_t size, const F& f) {
 
 ExplicitSteps::ExplicitSteps(const StepParts& parts)
     : model_(parts.model),
-      method_(*row_of(parts.model.simulation.integrator).staged()),
+      method_(*row_of(parts.model->simulation.integrator).staged()),
       dynamics_(parts.dynamics),
       springs_(parts.springs),
       mass_(parts.mass),
@@ -40,8 +40,8 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
   }
   for (unsigned n = 0; edge > 0 && n < workers_.threads(); ++n) sweeps_.emplace_back(edge);
   if (method_.stages.size() == 1) return;
-  sums_ = Particles(model_.particle_count(), slice);
-  between_ = Particles(model_.particle_count(), parts.margin);
+  sums_ = Particles(model_->particle_count(), slice);
+  between_ = Particles(model_->particle_count(), parts.margin);
 }
 
 std::uint64_t ExplicitSteps::bytes() const {
@@ -80,7 +80,7 @@ bool ExplicitSteps::look_at(const Particles& start) {
 
 bool ExplicitSteps::step(Particles& start, Particles& end, SolveReport&) {
   if (!known_) look_at(start);
-  const double h = model_.simulation.timestep;
+  const double h = model_->simulation.timestep;
   const std::size_t stages = method_.stages.size();
   const Particles* at = &start;
   bool accumulate = false;
@@ -114,7 +114,7 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
   const Forces forces = {{f[0], f[1], f[2]}};
   const Vector g = dynamics_.gravity();
   const ForceInput input = {stage.at, mass_.data(), {g.x(), g.y(), g.z()}, arithmetic_};
-  const bool near = near_terrain(model_, task.box);
+  const bool near = near_terrain(*model_, task.box);
   if (stage.at == stage.start) find_resting(task, stage);
   Moved moved(speed_limit);
   if (const auto* const lattice = std::get_if<Lattice>(&springs_[task.body])) {
@@ -179,16 +179,17 @@ void ExplicitSteps::pull(const StageMove& stage, Range range, const Forces& forc
 template <class F>
 void ExplicitSteps::for_near(const VectorArray& x, Range range, const F& f) const {
   for_parts(range, piece_size, [&](Range piece) {
-    if (!near_terrain(model_, box_of(x, piece))) return;
+    if (!near_terrain(*model_, box_of(x, piece))) return;
     for_parts(piece, slice, [&](Range part) {
-      if (near_terrain(model_, box_of(x, part))) f(part);
+      if (near_terrain(*model_, box_of(x, part))) f(part);
     });
   });
 }
 
 void ExplicitSteps::find_near(Task& task, const VectorArray& x) const {
   task.near.clear();
-  if (near_terrain(model_, task.box)) for_near(x, task.range, [&](Range part) { task.near.push_back(part); });
+  if (near_terrain(*model_, task.box))
+    for_near(x, task.range, [&](Range part) { task.near.push_back(part); });
 }
 
 void ExplicitSteps::find_resting(Task& task, const StageMove& stage) const {
@@ -203,7 +204,7 @@ void ExplicitSteps::find_resting(Task& task, const StageMove& stage) const {
 /// What terrain adds to the forces.
 void ExplicitSteps::add_contact(Task& task, const StageMove& stage, Range range, const Forces& forces) {
   const VectorArray &x = stage.at->x, &v = stage.at->v;
-  if (model_.contact.model == ContactModel::course) {
+  if (model_->contact.model == ContactModel::course) {
     return for_near(x, range, [&](Range part) {
       for (std::size_t i = part.first; i < part.first + part.count; ++i) {
         const std::size_t n = i - range.first;

@@ -44,7 +44,7 @@ class ExplicitSteps final : public Steps {
   template <class F>
   void for_near(const VectorArray& x, Range range, const F& f) const;
 
-  const Model& model_;
+  const SharedModel& model_;
   const Staged& method_;
   const reference::Dynamics<float>& dynamics_;
   const std::vector<Springs>& springs_;

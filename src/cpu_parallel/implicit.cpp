@@ -54,18 +54,26 @@ ImplicitEuler::ImplicitEuler(const StepParts& parts)
       mass_(parts.mass),
       inverse_mass_(parts.inverse_mass),
       workers_(parts.workers),
-      ahead_(dynamics_.grounds(), dynamics_.contact(), model_.contact.model == ContactModel::coulomb),
-      limits_(model_.simulation.implicit),
-      h_(static_cast<float>(model_.simulation.timestep)),
-      system_(model_.particle_count(), parts.margin) {
+      ahead_(dynamics_.grounds(), dynamics_.contact(), model_->contact.model == ContactModel::coulomb),
+      limits_(model_->simulation.implicit),
+      h_(static_cast<float>(model_->simulation.timestep)),
+      system_(model_->particle_count(), parts.margin) {
   for (const Springs& each : springs_) jacobians_.push_back(jacobians_of(each, h_));
   cut_into_blocks();
   sums_.resize(blocks_.size());
   largest_.resize(blocks_.size());
   falling_.resize(blocks_.size());
-  const std::size_t count = model_.particle_count();
-  if (model_.contact.model == ContactModel::course) held_force_ = vector_array(count, slice);
+  const std::size_t count = model_->particle_count();
+  if (model_->contact.model == ContactModel::course) held_force_ = vector_array(count, slice);
   if (ahead_.acts()) clearance_ = FloatArray(count, slice);
+}
+
+void ImplicitEuler::constants_changed() {
+  ahead_ = {dynamics_.grounds(), dynamics_.contact(), model_->contact.model == ContactModel::coulomb};
+  limits_ = reference::SolveLimits<float>(model_->simulation.implicit);
+  h_ = static_cast<float>(model_->simulation.timestep);
+  for (std::size_t body = 0; body < springs_.size(); ++body)
+    std::visit([&](const auto& each) { jacobians_[body].set_constants(each, h_); }, springs_[body]);
 }
 
 std::uint64_t ImplicitEuler::bytes() const {
@@ -78,9 +86,9 @@ std::uint64_t ImplicitEuler::bytes() const {
 }
 
 void ImplicitEuler::cut_into_blocks() {
-  for (std::size_t at = 0; at < model_.particle_count(); at += block_size)
+  for (std::size_t at = 0; at < model_->particle_count(); at += block_size)
     blocks_.push_back(
-        {{at, std::min<std::size_t>(block_size, model_.particle_count() - at)}, {}, {}, false, false});
+        {{at, std::min<std::size_t>(block_size, model_->particle_count() - at)}, {}, {}, false, false});
   const auto cut = [&](std::size_t body, std::size_t plane, std::size_t first, std::size_t count) {
     for (std::size_t at = first; at < first + count;) {
       const std::size_t end = std::min(first + count, (at / block_size + 1) * block_size);
@@ -126,8 +134,8 @@ float ImplicitEuler::clearance(const Vector& x) const {
 }
 
 void ImplicitEuler::begin_block(Block& block) {
-  block.near = near_terrain(model_, box_of(start_->x, block.range));
-  if (model_.contact.model == ContactModel::course) return hold_contact_force(block);
+  block.near = near_terrain(*model_, box_of(start_->x, block.range));
+  if (model_->contact.model == ContactModel::course) return hold_contact_force(block);
   if (!ahead_.acts()) return;
   for (std::size_t i = block.range.first; i < block.range.first + block.range.count; ++i)
     clearance_[i] = clearance(parallel::vector_of(start_->x, i));
@@ -218,7 +226,7 @@ reference::Trial<float> ImplicitEuler::evaluate() {
 ResidualShare ImplicitEuler::evaluate_block(Block& block) {
   BlockForces at_trial;
   forces(block, at(end_->v, h_), at_trial);
-  const bool course = model_.contact.model == ContactModel::course;
+  const bool course = model_->contact.model == ContactModel::course;
   const BlockResidual at = {&start_->v,
                             &end_->v,
                             course ? &held_force_ : nullptr,
@@ -353,7 +361,7 @@ bool ImplicitEuler::step(Particles& start, Particles& end, SolveReport& report) 
 }
 
 bool ImplicitEuler::look_at(const Particles& start) {
-  return all_sound(start, {0, model_.particle_count()}, speed_limit);
+  return all_sound(start, {0, model_->particle_count()}, speed_limit);
 }
 
 /// What the ground prescribes, the positions, and the terrain's response.
@@ -365,7 +373,7 @@ bool ImplicitEuler::end_block(const Block& block) {
     reactions[held.particle - range.first] = &held.reaction;
   }
   drift(start_->x, end_->v, h_, end_->x, range);
-  if (!block.held.empty() || near_terrain(model_, box_of(end_->x, range))) {
+  if (!block.held.empty() || near_terrain(*model_, box_of(end_->x, range))) {
     for (std::size_t n = 0; n < range.count; ++n) {
       const std::size_t i = range.first + n;
       if (inverse_mass_[i] == 0.0f) continue;

@@ -18,6 +18,7 @@ class ImplicitEuler final : public Steps {
 
   bool step(Particles& start, Particles& end, SolveReport& report) override;
   bool look_at(const Particles& start) override;
+  void constants_changed() override;
   std::uint64_t bytes() const override;
 
   // What solve_step() asks of a system (cpu_reference/implicit_newton.h).
@@ -69,7 +70,7 @@ class ImplicitEuler final : public Steps {
   float sum_of_blocks() const;
   bool end_block(const Block& block);
 
-  const Model& model_;
+  const SharedModel& model_;
   const reference::Dynamics<float>& dynamics_;
   const std::vector<Springs>& springs_;
   const FloatArray &mass_, &inverse_mass_;

@@ -34,6 +34,9 @@ class Jacobians {
  public:
   Jacobians(const Lattice& lattice, float h, bool keep);
   Jacobians(const SpringLists& lists, float h, bool keep);
+  /// Of the same springs with other constants.
+  void set_constants(const Lattice& lattice, float h);
+  void set_constants(const SpringLists& lists, float h);
 
   /// By direction of a lattice, by class of the model in lists [kg].
   const float* along() const { return along_.data(); }

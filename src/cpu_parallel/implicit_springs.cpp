@@ -287,17 +287,27 @@ HWY_EXPORT(LineariseLists);
 HWY_EXPORT(MultiplyLattice);
 HWY_EXPORT(MultiplyLists);
 
-Jacobians::Jacobians(const Lattice& lattice, float h, bool keep)
-    : kept_(keep), ups_(lattice.directions().size() / 2), row_size_(lattice.plane_size()) {
+void Jacobians::set_constants(const Lattice& lattice, float h) {
+  along_.clear();
   for (const Direction& to : lattice.directions())
     along_.push_back((h * h) * to.constants.stiffness + h * to.constants.damping);
+}
+
+void Jacobians::set_constants(const SpringLists& lists, float h) {
+  along_.clear();
+  for (std::size_t n = 0; n < lists.stiffness().size(); ++n)
+    along_.push_back((h * h) * lists.stiffness()[n] + h * lists.damping()[n]);
+}
+
+Jacobians::Jacobians(const Lattice& lattice, float h, bool keep)
+    : kept_(keep), ups_(lattice.directions().size() / 2), row_size_(lattice.plane_size()) {
+  set_constants(lattice, h);
   // Lanes next to a row's ends are read and not used.
   if (keep) values_ = FloatArray(lattice.planes() * ups_ * 4 * row_size_, 2 * lattice.planes() + 2 + slice);
 }
 
 Jacobians::Jacobians(const SpringLists& lists, float h, bool keep) : kept_(keep) {
-  for (std::size_t n = 0; n < lists.stiffness().size(); ++n)
-    along_.push_back((h * h) * lists.stiffness()[n] + h * lists.damping()[n]);
+  set_constants(lists, h);
   const std::size_t slices = (lists.count() + slice - 1) / slice;
   std::size_t slots = 0;
   for (std::size_t n = 0; n < slices; ++n) slots += lists.slots(n).size();

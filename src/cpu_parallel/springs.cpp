@@ -21,8 +21,8 @@ Lattice::Lattice(const Model& model, const Body& body) : first_(body.first_parti
     if (std::ranges::any_of(offset, [&](int steps) { return std::abs(steps) >= n; })) continue;
     offsets.push_back(offset);
     const std::ptrdiff_t step = (std::ptrdiff_t{offset[0]} * n + offset[1]) * n + offset[2];
-    directions_.push_back({step, offset[0],
-                           Constants(model.spring_classes[body.first_class + o.spring_class]),
+    const std::uint32_t spring_class = body.first_class + o.spring_class;
+    directions_.push_back({step, offset[0], Constants(model.spring_classes[spring_class]), spring_class,
                            step > 0 ? -0.0f : 0.0f});
   }
   const std::size_t slices = (plane_size() + slice - 1) / slice;
@@ -38,8 +38,13 @@ Lattice::Lattice(const Model& model, const Body& body) : first_(body.first_parti
   }
 }
 
-SpringLists::SpringLists(const Model& model, const Body& body)
-    : first_(body.first_particle), count_(body.particle_count) {
+void Lattice::set_constants(const Model& model) {
+  for (Direction& direction : directions_)
+    direction.constants = Constants(model.spring_classes[direction.spring_class]);
+}
+
+void SpringLists::set_constants(const Model& model) {
+  for (auto* const each : {&stiffness_, &damping_, &rest_length_, &slack_}) each->clear();
   for (const SpringClass& spring : model.spring_classes) {
     const Constants constants(spring);
     stiffness_.push_back(constants.stiffness);
@@ -47,6 +52,11 @@ SpringLists::SpringLists(const Model& model, const Body& body)
     rest_length_.push_back(constants.rest_length);
     slack_.push_back(constants.slack);
   }
+}
+
+SpringLists::SpringLists(const Model& model, const Body& body)
+    : first_(body.first_particle), count_(body.particle_count) {
+  set_constants(model);
   const std::size_t slices = (count_ + slice - 1) / slice;
   std::vector<std::uint32_t> degree(count_, 0);
   SpringRange of_body = springs_of(model, body.first_particle, body.particle_count);

@@ -27,6 +27,7 @@ struct Direction {
   std::ptrdiff_t step;  ///< to the neighbour's index
   int planes;           ///< to the neighbour's plane
   Constants constants;
+  std::uint32_t spring_class;  ///< of the model
   /// What a spring of no length adds: the lower end gets +0 added, the upper end has +0 taken off, which
   /// changes the sign of a zero or does not.
   float nothing;
@@ -37,6 +38,8 @@ class Lattice {
  public:
   /// The cube that `body` is: its lattice_edge must not be 0.
   Lattice(const Model& model, const Body& body);
+  /// Of another model with the same springs.
+  void set_constants(const Model& model);
 
   std::size_t first() const { return first_; }
   std::size_t planes() const { return n_; }
@@ -67,6 +70,8 @@ class SpringLists {
   };
 
   SpringLists(const Model& model, const Body& body);
+  /// Of another model with the same springs.
+  void set_constants(const Model& model);
 
   std::size_t first() const { return first_; }
   std::size_t count() const { return count_; }

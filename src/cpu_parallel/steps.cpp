@@ -8,7 +8,7 @@
 namespace aspic::parallel {
 
 std::unique_ptr<Steps> make_steps(const StepParts& parts) {
-  switch (row_of(parts.model.simulation.integrator).kind()) {
+  switch (row_of(parts.model->simulation.integrator).kind()) {
     case MethodKind::staged:
       return std::make_unique<ExplicitSteps>(parts);
     case MethodKind::newton:

@@ -18,7 +18,7 @@ using Springs = std::variant<Lattice, SpringLists>;
 
 /// What steps of any kind work with. Everything must outlive them.
 struct StepParts {
-  const Model& model;
+  const SharedModel& model;  ///< may become another of the same topology: constants_changed()
   const reference::Dynamics<float>& dynamics;
   const std::vector<Springs>& springs;  ///< by body
   /// By particle, with room of `slice` behind the last.
@@ -41,6 +41,8 @@ class Steps {
   virtual bool look_at(const Particles& start) = 0;
   /// The next step begins elsewhere than the last one ended.
   virtual void forget() {}
+  /// The model has become another of the same topology, and dynamics, springs and masses are those of it.
+  virtual void constants_changed() { forget(); }
   /// Of the springs' forces.
   virtual Arithmetic arithmetic() const { return Arithmetic::exact; }
   /// Bytes that it holds, itself included.

@@ -32,7 +32,7 @@ template <class T>
 class Balls {
  public:
   explicit Balls(const Model& model)
-      : model_(model),
+      : model_(&model),
         gravity_(rounded<T>(model.simulation.gravity)),
         rules_{ContactConstants<T>(model), static_cast<T>(model.contact.ball_restitution),
                static_cast<T>(model.contact.ball_friction), model.contact.spin},
@@ -50,7 +50,7 @@ class Balls {
     pulls_.clear();
     for (const Pull& pull : inputs.pulls)
       if (pull.ball) pulls_.emplace_back(pull);
-    particle_weight_ = Runs<T>(inverse_mass_under(model_, inputs));
+    particle_weight_ = Runs<T>(inverse_mass_under(*model_, inputs));
   }
 
   /// Bytes it holds on the heap, without contacts.
@@ -63,7 +63,7 @@ class Balls {
   /// to `particles`, their terrain's response included, and are changed by the balls they meet.
   BallPhase<T> step(std::uint64_t step, const BallPhase<T>& start,
                     const ParticleView<const T>& particle_start, const ParticleView<T>& particles) {
-    for (Ground<T>& ground : grounds_) ground.begin_step(model_.simulation.timestep, step);
+    for (Ground<T>& ground : grounds_) ground.begin_step(model_->simulation.timestep, step);
     BallPhase<T> end = fly(step, start);
     find_touches(step, end, particles);
     exchange_among_balls(start, end);
@@ -107,7 +107,7 @@ class Balls {
 
     /// a(x, v) of every ball [m/s²].
     Field<T> acceleration(const Field<T>& x, const Field<T>& v) const {
-      const bool course = balls.model_.contact.model == ContactModel::course;
+      const bool course = balls.model_->contact.model == ContactModel::course;
       Field<T> a(3, x.cols());
       for (Eigen::Index b = 0; b < x.cols(); ++b) {
         const BallBody<T>& ball = balls.bodies_[static_cast<std::size_t>(b)];
@@ -127,17 +127,17 @@ class Balls {
   BallPhase<T> fly(std::uint64_t step, const BallPhase<T>& start) const {
     // The force does not depend on where it is evaluated, and the course model's contact force is held at
     // (x, v).
-    const Integrator integrator = free_flight_row(model_.simulation.integrator).integrator;
+    const Integrator integrator = free_flight_row(model_->simulation.integrator).integrator;
     const Phase<T> flown = explicit_step(integrator, Flight{*this, start}, Phase<T>{start.x, start.v},
-                                         model_.simulation.timestep);
+                                         model_->simulation.timestep);
     BallPhase<T> end = start;
     for (Eigen::Index b = 0; b < start.x.cols(); ++b) {
       const auto ball = static_cast<std::size_t>(b);
-      if (!model_.balls[ball].launched(step)) continue;
+      if (!model_->balls[ball].launched(step)) continue;
       Vector<T> x = flown.x.col(b), v = flown.v.col(b), omega = start.omega.col(b);
       Vector<T> f = constant_force(start, b);
       for (const Ground<T>& ground : grounds_) {
-        if (model_.contact.model == ContactModel::course) {
+        if (model_->contact.model == ContactModel::course) {
           respond_ball_course<T>(ground, rules_, bodies_[ball], x, v, omega);
         } else {
           respond_ball_coulomb<T>(ground, rules_, bodies_[ball], start.x.col(b), start.v.col(b), f, x, v,
@@ -189,7 +189,7 @@ class Balls {
   const BallBody<T>& body(std::uint32_t b) const { return bodies_[b]; }
   static T number(std::uint32_t count) { return static_cast<T>(count); }
 
-  const Model& model_;
+  const Model* model_;
   Vector<T> gravity_;
   BallRules<T> rules_;
   double largest_radius_ = 0.0;
@@ -209,7 +209,7 @@ template <class T>
 void Balls<T>::find_touches(std::uint64_t step, const BallPhase<T>& balls, const ParticleView<T>& particles) {
   present_.clear();
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
-    if (model_.balls[b].launched(step) && balls.x.col(b).allFinite()) present_.push_back(b);
+    if (model_->balls[b].launched(step) && balls.x.col(b).allFinite()) present_.push_back(b);
   }
   const BallSearch<T> search(balls.x, present_,
                              largest_radius_ + static_cast<double>(rules_.contact.epsilon));

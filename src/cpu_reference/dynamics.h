@@ -48,7 +48,7 @@ template <class T>
 class Dynamics {
  public:
   explicit Dynamics(const Model& model)
-      : model_(model),
+      : model_(&model),
         gravity_(rounded<T>(model.simulation.gravity)),
         contact_(model),
         mass_(model.mass),
@@ -59,7 +59,7 @@ class Dynamics {
 
   /// The step from the state of this number begins: moving ground takes its places at both ends of it.
   void begin_step(std::uint64_t step) {
-    for (Ground<T>& ground : grounds_) ground.begin_step(model_.simulation.timestep, step);
+    for (Ground<T>& ground : grounds_) ground.begin_step(model_->simulation.timestep, step);
   }
 
   /// While `*flag` is true forces are left incomplete, for a step that is cancelled; see
@@ -70,7 +70,7 @@ class Dynamics {
   /// f(x, v) [N], one column per particle.
   Field<T> force(const Field<T>& x, const Field<T>& v) const {
     Field<T> f = force_without_contact(x, v);
-    if (model_.contact.model == ContactModel::course) add_contact_force(x, v, f);
+    if (model_->contact.model == ContactModel::course) add_contact_force(x, v, f);
     return f;
   }
 
@@ -78,7 +78,7 @@ class Dynamics {
   /// it.
   Field<T> held_contact_force(const Field<T>& x, const Field<T>& v) const {
     Field<T> held = Field<T>::Zero(3, x.cols());
-    if (model_.contact.model == ContactModel::coulomb) return held;
+    if (model_->contact.model == ContactModel::coulomb) return held;
     Field<T> f = force_without_contact(x, v);
     const Field<T> before = f;
     add_contact_force(x, v, f);
@@ -91,7 +91,7 @@ class Dynamics {
     pulls_.clear();
     for (const Pull& pull : inputs.pulls)
       if (!pull.ball) pulls_.emplace_back(pull);
-    inverse_mass_ = Runs<T>(inverse_mass_under(model_, inputs));
+    inverse_mass_ = Runs<T>(inverse_mass_under(*model_, inputs));
   }
   /// Bytes it holds on the heap.
   std::uint64_t bytes() const {
@@ -122,7 +122,7 @@ class Dynamics {
   /// file order. None in the course model.
   void find_resting(Eigen::Index i, const Vector<T>& x0, const Vector<T>& v0,
                     std::vector<RestingContact<T>>& contacts) const {
-    if (model_.contact.model == ContactModel::course || inverse_mass(i) == T(0)) return;
+    if (model_->contact.model == ContactModel::course || inverse_mass(i) == T(0)) return;
     for (const Ground<T>& ground : grounds_) {
       if (!(distance<T>(ground, ground.start, x0) < contact_.epsilon)) continue;
       const Gap<T> g = gap<T>(ground, ground.start, x0);
@@ -142,7 +142,7 @@ class Dynamics {
   void respond(Eigen::Index i, const Vector<T>& x0, const Vector<T>& v0, Vector<T>& x, Vector<T>& v) const {
     if (inverse_mass(i) == T(0)) return;
     for (const Ground<T>& ground : grounds_) {
-      if (model_.contact.model == ContactModel::coulomb) {
+      if (model_->contact.model == ContactModel::coulomb) {
         respond_coulomb<T>(ground, contact_, mass(i), x0, v0, x, v);
       } else {
         respond_course<T>(ground, contact_.epsilon, mass(i), x, v);
@@ -167,7 +167,7 @@ class Dynamics {
     Field<T> f(3, x.cols());
     for (Eigen::Index i = 0; i < x.cols(); ++i) f.col(i) = mass(i) * gravity_;
     if (interrupted()) return f;
-    for (const Spring& spring : springs_of(model_)) {
+    for (const Spring& spring : springs_of(*model_)) {
       const Vector<T> on_a = spring_force<T>(classes_[spring.spring_class], x.col(spring.a), v.col(spring.a),
                                              x.col(spring.b), v.col(spring.b));
       f.col(spring.a) += on_a;
@@ -186,7 +186,7 @@ class Dynamics {
     }
   }
 
-  const Model& model_;
+  const Model* model_;
   const std::atomic<bool>* flag_ = nullptr;
   Vector<T> gravity_;
   ContactConstants<T> contact_;

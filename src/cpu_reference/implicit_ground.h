@@ -86,7 +86,7 @@ class GroundAhead {
  public:
   /// `grounds` must outlive this. Nothing reacts unless `acts`.
   GroundAhead(const std::vector<Ground<T>>& grounds, const ContactConstants<T>& contact, bool acts)
-      : grounds_(grounds),
+      : grounds_(&grounds),
         h_(contact.step),
         same_surface_(static_cast<T>(same_surface_share) * contact.epsilon),
         acts_(acts && !grounds.empty()) {}
@@ -98,7 +98,7 @@ class GroundAhead {
     gaps_.clear();
     if (!acts_) return;
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-      for (const Ground<T>& ground : grounds_) gaps_.push_back(gap<T>(ground, ground.start, x.col(i)));
+      for (const Ground<T>& ground : *grounds_) gaps_.push_back(gap<T>(ground, ground.start, x.col(i)));
     }
   }
 
@@ -108,20 +108,20 @@ class GroundAhead {
   /// round checks whether a later terrain has pushed the particle through an earlier one. Of terrains that
   /// are one surface to the particle, the one that outranks the others holds it.
   GroundReaction<T> react(Eigen::Index i, T m, const Vector<T>& v) const {
-    return react_to(&gaps_[static_cast<std::size_t>(i) * grounds_.size()], m, v);
+    return react_to(&gaps_[static_cast<std::size_t>(i) * grounds_->size()], m, v);
   }
 
   /// The same of a particle with the `gaps` to every terrain at the step's start.
   GroundReaction<T> react_to(const Gap<T>* gaps, T m, const Vector<T>& v) const {
     GroundReaction<T> reaction(v);
     for (int round = 0; round < 2; ++round) {
-      for (std::size_t t = 0; t < grounds_.size(); ++t) {
+      for (std::size_t t = 0; t < grounds_->size(); ++t) {
         if (reaction.holds(t)) continue;
         const std::size_t twin = twin_of(gaps, t, reaction);
         const bool joins = twin == none ? crosses(gaps, t, reaction) : outranks(t, twin);
         if (joins) reaction = joined(gaps, m, v, reaction, t, twin);
       }
-      if (reaction.count == 0 || grounds_.size() == 1) break;
+      if (reaction.count == 0 || grounds_->size() == 1) break;
     }
     return reaction;
   }
@@ -134,7 +134,7 @@ class GroundAhead {
 
   /// The same against terrain t, which may move.
   T least_speed(const Gap<T>* gaps, std::size_t t) const {
-    const GroundPose<T>& pose = grounds_[t].end;
+    const GroundPose<T>& pose = (*grounds_)[t].end;
     const T c = least_speed(gaps[t]);
     return pose.moves ? c + dot3<T>(pose.velocity, gaps[t].n) : c;
   }
@@ -143,7 +143,7 @@ class GroundAhead {
   /// slip that the friction of each can take.
   T speed_along(const Vector<T>& axis, std::size_t a, std::size_t b, T loss_a, T loss_b) const {
     const auto speed = [&](std::size_t t) {
-      const GroundPose<T>& pose = grounds_[t].end;
+      const GroundPose<T>& pose = (*grounds_)[t].end;
       return pose.moves ? dot3<T>(pose.velocity, axis) : T(0);
     };
     const T loss = loss_a + loss_b;
@@ -171,8 +171,8 @@ class GroundAhead {
   /// Which of two terrains that are one surface holds a particle: the one with more friction, then the lower
   /// index.
   bool outranks(std::size_t t, std::size_t s) const {
-    return grounds_[t].friction > grounds_[s].friction ||
-           (grounds_[t].friction == grounds_[s].friction && t < s);
+    return (*grounds_)[t].friction > (*grounds_)[s].friction ||
+           ((*grounds_)[t].friction == (*grounds_)[s].friction && t < s);
   }
 
   /// Terrain t joins those that hold the particle so far, and takes the place of `twin` among them.
@@ -205,11 +205,11 @@ class GroundAhead {
   /// Coulomb's law on one surface: P(v) = keep·v_t + c·n.
   bool on_one(const Gap<T>* gaps, T m, const Vector<T>& v, GroundReaction<T>& out) const {
     const Gap<T>& at = gaps[out.held[0]];
-    const GroundPose<T>& pose = grounds_[out.held[0]].end;
+    const GroundPose<T>& pose = (*grounds_)[out.held[0]].end;
     const Vector<T> v_r = pose.relative(v);
     const T u = dot3<T>(v_r, at.n), c = least_speed(at);
     const Vector<T> v_t = v_r - u * at.n;
-    const T slip = norm3<T>(v_t), keep = slip_kept<T>(slip, grounds_[out.held[0]].friction * (c - u));
+    const T slip = norm3<T>(v_t), keep = slip_kept<T>(slip, (*grounds_)[out.held[0]].friction * (c - u));
     out.v = c * at.n;
     out.freedom = Freedom::none;
     if (keep > T(0)) {
@@ -236,10 +236,10 @@ class GroundAhead {
     const T short_a = c_a - dot3<T>(v, a.n), short_b = c_b - dot3<T>(v, b.n);
     const T push_a = (short_a - cosine * short_b) / sine2, push_b = (short_b - cosine * short_a) / sine2;
     if (!last && (push_a < T(0) || push_b < T(0))) return false;
-    const T loss_a = grounds_[i].friction * (push_a > T(0) ? push_a : T(0));
-    const T loss_b = grounds_[j].friction * (push_b > T(0) ? push_b : T(0));
+    const T loss_a = (*grounds_)[i].friction * (push_a > T(0) ? push_a : T(0));
+    const T loss_b = (*grounds_)[j].friction * (push_b > T(0) ? push_b : T(0));
     out.axis = (T(1) / std::sqrt(sine2)) * line;
-    const bool moves = grounds_[i].end.moves || grounds_[j].end.moves;
+    const bool moves = (*grounds_)[i].end.moves || (*grounds_)[j].end.moves;
     const T still = moves ? speed_along(out.axis, i, j, loss_a, loss_b) : T(0);
     const T speed = dot3<T>(v, out.axis), slip = moves ? speed - still : speed;
     const T keep = slip_kept<T>(std::abs(slip), loss_a + loss_b);
@@ -266,7 +266,7 @@ class GroundAhead {
     return true;
   }
 
-  const std::vector<Ground<T>>& grounds_;
+  const std::vector<Ground<T>>* grounds_;
   std::vector<Gap<T>> gaps_;  ///< at the step's start, every terrain of every particle
   T h_;
   T same_surface_;  ///< distance [m] up to which parallel surfaces are one

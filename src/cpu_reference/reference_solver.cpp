@@ -37,14 +37,10 @@ template <class T>
 class ReferenceSolver final : public Solver {
  public:
   ReferenceSolver(const KindRow<T>& kind, SharedModel model)
-      : held_(std::move(model)),
-        model_(*held_),
-        kind_(kind),
-        reports_solves_(row_of(model_.simulation.integrator).traits.reports_solves),
-        dynamics_(model_),
-        method_(kind.make(dynamics_, model_)),
-        balls_(model_) {
-    set(initial_state(model_, precision()));
+      : kind_(kind),
+        reports_solves_(row_of(model->simulation.integrator).traits.reports_solves),
+        parts_(std::make_unique<Parts>(kind, std::move(model))) {
+    set(initial_state(this->model(), precision()));
   }
 
   std::string_view backend() const override { return "reference"; }
@@ -53,38 +49,38 @@ class ReferenceSolver final : public Solver {
                        EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, name_of(precision()));
   }
   Precision precision() const override { return sizeof(T) == 4 ? Precision::single : Precision::double_; }
-  const Model& model() const override { return model_; }
-  std::uint64_t bytes() const override { return bytes_of(kind_, model_); }
+  const Model& model() const override { return *parts_->model; }
+  std::uint64_t bytes() const override { return bytes_of(kind_, model()); }
 
   Status load(const State& state) override {
-    if (const Status fits = check_sizes(model_, state); !fits) return fits;
+    if (const Status fits = check_sizes(model(), state); !fits) return fits;
     set(state);
     return {};
   }
 
   void set_stop_flag(const std::atomic<bool>* flag) override {
     Solver::set_stop_flag(flag);
-    dynamics_.set_stop_flag(flag);
+    parts_->dynamics.set_stop_flag(flag);
   }
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     for (std::uint64_t n = 0; n < steps && !divergence_ && !interrupted(); ++n) {
       SolveReport report;
       const Field<T> before = hold_pins();
-      dynamics_.begin_step(step_);
-      Phase<T> next = method_->step(phase_, report);
-      method_->respond(phase_, next);
+      parts_->dynamics.begin_step(step_);
+      Phase<T> next = parts_->method->step(phase_, report);
+      parts_->method->respond(phase_, next);
       if (interrupted()) {  // the step is dropped
         if (before.cols() > 0) phase_.v = before;
         pins_held_ = before.cols() == 0;
         break;
       }
       BallPhase<T> next_balls;
-      if (model_.ball_count() > 0) {
-        next_balls = balls_.step(step_, ball_phase_, view_of(std::as_const(phase_)), view_of(next));
+      if (model().ball_count() > 0) {
+        next_balls = parts_->balls.step(step_, ball_phase_, view_of(std::as_const(phase_)), view_of(next));
       }
       divergence_ = find_divergence<T>(
-          model_, [&](Eigen::Index i) { return Vector<T>(next.x.col(i)); },
+          model(), [&](Eigen::Index i) { return Vector<T>(next.x.col(i)); },
           [&](Eigen::Index i) { return Vector<T>(next.v.col(i)); }, next_balls, step_ + 1);
       if (!divergence_ && !std::isfinite(report.residual))
         divergence_ = Divergence{step_ + 1, 0, false, false, true};
@@ -116,10 +112,17 @@ class ReferenceSolver final : public Solver {
 
  private:
   Status take_inputs(const Inputs& inputs) override {
-    dynamics_.set_inputs(inputs);
-    balls_.set_inputs(inputs);
+    parts_->dynamics.set_inputs(inputs);
+    parts_->balls.set_inputs(inputs);
     pins_held_ = false;
     return {};
+  }
+
+  Status take_constants(SharedModel model) override {
+    parts_ = std::make_unique<Parts>(kind_, std::move(model));
+    parts_->dynamics.set_stop_flag(stop_flag());
+    divergence_.reset();
+    return take_inputs(inputs());
   }
 
   /// Particles that inputs pin stop where a step begins. Returns the velocities before; nothing if none
@@ -141,14 +144,21 @@ class ReferenceSolver final : public Solver {
     statistics_ = {};
   }
 
-  const SharedModel held_;
-  const Model& model_;
+  /// All that knows the model.
+  struct Parts {
+    SharedModel model;
+    Dynamics<T> dynamics;
+    std::unique_ptr<Method<T>> method;
+    Balls<T> balls;
+
+    Parts(const KindRow<T>& kind, SharedModel held)
+        : model(std::move(held)), dynamics(*model), method(kind.make(dynamics, *model)), balls(*model) {}
+  };
+
   const KindRow<T> kind_;
   const bool reports_solves_;
-  Dynamics<T> dynamics_;
-  const std::unique_ptr<Method<T>> method_;
+  std::unique_ptr<Parts> parts_;
   SolveStatistics statistics_;
-  Balls<T> balls_;
   Phase<T> phase_;
   BallPhase<T> ball_phase_;
   bool pins_held_ = false;  // as inputs() say

@@ -52,6 +52,8 @@ class BallPasses {
 
   bool any() const { return count_ > 0; }
 
+  /// Another model, with as many balls and particles; its balls come with load().
+  void set_model(const Model& model) { model_ = &model; }
   /// Writes the balls of a state into slot 0; launch steps count from the state's step.
   void load(const State& state);
   /// Writes the launch steps again, counted from `base_step`.

@@ -18,25 +18,26 @@ using gl::Buffer;
 Status DeviceSolver::build(const GpuOptions& options) {
   const std::uint64_t held_before = context_.bytes_held();
   ASPIC_CHECK(build_shared(options));
-  ASPIC_TRY(KernelOptions kernels, kernel_options(context_, model_, options, group_size(options)));
+  ASPIC_TRY(KernelOptions kernels, kernel_options(context_, *model_, options, group_size(options)));
   if (takes_lattices()) {
     kernels.defines.push_back({"ASPIC_LATTICES", "1"});
-    if (lattice_particles(model_) < model_.particle_count()) kernels.defines.push_back({"ASPIC_LISTED", "1"});
+    if (lattice_particles(*model_) < model_->particle_count())
+      kernels.defines.push_back({"ASPIC_LISTED", "1"});
   }
   arithmetic_ = kernels.arithmetic;
   ASPIC_CHECK(build_passes(kernels, options));
   bytes_ = context_.bytes_held() - held_before;
   if (springs_.use_count() > 1) bytes_ += springs_->bytes();  // held before, by the solver it shares with
-  ASPIC_CHECK(take(initial_state(model_, Precision::single)));
+  ASPIC_CHECK(take(initial_state(*model_, Precision::single)));
   return context_.check(ErrorCode::scene_rejected);
 }
 
 Status DeviceSolver::build_shared(const GpuOptions& options) {
-  ASPIC_TRY(const layout::Simulation block, simulation_block(model_));
-  const std::uint64_t state_bytes = std::uint64_t{model_.particle_count()} * sizeof(layout::Particle);
+  ASPIC_TRY(const layout::Simulation block, simulation_block(*model_));
+  const std::uint64_t state_bytes = std::uint64_t{model_->particle_count()} * sizeof(layout::Particle);
   for (Buffer& state : states_) {
     // Balls may meet any particle, so their passes see complete states.
-    if (model_.ball_count() > 0) {
+    if (model_->ball_count() > 0) {
       ASPIC_TRY(state, Buffer::create(context_, "particle state", state_bytes));
     } else {
       ASPIC_TRY(state, sliced("particle state", state_bytes));
@@ -45,14 +46,14 @@ Status DeviceSolver::build_shared(const GpuOptions& options) {
   ASPIC_TRY(simulation_,
             Buffer::of(context_, "simulation constants", std::span(&block, 1), gl::BufferKind::uniform));
   ASPIC_CHECK(pulls_.build(context_));
-  ASPIC_CHECK(poses_.build(context_, model_));
+  ASPIC_CHECK(poses_.build(context_, *model_));
   if (const GpuSolver* other = options.share_springs_of) {
     const auto& theirs = other->spring_buffers();
-    if (theirs->context == &context_ && theirs->kind == path_.words && same_springs(other->model(), model_))
+    if (theirs->context == &context_ && theirs->kind == path_.words && same_springs(other->model(), *model_))
       springs_ = theirs;
   }
   if (!springs_) {
-    ASPIC_TRY(springs_, make_spring_buffers(context_, model_, path_.words, gl::BufferKind::sliced));
+    ASPIC_TRY(springs_, make_spring_buffers(context_, *model_, path_.words, gl::BufferKind::sliced));
   }
   largest_sliced_ = std::max({largest_sliced_, springs_->incident.bytes(), springs_->springs.bytes()});
   return {};
@@ -64,13 +65,13 @@ std::string DeviceSolver::description() const {
 }
 
 DeviceState DeviceSolver::device_state() const {
-  return {&states_[current_], &balls_.buffer(), ball_slot_ * model_.ball_count(), base_step_ + steps_since_,
+  return {&states_[current_], &balls_.buffer(), ball_slot_ * model_->ball_count(), base_step_ + steps_since_,
           springs_.get()};
 }
 
 Status DeviceSolver::take(const State& state) {
-  ASPIC_CHECK(check_sizes(model_, state));
-  const std::vector<layout::Particle> particles = packed_particles(model_, state);
+  ASPIC_CHECK(check_sizes(*model_, state));
+  const std::vector<layout::Particle> particles = packed_particles(*model_, state);
   states_[0].upload_items(particles);
   balls_.load(state);
   current_ = 0;
@@ -106,10 +107,32 @@ Status DeviceSolver::take_inputs(const Inputs& taken) {
   if (taken.pulls != inputs().pulls) {
     // Steps that found no room, or take more rounds than were queued, are repeated with the pulls they had.
     if (repeats_steps()) ASPIC_CHECK(settle());
-    pulls_.set(model_, taken.pulls);
+    pulls_.set(*model_, taken.pulls);
   }
   pins_held_ = false;
   return {};
+}
+
+Status DeviceSolver::take_constants(SharedModel next) {
+  const gl::Current here(context_);
+  ASPIC_CHECK(here.status());
+  ASPIC_TRY(const layout::Simulation block, simulation_block(*next));
+  ASPIC_CHECK(settle());
+  const auto alike = [](const Ball& a, const Ball& b) {
+    return a.radius == b.radius && a.mass == b.mass && a.launch_step == b.launch_step;
+  };
+  // A state holds masses and the balls' constants too.
+  const bool same_state = !divergence_ && model_->mass == next->mass &&
+                          model_->inverse_mass == next->inverse_mass &&
+                          std::ranges::equal(model_->balls, next->balls, alike);
+  std::optional<State> state;
+  if (!same_state) state = read();
+  model_ = std::move(next);
+  simulation_.upload_items(std::span(&block, 1));
+  poses_.set_model(*model_);
+  balls_.set_model(*model_);
+  if (state) ASPIC_CHECK(take(*state));
+  return context_.check();
 }
 
 /// Gives particles the weights of the inputs' pins; those that are pinned stop. The next step begins with it.
@@ -126,9 +149,9 @@ Status DeviceSolver::hold_pins() {
     const auto weight = static_cast<float>(w);
     states_[current_].upload_items(std::span(&weight, 1), i * floats + weight_at);
   };
-  for (const std::uint32_t i : held_.pinned) weigh(i, model_.inverse_mass[i]);
-  for (const std::uint32_t i : held_.released) weigh(i, model_.inverse_mass[i]);
-  for (const std::uint32_t i : inputs().released) weigh(i, 1.0 / model_.mass[i]);
+  for (const std::uint32_t i : held_.pinned) weigh(i, model_->inverse_mass[i]);
+  for (const std::uint32_t i : held_.released) weigh(i, model_->inverse_mass[i]);
+  for (const std::uint32_t i : inputs().released) weigh(i, 1.0 / model_->mass[i]);
   constexpr std::array<float, 4> stopped = {};
   for (const std::uint32_t i : inputs().pinned)
     states_[current_].upload_items(stopped, i * floats + weight_at);
@@ -141,12 +164,18 @@ Result<State> DeviceSolver::state() {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
   ASPIC_CHECK(settle());
+  State state = read();
+  ASPIC_CHECK(context_.check());
+  return state;
+}
+
+/// The state of the last good step, which settle() has seen.
+State DeviceSolver::read() const {
   State state;
   state.precision = Precision::single;
   state.step = base_step_ + steps_since_;
-  unpack(states_[current_].download_items<layout::Particle>(model_.particle_count()), state);
+  unpack(states_[current_].download_items<layout::Particle>(model_->particle_count()), state);
   balls_.read(state, ball_slot_);
-  ASPIC_CHECK(context_.check());
   return state;
 }
 
@@ -185,7 +214,7 @@ void DeviceSolver::keep_counting() {
 Divergence DeviceSolver::divergence_from(std::uint32_t word, std::uint64_t steps) const {
   const std::uint64_t step = base_step_ + steps + 1;
   if (word == BAD_RESIDUAL) return {step, 0, false, false, true};
-  const std::uint32_t index = word >> 1, particles = model_.particle_count();
+  const std::uint32_t index = word >> 1, particles = model_->particle_count();
   const bool ball = index >= particles;
   return {step, ball ? index - particles : index, (word & 1u) != 0, ball};
 }

@@ -30,7 +30,7 @@ class DeviceSolver : public GpuSolver {
   std::string_view backend() const final { return "gpu"; }
   std::string description() const final;
   Precision precision() const final { return Precision::single; }
-  const Model& model() const final { return model_; }
+  const Model& model() const final { return *model_; }
   std::uint64_t bytes() const final { return bytes_ + balls_.grown_bytes(); }
   DeviceState device_state() const final;
   gl::Context& context() const final { return context_; }
@@ -49,9 +49,8 @@ class DeviceSolver : public GpuSolver {
   DeviceSolver(gl::Context& context, SharedModel model, const ForcePathRow& path, std::size_t states,
                std::vector<std::string> pass_names)
       : held_context_(context.weak_from_this().lock()),
-        held_model_(std::move(model)),
         context_(context),
-        model_(*held_model_),
+        model_(std::move(model)),
         path_(path),
         states_(states),
         pass_names_(std::move(pass_names)) {}
@@ -64,7 +63,7 @@ class DeviceSolver : public GpuSolver {
   virtual void restart() = 0;
 
   /// Whether the path has cubes to itself here.
-  bool takes_lattices() const { return !path_.lattice_kernel.empty() && has_lattices(model_); }
+  bool takes_lattices() const { return !path_.lattice_kernel.empty() && has_lattices(*model_); }
   gl::Binding lattices() const { return {BINDING_LATTICES, &springs_->lattices, gl::BufferKind::uniform}; }
   gl::Binding constants() const { return {BINDING_SIMULATION, &simulation_, gl::BufferKind::uniform}; }
   /// A program and the pass that runs it.
@@ -97,9 +96,8 @@ class DeviceSolver : public GpuSolver {
 
   // Destroyed last. Null: the caller keeps the context alive.
   const std::shared_ptr<gl::Context> held_context_;
-  const SharedModel held_model_;
   gl::Context& context_;
-  const Model& model_;
+  SharedModel model_;
   const ForcePathRow& path_;
   std::vector<gl::Buffer> states_;
   std::size_t current_ = 0;      // the state's buffer
@@ -120,6 +118,8 @@ class DeviceSolver : public GpuSolver {
   Status build_shared(const GpuOptions& options);
   Status take(const State& state);
   Status take_inputs(const Inputs& inputs) final;
+  Status take_constants(SharedModel model) final;
+  State read() const;
   Status hold_pins();
 
   std::vector<std::string> pass_names_;

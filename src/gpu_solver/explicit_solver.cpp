@@ -37,7 +37,7 @@ class ExplicitSolver final : public DeviceSolver {
       : DeviceSolver(context, std::move(model), path, 3,
                      {std::string(path.spring_title), std::string(path.lattice_title),
                       std::string(path.particle_title)}),
-        method_(*free_flight_row(model_.simulation.integrator).staged()) {}
+        method_(*free_flight_row(model_->simulation.integrator).staged()) {}
 
   void set_late(bool on) override { late_ = on; }
 
@@ -85,7 +85,7 @@ Status ExplicitSolver::build_lattice_pass(KernelOptions kernels, std::uint32_t r
     return path_.tiles ? tiles_in(body).all() * tile_particles : (body.particle_count - 1) / run + 1;
   };
   std::uint32_t all = 0;
-  for (const Body& body : model_.bodies)
+  for (const Body& body : model_->bodies)
     if (body.lattice_edge > 0) all += items(body);
   kernels.defines.push_back({"ASPIC_LATTICE_RUN", std::to_string(run)});
   if (path_.tiles)
@@ -94,7 +94,7 @@ Status ExplicitSolver::build_lattice_pass(KernelOptions kernels, std::uint32_t r
   ASPIC_TRY(lattice_pass_,
             sliced_pass(std::move(kernels), path_.lattice_kernel, bindings, all,
                         {.particle = sizeof(layout::Particle)},
-                        path_.tiles ? seen_by_lattice_tiles(model_) : seen_by_lattice_runs(model_, run)));
+                        path_.tiles ? seen_by_lattice_tiles(*model_) : seen_by_lattice_runs(*model_, run)));
   return {};
 }
 
@@ -114,9 +114,9 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
                                    {BINDING_INCIDENT_START, &springs_->incident_start},
                                    lattices()};
   if (!path_.spring_kernel.empty()) {
-    ASPIC_TRY(forces_, sliced("spring forces", spring_count(model_) * sizeof(layout::vec4)));
+    ASPIC_TRY(forces_, sliced("spring forces", spring_count(*model_) * sizeof(layout::vec4)));
     ASPIC_TRY(spring_pass_, sliced_pass(stage_kernels, path_.spring_kernel, {constants(), control},
-                                        static_cast<std::uint32_t>(spring_count(model_)),
+                                        static_cast<std::uint32_t>(spring_count(*model_)),
                                         {.item = sizeof(layout::vec4), .particle = sizeof(layout::Particle)},
                                         seen_by_springs(*springs_)));
   }
@@ -127,15 +127,16 @@ Status ExplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
   if (takes_lattices()) {
     ASPIC_CHECK(build_lattice_pass(stage_kernels, path_.tiles ? 1 : run, bindings));
   }
-  const std::uint32_t listed = model_.particle_count() - (takes_lattices() ? lattice_particles(model_) : 0u);
+  const std::uint32_t listed =
+      model_->particle_count() - (takes_lattices() ? lattice_particles(*model_) : 0u);
   if (listed > 0 || !lattice_pass_) {
     ASPIC_TRY(particle_pass_, sliced_pass(stage_kernels, path_.particle_kernel, std::move(bindings), listed,
                                           {.particle = sizeof(layout::Particle),
                                            .word = sizeof(std::uint32_t),
                                            .spring = sizeof(layout::vec4)},
-                                          seen_by_listed(model_, *springs_)));
+                                          seen_by_listed(*model_, *springs_)));
   }
-  return balls_.build(context_, model_, kernels,
+  return balls_.build(context_, *model_, kernels,
                       {&simulation_, &control_, false, poses_.binding(), pulls_.binding()},
                       options.ball_search);
 }
@@ -249,7 +250,7 @@ Result<std::uint64_t> ExplicitSolver::take_look() {
   // makes no difference.
   const std::uint32_t least = passes_before_ + (good + (full || bad ? 1u : 0u)) * passes_per_step();
   if (good > queue.count || control.passes - least > (1u << 31)) {
-    unusable_ = idle_device(context_, model_, least);
+    unusable_ = idle_device(context_, *model_, least);
     return *unusable_;
   }
   passes_before_ = least;
@@ -278,9 +279,9 @@ void ExplicitSolver::forget_queues() {
 std::uint32_t ExplicitSolver::passes_per_step() const {
   const auto stages = static_cast<std::uint32_t>(method_.stages.size());
   const auto counted = [](std::uint32_t items) { return items > 0 ? COUNTED_OF(items) : 0u; };
-  return stages * counted(model_.particle_count()) +
-         (spring_pass_ ? stages * counted(static_cast<std::uint32_t>(spring_count(model_))) : 0u) +
-         counted(model_.ball_count());
+  return stages * counted(model_->particle_count()) +
+         (spring_pass_ ? stages * counted(static_cast<std::uint32_t>(spring_count(*model_))) : 0u) +
+         counted(model_->ball_count());
 }
 
 Result<std::unique_ptr<GpuSolver>> make_explicit_solver(gl::Context& context, SharedModel model,

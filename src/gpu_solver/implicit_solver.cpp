@@ -93,7 +93,7 @@ class ImplicitSolver final : public DeviceSolver {
 };
 
 Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptions& options) {
-  const std::uint64_t particles = model_.particle_count(), vectors = particles * sizeof(layout::vec4);
+  const std::uint64_t particles = model_->particle_count(), vectors = particles * sizeof(layout::vec4);
   ASPIC_TRY(trial_, sliced("trial velocities", vectors));
   ASPIC_TRY(own_, sliced("solver vectors", OWN_VECTORS * vectors));
   // In windows, the other data that neighbours need goes with it (shaders/compute/implicit.glsl).
@@ -113,12 +113,12 @@ Status ImplicitSolver::build_passes(const KernelOptions& kernels, const GpuOptio
              {BINDING_INCIDENT, &springs_->incident, Over::words, sizeof(std::uint32_t)},
              {BINDING_OWN, &own_, Over::items, own}};
   for (const KernelRow& row : implicit_kernels) {
-    ASPIC_TRY(auto made, sliced_pass(kernels, row.path, bindings, model_.particle_count(),
+    ASPIC_TRY(auto made, sliced_pass(kernels, row.path, bindings, model_->particle_count(),
                                      {.item = own, .particle = particle, .word = sizeof(std::uint32_t)},
-                                     seen_by_particles(model_, *springs_)));
+                                     seen_by_particles(*model_, *springs_)));
     passes_.push_back(std::move(made));
   }
-  return balls_.build(context_, model_, kernels,
+  return balls_.build(context_, *model_, kernels,
                       {&simulation_, &solve_buffer_, true, poses_.binding(), pulls_.binding()},
                       options.ball_search);
 }
@@ -141,7 +141,7 @@ void ImplicitSolver::forget_queues() {
 }
 
 std::uint64_t ImplicitSolver::most_rounds() const {
-  const ImplicitSettings& implicit = model_.simulation.implicit;
+  const ImplicitSettings& implicit = model_->simulation.implicit;
   const auto iterations = static_cast<std::uint64_t>(implicit.newton_iterations),
              rounds = static_cast<std::uint64_t>(implicit.cg_iterations) + max_halvings + 3;
   return (iterations + 1) * rounds;
@@ -220,7 +220,7 @@ Result<std::uint32_t> ImplicitSolver::work_on(std::uint64_t steps, bool must) {
     ASPIC_CHECK(take_look());
   } else if (queues_.empty() && is_behind()) {
     if (queued_rounds_ > most_rounds()) {
-      unusable_ = idle_device(context_, model_, queued_rounds_ * kernel_count);
+      unusable_ = idle_device(context_, *model_, queued_rounds_ * kernel_count);
       return *unusable_;
     }
     queue_more();
@@ -294,7 +294,7 @@ Status ImplicitSolver::take_look() {
   // A lost device answers with anything, also with a parity that names no state.
   ASPIC_CHECK(context_.check());
   if (read.overrun == ITEMS_MISSING) {
-    unusable_ = idle_device(context_, model_, queued_rounds_);
+    unusable_ = idle_device(context_, *model_, queued_rounds_);
     return *unusable_;
   }
   ASPIC_CHECK(check_overrun(read.overrun));

@@ -49,12 +49,18 @@ void PullBuffer::set(const Model& model, std::span<const Pull> pulls) {
 }
 
 Status PoseBuffer::build(gl::Context& context, const Model& model) {
-  timestep_ = model.simulation.timestep;
-  for (const Terrain& terrain : model.terrain)
-    if (terrain.motion) moving_.push_back(*terrain.motion);
+  set_model(model);
   ASPIC_TRY(buffer_, gl::Buffer::create(context, "terrain poses", !moving_.empty() ? sizeof(PoseTable) : 0,
                                         gl::BufferKind::uniform));
   return {};
+}
+
+void PoseBuffer::set_model(const Model& model) {
+  timestep_ = model.simulation.timestep;
+  moving_.clear();
+  for (const Terrain& terrain : model.terrain)
+    if (terrain.motion) moving_.push_back(*terrain.motion);
+  rows_ = 0;
 }
 
 void PoseBuffer::set_base_step(std::uint64_t base_step) {

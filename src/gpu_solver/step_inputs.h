@@ -37,6 +37,8 @@ class PoseBuffer {
   Status build(gl::Context& context, const Model& model);
   gl::Binding binding() const { return {BINDING_POSES, &buffer_, gl::BufferKind::uniform}; }
 
+  /// Another model, with as many terrains that move.
+  void set_model(const Model& model);
   /// The kernels count steps from the state of this number.
   void set_base_step(std::uint64_t base_step);
 

@@ -92,9 +92,13 @@ Status add_cube(Model& model, const CubeSettings& cube) {
   model.initial_position.append(
       LatticePlaces{n, s, cube.edge_length / 2.0, cube.position, {cube.rotation.axis, cube.rotation.angle}});
   model.mass.push_back(mass, pinned.size());
-  for (const bool held : pinned) {
-    model.initial_velocity.push_back(held ? Vec3{} : cube.velocity);
-    model.inverse_mass.push_back(held ? 0.0 : 1.0 / mass);
+  for (std::size_t first = 0; first < pinned.size();) {
+    const bool held = pinned[first];
+    const auto from = pinned.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto count = static_cast<std::size_t>(std::find(from, pinned.end(), !held) - from);
+    model.initial_velocity.push_back(held ? Vec3{} : cube.velocity, count);
+    model.inverse_mass.push_back(held ? 0.0 : 1.0 / mass, count);
+    first += count;
   }
   model.bodies.push_back(std::move(body));
   return {};

@@ -114,6 +114,47 @@ Status check_sizes(const Model& model, const State& state) {
   return {};
 }
 
+Status check_same_topology(const Model& from, const Model& to) {
+  const auto like = [](const Body& a, const Body& b) {
+    return a.first_particle == b.first_particle && a.particle_count == b.particle_count &&
+           a.first_class == b.first_class && a.class_count == b.class_count &&
+           a.lattice_edge == b.lattice_edge;
+  };
+  const auto of_a_kind = [](const Terrain& a, const Terrain& b) {
+    return a.shape == b.shape && a.motion.has_value() == b.motion.has_value();
+  };
+  const char* differs = nullptr;
+  if (from.particle_count() != to.particle_count() || !std::ranges::equal(from.bodies, to.bodies, like))
+    differs = "bodies";
+  else if (from.ball_count() != to.ball_count())
+    differs = "number of balls";
+  else if (from.spring_classes.size() != to.spring_classes.size() || from.listed_springs != to.listed_springs)
+    differs = "springs";
+  else if (!std::ranges::equal(from.terrain, to.terrain, of_a_kind))
+    differs = "kinds of terrain";
+  else if (from.contact.model != to.contact.model)
+    differs = "contact model";
+  else if (from.simulation.integrator != to.simulation.integrator)
+    differs = "integrator";
+  if (!differs) return {};
+  return fail(ErrorCode::usage, "the {} of the two models differ: make a new solver", differs);
+}
+
+bool same_pins(const Model& a, const Model& b) {
+  const auto bounds = [](const Model& model) {  // where pinned particles begin and end
+    std::vector<std::size_t> ends;
+    bool pinned = false;
+    std::size_t first = 0;
+    for (const auto& [end, weight] : model.inverse_mass.runs()) {
+      if ((weight == 0.0) != pinned) ends.push_back(first);
+      pinned = weight == 0.0;
+      first = end;
+    }
+    return ends;
+  };
+  return bounds(a) == bounds(b);
+}
+
 ModelCounts count(const Model& model) {
   ModelCounts counts;
   counts.particles = model.particle_count();

@@ -136,4 +136,7 @@ inline constexpr std::uint64_t most_indices = 0x7fffffff;
 /// aspic/scene.h that checks ranges, of a scene changed by code through with_overrides().
 Result<Model> build_model(const ModelSettings& settings);
 
+/// Whether the models, of as many particles, pin the same ones.
+bool same_pins(const Model& a, const Model& b);
+
 }  // namespace aspic

@@ -51,6 +51,7 @@ class Runs {
   struct Run {
     std::size_t end;  ///< index after the last of them
     T value;
+    friend bool operator==(const Run&, const Run&) = default;
   };
 
   Runs() = default;
@@ -100,6 +101,8 @@ class Runs {
     *this = std::move(changed);
   }
 
+  /// Whether both have the same values.
+  friend bool operator==(const Runs&, const Runs&) = default;
   /// Bytes it holds on the heap.
   std::uint64_t bytes() const { return runs_.capacity() * sizeof(Run); }
 

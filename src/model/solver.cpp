@@ -29,6 +29,12 @@ Status Solver::set_inputs(const Inputs& inputs) {
   return {};
 }
 
+Status Solver::set_constants(SharedModel next) {
+  ASPIC_CHECK(check_same_topology(model(), *next));
+  if (const auto taken = rounded_inputs(*next, inputs_, precision()); !taken) return taken.error();
+  return take_constants(std::move(next));
+}
+
 std::string_view name_of(Arithmetic arithmetic) {
   return arithmetic == Arithmetic::exact ? "exact" : "fast";
 }

@@ -36,6 +36,13 @@ Status Engines::set_pull(const std::optional<Pull>& pull) {
   return shadowed() ? shadow_.solver->set_inputs(inputs_of(pull)) : Status();
 }
 
+Status Engines::set_constants(SharedModel model) {
+  ASPIC_CHECK(leader_.solver->set_constants(model));
+  if (shadowed()) ASPIC_CHECK(shadow_.solver->set_constants(model));
+  model_ = std::move(model);
+  return {};
+}
+
 EnergySample Engines::measured(const State& state) const {
   return {static_cast<double>(state.step) * model_->simulation.timestep, measure(*model_, state), state.step};
 }

@@ -82,6 +82,8 @@ class Engines {
   EnergySample measured(const State& state) const;
   Status load(const State& state);
   Status set_pull(const std::optional<Pull>& pull);
+  /// Both go over to another model of the same topology. Errors: those of Solver::set_constants().
+  Status set_constants(SharedModel model);
 
   /// For a worker: advances the solvers that do without the context, until `cancelled` at most, which drops
   /// the step in progress. The first of them sets the pace.

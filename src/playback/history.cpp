@@ -12,9 +12,13 @@ void History::clear() {
   stretches_.clear();
 }
 
-void History::begin(const Setup& setup, const State& state) {
-  if (!empty() && last().first == last().last && last().keyframes.count() == 1) stretches_.pop_back();
-  stretches_.push_back({setup, state.step, state.step, {}, {}});
+void History::begin(const Setup& setup, const State& state, bool same) {
+  Keyframes kept;
+  if (!empty() && last().first == last().last && last().keyframes.count() == 1) {
+    if (same && last().first == state.step) kept = std::move(last().keyframes);
+    stretches_.pop_back();
+  }
+  stretches_.push_back({setup, state.step, state.step, std::move(kept), {}});
   add_keyframe(state);
 }
 

@@ -40,8 +40,9 @@ class History {
   void clear();
   bool empty() const { return stretches_.empty(); }
 
-  /// The run continues from this state with another setup. A stretch without a step is replaced.
-  void begin(const Setup& setup, const State& state);
+  /// The run continues from this state with another setup. A stretch without a step is replaced. `same`: the
+  /// history ends with this state.
+  void begin(const Setup& setup, const State& state, bool same = false);
   /// The last stretch has come to this step.
   void reach(std::uint64_t step);
   /// A state of the last stretch, later than the last keyframe; one of the same step is not taken again.

@@ -25,6 +25,13 @@ Status Present::install(Setup setup, Result<Engines> engines) {
   return {};
 }
 
+Status Present::set_constants(Setup setup, SharedModel model) {
+  ASPIC_CHECK(engines_.set_constants(std::move(model)));
+  setup_ = std::move(setup);
+  ++model_number_;
+  return {};
+}
+
 Status Present::load(const State& state) {
   ASPIC_CHECK(engines_.load(state));
   take_snapshot(State(state));

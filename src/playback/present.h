@@ -47,6 +47,11 @@ class Present {
 
   /// Another setup with its solvers; on an error nothing changes.
   Status install(Setup setup, Result<Engines> engines);
+  /// The solvers go over to a setup whose model differs from theirs in constants alone. Errors: those of
+  /// Solver::set_constants().
+  Status set_constants(Setup setup, SharedModel model);
+  /// The state has another meaning, and is to be drawn again.
+  void redraw() { ++picture_number_; }
   /// All solvers are at this state, which has not diverged.
   Status load(const State& state);
   void take_snapshot(State state);

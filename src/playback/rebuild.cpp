@@ -42,8 +42,12 @@ void Rebuild::begin() {
     change_result_ = change_setup(std::move(setup), keep_state);
     return;
   }
-  building_ = true;
   const auto change = std::make_shared<Change>(begin_change(std::move(setup), keep_state));
+  if (const auto changed = change_constants(*change); !changed || *changed) {
+    change_result_ = changed ? Status() : Status(changed.error());
+    return;
+  }
+  building_ = true;
   jobs_.start_uncancelled([this, change](const std::atomic<bool>&) -> Jobs::TakeUp {
     const auto engines =
         std::make_shared<Result<Engines>>(factory_.make_like(present_.engines(), change->setup));
@@ -60,8 +64,34 @@ Status Rebuild::change_setup(Setup setup, bool keep_state) {
   if (!keep_state) timeline_.stop();
   ASPIC_CHECK(playback_.halt(true));
   Change change = begin_change(std::move(setup), keep_state);
+  ASPIC_TRY(const bool changed, change_constants(change));
+  if (changed) return {};
   auto engines = factory_.make_like(present_.engines(), change.setup);
   return finish_change(std::move(change), std::move(engines));
+}
+
+/// Whether the solvers could go over to the setup: it differs in constants alone.
+Result<bool> Rebuild::change_constants(const Change& change) {
+  if (!change.keep_state) return false;
+  ASPIC_TRY(auto built, build_model(change.setup));
+  const SharedModel next = shared(std::move(built));
+  if (!check_same_topology(present_.model(), *next)) return false;
+  const double now = present_.time();  // by the old time step, as all samples are
+  const bool same_state = change.state.step == present_.snapshot().step &&
+                          same_pins(present_.model(), *next) && !present_.divergence();
+  ASPIC_CHECK(present_.set_constants(change.setup, next));
+  if (!timeline_.at_end()) stepper_.forget_future(now);
+  figures_.samples().clear_differed();
+  if (same_state) {
+    stepper_.pacer().drop_due();
+    present_.redraw();
+    timeline_.begin(present_.snapshot(), true);
+  } else {
+    ASPIC_CHECK(begin_stretch(grown_state(present_.model(), State(change.state))));
+  }
+  // With other constants this state has another energy.
+  figures_.samples().truncate(std::nextafter(present_.time(), -1.0));
+  return true;
 }
 
 /// The setup to be built, and the state it continues from: the snapshot is that of the step, and stays so.

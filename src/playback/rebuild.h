@@ -94,6 +94,7 @@ class Rebuild {
   Status change_setup(Setup setup, bool keep_state);
   Change begin_change(Setup setup, bool keep_state) const;
   Status finish_change(Change change, Result<Engines> engines);
+  Result<bool> change_constants(const Change& change);
   Status begin_stretch(const State& state);
   void forget_run();
 

@@ -20,9 +20,9 @@ void Timeline::clear() {
   last_kept_ = {};
 }
 
-void Timeline::begin(const State& state) {
+void Timeline::begin(const State& state, bool same) {
   ended_.reset();
-  history_.begin(present_.setup(), state);
+  history_.begin(present_.setup(), state, same);
   stretch_ = history_.end_moment().stretch;
 }
 

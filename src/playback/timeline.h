@@ -30,8 +30,8 @@ class Timeline {
   void stop() { destination_.reset(); }
 
   void clear();
-  /// The run continues with the present setup from this state, where it is.
-  void begin(const State& state);
+  /// The run continues with the present setup from this state, where it is. `same`: the history ends with it.
+  void begin(const State& state, bool same = false);
   /// The run is in another stretch of the same history, or of another history.
   void move_to(std::uint64_t stretch) { stretch_ = stretch; }
   void replace(History history);

@@ -29,6 +29,7 @@ class Endless : public Solver {
 
  private:
   Status take_inputs(const Inputs& inputs) override { return inner_->set_inputs(inputs); }
+  Status take_constants(SharedModel model) override { return inner_->set_constants(std::move(model)); }
   std::unique_ptr<Solver> inner_;
 };
 

@@ -36,6 +36,7 @@ class Stepper final : public Solver {
 
  private:
   Status take_inputs(const Inputs&) override { return {}; }
+  Status take_constants(SharedModel) override { return {}; }
   const Model& model_;
   State& state_;
   std::uint64_t still_;

@@ -34,6 +34,7 @@ class FaultySolver final : public Solver {
 
  private:
   Status take_inputs(const Inputs& inputs) override { return inner_->set_inputs(inputs); }
+  Status take_constants(SharedModel model) override { return inner_->set_constants(std::move(model)); }
   const Model& right_;
   std::unique_ptr<Model> wrong_;
   std::unique_ptr<Solver> inner_;
