@@ -11,6 +11,7 @@
 #include "aspic/scene.h"     // Scene, load_scene(), parse_scene(), to_toml()
 #include "aspic/settings.h"  // ModelSettings
 #include "aspic/solver.h"    // Solver: load(), advance(), state(), set_inputs()
-#include "aspic/state.h"     // State, state_hash_text()
+#include "aspic/state.h"     // State, state_fields, state_hash_text()
+#include "aspic/state_view.h"  // StateView: numbers where they lie
 #include "aspic/vec.h"       // Vec3
 #include "aspic/version.h"   // ASPIC_VERSION, library_version()

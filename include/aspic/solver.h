@@ -10,7 +10,7 @@
 #include "aspic/export.h"
 #include "aspic/inputs.h"
 #include "aspic/model.h"
-#include "aspic/state.h"
+#include "aspic/state_view.h"
 
 namespace aspic {
 
@@ -86,7 +86,9 @@ class ASPIC_API Solver {
 
   /// Takes over a state: rounds it to the solver's own precision, keeps its step number, forgets any
   /// divergence. Error (usage): the state has another number of particles or balls.
-  virtual Status load(const State& state) = 0;
+  Status load(const State& state);
+  /// The same of numbers that lie elsewhere, float or double with strides; every field must be there.
+  Status load(const ConstStateView& view, std::uint64_t step);
   /// What acts from outside from the next step on, until it is called again. A new solver has none; load()
   /// leaves them as they are. Cheap enough for every picture, ordered after the steps that advance() was
   /// asked for, and without a say in the state before the next step begins: state() is what it was. Errors
@@ -112,9 +114,20 @@ class ASPIC_API Solver {
   /// Figures of implicit Euler's solves since the last load(); nothing with other integrators.
   virtual std::optional<SolveStatistics> solve_statistics() { return std::nullopt; }
   /// A copy of the current state. Error (no_device): as advance().
-  virtual Result<State> state() = 0;
+  Result<State> state();
+  /// Writes the fields of the current state that `view` has a place for, converted to the type of the place,
+  /// and returns its step number. Errors: usage, a place has another size than the model; no_device, as
+  /// advance().
+  Result<std::uint64_t> read_into(const StateView& view);
+  /// Where the current state lies, without a copy, in the solver's own precision: valid until the next call
+  /// that is not const. Nothing where it lies on a device.
+  virtual std::optional<ConstStateView> view() const { return std::nullopt; }
 
  protected:
+  /// load() of a view of the right sizes.
+  virtual Status take_state(const ConstStateView& view, std::uint64_t step) = 0;
+  /// read_into() of a view of the right sizes.
+  virtual Result<std::uint64_t> give_state(const StateView& view) = 0;
   /// Inputs for the next step: rounded, and others than inputs(), which are still the ones before.
   virtual Status take_inputs(const Inputs& inputs) = 0;
   /// A model with the same topology, which takes inputs().

@@ -1,9 +1,12 @@
 #pragma once
 // The State of a run: everything that changes from step to step, and nothing else.
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "aspic/export.h"
@@ -31,19 +34,59 @@ struct State {
   friend bool operator==(const State&, const State&) = default;
 };
 
-/// Calls f with every vector of a state (State or const State) in the order of its hash and its files: x, v
-/// of every particle, then x, v, ω of every ball, in index order.
+/// What a field belongs to.
+enum class StateCarrier { particle, ball };
+
+/// A field of a state: a vector for each particle or each ball.
+struct StateField {
+  std::string_view name;    ///< in checkpoints and comparisons: "ball_velocity"
+  std::string_view symbol;  ///< of the quantity; a ball's may be that of a particle: "v"
+  std::string_view unit;    ///< "m/s"
+  StateCarrier carrier = StateCarrier::particle;
+  std::vector<Vec3> State::*vectors = nullptr;
+  static constexpr std::size_t components = 3;
+};
+
+/// Every field. Hash, checkpoints, tables of states, keyframes and views walk this table, particles' fields
+/// and balls' each in its order.
+inline constexpr std::array<StateField, 5> state_fields = {{
+    {"position", "x", "m", StateCarrier::particle, &State::position},
+    {"velocity", "v", "m/s", StateCarrier::particle, &State::velocity},
+    {"ball_position", "x", "m", StateCarrier::ball, &State::ball_position},
+    {"ball_velocity", "v", "m/s", StateCarrier::ball, &State::ball_velocity},
+    {"ball_angular_velocity", "ω", "rad/s", StateCarrier::ball, &State::ball_angular_velocity},
+}};
+
+/// Numbers of all fields of one particle or ball.
+constexpr std::size_t numbers_of(StateCarrier carrier) {
+  std::size_t sum = 0;
+  for (const StateField& field : state_fields)
+    if (field.carrier == carrier) sum += StateField::components;
+  return sum;
+}
+
+/// How many particles or balls a state has.
+inline std::size_t count_of(const State& state, StateCarrier carrier) {
+  return carrier == StateCarrier::particle ? state.position.size() : state.ball_position.size();
+}
+
+/// Gives a state room for so many particles and balls, in every field.
+ASPIC_API void resize(State& state, std::size_t particles, std::size_t balls);
+
+/// Calls f with every vector of a state (State or const State) in the order of its hash and its files: the
+/// fields of every particle, then those of every ball, in index order.
 template <class AnyState, class F>
 void for_each_vector(AnyState& state, const F& f) {
-  for (std::size_t i = 0; i < state.position.size(); ++i) {
-    f(state.position[i]);
-    f(state.velocity[i]);
-  }
-  for (std::size_t b = 0; b < state.ball_position.size(); ++b) {
-    f(state.ball_position[b]);
-    f(state.ball_velocity[b]);
-    f(state.ball_angular_velocity[b]);
-  }
+  const auto walk = [&]<StateCarrier carrier, std::size_t... n>(std::index_sequence<n...>) {
+    const auto visit = [&]<std::size_t field>(std::size_t i) {
+      if constexpr (state_fields[field].carrier == carrier) f((state.*state_fields[field].vectors)[i]);
+    };
+    const std::size_t count = count_of(state, carrier);
+    for (std::size_t i = 0; i < count; ++i) (visit.template operator()<n>(i), ...);
+  };
+  constexpr std::make_index_sequence<state_fields.size()> all;
+  walk.template operator()<StateCarrier::particle>(all);
+  walk.template operator()<StateCarrier::ball>(all);
 }
 
 /// The first body with a number that is not finite, in words: `particle 7`, `ball 2`; nothing if all are.

@@ -57,7 +57,8 @@ class CpuSolver final : public Solver {
     fill(inverse_mass_, model_->inverse_mass);
     steps_ = make_steps({model_, dynamics_, springs_, mass_, inverse_mass_, margin, arithmetic, workers_});
     bytes_ = sizeof(*this) + heap_bytes();
-    set(initial_state(*model_, Precision::single));
+    const State start = initial_state(*model_, Precision::single);
+    (void)CpuSolver::take_state(view_of(start), start.step);
   }
 
   std::string_view backend() const override { return "cpu"; }
@@ -69,12 +70,6 @@ class CpuSolver final : public Solver {
   Precision precision() const override { return Precision::single; }
   const Model& model() const override { return *model_; }
   std::uint64_t bytes() const override { return bytes_; }
-
-  Status load(const State& state) override {
-    ASPIC_CHECK(check_sizes(*model_, state));
-    set(state);
-    return {};
-  }
 
   void set_stop_flag(const std::atomic<bool>* flag) override {
     Solver::set_stop_flag(flag);
@@ -91,14 +86,15 @@ class CpuSolver final : public Solver {
     return statistics_;
   }
 
-  Result<State> state() override;
+  std::optional<ConstStateView> view() const override;
 
  private:
+  Status take_state(const ConstStateView& view, std::uint64_t step) override;
+  Result<std::uint64_t> give_state(const StateView& to) override;
   Status take_inputs(const Inputs& inputs) override;
   Status take_constants(SharedModel model) override;
   std::vector<reference::Vector<float>> hold_pins();
   std::uint64_t heap_bytes() const;
-  void set(const State& state);
   void step();
   void move_balls();
 
@@ -128,36 +124,43 @@ std::uint64_t CpuSolver::heap_bytes() const {
   return sum + steps_->bytes();
 }
 
-void CpuSolver::set(const State& state) {
-  const auto take = [](const std::vector<Vec3>& from, VectorArray& to) {
-    for (std::size_t i = 0; i < from.size(); ++i) parallel::set(to, i, reference::rounded<float>(from[i]));
-  };
-  take(state.position, state_.x);
-  take(state.velocity, state_.v);
-  ball_phase_ = {reference::field<float>(state.ball_position), reference::field<float>(state.ball_velocity),
-                 reference::field<float>(state.ball_angular_velocity)};
+/// The arrays of a vector for each particle.
+template <class T, class AnyArray>
+Strided<T> strided(AnyArray& array, std::size_t count) {
+  return {array[0].data(), count, 1, array[1].data() - array[0].data()};
+}
+
+Status CpuSolver::take_state(const ConstStateView& view, std::uint64_t step) {
+  const std::size_t count = model_->particle_count();
+  copy_vectors(view[0], strided<float>(state_.x, count));
+  copy_vectors(view[1], strided<float>(state_.v, count));
+  reference::Field<float>* const balls[] = {&ball_phase_.x, &ball_phase_.v, &ball_phase_.omega};
+  static_assert(2 + std::size(balls) == state_fields.size());
+  for (std::size_t n = 0; n < std::size(balls); ++n) {
+    balls[n]->resize(3, static_cast<Eigen::Index>(model_->ball_count()));
+    copy_vectors(view[2 + n], Strided<float>{balls[n]->data(), model_->ball_count()});
+  }
   pins_held_ = false;
-  step_ = state.step;
+  step_ = step;
   divergence_.reset();
   statistics_ = {};
   steps_->forget();
+  return {};
 }
 
-Result<State> CpuSolver::state() {
-  State state;
-  state.precision = Precision::single;
-  state.step = step_;
-  const auto copy = [&](const VectorArray& from, std::vector<Vec3>& to) {
-    to.reserve(model_->particle_count());
-    for (std::size_t i = 0; i < model_->particle_count(); ++i)
-      to.push_back({from[0][i], from[1][i], from[2][i]});
+std::optional<ConstStateView> CpuSolver::view() const {
+  const std::size_t count = model_->particle_count();
+  const auto balls = [&](const reference::Field<float>& f) {
+    return Strided<const float>{f.data(), model_->ball_count()};
   };
-  copy(state_.x, state.position);
-  copy(state_.v, state.velocity);
-  state.ball_position = reference::columns(ball_phase_.x);
-  state.ball_velocity = reference::columns(ball_phase_.v);
-  state.ball_angular_velocity = reference::columns(ball_phase_.omega);
-  return state;
+  return ConstStateView{strided<const float>(state_.x, count), strided<const float>(state_.v, count),
+                        balls(ball_phase_.x), balls(ball_phase_.v), balls(ball_phase_.omega)};
+}
+
+Result<std::uint64_t> CpuSolver::give_state(const StateView& to) {
+  const ConstStateView own = *view();
+  for (std::size_t n = 0; n < own.size(); ++n) copy_vectors(own[n], to[n]);
+  return step_;
 }
 
 Status CpuSolver::take_inputs(const Inputs& taken) {

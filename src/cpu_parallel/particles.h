@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace aspic::parallel {
@@ -17,10 +18,16 @@ namespace aspic::parallel {
 class FloatArray {
  public:
   FloatArray() = default;
-  FloatArray(std::size_t size, std::size_t margin) : margin_(rounded_up(margin)) {
-    all_ = margin_ + rounded_up(size) + margin_;
-    data_.reset(new (std::align_val_t(alignment)) float[all_]);
-    std::fill_n(data_.get(), all_, 0.0f);
+  FloatArray(std::size_t size, std::size_t margin) : FloatArray(size, margin, 1) {}
+  FloatArray(FloatArray&&) = default;
+  FloatArray& operator=(FloatArray&&) = default;
+  FloatArray(const FloatArray&) = delete;
+  FloatArray& operator=(const FloatArray&) = delete;
+
+  /// Three arrays of one size, equally far from each other in memory.
+  static std::array<FloatArray, 3> three(std::size_t size, std::size_t margin) {
+    FloatArray first(size, margin, 3), second = first.part(1), third = first.part(2);
+    return {std::move(first), std::move(second), std::move(third)};
   }
 
   std::uint64_t bytes() const { return all_ * sizeof(float); }
@@ -35,7 +42,20 @@ class FloatArray {
   struct Free {
     void operator()(float* p) const { operator delete[](p, std::align_val_t(alignment)); }
   };
-  std::unique_ptr<float[], Free> data_;
+  FloatArray(std::size_t size, std::size_t margin, std::size_t parts) : margin_(rounded_up(margin)) {
+    all_ = margin_ + rounded_up(size) + margin_;
+    data_.reset(new (std::align_val_t(alignment)) float[parts * all_], Free());
+    std::fill_n(data_.get(), parts * all_, 0.0f);
+  }
+  /// A further part of the same memory.
+  FloatArray part(std::size_t n) const {
+    FloatArray other;
+    other.data_ = std::shared_ptr<float[]>(data_, data_.get() + n * all_);
+    other.margin_ = margin_;
+    other.all_ = all_;
+    return other;
+  }
+  std::shared_ptr<float[]> data_;
   std::size_t margin_ = 0, all_ = 0;
 };
 
@@ -43,7 +63,7 @@ class FloatArray {
 using VectorArray = std::array<FloatArray, 3>;
 
 inline VectorArray vector_array(std::size_t size, std::size_t margin) {
-  return {FloatArray(size, margin), FloatArray(size, margin), FloatArray(size, margin)};
+  return FloatArray::three(size, margin);
 }
 
 /// Positions [m] and velocities [m/s].

@@ -40,7 +40,8 @@ class ReferenceSolver final : public Solver {
       : kind_(kind),
         reports_solves_(row_of(model->simulation.integrator).traits.reports_solves),
         parts_(std::make_unique<Parts>(kind, std::move(model))) {
-    set(initial_state(this->model(), precision()));
+    const State start = initial_state(this->model(), precision());
+    set(view_of(start), start.step);
   }
 
   std::string_view backend() const override { return "reference"; }
@@ -51,12 +52,6 @@ class ReferenceSolver final : public Solver {
   Precision precision() const override { return sizeof(T) == 4 ? Precision::single : Precision::double_; }
   const Model& model() const override { return *parts_->model; }
   std::uint64_t bytes() const override { return bytes_of(kind_, model()); }
-
-  Status load(const State& state) override {
-    if (const Status fits = check_sizes(model(), state); !fits) return fits;
-    set(state);
-    return {};
-  }
 
   void set_stop_flag(const std::atomic<bool>* flag) override {
     Solver::set_stop_flag(flag);
@@ -98,19 +93,25 @@ class ReferenceSolver final : public Solver {
     return statistics_;
   }
 
-  Result<State> state() override {
-    State state;
-    state.precision = precision();
-    state.step = step_;
-    state.position = columns(phase_.x);
-    state.velocity = columns(phase_.v);
-    state.ball_position = columns(ball_phase_.x);
-    state.ball_velocity = columns(ball_phase_.v);
-    state.ball_angular_velocity = columns(ball_phase_.omega);
-    return state;
+  std::optional<ConstStateView> view() const override {
+    const auto of = [](const Field<T>& f) {
+      return Strided<const T>{f.data(), static_cast<std::size_t>(f.cols())};
+    };
+    return ConstStateView{of(phase_.x), of(phase_.v), of(ball_phase_.x), of(ball_phase_.v),
+                          of(ball_phase_.omega)};
   }
 
  private:
+  Status take_state(const ConstStateView& view, std::uint64_t step) override {
+    set(view, step);
+    return {};
+  }
+  Result<std::uint64_t> give_state(const StateView& to) override {
+    const ConstStateView own = *view();
+    for (std::size_t n = 0; n < own.size(); ++n) copy_vectors(own[n], to[n]);
+    return step_;
+  }
+
   Status take_inputs(const Inputs& inputs) override {
     parts_->dynamics.set_inputs(inputs);
     parts_->balls.set_inputs(inputs);
@@ -134,11 +135,14 @@ class ReferenceSolver final : public Solver {
     return before;
   }
 
-  void set(const State& state) {
-    phase_ = {field<T>(state.position), field<T>(state.velocity)};
-    ball_phase_ = {field<T>(state.ball_position), field<T>(state.ball_velocity),
-                   field<T>(state.ball_angular_velocity)};
-    step_ = state.step;
+  void set(const ConstStateView& view, std::uint64_t step) {
+    Field<T>* const fields[] = {&phase_.x, &phase_.v, &ball_phase_.x, &ball_phase_.v, &ball_phase_.omega};
+    static_assert(std::size(fields) == state_fields.size());
+    for (std::size_t n = 0; n < view.size(); ++n) {
+      fields[n]->resize(3, static_cast<Eigen::Index>(count_of(view[n])));
+      copy_vectors(view[n], Strided<T>{fields[n]->data(), count_of(view[n])});
+    }
+    step_ = step;
     pins_held_ = false;
     divergence_.reset();
     statistics_ = {};

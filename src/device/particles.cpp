@@ -3,14 +3,6 @@
 #include <cassert>
 
 namespace aspic {
-namespace {
-
-Vec3 unpacked(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
-
-}  // namespace
-
 layout::vec4 rounded(const Vec3& v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
@@ -43,21 +35,27 @@ std::vector<layout::Ball> packed_balls(const Model& model, const State& state) {
   return balls;
 }
 
-void unpack(std::span<const layout::Particle> particles, State& state) {
-  state.position.reserve(particles.size());
-  state.velocity.reserve(particles.size());
-  for (const layout::Particle& p : particles) {
-    state.position.push_back(unpacked(p.position));
-    state.velocity.push_back(unpacked(p.velocity));
-  }
+namespace {
+
+/// The vectors that a member of every item begins with.
+template <class Item>
+ConstVectors vectors_in(std::span<const Item> items, layout::vec4 Item::*member) {
+  static_assert(sizeof(Item) % sizeof(float) == 0);
+  if (items.empty()) return Strided<const float>{};
+  return Strided<const float>{&(items.front().*member).x, items.size(), sizeof(Item) / sizeof(float)};
 }
 
-void unpack(std::span<const layout::Ball> balls, State& state) {
-  for (const layout::Ball& ball : balls) {
-    state.ball_position.push_back(unpacked(ball.position));
-    state.ball_velocity.push_back(unpacked(ball.velocity));
-    state.ball_angular_velocity.push_back(unpacked(ball.spin));
-  }
+}  // namespace
+
+void unpack(std::span<const layout::Particle> particles, const StateView& view) {
+  copy_vectors(vectors_in(particles, &layout::Particle::position), view[field_number("position")]);
+  copy_vectors(vectors_in(particles, &layout::Particle::velocity), view[field_number("velocity")]);
+}
+
+void unpack(std::span<const layout::Ball> balls, const StateView& view) {
+  copy_vectors(vectors_in(balls, &layout::Ball::position), view[field_number("ball_position")]);
+  copy_vectors(vectors_in(balls, &layout::Ball::velocity), view[field_number("ball_velocity")]);
+  copy_vectors(vectors_in(balls, &layout::Ball::spin), view[field_number("ball_angular_velocity")]);
 }
 
 }  // namespace aspic

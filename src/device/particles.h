@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "aspic/state.h"
+#include "aspic/state_view.h"
 #include "device/layout.h"
 #include "model/model.h"
 
@@ -20,8 +20,8 @@ std::vector<layout::Particle> packed_particles(const Model& model, const State& 
 /// the model's number of balls.
 std::vector<layout::Ball> packed_balls(const Model& model, const State& state);
 
-/// Appends particles, or balls, to a state of single precision, exactly.
-void unpack(std::span<const layout::Particle> particles, State& state);
-void unpack(std::span<const layout::Ball> balls, State& state);
+/// Writes the fields of particles, or of balls, that the view has places for.
+void unpack(std::span<const layout::Particle> particles, const StateView& view);
+void unpack(std::span<const layout::Ball> balls, const StateView& view);
 
 }  // namespace aspic

@@ -300,9 +300,9 @@ void BallPasses::queue(const Buffer& start, const Buffer& end, std::uint32_t ste
   if (implicit_) dispatch(queue, end_implicit, 1, last);
 }
 
-void BallPasses::read(State& state, std::uint32_t slot) const {
+void BallPasses::read(const StateView& view, std::uint32_t slot) const {
   if (!any()) return;
-  unpack(balls_.download_items<layout::Ball>(count_, std::uint64_t{slot} * count_), state);
+  unpack(balls_.download_items<layout::Ball>(count_, std::uint64_t{slot} * count_), view);
 }
 
 }  // namespace aspic

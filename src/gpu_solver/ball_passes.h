@@ -73,8 +73,8 @@ class BallPasses {
   /// Bytes held beyond those after build().
   std::uint64_t grown_bytes() const;
 
-  /// Reads the balls of a slot into a state.
-  void read(State& state, std::uint32_t slot) const;
+  /// Writes the balls of a slot where the view has places for them.
+  void read(const StateView& view, std::uint32_t slot) const;
 
   const gl::Buffer& buffer() const { return balls_; }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <utility>
+#include <variant>
 
 #include "device/particles.h"
 #include "gpu/current.h"
@@ -94,9 +95,14 @@ Result<std::optional<Divergence>> DeviceSolver::advance(std::uint64_t steps) {
   return divergence_;
 }
 
-Status DeviceSolver::load(const State& state) {
+Status DeviceSolver::take_state(const ConstStateView& view, std::uint64_t step) {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
+  State state;
+  state.step = step;
+  resize(state, model_->particle_count(), model_->ball_count());
+  const StateView own = view_of(state);
+  for (std::size_t n = 0; n < own.size(); ++n) copy_vectors(view[n], own[n]);
   ASPIC_CHECK(take(state));
   return context_.check();
 }
@@ -126,7 +132,12 @@ Status DeviceSolver::take_constants(SharedModel next) {
                           model_->inverse_mass == next->inverse_mass &&
                           std::ranges::equal(model_->balls, next->balls, alike);
   std::optional<State> state;
-  if (!same_state) state = read();
+  if (!same_state) {
+    state.emplace();
+    state->step = base_step_ + steps_since_;
+    resize(*state, model_->particle_count(), model_->ball_count());
+    read(view_of(*state));
+  }
   model_ = std::move(next);
   simulation_.upload_items(std::span(&block, 1));
   poses_.set_model(*model_);
@@ -160,23 +171,23 @@ Status DeviceSolver::hold_pins() {
   return {};
 }
 
-Result<State> DeviceSolver::state() {
+Result<std::uint64_t> DeviceSolver::give_state(const StateView& view) {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
   ASPIC_CHECK(settle());
-  State state = read();
+  read(view);
   ASPIC_CHECK(context_.check());
-  return state;
+  return base_step_ + steps_since_;
 }
 
-/// The state of the last good step, which settle() has seen.
-State DeviceSolver::read() const {
-  State state;
-  state.precision = Precision::single;
-  state.step = base_step_ + steps_since_;
-  unpack(states_[current_].download_items<layout::Particle>(model_->particle_count()), state);
-  balls_.read(state, ball_slot_);
-  return state;
+/// Fields of the last good step, which settle() has seen.
+void DeviceSolver::read(const StateView& view) const {
+  const auto wanted = [&](std::size_t field) { return !std::holds_alternative<std::monostate>(view[field]); };
+  if (wanted(0) || wanted(1)) {
+    const auto particles = states_[current_].download_items<layout::Particle>(model_->particle_count());
+    unpack(particles, view);
+  }
+  if (wanted(2) || wanted(3) || wanted(4)) balls_.read(view, ball_slot_);
 }
 
 Result<gl::Pass> DeviceSolver::pass(const KernelOptions& kernels, std::string_view path,

@@ -39,8 +39,6 @@ class DeviceSolver : public GpuSolver {
   const std::shared_ptr<const SpringBuffers>& spring_buffers() const final { return springs_; }
 
   Result<std::optional<Divergence>> advance(std::uint64_t steps) final;
-  Status load(const State& state) final;
-  Result<State> state() final;
   void set_profiling(bool on) final;
   std::vector<gl::PassTime> pass_times() final;
 
@@ -117,9 +115,11 @@ class DeviceSolver : public GpuSolver {
  private:
   Status build_shared(const GpuOptions& options);
   Status take(const State& state);
+  Status take_state(const ConstStateView& view, std::uint64_t step) final;
+  Result<std::uint64_t> give_state(const StateView& view) final;
   Status take_inputs(const Inputs& inputs) final;
   Status take_constants(SharedModel model) final;
-  State read() const;
+  void read(const StateView& view) const;
   Status hold_pins();
 
   std::vector<std::string> pass_names_;

@@ -96,6 +96,12 @@ std::string encode_checkpoint(const Checkpoint& checkpoint) {
   append_text(out, checkpoint.program_version);
   append_text(out, checkpoint.scene);
   append_text(out, checkpoint.inputs);
+  append(out, state_fields.size(), 4);
+  for (const StateField& field : state_fields) {
+    append_text(out, field.name);
+    append(out, static_cast<std::uint64_t>(field.carrier), 4);
+    append(out, StateField::components, 4);
+  }
   append(out, state.position.size(), 8);
   append(out, state.ball_position.size(), 8);
   for_each_vector(state, [&](const Vec3& v) {
@@ -107,7 +113,7 @@ std::string encode_checkpoint(const Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint32_t first_with_inputs = 3;
+constexpr std::uint32_t first_with_inputs = 3, first_with_fields = 3;
 
 bool is_read(std::uint32_t version) {
   return version >= oldest_checkpoint_version && version <= checkpoint_version;
@@ -126,6 +132,25 @@ Status check_magic(std::string_view bytes, const std::string& name) {
   if (bytes.empty()) return error_in(name, "the file is empty.");
   if (magic.starts_with(bytes.substr(0, magic.size()))) return {};
   return error_in(name, "this is not a checkpoint of aspic. Give a file that aspic run --checkpoint wrote.");
+}
+
+/// Whether the state has the fields of this program, in its order. Error (io).
+Status check_fields(Decoder& in, const std::string& name) {
+  const std::uint64_t count = in.get(4);
+  for (std::uint64_t n = 0; n < count; ++n) {
+    const std::string_view field = in.text();
+    const std::uint64_t carrier = in.get(4), components = in.get(4);
+    if (in.failed()) return error_in(name, damaged);
+    const bool known = n < state_fields.size() && field == state_fields[n].name &&
+                       carrier == static_cast<std::uint64_t>(state_fields[n].carrier) &&
+                       components == StateField::components;
+    if (!known) {
+      return error_in(name, fmt::format("the checkpoint holds a state with the field {}, which this program "
+                                        "does not know. Use the aspic that wrote it.",
+                                        excerpt(field, 40)));
+    }
+  }
+  return count == state_fields.size() ? Status() : error_in(name, damaged);
 }
 
 bool is_version_text(std::string_view text) {
@@ -162,6 +187,7 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
   const std::uint64_t hash = in.get(8);
   const std::string_view program_version = in.text(), scene = in.text(),
                          inputs = version >= first_with_inputs ? in.text() : std::string_view();
+  if (version >= first_with_fields) ASPIC_CHECK(check_fields(in, name));
   const std::uint64_t particles = in.get(8);
   const std::uint64_t balls = in.get(8);
   if (!is_version_text(program_version) || scene.size() > longest_scene || inputs.size() > longest_inputs ||
@@ -170,16 +196,14 @@ Result<Checkpoint> decode_checkpoint(std::string_view bytes, const std::string& 
   // Sizes are compared before anything is allocated: 6 numbers a particle, 9 a ball and the checksum must be
   // all that is left.
   if (in.failed() || particles > bytes.size() || balls > bytes.size() ||
-      in.left() != (particles * 6 + balls * 9) * width + 8)
+      in.left() !=
+          (particles * numbers_of(StateCarrier::particle) + balls * numbers_of(StateCarrier::ball)) * width +
+              8)
     return error(damaged);
   checkpoint.program_version = program_version;
   checkpoint.scene = scene;
   checkpoint.inputs = inputs;
-  state.position.resize(particles);
-  state.velocity.resize(particles);
-  state.ball_position.resize(balls);
-  state.ball_velocity.resize(balls);
-  state.ball_angular_velocity.resize(balls);
+  resize(state, particles, balls);
   for_each_vector(state, [&](Vec3& v) {
     for (int axis = 0; axis < 3; ++axis) v[axis] = get_number(in, state.precision);
   });
@@ -231,13 +255,17 @@ Status check_size(const std::string& path, std::uint64_t size, std::uint64_t bef
         std::string_view(texts.content).substr(std::min<std::size_t>(counts, texts.content.size())));
     const std::uint64_t inputs = length.get(8);
     if (length.failed() || inputs > longest_inputs) return error_in(path, damaged);
-    counts += 8 + inputs;
+    counts += 8 + inputs + 4;
+    for (const StateField& field : state_fields) counts += 8 + field.name.size() + 8;
   }
   ASPIC_TRY(const auto start, read_regular_file(path, counts + 16));
   Decoder numbers(std::string_view(start.content).substr(std::min(counts, start.content.size())));
   const std::uint64_t particles = numbers.get(8), balls = numbers.get(8);
   if (numbers.failed() || particles > size || balls > size ||
-      size != counts + 16 + (6 * particles + 9 * balls) * width + 8)
+      size != counts + 16 +
+                  (numbers_of(StateCarrier::particle) * particles + numbers_of(StateCarrier::ball) * balls) *
+                      width +
+                  8)
     return error_in(path, damaged);
   return {};
 }

@@ -16,10 +16,16 @@ Status write_state_csv(AtomicFile& file, const State& state) {
   ASPIC_CHECK(check_finite(state, file.path()));
   ASPIC_CHECK(file.write(fmt::format("{}\n", state_csv_header)));
   fmt::memory_buffer line;
-  const auto write = [&](std::string_view kind, std::size_t index, std::initializer_list<Vec3> vectors) {
+  // Every quantity has its columns, which are 0 where a carrier has no such field.
+  const auto write = [&](StateCarrier carrier, std::size_t index) {
     line.clear();
-    fmt::format_to(std::back_inserter(line), "{},{}", kind, index);
-    for (const Vec3& v : vectors) {
+    fmt::format_to(std::back_inserter(line), "{},{}", carrier == StateCarrier::particle ? "particle" : "ball",
+                   index);
+    for (const StateField& column : state_fields) {
+      if (column.carrier != StateCarrier::ball) continue;
+      Vec3 v;
+      for (const StateField& field : state_fields)
+        if (field.carrier == carrier && field.symbol == column.symbol) v = (state.*field.vectors)[index];
       for (const double x : {v.x, v.y, v.z}) {
         if (state.precision == Precision::single)
           fmt::format_to(std::back_inserter(line), ",{}", static_cast<float>(x));
@@ -30,11 +36,8 @@ Status write_state_csv(AtomicFile& file, const State& state) {
     line.push_back('\n');
     return file.write({line.data(), line.size()});
   };
-  for (std::size_t i = 0; i < state.position.size(); ++i)
-    ASPIC_CHECK(write("particle", i, {state.position[i], state.velocity[i], Vec3{}}));
-  for (std::size_t b = 0; b < state.ball_position.size(); ++b)
-    ASPIC_CHECK(
-        write("ball", b, {state.ball_position[b], state.ball_velocity[b], state.ball_angular_velocity[b]}));
+  for (const StateCarrier carrier : {StateCarrier::particle, StateCarrier::ball})
+    for (std::size_t i = 0; i < count_of(state, carrier); ++i) ASPIC_CHECK(write(carrier, i));
   return {};
 }
 

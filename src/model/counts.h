@@ -2,12 +2,16 @@
 // What a model has and what it takes: for reports, and for checks before anything is allocated.
 #include <cstdint>
 
+#include "aspic/state_view.h"
 #include "model/model.h"
 
 namespace aspic {
 
 /// Error (usage): the state has another number of particles or balls than the model.
 Status check_sizes(const Model& model, const State& state);
+/// Error (usage): a field that is there has another count than the model; with `all`, one is none.
+Status check_sizes(const Model& model, const StateView& view);
+Status check_sizes(const Model& model, const ConstStateView& view, bool all);
 
 /// Springs, pinned particles and balls of a model, for reports.
 struct ModelCounts {

@@ -102,14 +102,13 @@ State initial_state(const Model& model, Precision precision) {
 }
 
 Status check_sizes(const Model& model, const State& state) {
-  if (state.position.size() != model.particle_count() || state.velocity.size() != model.particle_count()) {
-    return fail(ErrorCode::usage, "the state has {} particles, the scene has {}", state.position.size(),
-                model.particle_count());
-  }
-  if (state.ball_position.size() != model.ball_count() || state.ball_velocity.size() != model.ball_count() ||
-      state.ball_angular_velocity.size() != model.ball_count()) {
-    return fail(ErrorCode::usage, "the state has {} balls, the scene has {}", state.ball_position.size(),
-                model.ball_count());
+  for (const StateField& field : state_fields) {
+    const bool ball = field.carrier == StateCarrier::ball;
+    const std::size_t wanted = ball ? model.ball_count() : model.particle_count(),
+                      found = (state.*field.vectors).size();
+    if (found == wanted) continue;
+    return fail(ErrorCode::usage, "the state has {0} {1}s, the scene has {2}", found,
+                ball ? "ball" : "particle", wanted);
   }
   return {};
 }
@@ -205,7 +204,9 @@ std::uint64_t model_bytes(const Model& model) {
 }
 
 std::uint64_t state_bytes(const ModelCounts& counts) {
-  return (2 * counts.particles + 3 * counts.balls) * sizeof(Vec3);
+  return (numbers_of(StateCarrier::particle) * counts.particles +
+          numbers_of(StateCarrier::ball) * counts.balls) *
+         sizeof(double);
 }
 
 std::uint64_t run_bytes(const ModelCounts& counts) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/result.h"
+#include "model/counts.h"
 #include "model/inputs.h"
 
 namespace aspic {
@@ -19,6 +20,29 @@ std::string body_text(const Divergence& divergence) {
 std::string fault_text(const Divergence& divergence) {
   return divergence.finite ? fmt::format("became faster than {} m/s", divergence_speed)
                            : "is no longer a finite number";
+}
+
+Status Solver::load(const State& state) {
+  ASPIC_CHECK(check_sizes(model(), state));
+  return take_state(view_of(state), state.step);
+}
+
+Status Solver::load(const ConstStateView& view, std::uint64_t step) {
+  ASPIC_CHECK(check_sizes(model(), view, true));
+  return take_state(view, step);
+}
+
+Result<State> Solver::state() {
+  State state;
+  state.precision = precision();
+  resize(state, model().particle_count(), model().ball_count());
+  ASPIC_TRY(state.step, give_state(view_of(state)));
+  return state;
+}
+
+Result<std::uint64_t> Solver::read_into(const StateView& view) {
+  ASPIC_CHECK(check_sizes(model(), view));
+  return give_state(view);
 }
 
 Status Solver::set_inputs(const Inputs& inputs) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/fnv.h"
 
 namespace aspic {
@@ -10,14 +12,22 @@ std::string_view name_of(Precision precision) {
   return precision == Precision::single ? "single" : "double";
 }
 
-std::optional<std::string> first_not_finite(const State& s) {
-  for (std::size_t i = 0; i < s.position.size(); ++i) {
-    if (!is_finite(s.position[i]) || !is_finite(s.velocity[i])) return fmt::format("particle {}", i);
-  }
-  for (std::size_t b = 0; b < s.ball_position.size(); ++b) {
-    if (!is_finite(s.ball_position[b]) || !is_finite(s.ball_velocity[b]) ||
-        !is_finite(s.ball_angular_velocity[b]))
-      return fmt::format("ball {}", b);
+void resize(State& state, std::size_t particles, std::size_t balls) {
+  for (const StateField& field : state_fields)
+    (state.*field.vectors).resize(field.carrier == StateCarrier::particle ? particles : balls);
+}
+
+std::optional<std::string> first_not_finite(const State& state) {
+  for (const StateCarrier carrier : {StateCarrier::particle, StateCarrier::ball}) {
+    std::size_t first = count_of(state, carrier);
+    for (const StateField& field : state_fields) {
+      if (field.carrier != carrier) continue;
+      const auto& vectors = state.*field.vectors;
+      const auto bad = std::ranges::find_if_not(vectors, [](const Vec3& v) { return is_finite(v); });
+      first = std::min(first, static_cast<std::size_t>(bad - vectors.begin()));
+    }
+    if (first < count_of(state, carrier))
+      return fmt::format("{} {}", carrier == StateCarrier::particle ? "particle" : "ball", first);
   }
   return std::nullopt;
 }

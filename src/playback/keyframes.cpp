@@ -12,7 +12,8 @@ Keyframe pack(const State& state) {
   k.step = state.step;
   k.particles = static_cast<std::uint32_t>(state.position.size());
   k.balls = static_cast<std::uint32_t>(state.ball_position.size());
-  k.numbers.reserve(std::size_t{6} * k.particles + std::size_t{9} * k.balls);
+  k.numbers.reserve(numbers_of(StateCarrier::particle) * k.particles +
+                    numbers_of(StateCarrier::ball) * k.balls);
   for_each_vector(state, [&](const Vec3& v) {
     for (int axis = 0; axis < 3; ++axis) k.numbers.push_back(static_cast<float>(v[axis]));
   });
@@ -23,9 +24,7 @@ State unpack(const Keyframe& keyframe) {
   State s;
   s.precision = Precision::single;
   s.step = keyframe.step;
-  for (auto* const vectors : {&s.position, &s.velocity}) vectors->resize(keyframe.particles);
-  for (auto* const vectors : {&s.ball_position, &s.ball_velocity, &s.ball_angular_velocity})
-    vectors->resize(keyframe.balls);
+  resize(s, keyframe.particles, keyframe.balls);
   const float* number = keyframe.numbers.data();
   for_each_vector(s, [&](Vec3& v) {
     for (int axis = 0; axis < 3; ++axis) v[axis] = static_cast<double>(*number++);

@@ -44,6 +44,10 @@ std::size_t state_begin(std::string_view bytes) {
     if (length > bytes.size() - at - 8) return 0;
     at += 8 + static_cast<std::size_t>(length);
   }
+  if (texts == 3) {
+    at += 4;
+    for (const StateField& field : state_fields) at += 8 + field.name.size() + 8;
+  }
   return at + 16 + 8 <= bytes.size() ? at + 16 : 0;
 }
 

@@ -61,7 +61,9 @@ std::string of_version_2(Checkpoint checkpoint) {
   std::string bytes = encode_checkpoint(checkpoint);
   bytes[10] = 2;
   const std::size_t texts = 42 + 8 + checkpoint.program_version.size() + 8 + checkpoint.scene.size();
-  bytes.erase(texts, 8);
+  std::size_t fields = 8 + 4;  // and the length of the inputs
+  for (const StateField& field : state_fields) fields += 8 + field.name.size() + 8;
+  bytes.erase(texts, fields);
   bytes.resize(bytes.size() - 8);
   Fnv1a sum;
   sum.add_bytes(std::as_bytes(std::span(bytes)));

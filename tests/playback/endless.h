@@ -20,14 +20,16 @@ class Endless : public Solver {
   Precision precision() const override { return inner_->precision(); }
   const Model& model() const override { return inner_->model(); }
   std::uint64_t bytes() const override { return inner_->bytes(); }
-  Status load(const State& state) override { return inner_->load(state); }
   Result<std::optional<Divergence>> advance(std::uint64_t) override {
     while (!interrupted()) std::this_thread::yield();
     return std::optional<Divergence>();
   }
-  Result<State> state() override { return inner_->state(); }
 
  private:
+  Status take_state(const ConstStateView& view, std::uint64_t step) override {
+    return inner_->load(view, step);
+  }
+  Result<std::uint64_t> give_state(const StateView& view) override { return inner_->read_into(view); }
   Status take_inputs(const Inputs& inputs) override { return inner_->set_inputs(inputs); }
   Status take_constants(SharedModel model) override { return inner_->set_constants(std::move(model)); }
   std::unique_ptr<Solver> inner_;

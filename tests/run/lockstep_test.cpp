@@ -23,18 +23,24 @@ class Stepper final : public Solver {
   Precision precision() const override { return Precision::double_; }
   const Model& model() const override { return model_; }
   std::uint64_t bytes() const override { return 0; }
-  Status load(const State& state) override {
-    state_ = state;
-    return {};
-  }
   Result<std::optional<Divergence>> advance(std::uint64_t steps) override {
     state_.step += steps;
     if (state_.step > still_) state_.position[0].x += static_cast<double>(steps);
     return std::optional<Divergence>();
   }
-  Result<State> state() override { return state_; }
 
  private:
+  Status take_state(const ConstStateView& view, std::uint64_t step) override {
+    const StateView own = view_of(state_);
+    for (std::size_t n = 0; n < own.size(); ++n) copy_vectors(view[n], own[n]);
+    state_.step = step;
+    return {};
+  }
+  Result<std::uint64_t> give_state(const StateView& view) override {
+    const ConstStateView own = view_of(std::as_const(state_));
+    for (std::size_t n = 0; n < own.size(); ++n) copy_vectors(own[n], view[n]);
+    return state_.step;
+  }
   Status take_inputs(const Inputs&) override { return {}; }
   Status take_constants(SharedModel) override { return {}; }
   const Model& model_;

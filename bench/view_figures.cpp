@@ -1,0 +1,93 @@
+// What it costs to read the positions of a million particles: by State, into a caller's array, through the
+// solver's own memory; and a copy of as many bytes, for comparison.
+//   build/release/bench/view_figures --benchmark_repetitions=11 --benchmark_report_aggregates_only=true
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "aspic/scene.h"
+#include "cpu_parallel/cpu_solver.h"
+#include "cpu_reference/reference_solver.h"
+
+namespace {
+
+using namespace aspic;
+
+template <class T>
+T checked(Result<T> made) {
+  if (made) return std::move(*made);
+  fmt::print(stderr, "{}\n", made.error().message);
+  std::exit(1);
+}
+
+const SharedModel& model() {
+  static const SharedModel made = [] {
+    const std::vector<std::string> large = {"cube[0].particles-per-edge=100"};
+    return shared(checked(build_model(checked(load_scene("cube-plane", large)).model)));
+  }();
+  return made;
+}
+
+Solver& cpu() {
+  static const std::unique_ptr<Solver> made = checked(make_cpu_solver(model()));
+  return *made;
+}
+Solver& reference() {
+  static const std::unique_ptr<Solver> made = checked(make_reference_solver(model(), Precision::single));
+  return *made;
+}
+
+void copy(benchmark::State& state) {
+  const std::vector<float> from(3 * std::size_t{model()->particle_count()}, 1.0f);
+  std::vector<float> to(from.size());
+  for (auto _ : state) {
+    std::memcpy(to.data(), from.data(), from.size() * sizeof(float));
+    benchmark::DoNotOptimize(to.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+template <class T>
+void into(benchmark::State& state, Solver& solver, std::ptrdiff_t stride, std::ptrdiff_t component) {
+  const std::size_t count = model()->particle_count();
+  std::vector<T> to(3 * count);
+  StateView view;
+  view[field_number("position")] = Strided<T>{to.data(), count, stride, component};
+  for (auto _ : state) {
+    (void)checked(solver.read_into(view));
+    benchmark::DoNotOptimize(to.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+void whole(benchmark::State& state, Solver& solver) {
+  for (auto _ : state) benchmark::DoNotOptimize(checked(solver.state()));
+}
+
+void where_it_lies(benchmark::State& state, Solver& solver) {
+  for (auto _ : state) benchmark::DoNotOptimize(solver.view());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  const auto add = [](const char* name, const auto& run) {
+    benchmark::RegisterBenchmark(name, run)->Unit(benchmark::kMillisecond);
+  };
+  const auto count = static_cast<std::ptrdiff_t>(model()->particle_count());
+  add("copy of 12 MB", copy);
+  add("cpu/three arrays of floats", [=](benchmark::State& s) { into<float>(s, cpu(), 1, count); });
+  add("cpu/rows of floats", [](benchmark::State& s) { into<float>(s, cpu(), 3, 1); });
+  add("cpu/rows of doubles", [](benchmark::State& s) { into<double>(s, cpu(), 3, 1); });
+  add("cpu/where it lies", [](benchmark::State& s) { where_it_lies(s, cpu()); });
+  add("cpu/State", [](benchmark::State& s) { whole(s, cpu()); });
+  add("reference/rows of floats", [](benchmark::State& s) { into<float>(s, reference(), 3, 1); });
+  add("reference/State", [](benchmark::State& s) { whole(s, reference()); });
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
