@@ -25,7 +25,7 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   std::unique_ptr<App> app(new App(options, std::move(editor), std::move(simulation)));
   ASPIC_CHECK(app->attach(context, scale, std::move(services)));
   if (const auto& state = app->scene.editor().state()) {
-    ASPIC_CHECK(app->simulation.rebuild().start_from(*state));
+    ASPIC_CHECK(app->simulation.rebuild().start_from(*state, app->scene.editor().inputs()));
   }
   app->restore(options.kept, options.overrides);
   return app;

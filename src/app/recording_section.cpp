@@ -10,8 +10,10 @@
 #include "app/panels.h"
 #include "app/parameter_widget.h"
 #include "aspic/scene.h"
+#include "io/atomic_file.h"
 #include "io/series_csv.h"
 #include "io/state_sink.h"
+#include "playback/recorded_inputs.h"
 #include "run/comparison.h"
 #include "run/run_files.h"
 
@@ -75,7 +77,12 @@ Status write_series(const std::string& path, Overwrite overwrite, const std::deq
 Status write_state(const StateFormat& format, const std::string& path, Overwrite overwrite, Scene scene,
                    const Simulation& simulation, const State& state) {
   scene.model = simulation.present().setup().settings;
-  const RunFacts facts = {to_toml(scene), scene.model.simulation.integrator};
+  RunFacts facts = {to_toml(scene), scene.model.simulation.integrator};
+  if (format.holds_scene) {
+    ASPIC_TRY(const InputLog inputs,
+              inputs_to_go_on(simulation.playback().history(), simulation.playback().here()));
+    if (!inputs.empty()) facts.inputs_toml = to_toml(inputs, scene.model.simulation.timestep);
+  }
   ASPIC_TRY(auto sink, format.open(path, 0, overwrite, facts));
   return sink->finish({simulation.model(), state});
 }
@@ -100,11 +107,10 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
     std::error_code unknown;
     if (comparison.active() && overwrite == Overwrite::refuse && std::filesystem::exists(paths[i], unknown))
       return messages.refuse(fmt::format("{} already exists. Choose another name.", paths[i]));
-    const Setup& setup = comparison.run(i).present().setup();
-    if (format.holds_scene && !(setup.thrown.empty() && setup.pinned.empty()))
+    if (format.holds_scene && !comparison.run(i).present().setup().thrown.empty())
       return messages.refuse(
-          fmt::format("A {} holds the scene and the state, and balls thrown or particles pinned by hand are "
-                      "not part of the scene. Remove them first (Balls, or Reset), or save the state alone.",
+          fmt::format("A {} holds the scene, its state, pulls and pins, and balls thrown by hand are none of "
+                      "these. Remove them first (Balls, or Reset), or save the state alone.",
                       format.option));
   }
   for (std::size_t i = 0; i < comparison.count(); ++i) {
@@ -125,6 +131,21 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
                         : fmt::format("{} holds the {} at step {}.", paths[i], format.option, state.step));
   }
   messages.info(fmt::format("{}", fmt::join(lines, "\n")));
+}
+
+/// Writes what hands did so far. A message says what became of it.
+void save_inputs(const std::string& path, Overwrite overwrite, Simulation& simulation, Messages& messages) {
+  if (!messages.check(simulation.settle())) return;
+  const auto inputs = recorded_inputs(simulation.playback().history(), simulation.playback().here());
+  if (!inputs) return messages.refuse(inputs.error().message);
+  const auto write = [&]() -> Status {
+    ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
+    ASPIC_CHECK(file.write(to_toml(*inputs, simulation.model().simulation.timestep)));
+    return file.commit();
+  };
+  if (const Status written = write(); !written) return messages.error(written.error().message);
+  messages.info(fmt::format("{} holds the inputs up to step {}: aspic run --replay repeats them.", path,
+                            simulation.step()));
 }
 
 }  // namespace
@@ -188,6 +209,17 @@ void state_files(Gui& gui, const std::string& source, Simulation& simulation, Co
     };
     files.ask({"Save", {format.ending}, true, write}, free_state_name(source, format.ending, comparison));
   }
+  if (!button(
+          gui, "save/inputs.toml", "Save inputs… (.toml)",
+          "Writes the pulls and pins of hands since the start, by step: aspic run --replay repeats the run "
+          "with them to the bit, on any backend.",
+          true, -1.0f))
+    return;
+  const auto write = [&simulation, &messages](const std::string& path, Overwrite overwrite) {
+    save_inputs(path, overwrite, simulation, messages);
+  };
+  const std::string name = free_name(source, "-inputs.toml");
+  files.ask({"Save", {".toml"}, true, write}, name);
 }
 
 }  // namespace aspic::app

@@ -17,7 +17,7 @@ void SceneControl::show_opened(const std::string& left) {
   unchanged_for_ = 0.0;
   messages_.dismiss();
   messages_.check(simulation_.rebuild().reset());
-  if (editor_.state()) messages_.check(simulation_.rebuild().start_from(*editor_.state()));
+  if (editor_.state()) messages_.check(simulation_.rebuild().start_from(*editor_.state(), editor_.inputs()));
   view_.camera = CameraControl(scene().view.camera);
   view_.forget_followed();
   view_.recall_camera(editor_.source());

@@ -42,6 +42,11 @@ Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std
     ASPIC_TRY(auto checkpoint, read_checkpoint(source));
     ASPIC_TRY(editor.scene_, parse_scene(checkpoint.scene, source, overrides));
     ASPIC_CHECK(check_against_scene(checkpoint, editor.scene_.model, source));
+    if (!checkpoint.inputs.empty()) {
+      ASPIC_TRY(const Model model, build_model(editor.scene_.model));
+      ASPIC_TRY(const InputLog log, parse_inputs(checkpoint.inputs, source, {editor.scene_.model, model}));
+      editor.origin_->inputs = log.at(checkpoint.state.step);
+    }
     editor.origin_->state = std::move(checkpoint.state);
   } else {
     ASPIC_TRY(editor.scene_, load_scene(source, overrides));
@@ -160,6 +165,7 @@ Status SceneEditor::save_as(const std::string& path, const CameraSettings& camer
   origin_->source = path;
   origin_->overrides.clear();
   origin_->state.reset();
+  origin_->inputs = {};
   origin_->modified = time_of(path);
   mark_saved();
   return {};

@@ -164,10 +164,17 @@ Status Rebuild::reset() {
   return {};
 }
 
-Status Rebuild::start_from(const State& state) {
+Status Rebuild::start_from(const State& state, const Inputs& inputs) {
   ASPIC_CHECK(playback_.halt(true));
+  ASPIC_CHECK(check_sizes(present_.model(), state));
+  const Setup& now = present_.setup();
+  Setup setup = {now.settings, {}, {}};
+  for (const std::uint32_t particle : inputs.pinned) setup.pinned[particle] = true;
+  for (const std::uint32_t particle : inputs.released) setup.pinned[particle] = false;
+  if (!now.thrown.empty() || setup.pinned != now.pinned)
+    ASPIC_CHECK(stepper_.install(setup, factory_.make_like(present_.engines(), setup)));
   forget_run();
-  ASPIC_CHECK(begin_stretch(state));
+  ASPIC_CHECK(begin_stretch(grown_state(present_.model(), state)));
   figures_.remember(present_.snapshot(), {present_.engines().measured(present_.snapshot())});
   return {};
 }

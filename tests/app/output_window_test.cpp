@@ -66,6 +66,57 @@ TEST_P(OutputOn, ACheckpointGoesOnAsTheWindowDoes) {
   EXPECT_EQ(state_hash_text(*(*solver)->state()), state_hash_text(simulation().snapshot()));
 }
 
+/// What a hand does in a pause: it pulls, pins a particle, lets go.
+TEST_P(OutputOn, InputsRepeatTheRun) {
+  open_falling(GetParam());
+  const Vec3 at = simulation().snapshot().position[63];
+  const auto steps = [&](int count) {
+    for (int i = 0; i < count; ++i) type(U'.');
+    ASSERT_TRUE(simulation().settle().ok());
+  };
+  simulation().set_hand(Pull{63, at + Vec3{0.5, 1.0, 0.0}, 900.0, 20.0});
+  steps(8);
+  simulation().set_hand(Pull{63, at + Vec3{1.5, 1.0, 0.0}, 900.0, 20.0});
+  steps(8);
+  ASSERT_TRUE(simulation().rebuild().toggle_pin(5).ok());
+  steps(8);
+  const std::uint64_t between = simulation().step();
+  save("checkpoint.aspic");
+  EXPECT_FALSE(app().messages.notice()->is_error) << app().messages.notice()->text;
+  simulation().set_hand(std::nullopt);
+  steps(8);
+  save("inputs.toml");
+  EXPECT_FALSE(app().messages.notice()->is_error) << app().messages.notice()->text;
+  const std::string hash = state_hash_text(simulation().snapshot());
+  const std::uint64_t end = simulation().step();
+
+  const Scene& scene = app().scene.editor().scene();
+  const SharedModel model = shared(std::move(build_model(scene.model)).value());
+  const auto log = read_inputs(path("aspic-cube-plane-0001-inputs.toml"), {scene.model, *model});
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  EXPECT_EQ(log->entries().size(), 4u);
+  const auto solver = std::move(make_reference_solver(model, Precision::single)).value();
+  ASSERT_FALSE((*advance(*solver, *log, 0, end)).has_value());
+  EXPECT_EQ(state_hash_text(*solver->state()), hash);
+
+  // The checkpoint has the inputs up to its step, and the pull and the pin go on.
+  const auto checkpoint = read_checkpoint(path("aspic-cube-plane-0001.aspic"));
+  ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message;
+  const auto kept = parse_inputs(checkpoint->inputs, "checkpoint", {scene.model, *model});
+  ASSERT_TRUE(kept.ok()) << kept.error().message;
+  InputLog so_far = *log;
+  so_far.forget_from(between);
+  EXPECT_EQ(*kept, so_far);
+  EXPECT_EQ(kept->at(between).pinned, std::vector<std::uint32_t>{5});
+  EXPECT_EQ(kept->at(between).pulls.size(), 1u);
+  // Opened in the window, the particle stays pinned and the hand has let go.
+  app().scene.open("cube-sphere");
+  app().scene.open(path("aspic-cube-plane-0001.aspic"));
+  EXPECT_EQ(simulation().step(), between);
+  steps(8);
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), hash);
+}
+
 TEST_P(OutputOn, ACheckpointIsOpenedWhereTheRunWas) {
   open_falling(GetParam());
   const std::uint64_t step = simulation().step();
@@ -126,6 +177,9 @@ TEST_F(Output, ACheckpointIsRefusedWhereHandsAddedBodies) {
   app().gui().commands().run("throw a ball");
   frames(2);
   save("checkpoint.aspic");
+  EXPECT_TRUE(app().messages.notice()->is_error);
+  EXPECT_THAT(app().messages.notice()->text, HasSubstr("thrown"));
+  save("inputs.toml");
   EXPECT_TRUE(app().messages.notice()->is_error);
   EXPECT_THAT(app().messages.notice()->text, HasSubstr("thrown"));
   EXPECT_FALSE(std::filesystem::exists(directory() / "aspic-cube-plane-0001.aspic"));

@@ -1,0 +1,71 @@
+#include "playback/recorded_inputs.h"
+
+#include <string>
+#include <utility>
+
+#include "aspic/scene.h"
+#include "base/result.h"
+#include "model/model.h"
+
+namespace aspic {
+namespace {
+
+/// Pins of hands, in addition to or against those of the scene.
+Result<Inputs> pins_of(const Setup& setup) {
+  Inputs inputs;
+  if (setup.pinned.empty()) return inputs;
+  ASPIC_TRY(const Model scene, build_model(setup.settings));
+  for (const auto& [particle, pinned] : setup.pinned) {
+    if (particle >= scene.particle_count() || pinned == (scene.inverse_mass[particle] == 0.0)) continue;
+    (pinned ? inputs.pinned : inputs.released).push_back(particle);
+  }
+  return inputs;
+}
+
+std::string physics_of(const Setup& setup) {
+  Scene scene;
+  scene.model = setup.settings;
+  return to_toml(scene);
+}
+
+Inputs with_pull(Inputs pins, const std::optional<Pull>& pull) {
+  if (pull) pins.pulls.push_back(*pull);
+  return pins;
+}
+
+}  // namespace
+
+Result<InputLog> recorded_inputs(const History& history, const Moment& until) {
+  const Moment begin = history.begin_moment();
+  if (begin.step > 0) {
+    return fail(ErrorCode::usage,
+                "The history begins at step {}: it does not reach back to the start of the run.", begin.step);
+  }
+  const std::string physics = physics_of(history.stretch(until.stretch).setup);
+  InputLog log;
+  for (std::uint64_t number = begin.stretch; number <= until.stretch; ++number) {
+    const Stretch& stretch = history.stretch(number);
+    if (!stretch.setup.thrown.empty())
+      return fail(ErrorCode::usage, "Balls were thrown: inputs that can be replayed are pulls and pins.");
+    if (physics_of(stretch.setup) != physics)
+      return fail(ErrorCode::usage, "The scene was changed in the run: inputs are replayed in one scene.");
+    ASPIC_TRY(const Inputs pins, pins_of(stretch.setup));
+    const std::uint64_t last = number == until.stretch ? until.step : stretch.last;
+    for (std::optional<std::uint64_t> step = stretch.first; step && *step <= last;
+         step = history.next_pull_change({number, *step}))
+      log.set(*step, with_pull(pins, history.pull_at({number, *step})));
+  }
+  return log;
+}
+
+Result<InputLog> inputs_to_go_on(const History& history, const Moment& now) {
+  const Setup& setup = history.stretch(now.stretch).setup;
+  if (!setup.thrown.empty()) return fail(ErrorCode::usage, "Balls were thrown.");
+  if (auto all = recorded_inputs(history, now)) return all;
+  ASPIC_TRY(const Inputs pins, pins_of(setup));
+  InputLog log;
+  log.set(now.step, with_pull(pins, history.pull_at(now)));
+  return log;
+}
+
+}  // namespace aspic
