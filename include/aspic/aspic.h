@@ -2,16 +2,16 @@
 // All of libaspic: scenes, models and their solvers, measures, files. Link aspic::aspic. No window and no
 // command line is part of it. Fallible calls return a Result.
 
-#include "aspic/analysis.h"  // measure(), compare_states(), stability_limit()
-#include "aspic/error.h"     // Result, Status, Error
-#include "aspic/files.h"     // write_state(), read_checkpoint(), write_checkpoint()
-#include "aspic/inputs.h"    // Inputs: pulls, pins, channels; InputLog
-#include "aspic/model.h"     // make_model(), initial_state(), masses, springs, surfaces
-#include "aspic/run.h"       // make_backend(), RunFiles, Recorder
-#include "aspic/scene.h"     // Scene, load_scene(), parse_scene(), to_toml()
-#include "aspic/settings.h"  // ModelSettings
-#include "aspic/solver.h"    // Solver: load(), advance(), state(), set_inputs()
-#include "aspic/state.h"     // State, state_fields, state_hash_text()
+#include "aspic/analysis.h"    // measure(), compare_states(), stability_limit()
+#include "aspic/error.h"       // Result, Status, Error
+#include "aspic/files.h"       // write_state(), read_checkpoint(), write_checkpoint()
+#include "aspic/inputs.h"      // Inputs: pulls, pins, channels; InputLog
+#include "aspic/model.h"       // make_model(), initial_state(), masses, springs, surfaces
+#include "aspic/run.h"         // make_backend(), RunFiles, Recorder
+#include "aspic/scene.h"       // Scene, load_scene(), parse_scene(), to_toml()
+#include "aspic/settings.h"    // ModelSettings
+#include "aspic/solver.h"      // Solver: load(), advance(), state(), set_inputs()
+#include "aspic/state.h"       // State, state_fields, state_hash_text()
 #include "aspic/state_view.h"  // StateView: numbers where they lie
-#include "aspic/vec.h"       // Vec3
-#include "aspic/version.h"   // ASPIC_VERSION, library_version()
+#include "aspic/vec.h"         // Vec3
+#include "aspic/version.h"     // ASPIC_VERSION, library_version()

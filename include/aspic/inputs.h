@@ -37,8 +37,8 @@ inline constexpr std::size_t most_channels = 65536;
 struct Inputs {
   /// Added in this order, several to one particle or ball too. At most most_pulls.
   std::vector<Pull> pulls = {};
-  /// Particles that are pinned where they are, in addition to the scene's: their velocity is 0 from the
-  /// beginning of the step on, and w is 0. Global indices, each once.
+  /// Particles that are pinned where they are, in addition to the scene's: like every pinned particle, one
+  /// that moves stops at the beginning of the step. Global indices, each once.
   std::vector<std::uint32_t> pinned = {};
   /// Particles that the scene pins and that are free: w = 1/m. Global indices, each once, none of `pinned`.
   std::vector<std::uint32_t> released = {};
@@ -46,7 +46,7 @@ struct Inputs {
   std::vector<double> channels = {};
 
   bool empty() const { return pulls.empty() && pinned.empty() && released.empty() && channels.empty(); }
-  bool moves_pins() const { return !pinned.empty() || !released.empty(); }
+  bool same_pins(const Inputs& other) const { return pinned == other.pinned && released == other.released; }
   friend bool operator==(const Inputs&, const Inputs&) = default;
 };
 

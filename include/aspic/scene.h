@@ -204,7 +204,8 @@ struct LoggedRun {
 /// Reads a log. Messages name `file_name`. Error (scene_rejected): the first TOML syntax error alone, or the
 /// first twenty others, sorted by line, with a caret: an unknown key, a value of another kind, steps that do
 /// not ascend, and what Solver::set_inputs() refuses in double precision.
-ASPIC_API Result<InputLog> parse_inputs(std::string_view text, const std::string& file_name, const LoggedRun& run);
+ASPIC_API Result<InputLog> parse_inputs(std::string_view text, const std::string& file_name,
+                                        const LoggedRun& run);
 
 /// Reads a file. Errors: as parse_inputs; io.
 ASPIC_API Result<InputLog> read_inputs(const std::string& path, const LoggedRun& run);

@@ -92,9 +92,9 @@ class ASPIC_API Solver {
   /// What acts from outside from the next step on, until it is called again. A new solver has none; load()
   /// leaves them as they are. Cheap enough for every picture, ordered after the steps that advance() was
   /// asked for, and without a say in the state before the next step begins: state() is what it was. Errors
-  /// (usage), which name the list and the index in it: a particle or ball that the model does not have, or that
-  /// is listed twice; a released one that the scene does not pin; a number that is not finite or too large; a
-  /// negative stiffness or damping; more than there may be. Then the inputs stay what they were.
+  /// (usage), which name the list and the index in it: a particle or ball that the model does not have, or
+  /// that is listed twice; a released one that the scene does not pin; a number that is not finite or too
+  /// large; a negative stiffness or damping; more than there may be. Then the inputs stay what they were.
   Status set_inputs(const Inputs& inputs);
   /// Those that hold, as the solver rounded them.
   const Inputs& inputs() const { return inputs_; }
@@ -140,8 +140,8 @@ class ASPIC_API Solver {
   Inputs inputs_;
 };
 
-/// Solver::advance() from the state of number `step`, where the solver is, with every step's inputs; afterwards
-/// those of the next one hold. Errors: those of the solver.
+/// Solver::advance() from the state of number `step`, where the solver is, with every step's inputs;
+/// afterwards those of the next one hold. Errors: those of the solver.
 ASPIC_API Result<std::optional<Divergence>> advance(Solver& solver, const InputLog& log, std::uint64_t step,
                                                     std::uint64_t steps);
 

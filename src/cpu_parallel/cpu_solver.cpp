@@ -93,7 +93,7 @@ class CpuSolver final : public Solver {
   Result<std::uint64_t> give_state(const StateView& to) override;
   Status take_inputs(const Inputs& inputs) override;
   Status take_constants(SharedModel model) override;
-  std::vector<reference::Vector<float>> hold_pins();
+  std::vector<std::pair<std::size_t, reference::Vector<float>>> hold_pins();
   std::uint64_t heap_bytes() const;
   void step();
   void move_balls();
@@ -109,7 +109,7 @@ class CpuSolver final : public Solver {
   FloatArray mass_, inverse_mass_;
   Particles state_, next_;
   reference::BallPhase<float> ball_phase_, next_balls_;
-  bool pins_held_ = false;  // as inputs() say
+  bool pins_held_ = false;  // no pinned particle moves
   std::uint64_t step_ = 0;
   std::uint64_t bytes_;  ///< without contacts, which come and go
   std::optional<Divergence> divergence_;
@@ -164,10 +164,12 @@ Result<std::uint64_t> CpuSolver::give_state(const StateView& to) {
 }
 
 Status CpuSolver::take_inputs(const Inputs& taken) {
-  if (taken.moves_pins() || inputs().moves_pins()) fill(inverse_mass_, inverse_mass_under(*model_, taken));
+  if (!taken.same_pins(inputs())) {
+    fill(inverse_mass_, inverse_mass_under(*model_, taken));
+    pins_held_ = false;
+  }
   dynamics_.set_inputs(taken);
   balls_.set_inputs(taken);
-  pins_held_ = false;
   return {};
 }
 
@@ -188,12 +190,15 @@ Status CpuSolver::take_constants(SharedModel model) {
   return {};
 }
 
-/// Particles that inputs pin stop where a step begins. Returns their velocities before; none if none changes.
-std::vector<reference::Vector<float>> CpuSolver::hold_pins() {
-  std::vector<reference::Vector<float>> before;
+/// Pinned particles stand from the beginning of a step on. Returns the velocities of those that did not.
+std::vector<std::pair<std::size_t, reference::Vector<float>>> CpuSolver::hold_pins() {
+  std::vector<std::pair<std::size_t, reference::Vector<float>>> before;
   if (std::exchange(pins_held_, true)) return before;
-  for (const std::uint32_t i : inputs().pinned) {
-    before.push_back(vector_of(state_.v, i));
+  for (std::size_t i = 0; i < model_->particle_count(); ++i) {
+    if (inverse_mass_[i] != 0.0f) continue;
+    const reference::Vector<float> v = vector_of(state_.v, i);
+    if ((v.array() == 0.0f).all()) continue;
+    before.emplace_back(i, v);
     parallel::set(state_.v, i, reference::Vector<float>::Zero());
   }
   return before;
@@ -206,7 +211,7 @@ void CpuSolver::step() {
   bool sound = steps_->step(state_, next_, report);
   if (interrupted()) {  // the step is dropped
     steps_->forget();
-    for (std::size_t n = 0; n < before.size(); ++n) parallel::set(state_.v, inputs().pinned[n], before[n]);
+    for (const auto& [i, v] : before) parallel::set(state_.v, i, v);
     pins_held_ = before.empty();
     return;
   }

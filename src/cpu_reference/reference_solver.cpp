@@ -115,7 +115,7 @@ class ReferenceSolver final : public Solver {
   Status take_inputs(const Inputs& inputs) override {
     parts_->dynamics.set_inputs(inputs);
     parts_->balls.set_inputs(inputs);
-    pins_held_ = false;
+    pins_held_ = pins_held_ && inputs.same_pins(this->inputs());
     return {};
   }
 
@@ -123,15 +123,20 @@ class ReferenceSolver final : public Solver {
     parts_ = std::make_unique<Parts>(kind_, std::move(model));
     parts_->dynamics.set_stop_flag(stop_flag());
     divergence_.reset();
+    pins_held_ = false;
     return take_inputs(inputs());
   }
 
-  /// Particles that inputs pin stop where a step begins. Returns the velocities before; nothing if none
+  /// Pinned particles stand from the beginning of a step on. Returns the velocities before; nothing if none
   /// changes.
   Field<T> hold_pins() {
-    if (std::exchange(pins_held_, true) || inputs().pinned.empty()) return {};
-    Field<T> before = phase_.v;
-    for (const std::uint32_t i : inputs().pinned) phase_.v.col(i).setZero();
+    Field<T> before;
+    if (std::exchange(pins_held_, true)) return before;
+    for (Eigen::Index i = 0; i < phase_.v.cols(); ++i) {
+      if (parts_->dynamics.inverse_mass(i) != T(0) || (phase_.v.col(i).array() == T(0)).all()) continue;
+      if (before.cols() == 0) before = phase_.v;
+      phase_.v.col(i).setZero();
+    }
     return before;
   }
 
@@ -165,7 +170,7 @@ class ReferenceSolver final : public Solver {
   SolveStatistics statistics_;
   Phase<T> phase_;
   BallPhase<T> ball_phase_;
-  bool pins_held_ = false;  // as inputs() say
+  bool pins_held_ = false;  // no pinned particle moves
   std::uint64_t step_ = 0;
   std::optional<Divergence> divergence_;
 };

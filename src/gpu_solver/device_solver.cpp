@@ -83,6 +83,9 @@ Status DeviceSolver::take(const State& state) {
   divergence_.reset();
   held_ = {};
   pins_held_ = false;
+  moving_pins_.clear();
+  for (std::uint32_t i = 0; i < particles.size(); ++i)
+    if (particles[i].position.w == 0.0f && state.velocity[i] != Vec3{}) moving_pins_.push_back(i);
   restart();
   return {};
 }
@@ -115,7 +118,7 @@ Status DeviceSolver::take_inputs(const Inputs& taken) {
     if (repeats_steps()) ASPIC_CHECK(settle());
     pulls_.set(*model_, taken.pulls);
   }
-  pins_held_ = false;
+  pins_held_ = pins_held_ && taken.same_pins(inputs());
   return {};
 }
 
@@ -146,26 +149,30 @@ Status DeviceSolver::take_constants(SharedModel next) {
   return context_.check();
 }
 
-/// Gives particles the weights of the inputs' pins; those that are pinned stop. The next step begins with it.
+/// Gives particles the weights of the inputs' pins; pinned particles stand. The next step begins with it.
 Status DeviceSolver::hold_pins() {
   if (std::exchange(pins_held_, true)) return {};
-  if (held_.pinned == inputs().pinned && held_.released == inputs().released) return {};
+  if (moving_pins_.empty() && held_.pinned == inputs().pinned && held_.released == inputs().released)
+    return {};
   // So that the state is that of the last step asked for.
   ASPIC_CHECK(settle());
   if (divergence_) return {};
   // Inverse mass and velocity lie side by side.
   constexpr std::uint64_t floats = sizeof(layout::Particle) / sizeof(float), weight_at = 3;
   static_assert(offsetof(layout::Particle, velocity) == (weight_at + 1) * sizeof(float));
-  const auto weigh = [&](std::uint32_t i, double w) {
-    const auto weight = static_cast<float>(w);
-    states_[current_].upload_items(std::span(&weight, 1), i * floats + weight_at);
+  const auto hold = [&](const std::vector<std::uint32_t>& particles) {
+    for (const std::uint32_t i : particles) {
+      const auto w = static_cast<float>(inverse_mass_of(*model_, inputs(), i));
+      const std::array<float, 4> held = {w, 0.0f, 0.0f, 0.0f};
+      states_[current_].upload_items(std::span(held).first(w == 0.0f ? 4 : 1), i * floats + weight_at);
+    }
   };
-  for (const std::uint32_t i : held_.pinned) weigh(i, model_->inverse_mass[i]);
-  for (const std::uint32_t i : held_.released) weigh(i, model_->inverse_mass[i]);
-  for (const std::uint32_t i : inputs().released) weigh(i, 1.0 / model_->mass[i]);
-  constexpr std::array<float, 4> stopped = {};
-  for (const std::uint32_t i : inputs().pinned)
-    states_[current_].upload_items(stopped, i * floats + weight_at);
+  hold(moving_pins_);
+  for (const Inputs* const of : {&std::as_const(held_), &inputs()}) {
+    hold(of->pinned);
+    hold(of->released);
+  }
+  moving_pins_.clear();
   held_.pinned = inputs().pinned;
   held_.released = inputs().released;
   return {};

@@ -125,9 +125,10 @@ class DeviceSolver : public GpuSolver {
   std::vector<std::string> pass_names_;
   std::vector<std::shared_ptr<const gl::Program>> programs_;  // of the passes
   gl::Arithmetic arithmetic_;
-  Inputs held_;                       // whose pins the state's weights have
-  bool pins_held_ = false;            // those are inputs()
-  std::uint64_t largest_sliced_ = 0;  // bytes
+  Inputs held_;                             // whose pins the state's weights have
+  std::vector<std::uint32_t> moving_pins_;  // of the scene's pins those that move in the state
+  bool pins_held_ = false;                  // those are inputs(), and none moves
+  std::uint64_t largest_sliced_ = 0;        // bytes
   std::uint64_t bytes_ = 0;
 };
 

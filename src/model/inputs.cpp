@@ -80,7 +80,7 @@ double inverse_mass_of(const Model& model, const Inputs& inputs, std::uint32_t p
 }
 
 Runs<double> inverse_mass_under(const Model& model, const Inputs& inputs) {
-  if (!inputs.moves_pins()) return model.inverse_mass;
+  if (inputs.same_pins({})) return model.inverse_mass;
   Runs<double> result;
   auto pinned = inputs.pinned.begin(), released = inputs.released.begin();
   const auto next = [](auto at, const auto& list, std::size_t otherwise) {

@@ -174,7 +174,10 @@ TEST_F(Crowds, DivergenceInAStepWithoutRoom) {
     ASSERT_TRUE(divergence->has_value());
     EXPECT_EQ((*divergence)->step, 1u);
     EXPECT_EQ(body_text(**divergence), "particle 700");
-    EXPECT_EQ(*solver->state(), initial_state(model, Precision::single));
+    State last = initial_state(model, Precision::single);
+    for (std::size_t i = 0; i < last.velocity.size(); ++i)
+      if (model.inverse_mass[i] == 0.0) last.velocity[i] = {};  // pinned ones stand from the step's start on
+    EXPECT_EQ(*solver->state(), last);
   }
 }
 
