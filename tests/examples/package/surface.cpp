@@ -41,7 +41,8 @@ int main() {
   if (!backend || backend->variant() != "cpu" || aspic::list_backends().back().name != "reference") return 9;
   aspic::Pull pull;
   pull.stiffness = 10.0;
-  if (!backend->solver->set_pull(pull) || !backend->solver->advance(10)) return 10;
+  aspic::Solver& solver = *backend->solver;
+  if (!solver.set_inputs(aspic::inputs_of(pull)) || !solver.advance(10)) return 10;
   const auto state = backend->solver->state();
   const std::string toml = aspic::to_toml(*scene);
   if (!aspic::write_checkpoint("lab.aspic", toml, **model, *state, aspic::Overwrite::allow)) return 11;
@@ -54,5 +55,18 @@ int main() {
   Counter counter;
   aspic::FrameSink& sink = counter;
   if (dynamic_cast<Counter*>(&sink) == nullptr || !sink.finish()) return 16;
-  return aspic::find_film_format("mp4") ? 0 : 17;
+  if (!aspic::find_film_format("mp4")) return 17;
+  aspic::InputLog log;
+  log.set(12, {{pull, pull}, {1}, {}, {0.5}});
+  const std::string text = aspic::to_toml(log, scene->model.simulation.timestep);
+  const auto again = aspic::parse_inputs(text, "again", {scene->model, **model});
+  if (!again || again->hash_text() != log.hash_text()) return 18;
+  if (!aspic::advance(solver, *again, 10, 5) || solver.inputs().pulls.size() != 2) return 19;
+  std::vector<float> x(81);
+  aspic::StateView view;
+  view[aspic::field_number("position")] = aspic::Strided<float>{x.data(), 27};
+  const auto step = solver.read_into(view);
+  if (!step || *step != 15 || !solver.view()) return 20;
+  if (!aspic::check_same_topology(**model, **model) || !solver.set_constants(*model)) return 21;
+  return solver.load(aspic::view_of(start), 0) ? 0 : 22;
 }
