@@ -60,6 +60,14 @@ chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --blink-setting
 ffmpeg -v error -y -i "$work/report.png" -vf scale=960:-1 -q:v 6 "$images/report.jpg"
 echo "docs/images/report.jpg" >&2
 
+"$aspic_build_dir/aspic" run cube-plane --view colour=strain --page "$work/page.html" >&2
+"$aspic_build_dir/aspic" run cube-plane --beside integrator=implicit-euler --beside k=8000 --page "$work/page-beside.html" >&2
+/usr/bin/python3 tests/page/shoot.py "$work/page.html" 1.36 "$work/page.png" "$work/page-beside.html" 1.5 "$work/page-beside.png"
+for picture in page page-beside; do
+  ffmpeg -v error -y -i "$work/$picture.png" -q:v 4 "$images/$picture.jpg"
+  echo "docs/images/$picture.jpg" >&2
+done
+
 ASPIC_WINDOW_PICTURES=$work tests/support/on_display.sh 1920x1080 \
   "$aspic_build_dir/tests/app/app_window_tests" --gtest_filter='Gallery.*' >&2
 for picture in "$work"/window-*.jpg; do

@@ -13,6 +13,7 @@ scripts/test.sh [--full] ARGUMENT …  with arguments of ctest. -R, -L and -I ch
 core      each room's own tests; the gpu solvers on llvmpipe with a covering set of methods, terrains, contact
           models, force paths and bodies; pictures; the command line; the window's main tests
 full      core, and by label:
+  pages        pages of every built-in scene in Chromium and Firefox
   products     equal bits in products of methods, terrains and paths, and for more particles
   drivers      every kernel as every set of defines makes it, with 1 and 8 driver threads, on zink and for
                Khronos' reference compiler

@@ -53,6 +53,7 @@ struct Sample {
   const State& state;
   SolveStatistics solves = {};      ///< of the run so far; zeros unless the integrator is implicit-euler
   const RunFacts* facts = nullptr;  ///< null except within a sink that was told them
+  const Divergence* divergence = nullptr;  ///< of the step after it, which ended the run; null: none
 };
 
 /// Width and height of a picture [pixels].

@@ -79,6 +79,7 @@ struct StateOutput {
 /// Pictures of a run.
 struct PictureOutput {
   std::string video, frames;                                  ///< file and directory; empty: none
+  std::string page;                                           ///< HTML file for browsers; empty: none
   const FilmFormat* frames_format = find_film_format("png");  ///< of `frames`
   std::optional<double> fps;  ///< pictures per second shown, > 0; absent: what the formats have
   double speed = 1.0;         ///< simulated seconds per second shown, > 0
@@ -88,7 +89,15 @@ struct PictureOutput {
   /// software rasterisers with all processors; empty: this one draws alone.
   std::vector<std::string> drawer = {};
 
+  /// Whether anything is drawn: a page is not.
   bool any() const { return !video.empty() || !frames.empty(); }
+};
+
+/// What a page needs to know of a run before it starts.
+struct PageFacts {
+  const Scene* scene = nullptr;                 ///< null: there is no page
+  std::uint64_t first_step = 0, last_step = 0;  ///< as planned
+  std::string command = {};                     ///< that writes the page again; empty: none does
 };
 
 /// The files of a run: opened before it, completed after it. One that fails on the way does not keep the
@@ -99,9 +108,10 @@ class ASPIC_API RunFiles {
   RunFiles& operator=(RunFiles&&) noexcept;
   ~RunFiles();
 
-  /// Opens every file that is named. Errors: usage for one name given twice; io; interrupted.
+  /// Opens every file that is named; the page of `pictures` where `page` tells of its run. Errors: usage for
+  /// one name given twice, or a page of more than it holds; io; interrupted.
   static Result<RunFiles> open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
-                               const RunFacts& facts, Overwrite overwrite);
+                               const RunFacts& facts, Overwrite overwrite, const PageFacts& page = {});
 
   /// The first step after `step` at which a file wants the state; the largest number if none does.
   std::uint64_t next_step(std::uint64_t step) const;

@@ -62,6 +62,7 @@ void Film::start() {
   pace_.emplace(recording_->options().fps);
   scene_ = editor_.source();
   taken_.reset();
+  start_page();
   messages_.info(fmt::format("Recording to {}, in step with simulated time.", recording_->options().path));
   take();
 }
@@ -73,7 +74,41 @@ void Film::stop() {
   end();
 }
 
+/// Next to the film, of its name. The film goes on where there can be none.
+void Film::start_page() {
+  page_.reset();
+  if (!settings.page) return;
+  std::filesystem::path named(recording_->options().path);
+  if (find_film_format(named.extension().string())) named.replace_extension();
+  auto page = FilmPage::start(named.string() + ".html", comparison_view_, recording_->options().fps,
+                              simulation_.pacer().speed());
+  if (!page) return messages_.error(page.error().message + " The film goes on without a page.");
+  page_.emplace(std::move(*page));
+}
+
+/// The states of the picture that was drawn.
+Status Film::add_to_page() {
+  if (!page_) return {};
+  // A backend in the context hands its state over when it is asked.
+  if (!comparison_.active() && simulation_.present().device_state())
+    ASPIC_CHECK(simulation_.refresh_snapshot());
+  page_->add(comparison_view_);
+  if (page_->complete()) end_page();
+  return {};
+}
+
+void Film::end_page() {
+  if (!page_) return;
+  page_->finish();
+  if (page_->failed())
+    messages_.error(page_->said());
+  else
+    messages_.info(page_->said());
+  page_.reset();
+}
+
 void Film::end() {
+  end_page();
   recording_->end();
   completing_.push_back(std::move(recording_));
   pace_.reset();
@@ -156,6 +191,7 @@ void Film::take() {
   if (copies > 0) {
     Status taken = draw();
     if (taken) taken = recording_->add(drawn(), copies);
+    if (taken) taken = add_to_page();
     if (!messages_.check(taken)) return end();
   }
   // Where the run was put to another state it waits until that is shown.

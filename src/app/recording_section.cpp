@@ -176,6 +176,12 @@ void recording_section(Gui& gui, const std::string& source, Film& film) {
   check_box(gui, "shown", "record/text", film.settings.text,
             "Terrain, integrator, time step, springs and time are written on the picture, as in aspic run "
             "--video, with the legend of the colours.");
+  label_column("Page");
+  check_box(gui, "for browsers", "record/page", film.settings.page,
+            "Writes the film's states as a page as well, of the same name: one HTML file that browsers open, "
+            "to be turned "
+            "and played there, as aspic run --page writes it. It ends where the model becomes another, or "
+            "the run goes back.");
   if (film.completing() > 0) ImGui::TextDisabled("Completing the last film …");
 }
 

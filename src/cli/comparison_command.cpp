@@ -12,6 +12,7 @@
 #include "cli/run_summary.h"
 #include "io/program.h"
 #include "model/inputs.h"
+#include "page/page_writer.h"
 #include "playback/common_clock.h"
 #include "run/comparison.h"
 #include "run/comparison_recorder.h"
@@ -82,8 +83,8 @@ Result<HeadlessVariants> make_variants(const RunOptions& options, const std::vec
     InputLog own = inputs.with_timestep(scene.model.simulation.timestep, simulation.timestep);
     ASPIC_TRY(auto files, open_files(options, run.scene, own, variants.size() + 1, overwrite));
     ASPIC_TRY(const auto last_step, as_long_as(scene.model.simulation, steps, simulation));
-    auto variant = std::make_unique<HeadlessVariant>(std::move(run), shared(std::move(model)),
-                                                     std::move(own), std::move(files));
+    auto variant = std::make_unique<HeadlessVariant>(std::move(run), shared(std::move(model)), std::move(own),
+                                                     std::move(files));
     variant->last_step = last_step;
     variants.push_back(std::move(variant));
   }
@@ -132,14 +133,80 @@ Status draw(ComparisonRecorder& recorder, const HeadlessVariants& variants) {
   return recorder.add(steps, divergences);
 }
 
+/// The page of all runs, which goes on without the other files, and they without it.
+class ComparisonPage {
+ public:
+  /// Opens it, where one is asked for.
+  static Result<std::optional<ComparisonPage>> open(const RunOptions& options, Overwrite overwrite) {
+    if (options.pictures.page.empty()) return std::optional<ComparisonPage>();
+    ASPIC_TRY(auto writer, page::PageWriter::create(options.pictures.page, overwrite));
+    return std::optional<ComparisonPage>(ComparisonPage(std::move(writer)));
+  }
+  /// Errors: usage, more pictures of all runs than a page holds; io.
+  Status begin(const RunOptions& options, const HeadlessVariants& variants,
+               const std::vector<PicturedRun>& runs, std::uint64_t pictures) {
+    const double fps = frames_per_second(options.pictures);
+    std::vector<page::PageRun> paged;
+    std::uint64_t positions = 0;
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      const Model& model = *variants[i]->model;
+      paged.push_back({&variants[i]->run.scene, &model, runs[i].name});
+      positions += model.particle_count() + model.ball_count();
+    }
+    ASPIC_CHECK(page::check_page(pictures, positions, fps));
+    return writer_.begin({fps, options.pictures.speed, command_of(options.words)}, paged);
+  }
+  /// Where all runs are now. Error: of a run's device; one of the page is failures().
+  Status add(const HeadlessVariants& variants) {
+    if (!failures_.empty()) return {};
+    ASPIC_CHECK(take(variants));
+    note(writer_.add(pointers()));
+    return {};
+  }
+  Status finish(const HeadlessVariants& variants) {
+    ASPIC_CHECK(add(variants));
+    if (!failures_.empty()) return {};
+    std::vector<std::optional<Divergence>> divergences;
+    for (const auto& m : variants) divergences.push_back(m->headless->divergence());
+    note(writer_.finish(pointers(), divergences));
+    return {};
+  }
+  const std::vector<Error>& failures() const { return failures_; }
+  const std::string& path() const { return writer_.path(); }
+
+ private:
+  explicit ComparisonPage(page::PageWriter writer) : writer_(std::move(writer)) {}
+  void note(const Status& done) {
+    if (!done) failures_.push_back(done.error());
+  }
+  Status take(const HeadlessVariants& variants) {
+    states_.resize(variants.size());
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      const HeadlessRun& headless = *variants[i]->headless;
+      if (!states_[i].position.empty() && states_[i].step == headless.step()) continue;
+      ASPIC_TRY(states_[i], headless.solver().state());
+    }
+    return {};
+  }
+  std::vector<const State*> pointers() const {
+    std::vector<const State*> all;
+    for (const State& state : states_) all.push_back(&state);
+    return all;
+  }
+
+  page::PageWriter writer_;
+  std::vector<State> states_;
+  std::vector<Error> failures_;
+};
+
 /// Picture by picture: a run that diverged stands still while the others go on, and all do without pictures
 /// if those fail and there are other files. The result says whether all pictures were drawn.
 Result<Status> simulate(HeadlessVariants& variants, const CommonClock& clock, ComparisonRecorder* recorder,
-                        const InterruptGuard& interrupt) {
+                        ComparisonPage* page, const InterruptGuard& interrupt) {
   for (const auto& m : variants) ASPIC_CHECK(m->headless->begin());
   ProgressBar bar(clock.count(), "picture");
   bool interrupted = false;
-  Losses losses;
+  Losses losses, losses_of_page;
   for (std::uint64_t frame = 0; frame < clock.count() && !interrupted; ++frame) {
     for (std::size_t i = 0; i < variants.size() && !interrupted; ++i) {
       HeadlessRun& headless = *variants[i]->headless;
@@ -148,8 +215,16 @@ Result<Status> simulate(HeadlessVariants& variants, const CommonClock& clock, Co
       if (recorder) recorder->add_simulation(headless.seconds() - before);
       interrupted = headless.interrupted();
     }
+    if (page) {
+      ASPIC_CHECK(page->add(variants));
+      const bool others =
+          recorder || std::ranges::any_of(variants, [](const auto& m) { return m->files.any_left(); });
+      if (!others && !page->failures().empty()) return page->failures().front();
+      losses_of_page.tell(page->failures());
+    }
     if (recorder) {
-      const bool files = std::ranges::any_of(variants, [](const auto& m) { return m->files.any_left(); });
+      const bool files = (page && page->failures().empty()) ||
+                         std::ranges::any_of(variants, [](const auto& m) { return m->files.any_left(); });
       ASPIC_CHECK(losses.after_picture(*recorder, draw(*recorder, variants), files));
       if (!losses.pictured()) recorder = nullptr;
     }
@@ -204,6 +279,7 @@ Status execute_comparison(const RunOptions& options) {
   ASPIC_CHECK(check_pictures(options.pictures, variants.front()->model->simulation.timestep, 0,
                              variants.front()->last_step));
   ASPIC_TRY(auto film, RunFiles::open({}, options.pictures, {}, overwrite));
+  ASPIC_TRY(auto page, ComparisonPage::open(options, overwrite));
   ASPIC_TRY(context, shared_context(options, variants));
   ASPIC_CHECK(prepare(variants, differences, context.get(), interrupt));
 
@@ -215,6 +291,7 @@ Status execute_comparison(const RunOptions& options) {
                         short_name(pictured.size(), differences, m->run.scene, m->backend.variant())});
   }
   const CommonClock clock(std::move(spans), frames_per_second(options.pictures), options.pictures.speed);
+  if (page) ASPIC_CHECK(page->begin(options, variants, pictured, clock.count()));
   std::unique_ptr<ComparisonRecorder> recorder;
   if (options.pictures.any()) {
     PictureOutput pictures = options.pictures;
@@ -222,8 +299,10 @@ Status execute_comparison(const RunOptions& options) {
     ASPIC_TRY(recorder, ComparisonRecorder::create(*context, pictures, std::move(pictured), clock.count(),
                                                    film.take_frame_sinks()));
   }
-  ASPIC_TRY(Status pictured_all, simulate(variants, clock, recorder.get(), interrupt));
+  ASPIC_TRY(Status pictured_all,
+            simulate(variants, clock, recorder.get(), page ? &*page : nullptr, interrupt));
 
+  if (page) ASPIC_CHECK(page->finish(variants));
   // Pictures last: an encoder may keep a run waiting.
   for (const auto& m : variants) {
     const Outcome& outcome = *m->outcome;
@@ -232,13 +311,17 @@ Status execute_comparison(const RunOptions& options) {
   if (recorder && pictured_all) pictured_all = recorder->finish();
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};
   if (!pictured_all && lost.empty()) lost.push_back(pictured_all.error());
-  bool others = recorder && !recorder->written().empty();
+  std::vector<std::string> shared = recorder ? recorder->written() : std::vector<std::string>{};
+  if (page) {
+    lost.insert(lost.end(), page->failures().begin(), page->failures().end());
+    if (page->failures().empty()) shared.push_back(page->path());
+  }
+  bool others = !shared.empty();
   for (const auto& m : variants) {
     lost.insert(lost.end(), m->files.failures().begin(), m->files.failures().end());
     others = others || !m->files.written().empty();
   }
-  const Status summary = print_summary(
-      options, variants, recorder ? recorder->written() : std::vector<std::string>{}, recorder.get());
+  const Status summary = print_summary(options, variants, shared, recorder.get());
   if (recorder) print_frame_times(recorder->times(), recorder->device());
   ASPIC_CHECK(lost_error(lost, others));
   if (!summary) return summary;

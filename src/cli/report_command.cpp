@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "aspic/scene.h"
+#include "base/shell_word.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "io/program.h"
@@ -11,9 +12,9 @@ Status execute(const ReportOptions& options) {
   const InterruptGuard interrupt;
   report::ReportPlan plan;
   ASPIC_TRY(plan.scene, load_scene(options.scene, options.overrides));
-  plan.scene_words = report::shell_word(options.scene);
+  plan.scene_words = shell_word(options.scene);
   for (const std::string& assignment : options.overrides)
-    plan.scene_words += fmt::format(" --set {}", report::shell_word(assignment));
+    plan.scene_words += fmt::format(" --set {}", shell_word(assignment));
   plan.out = options.out;
   plan.only = options.only;
   plan.thorough = options.thorough;

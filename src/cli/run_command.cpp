@@ -184,8 +184,9 @@ Status execute(const RunOptions& options) {
   ASPIC_TRY(const InputLog inputs, inputs_of_run(options, start, model));
   const RunFacts facts = {start.scene_toml, start.scene.model.simulation.integrator,
                           inputs.empty() ? "" : to_toml(inputs, model.simulation.timestep)};
+  const PageFacts page = {&start.scene, first_step, steps, command_of(options.words)};
   ASPIC_TRY(auto files, RunFiles::open(options.outputs, options.pictures, facts,
-                                       options.force ? Overwrite::allow : Overwrite::refuse));
+                                       options.force ? Overwrite::allow : Overwrite::refuse, page));
 
   BackendChoice choice = options.backend;
   if (start.state) choice.precision = start.state->precision;
@@ -204,7 +205,8 @@ Status execute(const RunOptions& options) {
   }
   HeadlessRun headless(*backend.solver, files, first_step, options.pictures.any(), inputs);
   ASPIC_TRY(auto outcome, simulate(headless, recorder.get(), steps, interrupt));
-  (void)files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{})});
+  (void)files.finish({model, outcome.state, outcome.solves.value_or(SolveStatistics{}), nullptr,
+                      outcome.divergence ? &*outcome.divergence : nullptr});
   if (recorder) finish_pictures(*recorder, *backend.solver, outcome);
   std::vector<Error> lost = recorder ? recorder->failures() : std::vector<Error>{};
   if (!outcome.pictured && lost.empty()) lost.push_back(outcome.pictured.error());

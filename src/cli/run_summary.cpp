@@ -4,6 +4,7 @@
 
 #include "analysis/stability.h"
 #include "aspic/analysis.h"
+#include "base/shell_word.h"
 #include "io/console.h"
 #include "model/springs.h"
 
@@ -133,6 +134,12 @@ void print_frame_times(const FrameTimes& t, const std::string& device) {
 }
 
 /// The infinite lattice clears most cubes at once; a large one's own spectrum takes seconds.
+std::string command_of(const std::vector<std::string>& words) {
+  std::string command = "aspic run";
+  for (const std::string& word : words) command += " " + shell_word(word);
+  return command;
+}
+
 void warn_if_unstable(const Model& model, const InterruptGuard& interrupt, const std::string& of) {
   const SimulationSettings& simulation = model.simulation;
   if (certainly_stable(model, simulation.integrator, simulation.timestep)) return;

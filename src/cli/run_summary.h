@@ -1,6 +1,7 @@
 #pragma once
 // What `aspic run` says of a run: beforehand, at its end, and where it diverged.
 #include <string>
+#include <vector>
 
 #include "aspic/scene.h"
 #include "base/result.h"
@@ -31,6 +32,9 @@ std::string to_text(const RunReport& run);
 Json to_json(const FrameTimes& times, const std::string& device);
 /// One line on stderr: pictures are by the way, the summary on stdout is the run's.
 void print_frame_times(const FrameTimes& times, const std::string& device);
+
+/// `aspic run` with these words, as a shell takes it.
+std::string command_of(const std::vector<std::string>& words);
 
 /// Warns where the time step is beyond the estimate of the largest stable one; `of` begins the sentence.
 void warn_if_unstable(const Model& model, const InterruptGuard& interrupt, const std::string& of = "");

@@ -15,6 +15,8 @@
 #include "command_line/help_texts.h"
 #include "command_line/raw_options.h"
 #include "command_line/window_layouts.h"
+#include "io/film_format.h"
+#include "io/state_sink.h"
 
 namespace aspic {
 namespace {
@@ -126,6 +128,8 @@ void add_pictures(CLI::App* c, RunOptions& run, RawOptions& raw) {
   add(c, "--video", "FILE", pictures.video,
       fmt::format("write a video: {} (needs ffmpeg)", film_endings(false)));
   add(c, "--frames", "DIR", pictures.frames, "write numbered pictures into a directory");
+  add(c, "--page", "FILE", pictures.page,
+      "write a page for browsers (.html): orbit, play, colours, energies; with --beside all runs in one");
   add(c, "--frames-format", "NAME", raw.frames_format, film_endings(true));
   add(c, "--fps", "F", pictures.fps, "pictures per second shown; default 60, for a GIF 50");
   add(c, "--speed", "X", pictures.speed, "simulated seconds per second shown: 0.25 is slow motion");
@@ -324,7 +328,10 @@ Result<Command> parse_arguments(int argc, const char* const* argv) {
       result.emplace(finish());
     });
   };
-  on(add_run(app, run, raw), [&] { return finish_run(run, raw); });
+  on(add_run(app, run, raw), [&] {
+    run.words.assign(argv + 2, argv + argc);
+    return finish_run(run, raw);
+  });
   on(add_view(app, view, raw), [&] {
     view.words.assign(argv + 2, argv + argc);
     return finish_view(view, raw);

@@ -29,6 +29,7 @@ struct RunOptions {
   std::vector<std::string> differences;  ///< KEY=VALUE, one for each further run
   bool force = false;
   bool json = false;
+  std::vector<std::string> words;  ///< the arguments after `run` as they were given
 };
 
 struct CompareOptions {

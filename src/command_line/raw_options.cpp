@@ -11,6 +11,8 @@
 #include "base/files.h"
 #include "base/printable.h"
 #include "command_line/window_layouts.h"
+#include "io/film_format.h"
+#include "page/page_writer.h"
 
 namespace aspic {
 namespace {
@@ -40,10 +42,13 @@ Result<PictureSize> parse_size(const std::string& text, std::string_view option 
 
 /// Options of pictures, where there are none, would do nothing.
 Status check_pictures_wanted(const PictureOutput& pictures, const RawOptions& raw) {
-  for (const std::string_view option :
-       {"--frames-format", "--fps", "--speed", "--size", "--text", "--no-text", "--view"})
+  for (const std::string_view option : {"--frames-format", "--size", "--text", "--no-text"})
     if (raw.gave(option) && !pictures.any())
       return usage("{} is for pictures: add --video FILE or --frames DIR, or leave it out.", option);
+  for (const std::string_view option : {"--fps", "--speed", "--view"})
+    if (raw.gave(option) && !pictures.any() && pictures.page.empty())
+      return usage("{} is for pictures: add --video FILE, --frames DIR or --page FILE, or leave it out.",
+                   option);
   if (raw.gave("--frames-format") && pictures.frames.empty())
     return usage("--frames-format is for --frames DIR: add it, or leave --frames-format out.");
   return {};
@@ -66,6 +71,7 @@ Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
     return usage("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps);
   if (!positive(pictures.speed))
     return usage("--speed must be a finite number above 0, not {}.", pictures.speed);
+  if (!pictures.page.empty()) ASPIC_CHECK(page::check_page_name(pictures.page));
   if (pictures.video.empty()) return {};
   ASPIC_TRY(const auto format, video_format_of(pictures.video));
   return check_film(*format, pictures.size, frames_per_second(pictures));

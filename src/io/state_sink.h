@@ -1,6 +1,7 @@
 #pragma once
 // Where the states of a run go, and the table of the formats they take.
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,8 +20,7 @@ class StateSink {
   StateSink(std::string path, std::uint64_t every) : path_(std::move(path)), every_(every) {}
   virtual ~StateSink() = default;
 
-  /// Takes the first state of a run and those at multiples of every(). Errors: io; diverged if a number is
-  /// not finite.
+  /// Takes the first state of a run and those of next_step(). Errors: io; diverged if a number is not finite.
   virtual Status take(const Sample& sample) = 0;
   /// Takes the last state, which take() may have seen already, and completes the output. Errors as take().
   virtual Status finish(const Sample& last) = 0;
@@ -29,6 +29,11 @@ class StateSink {
   const std::string& path() const { return path_; }
   /// Steps between the states it wants; 0: the last one alone.
   std::uint64_t every() const { return every_; }
+  /// The first step after `step` whose state it wants besides the last one: the next multiple of every(); the
+  /// largest number if there is none.
+  virtual std::uint64_t next_step(std::uint64_t step) const {
+    return every_ > 0 ? step + (every_ - step % every_) : std::numeric_limits<std::uint64_t>::max();
+  }
 
  private:
   std::string path_;

@@ -76,7 +76,4 @@ std::string csv_of(const Table& table);
 /// Every file besides the two pages: path in the report's directory, content.
 std::map<std::string, std::string> files_of(const Page& page);
 
-/// RFC 4648.
-std::string base64(std::string_view bytes);
-
 }  // namespace aspic::report

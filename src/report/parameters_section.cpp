@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "analysis/stability.h"
+#include "base/shell_word.h"
 #include "report/csv.h"
 #include "report/grid.h"
 #include "report/study.h"

@@ -114,13 +114,6 @@ Result<std::vector<std::string>> Study::pictures(const Model& model, std::span<c
   return jpegs;
 }
 
-std::string shell_word(const std::string& word) {
-  if (word.find_first_of(" \"'$&|;<>()[]{}*?!\\#") == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 Vec3 way_of(const State& state) {
   Vec3 sum;
   for (const Vec3& x : state.position) sum = sum + x;

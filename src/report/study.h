@@ -64,9 +64,6 @@ class Study {
   std::function<bool()> stop_;
 };
 
-/// A word of a command as a shell takes it, in quotation marks where it needs them.
-std::string shell_word(const std::string& word);
-
 /// Where the centre of all particles and balls is, without its height [m].
 Vec3 way_of(const State& state);
 

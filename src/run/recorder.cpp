@@ -24,7 +24,7 @@ constexpr std::uint64_t most_pictures = 1000000000;
 
 Status check_pictures(const PictureOutput& output, double timestep, std::uint64_t first_step,
                       std::uint64_t last_step) {
-  if (!output.any()) return {};
+  if (!output.any() && output.page.empty()) return {};
   const double fps = frames_per_second(output);
   if (FrameSchedule(timestep, first_step, last_step, fps, output.speed).count() <= most_pictures) return {};
   return fail(

@@ -10,12 +10,14 @@
 #include "base/result.h"
 #include "io/film_format.h"
 #include "io/state_sink.h"
+#include "page/page_writer.h"
 
 namespace aspic {
 namespace {
 
 Status refuse_duplicates(const std::vector<StateOutput>& states, const PictureOutput& pictures) {
-  std::vector<std::pair<std::string, std::string>> files = {{"video", pictures.video}};
+  std::vector<std::pair<std::string, std::string>> files = {{"video", pictures.video},
+                                                            {"page", pictures.page}};
   for (const StateOutput& output : states) files.emplace_back(output.option, output.path);
   std::erase_if(files, [](const auto& file) { return file.second.empty(); });
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -68,7 +70,7 @@ std::vector<std::unique_ptr<FrameSink>> RunFiles::take_frame_sinks() {
 }
 
 Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const PictureOutput& pictures,
-                                const RunFacts& facts, Overwrite overwrite) {
+                                const RunFacts& facts, Overwrite overwrite, const PageFacts& page) {
   ASPIC_CHECK(check_endings(states));
   ASPIC_CHECK(refuse_duplicates(states, pictures));
   auto files = std::make_unique<Parts>();
@@ -77,6 +79,12 @@ Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const Pi
     const StateFormat& format = state_format_of(output.option, output.path);
     ASPIC_TRY(auto sink,
               format.open(output.path, output.every.value_or(format.default_every), overwrite, facts));
+    files->outputs.push_back({std::move(sink)});
+  }
+  if (page.scene && !pictures.page.empty()) {
+    const page::PageSettings settings = {frames_per_second(pictures), pictures.speed, page.command};
+    ASPIC_TRY(auto sink, page::open_page(pictures.page, overwrite, *page.scene, settings, page.first_step,
+                                         page.last_step));
     files->outputs.push_back({std::move(sink)});
   }
   const auto add = [&](const FilmFormat& format, const std::string& path) -> Status {
@@ -94,8 +102,7 @@ Result<RunFiles> RunFiles::open(const std::vector<StateOutput>& states, const Pi
 
 std::uint64_t RunFiles::next_step(std::uint64_t step) const {
   std::uint64_t next = std::numeric_limits<std::uint64_t>::max();
-  for (const auto& [sink, failed] : parts_->outputs)
-    if (sink->every() > 0) next = std::min(next, step + (sink->every() - step % sink->every()));
+  for (const auto& [sink, failed] : parts_->outputs) next = std::min(next, sink->next_step(step));
   return next;
 }
 
@@ -110,8 +117,8 @@ bool RunFiles::any_left() const {
 Status RunFiles::take(const Sample& sample) {
   const bool first = !std::exchange(parts_->begun, true);
   for (Parts::Output& output : parts_->outputs) {
-    const std::uint64_t every = output.sink->every();
-    if (!first && (every == 0 || sample.state.step % every != 0)) continue;
+    const std::uint64_t step = sample.state.step;
+    if (!first && (step == 0 || output.sink->next_step(step - 1) != step)) continue;
     const Status taken = output.sink->take(sample);
     if (taken) continue;
     // Before the first step a run loses nothing by ending.

@@ -9,7 +9,10 @@
 #include <fstream>
 
 #include "app/stage.h"
+#include "aspic/scene.h"
+#include "cpu_reference/reference_solver.h"
 #include "io/atomic_file.h"
+#include "page/page_reader.h"
 #include "support/environment.h"
 
 namespace aspic::test {
@@ -81,6 +84,31 @@ class Film : public Stage {
     EXPECT_TRUE(content.ok()) << content.error().message;
     return content.ok() ? *content : "";
   }
+  /// Films with a page of the film's states next to it.
+  void film_with_page(const char* backend) {
+    open_small(backend);
+    const std::string name = fmt::format("with-{}", backend);
+    app().film.settings = {find_film_format("png"), 50.0, true, name, true};
+    press(GLFW_KEY_SPACE);
+    app().film.start();
+    frames_to_pictures(4);
+    // Back in time: the page ends there, and the film goes on.
+    press(GLFW_KEY_R);
+    frames_to_pictures(6);
+    EXPECT_THAT(file(name + ".html"), testing::HasSubstr("</html>"));
+    end_film();
+    const ReadPage page = read_page(file(name + ".html"));
+    ASSERT_EQ(page.error, "");
+    EXPECT_GE(page.pictures.size(), 4u);
+    EXPECT_EQ(page.facts["command"], "");
+    const auto& steps = page.ends[0]["steps"];
+    for (std::size_t i = 0; i < steps.size(); ++i) EXPECT_EQ(steps[i], 20 * i);
+    const Scene scene =
+        load_scene("cube-plane", std::vector<std::string>{"cube[0].particles-per-edge=4"}).value();
+    auto solver = make_reference_solver(build_model(scene.model).value(), Precision::single).value();
+    ASSERT_TRUE(solver->advance(steps.back()).ok());
+    EXPECT_EQ(page.ends[0]["hash"], state_hash_text(solver->state().value()));
+  }
   std::string picture(const std::string& film, std::uint64_t number, const char* end = "png") {
     return file(fmt::format("{}/frame-{:06}.{}", film, number, end));
   }
@@ -94,6 +122,14 @@ class Film : public Stage {
     return bin.string() + ":" + test::variable("PATH");
   }
 };
+
+TEST_F(Film, APageOfItsStatesIsWrittenNextToIt) {
+  film_with_page("reference");
+}
+
+TEST_F(Film, APageOfStatesOnTheDevice) {
+  film_with_page("gpu");
+}
 
 TEST_F(Film, TwoSecondsInEveryFilmFormat) {
   open_small();

@@ -8,6 +8,7 @@ from attack import DEVICE, IO, OK, SCENE, TINY, all_files, hash_in, main, read, 
 
 SERIES = ["--series", "series.csv", "--every", "3", "--state", "end.csv", "--checkpoint", "end.aspic"]
 REFERENCE = ["run", "cube-plane", "--backend", "reference", *TINY, "--steps", "12", *SERIES]
+PAGED = [*REFERENCE, "--page", "run.html"]
 
 
 def faulty(attack, order, words, directory, **more):
@@ -89,7 +90,7 @@ def nothing_comes_later(bench):
 def old_files(attack):
     """Earlier outputs, of another run, with a checkpoint to resume from."""
     directory = attack.fresh()
-    words = [w if w != "12" else "5" for w in REFERENCE]
+    words = [w if w != "12" else "5" for w in PAGED]
     attack.judge(attack.run(*words, cwd=directory), [OK], "earlier run")
     return {os.path.basename(p): read(p) for p in all_files(directory)}
 
@@ -106,8 +107,8 @@ def resumes(attack, bench):
 def benches(attack):
     """The same run into an empty directory, over earlier files, and from a checkpoint."""
     earlier = old_files(attack)
-    resumed = ["run", "--resume", "old.aspic", "--backend", "reference", "--steps", "12", *SERIES]
-    return [Bench(attack, REFERENCE, {}), Bench(attack, [*REFERENCE, "--force"], earlier),
+    resumed = ["run", "--resume", "old.aspic", "--backend", "reference", "--steps", "12", *SERIES, "--page", "run.html"]
+    return [Bench(attack, PAGED, {}), Bench(attack, [*PAGED, "--force"], earlier),
             Bench(attack, resumed, {"old.aspic": earlier["end.aspic"]})]
 
 
@@ -150,6 +151,10 @@ def allocations(attack):
     for n in range(2, total + 1, 2 * stride):
         # The last ones are those of stdio's buffer and of the process's end, which do without.
         bench.strike(f"alloc:{n}+", [SCENE, IO] if n < total - 20 else [OK, SCENE, IO])
+    # A page allocates thousands of times, all alike.
+    bench = Bench(attack, [*PAGED, "--force"], earlier)
+    for n in range(1, bench.counts["alloc"] + 1, 1 if attack.thorough else max(1, bench.counts["alloc"] // 150)):
+        bench.strike(f"alloc:{n}", [OK, SCENE, IO])
     directory = attack.fresh()
     scene = write(os.path.join(directory, "scene.toml"), attack.run("scene", "show", "goal-net").out)
     # scene check asks the device how large a cube may be: drivers are left out, as below.

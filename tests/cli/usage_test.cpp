@@ -176,12 +176,18 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{{"run", "cube-plane", "--series", "e.vtp"}, 2, "must end in .csv"},
         Failure{
             {"run", "cube-plane", "--beside", "h=0.002", "--state", "x.txt"}, 2, "must end in .csv or .vtp"},
+        Failure{{"run", "cube-plane", "--page", "x.mp4"}, 2, "--page x.mp4: the name must end in .html"},
+        Failure{{"run", "cube-plane", "--page", "-"}, 2, "/dev/stdout"},
+        Failure{{"run", "cube-plane", "--beside", "h=0.002", "--page", "x.csv"}, 2, "must end in .html"},
         Failure{{"run", "cube-plane", "--state", ""}, 2, "--state: the name is empty"},
         Failure{{"run", "cube-plane", "--video", ""}, 2, "--video: the name is empty"},
         Failure{{"report", "--out", ""}, 2, "--out: the name is empty"},
         // Options that would do nothing.
         Failure{{"run", "cube-plane", "--size", "64x64"}, 2, "--size is for pictures"},
         Failure{{"run", "cube-plane", "--fps", "30"}, 2, "--fps is for pictures"},
+        Failure{{"run", "cube-plane", "--page", "x.html", "--size", "64x64"}, 2, "--size is for pictures"},
+        Failure{{"run", "large-cube", "--page", "x.html", "--fps", "600"}, 2, "--fps 63 or less"},
+        Failure{{"run", "large-cube", "--beside", "h=0.0001", "--page", "x.html"}, 2, "million positions"},
         Failure{{"run", "cube-plane", "--no-text"}, 2, "--no-text is for pictures"},
         Failure{{"run", "cube-plane", "--speed=0.5"}, 2, "--speed is for pictures"},
         Failure{{"run", "cube-plane", "--view", "colour=strain"}, 2, "--view is for pictures"},

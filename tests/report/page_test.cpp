@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/base64.h"
 #include "report/chart_scale.h"
 
 namespace aspic::report {

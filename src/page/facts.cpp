@@ -1,0 +1,194 @@
+#include "page/facts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/base64.h"
+#include "model/counts.h"
+#include "model/springs.h"
+#include "model/terrain.h"
+#include "page/terrain_shape.h"
+#include "render/body_painter.h"
+#include "render/colour_map.h"
+#include "render/overlay_text.h"
+#include "render/quantity.h"
+#include "scene/follow.h"
+
+namespace aspic::page {
+namespace {
+
+/// Of a length. Four times as coarse makes a large page half as long; a small one is short anyway.
+double finest(const Model& model) {
+  return model.particle_count() <= 10000 ? 1.0 / 4096.0 : 1.0 / 1024.0;
+}
+
+Json triple(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json spring_class(const SpringClass& s) {
+  return {{"type", name_of(s.type)},
+          {"k", s.stiffness},
+          {"c", s.damping},
+          {"r", s.rest_length},
+          {"cord", s.cord}};
+}
+
+Json body_facts(const Model& model, std::size_t index) {
+  const Body& body = model.bodies[index];
+  Json patches = Json::array(), rods = Json::array();
+  for (const Patch& p : body.surface)
+    patches.push_back({p.first, p.count[0], p.count[1], p.stride[0], p.stride[1], p.clockwise});
+  for (const Rod& r : body.rods)
+    rods.push_back({r.from.x, r.from.y, r.from.z, r.to.x, r.to.y, r.to.z, r.radius});
+  constexpr std::string_view styles[] = {"flesh", "sheet", "cords"};
+  return {{"first", body.first_particle},
+          {"count", body.particle_count},
+          {"firstClass", body.first_class},
+          {"edge", body.lattice_edge},
+          {"style", styles[static_cast<std::size_t>(body.style)]},
+          {"reach", light_reach(body)},
+          {"colour", body_colour(index)},
+          {"patches", patches},
+          {"rods", rods}};
+}
+
+Json terrain_facts(const Terrain& terrain) {
+  const TerrainShapeRow& row = terrain_row(terrain.shape);
+  Json facts = {{"title", row.title}, {"glass", row.glass}, {"place", triple(terrain.geometry.vectors[0])}};
+  if (row.ball) facts["radius"] = terrain.geometry.numbers[0];
+  if (row.flat) {
+    const FlatPart flat = row.flat(terrain.geometry);
+    facts["flat"] = {{"point", triple(flat.point)}, {"normal", triple(flat.normal)}};
+  }
+  if (row.surface) facts["surface"] = surface_facts(terrain);
+  if (terrain.motion)
+    facts["motion"] = {{"along", triple(terrain.motion->amplitude * terrain.motion->direction)},
+                       {"frequency", terrain.motion->frequency},
+                       {"phase", terrain.motion->phase}};
+  return facts;
+}
+
+Json ranges_of(const Model& model, const ViewSettings& view) {
+  Json ranges;
+  for (const auto& [colour, name] : view_colours) {
+    if (!has_scale(colour)) continue;
+    // The scene's own ends are of the colour that it chose.
+    QuantityRange range = default_range(model, colour);
+    if (colour == view.colour && view.scale.range == ScaleRange::fixed) range = range_for(model, view, range);
+    ranges[name] = range;
+  }
+  return ranges;
+}
+
+Json map_text(ScaleMap map) {
+  std::string rgb;
+  const auto texels = colour_map_texels(map);
+  for (std::size_t i = 0; i < texels.size(); ++i)
+    if (i % 4 != 3) rgb += static_cast<char>(texels[i]);
+  return base64(rgb);
+}
+
+}  // namespace
+
+Quanta quanta_of(const Model& model) {
+  double spacing = std::numeric_limits<double>::infinity(), radius = spacing;
+  for (const SpringClass& s : model.spring_classes) spacing = std::min(spacing, s.rest_length);
+  for (const Ball& ball : model.balls) radius = std::min(radius, ball.radius);
+  const double share = finest(model);
+  const auto quantum = [&](double length) { return std::isfinite(length) ? share * length : share; };
+  return {quantum(spacing), quantum(radius), 1.0 / 256.0};
+}
+
+Json run_facts(const Scene& scene, const Model& model, const std::string& name, std::size_t number) {
+  const Quanta quanta = quanta_of(model);
+  Json parameters = Json::array();
+  for (const OverlayLine& line : overlay_lines(scene, 0.0))
+    if (line.label != "time" && line.label != "author") parameters.push_back({line.label, line.value});
+  Json classes = Json::array(), bodies = Json::array(), balls = Json::array(), terrain = Json::array();
+  for (const SpringClass& s : model.spring_classes) classes.push_back(spring_class(s));
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) bodies.push_back(body_facts(model, i));
+  const bool footballs = std::ranges::any_of(model.bodies, &Body::footballs);
+  for (std::size_t i = 0; i < model.balls.size(); ++i)
+    balls.push_back(
+        {{"radius", model.balls[i].radius},
+         {"launch", model.balls[i].launch_step},
+         {"colour", footballs ? Colour{0.86f, 0.86f, 0.84f} : body_colour(model.bodies.size() + i)}});
+  for (const Terrain& t : model.terrain) terrain.push_back(terrain_facts(t));
+  Json directions = Json::array();
+  for (const LatticeDirection& d : lattice_directions())
+    directions.push_back({d.di, d.dj, d.dk, d.spring_class});
+  double spacing = std::numeric_limits<double>::infinity();
+  for (const SpringClass& s : model.spring_classes) spacing = std::min(spacing, s.rest_length);
+  Json facts = {{"name", name},
+                {"number", number},
+                {"timestep", model.simulation.timestep},
+                {"parameters", parameters},
+                {"particles", model.particle_count()},
+                {"springs", spring_count(model)},
+                {"listed", model.listed_springs.size()},
+                {"quantum", quanta.position},
+                {"ballQuantum", quanta.ball_position},
+                {"spinQuantum", quanta.spin},
+                {"spacing", std::isfinite(spacing) ? spacing : 1.0},
+                {"classes", classes},
+                {"directions", directions},
+                {"bodies", bodies},
+                {"balls", balls},
+                {"terrain", terrain},
+                {"ranges", ranges_of(model, scene.view)}};
+  if (scene.view.follow) {
+    if (const auto followed = find_followed(scene.model, *scene.view.follow)) {
+      const State start = initial_state(model, Precision::single);
+      facts["follow"] = {{"ball", followed->ball},
+                         {"index", followed->index},
+                         {"start", triple(place_of(model, start, *followed))}};
+    }
+  }
+  return facts;
+}
+
+Json view_facts(const Scene& scene) {
+  const ViewSettings& view = scene.view;
+  const CameraSettings& camera = view.camera;
+  Json facts = {{"position", triple(camera.position)},
+                {"target", triple(camera.target)},
+                {"fov", camera.fov},
+                {"orthographic", camera.projection == Projection::orthographic},
+                {"colour", name_of(view.colour)},
+                {"terrain", view.terrain},
+                {"draw",
+                 {{"solid", view.draw.solid},
+                  {"particles", view.draw.particles},
+                  {"structural", view.draw.structural},
+                  {"shear", view.draw.shear},
+                  {"bending", view.draw.bending}}}};
+  if (view.ground) facts["ground"] = *view.ground;
+  const bool own = view.scale.map != ScaleMap::automatic;
+  facts["scale"] = map_text(own ? view.scale.map : ScaleMap::violet_yellow);
+  facts["signedScale"] = map_text(own ? view.scale.map : ScaleMap::blue_red);
+  Json types;
+  for (const SpringType type : {SpringType::structural, SpringType::shear, SpringType::bending})
+    types[name_of(type)] = spring_colour(type);
+  facts["springColours"] = types;
+  facts["neutral"] = neutral_body_colour();
+  return facts;
+}
+
+void append_shapes(const Model& model, std::string& bytes) {
+  std::vector<std::int32_t> first, reach, classes;
+  for (const Spring& s : model.listed_springs) {
+    first.push_back(static_cast<std::int32_t>(s.a));
+    reach.push_back(static_cast<std::int32_t>(s.b - s.a));
+    classes.push_back(static_cast<std::int32_t>(s.spring_class));
+  }
+  append_differences(first, bytes);
+  append_differences(reach, bytes);
+  append_differences(classes, bytes);
+  for (const Terrain& t : model.terrain)
+    if (terrain_row(t.shape).surface) append_surface(t, bytes);
+}
+
+}  // namespace aspic::page

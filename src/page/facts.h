@@ -1,0 +1,35 @@
+#pragma once
+// What a page says of a run besides its pictures, as JSON, and the shapes that its terrain is drawn with.
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "aspic/scene.h"
+#include "model/model.h"
+#include "page/packing.h"
+
+namespace aspic::page {
+
+using Json = nlohmann::ordered_json;
+
+/// Quanta of a page's numbers.
+struct Quanta {
+  double position = 0.0;  ///< of particles [m]: a 4096th of the shortest spring at rest, a 1024th of more
+                          ///< than 10,000 particles
+  double ball_position = 0.0;  ///< [m]: the same share of the smallest radius
+  double spin = 0.0;           ///< of angular velocities [rad/s]: 1/256
+};
+Quanta quanta_of(const Model& model);
+
+/// Parameters, bodies, springs, balls, terrain and the ranges of colours. `name`: what distinguishes the run
+/// from others next to it; empty where it is alone. `number`: of the run, from 0.
+Json run_facts(const Scene& scene, const Model& model, const std::string& name, std::size_t number);
+
+/// The view's camera and what it shows, and the colours of its scales.
+Json view_facts(const Scene& scene);
+
+/// Appends what run_facts() counts: the listed springs (all first ends, then second ends, each as its
+/// difference from the one before, then classes), and of each terrain the surface and what is cut out of its
+/// flat part.
+void append_shapes(const Model& model, std::string& bytes);
+
+}  // namespace aspic::page

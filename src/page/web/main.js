@@ -1,0 +1,261 @@
+// The page in motion.
+const runColours = ["rgb(242 176 92)", "rgb(110 165 240)", "rgb(120 205 140)", "rgb(224 130 200)"];
+const runTints = [[242, 176, 92], [110, 165, 240], [120, 205, 140], [224, 130, 200]].map((rgb) =>
+  rgb.map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4)));
+
+class Page {
+  constructor() {
+    this.recording = new Recording();
+    const { facts, runs } = this.recording, { draw, colour, terrain } = facts.view;
+    this.several = runs.length > 1;
+    this.player = new Player(this.recording);
+    this.camera = new Camera(facts.view);
+    this.look = { ...draw, terrain, colour: colours.includes(colour) ? colour : "material" };
+    this.plot = new Plot($("plot"), this.recording);
+    this.stats = { firstPicture: 0, pictures: 0 };
+    this.quality = 1;
+    this.fill();
+    this.listen();
+    this.ready = this.start();
+  }
+
+  async start() {
+    await this.recording.readShapes();
+    this.setUp();
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches && !location.hash.includes("paused")) this.player.playing = true;
+    await this.recording.readPictures(() => this.changed());
+    this.changed();
+  }
+
+  // Everything on the device; without one the page shows the rest.
+  setUp() {
+    try {
+      this.device = new Device($("view"));
+      this.painter = new Painter(this.device, this.recording.facts);
+      this.bodies = this.recording.runs.map((run) => new Bodies(this.device, run));
+    } catch (error) {
+      this.painter = null;
+      $("notice").textContent = error.message;
+    }
+  }
+
+  fill() {
+    const { facts, runs } = this.recording;
+    $("title").textContent = facts.title;
+    $("author").textContent = facts.author;
+    $("command").textContent = facts.command;
+    $("command").hidden = $("copy").hidden = facts.command === "";  // the window's pages have none
+    for (const colour of colours) $("colour").append(new Option(colour === "signed-strain" ? "strain, signed" : colour, colour));
+    $("speed").append(...speeds.map((s) => new Option(s < 1 ? `1/${1 / s} ×` : `${s} ×`, s)));
+    $("parameters").replaceChildren(...runs.flatMap((run, i) => {
+      const table = document.createElement("table");
+      table.append(...rowsOf(run.facts.parameters));
+      if (!this.several) return [table];
+      const head = document.createElement("h3");
+      head.textContent = run.facts.name;
+      head.style.setProperty("--run", runColours[i]);
+      return [head, table];
+    }));
+    const about = runs.flatMap((run, i) => [
+      ...(this.several ? [["run", run.facts.name]] : []),
+      ["state hash", run.end.hash], ["precision", run.end.precision.replace("_", "")],
+      ["last step", `${run.end.steps.at(-1)}`],
+      ["particles", run.facts.particles.toLocaleString("en")], ["springs", run.facts.springs.toLocaleString("en")],
+      ...(run.end.diverged ? [["", run.end.diverged]] : [])]);
+    const error = runs.map((run) => `${shortNumber(500 * run.facts.quantum)} mm`);
+    about.push(["pictures", `${this.recording.times.length}`], ["positions", `within ${[...new Set(error)].join(", ")} in x, y and z`], ["made by", facts.program]);
+    $("about").replaceChildren(...rowsOf(about));
+    $("labels").replaceChildren(...(this.several ? runs : []).map((run, i) => {
+      const tile = document.createElement("div"), label = document.createElement("span");
+      tile.className = "tile";
+      tile.style.setProperty("--run", runColours[i]);
+      tile.append(label);
+      return tile;
+    }));
+    $("scrub").max = this.recording.times.length - 1;
+    this.showLook();
+  }
+
+  listen() {
+    const { player, camera, look } = this, changed = () => this.changed();
+    const press = (id) => $(id).click();
+    watchPointers($("view"), camera, changed);
+    watchKeys(keyTable({ player, camera, look, press, setColour: (colour) => this.setColour(colour), setLook: (what, on) => this.setLook(what, on) }), changed);
+    const on = (id, event, act) => $(id).addEventListener(event, () => {
+      act($(id));
+      changed();
+    });
+    on("play", "click", () => player.toggle());
+    on("back", "click", () => player.step(-1));
+    on("next", "click", () => player.step(1));
+    on("loop", "click", () => { player.loop = !player.loop; });
+    on("speed", "change", (select) => { player.speed = Number(select.value); });
+    on("scrub", "input", (range) => {
+      player.playing = false;
+      player.time = this.recording.times[Math.min(Number(range.value), this.recording.read - 1)];
+    });
+    on("colour", "change", (select) => this.setColour(select.value));
+    for (const what of ["solid", "particles", "terrain", ...types]) on(what, "change", (box) => this.setLook(what, box.checked));
+    on("reset", "click", () => camera.reset());
+    on("help", "click", () => ($("keys").open ? $("keys").close() : $("keys").showModal()));
+    on("theme", "click", () => {
+      const dark = getComputedStyle(document.documentElement).getPropertyValue("--is-dark").trim() === "1";
+      document.documentElement.dataset.theme = dark ? "light" : "dark";
+    });
+    $("copy").addEventListener("click", async () => {
+      await copyText(this.recording.facts.command);
+      $("said").textContent = "The command is copied.";
+      setTimeout(() => { $("said").textContent = ""; }, 2000);
+    });
+    const seek = (event) => {
+      if (event.type === "pointermove" && !(event.buttons & 1)) return;
+      if (event.type === "pointerdown") $("plot").setPointerCapture(event.pointerId);
+      player.playing = false;
+      player.seek(this.plot.time(event.offsetX));
+      changed();
+    };
+    $("plot").addEventListener("pointerdown", seek);
+    $("plot").addEventListener("pointermove", seek);
+    new ResizeObserver(changed).observe($("stage"));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", changed);
+    $("view").addEventListener("webglcontextlost", (event) => event.preventDefault());
+    $("view").addEventListener("webglcontextrestored", () => {
+      this.setUp();
+      changed();
+    });
+  }
+
+  setColour(colour) {
+    this.look.colour = colour;
+    this.showLook();
+    this.changed();
+  }
+
+  setLook(what, on) {
+    this.look[what] = on;
+    this.showLook();
+    this.changed();
+  }
+
+  showLook() {
+    const { look, recording: { runs, facts } } = this;
+    $("colour").value = look.colour;
+    for (const what of ["solid", "particles", "terrain", ...types]) $(what).checked = look[what];
+    const ranges = runs.map((run) => run.facts.ranges[look.colour]);
+    look.range = ranges[0] ? [Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1]))] : null;
+    $("legend").hidden = !look.range;
+    if (!look.range) return;
+    const [title, unit, size] = quantities[look.colour], [low, high] = look.range;
+    $("legend-title").textContent = title;
+    const mark = (x) => shortNumber(Number((x / size).toPrecision(12))) + unit;
+    const signed = look.colour === "signed-strain";
+    $("legend-marks").replaceChildren(...[(low !== 0 || signed ? "≤ " : "") + mark(low), mark((low + high) / 2), "≥ " + mark(high)].map((text) => {
+      const span = document.createElement("span");
+      span.textContent = text;
+      return span;
+    }));
+    const rgb = bytesOf(signed ? facts.view.signedScale : facts.view.scale), stops = [];
+    for (let i = 0; i < 256; i += 15) stops.push(`rgb(${rgb.slice(3 * i, 3 * i + 3).join(" ")})`);
+    $("legend-scale").style.background = `linear-gradient(to right, ${stops.join(", ")})`;
+  }
+
+  changed() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame((now) => this.update(now));
+  }
+
+  update(now) {
+    this.waiting = false;
+    const { player, recording } = this;
+    if (recording.read === 0) return;
+    const passed = this.before ? (now - this.before) / 1000 : 0;
+    this.before = player.playing ? now : 0;
+    if (player.playing && passed > 0) {
+      player.advance(Math.min(passed, 0.25));
+      this.adapt(passed);
+    } else if (this.quality < 1 && !player.playing) this.quality = 1;
+    this.draw();
+    this.show();
+    if (player.playing) this.changed();
+  }
+
+  // Slow devices draw fewer pixels while the run plays.
+  adapt(passed) {
+    this.slow = (this.slow ?? 0) + (passed > 0.15 ? 3 : passed > 0.05 ? 1 : -1);
+    if (this.slow < 0) this.slow = 0;
+    if (this.slow < 6) return;
+    this.slow = 0;
+    this.quality = Math.max(0.4, 0.75 * this.quality);
+  }
+
+  draw() {
+    if (!this.painter) return;
+    const stage = $("stage"), ratio = Math.min(window.devicePixelRatio || 1, 2) * this.quality;
+    this.drawAt(Math.max(1, Math.round(stage.clientWidth * ratio)), Math.max(1, Math.round(stage.clientHeight * ratio)));
+  }
+
+  drawAt(width, height) {
+    const canvas = $("view"), place = this.player.place;
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    if (this.device.gl.isContextLost()) return;
+    this.tiles(width, height).forEach((tile, i) => {
+      const look = { ...this.look, tint: this.several && this.look.colour === "material" ? runTints[i] : undefined };
+      this.bodies[i].move(place, look);
+      this.painter.draw(this.bodies[i], this.camera, look, tile);
+    });
+    if (this.stats.firstPicture === 0) this.stats.firstPicture = performance.now();
+    ++this.stats.pictures;
+  }
+
+  // The parts of a picture: two side by side, or one above the other where it is higher than wide; more in two rows.
+  tiles(width, height) {
+    const count = this.recording.runs.length, gap = count > 1 ? 2 : 0;
+    const columns = count > 2 || (count === 2 && width >= height) ? 2 : 1, rows = Math.ceil(count / columns);
+    const w = Math.floor((width - gap * (columns - 1)) / columns), h = Math.floor((height - gap * (rows - 1)) / rows);
+    return this.recording.runs.map((_, i) => ({ left: (i % columns) * (w + gap),
+      bottom: height - Math.floor(i / columns) * (h + gap) - h, width: w, height: h }));
+  }
+
+  show() {
+    const { player, recording, plot } = this, place = player.place, nearest = place.picture + Math.round(place.share);
+    $("play").textContent = player.playing ? "Pause" : "Play";
+    $("play").setAttribute("aria-pressed", player.playing);
+    $("loop").setAttribute("aria-pressed", player.loop);
+    const known = [...$("speed").options].find((option) => Number(option.value) === player.speed);
+    if (!known) $("speed").append(new Option(`${shortNumber(player.speed)} ×`, player.speed));
+    $("speed").value = player.speed;
+    $("time").textContent = `${player.time.toFixed(3)} s`;
+    $("scrub").value = nearest;
+    $("scrub").setAttribute("aria-valuetext", `${player.time.toFixed(3)} seconds`);
+    plot.draw(player.time);
+    const entries = this.several
+      ? recording.runs.map((run, i) => [run.facts.name, energies.reduce((sum, e) => sum + plot.at(i, place)[e], 0), runColours[i]])
+      : [...energies].reverse().map((e) => [e, plot.at(0, place)[e], `var(--${e})`]);
+    $("energies").replaceChildren(...entries.map(([name, joules, colour]) => {
+      const item = document.createElement("li");
+      item.style.setProperty("--run", colour);
+      item.textContent = `${name} ${shortNumber(joules)} J`;
+      return item;
+    }));
+    const stage = $("stage"), w = stage.clientWidth, h = stage.clientHeight, tiles = this.tiles(w, h);
+    [...$("labels").children].forEach((tile, i) => {
+      const run = recording.runs[i], { left, bottom, width, height } = tiles[i];
+      Object.assign(tile.style, { left: `${left}px`, top: `${h - bottom - height}px`, width: `${width}px`, height: `${height}px` });
+      const ended = run.end.diverged && nearest === recording.times.length - 1 || run.end.diverged && run.times[nearest] >= run.times.at(-1);
+      const time = run.times[place.picture] + place.share * (run.times[Math.min(place.picture + 1, run.times.length - 1)] - run.times[place.picture]);
+      tile.firstChild.textContent = `${run.facts.name} · ${time.toFixed(3)} s${ended ? " · diverged" : ""}`;
+    });
+  }
+
+  // The picture at this moment as the URL of a PNG, of that size; for tests, and for whoever wants one.
+  picture(width, height) {
+    this.drawAt(width, height);
+    const url = $("view").toDataURL("image/png");
+    this.changed();
+    return url;
+  }
+}
+
+window.addEventListener("error", (event) => { $("notice").textContent = event.message; });
+window.aspic = new Page();

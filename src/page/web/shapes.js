@@ -1,0 +1,79 @@
+// What is drawn, as arrays for the device: skins, springs' ends, terrain, rods.
+
+// The skins of a run by body: each vertex is a particle with its neighbours along the patch, i + 1, i − 1, j + 1, j − 1.
+function skins(facts) {
+  const vertices = [], indices = [], parts = [];
+  for (const body of facts.bodies) {
+    const first = indices.length;
+    for (const [origin, ni, nj, si, sj, clockwise] of body.patches) {
+      const base = vertices.length / 5;
+      const at = (i, j) => origin + clamp(i, 0, ni - 1) * si + clamp(j, 0, nj - 1) * sj;
+      for (let i = 0; i < ni; ++i) {
+        for (let j = 0; j < nj; ++j) {
+          vertices.push(at(i, j));
+          if (clockwise) vertices.push(at(i, j + 1), at(i, j - 1), at(i + 1, j), at(i - 1, j));
+          else vertices.push(at(i + 1, j), at(i - 1, j), at(i, j + 1), at(i, j - 1));
+          if (i + 1 === ni || j + 1 === nj) continue;
+          const a = base + i * nj + j, b = a + nj, c = b + 1, d = a + 1;
+          indices.push(...(clockwise ? [a, d, c, a, c, b] : [a, b, c, a, c, d]));
+        }
+      }
+    }
+    parts.push({ body, first, count: indices.length - first });
+  }
+  return { vertices: Uint32Array.from(vertices), indices: Uint32Array.from(indices), parts };
+}
+
+// Positions and normals (six numbers a vertex) of a terrain's surface, whose points go round in u and, of a torus, in v.
+function terrainMesh(terrain) {
+  const { rings, sectors, quantum, numbers, turn } = terrain.surface, strip = sectors + 1, count = (rings + 1) * strip;
+  const points = Array.from({ length: count }, (_, i) =>
+    plus(terrain.place, [0, 1, 2].map((c) => numbers[c * count + i] * quantum)));
+  const round = Array.from({ length: strip }, (_, s) => length(minus(points[s], points[rings * strip + s])));
+  const closed = Math.max(...round) < 4 * quantum;
+  const ringOf = (r) => (closed ? (r + rings) % rings : clamp(r, 0, rings));
+  const at = (r, s) => points[ringOf(r) * strip + ((s + sectors) % sectors)];
+  const normals = points.map((_, i) => {
+    const r = Math.floor(i / strip), s = i % strip;
+    return times(turn, cross(minus(at(r, s + 1), at(r, s - 1)), minus(at(r + 1, s), at(r - 1, s))));
+  });
+  const vertices = new Float32Array(6 * count), indices = [];
+  points.forEach((x, i) => {
+    // At a pole the points of a ring are one: its normal is the mean of those of the ring next to it.
+    let n = normals[i];
+    if (length(n) < 40 * quantum * quantum) {
+      const next = (i < strip ? 1 : rings - 1) * strip;
+      n = normals.slice(next, next + sectors).reduce(plus);
+    }
+    vertices.set([...x, ...unit(n)], 6 * i);
+  });
+  for (let r = 0; r < rings; ++r)
+    for (let s = 0; s < sectors; ++s) {
+      const a = r * strip + s, b = a + 1, c = a + strip + 1, d = a + strip;
+      indices.push(...(turn > 0 ? [a, b, c, a, c, d] : [a, c, b, a, d, c]));
+    }
+  return { vertices, indices: Uint32Array.from(indices) };
+}
+
+// A tube with round ends along each rod [from, to, radius].
+function rodMesh(rods) {
+  const sectors = 16, caps = 5, vertices = [], indices = [];
+  for (const [ax, ay, az, bx, by, bz, radius] of rods) {
+    const from = [ax, ay, az], to = [bx, by, bz], axis = unit(minus(to, from));
+    const u = unit(cross(Math.abs(axis[1]) > 0.5 ? [1, 0, 0] : [0, 1, 0], axis)), v = cross(axis, u);
+    const first = vertices.length / 6, rows = 2 * (caps + 1);
+    for (let row = 0; row < rows; ++row) {
+      // Half a sphere about `from`, half a sphere about `to`.
+      const end = row <= caps ? from : to, angle = (Math.PI / 2) * (row <= caps ? row / caps - 1 : (row - caps - 1) / caps);
+      for (let s = 0; s <= sectors; ++s) {
+        const around = (2 * Math.PI * s) / sectors;
+        const n = plus(times(Math.cos(angle), plus(times(Math.cos(around), u), times(Math.sin(around), v))), times(Math.sin(angle), axis));
+        vertices.push(...plus(end, times(radius, n)), ...n);
+        if (row === 0 || s === 0) continue;
+        const d = first + row * (sectors + 1) + s, c = d - 1, b = d - sectors - 1, a = b - 1;
+        indices.push(a, b, d, a, d, c);
+      }
+    }
+  }
+  return { vertices: Float32Array.from(vertices), indices: Uint32Array.from(indices) };
+}

@@ -1,0 +1,134 @@
+// Springs, and the numbers that colours show (docs/pictures.md).
+const drawnSprings = 1000000;  // of larger runs those of the skin are drawn
+
+// Every particle of a run's skins.
+function skinOf(facts) {
+  const skin = new Uint8Array(facts.particles);
+  for (const { patches } of facts.bodies)
+    for (const [first, ni, nj, si, sj] of patches)
+      for (let i = 0; i < ni; ++i) for (let j = 0; j < nj; ++j) skin[first + i * si + j * sj] = 1;
+  return skin;
+}
+
+// Calls each(a, b, class) for every spring of a run.
+function eachSpring(run, each) {
+  const { bodies, directions } = run.facts, { a, b, classes } = run.listed;
+  for (let s = 0; s < a.length; ++s) each(a[s], b[s], classes[s]);
+  for (const body of bodies) {
+    const n = body.edge;
+    const ups = directions.filter(([di, dj, dk]) => (di * n + dj) * n + dk > 0);
+    for (let i = 0; i < n; ++i)
+      for (let j = 0; j < n; ++j)
+        for (let k = 0; k < n; ++k)
+          for (const [di, dj, dk, own] of ups) {
+            const x = i + di, y = j + dj, z = k + dk;
+            if (x >= n || y < 0 || y >= n || z < 0 || z >= n) continue;
+            each(body.first + (i * n + j) * n + k, body.first + (x * n + y) * n + z, body.firstClass + own);
+          }
+  }
+}
+
+class Springs {
+  constructor(run) {
+    const skin = skinOf(run.facts), { particles, springs, bodies } = run.facts;
+    this.run = run;
+    this.large = springs > drawnSprings;
+    const solid = bodies.some((body) => body.patches.length > 0);
+    const a = [], b = [], classes = [], counts = new Uint32Array(particles + 1);
+    eachSpring(run, (p, q, own) => {
+      if (this.large && !(solid ? skin[p] || skin[q] : true)) return;
+      a.push(p);
+      b.push(q);
+      classes.push(own);
+      ++counts[p + 1];
+      ++counts[q + 1];
+    });
+    this.a = Uint32Array.from(a);
+    this.b = Uint32Array.from(b);
+    this.classes = Uint16Array.from(classes);
+    for (let i = 0; i < particles; ++i) counts[i + 1] += counts[i];
+    this.starts = counts;
+    this.incident = new Uint32Array(2 * a.length);
+    const next = counts.slice();
+    for (let s = 0; s < a.length; ++s) {
+      this.incident[next[a[s]]++] = s;
+      this.incident[next[b[s]]++] = s;
+    }
+    this.skin = Uint32Array.from(skin.keys()).filter((p) => skin[p] || (!solid && !this.large));
+  }
+
+  // Springs of a type that are drawn: of large runs those within the skin.
+  ofType(type) {
+    const { classes } = this.run.facts;
+    const own = Array.from(this.classes.keys()).filter((s) => classes[this.classes[s]].type === type);
+    return Uint32Array.from(own);
+  }
+
+  // What a colour shows of one spring between x and moving at v (all particles').
+  value(colour, s, x, v) {
+    const own = this.run.facts.classes[this.classes[s]], a = 3 * this.a[s], b = 3 * this.b[s];
+    const ex = x[a] - x[b], ey = x[a + 1] - x[b + 1], ez = x[a + 2] - x[b + 2];
+    const L = Math.sqrt(ex * ex + ey * ey + ez * ez), stretch = L - own.r;
+    if (colour === "strain") return Math.abs(stretch) / own.r;
+    if (colour === "signed-strain") return stretch / own.r;
+    if (own.cord && stretch < 0) return 0;
+    if (colour === "energy") return 0.5 * own.k * stretch * stretch;
+    if (L === 0) return 0;
+    const rate = ((v[a] - v[b]) * ex + (v[a + 1] - v[b + 1]) * ey + (v[a + 2] - v[b + 2]) * ez) / L;
+    this.pull = (own.k * stretch + own.c * rate) / L;
+    return Math.abs(own.k * stretch + own.c * rate);
+  }
+
+  // The same of a particle.
+  particleValue(colour, p, x, v) {
+    if (colour === "speed") return Math.hypot(v[3 * p], v[3 * p + 1], v[3 * p + 2]);
+    const from = this.starts[p], to = this.starts[p + 1], force = [0, 0, 0];
+    let sum = 0;
+    for (let i = from; i < to; ++i) {
+      const s = this.incident[i];
+      this.pull = 0;
+      const value = this.value(colour, s, x, v);
+      sum += value;
+      if (colour !== "force" || value === 0) continue;
+      const other = this.a[s] === p ? this.b[s] : this.a[s];
+      for (let c = 0; c < 3; ++c) force[c] += this.pull * (x[3 * other + c] - x[3 * p + c]);
+    }
+    if (colour === "force") return Math.hypot(...force);
+    if (colour === "energy") return 0.5 * sum;
+    return to > from ? sum / (to - from) : 0;
+  }
+}
+
+// Positions and velocities of a run between its pictures: cubic, with the mean speed of the two intervals at each.
+class Motion {
+  constructor(run) {
+    this.run = run;
+    this.x = new Float32Array(3 * run.facts.particles);
+    this.v = new Float32Array(3 * run.facts.particles);
+    this.balls = new Float32Array(3 * run.facts.balls.length);
+    this.turns = new Float32Array(4 * run.facts.balls.length);
+  }
+
+  at({ picture, share }) {
+    const { run } = this, last = run.positions.length - 1;
+    const f = [picture - 1, picture, picture + 1, picture + 2].map((i) => clamp(i, 0, last));
+    // A run that stood still, diverged, has no speed.
+    const rate = (i, j) => (run.times[j] > run.times[i] ? 1 / (run.times[j] - run.times[i]) : 0);
+    this.mix(run.positions, this.x, f, share, rate, this.v);
+    this.mix(run.balls, this.balls, f, share, rate);
+    const q = run.turns[f[1]], r = run.turns[f[2]];
+    for (let i = 0; i < q.length; ++i) this.turns[i] = q[i] + share * (r[i] - q[i]);
+  }
+
+  mix(pictures, x, [a, b, c, d], s, rate, v) {
+    const xa = pictures[a], xb = pictures[b], xc = pictures[c], xd = pictures[d];
+    const before = rate(a, c), after = rate(b, d), dt = this.run.times[c] - this.run.times[b];
+    if (s === 0) x.set(xb);
+    const h1 = s * s * (3 - 2 * s), g0 = dt * s * (1 - s) ** 2, g1 = dt * s * s * (s - 1);
+    for (let i = 0; i < x.length; ++i) {
+      const v0 = (xc[i] - xa[i]) * before, v1 = (xd[i] - xb[i]) * after;
+      if (s > 0) x[i] = xb[i] + h1 * (xc[i] - xb[i]) + g0 * v0 + g1 * v1;
+      if (v) v[i] = v0 + s * (v1 - v0);
+    }
+  }
+}

@@ -1,0 +1,98 @@
+// aspic run --page: the file, of one run and of several.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/process.h"
+#include "page/page_reader.h"
+
+namespace aspic {
+namespace {
+
+using test::aspic;
+using test::json_member;
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+/// A short run of a small cube with further words.
+test::Finished run(const Words& more) {
+  Words words = {"run",       "cube-plane", "--json", "--set", "cube[0].particles-per-edge=3",
+                 "--backend", "reference"};
+  words.insert(words.end(), more.begin(), more.end());
+  return aspic(words);
+}
+
+TEST(RunPage, HoldsWhatTheSummarySaysAndTheCommand) {
+  const test::TemporaryDirectory dir;
+  const std::string path = dir.file("a b.html");
+  const auto done = run({"--steps", "100", "--page", path, "--view", "colour=strain", "--speed", "0.5"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr(path));
+  const test::ReadPage page = test::read_page(dir.read("a b.html"));
+  ASSERT_EQ(page.error, "");
+  EXPECT_EQ(page.ends[0]["hash"], json_member(done.out, "state_hash"));
+  EXPECT_EQ(page.ends[0]["steps"].back(), 100);
+  EXPECT_EQ(page.pictures.size(), 13u);  // every 1/120 s
+  EXPECT_EQ(page.facts["speed"], 0.5);
+  EXPECT_EQ(page.facts["view"]["colour"], "strain");
+  EXPECT_EQ(
+      page.facts["command"],
+      "aspic run cube-plane --json --set 'cube[0].particles-per-edge=3' --backend reference --steps 100 "
+      "--page '" +
+          path + "' --view colour=strain --speed 0.5");
+  EXPECT_EQ(run({"--page", path}).exit_code, 6);  // it is there
+}
+
+TEST(RunPage, AResumedRunBeginsWhereItWasResumed) {
+  const test::TemporaryDirectory dir;
+  ASSERT_EQ(run({"--steps", "50", "--checkpoint", dir.file("c.aspic")}).exit_code, 0);
+  const auto done =
+      aspic({"run", "--resume", dir.file("c.aspic"), "--steps", "100", "--page", dir.file("p.html")});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const test::ReadPage page = test::read_page(dir.read("p.html"));
+  ASSERT_EQ(page.error, "");
+  EXPECT_EQ(page.ends[0]["steps"].front(), 50);
+  EXPECT_EQ(page.ends[0]["steps"].back(), 100);
+}
+
+TEST(RunPage, ARunThatDivergesIsThereToItsLastGoodState) {
+  const test::TemporaryDirectory dir;
+  const auto done = run({"--set", "cube[0].structural.stiffness=1e7", "--page", dir.file("p.html")});
+  EXPECT_EQ(done.exit_code, 5) << done.err;
+  const test::ReadPage page = test::read_page(dir.read("p.html"));
+  ASSERT_EQ(page.error, "");
+  EXPECT_THAT(page.ends[0]["diverged"].get<std::string>(), HasSubstr("diverged in step"));
+  EXPECT_EQ(page.ends[0]["steps"].back(), std::stoi(json_member(done.out, "steps")));
+}
+
+TEST(RunPage, RunsSideBySideShareOneThatIsNotNumbered) {
+  const test::TemporaryDirectory dir;
+  const auto done = run({"--duration", "0.1", "--beside", "h=0.002", "--beside", "k=1e7", "--page",
+                         dir.file("p.html"), "--series", dir.file("e.csv")});
+  EXPECT_EQ(done.exit_code, 5) << done.err;  // the third explodes
+  EXPECT_EQ(dir.entries(), 4u);
+  const test::ReadPage page = test::read_page(dir.read("p.html"));
+  ASSERT_EQ(page.error, "");
+  ASSERT_EQ(page.ends.size(), 3u);
+  EXPECT_EQ(page.ends[0]["steps"].back(), 100);
+  EXPECT_EQ(page.ends[1]["steps"].back(), 50);
+  EXPECT_TRUE(page.ends[2].contains("diverged"));
+  EXPECT_EQ(page.facts["runs"][1]["name"], "h 0.002 s");
+  // The bits of the second run alone.
+  const auto alone = run({"--duration", "0.1", "--set", "simulation.timestep=0.002"});
+  EXPECT_EQ(page.ends[1]["hash"], json_member(alone.out, "state_hash"));
+}
+
+TEST(RunPage, ADiskThatFillsCostsThePageAlone) {
+  const test::TemporaryDirectory dir;
+  test::ProcessOptions options;
+  options.file_size_limit = 20000;  // the page's program is longer
+  const auto done = aspic({"run", "cube-plane", "--steps", "20", "--page", dir.file("p.html"), "--state",
+                           dir.file("s.csv"), "--set", "cube[0].particles-per-edge=3"},
+                          options);
+  EXPECT_EQ(done.exit_code, 6) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("p.html"));
+  EXPECT_EQ(dir.entries(), 1u);  // the state
+}
+
+}  // namespace
+}  // namespace aspic
