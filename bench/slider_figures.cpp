@@ -11,9 +11,9 @@
 #include <memory>
 
 #include "app/scene_editor.h"
-#include "app/simulation.h"
 #include "aspic/scene.h"
 #include "gpu/context.h"
+#include "playback/simulation.h"
 #include "run/backends.h"
 #include "run/window_host.h"
 #include "scene/parameters.h"
@@ -71,7 +71,7 @@ void solver(benchmark::State& state, const char* backend, const char* integrator
 /// As a slider does: the editor takes the value, the simulation the scene.
 void window(benchmark::State& state, const char* backend, const char* integrator, bool rebuilt) {
   const Scene start = scene(integrator);
-  auto simulation = checked(app::Simulation::create(context(), start, *find_backend(backend)));
+  auto simulation = checked(Simulation::create(context(), start, *find_backend(backend)));
   auto editor = checked(app::SceneEditor::open(
       "cube-plane", {"cube[0].particles-per-edge=40", fmt::format("simulation.integrator={}", integrator)}));
   const Parameter& stiffness = *find_parameter("cube[].structural.stiffness");
@@ -83,7 +83,7 @@ void window(benchmark::State& state, const char* backend, const char* integrator
         rebuilt ? editor.set(contact, 0, Value(std::string(more ? "course" : "coulomb")), "slider")
                 : editor.set(stiffness, 0, Value(more ? 2100.0 : 2000.0), "slider");
     if (!effect) check(effect.error());
-    check(simulation->change(editor.scene(), true));
+    check(simulation->rebuild().change(editor.scene(), true));
   }
 }
 
