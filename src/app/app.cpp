@@ -27,6 +27,12 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
   if (const auto& state = app->scene.editor().state()) {
     ASPIC_CHECK(app->simulation.rebuild().start_from(*state, app->scene.editor().inputs()));
   }
+  if (!options.replay.empty()) {
+    const Scene& scene = app->scene.scene();
+    ASPIC_TRY(const SharedModel model, make_model(scene.model));
+    ASPIC_TRY(auto inputs, read_inputs(options.replay, {scene.model, *model}));
+    app->simulation.replay(std::move(inputs));
+  }
   app->restore(options.kept, options.overrides);
   return app;
 }

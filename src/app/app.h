@@ -28,6 +28,7 @@ namespace aspic::app {
 struct AppOptions {
   std::string scene = "cube-plane";     ///< file or built-in name
   std::vector<std::string> overrides;   ///< KEY=VALUE
+  std::string replay = {};              ///< a file of inputs that the run has; empty: none
   const BackendRow* backend = nullptr;  ///< null: what `auto` takes in the window's context
   BackendChoice asked = {};             ///< of backends that have it; its row does not matter
   KeptState kept = {};                  ///< how the window was last left

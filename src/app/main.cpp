@@ -26,6 +26,7 @@ AppOptions options_from(const ViewOptions& view) {
   AppOptions options;
   options.scene = view.scene;
   options.overrides = view.overrides;
+  options.replay = view.replay_file;
   options.backend = view.backend.row;
   options.asked = view.backend;
   options.asked.row = nullptr;

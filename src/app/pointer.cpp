@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/inputs.h"
 #include "model/terrain.h"
 
 namespace aspic::app {
@@ -101,9 +102,9 @@ void Pointer::describe(std::uint32_t particle) {
   h.particle = particle;
   h.position = state.position[particle];
   h.velocity = state.velocity[particle];
-  h.force = particle_force(model, *incident_, state, particle, inputs_of(simulation_.hand()));
+  h.force = particle_force(model, *incident_, state, particle, simulation_.inputs());
   h.mass = model.mass[particle];
-  h.pinned = model.inverse_mass[particle] == 0.0;
+  h.pinned = inverse_mass_of(model, simulation_.inputs(), particle) == 0.0;
   hovered_ = std::move(h);
 }
 
@@ -117,7 +118,7 @@ void Pointer::describe_ball(std::uint32_t b) {
   h.position = state.ball_position[b];
   h.velocity = state.ball_velocity[b];
   h.angular_velocity = state.ball_angular_velocity[b];
-  h.force = ball_force(model, state, b, inputs_of(simulation_.hand()));
+  h.force = ball_force(model, state, b, simulation_.inputs());
   h.mass = ball.mass;
   h.radius = ball.radius;
   h.contact = touched_by(model, state, b);

@@ -158,8 +158,7 @@ Result<PictureOptions> ScenePicture::options_of(const Content& content, bool leg
   // Of the very state that is drawn.
   if (options.view.arrows.any() && !kept()) ASPIC_CHECK(refresh());
   if (!ghost)
-    arrows_ =
-        arrows_of(simulation_.model(), shown_state(), options.view.arrows, inputs_of(simulation_.hand()));
+    arrows_ = arrows_of(simulation_.model(), shown_state(), options.view.arrows, simulation_.inputs());
   options.arrows = arrows_;
   options.highlight = content.marks;
   return options;

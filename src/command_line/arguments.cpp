@@ -176,6 +176,7 @@ CLI::App* add_view(CLI::App& app, ViewOptions& view, RawOptions& raw) {
   add(c, "--backend", "NAME", raw.backend, backend_words() + "; G switches it in the window");
   add_arithmetic(c, raw);
   add_overrides(c, view.overrides);
+  add(c, "--replay", "FILE", view.replay_file, "pulls and pins by step, as the window records them");
   add(c, "--size", "WxH", raw.window_size, "size of the window; default: its last size");
   add(c, "--layout", "NAME", view.layout,
       fmt::format("arrangement of the panels: {}; default: the last one", fmt::join(window_layouts, ", ")));

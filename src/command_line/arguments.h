@@ -103,8 +103,9 @@ struct ViewOptions {
   std::vector<std::string> overrides;
   BackendChoice backend;
   std::optional<PictureSize>
-      size;            ///< of the window, in the display's units; absent: as it was last, or 1280 × 720
-  std::string layout;  ///< one of window_layouts; empty: as it was last
+      size;                 ///< of the window, in the display's units; absent: as it was last, or 1280 × 720
+  std::string layout;       ///< one of window_layouts; empty: as it was last
+  std::string replay_file;  ///< of inputs; empty: none
   std::vector<std::string> words;  ///< the arguments after `view` as they were given
 };
 

@@ -31,9 +31,9 @@ Status Engines::load(const State& state) {
   return shadowed() ? shadow_.solver->load(state) : Status();
 }
 
-Status Engines::set_pull(const std::optional<Pull>& pull) {
-  ASPIC_CHECK(leader_.solver->set_inputs(inputs_of(pull)));
-  return shadowed() ? shadow_.solver->set_inputs(inputs_of(pull)) : Status();
+Status Engines::set_inputs(const Inputs& inputs) {
+  ASPIC_CHECK(leader_.solver->set_inputs(inputs));
+  return shadowed() ? shadow_.solver->set_inputs(inputs) : Status();
 }
 
 Status Engines::set_constants(SharedModel model) {

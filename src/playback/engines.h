@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/inputs.h"
 #include "aspic/solver.h"
 #include "aspic/state.h"
 #include "base/result.h"
 #include "gpu/context.h"
-#include "model/pull.h"
 #include "playback/samples.h"
 #include "playback/setup.h"
 #include "run/backends.h"
@@ -32,7 +32,7 @@ struct JobResult {
   std::uint64_t steps = 0;
   Advanced leader, shadow;             ///< each where it took part
   std::vector<EnergySample> energies;  ///< of the one that set the pace, at each next_sample_step()
-  std::optional<Pull> pull;            ///< in these steps
+  Inputs inputs;                       ///< of these steps
 };
 
 /// How far a job of steps goes.
@@ -70,7 +70,7 @@ class Engines {
     return leader ? leader : gpu_of(shadow_);
   }
 
-  /// Puts another solver of the same model in the place of one; it has no pull yet.
+  /// Puts another solver of the same model in the place of one; it has no inputs yet.
   void set_leader(Backend engine) { leader_ = std::move(engine); }
   /// Of another backend than the leader's: next to its like a shadow would show nothing.
   void set_shadow(Backend engine) {
@@ -81,7 +81,7 @@ class Engines {
   /// The energies of a state of the model.
   EnergySample measured(const State& state) const;
   Status load(const State& state);
-  Status set_pull(const std::optional<Pull>& pull);
+  Status set_inputs(const Inputs& inputs);
   /// Both go over to another model of the same topology. Errors: those of Solver::set_constants().
   Status set_constants(SharedModel model);
 

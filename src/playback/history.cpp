@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace aspic {
 
@@ -32,8 +33,8 @@ void History::add_keyframe(const State& state) {
   while (bytes() > most_bytes_ && keyframe_count() > 1) drop_oldest();
 }
 
-void History::set_pull(std::uint64_t step, const std::optional<Pull>& pull) {
-  last().pulls.set(step, pull);
+void History::set_inputs(std::uint64_t step, Inputs inputs) {
+  last().inputs.set(step, std::move(inputs));
 }
 
 void History::thin(std::uint64_t bytes) {
@@ -60,8 +61,8 @@ void History::truncate(const Moment& moment) {
   Stretch& stretch = last();
   stretch.last = std::min(stretch.last, moment.step);
   stretch.keyframes.forget_after(moment.step);
-  // A pull that begins with the step from `moment` on belongs to what is forgotten.
-  stretch.pulls.forget_from(moment.step);
+  // What begins with the step from `moment` on belongs to what is forgotten.
+  stretch.inputs.forget_from(moment.step);
 }
 
 Moment History::begin_moment() const {
@@ -129,12 +130,12 @@ Moment History::keyframes_before(const Moment& moment, std::size_t count) const 
   return m;
 }
 
-std::optional<Pull> History::pull_at(const Moment& moment) const {
-  return stretch(moment.stretch).pulls.at(moment.step);
+const Inputs& History::inputs_at(const Moment& moment) const {
+  return stretch(moment.stretch).inputs.at(moment.step);
 }
 
-std::optional<std::uint64_t> History::next_pull_change(const Moment& moment) const {
-  return stretch(moment.stretch).pulls.next_change(moment.step);
+std::optional<std::uint64_t> History::next_input_change(const Moment& moment) const {
+  return stretch(moment.stretch).inputs.next_change(moment.step);
 }
 
 std::vector<double> History::changes() const {

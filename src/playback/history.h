@@ -6,10 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "aspic/inputs.h"
 #include "aspic/state.h"
-#include "model/pull.h"
 #include "playback/keyframes.h"
-#include "playback/pull_log.h"
 #include "playback/setup.h"
 
 namespace aspic {
@@ -26,8 +25,8 @@ struct Stretch {
   Setup setup;
   std::uint64_t first = 0, last = 0;  ///< restorable steps
   Keyframes keyframes;                ///< not empty; the first one is of step `first`
-  PullLog pulls;
-  std::uint64_t bytes() const { return pulls.bytes() + keyframes.bytes(); }
+  InputLog inputs;
+  std::uint64_t bytes() const { return inputs.bytes() + keyframes.bytes(); }
   double timestep() const { return setup.settings.simulation.timestep; }
   double time(std::uint64_t step) const { return static_cast<double>(step) * timestep(); }
 };
@@ -47,8 +46,8 @@ class History {
   void reach(std::uint64_t step);
   /// A state of the last stretch, later than the last keyframe; one of the same step is not taken again.
   void add_keyframe(const State& state);
-  /// From this step on the last stretch has this pull.
-  void set_pull(std::uint64_t step, const std::optional<Pull>& pull);
+  /// From this step on the last stretch has these inputs.
+  void set_inputs(std::uint64_t step, Inputs inputs);
   /// Does with `bytes` if keyframes that lie between others suffice for that: the same steps can be had, some
   /// after more steps from the keyframe before them. Else the oldest steps are dropped too.
   void thin(std::uint64_t bytes);
@@ -70,10 +69,10 @@ class History {
   const Keyframe& keyframe(const Moment& moment) const;
   /// The newest keyframe's moment that is at least `count` keyframes before `moment`; else the beginning.
   Moment keyframes_before(const Moment& moment, std::size_t count) const;
-  /// The pull in the step that starts at `moment`.
-  std::optional<Pull> pull_at(const Moment& moment) const;
-  /// The first step after `moment`'s, within its stretch, that starts with another pull; nothing if none.
-  std::optional<std::uint64_t> next_pull_change(const Moment& moment) const;
+  /// Those of the step that starts at `moment`.
+  const Inputs& inputs_at(const Moment& moment) const;
+  /// The first step after `moment`'s, within its stretch, that starts with others; nothing if none.
+  std::optional<std::uint64_t> next_input_change(const Moment& moment) const;
   /// Times at which the setup changed, oldest first [s].
   std::vector<double> changes() const;
 

@@ -56,8 +56,8 @@ Status Playback::go_on(double budget) {
     if (!jobs_.idle()) return {};
     const std::uint64_t destination = *timeline_.destination();
     const std::uint64_t stop =
-        std::min(destination, history().next_pull_change(here()).value_or(destination));
-    ASPIC_CHECK(stepper_.repeat_to(stop, budget - seconds_since(start), history().pull_at(here())));
+        std::min(destination, history().next_input_change(here()).value_or(destination));
+    ASPIC_CHECK(stepper_.repeat_to(stop, budget - seconds_since(start), history().inputs_at(here())));
     if (!Engines::in_context(present_.engines().leader())) return {};
     if (seconds_since(start) > 0.75 * budget) return {};
   }

@@ -1,5 +1,6 @@
 #include "playback/recorded_inputs.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -28,9 +29,20 @@ std::string physics_of(const Setup& setup) {
   return to_toml(scene);
 }
 
-Inputs with_pull(Inputs pins, const std::optional<Pull>& pull) {
-  if (pull) pins.pulls.push_back(*pull);
-  return pins;
+/// Inputs of a step, with the pins of hands, for the scene alone.
+Inputs with_pins(const Inputs& pins, Inputs inputs) {
+  const auto has = [](const std::vector<std::uint32_t>& list, std::uint32_t i) {
+    return std::ranges::find(list, i) != list.end();
+  };
+  for (const std::uint32_t i : pins.pinned) {
+    // Released from the hand's pin it is as in the scene.
+    if (std::erase(inputs.released, i) == 0 && !has(inputs.pinned, i)) inputs.pinned.push_back(i);
+  }
+  for (const std::uint32_t i : pins.released)
+    if (std::erase(inputs.pinned, i) == 0) inputs.released.push_back(i);
+  std::ranges::sort(inputs.pinned);
+  std::ranges::sort(inputs.released);
+  return inputs;
 }
 
 }  // namespace
@@ -52,8 +64,8 @@ Result<InputLog> recorded_inputs(const History& history, const Moment& until) {
     ASPIC_TRY(const Inputs pins, pins_of(stretch.setup));
     const std::uint64_t last = number == until.stretch ? until.step : stretch.last;
     for (std::optional<std::uint64_t> step = stretch.first; step && *step <= last;
-         step = history.next_pull_change({number, *step}))
-      log.set(*step, with_pull(pins, history.pull_at({number, *step})));
+         step = history.next_input_change({number, *step}))
+      log.set(*step, with_pins(pins, history.inputs_at({number, *step})));
   }
   return log;
 }
@@ -64,7 +76,7 @@ Result<InputLog> inputs_to_go_on(const History& history, const Moment& now) {
   if (auto all = recorded_inputs(history, now)) return all;
   ASPIC_TRY(const Inputs pins, pins_of(setup));
   InputLog log;
-  log.set(now.step, with_pull(pins, history.pull_at(now)));
+  log.set(now.step, with_pins(pins, history.inputs_at(now)));
   return log;
 }
 

@@ -58,6 +58,11 @@ class Simulation {
   Status single_step();
   /// From the next step on; nothing lets go.
   void set_hand(const std::optional<Pull>& hand) { stepper_.set_hand(hand); }
+  /// See Stepper::replay() and Stepper::set_followed().
+  void replay(InputLog log) { stepper_.replay(std::move(log)); }
+  void set_followed(Inputs inputs) { stepper_.set_followed(std::move(inputs)); }
+  /// What holds in the step that begins here.
+  Inputs inputs() const { return stepper_.inputs(); }
   const std::optional<Pull>& hand() const { return stepper_.hand(); }
   /// Once for each picture: takes what the solver finished and sets it to work again for at most about
   /// `budget` seconds. `dt` is the time since the last call [s]. A backend that fails in the context is

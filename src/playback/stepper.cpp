@@ -38,10 +38,41 @@ void Stepper::forget_future(double now) {
 /// Before steps that are not history yet. The solvers in the context must be idle.
 Status Stepper::prepare() {
   if (!timeline_.at_end()) forget_future(present_.time());
-  if (!present_.engines().use_context()) return {};  // else the job takes the pull along
-  History& history = timeline_.history();
-  if (history.pull_at(timeline_.here()) != hand_) history.set_pull(present_.step(), hand_);
-  return present_.engines().set_pull(hand_);
+  if (!present_.engines().use_context()) return {};  // else the job finds its inputs
+  const Inputs now = inputs();
+  timeline_.history().set_inputs(present_.step(), now);
+  return present_.engines().set_inputs(now);
+}
+
+/// A model may have come to pin other particles, or to have others; what does not fit it is left out.
+Inputs Stepper::composed(const Model& model, const InputLog& log, std::uint64_t step, Inputs followed,
+                         const std::optional<Pull>& hand) {
+  Inputs all = log.at(step);
+  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  add(all.pulls, followed.pulls);
+  if (hand) all.pulls.push_back(*hand);
+  add(all.pinned, followed.pinned);
+  add(all.released, followed.released);
+  if (all.channels.empty()) all.channels = std::move(followed.channels);
+  std::erase_if(all.pulls, [&](const Pull& pull) {
+    return pull.particle >= (pull.ball ? model.ball_count() : model.particle_count());
+  });
+  if (all.pulls.size() > most_pulls) all.pulls.resize(most_pulls);
+  for (auto* const particles : {&all.pinned, &all.released}) {
+    std::ranges::sort(*particles);
+    const auto twins = std::ranges::unique(*particles);
+    particles->erase(twins.begin(), twins.end());
+    std::erase_if(*particles, [&](std::uint32_t i) { return i >= model.particle_count(); });
+  }
+  std::erase_if(all.released, [&](std::uint32_t i) {
+    return model.inverse_mass[i] != 0.0 || std::ranges::binary_search(all.pinned, i);
+  });
+  return all;
+}
+
+/// The first step after the present one with another part of the log, or `otherwise`, if that is earlier.
+std::uint64_t Stepper::next_change(std::uint64_t otherwise) const {
+  return std::min(otherwise, log_->next_change(present_.step()).value_or(otherwise));
 }
 
 bool Stepper::steps_quickly() const {
@@ -94,11 +125,17 @@ Status Stepper::advance(double dt, double budget) {
 Status Stepper::advance_to(std::uint64_t to, double budget) {
   ASPIC_CHECK(prepare());
   if (!present_.engines().only_context()) {
-    start_job(to, budget, false, hand_);
+    start_job(to, budget, std::nullopt);
     return {};
   }
+  const auto start = Clock::now();
   const std::uint64_t before = present_.step();
-  ASPIC_CHECK(advance_here(to - before, budget));
+  for (;;) {
+    const std::uint64_t stop = next_change(to);
+    ASPIC_CHECK(advance_here(stop - present_.step(), budget - seconds_since(start)));
+    if (present_.step() != stop || stop == to || seconds_since(start) > 0.75 * budget) break;
+    ASPIC_CHECK(prepare());
+  }
   if (!present_.engines().shadowed()) return {};
   ASPIC_CHECK(refresh_snapshot());
   JobResult result;
@@ -107,10 +144,10 @@ Status Stepper::advance_to(std::uint64_t to, double budget) {
   return follow(std::move(result));
 }
 
-Status Stepper::repeat_to(std::uint64_t to, double budget, const std::optional<Pull>& pull) {
-  ASPIC_CHECK(present_.engines().set_pull(pull));
+Status Stepper::repeat_to(std::uint64_t to, double budget, const Inputs& inputs) {
+  ASPIC_CHECK(present_.engines().set_inputs(inputs));
   if (Engines::in_context(present_.engines().leader())) return advance_here(to - present_.step(), budget);
-  start_job(to, std::max(budget, shortest_job), true, pull);
+  start_job(to, std::max(budget, shortest_job), inputs);
   return {};
 }
 
@@ -151,16 +188,20 @@ Status Stepper::sample_here() {
   return {};
 }
 
-/// Steps of the solvers without the context; those within it have this pull already.
-void Stepper::start_job(std::uint64_t to, double budget, bool alone, const std::optional<Pull>& pull) {
+/// Steps of the solvers without the context; those within it have their inputs already. Steps that are
+/// `repeated`, with these inputs, are the leader's alone; others go no further than the log's next change.
+void Stepper::start_job(std::uint64_t to, double budget, const std::optional<Inputs>& repeated) {
   if (!jobs_.busy()) job_step_ = present_.step();
   job_to_ = to;
-  const auto advance = [=, this](const std::atomic<bool>& cancelled) -> Result<JobResult> {
+  const auto advance = [=, this, log = log_, followed = followed_,
+                        hand = hand_](const std::atomic<bool>& cancelled) -> Result<JobResult> {
     Engines& engines = present_.engines();
-    ASPIC_CHECK(engines.use_context() ? Status() : engines.set_pull(pull));
-    const JobLimits limits = {job_step_, std::max(to, job_step_), budget, alone};
+    const Inputs inputs = repeated ? *repeated : composed(engines.model(), *log, job_step_, followed, hand);
+    ASPIC_CHECK(engines.use_context() ? Status() : engines.set_inputs(inputs));
+    const std::uint64_t stop = repeated ? to : std::min(to, log->next_change(job_step_).value_or(to));
+    const JobLimits limits = {job_step_, std::max(stop, job_step_), budget, repeated.has_value()};
     ASPIC_TRY(JobResult result, engines.advance_outside(limits, cancelled));
-    result.pull = pull;
+    result.inputs = inputs;
     job_step_ += result.steps;
     return result;
   };
@@ -176,8 +217,7 @@ Status Stepper::take_up(JobResult result) {
   const Engines& engines = present_.engines();
   const bool seeking = timeline_.seeking();
   const bool stepped = result.steps > 0 || result.leader.divergence || result.shadow.divergence;
-  if (stepped && !seeking && timeline_.history().pull_at(timeline_.here()) != result.pull)
-    timeline_.history().set_pull(present_.step(), result.pull);
+  if (stepped && !seeking) timeline_.history().set_inputs(present_.step(), result.inputs);
   if (engines.shadowed() && stepped && !seeking) return follow(std::move(result));
   const bool in_context = Engines::in_context(engines.leader());
   const State& paced = engines.shadow_paces() ? result.shadow.state : result.leader.state;

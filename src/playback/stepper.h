@@ -1,10 +1,12 @@
 #pragma once
 // Moves the solvers of a run forward.
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 
+#include "aspic/inputs.h"
 #include "base/result.h"
-#include "model/pull.h"
 #include "playback/engines.h"
 #include "playback/figures.h"
 #include "playback/jobs.h"
@@ -29,6 +31,12 @@ class Stepper {
   /// From the next step on; nothing lets go.
   void set_hand(const std::optional<Pull>& hand) { hand_ = hand; }
   const std::optional<Pull>& hand() const { return hand_; }
+  /// From the next step on, in addition to the hand's: those of another run that this one follows.
+  void set_followed(Inputs inputs) { followed_ = std::move(inputs); }
+  /// From the next step on a log's inputs at their steps, in addition to all others; an empty one: none.
+  void replay(InputLog log) { log_ = std::make_shared<const InputLog>(std::move(log)); }
+  /// What holds in the step that begins here: a log's, those that are followed, the hand's.
+  Inputs inputs() const { return composed(present_.model(), *log_, present_.step(), followed_, hand_); }
   /// Single steps that were asked for and not done.
   std::uint64_t single_steps() const { return single_steps_; }
   void ask_single_step() { ++single_steps_; }
@@ -41,8 +49,8 @@ class Stepper {
   Status advance(double dt, double budget);
   /// New steps up to this one at most.
   Status advance_to(std::uint64_t to, double budget);
-  /// Steps of the history up to this one at most, with this pull. The leader goes alone.
-  Status repeat_to(std::uint64_t to, double budget, const std::optional<Pull>& pull);
+  /// Steps of the history up to this one at most, with these inputs. The leader goes alone.
+  Status repeat_to(std::uint64_t to, double budget, const Inputs& inputs);
   /// Reads the state back; of a backend outside the context the newest that is finished.
   Status refresh_snapshot();
 
@@ -60,7 +68,10 @@ class Stepper {
  private:
   Status prepare();
   Status advance_here(std::uint64_t steps, double budget);
-  void start_job(std::uint64_t to, double budget, bool alone, const std::optional<Pull>& pull);
+  static Inputs composed(const Model& model, const InputLog& log, std::uint64_t step, Inputs followed,
+                         const std::optional<Pull>& hand);
+  std::uint64_t next_change(std::uint64_t otherwise) const;
+  void start_job(std::uint64_t to, double budget, const std::optional<Inputs>& repeated);
   Status take_up(JobResult result);
   Status follow(JobResult result);
   Status sample_here();
@@ -74,6 +85,8 @@ class Stepper {
   EngineFactory& factory_;
   Pacer pacer_;
   std::optional<Pull> hand_;
+  Inputs followed_;
+  std::shared_ptr<const InputLog> log_ = std::make_shared<const InputLog>();  // jobs hold it too
   bool running_ = false;
   std::uint64_t single_steps_ = 0;
   std::uint64_t batch_ = 1;     // steps between two looks at the clock, of a backend in the context

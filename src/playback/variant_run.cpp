@@ -27,10 +27,13 @@ Result<std::unique_ptr<VariantRun>> VariantRun::create(gl::Context& context, con
   return made;
 }
 
-/// What is pulled is here too.
-bool VariantRun::can_pull(const Simulation& leader, const Pull& pull) const {
-  return pull.ball ? simulation_->model().ball_count() == leader.model().ball_count()
-                   : has_particles_of(leader);
+/// Inputs on what is here too.
+Inputs VariantRun::fitting(const Simulation& leader, Inputs inputs) const {
+  const bool balls = simulation_->model().ball_count() == leader.model().ball_count();
+  const bool particles = has_particles_of(leader);
+  std::erase_if(inputs.pulls, [&](const Pull& pull) { return pull.ball ? !balls : !particles; });
+  if (!particles) inputs.pinned.clear(), inputs.released.clear();
+  return inputs;
 }
 
 std::uint64_t VariantRun::step_at(double time) const {
@@ -97,7 +100,7 @@ Status VariantRun::go_to(std::uint64_t step) {
     stuck_ = moment == own.playback().here();
     return stuck_ ? Status() : own.playback().seek(moment);
   }
-  // A job on its way goes where it was sent, with the pull of that time.
+  // A job on its way goes where it was sent, with the inputs of that time.
   if (own.running() && own.busy() && own.pacer().limit()) return {};
   own.pacer().limit(Hold::comparison, step);
   if (step > own.step() && !own.running() && !own.divergence()) own.set_running(true);
@@ -125,13 +128,12 @@ Status VariantRun::follow(const Scene& scene, const Simulation& leader, double d
       wanted = begins;
   }
   if (adopted_) {
-    // What pulls the leader pulls here, from the same time to the same time.
+    // What acts on the leader acts here, from the same time to the same time.
     const Moment then = {here.stretch,
                          std::clamp(nearest_step(own.time(), leader.model().simulation.timestep),
                                     history.stretch(here.stretch).first, here.step)};
-    const auto pull = history.pull_at(then);
-    own.set_hand(pull && can_pull(leader, *pull) ? pull : std::nullopt);
-    if (const auto next = history.next_pull_change(then))
+    own.set_followed(fitting(leader, history.inputs_at(then)));
+    if (const auto next = history.next_input_change(then))
       wanted = std::min(wanted, std::max(step_at(history.time({here.stretch, *next})), own.step() + 1));
   }
   ASPIC_CHECK(go_to(wanted));
@@ -151,7 +153,7 @@ void VariantRun::rest(std::uint64_t step, bool paused) {
 
 Status VariantRun::recall(double time, double dt, double budget) {
   Simulation& own = *simulation_;
-  own.set_hand(std::nullopt);
+  own.set_followed({});
   const Moment moment = own.playback().history().nearest(time);
   if (!own.playback().seeking() && moment != own.playback().here()) ASPIC_CHECK(own.playback().seek(moment));
   ASPIC_CHECK(own.update(dt, budget));
@@ -161,7 +163,7 @@ Status VariantRun::recall(double time, double dt, double budget) {
 
 Status VariantRun::go_on_to(double time, bool paused, double dt, double budget) {
   Simulation& own = *simulation_;
-  own.set_hand(std::nullopt);
+  own.set_followed({});
   const std::uint64_t wanted = step_at(time);
   ASPIC_CHECK(go_to(wanted));
   rest(wanted, paused);
@@ -172,7 +174,7 @@ Status VariantRun::go_on_to(double time, bool paused, double dt, double budget) 
 
 Status VariantRun::lead(const Pacer& pace, bool running, bool waits, double dt, double budget) {
   Simulation& own = *simulation_;
-  own.set_hand(std::nullopt);
+  own.set_followed({});
   own.pacer().catch_up(false);
   own.pacer().set_pace(pace.pace());
   own.pacer().set_speed(pace.speed());

@@ -51,7 +51,7 @@ class VariantRun {
   Status adopt_setup(const Simulation& leader);
   Status go_to(std::uint64_t step);
   void rest(std::uint64_t step, bool paused);
-  bool can_pull(const Simulation& leader, const Pull& pull) const;
+  Inputs fitting(const Simulation& leader, Inputs inputs) const;
   std::uint64_t step_at(double time) const;
 
   Difference difference_;

@@ -93,24 +93,24 @@ TEST(History, KeyframesAreTheNewestAtOrBefore) {
   EXPECT_EQ(h.keyframes_before({1, 1040}, 50), (Moment{0, 0}));
 }
 
-TEST(History, PullsHoldFromTheirStepOn) {
+TEST(History, InputsHoldFromTheirStepOn) {
   History h(plenty);
   h.begin(setup_with(0.01), state_at(0));
-  const Pull first = {1, {1.0, 2.0, 3.0}, 10.0, 1.0}, second = {2, {0.0, 0.0, 0.0}, 20.0, 1.0};
-  h.set_pull(5, first);
+  const Inputs first = {.pulls = {{1, {1.0, 2.0, 3.0}, 10.0, 1.0}}}, second = {.channels = {20.0}};
+  h.set_inputs(5, first);
   h.reach(9);
-  h.set_pull(9, second);
-  h.set_pull(9, std::nullopt);
+  h.set_inputs(9, second);
+  h.set_inputs(9, {});
   h.reach(20);
-  EXPECT_EQ(h.pull_at({0, 4}), std::nullopt);
-  EXPECT_EQ(h.pull_at({0, 5}), first);
-  EXPECT_EQ(h.pull_at({0, 8}), first);
-  EXPECT_EQ(h.pull_at({0, 9}), std::nullopt) << "of two changes at one step the later counts";
-  EXPECT_EQ(h.next_pull_change({0, 0}), 5u);
-  EXPECT_EQ(h.next_pull_change({0, 5}), 9u);
-  EXPECT_EQ(h.next_pull_change({0, 9}), std::nullopt);
+  EXPECT_EQ(h.inputs_at({0, 4}), Inputs());
+  EXPECT_EQ(h.inputs_at({0, 5}), first);
+  EXPECT_EQ(h.inputs_at({0, 8}), first);
+  EXPECT_EQ(h.inputs_at({0, 9}), Inputs()) << "of two changes at one step the later counts";
+  EXPECT_EQ(h.next_input_change({0, 0}), 5u);
+  EXPECT_EQ(h.next_input_change({0, 5}), 9u);
+  EXPECT_EQ(h.next_input_change({0, 9}), std::nullopt);
   h.truncate({0, 9});
-  EXPECT_EQ(h.pull_at({0, 9}), first) << "what was to happen from there on is forgotten";
+  EXPECT_EQ(h.inputs_at({0, 9}), first) << "what was to happen from there on is forgotten";
   EXPECT_EQ(h.end_moment(), (Moment{0, 9}));
 }
 

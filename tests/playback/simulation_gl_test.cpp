@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "aspic/scene.h"
+#include "cpu_reference/reference_solver.h"
+#include "playback/recorded_inputs.h"
 #include "playback/simulation.h"
 #include "support/gl_fixture.h"
 
@@ -72,6 +74,66 @@ TEST_P(InMotion, AnotherRunRepeatsItsHistory) {
   ASSERT_TRUE((*other)->playback().seek({0, 18}).ok());
   ASSERT_TRUE((*other)->settle().ok());
   EXPECT_EQ(state_hash_text((*other)->snapshot()), hashes[18]);
+}
+
+/// Of the run so far, by the reference with the log alone.
+std::string replayed(const Scene& scene, const InputLog& log, std::uint64_t steps) {
+  const SharedModel model = make_model(scene.model).value();
+  const auto solver = std::move(make_reference_solver(model, Precision::single)).value();
+  EXPECT_FALSE(advance(*solver, log, 0, steps)->has_value());
+  return state_hash_text(solver->state().value());
+}
+
+// A log acts at its steps whether they are made singly or in batches, and with a hand besides.
+TEST_P(InMotion, ReplaysALogAndRecordsItWithTheHand) {
+  InputLog log;
+  log.set(7, {.pulls = {{5, {1.0, 12.0, 0.0}, 400.0, 2.0}, {5, {-1.0, 12.0, 1.0}, 300.0, 0.0}}});
+  log.set(20, {.pulls = {{63, {2.0, 10.0, 0.0}, 400.0, 2.0}}, .pinned = {0, 3}, .channels = {0.5}});
+  log.set(33, {.pinned = {3}});
+  log.set(90, {});
+  run->replay(log);
+  step_to(12);
+  EXPECT_EQ(hashes[12], replayed(scene, log, 12));
+  run->set_running(true);
+  while (run->step() < 120) ASSERT_TRUE(run->update(0.02, 0.01).ok());
+  run->set_running(false);
+  ASSERT_TRUE(run->settle().ok() && run->refresh_snapshot().ok());
+  const std::uint64_t end = run->step();
+  EXPECT_EQ(state_hash_text(run->snapshot()), replayed(scene, log, end));
+  EXPECT_EQ(*recorded_inputs(run->playback().history(), run->playback().here()), log);
+  go_to({0, 25});
+  EXPECT_EQ(state_hash_text(run->snapshot()), replayed(scene, log, 25));
+  // From there on with a hand and a pin of it.
+  run->set_hand(Pull{9, {0.0, 14.0, 0.0}, 200.0, 1.0});
+  step_to(30);
+  ASSERT_TRUE(run->rebuild().toggle_pin(12).ok());
+  step_to(45);
+  const auto recorded = recorded_inputs(run->playback().history(), run->playback().here());
+  ASSERT_TRUE(recorded.ok()) << recorded.error().message;
+  EXPECT_EQ(recorded->at(26).pulls.size(), 2u);
+  EXPECT_EQ(recorded->at(31).pinned, (std::vector<std::uint32_t>{0, 3, 12}));
+  EXPECT_EQ(recorded->at(40).pinned, (std::vector<std::uint32_t>{3, 12}));
+  EXPECT_EQ(hashes[45], replayed(scene, *recorded, 45));
+  // The start again has the log again.
+  run->set_hand(std::nullopt);
+  ASSERT_TRUE(run->rebuild().reset().ok());
+  step_to(40);
+  EXPECT_EQ(hashes[40], replayed(scene, log, 40));
+}
+
+// What no longer fits is left out, and the run goes on.
+TEST_P(InMotion, ALogThatDoesNotFitAChangedSceneStopsNothing) {
+  InputLog log;
+  log.set(0, {.pulls = {{63, {1.0, 12.0, 0.0}, 400.0, 2.0}}, .pinned = {1, 60}});
+  run->replay(log);
+  step_to(3);
+  scene.model.cubes[0].particles_per_edge = 3;
+  ASSERT_TRUE(run->rebuild().change(scene, false).ok());
+  hashes.clear();
+  step_to(5);
+  InputLog rest;
+  rest.set(0, {.pinned = {1}});
+  EXPECT_EQ(hashes[5], replayed(scene, rest, 5));
 }
 
 TEST_P(InMotion, AChangeThatHasNotBegunIsDroppedByAWayBack) {
