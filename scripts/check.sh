@@ -91,7 +91,7 @@ step_alone() {
   done
   local neighbour command
   for file in "${headers[@]}"; do
-    neighbour=$(files "${file%/*}/*.cpp" | grep -x "${file%/*}/[^/]*" | head -n 1)
+    neighbour=$(files "$(cut -d / -f 1-2 <<<"$file")/*.cpp" | head -n 1) # of its room
     [ -n "$neighbour" ] || neighbour=examples/minimal.cpp # public headers
     echo "$file"
     command=$(ninja -C build/alone -t commands -s "$aspic_root/$neighbour^" | sed 's/ -MD .*//')

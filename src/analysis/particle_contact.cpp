@@ -3,8 +3,8 @@
 #include <cassert>
 
 #include "analysis/contact_force.h"
-#include "model/inputs.h"
 #include "model/counts.h"
+#include "model/inputs.h"
 
 namespace aspic {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "analysis/contact_force.h"
 #include "cpu_reference/spring.h"
-#include "model/inputs.h"
 #include "model/counts.h"
+#include "model/inputs.h"
 #include "model/springs.h"
 
 namespace aspic {

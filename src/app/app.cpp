@@ -31,7 +31,7 @@ Result<std::unique_ptr<App>> App::create(gl::Context& context, const AppOptions&
     const Scene& scene = app->scene.scene();
     ASPIC_TRY(const SharedModel model, make_model(scene.model));
     ASPIC_TRY(auto inputs, read_inputs(options.replay, {scene.model, *model}));
-    app->simulation.replay(std::move(inputs));
+    app->simulation.stepper().replay(std::move(inputs));
   }
   app->restore(options.kept, options.overrides);
   return app;

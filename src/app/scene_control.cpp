@@ -16,7 +16,7 @@ void SceneControl::show_opened(const std::string& left) {
   pending_ = Effect::none;
   unchanged_for_ = 0.0;
   messages_.dismiss();
-  simulation_.replay({});
+  simulation_.stepper().replay({});
   messages_.check(simulation_.rebuild().reset());
   if (editor_.state()) messages_.check(simulation_.rebuild().start_from(*editor_.state(), editor_.inputs()));
   view_.camera = CameraControl(scene().view.camera);

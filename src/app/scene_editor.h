@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "aspic/scene.h"
 #include "aspic/inputs.h"
+#include "aspic/scene.h"
 #include "aspic/state.h"
 #include "base/result.h"
 #include "io/atomic_file.h"

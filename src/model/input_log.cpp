@@ -1,11 +1,10 @@
-#include "aspic/inputs.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "aspic/inputs.h"
 #include "aspic/solver.h"
 #include "base/fnv.h"
 #include "base/result.h"

@@ -34,6 +34,7 @@ class Simulation {
   Playback& playback() { return playback_; }
   const Rebuild& rebuild() const { return rebuild_; }
   Rebuild& rebuild() { return rebuild_; }
+  Stepper& stepper() { return stepper_; }
   const Samples& samples() const { return figures_.samples(); }
   const Jobs& jobs() const { return jobs_; }
   const Pacer& pacer() const { return stepper_.pacer(); }
@@ -58,9 +59,6 @@ class Simulation {
   Status single_step();
   /// From the next step on; nothing lets go.
   void set_hand(const std::optional<Pull>& hand) { stepper_.set_hand(hand); }
-  /// See Stepper::replay() and Stepper::set_followed().
-  void replay(InputLog log) { stepper_.replay(std::move(log)); }
-  void set_followed(Inputs inputs) { stepper_.set_followed(std::move(inputs)); }
   /// What holds in the step that begins here.
   Inputs inputs() const { return stepper_.inputs(); }
   const std::optional<Pull>& hand() const { return stepper_.hand(); }

@@ -1,5 +1,3 @@
-#include "aspic/scene.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "base/files.h"
 #include "model/bodies.h"
 #include "model/inputs.h"

@@ -3,8 +3,8 @@
 #include "gpu/program.h"
 #include "gpu/shader_source.h"
 #include "gpu_solver/layout.h"
-#include "model/terrain.h"
 #include "gpu_solver/step_inputs.h"
+#include "model/terrain.h"
 #include "support/gl_fixture.h"
 #include "support/program_reflection.h"
 

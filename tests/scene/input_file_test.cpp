@@ -1,10 +1,9 @@
-#include "aspic/scene.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "aspic/scene.h"
 #include "support/model_building.h"
 #include "support/temporary_directory.h"
 
