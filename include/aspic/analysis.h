@@ -25,7 +25,7 @@ struct Measures {
   double max_speed = 0.0;      ///< [m/s]
   double min_height = 0.0;     ///< lowest y of all particles and balls' centres [m]; 0 without any
 
-  ASPIC_API double total() const;
+  ASPIC_API double total() const;  ///< kinetic, elastic and gravitational [J]
 };
 
 /// The first figure that is not finite, in words such as `the kinetic energy`; nothing if all are.
@@ -41,9 +41,10 @@ struct QuantityDifference {
   double absolute = 0.0;             ///< largest |a − b| of any component, in the quantity's unit
   std::uint32_t absolute_index = 0;  ///< the particle or ball it was found at, the lowest if several
   std::uint64_t ulp = 0;             ///< largest distance of any component in units in the last place
-  std::uint32_t ulp_index = 0;
+  std::uint32_t ulp_index = 0;       ///< where, as absolute_index
 };
 
+/// Where two states differ most, by quantity.
 struct StateDifference {
   QuantityDifference position;                                             ///< [m]
   QuantityDifference velocity;                                             ///< [m/s]
@@ -51,10 +52,12 @@ struct StateDifference {
 
   /// Whether every bit is the same: −0 and +0 differ.
   bool identical() const { return largest_ulp() == 0; }
+  /// Of all five quantities.
   std::uint64_t largest_ulp() const {
     return std::max(
         {position.ulp, velocity.ulp, ball_position.ulp, ball_velocity.ulp, ball_angular_velocity.ulp});
   }
+  /// Of all five, whatever their units.
   double largest_absolute() const {
     return std::max({position.absolute, velocity.absolute, ball_position.absolute, ball_velocity.absolute,
                      ball_angular_velocity.absolute});

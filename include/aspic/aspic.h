@@ -1,6 +1,7 @@
 #pragma once
 // All of libaspic: scenes, models and their solvers, measures, files. Link aspic::aspic. No window and no
-// command line is part of it. Fallible calls return a Result.
+// command line is part of it. Fallible calls return a Result. Free functions may be called on any thread, and
+// on several at once as long as none changes what another uses; classes say which threads theirs come from.
 
 #include "aspic/analysis.h"    // measure(), compare_states(), stability_limit()
 #include "aspic/error.h"       // Result, Status, Error

@@ -22,21 +22,21 @@ enum class ErrorCode {
 
 /// An error: its code, and one or more complete sentences that say where, what and how to fix it.
 struct Error {
-  ErrorCode code;
-  std::string message;
+  ErrorCode code;       ///< also fit for a program to end with
+  std::string message;  ///< UTF-8, of one or more lines
 };
 
 /// Ends the program with a sentence: a Result was asked for what it does not hold.
 [[noreturn]] ASPIC_API void end_at_wrong_access(const Error* error) noexcept;
 
-/// Either a T or an Error.
+/// Either a T or an Error. A plain value: one thread changes it, or several read.
 template <class T>
 class [[nodiscard]] Result {
  public:
   Result(T value) : content_(std::move(value)) {}
   Result(Error error) : content_(std::move(error)) {}
 
-  bool ok() const { return content_.index() == 0; }
+  bool ok() const { return content_.index() == 0; }  ///< whether there is a value
   explicit operator bool() const { return ok(); }
 
   /// The value. Only if ok(): otherwise the program ends with the error.
@@ -70,9 +70,9 @@ class [[nodiscard]] Result<void> {
   Result() = default;
   Result(Error error) : error_(std::move(error)) {}
 
-  bool ok() const { return !error_.has_value(); }
+  bool ok() const { return !error_.has_value(); }  ///< whether the call succeeded
   explicit operator bool() const { return ok(); }
-  const Error& error() const {
+  const Error& error() const {  ///< only if not ok(): otherwise the program ends
     if (!error_) end_at_wrong_access(nullptr);
     return *error_;
   }
@@ -81,6 +81,7 @@ class [[nodiscard]] Result<void> {
   std::optional<Error> error_;
 };
 
+/// What a call returns that gives no value.
 using Status = Result<void>;
 
 }  // namespace aspic

@@ -42,15 +42,15 @@ ASPIC_API Status write_checkpoint(const std::string& path, const std::string& sc
 
 /// What is known of a run before it starts.
 struct RunFacts {
-  std::string scene_toml;  ///< the complete scene, as a checkpoint keeps it
-  Integrator integrator = Integrator::explicit_euler;
-  std::string inputs_toml = {};  ///< the run's input log; empty: none
+  std::string scene_toml;                              ///< the complete scene, as a checkpoint keeps it
+  Integrator integrator = Integrator::explicit_euler;  ///< of the run's model
+  std::string inputs_toml = {};                        ///< the run's input log; empty: none
 };
 
 /// A state of a run, with its model.
 struct Sample {
-  const Model& model;
-  const State& state;
+  const Model& model;               ///< what the state is of
+  const State& state;               ///< has its numbers of particles and balls
   SolveStatistics solves = {};      ///< of the run so far; zeros unless the integrator is implicit-euler
   const RunFacts* facts = nullptr;  ///< null except within a sink that was told them
   const Divergence* divergence = nullptr;  ///< of the step after it, which ended the run; null: none
@@ -58,8 +58,8 @@ struct Sample {
 
 /// Width and height of a picture [pixels].
 struct PictureSize {
-  int width = 1280;
-  int height = 720;
+  int width = 1280;  ///< ≥ 1
+  int height = 720;  ///< ≥ 1
   friend bool operator==(const PictureSize&, const PictureSize&) = default;
 };
 
@@ -69,7 +69,7 @@ struct FilmFormat;  // of the library's table
 ASPIC_API const FilmFormat* find_film_format(std::string_view word);
 
 /// Takes the pictures of a run in order. One that is destroyed before finish() leaves nothing that looks
-/// complete.
+/// complete. A Recorder calls write() and finish() on its own encoding thread, one at a time.
 class ASPIC_API FrameSink {
  public:
   virtual ~FrameSink();

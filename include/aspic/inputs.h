@@ -30,7 +30,7 @@ struct Pull {
 
 /// Inputs at most: what a solver's tables have room for.
 inline constexpr std::size_t most_pulls = 256;
-inline constexpr std::size_t most_channels = 65536;
+inline constexpr std::size_t most_channels = 65536;  ///< numbers
 
 /// Valid from the beginning of a step until others take their place. A step's result depends on its inputs
 /// alone, not on those before.
@@ -45,7 +45,9 @@ struct Inputs {
   /// Numbers by channel, for what reads them by index; nothing in a model does yet. At most most_channels.
   std::vector<double> channels = {};
 
+  /// Whether nothing acts.
   bool empty() const { return pulls.empty() && pinned.empty() && released.empty() && channels.empty(); }
+  /// Whether particles are pinned and released by equal lists, whose order counts.
   bool same_pins(const Inputs& other) const { return pinned == other.pinned && released == other.released; }
   friend bool operator==(const Inputs&, const Inputs&) = default;
 };
@@ -53,12 +55,14 @@ struct Inputs {
 /// The inputs of one hand; nothing: none.
 ASPIC_API Inputs inputs_of(const std::optional<Pull>& hand);
 
-/// The inputs of a run by step: with them it repeats to the bit.
+/// The inputs of a run by step: with them it repeats to the bit. Plain data: one thread changes it, or
+/// several read.
 class ASPIC_API InputLog {
  public:
+  /// Inputs, and the step they begin at.
   struct Entry {
     std::uint64_t step = 0;  ///< valid from the step that begins with the state of this number
-    Inputs inputs;
+    Inputs inputs;           ///< until the next entry
     friend bool operator==(const Entry&, const Entry&) = default;
   };
 
@@ -78,7 +82,7 @@ class ASPIC_API InputLog {
   InputLog with_timestep(double from, double to) const;
   /// 64-bit FNV-1a of all entries; the same for equal logs only, so far as hashes go.
   std::uint64_t hash() const;
-  std::string hash_text() const;
+  std::string hash_text() const;  ///< hash() as 16 lower-case hexadecimal digits
   /// Bytes it holds on the heap.
   std::uint64_t bytes() const;
 

@@ -16,6 +16,7 @@ namespace aspic {
 /// A model, whose members are the library's own (src/model/model.h).
 struct Model;
 /// A model that all who compute with it hold together: it lives as long as any of them.
+/// Any number of threads may use one model at once.
 using SharedModel = std::shared_ptr<const Model>;
 
 /// Makes the model the settings describe. Errors (scene_rejected): an unknown pinned name or index, more
@@ -33,7 +34,7 @@ ASPIC_API Status check_same_topology(const Model& from, const Model& to);
 
 /// Consecutive particles that were made as one body.
 struct ParticleRange {
-  std::uint32_t first = 0, count = 0;
+  std::uint32_t first = 0, count = 0;  ///< the first global index; how many there are
 };
 /// The bodies of particles, in the order of their kinds in ModelSettings and then of their lists.
 ASPIC_API std::vector<ParticleRange> particle_ranges(const Model& model);
@@ -44,12 +45,12 @@ ASPIC_API std::vector<std::uint32_t> pinned_indices(const Model& model);
 
 /// A spring between the particles a < b.
 struct SpringFacts {
-  std::uint32_t a = 0, b = 0;
-  SpringType type = SpringType::structural;
-  double stiffness = 0.0;    ///< k [N/m]
-  double damping = 0.0;      ///< c [N·s/m]
-  double rest_length = 0.0;  ///< r [m]
-  bool cord = false;         ///< resists stretch only
+  std::uint32_t a = 0, b = 0;                ///< global indices
+  SpringType type = SpringType::structural;  ///< by the place of its ends in the lattice
+  double stiffness = 0.0;                    ///< k [N/m]
+  double damping = 0.0;                      ///< c [N·s/m]
+  double rest_length = 0.0;                  ///< r [m]
+  bool cord = false;                         ///< resists stretch only
 };
 /// Every spring, sorted by (a, b).
 ASPIC_API std::vector<SpringFacts> spring_facts(const Model& model);
@@ -65,6 +66,7 @@ struct BallFacts {
   double mass = 0.0;              ///< m [kg], > 0
   std::uint64_t launch_step = 0;  ///< takes part in the steps that begin at this step number or later
 };
+/// Every ball, by its index in a State.
 ASPIC_API std::vector<BallFacts> ball_facts(const Model& model);
 
 }  // namespace aspic

@@ -54,11 +54,11 @@ ASPIC_API std::string backend_words();
 /// assigned and destroyed in any order.
 struct Backend {
   const BackendRow* row = nullptr;  ///< of the table
-  std::unique_ptr<Solver> solver;
-  std::string device;      ///< the driver's name of it, or what the solver says of itself
-  std::string force_path;  ///< "gather", …; empty if the backend has none
-  Arithmetic arithmetic = Arithmetic::exact;
-  std::string reason;  ///< why `auto` took it; empty if it was named
+  std::unique_ptr<Solver> solver;   ///< at the state it was last load()ed; never null after make_backend()
+  std::string device;               ///< the driver's name of it, or what the solver says of itself
+  std::string force_path;           ///< "gather", …; empty if the backend has none
+  Arithmetic arithmetic = Arithmetic::exact;  ///< as chosen
+  std::string reason;                         ///< why `auto` took it; empty if it was named
 
   /// "gpu:gather", "cpu:fast", "reference:double", "reference".
   ASPIC_API std::string variant() const;
@@ -66,7 +66,7 @@ struct Backend {
 
 /// Makes the solver of a choice, `auto` included, at the model's initial state. Errors: usage, the backend
 /// has not all of it; no_device, which says what is missing; scene_rejected, larger than the device or
-/// memory.
+/// memory. Call it on the thread that will use a gpu solver.
 ASPIC_API Result<Backend> make_backend(const BackendChoice& choice, SharedModel model);
 
 /// A file of states.
@@ -83,8 +83,8 @@ struct PictureOutput {
   const FilmFormat* frames_format = find_film_format("png");  ///< of `frames`
   std::optional<double> fps;  ///< pictures per second shown, > 0; absent: what the formats have
   double speed = 1.0;         ///< simulated seconds per second shown, > 0
-  PictureSize size;
-  bool text = true;  ///< parameters and time are written on them
+  PictureSize size;           ///< of films and pictures
+  bool text = true;           ///< parameters and time are written on them
   /// A program that draws when it is started so, as aspic --draw-pictures does, and its words: to draw on
   /// software rasterisers with all processors; empty: this one draws alone.
   std::vector<std::string> drawer = {};
@@ -101,7 +101,7 @@ struct PageFacts {
 };
 
 /// The files of a run: opened before it, completed after it. One that fails on the way does not keep the
-/// others from being written.
+/// others from being written. Calls may come from any thread, one at a time.
 class ASPIC_API RunFiles {
  public:
   RunFiles(RunFiles&&) noexcept;
@@ -140,13 +140,15 @@ class ASPIC_API RunFiles {
 /// Time spent on pictures [s], in all. A device works on while the program does: its time shows where it is
 /// waited for.
 struct FrameTimes {
-  std::uint64_t frames = 0;
-  double simulate = 0.0, draw = 0.0, read = 0.0, encode = 0.0;
-  unsigned processes = 0;  ///< that drew; 0: this one alone
+  std::uint64_t frames = 0;                                     ///< how many
+  double simulate = 0.0, draw = 0.0, read = 0.0, encode = 0.0;  ///< in each stage [s]
+  unsigned processes = 0;                                       ///< that drew; 0: this one alone
+  /// The share of one picture in a total [s]; 0 without any.
   double per_frame(double total) const { return frames > 0 ? total / static_cast<double>(frames) : 0.0; }
 };
 
-/// Pictures of a run while it runs, without a window.
+/// Pictures of a run while it runs, without a window. All calls, and the destructor, on the thread that made
+/// it: that of the solver where this is a gpu one.
 class ASPIC_API Recorder {
  public:
   /// Draws where a gpu backend's state lies, else in a separate headless context; the sinks have the size of
@@ -176,7 +178,7 @@ class ASPIC_API Recorder {
 
   /// Counts time of the solver [s] for times().
   void add_simulation(double seconds);
-  FrameTimes times() const;
+  FrameTimes times() const;  ///< so far
   /// The driver's name of the device that draws.
   const std::string& device() const;
 

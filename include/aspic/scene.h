@@ -18,6 +18,7 @@ namespace aspic {
 /// How a camera brings the world into the picture.
 enum class Projection { perspective, orthographic };
 
+/// Their names in scene files; the next tables are alike.
 inline constexpr Named<Projection> projections[] = {{Projection::perspective, "perspective"},
                                                     {Projection::orthographic, "orthographic"}};
 
@@ -37,8 +38,8 @@ struct DrawSettings {
   bool solid = true;        ///< the bodies' surfaces
   bool particles = false;   ///< every particle as a point
   bool structural = false;  ///< springs, by type
-  bool shear = false;
-  bool bending = false;
+  bool shear = false;       ///< springs across the squares of a lattice
+  bool bending = false;     ///< springs to the particle after the next
 
   friend bool operator==(const DrawSettings&, const DrawSettings&) = default;
 };
@@ -60,6 +61,7 @@ inline bool has_scale(ViewColour colour) {
 
 /// Colours of a scale.
 enum class ScaleMap { automatic, violet_yellow, heat, grey, blue_red };
+/// Names in scene files.
 inline constexpr Named<ScaleMap> scale_maps[] = {{ScaleMap::automatic, "automatic"},
                                                  {ScaleMap::violet_yellow, "violet-yellow"},
                                                  {ScaleMap::heat, "heat"},
@@ -68,13 +70,14 @@ inline constexpr Named<ScaleMap> scale_maps[] = {{ScaleMap::automatic, "automati
 
 /// Which values the ends of a scale represent.
 enum class ScaleRange { fixed, automatic, symmetric };
+/// Names in scene files.
 inline constexpr Named<ScaleRange> scale_ranges[] = {
     {ScaleRange::fixed, "fixed"}, {ScaleRange::automatic, "automatic"}, {ScaleRange::symmetric, "symmetric"}};
 
 /// The scale of a colour that shows a number.
 struct ScaleSettings {
-  ScaleMap map = ScaleMap::automatic;
-  ScaleRange range = ScaleRange::fixed;
+  ScaleMap map = ScaleMap::automatic;    ///< automatic: one that suits the quantity
+  ScaleRange range = ScaleRange::fixed;  ///< fixed: `from` and `to`, or what suits the model
   /// Ends of a fixed scale, in the quantity's SI unit, strain as a ratio; absent: ends that suit the model.
   std::optional<double> from, to;
 
@@ -95,7 +98,7 @@ struct CutSettings {
   Vec3 normal = {0.0, 0.0, 1.0};      ///< of any length but zero, towards what is cut away
   double offset = 0.0;                ///< from the world's origin along the normal [m]
 
-  bool on() const { return inside != CutInside::off; }
+  bool on() const { return inside != CutInside::off; }  ///< whether anything is cut
   friend bool operator==(const CutSettings&, const CutSettings&) = default;
 };
 
@@ -106,23 +109,23 @@ struct ArrowSettings {
   bool external = false;  ///< gravity, and a hand's pull
   bool net = false;       ///< all of these: f
 
-  bool any() const { return contacts || springs || external || net; }
+  bool any() const { return contacts || springs || external || net; }  ///< whether any is drawn
   friend bool operator==(const ArrowSettings&, const ArrowSettings&) = default;
 };
 
 /// The `view` table of a scene.
 struct ViewSettings {
-  CameraSettings camera;
-  DrawSettings draw;
-  ViewColour colour = ViewColour::material;
-  CutSettings cut;
-  bool terrain = true;  ///< it is drawn; bodies touch it in either case
-  bool axes = false;    ///< the world's axes are drawn in a corner
-  ArrowSettings arrows;
+  CameraSettings camera;                     ///< the eye
+  DrawSettings draw;                         ///< which parts of the bodies
+  ViewColour colour = ViewColour::material;  ///< of the bodies
+  CutSettings cut;                           ///< through the bodies
+  bool terrain = true;                       ///< it is drawn; bodies touch it in either case
+  bool axes = false;                         ///< the world's axes are drawn in a corner
+  ArrowSettings arrows;                      ///< none by default
   std::optional<double> arrow_scale = {};  ///< an arrow's force by its length [N/m]; absent: fits the picture
-  ScaleSettings scale;
-  std::optional<double> ground;       ///< height of a ground that is drawn only [m]; absent: none
-  std::optional<std::string> follow;  ///< body or ball that the camera moves along with (scene/follow.h)
+  ScaleSettings scale;                     ///< used by colours with has_scale()
+  std::optional<double> ground;            ///< height of a ground that is drawn only [m]; absent: none
+  std::optional<std::string> follow;       ///< body or ball that the camera moves along with (scene/follow.h)
 
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
@@ -139,8 +142,8 @@ ASPIC_API std::string_view name_of(ScaleRange range);
 struct Scene {
   std::string name;  ///< for titles and reports; the file's name without extension if the file gives none
   std::optional<std::string> author;  ///< as films and reports name them; absent: nobody is named
-  ModelSettings model;
-  ViewSettings view;
+  ModelSettings model;                ///< what is simulated
+  ViewSettings view;                  ///< how it is drawn
 };
 
 /// Version of the scene file format that this program reads and writes.
@@ -178,7 +181,7 @@ ASPIC_API Result<Scene> load_scene(const std::string& file_or_builtin,
 
 /// A scene that is part of the program.
 struct BuiltinScene {
-  std::string_view name;
+  std::string_view name;         ///< as load_scene() takes it
   std::string_view description;  ///< one line: the file's first comment
   std::string_view group;        ///< the heading that it is listed under
 };
@@ -197,8 +200,8 @@ ASPIC_API std::string to_toml(const Scene& scene);
 /// What a log is read for: names in it are those of the settings' bodies, indices those of their model. A log
 /// that names another time step is read with_timestep() of the settings'.
 struct LoggedRun {
-  const ModelSettings& settings;
-  const Model& model;  ///< that of the settings
+  const ModelSettings& settings;  ///< of the scene that runs
+  const Model& model;             ///< that of the settings
 };
 
 /// Reads a log. Messages name `file_name`. Error (scene_rejected): the first TOML syntax error alone, or the

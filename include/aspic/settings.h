@@ -41,8 +41,8 @@ inline constexpr std::size_t geometry_size = 3;
 /// GLSL, terrains[t].geometry[k] is (vector k, number k).
 template <class T>
 struct Geometry {
-  std::array<Vec<T>, geometry_size> vectors = {};
-  std::array<T, geometry_size> numbers = {};
+  std::array<Vec<T>, geometry_size> vectors = {};  ///< in the order of the keys that hold vectors
+  std::array<T, geometry_size> numbers = {};       ///< in the order of the keys that hold numbers
 };
 
 /// Contact models.
@@ -51,14 +51,15 @@ enum class ContactModel { coulomb, course };
 /// A value of an enumeration with its name in scene files and reports.
 template <class Enum>
 struct Named {
-  Enum value;
-  std::string_view name;
+  Enum value;             ///< one of the enumeration
+  std::string_view name;  ///< unique within it
 };
 
 /// Every contact model, in the order in which they are listed for users.
 inline constexpr Named<ContactModel> contact_models[] = {{ContactModel::coulomb, "coulomb"},
                                                          {ContactModel::course, "course"}};
 
+/// Classes of springs in a lattice.
 enum class SpringType { structural, shear, bending };
 
 /// Limits of the implicit Euler solve.
@@ -68,23 +69,25 @@ struct ImplicitSettings {
   std::optional<double> tolerance;  ///< [m/s], > 0; absent: 1e-4 single, 1e-9 double
 };
 
+/// Time and gravity.
 struct SimulationSettings {
-  Integrator integrator = Integrator::explicit_euler;
-  double timestep = 0.001;          ///< h [s], > 0
-  double duration = 4.0;            ///< [s], ≥ 0
-  Vec3 gravity = {0.0, -9.8, 0.0};  ///< g [m/s²]
-  int steps_per_frame = 8;          ///< in the window, ≥ 1
-  ImplicitSettings implicit;
+  Integrator integrator = Integrator::explicit_euler;  ///< of every particle
+  double timestep = 0.001;                             ///< h [s], > 0
+  double duration = 4.0;                               ///< [s], ≥ 0
+  Vec3 gravity = {0.0, -9.8, 0.0};                     ///< g [m/s²]
+  int steps_per_frame = 8;                             ///< in the window, ≥ 1
+  ImplicitSettings implicit;                           ///< for implicit-euler alone
 };
 
+/// Contact of particles and balls with terrain, and of balls with each other.
 struct ContactSettings {
-  ContactModel model = ContactModel::coulomb;
-  double epsilon = 0.01;          ///< ε, m for distances and m/s for speeds, > 0
-  double restitution = 0.8;       ///< e, 0…1, default of every terrain
-  double friction = 0.3;          ///< μ, ≥ 0, default of every terrain
-  double ball_restitution = 1.0;  ///< 0…1
-  double ball_friction = 0.3;     ///< ≥ 0
-  bool spin = true;
+  ContactModel model = ContactModel::coulomb;  ///< docs/physics.md, section 5
+  double epsilon = 0.01;                       ///< ε, m for distances and m/s for speeds, > 0
+  double restitution = 0.8;                    ///< e, 0…1, default of every terrain
+  double friction = 0.3;                       ///< μ, ≥ 0, default of every terrain
+  double ball_restitution = 1.0;               ///< 0…1
+  double ball_friction = 0.3;                  ///< ≥ 0
+  bool spin = true;                            ///< whether friction makes balls rotate
 };
 
 /// How a terrain moves to and fro: displaced by amplitude·sin 2π(frequency·t + phase) along a direction.
@@ -98,12 +101,12 @@ struct TerrainMotion {
 /// One terrain of the scene. Absent values take the shape's defaults (terrain_shapes) or the scene's
 /// contact values.
 struct TerrainSettings {
-  TerrainShape shape = TerrainShape::plane;
+  TerrainShape shape = TerrainShape::plane;  ///< decides which keys `geometry` may have
   /// By key, of the kind that the key has: shapes say which keys they have.
   std::map<std::string, GeometryValue, std::less<>> geometry = {};
-  std::optional<double> mass = {};  ///< M [kg], > 0; absent: infinite
-  std::optional<double> restitution = {};
-  std::optional<double> friction = {};
+  std::optional<double> mass = {};           ///< M [kg], > 0; absent: infinite
+  std::optional<double> restitution = {};    ///< e, 0…1; absent: the scene's
+  std::optional<double> friction = {};       ///< μ, ≥ 0; absent: the scene's
   std::optional<TerrainMotion> motion = {};  ///< absent: it never moves
 };
 
@@ -120,6 +123,7 @@ struct MaterialSettings {
   double damping_ratio = 0.95;      ///< ζ, ≥ 0
 };
 
+/// A rotation by an angle about an axis, right-handed.
 struct RotationSettings {
   Vec3 axis = {1.0, 0.0, 1.0};  ///< any length but zero
   double angle = 0.0;           ///< [degrees]
@@ -133,16 +137,17 @@ struct PinnedSettings {
   friend bool operator==(const PinnedSettings&, const PinnedSettings&) = default;
 };
 
+/// A cube of particles: n³ in a lattice.
 struct CubeSettings {
-  int particles_per_edge = 10;      ///< n, ≥ 2
-  double edge_length = 4.0;         ///< [m], > 0
-  Vec3 position = {0.0, 9.0, 0.0};  ///< of the centre [m]
-  RotationSettings rotation;
-  Vec3 velocity = {0.0, 0.0, 0.0};  ///< [m/s]
-  double particle_mass = 1.0;       ///< m [kg], > 0
-  SpringSettings structural, shear, bending;
-  std::optional<MaterialSettings> material;  ///< instead of particle_mass and the three spring settings
-  PinnedSettings pinned;
+  int particles_per_edge = 10;                ///< n, ≥ 2
+  double edge_length = 4.0;                   ///< [m], > 0
+  Vec3 position = {0.0, 9.0, 0.0};            ///< of the centre [m]
+  RotationSettings rotation;                  ///< about the centre
+  Vec3 velocity = {0.0, 0.0, 0.0};            ///< [m/s]
+  double particle_mass = 1.0;                 ///< m [kg], > 0
+  SpringSettings structural, shear, bending;  ///< by type; without `material`
+  std::optional<MaterialSettings> material;   ///< instead of particle_mass and the three spring settings
+  PinnedSettings pinned;                      ///< none by default
 
   /// Particles along each axis.
   std::array<int, 3> lattice() const { return {particles_per_edge, particles_per_edge, particles_per_edge}; }
@@ -161,9 +166,9 @@ struct GoalNetSettings {
   Vec3 size = {2.0, 3.0, 8.0};          ///< width, height, length [m], each > 0
   Vec3 position = {0.0, 0.6, 0.0};      ///< of the box's centre [m]
   double particle_mass = 0.2;           ///< m [kg], > 0
-  SpringSettings structural = {1500.0, 50.0};
-  OptionalSpringSettings shear, bending;
-  bool cord = false;  ///< springs resist stretch only
+  SpringSettings structural = {1500.0, 50.0};  ///< between neighbours
+  OptionalSpringSettings shear, bending;       ///< none by default
+  bool cord = false;                           ///< springs resist stretch only
 };
 
 /// A rectangular cloth: w × h particles, in the x–y plane before it is turned.
@@ -171,12 +176,13 @@ struct ClothSettings {
   std::array<int, 2> particles = {24, 16};  ///< w, h along its width (x) and height (y), each ≥ 2
   std::array<double, 2> size = {3.0, 2.0};  ///< width, height [m], each > 0
   Vec3 position = {0.0, 3.0, 0.0};          ///< of the centre [m]
-  RotationSettings rotation = {{0.0, 1.0, 0.0}, 0.0};
-  Vec3 velocity = {0.0, 0.0, 0.0};  ///< [m/s]
-  double particle_mass = 0.02;      ///< m [kg], > 0
-  SpringSettings structural = {400.0, 0.8}, shear = {200.0, 0.4}, bending = {20.0, 0.04};
-  PinnedSettings pinned;
+  RotationSettings rotation = {{0.0, 1.0, 0.0}, 0.0};  ///< about the centre
+  Vec3 velocity = {0.0, 0.0, 0.0};                     ///< [m/s]
+  double particle_mass = 0.02;                         ///< m [kg], > 0
+  SpringSettings structural = {400.0, 0.8}, shear = {200.0, 0.4}, bending = {20.0, 0.04};  ///< by type
+  PinnedSettings pinned;  ///< none by default
 
+  /// Particles along each axis: one layer.
   std::array<int, 3> lattice() const { return {particles[0], particles[1], 1}; }
 };
 
@@ -205,22 +211,22 @@ struct LauncherSettings {
   std::int64_t seed = 1;  ///< ≥ 0
   int count = 10;         ///< balls, ≥ 0
   double interval = 0.5;  ///< [s] between two balls, ≥ 0; the first comes at the start
-  BoxSettings from = {{5.0, 0.6, 0.0}, {9.0, 4.6, 4.0}};
-  BoxSettings towards = {{0.0, 0.6, 0.0}, {0.0, 0.6, 2.0}};
+  BoxSettings from = {{5.0, 0.6, 0.0}, {9.0, 4.6, 4.0}};     ///< starts are drawn from it
+  BoxSettings towards = {{0.0, 0.6, 0.0}, {0.0, 0.6, 2.0}};  ///< targets are drawn from it
   double speed_factor = 7.0;  ///< [1/s], velocity = factor · (target − start)
-  LaunchedBallSettings ball;
+  LaunchedBallSettings ball;  ///< all alike
 };
 
 /// Everything the physics needs from a scene.
 struct ModelSettings {
-  SimulationSettings simulation;
-  ContactSettings contact;
-  std::vector<TerrainSettings> terrain;
-  std::vector<CubeSettings> cubes;
-  std::vector<GoalNetSettings> goal_nets;
-  std::vector<ClothSettings> cloths;
-  std::vector<BallSettings> balls;
-  std::vector<LauncherSettings> launchers;
+  SimulationSettings simulation;            ///< time step, method and gravity
+  ContactSettings contact;                  ///< defaults of every terrain, and of balls
+  std::vector<TerrainSettings> terrain;     ///< in file order, as all lists here
+  std::vector<CubeSettings> cubes;          ///< each ≥ 2³ particles
+  std::vector<GoalNetSettings> goal_nets;   ///< open boxes of springs
+  std::vector<ClothSettings> cloths;        ///< rectangles
+  std::vector<BallSettings> balls;          ///< there from step 0
+  std::vector<LauncherSettings> launchers;  ///< their balls come one by one
 };
 
 /// Names in scene files and reports.

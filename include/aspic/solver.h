@@ -29,7 +29,7 @@ ASPIC_API std::string body_text(const Divergence& divergence);
 /// How it did, after body_text: `became faster than 1000 m/s` or `is no longer a finite number`.
 ASPIC_API std::string fault_text(const Divergence& divergence);
 
-/// How a step's solve ended (docs/physics.md, section 4).
+/// How a step's solve ended (docs/physics.md, section 4): stagnated, its residual no longer became smaller.
 enum class SolveEnd : std::uint32_t { converged = 0, stagnated = 1, not_converged = 2 };
 
 /// One step's solve.
@@ -37,17 +37,17 @@ struct SolveReport {
   std::uint32_t newton_iterations = 0;  ///< linear systems solved
   std::uint32_t cg_iterations = 0;      ///< of all of them
   double residual = 0.0;  ///< largest component of |(v' − v) − h·a|, on the ground |v' − P(v + h·a)| [m/s]
-  SolveEnd end = SolveEnd::converged;
+  SolveEnd end = SolveEnd::converged;  ///< why it stopped
 };
 
 /// A run's solves since the state was loaded.
 struct SolveStatistics {
-  std::uint64_t steps = 0, converged = 0, stagnated = 0, not_converged = 0;
-  std::uint64_t newton_iterations = 0, cg_iterations = 0;
-  double worst_residual = 0.0;  ///< [m/s]
-  SolveReport last;             ///< of the latest step
+  std::uint64_t steps = 0, converged = 0, stagnated = 0, not_converged = 0;  ///< all; then by their end
+  std::uint64_t newton_iterations = 0, cg_iterations = 0;                    ///< in all steps
+  double worst_residual = 0.0;                                               ///< [m/s]
+  SolveReport last;                                                          ///< of the latest step
 
-  ASPIC_API void add(const SolveReport& report);
+  ASPIC_API void add(const SolveReport& report);  ///< counts one more step
 };
 
 /// How a solver may round.
@@ -55,7 +55,7 @@ enum class Arithmetic {
   exact,  ///< every operation once, in the documented order (docs/determinism.md): the reference's bits
   fast  ///< may fuse operations and use reciprocal roots: other last bits, on each kind of processor its own
 };
-ASPIC_API std::string_view name_of(Arithmetic arithmetic);
+ASPIC_API std::string_view name_of(Arithmetic arithmetic);  ///< "exact", "fast"
 
 /// How spring forces reach particles on a GPU. Every path gives the same bits.
 enum class ForcePath {
@@ -70,7 +70,9 @@ enum class ForcePath {
 inline constexpr double divergence_speed = 1000.0;
 
 /// A backend with a model loaded. After a divergence the state stays the last good one, and further advances
-/// do nothing but report the same divergence again until load().
+/// do nothing but report the same divergence again until load(). Calls come from
+/// one thread at a time; those of a gpu solver, destruction apart, from the thread that made it, and any
+/// other gets no_device. Only the flag of set_stop_flag() is for every thread.
 class ASPIC_API Solver {
  public:
   virtual ~Solver();
@@ -79,8 +81,8 @@ class ASPIC_API Solver {
   virtual std::string_view backend() const = 0;
   /// Device, force path, precision: one line for summaries.
   virtual std::string description() const = 0;
-  virtual Precision precision() const = 0;
-  virtual const Model& model() const = 0;
+  virtual Precision precision() const = 0;  ///< that it computes in
+  virtual const Model& model() const = 0;   ///< the one in use; set_constants() replaces it
   /// Bytes the solver holds for this model.
   virtual std::uint64_t bytes() const = 0;
 
@@ -132,7 +134,9 @@ class ASPIC_API Solver {
   virtual Status take_inputs(const Inputs& inputs) = 0;
   /// A model with the same topology, which takes inputs().
   virtual Status take_constants(SharedModel model) = 0;
+  /// The caller's flag, or null.
   const std::atomic<bool>* stop_flag() const { return flag_; }
+  /// Whether advance() should end.
   bool interrupted() const { return flag_ && flag_->load(std::memory_order_relaxed); }
 
  private:

@@ -17,15 +17,15 @@ namespace aspic {
 /// The arithmetic a state was computed in.
 enum class Precision { single, double_ };
 
-ASPIC_API std::string_view name_of(Precision precision);
+ASPIC_API std::string_view name_of(Precision precision);  ///< "single", "double"
 
 /// Positions and velocities of all particles and balls after `step` steps. Values are held as doubles
 /// whatever the precision: a single-precision value is held exactly.
 struct State {
-  Precision precision = Precision::single;
-  std::uint64_t step = 0;      ///< steps since the start; time is step · h
-  std::vector<Vec3> position;  ///< x [m], by global particle index
-  std::vector<Vec3> velocity;  ///< v [m/s]
+  Precision precision = Precision::single;  ///< of the solver that it came from
+  std::uint64_t step = 0;                   ///< steps since the start; time is step · h
+  std::vector<Vec3> position;               ///< x [m], by global particle index
+  std::vector<Vec3> velocity;               ///< v [m/s]
   // By ball index. A ball that is not launched yet (Ball::launch_step) holds the start it will have.
   std::vector<Vec3> ball_position;          ///< of the centre [m]
   std::vector<Vec3> ball_velocity;          ///< [m/s]
@@ -42,9 +42,9 @@ struct StateField {
   std::string_view name;    ///< in checkpoints and comparisons: "ball_velocity"
   std::string_view symbol;  ///< of the quantity; a ball's may be that of a particle: "v"
   std::string_view unit;    ///< "m/s"
-  StateCarrier carrier = StateCarrier::particle;
-  std::vector<Vec3> State::*vectors = nullptr;
-  static constexpr std::size_t components = 3;
+  StateCarrier carrier = StateCarrier::particle;  ///< how many vectors there are
+  std::vector<Vec3> State::*vectors = nullptr;    ///< where a State has them
+  static constexpr std::size_t components = 3;    ///< numbers of a vector
 };
 
 /// Every field. Hash, checkpoints, tables of states, keyframes and views walk this table, particles' fields

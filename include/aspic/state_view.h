@@ -17,17 +17,18 @@ namespace aspic {
 /// Vectors of three numbers of type T: component c of vector i is data[i·stride + c·component], in numbers.
 template <class T>
 struct Strided {
-  T* data = nullptr;
-  std::size_t count = 0;
-  std::ptrdiff_t stride = 3, component = 1;
+  T* data = nullptr;                         ///< component 0 of vector 0
+  std::size_t count = 0;                     ///< of vectors
+  std::ptrdiff_t stride = 3, component = 1;  ///< in numbers, not bytes; of any sign
 
-  T& at(std::size_t i, std::size_t c) const {
+  T& at(std::size_t i, std::size_t c) const {  ///< component c of vector i; not checked
     return data[static_cast<std::ptrdiff_t>(i) * stride + static_cast<std::ptrdiff_t>(c) * component];
   }
 };
 
 /// Vectors of float or double; std::monostate: none.
 using Vectors = std::variant<std::monostate, Strided<float>, Strided<double>>;
+/// The same, to be read only.
 using ConstVectors = std::variant<std::monostate, Strided<const float>, Strided<const double>>;
 
 /// How many vectors.
@@ -49,6 +50,7 @@ ASPIC_API void copy_vectors(const ConstVectors& from, const Vectors& to);
 
 /// A place for each field of state_fields, in its order. What is none is left out.
 using StateView = std::array<Vectors, state_fields.size()>;
+/// The same, to be read only.
 using ConstStateView = std::array<ConstVectors, state_fields.size()>;
 
 /// The number of a field in the table: field_number("velocity"). A name that is in no table does not compile.

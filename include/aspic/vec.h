@@ -11,7 +11,7 @@ namespace aspic {
 /// A vector of three numbers; unit by context.
 template <class T>
 struct Vec {
-  T x = 0, y = 0, z = 0;
+  T x = 0, y = 0, z = 0;  ///< by axis
 
   T& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
   T operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
@@ -33,7 +33,7 @@ struct Vec {
 using Vec3 = Vec<double>;
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
-ASPIC_INLINE inline bool is_finite(const Vec3& a) {
+ASPIC_INLINE inline bool is_finite(const Vec3& a) {  ///< whether all three are
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
