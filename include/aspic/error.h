@@ -63,7 +63,7 @@ class [[nodiscard]] Result {
   std::variant<T, Error> content_;
 };
 
-/// Success without a value, or an Error.
+/// Success without a value, or an Error; threads as above.
 template <>
 class [[nodiscard]] Result<void> {
  public:

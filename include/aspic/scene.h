@@ -38,8 +38,8 @@ struct DrawSettings {
   bool solid = true;        ///< the bodies' surfaces
   bool particles = false;   ///< every particle as a point
   bool structural = false;  ///< springs, by type
-  bool shear = false;       ///< springs across the squares of a lattice
-  bool bending = false;     ///< springs to the particle after the next
+  bool shear = false;       ///< diagonals of the lattice
+  bool bending = false;     ///< over two cells of it
 
   friend bool operator==(const DrawSettings&, const DrawSettings&) = default;
 };
