@@ -1,5 +1,6 @@
 # cmake -DASPIC_BUILD=… -DASPIC_SOURCE=… -DASPIC_PROGRAM=… -DASPIC_WANTED=… -DKINDS=static,shared -DCOMPILER=… -DNM=… -P check.cmake:
-# installs the library into a folder of its own and uses it from a project outside the tree.
+# installs the library into a folder of its own and uses it from a project outside the tree, also as docs/library.md does.
+include("${CMAKE_CURRENT_LIST_DIR}/page_programs.cmake")
 execute_process(COMMAND mktemp -d OUTPUT_VARIABLE place OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 
 function(complain)
@@ -70,11 +71,21 @@ set(without_egl "${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${place}/no-egl")
 set(missing "libEGL.so.1.*apt install libegl1")
 
 string(REPLACE "," ";" KINDS "${KINDS}")
+list(GET KINDS -1 last_kind)
 foreach(kind IN LISTS KINDS)
   foreach(file IN ITEMS CMakeLists.txt surface.cpp)
     file(COPY "${CMAKE_CURRENT_LIST_DIR}/${file}" DESTINATION "${place}/${kind}")
   endforeach()
   file(COPY "${ASPIC_SOURCE}/examples/minimal.cpp" DESTINATION "${place}/${kind}")
+  # Once, with the kind that the page's reader gets.
+  set(programs "")
+  if(kind STREQUAL last_kind)
+    page_programs("${ASPIC_SOURCE}/docs/library.md" "${place}/${kind}" programs)
+    list(LENGTH programs count)
+    if(count LESS 3)
+      complain("docs/library.md has ${count} programs.")
+    endif()
+  endif()
   do(ignored "${CMAKE_COMMAND}" -G Ninja -S "${place}/${kind}" -B "${place}/${kind}/build" "-DCMAKE_PREFIX_PATH=${place}/prefix"
      "-DCMAKE_CXX_COMPILER=${COMPILER}" -DCMAKE_BUILD_TYPE=Release "-DKIND=${kind}" "-DASPIC_WANTED=${ASPIC_WANTED}")
   do(ignored "${CMAKE_COMMAND}" --build "${place}/${kind}/build")
@@ -89,15 +100,25 @@ foreach(kind IN LISTS KINDS)
   refuse(4 "${missing}" ${without_egl} "${minimal}" cube-bowl 300 gpu)
   refuse(3 "no-such-scene" "${minimal}" no-such-scene)
   do(ignored "${place}/${kind}/build/surface")
+  foreach(program IN LISTS programs)
+    do(ignored "${place}/${kind}/build/${program}")
+  endforeach()
   if(kind STREQUAL "shared")
     check_symbols("${place}/prefix/${LIBDIR}/libaspic.so")
   endif()
 endforeach()
 
-do(include "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${place}/prefix/${LIBDIR}/pkgconfig" pkg-config --variable=includedir aspic)
+set(pkg_config "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${place}/prefix/${LIBDIR}/pkgconfig" pkg-config)
+do(include ${pkg_config} --variable=includedir aspic)
 string(STRIP "${include}" include)
 if(NOT EXISTS "${include}/aspic/aspic.h")
   complain("pkg-config finds the headers in ${include}, where they are not.")
+endif()
+if(last_kind STREQUAL "shared")
+  do(flags ${pkg_config} --cflags --libs aspic)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  do(ignored "${COMPILER}" -std=c++20 "${place}/shared/first.cpp" ${flags} -o first)
+  do(ignored "${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${place}/prefix/${LIBDIR}" "${place}/first")
 endif()
 
 # The program itself, which says so.
