@@ -18,7 +18,7 @@ namespace aspic {
 /// How a camera brings the world into the picture.
 enum class Projection { perspective, orthographic };
 
-/// Their names in scene files; the next tables are alike.
+/// Every one with its name in scene files.
 inline constexpr Named<Projection> projections[] = {{Projection::perspective, "perspective"},
                                                     {Projection::orthographic, "orthographic"}};
 
@@ -61,7 +61,7 @@ inline bool has_scale(ViewColour colour) {
 
 /// Colours of a scale.
 enum class ScaleMap { automatic, violet_yellow, heat, grey, blue_red };
-/// Names in scene files.
+/// Every one with its name in scene files.
 inline constexpr Named<ScaleMap> scale_maps[] = {{ScaleMap::automatic, "automatic"},
                                                  {ScaleMap::violet_yellow, "violet-yellow"},
                                                  {ScaleMap::heat, "heat"},
@@ -70,7 +70,7 @@ inline constexpr Named<ScaleMap> scale_maps[] = {{ScaleMap::automatic, "automati
 
 /// Which values the ends of a scale represent.
 enum class ScaleRange { fixed, automatic, symmetric };
-/// Names in scene files.
+/// Every one with its name in scene files.
 inline constexpr Named<ScaleRange> scale_ranges[] = {
     {ScaleRange::fixed, "fixed"}, {ScaleRange::automatic, "automatic"}, {ScaleRange::symmetric, "symmetric"}};
 

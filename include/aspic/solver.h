@@ -70,9 +70,9 @@ enum class ForcePath {
 inline constexpr double divergence_speed = 1000.0;
 
 /// A backend with a model loaded. After a divergence the state stays the last good one, and further advances
-/// do nothing but report the same divergence again until load(). Calls come from
-/// one thread at a time; those of a gpu solver, destruction apart, from the thread that made it, and any
-/// other gets no_device. Only the flag of set_stop_flag() is for every thread.
+/// do nothing but report the same divergence again until load(). Calls come from one thread at a time; those
+/// of a gpu solver, destruction apart, from the thread that made it: another gets the error no_device. Only
+/// the flag of set_stop_flag() is for every thread.
 class ASPIC_API Solver {
  public:
   virtual ~Solver();
