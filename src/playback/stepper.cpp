@@ -191,7 +191,8 @@ Status Stepper::sample_here() {
 /// Steps of the solvers without the context; those within it have their inputs already. Steps that are
 /// `repeated`, with these inputs, are the leader's alone; others go no further than the log's next change.
 void Stepper::start_job(std::uint64_t to, double budget, const std::optional<Inputs>& repeated) {
-  if (!jobs_.busy()) job_step_ = present_.step();
+  // Where results wait to be taken up the solvers are further than the present.
+  if (jobs_.idle()) job_step_ = present_.step();
   job_to_ = to;
   const auto advance = [=, this, log = log_, followed = followed_,
                         hand = hand_](const std::atomic<bool>& cancelled) -> Result<JobResult> {

@@ -91,7 +91,7 @@ TEST_P(InMotion, ReplaysALogAndRecordsItWithTheHand) {
   log.set(20, {.pulls = {{63, {2.0, 10.0, 0.0}, 400.0, 2.0}}, .pinned = {0, 3}, .channels = {0.5}});
   log.set(33, {.pinned = {3}});
   log.set(90, {});
-  run->replay(log);
+  run->stepper().replay(log);
   step_to(12);
   EXPECT_EQ(hashes[12], replayed(scene, log, 12));
   run->set_running(true);
@@ -103,17 +103,24 @@ TEST_P(InMotion, ReplaysALogAndRecordsItWithTheHand) {
   EXPECT_EQ(*recorded_inputs(run->playback().history(), run->playback().here()), log);
   go_to({0, 25});
   EXPECT_EQ(state_hash_text(run->snapshot()), replayed(scene, log, 25));
-  // From there on with a hand and a pin of it.
+  // A run from there on, with a hand and a pin of it: single steps would follow the history.
   run->set_hand(Pull{9, {0.0, 14.0, 0.0}, 200.0, 1.0});
-  step_to(30);
+  run->set_running(true);
+  while (run->step() < 27) ASSERT_TRUE(run->update(0.001, 0.01).ok());
+  run->set_running(false);
+  ASSERT_TRUE(run->settle().ok() && run->refresh_snapshot().ok());
+  const std::uint64_t pinned_at = run->step();
   ASSERT_TRUE(run->rebuild().toggle_pin(12).ok());
-  step_to(45);
+  step_to(pinned_at + 70);
   const auto recorded = recorded_inputs(run->playback().history(), run->playback().here());
   ASSERT_TRUE(recorded.ok()) << recorded.error().message;
-  EXPECT_EQ(recorded->at(26).pulls.size(), 2u);
-  EXPECT_EQ(recorded->at(31).pinned, (std::vector<std::uint32_t>{0, 3, 12}));
-  EXPECT_EQ(recorded->at(40).pinned, (std::vector<std::uint32_t>{3, 12}));
-  EXPECT_EQ(hashes[45], replayed(scene, *recorded, 45));
+  EXPECT_EQ(recorded->at(24).pulls.size(), 1u);
+  EXPECT_EQ(recorded->at(25).pulls.size(), 2u);
+  EXPECT_EQ(recorded->at(25).channels, std::vector<double>{0.5});
+  EXPECT_EQ(recorded->at(pinned_at).pinned.back(), 12u);
+  EXPECT_EQ(recorded->at(pinned_at + 69).pinned, std::vector<std::uint32_t>{12});
+  EXPECT_EQ(recorded->at(pinned_at + 69).pulls.size(), 1u);
+  EXPECT_EQ(hashes[run->step()], replayed(scene, *recorded, run->step()));
   // The start again has the log again.
   run->set_hand(std::nullopt);
   ASSERT_TRUE(run->rebuild().reset().ok());
@@ -125,7 +132,7 @@ TEST_P(InMotion, ReplaysALogAndRecordsItWithTheHand) {
 TEST_P(InMotion, ALogThatDoesNotFitAChangedSceneStopsNothing) {
   InputLog log;
   log.set(0, {.pulls = {{63, {1.0, 12.0, 0.0}, 400.0, 2.0}}, .pinned = {1, 60}});
-  run->replay(log);
+  run->stepper().replay(log);
   step_to(3);
   scene.model.cubes[0].particles_per_edge = 3;
   ASSERT_TRUE(run->rebuild().change(scene, false).ok());
