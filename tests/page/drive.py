@@ -1,6 +1,6 @@
 """drive.py BROWSER JOBS: opens pages in chromium or firefox, saves pictures of them, and tries keys, mouse and buttons.
 JOBS is JSON: a list of {page, time, picture, touch}: the page's file, the moment [s], the PNG file to write, and whether
-everything that a reader can do is tried. Exit code 1, with a line for each fault; 77 where that browser is not installed."""
+everything that a reader can do is tried. Exit code 1, with a line for each fault, also where that browser is not installed."""
 import base64
 import json
 import sys
@@ -110,7 +110,7 @@ def main():
     b = browser.start(kind)
     if b is None:
         print(f"{kind.name} is not installed")
-        return 77
+        return 1
     try:
         for job in json.loads(sys.argv[2]):
             b.open(job["page"], 800, 600)
