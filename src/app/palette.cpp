@@ -95,7 +95,7 @@ std::vector<Palette::Hit> Palette::find(const PanelParts& p) {
     }
   }
   for (const auto& [section, help] : section_names())
-    add("section " + section, help, {.help = help, .act = [this, &p, section] {
+    add("section " + section, help, {.help = help, .act = [this, &p, section = section] {
                                        show_section(p.layout, section);
                                        section_ = section;
                                      }});

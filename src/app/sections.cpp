@@ -93,7 +93,7 @@ void scene_section(Gui& gui, SceneControl& scene) {
   // Of a search, those with the words in their names first.
   std::vector<BuiltinScene> scenes = list_builtin_scenes();
   if (filter.IsActive())
-    std::ranges::stable_partition(scenes, [](const BuiltinScene& builtin) {
+    std::stable_partition(scenes.begin(), scenes.end(), [](const BuiltinScene& builtin) {
       return filter.PassFilter(std::string(builtin.name).c_str());
     });
   for (const BuiltinScene& builtin : scenes) {

@@ -60,8 +60,7 @@ Inputs Stepper::composed(const Model& model, const InputLog& log, std::uint64_t 
   if (all.pulls.size() > most_pulls) all.pulls.resize(most_pulls);
   for (auto* const particles : {&all.pinned, &all.released}) {
     std::ranges::sort(*particles);
-    const auto twins = std::ranges::unique(*particles);
-    particles->erase(twins.begin(), twins.end());
+    particles->erase(std::unique(particles->begin(), particles->end()), particles->end());
     std::erase_if(*particles, [&](std::uint32_t i) { return i >= model.particle_count(); });
   }
   std::erase_if(all.released, [&](std::uint32_t i) {

@@ -204,8 +204,7 @@ std::vector<std::uint32_t> InputReader::read_particles(const toml::table& table,
     return true;
   });
   std::ranges::sort(particles);
-  const auto rest = std::ranges::unique(particles);
-  particles.erase(rest.begin(), rest.end());
+  particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
   particles_ += particles.size();
   return particles;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
-#include <ranges>
 #include <thread>
 #include <utility>
 
@@ -55,7 +54,8 @@ Result<std::vector<Check>> select(std::vector<Check> checks, std::span<const std
   for (const std::string& name : names) {
     if (std::any_of(checks.begin(), checks.end(), [&](const Check& c) { return meant(c, name); })) continue;
     std::vector<std::string_view> known;
-    for (const std::string_view check : checks | std::views::transform(&Check::name)) {
+    for (const Check& one : checks) {
+      const std::string_view check = one.name;
       for (std::size_t slash = check.find('/'); slash != std::string_view::npos;
            slash = check.find('/', slash + 1))
         known.push_back(check.substr(0, slash));

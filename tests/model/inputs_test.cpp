@@ -19,7 +19,7 @@ Model row() {
   Model model = test::particles(places, std::vector<Vec3>(6));
   model.mass.set(2, 4.0);
   model.inverse_mass.set(2, 0.25);
-  for (const std::size_t i : {1, 4}) model.inverse_mass.set(i, 0.0);
+  for (const std::size_t i : {1u, 4u}) model.inverse_mass.set(i, 0.0);
   return model;
 }
 
