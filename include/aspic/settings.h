@@ -137,20 +137,23 @@ struct PinnedSettings {
   friend bool operator==(const PinnedSettings&, const PinnedSettings&) = default;
 };
 
-/// A cube of particles: n³ in a lattice.
+/// A cube of particles, n³ in a lattice; or a box, whose neighbours are equally far apart in all directions.
 struct CubeSettings {
-  int particles_per_edge = 10;                ///< n, ≥ 2
-  double edge_length = 4.0;                   ///< [m], > 0
-  Vec3 position = {0.0, 9.0, 0.0};            ///< of the centre [m]
-  RotationSettings rotation;                  ///< about the centre
-  Vec3 velocity = {0.0, 0.0, 0.0};            ///< [m/s]
-  double particle_mass = 1.0;                 ///< m [kg], > 0
-  SpringSettings structural, shear, bending;  ///< by type; without `material`
-  std::optional<MaterialSettings> material;   ///< instead of particle_mass and the three spring settings
-  PinnedSettings pinned;                      ///< none by default
+  int particles_per_edge = 10;                       ///< n, ≥ 2; without `particles`
+  std::optional<std::array<int, 3>> particles = {};  ///< of a box: along x, y and z, each ≥ 2
+  double edge_length = 4.0;                          ///< [m], > 0; of a box the longest edge
+  Vec3 position = {0.0, 9.0, 0.0};                   ///< of the centre [m]
+  RotationSettings rotation;                         ///< about the centre
+  Vec3 velocity = {0.0, 0.0, 0.0};                   ///< [m/s]
+  double particle_mass = 1.0;                        ///< m [kg], > 0
+  SpringSettings structural, shear, bending;         ///< by type; without `material`
+  std::optional<MaterialSettings> material;  ///< instead of particle_mass and the three spring settings
+  PinnedSettings pinned;                     ///< none by default
 
   /// Particles along each axis.
-  std::array<int, 3> lattice() const { return {particles_per_edge, particles_per_edge, particles_per_edge}; }
+  std::array<int, 3> lattice() const {
+    return particles.value_or(std::array{particles_per_edge, particles_per_edge, particles_per_edge});
+  }
 };
 
 /// Springs of a net that may be left out.

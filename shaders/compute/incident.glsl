@@ -1,7 +1,7 @@
 // The springs of each particle in ascending neighbour index, and the walk over them:
 //   for (Walk w = walk(i); w.at < w.end; ++w.at) { Link link; if (!link_at(w, link)) continue; … }
 // A word is neighbour << class_bits | class; on the force path per-spring it is the spring's, see sum_springs.comp.
-// With ASPIC_LATTICES those of cubes follow from the indices; ASPIC_LISTED: there are particles outside cubes too.
+// With ASPIC_LATTICES those of lattices follow from the indices; ASPIC_LISTED: there are particles outside them too.
 layout(std430, binding = BINDING_INCIDENT_START) restrict readonly buffer IncidentStart { uint incident_start[]; };
 layout(std430, binding = BINDING_INCIDENT) restrict readonly buffer Incident { uint incident[]; };
 
@@ -16,7 +16,7 @@ struct Walk {
 #ifdef ASPIC_LATTICES
   uint particle;
   uint steps;  // of a particle in a lattice: those that stay inside
-  uint edge;   // of its lattice; 0: its springs are listed
+  int plane_stride, row_stride;  // of its lattice; 0: its springs are listed
   uint first_class;
 #endif
 };
@@ -33,7 +33,7 @@ Walk walk_words(uint place) {
   uint first = incident_start[slice];
   uint count = (incident_start[slice + 1u] - first) / SPRING_SLICE;
 #ifdef ASPIC_LATTICES
-  return Walk(0u, count, AT_WORD(first) + place % SPRING_SLICE, 0u, 0u, 0u, 0u);
+  return Walk(0u, count, AT_WORD(first) + place % SPRING_SLICE, 0u, 0u, 0, 0, 0u);
 #else
   return Walk(0u, count, AT_WORD(first) + place % SPRING_SLICE);
 #endif
@@ -58,19 +58,19 @@ Walk walk(uint i) {
   if (l == lattice_count || i < lattices[l].first_particle) return walk_words(place);
 #endif
   Lattice lattice = lattices[l];
-  uint steps = steps_from(place_in(lattice.edge, i - lattice.first_particle), lattice.edge);
-  return Walk(0u, LATTICE_DIRECTIONS, 0u, i, steps, lattice.edge, lattice.first_class);
+  uvec3 size = size_of(lattice);
+  uint steps = steps_from(place_in(size, i - lattice.first_particle), size);
+  return Walk(0u, LATTICE_DIRECTIONS, 0u, i, steps, int(size.y * size.z), int(size.z), lattice.first_class);
 }
 
 bool link_at(Walk w, out Link link) {
 #ifdef ASPIC_LISTED
-  if (w.edge == 0u) return listed_link_at(w, link);
+  if (w.plane_stride == 0) return listed_link_at(w, link);
 #endif
   uint word = directions[w.at].word;
   ivec3 o = ivec3((uvec3(word) >> uvec3(0u, 3u, 6u)) & 7u) - 2;
-  int edge = int(w.edge);
   uint bits = step_bits(o.x, o.y, o.z);
-  link = Link(w.particle + uint((o.x * edge + o.y) * edge + o.z), spring_classes[w.first_class + (word >> 9)]);
+  link = Link(w.particle + uint(o.x * w.plane_stride + o.y * w.row_stride + o.z), spring_classes[w.first_class + (word >> 9)]);
   return (w.steps & bits) == bits;
 }
 #else

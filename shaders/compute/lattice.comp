@@ -1,4 +1,4 @@
-// Force path `lattice`: gather for complete cubes, whose springs follow from the particles' indices. An invocation takes
+// Force path `lattice`: gather for boxes, whose springs follow from the particles' indices. An invocation takes
 // ASPIC_LATTICE_RUN particles that lie one after the other, so that each neighbour is read once for all of them. The
 // neighbours come in ascending index, so every particle adds its springs in that order; one that lies outside the lattice
 // is left out of the sum.
@@ -27,16 +27,16 @@ void main() {
   uint l = lattice_of(run);
   if (l == lattice_count || halted()) return;
   Lattice lattice = lattices[l];
-  uint edge = lattice.edge;
+  uvec3 size = size_of(lattice);
   uint at = run * ASPIC_LATTICE_RUN;
   int first_of_lattice = int(lattice.first_particle);
   int last_of_lattice = int(lattice.first_particle + particles_of(lattice) - 1u);
   int first_of_run = first_of_lattice + int(at);
-  int row_stride = int(edge), plane_stride = int(edge * edge);
+  int row_stride = int(size.z), plane_stride = int(size.y * size.z);
   for (uint c = 0u; c < LATTICE_CLASSES; ++c) classes[c] = spring_classes[lattice.first_class + c];
-  uvec3 place = place_in(edge, at);
+  uvec3 place = place_in(size, at);
   EACH_OF_RUN(TAKE)
-  EACH_ROW
+  EACH_LINK
   for (int p = 0; p < ASPIC_LATTICE_RUN && first_of_run + p <= last_of_lattice; ++p) {
     finish_stage(uint(first_of_run + p), own[0], force[0]);
     EACH_BUT_THE_LAST(MOVE_DOWN)

@@ -1,5 +1,6 @@
-// Cubes whose springs follow from the particles' indices, and the particles outside them, whose springs are listed.
-uint particles_of(Lattice lattice) { return lattice.edge * lattice.edge * lattice.edge; }
+// Lattices whose springs follow from the particles' indices, and the particles outside them, whose springs are listed.
+uvec3 size_of(Lattice lattice) { return uvec3(lattice.planes, lattice.rows, lattice.row_size); }
+uint particles_of(Lattice lattice) { return lattice.planes * lattice.rows * lattice.row_size; }
 
 // The particle at this place among those outside lattices.
 uint listed_particle(uint place) {
@@ -11,16 +12,18 @@ uint listed_particle(uint place) {
 }
 
 // Bit d + 2 for each step d that stays inside the lattice along one axis.
-uint steps_from(uint place, uint edge) {
-  return (place >= 2u ? 1u : 0u) | (place >= 1u ? 2u : 0u) | 4u | (place + 1u < edge ? 8u : 0u) |
-         (place + 2u < edge ? 16u : 0u);
+uint steps_from(uint place, uint count) {
+  return (place >= 2u ? 1u : 0u) | (place >= 1u ? 2u : 0u) | 4u | (place + 1u < count ? 8u : 0u) |
+         (place + 2u < count ? 16u : 0u);
 }
 
 // The same for all three: five bits each along i, j and k.
-uint steps_from(uvec3 place, uint edge) {
-  return steps_from(place.x, edge) | (steps_from(place.y, edge) << 5) | (steps_from(place.z, edge) << 10);
+uint steps_from(uvec3 place, uvec3 size) {
+  return steps_from(place.x, size.x) | (steps_from(place.y, size.y) << 5) | (steps_from(place.z, size.z) << 10);
 }
 
 uint step_bits(int di, int dj, int dk) { return (1u << (di + 2)) | (1u << (dj + 7)) | (1u << (dk + 12)); }
 
-uvec3 place_in(uint edge, uint at) { return uvec3(at / (edge * edge), (at / edge) % edge, at % edge); }
+uvec3 place_in(uvec3 size, uint at) {
+  return uvec3(at / (size.y * size.z), (at / size.z) % size.y, at % size.z);
+}

@@ -39,7 +39,7 @@
 #define LOCATION_ANCHOR 10        // of a pull [m]; w: 1 where it represents the particle
 #define LOCATION_TERRAIN 12       // DrawnTerrain: its geometry, three vec4, and shape
 #define LOCATION_OFFSET 6         // of terrain that moves [m]
-#define LOCATION_EDGE 16          // of a lattice: particles along it
+#define LOCATION_LATTICE 16       // particles of a lattice along i, j and k
 #define LOCATION_CELL 17          // of a lattice: the first of a run of cells
 #define LOCATION_MARK 11          // MARK_…, least radius [pixels], opacity, whether to encode as sRGB
 

@@ -10,7 +10,7 @@ layout(std430, binding = BINDING_SECTION) restrict buffer Section {
   uvec4 tetrahedra[];
 };
 layout(location = LOCATION_FIRST) uniform uint first_particle;
-layout(location = LOCATION_EDGE) uniform uint edge;
+layout(location = LOCATION_LATTICE) uniform uvec4 size;
 layout(location = LOCATION_CELL) uniform uint first_cell;
 layout(location = LOCATION_COUNT) uniform uint cell_count;
 
@@ -20,9 +20,9 @@ void main() {
   uint item = item_index();
   if (item >= cell_count) return;
   uint cell = first_cell + item;
-  uint cells = edge - 1u;
-  uvec3 stride = uvec3(edge * edge, edge, 1u);
-  uint lowest = first_particle + cell / (cells * cells) * stride.x + cell / cells % cells * stride.y + cell % cells;
+  uvec3 cells = size.xyz - 1u;
+  uvec3 stride = uvec3(size.y * size.z, size.z, 1u);
+  uint lowest = first_particle + cell / (cells.y * cells.z) * stride.x + cell / cells.z % cells.y * stride.y + cell % cells.z;
   uint sides = 0u;  // a bit for each corner, whose number has one for each axis
   for (uint corner = 0u; corner < 8u; ++corner) {
     uint particle = lowest + (corner & 1u) * stride.x + (corner >> 1 & 1u) * stride.y + (corner >> 2) * stride.z;

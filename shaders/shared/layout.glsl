@@ -86,19 +86,21 @@ struct SpringClass {
   uint cord;          // 1: resists stretch only
 };
 
-// A direction in which particles of a lattice have a spring (LatticeDirection in src/model/springs.h), in one word, since
+// A direction in which particles of a lattice have a spring (LatticeDirection in src/model/lattice.h), in one word, since
 // software rasterisers read words one by one: di + 2, dj + 2 and dk + 2 in three bits each, then the class's number.
 struct Direction {
   uint word;
   uint direction_padding0, direction_padding1, direction_padding2;
 };
 
-// A complete cube: edge³ particles whose springs are not in memory.
+// Particles of a lattice whose cells are all full, along i, j and k: their springs are not in memory.
 struct Lattice {
   uint first_particle;
-  uint edge;
   uint first_class;
-  uint lattice_padding;
+  uint planes;    // along i
+  uint rows;      // along j
+  uint row_size;  // along k
+  uint lattice_padding0, lattice_padding1, lattice_padding2;
 };
 
 #if defined(__cplusplus) || defined(ASPIC_LATTICES)

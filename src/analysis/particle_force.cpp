@@ -1,7 +1,6 @@
 #include "analysis/particle_force.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 #include "analysis/contact_force.h"
@@ -14,15 +13,13 @@ namespace aspic {
 namespace {
 
 std::vector<Spring> of_lattice(const Body& body, std::uint32_t particle) {
-  const auto n = static_cast<int>(body.lattice_edge);
-  const auto local = static_cast<int>(particle - body.first_particle);
-  const std::array<int, 3> own = {local / (n * n), local / n % n, local % n};
+  const Lattice& box = *body.box();
+  const Lattice::Place own = box.place(particle - body.first_particle);
   std::vector<Spring> found;
   for (const LatticeDirection& o : lattice_directions()) {
-    const std::array<int, 3> other = {own[0] + o.di, own[1] + o.dj, own[2] + o.dk};
-    if (std::ranges::any_of(other, [&](int at) { return at < 0 || at >= n; })) continue;
-    const auto index =
-        body.first_particle + static_cast<std::uint32_t>((other[0] * n + other[1]) * n + other[2]);
+    const Lattice::Place other = {own[0] + o.di, own[1] + o.dj, own[2] + o.dk};
+    if (!box.contains(other)) continue;
+    const std::uint32_t index = body.first_particle + box.index(other);
     found.push_back(
         {std::min(particle, index), std::max(particle, index), body.first_class + o.spring_class});
   }
@@ -42,7 +39,7 @@ SpringFinder::SpringFinder(const Model& model) {
 std::vector<Spring> SpringFinder::of(const Model& model, std::uint32_t particle) const {
   const auto body = std::ranges::find_if(
       model.bodies, [&](const Body& b) { return particle - b.first_particle < b.particle_count; });
-  if (body != model.bodies.end() && body->lattice_edge > 0) return of_lattice(*body, particle);
+  if (body != model.bodies.end() && body->box()) return of_lattice(*body, particle);
   std::vector<Spring> found;
   const std::uint32_t first_end = particle - std::min(particle, widest_);
   const auto first = std::ranges::lower_bound(model.listed_springs, first_end, {}, &Spring::a);

@@ -270,7 +270,7 @@ bool certainly_stable(const Model& model, Integrator integrator, double timestep
       known_ratio = ratio;
     }
     const StabilityLimit& least = *known;
-    if (body.lattice_edge == 0 || !least.step || timestep > *least.step) return false;
+    if (!body.lattice || !least.step || timestep > *least.step) return false;
   }
   return covered == model.particle_count();
 }

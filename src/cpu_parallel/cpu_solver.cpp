@@ -41,7 +41,7 @@ class CpuSolver final : public Solver {
         workers_(threads) {
     std::size_t margin = slice;
     for (const Body& body : model_->bodies) {
-      if (body.lattice_edge > 0) {
+      if (body.box()) {
         springs_.emplace_back(std::in_place_type<Lattice>, *model_, body);
         margin = std::max(margin, std::get<Lattice>(springs_.back()).reach() + slice);
       } else {

@@ -32,13 +32,16 @@ ExplicitSteps::ExplicitSteps(const StepParts& parts)
       inverse_mass_(parts.inverse_mass),
       arithmetic_(parts.arithmetic),
       workers_(parts.workers) {
-  std::size_t edge = 0;
+  std::size_t plane_size = 0, row_size = 0;
   for (std::size_t body = 0; body < springs_.size(); ++body) {
-    if (const auto* const lattice = std::get_if<Lattice>(&springs_[body]))
-      edge = std::max(edge, lattice->planes());
+    if (const auto* const lattice = std::get_if<Lattice>(&springs_[body])) {
+      plane_size = std::max(plane_size, lattice->plane_size());
+      row_size = std::max(row_size, lattice->row_size());
+    }
     cut(body);
   }
-  for (unsigned n = 0; edge > 0 && n < workers_.threads(); ++n) sweeps_.emplace_back(edge);
+  for (unsigned n = 0; plane_size > 0 && n < workers_.threads(); ++n)
+    sweeps_.emplace_back(plane_size, row_size);
   if (method_.stages.size() == 1) return;
   sums_ = Particles(model_->particle_count(), slice);
   between_ = Particles(model_->particle_count(), parts.margin);

@@ -303,7 +303,7 @@ Jacobians::Jacobians(const Lattice& lattice, float h, bool keep)
     : kept_(keep), ups_(lattice.directions().size() / 2), row_size_(lattice.plane_size()) {
   set_constants(lattice, h);
   // Lanes next to a row's ends are read and not used.
-  if (keep) values_ = FloatArray(lattice.planes() * ups_ * 4 * row_size_, 2 * lattice.planes() + 2 + slice);
+  if (keep) values_ = FloatArray(lattice.planes() * ups_ * 4 * row_size_, 2 * lattice.row_size() + 2 + slice);
 }
 
 Jacobians::Jacobians(const SpringLists& lists, float h, bool keep) : kept_(keep) {

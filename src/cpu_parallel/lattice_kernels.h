@@ -1,5 +1,5 @@
 #pragma once
-// Springs of a cube, each evaluated once. A sweep goes through the planes in ascending order and through a
+// Springs of a box, each evaluated once. A sweep goes through the planes in ascending order and through a
 // plane in ascending chunks. What a spring adds to its upper end waits in sums of the planes that the sweep
 // has reached, so that every particle adds in ascending neighbour index: by the time its own chunk comes, all
 // its lower neighbours have added theirs.
@@ -18,9 +18,9 @@ inline constexpr std::size_t chunk_size = 128;
 class Sweep {
  public:
   Sweep() = default;
-  /// For lattices up to this edge.
-  explicit Sweep(std::size_t edge) {
-    for (VectorArray& plane : planes_) plane = vector_array(edge * edge + slice, 2 * edge + slice);
+  /// For planes and rows of up to so many particles.
+  Sweep(std::size_t plane_size, std::size_t row_size) {
+    for (VectorArray& plane : planes_) plane = vector_array(plane_size + slice, 2 * row_size + slice);
   }
   Forces plane(std::size_t n) {
     VectorArray& of = planes_[n % planes_.size()];

@@ -1,7 +1,6 @@
 #include "cpu_parallel/springs.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "model/springs.h"
 
@@ -13,14 +12,18 @@ Constants::Constants(const SpringClass& spring)
       rest_length(static_cast<float>(spring.rest_length)),
       slack(spring.cord ? static_cast<float>(spring.rest_length) : -1.0f) {}
 
-Lattice::Lattice(const Model& model, const Body& body) : first_(body.first_particle), n_(body.lattice_edge) {
-  const auto n = static_cast<int>(n_);
+Lattice::Lattice(const Model& model, const Body& body)
+    : first_(body.first_particle),
+      planes_(body.box()->plane_count()),
+      rows_(body.box()->row_count()),
+      row_size_(body.box()->row_size()) {
+  const aspic::Lattice& box = *body.box();
   std::vector<std::array<int, 3>> offsets;
   for (const LatticeDirection& o : lattice_directions()) {
     const std::array<int, 3> offset = {o.di, o.dj, o.dk};
-    if (std::ranges::any_of(offset, [&](int steps) { return std::abs(steps) >= n; })) continue;
+    if (springs_along(box, o) == 0) continue;
     offsets.push_back(offset);
-    const std::ptrdiff_t step = (std::ptrdiff_t{offset[0]} * n + offset[1]) * n + offset[2];
+    const std::ptrdiff_t step = static_cast<std::int32_t>(box.index(offset));
     const std::uint32_t spring_class = body.first_class + o.spring_class;
     directions_.push_back({step, offset[0], Constants(model.spring_classes[spring_class]), spring_class,
                            step > 0 ? -0.0f : 0.0f});
@@ -28,10 +31,9 @@ Lattice::Lattice(const Model& model, const Body& body) : first_(body.first_parti
   const std::size_t slices = (plane_size() + slice - 1) / slice;
   bits_.assign(slices * offsets.size(), 0);
   for (std::size_t m = 0; m < plane_size(); ++m) {
-    const int j = static_cast<int>(m) / n, k = static_cast<int>(m) % n;
+    const aspic::Lattice::Place place = box.place(m);
     for (std::size_t d = 0; d < offsets.size(); ++d) {
-      const int to_j = j + offsets[d][1], to_k = k + offsets[d][2];
-      if (to_j < 0 || to_j >= n || to_k < 0 || to_k >= n) continue;
+      if (!box.contains({0, place[1] + offsets[d][1], place[2] + offsets[d][2]})) continue;
       std::uint16_t& word = bits_[m / slice * offsets.size() + d];
       word = static_cast<std::uint16_t>(word | 1u << m % slice);
     }

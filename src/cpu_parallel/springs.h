@@ -1,5 +1,5 @@
 #pragma once
-// Where the springs of a particle lead, as the vector kernels read it. A cube needs no list: its neighbours
+// Where the springs of a particle lead, as the vector kernels read it. A box needs no list: its neighbours
 // follow from a particle's place in the lattice. All other bodies have lists, transposed in slices of 16
 // particles.
 #include <array>
@@ -33,18 +33,19 @@ struct Direction {
   float nothing;
 };
 
-/// A cube. Plane i holds the particles i·n² … (i+1)·n² − 1 of the body.
+/// A lattice whose cells are all full. Its planes of particles with the same x follow one another.
 class Lattice {
  public:
-  /// The cube that `body` is: its lattice_edge must not be 0.
+  /// The lattice that `body` is: it must have a box().
   Lattice(const Model& model, const Body& body);
   /// Of another model with the same springs.
   void set_constants(const Model& model);
 
   std::size_t first() const { return first_; }
-  std::size_t planes() const { return n_; }
-  std::size_t plane_size() const { return n_ * n_; }
-  std::size_t reach() const { return 2 * plane_size() + 2 * n_ + 2; }  ///< largest step
+  std::size_t planes() const { return planes_; }
+  std::size_t plane_size() const { return rows_ * row_size_; }
+  std::size_t row_size() const { return row_size_; }
+  std::size_t reach() const { return 2 * plane_size() + 2 * row_size_ + 2; }  ///< largest step
 
   /// In ascending neighbour index.
   std::span<const Direction> directions() const { return directions_; }
@@ -54,7 +55,7 @@ class Lattice {
   std::uint64_t bytes() const { return bytes_of(directions_) + bytes_of(bits_); }
 
  private:
-  std::size_t first_, n_;
+  std::size_t first_, planes_, rows_, row_size_;
   std::vector<Direction> directions_;
   std::vector<std::uint16_t> bits_;
 };

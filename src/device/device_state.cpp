@@ -17,9 +17,15 @@ layout::Lattices table_of(const Model& model, IncidentWords kind) {
   for (const LatticeDirection& o : lattice_directions())
     table.directions[n++].word =
         static_cast<std::uint32_t>((o.di + 2) | (o.dj + 2) << 3 | (o.dk + 2) << 6) | o.spring_class << 9;
-  for (const Body& body : model.bodies)
-    if (body.lattice_edge > 0)
-      table.lattices[table.lattice_count++] = {body.first_particle, body.lattice_edge, body.first_class, 0};
+  for (const Body& body : model.bodies) {
+    if (!body.box()) continue;
+    layout::Lattice& lattice = table.lattices[table.lattice_count++];
+    lattice.first_particle = body.first_particle;
+    lattice.first_class = body.first_class;
+    lattice.planes = static_cast<std::uint32_t>(body.box()->plane_count());
+    lattice.rows = static_cast<std::uint32_t>(body.box()->row_count());
+    lattice.row_size = static_cast<std::uint32_t>(body.box()->row_size());
+  }
   return table;
 }
 
@@ -52,8 +58,7 @@ std::vector<IndexRange> ends_of(std::span<const std::array<std::uint32_t, 2>> sp
 }  // namespace
 
 bool has_lattices(const Model& model) {
-  const auto lattices =
-      std::ranges::count_if(model.bodies, [](const Body& body) { return body.lattice_edge > 0; });
+  const auto lattices = std::ranges::count_if(model.bodies, [](const Body& body) { return body.box(); });
   return lattices > 0 && lattices <= MAX_LATTICES;
 }
 
@@ -90,9 +95,8 @@ Result<std::shared_ptr<const SpringBuffers>> make_spring_buffers(gl::Context& co
 
 bool same_springs(const Model& a, const Model& b) {
   const auto same_lattice = [](const Body& one, const Body& other) {
-    return one.lattice_edge == other.lattice_edge &&
-           (one.lattice_edge == 0 ||
-            (one.first_particle == other.first_particle && one.first_class == other.first_class));
+    return one.lattice == other.lattice && (!one.lattice || (one.first_particle == other.first_particle &&
+                                                             one.first_class == other.first_class));
   };
   return a.particle_count() == b.particle_count() && class_bits(a) == class_bits(b) &&
          a.listed_springs == b.listed_springs && std::ranges::equal(a.bodies, b.bodies, same_lattice);

@@ -5,6 +5,7 @@
 
 #include "gpu/loop_bound.h"
 #include "model/incident_springs.h"
+#include "model/lattice.h"
 
 namespace aspic::layout {
 
@@ -19,8 +20,10 @@ struct uvec2 {
 #include "shared/layout.glsl"
 
 static_assert(SPRING_SLICE == spring_slice && NO_SPRING == no_spring);
-static_assert(sizeof(Direction) == 16 && sizeof(Lattice) == 16 && offsetof(Lattices, directions) == 16);
+static_assert(sizeof(Direction) == 16 && sizeof(Lattice) == 32 && offsetof(Lattices, directions) == 16);
 static_assert(offsetof(Lattices, lattices) == 16 + sizeof(Direction) * LATTICE_DIRECTIONS);
+static_assert(LATTICE_DIRECTIONS == lattice_direction_table.size());
+static_assert(LATTICE_CLASSES == lattice_class_types.size());
 static_assert(MAX_ROUNDS == gl::max_rounds);
 static_assert(sizeof(Particle) == 32 && offsetof(Particle, velocity) == 16);
 static_assert(sizeof(Ball) == 64 && offsetof(Ball, velocity) == 16 && offsetof(Ball, spin) == 32);

@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/lines.h"
 #include "base/printable.h"
+#include "gpu/lattice_links.h"
 #include "model/terrain.h"
 
 namespace aspic::gl {
@@ -100,6 +101,7 @@ Result<std::string> ShaderLibrary::read(std::string_view path) const {
   }
   if (const auto text = find_embedded(embedded_shaders(), path)) return std::string(*text);
   if (path == "shapes/all.glsl") return shape_choice();
+  if (path == "compute/lattice_links.glsl") return lattice_links();
   return fail(
       ErrorCode::io, "There is no shader file \"{}\"{}. Paths are relative to shaders/.", path,
       directory_.empty() ? " in the program" : fmt::format(" in {} or in the program", directory_.string()));

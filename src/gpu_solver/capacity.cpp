@@ -5,20 +5,16 @@
 #include "gpu_solver/device_solver.h"
 #include "gpu_solver/layout.h"
 #include "gpu_solver/windows.h"
+#include "model/cube.h"
 
 namespace aspic {
 namespace {
 
-/// Springs of a cube: along edges, across faces and bodies, and over two steps.
-std::uint64_t springs_of_cube(std::uint64_t n) {
-  return 3 * n * n * (n - 1) + 6 * n * (n - 1) * (n - 1) + 4 * (n - 1) * (n - 1) * (n - 1) +
-         3 * n * n * (n - 2);
-}
-
 /// What keeps a cube from this path, if anything does.
 std::optional<CapacityLimit> obstacle(const ForcePathRow& path, Integrator integrator, std::uint64_t n,
                                       const gl::DeviceLimits& limits, std::optional<std::uint64_t> free) {
-  const std::uint64_t particles = n * n * n, springs = springs_of_cube(n);
+  const auto edge = static_cast<int>(n);
+  const std::uint64_t particles = n * n * n, springs = box_counts({edge, edge, edge}).springs();
   const bool lattice = !path.lattice_kernel.empty();
   const DeviceMethod& method = device_method(integrator, particles);
   // Slices are as long as their longest list: nearly everywhere a particle has all directions.

@@ -86,7 +86,7 @@ Status ExplicitSolver::build_lattice_pass(KernelOptions kernels, std::uint32_t r
   };
   std::uint32_t all = 0;
   for (const Body& body : model_->bodies)
-    if (body.lattice_edge > 0) all += items(body);
+    if (body.box()) all += items(body);
   kernels.defines.push_back({"ASPIC_LATTICE_RUN", std::to_string(run)});
   if (path_.tiles)
     std::ranges::find(kernels.defines, "ASPIC_GROUP_SIZE", &gl::Define::name)->value =

@@ -48,8 +48,9 @@ Window joined(Window window, const Window& other) {
 /// The particles that kernels read for the neighbours of these, which are all in one lattice: two planes and
 /// two rows away, and a few more where a run ends.
 IndexRange near(const Body& lattice, const IndexRange& particles) {
-  const std::uint64_t edge = lattice.lattice_edge, reach = 2 * edge * edge + 2 * edge + 8,
-                      first = lattice.first_particle, end = first + lattice.particle_count;
+  const std::uint64_t row = lattice.box()->row_size(), plane = lattice.box()->row_count() * row,
+                      reach = 2 * plane + 2 * row + 8, first = lattice.first_particle,
+                      end = first + lattice.particle_count;
   return {particles.first > first + reach ? particles.first - reach : first,
           std::min(particles.end + reach, end)};
 }
@@ -57,7 +58,7 @@ IndexRange near(const Body& lattice, const IndexRange& particles) {
 /// The particle at this place among those outside lattices.
 std::uint64_t listed_particle(const Model& model, std::uint64_t place) {
   for (const Body& body : model.bodies)
-    if (body.lattice_edge > 0 && place >= body.first_particle) place += body.particle_count;
+    if (body.box() && place >= body.first_particle) place += body.particle_count;
   return place;
 }
 
@@ -102,7 +103,7 @@ Seen seen_by_lattice_runs(const Model& model, std::uint32_t run) {
     Window window{.items = items};
     std::uint64_t runs_before = 0;
     for (const Body& body : model.bodies) {
-      if (body.lattice_edge == 0) continue;
+      if (!body.box()) continue;
       const std::uint64_t runs = (body.particle_count - 1) / run + 1;
       const IndexRange mine = {std::max(items.first, runs_before), std::min(items.end, runs_before + runs)};
       if (mine.first < mine.end) {
@@ -116,9 +117,10 @@ Seen seen_by_lattice_runs(const Model& model, std::uint32_t run) {
 }
 
 TileCounts tiles_in(const Body& lattice) {
-  const std::uint32_t edge = lattice.lattice_edge;
-  const auto along = [&](std::uint32_t size) { return (edge + size - 1) / size; };
-  return {along(TILE_I), along(TILE_J), along(TILE_K)};
+  const auto along = [&](std::size_t axis, std::uint32_t size) {
+    return (static_cast<std::uint32_t>(lattice.box()->particles[axis]) + size - 1) / size;
+  };
+  return {along(0, TILE_I), along(1, TILE_J), along(2, TILE_K)};
 }
 
 Seen seen_by_lattice_tiles(const Model& model) {
@@ -126,7 +128,7 @@ Seen seen_by_lattice_tiles(const Model& model) {
     Window window{.items = items};
     std::uint64_t tiles_before = 0;
     for (const Body& body : model.bodies) {
-      if (body.lattice_edge == 0) continue;
+      if (!body.box()) continue;
       const TileCounts tiles = tiles_in(body);
       const std::uint64_t begin = tiles_before * tile_particles,
                           end = begin + std::uint64_t{tiles.all()} * tile_particles,
@@ -135,7 +137,7 @@ Seen seen_by_lattice_tiles(const Model& model) {
       if (first >= last) continue;
       // Complete layers of tiles: as many planes.
       const std::uint64_t layer = std::uint64_t{tiles.j} * tiles.k * tile_particles,
-                          plane = std::uint64_t{body.lattice_edge} * body.lattice_edge * TILE_I;
+                          plane = body.box()->row_count() * body.box()->row_size() * TILE_I;
       window.particles.take(near(body, {body.first_particle + (first - begin) / layer * plane,
                                         body.first_particle + ((last - 1 - begin) / layer + 1) * plane}));
     }
@@ -160,7 +162,7 @@ Seen seen_by_particles(const Model& model, const SpringBuffers& springs) {
     IndexRange places = items;  // of the listed ones among them
     if (springs.kind == IncidentWords::beside_lattices) {
       for (const Body& body : model.bodies) {
-        if (body.lattice_edge == 0) continue;
+        if (!body.box()) continue;
         const std::uint64_t first = body.first_particle, end = first + body.particle_count;
         const IndexRange mine = {std::max(items.first, first), std::min(items.end, end)};
         if (mine.first < mine.end) window.particles.take(near(body, mine));

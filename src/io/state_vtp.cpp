@@ -132,7 +132,8 @@ void write_cells(Document& document, const Model& model, const State& state) {
         c.rest_length > 0.0 ? length(state.position[s.a] - state.position[s.b]) / c.rest_length - 1.0 : 0.0);
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    for (const auto& [p, q, r, s] : quads_of(model.bodies[b])) {
+    const QuadMesh surface = surface_of(model.bodies[b]);
+    for (const auto& [p, q, r, s] : surface.quads) {
       quads.add({p, q, r, s});
       body.push_back(static_cast<std::int32_t>(b));
       type.push_back(255);
@@ -154,7 +155,7 @@ void write_cells(Document& document, const Model& model, const State& state) {
 Status write_state_vtp(AtomicFile& file, const Model& model, const State& state) {
   ASPIC_CHECK(check_finite(state, file.path()));
   std::uint64_t quads = 0;
-  for (const Body& body : model.bodies) quads += quads_of(body).size();
+  for (const Body& body : model.bodies) quads += surface_of(body).quads.size();
   Document document;
   document.add(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "

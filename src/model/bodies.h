@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "base/result.h"
 #include "model/counts.h"
@@ -23,7 +24,9 @@ struct SettingsList {
 /// One kind of body. Model, parser, checks, --set and window iterate the table.
 struct BodyRow {
   SettingsList list;
-  std::string_view size_key;  ///< key that decides how many particles or balls there are; empty: none does
+  /// Keys of which one, that which a body has, decides how many particles or balls there are; none: no key
+  /// does.
+  std::vector<std::string_view> size_keys;
   ModelCounts (*counts)(const ModelSettings&, std::size_t);
   /// Appends an element to the model. Error (scene_rejected): begins with the key it is about.
   Status (*add)(Model&, const ModelSettings&, std::size_t);
@@ -47,7 +50,8 @@ SettingsList settings_list(std::string_view key) {
 /// ModelCounts, `Add` takes the model and the settings of one and returns a Status.
 template <auto Member, auto Counts, auto Add>
 BodyRow body_row(std::string_view key, std::string_view size_key, const PinNames* pins = nullptr) {
-  BodyRow row = {settings_list<Member>(key), size_key,
+  BodyRow row = {settings_list<Member>(key),
+                 size_key.empty() ? std::vector<std::string_view>() : std::vector{size_key},
                  [](const ModelSettings& s, std::size_t i) -> ModelCounts { return Counts((s.*Member)[i]); },
                  [](Model& model, const ModelSettings& s, std::size_t i) -> Status {
                    return Add(model, (s.*Member)[i]);

@@ -1,7 +1,9 @@
 #include "model/cube.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,83 +16,94 @@ namespace {
 constexpr Side faces[] = {{"top", 1, true},   {"bottom", 1, false}, {"left", 0, false},
                           {"right", 0, true}, {"front", 2, true},   {"back", 2, false}};
 constexpr PinNames cube_pins = {"cube", faces, "face",
-                                "three faces joined by hyphens, such as left-top-front", "n³ − 1"};
+                                "three faces joined by hyphens, such as left-top-front",
+                                "n³ − 1, or n₀·n₁·n₂ − 1 of a box"};
 
-/// The six faces of n³ particles.
-std::vector<Patch> surface_of(std::uint32_t first, int n) {
-  const auto count = static_cast<std::uint32_t>(n);
-  const std::array<std::uint32_t, 3> stride = {count * count, count, 1};
-  std::vector<Patch> surface;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const bool high : {false, true}) {
-      surface.push_back({first + (high ? (count - 1) * stride[axis] : 0),
-                         {count, count},
-                         {stride[(axis + 1) % 3], stride[(axis + 2) % 3]},
-                         !high});
-    }
-  }
-  return surface;
+/// The type's stiffness and damping.
+const SpringSettings& springs_of_type(const CubeSettings& cube, SpringType type) {
+  return type == SpringType::structural ? cube.structural
+         : type == SpringType::shear    ? cube.shear
+                                        : cube.bending;
 }
 
 }  // namespace
 
-ModelCounts cube_counts(int particles_per_edge) {
-  const auto n = static_cast<std::uint64_t>(particles_per_edge);
+ModelCounts box_counts(const std::array<int, 3>& particles) {
+  const Lattice lattice = {particles, {}};
   ModelCounts counts;
-  counts.particles = n * n * n;
-  counts.structural = 3 * n * n * (n - 1);
-  counts.shear = 6 * n * (n - 1) * (n - 1) + 4 * (n - 1) * (n - 1) * (n - 1);
-  counts.bending = 3 * n * n * (n - 2);
+  counts.particles = lattice.points();
+  std::uint64_t* const of_type[] = {&counts.structural, &counts.shear, &counts.bending};
+  for (const LatticeDirection& o : upper_directions())
+    *of_type[static_cast<std::size_t>(lattice_class_types[o.spring_class])] += springs_along(lattice, o);
   return counts;
 }
 
-double material_particle_mass(const MaterialSettings& material, int particles_per_edge, double edge_length) {
-  const double n = particles_per_edge;
-  return material.density * edge_length * edge_length * edge_length / (n * n * n);
+double spacing_of(const CubeSettings& cube) {
+  return cube.edge_length / (std::ranges::max(cube.lattice()) - 1);
 }
 
-SpringSettings material_springs(const MaterialSettings& material, int particles_per_edge,
-                                double edge_length) {
-  const double spacing = edge_length / (particles_per_edge - 1);
-  const double mass = material_particle_mass(material, particles_per_edge, edge_length);
+Vec3 edges_of(const CubeSettings& cube) {
+  const std::array<int, 3> n = cube.lattice();
+  const double s = spacing_of(cube);
+  // The longest are the given number, not what its rounded parts add up to.
+  const auto edge = [&](int along) {
+    return along == std::ranges::max(n) ? cube.edge_length : s * (along - 1);
+  };
+  return {edge(n[0]), edge(n[1]), edge(n[2])};
+}
+
+std::array<int, 3> with_longest_edge(const CubeSettings& cube, int longest) {
+  std::array<int, 3> n = cube.lattice();
+  const double share = (longest - 1.0) / (std::ranges::max(n) - 1.0);
+  for (int& along : n) along = std::max(2, 1 + static_cast<int>(std::lround(share * (along - 1))));
+  return n;
+}
+
+void resize(CubeSettings& cube, int longest) {
+  if (cube.particles)
+    cube.particles = with_longest_edge(cube, longest);
+  else
+    cube.particles_per_edge = longest;
+}
+
+double material_particle_mass(const CubeSettings& cube) {
+  const Vec3 edges = edges_of(cube);
+  const auto [ni, nj, nk] = cube.lattice();
+  return cube.material->density * edges.x * edges.y * edges.z / (static_cast<double>(ni) * nj * nk);
+}
+
+SpringSettings material_springs(const CubeSettings& cube) {
+  const double mass = material_particle_mass(cube);
   SpringSettings springs;
-  springs.stiffness = material.youngs_modulus * spacing / 7.3125;
-  springs.damping = 2.0 * material.damping_ratio * std::sqrt(springs.stiffness * mass / 2.0);
+  springs.stiffness = cube.material->youngs_modulus * spacing_of(cube) / 7.3125;
+  springs.damping = 2.0 * cube.material->damping_ratio * std::sqrt(springs.stiffness * mass / 2.0);
   return springs;
 }
 
 Status add_cube(Model& model, const CubeSettings& cube) {
-  const int n = cube.particles_per_edge;
-  const double s = cube.edge_length / (n - 1);
+  const double s = spacing_of(cube);
   ASPIC_TRY(const auto pinned, pinned_particles(cube_pins, cube.pinned, cube.lattice()));
-
-  SpringSettings structural = cube.structural, shear = cube.shear, bending = cube.bending;
-  double mass = cube.particle_mass;
-  if (cube.material) {
-    structural = shear = bending = material_springs(*cube.material, n, cube.edge_length);
-    mass = material_particle_mass(*cube.material, n, cube.edge_length);
-  }
+  const std::optional<SpringSettings> same =
+      cube.material ? std::optional(material_springs(cube)) : std::nullopt;
+  const double mass = cube.material ? material_particle_mass(cube) : cube.particle_mass;
 
   Body body;
   body.first_particle = model.particle_count();
   body.particle_count = static_cast<std::uint32_t>(pinned.size());
   body.first_class = static_cast<std::uint32_t>(model.spring_classes.size());
-  body.class_count = 4;
-  body.lattice_edge = static_cast<std::uint32_t>(n);
-  body.surface = surface_of(body.first_particle, n);
-  body.size = s * (n - 1);
+  body.class_count = static_cast<std::uint32_t>(lattice_class_types.size());
+  body.lattice = Lattice{cube.lattice(), {}};
+  body.size = s * (std::ranges::max(cube.lattice()) - 1);
 
-  // In the order that lattice_directions() names them by.
-  model.spring_classes.push_back(
-      {SpringType::structural, structural.stiffness, structural.damping, s, false});
-  model.spring_classes.push_back(
-      {SpringType::shear, shear.stiffness, shear.damping, s * std::sqrt(2.0), false});
-  model.spring_classes.push_back(
-      {SpringType::shear, shear.stiffness, shear.damping, s * std::sqrt(3.0), false});
-  model.spring_classes.push_back({SpringType::bending, bending.stiffness, bending.damping, 2.0 * s, false});
+  for (std::size_t c = 0; c < lattice_class_types.size(); ++c) {
+    const SpringType type = lattice_class_types[c];
+    const SpringSettings& springs = same ? *same : springs_of_type(cube, type);
+    model.spring_classes.push_back(
+        {type, springs.stiffness, springs.damping, s * std::sqrt(static_cast<double>(c + 1)), false});
+  }
 
-  model.initial_position.append(
-      LatticePlaces{n, s, cube.edge_length / 2.0, cube.position, {cube.rotation.axis, cube.rotation.angle}});
+  model.initial_position.append(LatticePlaces{
+      cube.lattice(), s, edges_of(cube) / 2.0, cube.position, {cube.rotation.axis, cube.rotation.angle}});
   model.mass.push_back(mass, pinned.size());
   for (std::size_t first = 0; first < pinned.size();) {
     const bool held = pinned[first];
@@ -105,8 +118,9 @@ Status add_cube(Model& model, const CubeSettings& cube) {
 }
 
 BodyRow cube_row() {
-  constexpr auto counts = [](const CubeSettings& cube) { return cube_counts(cube.particles_per_edge); };
-  return body_row<&ModelSettings::cubes, counts, add_cube>("cube", "particles-per-edge", &cube_pins);
+  constexpr auto counts = [](const CubeSettings& cube) { return box_counts(cube.lattice()); };
+  BodyRow row = body_row<&ModelSettings::cubes, counts, add_cube>("cube", "particles-per-edge", &cube_pins);
+  return row;
 }
 
 }  // namespace aspic

@@ -18,16 +18,15 @@ Status check_words(const Model& model) {
               model.particle_count(), model.spring_classes.size(), limit);
 }
 
-/// Adds to the counts of a lattice's particles, of which `degree` is the first's.
-void count_lattice(std::uint32_t edge, std::uint32_t* degree) {
-  const int n = static_cast<int>(edge);
+/// Adds to the counts of the particles of a lattice whose cells are all full, of which `degree` is the
+/// first's.
+void count_lattice(const Lattice& lattice, std::uint32_t* degree) {
+  const auto [ni, nj, nk] = lattice.particles;
   for (const LatticeDirection& o : lattice_directions()) {
-    for (int i = std::max(0, -o.di); i < n - std::max(0, o.di); ++i) {
-      for (int j = std::max(0, -o.dj); j < n - std::max(0, o.dj); ++j) {
-        std::uint32_t* const row =
-            degree +
-            (std::size_t{edge} * static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(j)) * edge;
-        for (int k = std::max(0, -o.dk); k < n - std::max(0, o.dk); ++k) ++row[k];
+    for (int i = std::max(0, -o.di); i < ni - std::max(0, o.di); ++i) {
+      for (int j = std::max(0, -o.dj); j < nj - std::max(0, o.dj); ++j) {
+        std::uint32_t* const row = degree + lattice.index({i, j, 0});
+        for (int k = std::max(0, -o.dk); k < nk - std::max(0, o.dk); ++k) ++row[k];
       }
     }
   }
@@ -41,7 +40,8 @@ std::vector<std::uint32_t> degrees(const Model& model, IncidentWords words) {
     ++count[spring.b];
   }
   if (words == IncidentWords::beside_lattices) return count;
-  for (const Body& body : model.bodies) count_lattice(body.lattice_edge, count.data() + body.first_particle);
+  for (const Body& body : model.bodies)
+    if (body.box()) count_lattice(*body.box(), count.data() + body.first_particle);
   return count;
 }
 
@@ -54,7 +54,7 @@ struct Run {
 std::vector<Run> runs_of(const Model& model, IncidentWords words) {
   std::vector<Run> runs = {{}};
   for (const Body& body : model.bodies) {
-    if (body.lattice_edge == 0 || words != IncidentWords::beside_lattices) continue;
+    if (!body.box() || words != IncidentWords::beside_lattices) continue;
     runs.back().end = body.first_particle;
     const std::uint32_t place = runs.back().place + runs.back().end - runs.back().first;
     runs.push_back({body.first_particle + body.particle_count, 0, place});
@@ -92,7 +92,7 @@ Status check_count(const Model& model, std::uint64_t words) {
 std::uint32_t lattice_particles(const Model& model) {
   std::uint32_t count = 0;
   for (const Body& body : model.bodies)
-    if (body.lattice_edge > 0) count += body.particle_count;
+    if (body.box()) count += body.particle_count;
   return count;
 }
 

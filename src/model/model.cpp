@@ -23,14 +23,6 @@ Vec3 without_negative_zero(const Vec3& v) {
   return static_cast<double>(static_cast<float>(x));
 }
 
-/// Places along an edge of n particles, the first and the last among them, with at most `quads` gaps.
-std::vector<std::uint32_t> places(std::uint32_t n, std::uint32_t quads) {
-  const std::uint32_t gaps = std::min(n - 1, quads);
-  std::vector<std::uint32_t> result;
-  for (std::uint64_t i = 0; i <= gaps; ++i) result.push_back(static_cast<std::uint32_t>(i * (n - 1) / gaps));
-  return result;
-}
-
 Vec3 rounded_to(const Vec3& v, Precision precision) {
   if (precision == Precision::double_) return without_negative_zero(v);
   // A tiny negative double may round to −0 as a float: the sign is taken off after rounding.
@@ -39,22 +31,9 @@ Vec3 rounded_to(const Vec3& v, Precision precision) {
 
 }  // namespace
 
-std::vector<Quad> quads_of(const Body& body, std::uint32_t most_along) {
-  std::vector<Quad> quads;
-  for (const Patch& patch : body.surface) {
-    const std::vector<std::uint32_t> us = places(patch.count[0], most_along),
-                                     vs = places(patch.count[1], most_along);
-    const auto at = [&](std::size_t i, std::size_t j) {
-      return patch.first + us[i] * patch.stride[0] + vs[j] * patch.stride[1];
-    };
-    for (std::size_t i = 0; i + 1 < us.size(); ++i) {
-      for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
-        const Quad quad = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
-        quads.push_back(patch.clockwise ? Quad{quad[0], quad[3], quad[2], quad[1]} : quad);
-      }
-    }
-  }
-  return quads;
+QuadMesh surface_of(const Body& body) {
+  const Lattice* const box = body.box();
+  return box ? surface_of(*box, body.first_particle) : body.listed_surface;
 }
 
 Result<Model> build_model(const ModelSettings& settings) {
@@ -116,8 +95,7 @@ Status check_sizes(const Model& model, const State& state) {
 Status check_same_topology(const Model& from, const Model& to) {
   const auto like = [](const Body& a, const Body& b) {
     return a.first_particle == b.first_particle && a.particle_count == b.particle_count &&
-           a.first_class == b.first_class && a.class_count == b.class_count &&
-           a.lattice_edge == b.lattice_edge;
+           a.first_class == b.first_class && a.class_count == b.class_count && a.lattice == b.lattice;
   };
   const auto of_a_kind = [](const Terrain& a, const Terrain& b) {
     return a.shape == b.shape && a.motion.has_value() == b.motion.has_value();
@@ -199,7 +177,10 @@ std::uint64_t model_bytes(const Model& model) {
                         model.inverse_mass.bytes() + heap(model.spring_classes) + heap(model.listed_springs) +
                         heap(model.bodies) + model.initial_position.bytes() + model.initial_velocity.bytes() +
                         heap(model.balls);
-  for (const Body& body : model.bodies) bytes += heap(body.surface) + heap(body.rods);
+  for (const Body& body : model.bodies) {
+    bytes += heap(body.listed_surface.quads) + heap(body.listed_surface.groups) + heap(body.rods);
+    if (body.lattice) bytes += body.lattice->full_cells.capacity() / 8;
+  }
   return bytes;
 }
 

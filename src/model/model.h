@@ -15,7 +15,9 @@
 #include "aspic/settings.h"
 #include "aspic/state.h"
 #include "aspic/vec.h"
+#include "model/lattice.h"
 #include "model/particle_data.h"
+#include "model/quad_mesh.h"
 
 namespace aspic {
 
@@ -54,15 +56,6 @@ enum class SurfaceStyle {
   cords   ///< no surface: its structural springs, as cords
 };
 
-/// A grid of particles on a surface, whose cells are its quads. The particle at (i, j), each below its count,
-/// is first + i·stride[0] + j·stride[1].
-struct Patch {
-  std::uint32_t first = 0;                   ///< global index
-  std::array<std::uint32_t, 2> count = {};   ///< particles along i and j, ≥ 2
-  std::array<std::uint32_t, 2> stride = {};  ///< index differences
-  bool clockwise = false;                    ///< seen from outside, the turn from i to j
-};
-
 /// A straight rod with round ends that is drawn with a body and never moves.
 struct Rod {
   Vec3 from, to;        ///< [m], not the same point
@@ -74,22 +67,22 @@ struct Rod {
 struct Body {
   std::uint32_t first_particle = 0, particle_count = 0;
   std::uint32_t first_class = 0, class_count = 0;  ///< its spring classes
-  /// n of a complete cube: its n³ particles have the springs of lattice_directions() (model/springs.h), of
-  /// the classes from first_class on, none of them cords, and none in Model::listed_springs. 0: all its
-  /// springs are listed.
-  std::uint32_t lattice_edge = 0;
+  /// The lattice that its particles and springs are, of the classes from first_class on, none of them cords.
+  /// Springs and surface of one whose cells are all full follow from it: neither is listed.
+  std::optional<Lattice> lattice;
 
   SurfaceStyle style = SurfaceStyle::flesh;
-  std::vector<Patch> surface;  ///< none for cords
-  double size = 0.0;           ///< of flesh: its largest extent [m], for how deep light reaches
-  std::vector<Rod> rods;       ///< what it hangs on
-  bool footballs = false;      ///< balls are drawn as footballs where it is
+  QuadMesh listed_surface;  ///< none for cords, and none where it follows from the lattice
+  double size = 0.0;        ///< of flesh: its largest extent [m], for how deep light reaches
+  std::vector<Rod> rods;    ///< what it hangs on
+  bool footballs = false;   ///< balls are drawn as footballs where it is
+
+  /// The lattice from which its springs and surface follow, or nullptr.
+  const Lattice* box() const { return lattice && lattice->all_full() ? &*lattice : nullptr; }
 };
 
-/// The quads of a body's surface patch by patch, j running before i: those of all cells, or larger ones, at
-/// most `most_along` of them along an edge of a patch.
-std::vector<Quad> quads_of(const Body& body,
-                           std::uint32_t most_along = std::numeric_limits<std::uint32_t>::max());
+/// The surface of a body, none for cords.
+QuadMesh surface_of(const Body& body);
 
 /// A ball: a solid sphere. Those of [[ball]] come first, in file order, then those of the launchers.
 struct Ball {

@@ -42,7 +42,7 @@ std::vector<SpringFacts> spring_facts(const Model& model) {
 }
 
 std::vector<Quad> surface_quads(const Model& model, std::size_t body) {
-  return quads_of(model.bodies[body]);
+  return surface_of(model.bodies[body]).quads;
 }
 
 std::vector<BallFacts> ball_facts(const Model& model) {

@@ -1,6 +1,7 @@
 #pragma once
 // What a model knows of each particle, in memory that grows with the bodies rather than with their particles.
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -112,22 +113,23 @@ class Runs {
   std::vector<Run> runs_;
 };
 
-/// Places of the particles of a cube: (i·n + j)·n + k is at centre + turned((i, j, k)·spacing − half).
+/// Places of the points of a lattice: (i, j, k) is at centre + turned((i, j, k)·spacing − half).
 struct LatticePlaces {
-  int edge = 0;          ///< n
-  double spacing = 0.0;  ///< [m]
-  double half = 0.0;     ///< half the cube's edge [m]
-  Vec3 centre;           ///< [m]
+  std::array<int, 3> particles = {};  ///< n₀, n₁, n₂; (i, j, k) has the number (i·n₁ + j)·n₂ + k
+  double spacing = 0.0;               ///< [m]
+  Vec3 half;                          ///< half its edges [m]
+  Vec3 centre;                        ///< [m]
   Rotation turned = Rotation({0.0, 0.0, 1.0}, 0.0);
 
   std::size_t count() const {
-    const auto n = static_cast<std::size_t>(edge);
-    return n * n * n;
+    return static_cast<std::size_t>(particles[0]) * static_cast<std::size_t>(particles[1]) *
+           static_cast<std::size_t>(particles[2]);
   }
   Vec3 operator[](std::size_t local) const {
     const auto at = static_cast<int>(local);
-    const int i = at / (edge * edge), j = at / edge % edge, k = at % edge;
-    return centre + turned({i * spacing - half, j * spacing - half, k * spacing - half});
+    const auto& [ni, nj, nk] = particles;
+    const int i = at / (nj * nk), j = at / nk % nj, k = at % nk;
+    return centre + turned({i * spacing - half.x, j * spacing - half.y, k * spacing - half.z});
   }
 };
 

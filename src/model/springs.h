@@ -10,16 +10,6 @@
 
 namespace aspic {
 
-/// A direction in which the particles of a cube have a spring.
-struct LatticeDirection {
-  int di, dj, dk;              ///< steps to the other end
-  std::uint32_t spring_class;  ///< relative to the body's first
-};
-
-/// The directions of all springs of a cube's inner particle in lexicographic order, which is ascending index
-/// of the other end: 16 to lower ends, then the same to upper ones.
-std::span<const LatticeDirection> lattice_directions();
-
 /// Springs of a model in ascending order of (a, b), made as they are needed; for one loop at a time:
 /// `for (const Spring& s : springs_of(model))`. The model must outlive it.
 class SpringRange {
@@ -50,7 +40,7 @@ class SpringRange {
   std::default_sentinel_t end() const { return {}; }
 
  private:
-  static constexpr std::size_t most_directions = 16;
+  static constexpr std::size_t most_directions = upper_directions().size();
 
   Block next_block();
   void enter(const Body& body);
@@ -60,8 +50,9 @@ class SpringRange {
   std::uint32_t first_, end_;
   std::vector<Spring>::const_iterator listed_;
   std::vector<Body>::const_iterator body_;
-  // The lattice at hand: its edge, 0 between lattices; the next particle and its place.
-  int edge_ = 0, i_ = 0, j_ = 0, k_ = 0;
+  // The lattice at hand, none between lattices; the next particle and its place.
+  const Lattice* box_ = nullptr;
+  int i_ = 0, j_ = 0, k_ = 0;
   std::uint32_t particle_ = 0;
   std::array<Spring, most_directions> ups_ = {};  // by direction, with b the step to the upper end
   std::array<Spring, most_directions> buffer_ = {};
@@ -81,8 +72,11 @@ std::uint64_t spring_count(const Model& model);
 /// The same by spring class.
 std::vector<std::uint64_t> springs_by_class(const Model& model);
 
-/// Puts all springs of the model into its list and takes the lattices from its bodies: for those who change
-/// some of the springs.
+/// Springs of a lattice's particles, of which `first` is the first, sorted by (a, b).
+std::vector<Spring> springs_of(const Lattice& lattice, std::uint32_t first, std::uint32_t first_class);
+
+/// Puts all springs of the model and its surfaces into lists and takes the lattices from its bodies: for
+/// those who change some of the springs.
 void list_springs(Model& model);
 
 }  // namespace aspic

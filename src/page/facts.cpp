@@ -38,20 +38,19 @@ Json spring_class(const SpringClass& s) {
 
 Json body_facts(const Model& model, std::size_t index) {
   const Body& body = model.bodies[index];
-  Json patches = Json::array(), rods = Json::array();
-  for (const Patch& p : body.surface)
-    patches.push_back({p.first, p.count[0], p.count[1], p.stride[0], p.stride[1], p.clockwise});
+  Json groups = Json::array(), rods = Json::array();
+  for (const NormalGroup& group : surface_of(body).groups) groups.push_back(group.quads);
   for (const Rod& r : body.rods)
     rods.push_back({r.from.x, r.from.y, r.from.z, r.to.x, r.to.y, r.to.z, r.radius});
   constexpr std::string_view styles[] = {"flesh", "sheet", "cords"};
   return {{"first", body.first_particle},
           {"count", body.particle_count},
           {"firstClass", body.first_class},
-          {"edge", body.lattice_edge},
+          {"lattice", body.box() ? Json(body.box()->particles) : Json()},
           {"style", styles[static_cast<std::size_t>(body.style)]},
           {"reach", light_reach(body)},
           {"colour", body_colour(index)},
-          {"patches", patches},
+          {"groups", groups},
           {"rods", rods}};
 }
 
@@ -187,6 +186,15 @@ void append_shapes(const Model& model, std::string& bytes) {
   append_differences(first, bytes);
   append_differences(reach, bytes);
   append_differences(classes, bytes);
+  for (const Body& body : model.bodies) {
+    const QuadMesh surface = surface_of(body);
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      std::vector<std::int32_t> numbers;
+      for (const Quad& quad : surface.quads)
+        numbers.push_back(static_cast<std::int32_t>(corner == 0 ? quad[0] : quad[corner] - quad[0]));
+      append_differences(numbers, bytes);
+    }
+  }
   for (const Terrain& t : model.terrain)
     if (terrain_row(t.shape).surface) append_surface(t, bytes);
 }

@@ -28,7 +28,8 @@ Json run_facts(const Scene& scene, const Model& model, const std::string& name, 
 Json view_facts(const Scene& scene);
 
 /// Appends what run_facts() counts: the listed springs (all first ends, then second ends, each as its
-/// difference from the one before, then classes), and of each terrain the surface and what is cut out of its
+/// difference from the one before, then classes), of each body the quads of its surface (all first corners,
+/// then the other three as differences from them), and of each terrain the surface and what is cut out of its
 /// flat part.
 void append_shapes(const Model& model, std::string& bytes);
 

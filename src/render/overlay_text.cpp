@@ -44,9 +44,7 @@ SpringsOfType of_type(std::string_view label, const Springs& s) {
 std::vector<SpringsOfType> first_springs(const ModelSettings& settings) {
   if (!settings.cubes.empty()) {
     const CubeSettings& cube = settings.cubes.front();
-    if (cube.material)
-      return {
-          of_type("structural", material_springs(*cube.material, cube.particles_per_edge, cube.edge_length))};
+    if (cube.material) return {of_type("structural", material_springs(cube))};
     return {of_type("structural", cube.structural), of_type("shear", cube.shear),
             of_type("bending", cube.bending)};
   }

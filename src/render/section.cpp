@@ -3,6 +3,7 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <array>
 
 #include "gpu/pass.h"
 #include "render/colour_map.h"
@@ -17,11 +18,12 @@ constexpr std::uint32_t tetrahedra_of_cell = 6, corners = 4;
 /// Cells that are looked at together at most: 4 MiB of tetrahedra if all are crossed.
 constexpr std::uint32_t most_cells = (4u << 20) / (sizeof(std::uint32_t) * tetrahedra_of_cell * corners);
 
-/// Of a lattice; 0: the body has no inside, or is not a lattice.
+/// Of a box; 0: the body is none, or has no inside.
 std::uint32_t cells_of(const Body& body) {
-  if (body.style != SurfaceStyle::flesh || body.lattice_edge < 2) return 0;
-  const std::uint32_t along = body.lattice_edge - 1;
-  return along * along * along;
+  if (body.style != SurfaceStyle::flesh || !body.box()) return 0;
+  std::uint32_t cells = 1;
+  for (const int along : body.box()->cells()) cells *= static_cast<std::uint32_t>(along);
+  return cells;
 }
 
 }  // namespace
@@ -74,11 +76,14 @@ Status SectionPainter::prepare(const Model& model) {
 void SectionPainter::draw_body(const gl::Program& program, const Body& body,
                                const gl::Buffer& particles) const {
   const std::uint32_t cells = cells_of(body);
+  if (cells == 0) return;
+  std::array<std::uint32_t, 4> size = {};
+  std::ranges::copy(body.box()->particles, size.begin());
   const gl::Pass find(crossed_, {{BINDING_PARTICLES, &particles}, {BINDING_SECTION, &tetrahedra_}},
                       gl::ReadBy::vertex_draw | gl::ReadBy::indirect);
   for (const gl::Program* p : {&crossed_, &program}) {
     p->set(LOCATION_FIRST, body.first_particle);
-    p->set(LOCATION_EDGE, body.lattice_edge);
+    p->set(LOCATION_LATTICE, size);
   }
   for (std::uint32_t first = 0; first < cells; first += cells_) {
     const std::uint32_t count = std::min(cells_, cells - first);

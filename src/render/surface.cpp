@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "render/software_rasteriser.h"
@@ -12,9 +13,9 @@ namespace {
 constexpr std::uint32_t none = 0xffffffffu;
 
 /// Whether a coarse skin would differ.
-bool is_fine(const Body& body) {
-  return std::ranges::any_of(body.surface, [](const Patch& patch) {
-    return std::ranges::max(patch.count) - 1 > software::coarse_quads;
+bool is_fine(const QuadMesh& mesh) {
+  return std::ranges::any_of(mesh.groups, [](const NormalGroup& group) {
+    return std::ranges::max(group.count) > software::coarse_quads;
   });
 }
 
@@ -23,12 +24,12 @@ struct Triangles {
   std::vector<std::uint32_t> particles, vertices;
 };
 
-/// Makes the vertices of one patch after another.
+/// Makes the vertices of one group of normals after another.
 class Vertices {
  public:
-  explicit Vertices(std::uint32_t particles) : of_patch_(particles, none), latest_(particles, none) {}
+  explicit Vertices(std::uint32_t particles) : of_group_(particles, none), latest_(particles, none) {}
 
-  void add(const std::vector<Quad>& quads, Triangles& into) {
+  void add(std::span<const Quad> quads, Triangles& into) {
     for (const Quad& q : quads) {
       for (const std::size_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) {
         into.particles.push_back(q[corner]);
@@ -36,17 +37,17 @@ class Vertices {
       }
     }
   }
-  void add_fans(const std::vector<Quad>& quads) {
+  void add_fans(std::span<const Quad> quads) {
     for (const Quad& q : quads)
       for (std::size_t corner = 0; corner < 4; ++corner)
-        own_[of_patch_[q[corner]]].push_back({q[(corner + 1) % 4], q[(corner + 3) % 4]});
+        own_[of_group_[q[corner]]].push_back({q[(corner + 1) % 4], q[(corner + 3) % 4]});
   }
-  void end_patch(const std::vector<Quad>& quads) {
+  void end_group(std::span<const Quad> quads) {
     for (const Quad& q : quads)
-      for (const std::uint32_t particle : q) of_patch_[particle] = none;
+      for (const std::uint32_t particle : q) of_group_[particle] = none;
   }
 
-  /// Fans in the order of the vertices, a vertex's own quads before those of other patches.
+  /// Fans in the order of the vertices, a vertex's own quads before those of other groups.
   void write_fans(Surface& surface) const {
     surface.fan_vertex = particle_;
     for (std::size_t v = 0; v < own_.size(); ++v) {
@@ -65,7 +66,7 @@ class Vertices {
 
  private:
   std::uint32_t vertex(std::uint32_t particle) {
-    std::uint32_t& known = of_patch_[particle];
+    std::uint32_t& known = of_group_[particle];
     if (known != none) return known;
     known = static_cast<std::uint32_t>(particle_.size());
     before_.push_back(std::exchange(latest_[particle], known));
@@ -74,7 +75,7 @@ class Vertices {
     return known;
   }
 
-  std::vector<std::uint32_t> of_patch_;         // by particle: its vertex in the patch under way
+  std::vector<std::uint32_t> of_group_;         // by particle: its vertex in the group under way
   std::vector<std::uint32_t> latest_, before_;  // the newest vertex of a particle; the one before a vertex
   std::vector<std::uint32_t> particle_;         // by vertex
   std::vector<std::vector<std::array<std::uint32_t, 2>>> own_;  // by vertex: next and previous neighbours
@@ -94,17 +95,15 @@ Surface make_surface(const Model& model) {
   Vertices vertices(model.particle_count());
   for (const Body& body : model.bodies) {
     Triangles fine, coarse;
-    for (const Patch& patch : body.surface) {
-      Body alone;
-      alone.surface = {patch};
-      const std::vector<Quad> quads = quads_of(alone);
+    const QuadMesh mesh = surface_of(body);
+    mesh.for_each_group([&](const NormalGroup& group, std::span<const Quad> quads) {
       vertices.add(quads, fine);
       vertices.add_fans(quads);
-      if (is_fine(body)) vertices.add(quads_of(alone, software::coarse_quads), coarse);
-      vertices.end_patch(quads);
-    }
+      if (is_fine(mesh)) vertices.add(coarser(group, quads, software::coarse_quads), coarse);
+      vertices.end_group(quads);
+    });
     surface.parts.push_back(append(fine, surface));
-    surface.coarse_parts.push_back(is_fine(body) ? append(coarse, surface) : surface.parts.back());
+    surface.coarse_parts.push_back(is_fine(mesh) ? append(coarse, surface) : surface.parts.back());
   }
   vertices.write_fans(surface);
   return surface;

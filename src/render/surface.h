@@ -8,8 +8,8 @@
 namespace aspic {
 
 /// Triangles over global particle indices. They turn anticlockwise seen from outside the undeformed
-/// body, or from the side that an open surface turns to. Patches that meet have separate vertices there,
-/// so that an edge can be sharp.
+/// body, or from the side that an open surface turns to. Groups of normals that meet have separate
+/// vertices there, so that an edge can be sharp.
 struct Surface {
   struct Part {
     std::uint32_t first_index = 0, index_count = 0;  ///< of one body, into `indices`
@@ -21,12 +21,12 @@ struct Surface {
   std::vector<Part> coarse_parts;  ///< the same skins with fewer triangles, over some of the same vertices
 
   /// The fans: vertex i of the skin is particle fan_vertex[i]; at it meet the quads
-  /// fan_start[i] … fan_start[i + 1] − 1, those of its own patch before fan_own[i], of each of which `fan`
+  /// fan_start[i] … fan_start[i + 1] − 1, those of its own group before fan_own[i], of each of which `fan`
   /// holds the vertex's next and previous neighbour (two words: particles).
   std::vector<std::uint32_t> fan_vertex, fan_start, fan_own, fan;
 };
 
-/// The patches of every body. A body without a surface has no triangles.
+/// The surfaces of all bodies. A body without a surface has no triangles.
 Surface make_surface(const Model& model);
 
 }  // namespace aspic

@@ -23,24 +23,33 @@ class Thinning {
  public:
   explicit Thinning(const Body& body)
       : first_(body.first_particle),
-        edge_(body.lattice_edge),
-        stride_(edge_ > 0 ? (edge_ + most_along - 1) / most_along
-                          : (body.particle_count + most_of_body - 1) / most_of_body) {}
+        box_(body.box()),
+        stride_(box_ ? (longest_edge(*box_) + most_along - 1) / most_along
+                     : (body.particle_count + most_of_body - 1) / most_of_body) {}
 
   std::uint32_t stride() const { return stride_; }
   /// `at_surface`: one of the three places in a lattice does not count, since all are on one face.
   bool shows(std::uint32_t particle, bool at_surface) const {
     const std::uint32_t local = particle - first_;
-    if (edge_ == 0) return local % stride_ == 0;
-    const std::uint32_t middle = (edge_ - 1) % stride_ / 2;
+    if (!box_) return local % stride_ == 0;
+    const Lattice::Place place = box_->place(local);
     int places = 0;
-    for (const std::uint32_t at : {local / (edge_ * edge_), local / edge_ % edge_, local % edge_})
-      places += at % stride_ == middle;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<std::uint32_t>(place[axis]),
+                 count = static_cast<std::uint32_t>(box_->particles[axis]);
+      places += at % stride_ == (count - 1) % stride_ / 2;
+    }
     return places >= (at_surface ? 2 : 3);
   }
 
  private:
-  std::uint32_t first_, edge_, stride_;
+  static std::uint32_t longest_edge(const Lattice& box) {
+    return static_cast<std::uint32_t>(std::ranges::max(box.particles));
+  }
+
+  std::uint32_t first_;
+  const Lattice* box_;
+  std::uint32_t stride_;
 };
 
 double largest(const std::vector<Vec3>& vectors) {
@@ -76,7 +85,7 @@ ArrowSet arrows_of(const Model& model, const State& state, const ArrowSettings& 
   std::uint32_t stride = 1;
   std::vector<Thinning> bodies(model.bodies.begin(), model.bodies.end());
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (model.bodies[b].lattice_edge > 0) stride = std::max(stride, bodies[b].stride());
+    if (model.bodies[b].box()) stride = std::max(stride, bodies[b].stride());
   set.room = longest * (spacing > 0.0 ? spacing : 1.0) * stride;
   set.noise = noise_of(model, state);
   const SpringFinder springs(model);

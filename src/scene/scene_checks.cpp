@@ -6,6 +6,7 @@
 
 #include "base/printable.h"
 #include "model/bodies.h"
+#include "model/cube.h"
 #include "scene/diagnostics.h"
 #include "scene/follow.h"
 
@@ -51,11 +52,20 @@ void check_geometry(const Scene& scene, Complaints& complaints) {
   }
 }
 
+/// The key that decides the size of a body, if one does.
+const Parameter* size_of(const Scene& scene, const BodyRow& row, std::size_t body) {
+  for (const std::string_view key : row.size_keys) {
+    const Parameter& p = *find_parameter(fmt::format("{}[].{}", row.list.key, key));
+    if (applies(p, scene, body)) return &p;
+  }
+  return nullptr;
+}
+
 void check_pinned(const Scene& scene, Complaints& complaints) {
   for (const BodyRow& row : body_rows()) {
     if (!row.pins) continue;
-    const Parameter& size = *find_parameter(fmt::format("{}[].{}", row.list.key, row.size_key));
     for (std::size_t b = 0; b < row.list.size(scene.model); ++b) {
+      const Parameter& size = *size_of(scene, row, b);
       if (check_value(size, *size.get(scene, b))) continue;  // a body of no size has no last index
       const auto last = static_cast<std::int64_t>(row.counts(scene.model, b).particles) - 1;
       const PinnedSettings& pinned = *row.pinned(scene.model, b);
@@ -69,6 +79,18 @@ void check_pinned(const Scene& scene, Complaints& complaints) {
                               path_text(size.path, b)});
       }
     }
+  }
+}
+
+void check_particles(const Scene& scene, Complaints& complaints) {
+  constexpr std::uint64_t most = 512ull * 512 * 512;
+  for (std::size_t c = 0; c < scene.model.cubes.size(); ++c) {
+    const auto& particles = scene.model.cubes[c].particles;
+    const std::uint64_t count = box_counts(scene.model.cubes[c].lattice()).particles;
+    if (!particles || count <= most) continue;
+    complaints.push_back({{fmt::format("'cube.particles' {} × {} × {} makes {} particles; allowed: {}",
+                                       (*particles)[0], (*particles)[1], (*particles)[2], count, most)},
+                          path_text("cube[].particles", c)});
   }
 }
 
@@ -116,7 +138,8 @@ std::string largest_body(const Scene& scene) {
       const ModelCounts counts = row.counts(scene.model, i);
       if (counts.particles + counts.balls <= most) continue;
       most = counts.particles + counts.balls;
-      path = fmt::format("{}[{}]{}{}", row.list.key, i, row.size_key.empty() ? "" : ".", row.size_key);
+      const Parameter* const size = size_of(scene, row, i);
+      path = size ? path_text(size->path, i) : fmt::format("{}[{}]", row.list.key, i);
     }
   }
   return path;
@@ -164,6 +187,7 @@ std::vector<SceneComplaint> check_scene(const Scene& scene, std::optional<std::u
   check_bodies(scene, complaints);
   if (!legal) return complaints;
   // These compute with the numbers.
+  check_particles(scene, complaints);
   check_boxes(scene, complaints);
   check_camera(scene, complaints);
   check_followed(scene, complaints);

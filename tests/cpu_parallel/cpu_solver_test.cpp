@@ -13,6 +13,7 @@
 #include "support/contact_rules.h"
 #include "support/golden_runs.h"
 #include "support/integrator_names.h"
+#include "support/lattice_bodies.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -86,6 +87,17 @@ TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInTheCoveringSet) {
   for (const test::EqualityCase& row : test::covering_cases()) {
     if (row.integrator == GetParam()) expect_golden(test::golden_run(row));
   }
+}
+
+// Planes and rows shorter and longer than a vector, of two particles too.
+TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInBoxesOfAnyEdges) {
+  const Model model = test::build(test::with_odd_boxes(test::low_cube(2, GetParam(), ContactModel::coulomb)));
+  for (const unsigned threads : {1u, 3u}) expect_equal(model, steps(12, 200), threads);
+}
+
+TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsInABodyWithEmptyCells) {
+  const ModelSettings settings = test::low_cube(2, GetParam(), ContactModel::coulomb);
+  expect_equal(test::with_cells(settings, test::lattice_of("xxx,x.x,xxx;xxx,...,x..")), steps(12, 200), 2);
 }
 
 TEST_P(EveryMethodOnTheCpu, HasTheReferencesBitsOnTerrainThatMovesSideways) {

@@ -16,6 +16,7 @@
 #include "support/equality_cases.h"
 #include "support/gl_fixture.h"
 #include "support/golden_runs.h"
+#include "support/lattice_bodies.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -184,11 +185,13 @@ TEST_F(EqualBitsInFull, FourInACornerOfThreeTerrains) {
 
 /// A cube, one whose springs are listed, another cube, and cloth: every body on a path of its own, in one
 /// run.
-Model mixed(Integrator integrator, double timestep, int first_edge = 5) {
-  ModelSettings settings = test::low_cube(first_edge, integrator, ContactModel::coulomb);
+Model mixed(Integrator integrator, double timestep, const std::array<int, 3>& first = {5, 5, 5}) {
+  ModelSettings settings = test::low_cube(2, integrator, ContactModel::coulomb);
+  settings.cubes[0].particles = first;
   settings.simulation.timestep = timestep;
   for (const int edge : {2, 3}) {
     settings.cubes.push_back(settings.cubes[0]);
+    settings.cubes.back().particles.reset();
     settings.cubes.back().particles_per_edge = edge;
     settings.cubes.back().position.x += 9.0 * (2.5 - edge);
   }
@@ -201,13 +204,25 @@ Model mixed(Integrator integrator, double timestep, int first_edge = 5) {
   for (const Spring& spring : springs_of(model, body.first_particle, body.particle_count))
     listed.push_back(spring);
   model.listed_springs.insert(model.listed_springs.begin(), listed.begin(), listed.end());
-  body.lattice_edge = 0;
+  body.lattice.reset();
   return model;
 }
 
 TEST_F(EqualBitsInFull, MixedBodies) {
   for (const Integrator integrator : {Integrator::explicit_euler, Integrator::midpoint})
     expect_equal(mixed(integrator, 0.001), 1000, {64, 32});
+}
+
+// Every path takes boxes whose edges differ, several at once, and a body with empty cells.
+TEST_F(EqualBits, BoxesOfAnyEdges) {
+  for (const Integrator integrator : {Integrator::explicit_euler, Integrator::implicit_euler}) {
+    const std::uint64_t steps = row_of(integrator).traits.long_steps ? 15 : 250;
+    ModelSettings settings = test::low_cube(2, integrator, ContactModel::coulomb);
+    if (row_of(integrator).traits.long_steps) settings.simulation.timestep = 1.0 / 60.0;
+    const Model pierced = test::with_cells(settings, test::lattice_of("xxx,x.x,xxx;xxx,...,x.."));
+    expect_equal(test::build(test::with_odd_boxes(settings)), steps, {64, 32});
+    expect_equal(pierced, steps, {64});
+  }
 }
 
 TEST_F(EqualBits, MixedBodiesImplicit) {
@@ -243,13 +258,14 @@ struct Windowed {
   ForcePath path;
   Integrator integrator;
   std::uint64_t block;
+  std::array<int, 3> first = {12, 12, 12};  ///< particles of the first body
 };
 
 /// Passes go by windows, and see of every array what they need, no more and no less.
 void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed) {
-  const auto& [path, integrator, block] = windowed;
+  const auto& [path, integrator, block, first] = windowed;
   const bool solved = integrator == Integrator::implicit_euler;
-  const Model model = mixed(integrator, solved ? 1.0 / 60.0 : 0.001, 12);
+  const Model model = mixed(integrator, solved ? 1.0 / 60.0 : 0.001, first);
   const std::uint64_t steps = solved ? 15 : 120;
   auto reference = std::move(make_reference_solver(model, Precision::single)).value();
   ASSERT_FALSE((*reference->advance(steps)).has_value());
@@ -278,11 +294,12 @@ void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed
 
 // Each path. The ground prescribes part of the implicit step, which neighbours in other windows need, too.
 TEST_F(EqualBits, ScenesLargerThanABlock) {
-  for (const Windowed& windowed : {Windowed{ForcePath::lattice, Integrator::explicit_euler, 48u << 10},
-                                   {ForcePath::lattice, Integrator::implicit_euler, 48u << 10},
-                                   {ForcePath::tiles, Integrator::runge_kutta_4, 52u << 10},
-                                   {ForcePath::gather, Integrator::midpoint, 64u << 10},
-                                   {ForcePath::per_spring, Integrator::explicit_euler, 192u << 10}})
+  for (const Windowed& windowed :
+       {Windowed{ForcePath::lattice, Integrator::explicit_euler, 48u << 10, {40, 6, 9}},
+        {ForcePath::lattice, Integrator::implicit_euler, 48u << 10},
+        {ForcePath::tiles, Integrator::runge_kutta_4, 52u << 10, {40, 6, 9}},
+        {ForcePath::gather, Integrator::midpoint, 64u << 10},
+        {ForcePath::per_spring, Integrator::explicit_euler, 192u << 10}})
     expect_equal_bits_in_windows(context(), windowed);
 }
 

@@ -152,12 +152,11 @@ TEST(Cloth, HasOneOpenSurfaceAndARodWhereAnEdgeIsPinned) {
   ASSERT_EQ(loose.bodies.size(), 1u);
   EXPECT_EQ(loose.bodies[0].style, SurfaceStyle::sheet);
   EXPECT_TRUE(loose.bodies[0].rods.empty());
-  ASSERT_EQ(loose.bodies[0].surface.size(), 1u);
-  const Patch& patch = loose.bodies[0].surface[0];
+  const QuadMesh surface = surface_of(loose.bodies[0]);
+  ASSERT_EQ(surface.groups.size(), 1u);
+  ASSERT_EQ(surface.quads.size(), 3u * 2);
   std::set<std::uint32_t> covered;
-  for (std::uint32_t i = 0; i < patch.count[0]; ++i)
-    for (std::uint32_t j = 0; j < patch.count[1]; ++j)
-      covered.insert(patch.first + i * patch.stride[0] + j * patch.stride[1]);
+  for (const Quad& quad : surface.quads) covered.insert(quad.begin(), quad.end());
   EXPECT_EQ(covered.size(), 12u) << "every particle is on it";
   EXPECT_EQ(*covered.rbegin(), 11u);
   cloth.pinned.names = {"top", "left-bottom"};

@@ -63,7 +63,7 @@ TEST_P(CubeLattice, SpringsAreThosePairsAtTheirDistances) {
   }
   for (int type = 0; type < 3; ++type) EXPECT_EQ(actual[type], expected[type]);
 
-  const ModelCounts counted = count(model), closed_form = cube_counts(n);
+  const ModelCounts counted = count(model), closed_form = box_counts({n, n, n});
   EXPECT_EQ(counted.particles, closed_form.particles);
   EXPECT_EQ(counted.structural, closed_form.structural);
   EXPECT_EQ(counted.shear, closed_form.shear);
@@ -116,11 +116,13 @@ TEST(Cube, QuarterTurnAboutZTakesXToY) {
 }
 
 TEST(Cube, MaterialMeansTheSameJellyAtEveryResolution) {
-  const MaterialSettings material;
+  CubeSettings cube;
+  cube.material.emplace();
   for (const int n : {4, 8, 16, 64}) {
-    const double mass = material_particle_mass(material, n, 4.0);
+    cube.particles_per_edge = n;
+    const double mass = material_particle_mass(cube);
     EXPECT_NEAR(mass * n * n * n, 16.0 * 64.0, 1e-9);
-    const SpringSettings springs = material_springs(material, n, 4.0);
+    const SpringSettings springs = material_springs(cube);
     const double s = 4.0 / (n - 1);
     EXPECT_NEAR(7.3125 * springs.stiffness / s, 33000.0, 1e-8);
     EXPECT_NEAR(springs.damping / (2.0 * std::sqrt(springs.stiffness * mass / 2.0)), 0.95, 1e-14);

@@ -27,8 +27,8 @@ TEST(GoalNet, TheAssignmentsNetHasThePublishedCounts) {
   EXPECT_EQ(counts.springs(), 2650u);
 }
 
-using Lattice = std::array<int, 3>;
-class NetLattice : public testing::TestWithParam<Lattice> {
+using NetPoint = std::array<int, 3>;
+class NetLattice : public testing::TestWithParam<NetPoint> {
  protected:
   NetLattice() {
     net.particles = GetParam();
@@ -45,12 +45,12 @@ class NetLattice : public testing::TestWithParam<Lattice> {
 TEST_P(NetLattice, IsWhatTheFacesSay) {
   const auto [nw, nh, nl] = net.particles;
   const Model model = net_of(net);
-  std::vector<Lattice> points;
-  std::array<std::set<Lattice>, 4> faces;
+  std::vector<NetPoint> points;
+  std::array<std::set<NetPoint>, 4> faces;
   for (int i = 0; i < nw; ++i) {
     for (int j = 0; j < nh; ++j) {
       for (int k = 0; k < nl; ++k) {
-        const Lattice p = {i, j, k};
+        const NetPoint p = {i, j, k};
         const bool on[4] = {i == 0, j == nh - 1, k == 0, k == nl - 1};
         for (std::size_t f = 0; f < 4; ++f) {
           if (on[f]) faces[f].insert(p);
@@ -65,16 +65,16 @@ TEST_P(NetLattice, IsWhatTheFacesSay) {
   std::array<std::set<Pair>, 3> expected, actual;
   for (std::uint32_t a = 0; a < points.size(); ++a) {
     for (std::uint32_t b = a + 1; b < points.size(); ++b) {
-      const bool together = std::any_of(faces.begin(), faces.end(), [&](const std::set<Lattice>& face) {
+      const bool together = std::any_of(faces.begin(), faces.end(), [&](const std::set<NetPoint>& face) {
         return face.contains(points[a]) && face.contains(points[b]);
       });
       if (!together) continue;
-      Lattice d;
+      NetPoint d;
       for (std::size_t axis = 0; axis < 3; ++axis) d[axis] = std::abs(points[b][axis] - points[a][axis]);
       std::sort(d.begin(), d.end());
-      if (d == Lattice{0, 0, 1}) expected[0].insert({a, b});
-      if (d == Lattice{0, 1, 1}) expected[1].insert({a, b});
-      if (d == Lattice{0, 0, 2}) expected[2].insert({a, b});
+      if (d == NetPoint{0, 0, 1}) expected[0].insert({a, b});
+      if (d == NetPoint{0, 1, 1}) expected[1].insert({a, b});
+      if (d == NetPoint{0, 0, 2}) expected[2].insert({a, b});
     }
   }
   Pair last = {0, 0};
@@ -113,9 +113,9 @@ TEST_P(NetLattice, IsWhatTheFacesSay) {
 // Two points along an axis make faces neighbours, three let bending springs reach across: both must not join
 // points of different faces.
 INSTANTIATE_TEST_SUITE_P(Sizes, NetLattice,
-                         testing::Values(Lattice{10, 20, 35}, Lattice{2, 2, 2}, Lattice{3, 3, 3},
-                                         Lattice{2, 5, 3}, Lattice{4, 2, 2}, Lattice{3, 4, 2},
-                                         Lattice{5, 3, 7}));
+                         testing::Values(NetPoint{10, 20, 35}, NetPoint{2, 2, 2}, NetPoint{3, 3, 3},
+                                         NetPoint{2, 5, 3}, NetPoint{4, 2, 2}, NetPoint{3, 4, 2},
+                                         NetPoint{5, 3, 7}));
 
 TEST(GoalNet, CordReachesEverySpring) {
   GoalNetSettings net;
@@ -133,7 +133,7 @@ TEST(GoalNet, StandsBehindTheCubesInTheGlobalIndex) {
   const Model model = test::build(settings);
   ASSERT_EQ(model.bodies.size(), 3u);
   EXPECT_EQ(model.bodies[1].style, SurfaceStyle::cords);
-  EXPECT_TRUE(model.bodies[1].surface.empty());
+  EXPECT_TRUE(model.bodies[1].listed_surface.quads.empty());
   EXPECT_EQ(model.bodies[1].rods.size(), 8u) << "four posts and the bars around the top";
   EXPECT_EQ(model.bodies[1].first_particle, 27u);
   EXPECT_EQ(model.bodies[2].first_particle, 27u + model.bodies[1].particle_count);
@@ -145,7 +145,7 @@ TEST(GoalNet, StandsBehindTheCubesInTheGlobalIndex) {
 }
 
 TEST(GoalNet, HasNoParticleInItsFrontAndBottom) {
-  const Lattice n = {4, 5, 6};
+  const NetPoint n = {4, 5, 6};
   EXPECT_FALSE(net_index(n, 3, 2, 2).has_value());
   EXPECT_FALSE(net_index(n, 2, 0, 3).has_value());
   EXPECT_FALSE(net_index(n, -1, 0, 0).has_value());

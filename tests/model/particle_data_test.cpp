@@ -37,7 +37,8 @@ TEST(Runs, AreTheValuesOneByOne) {
 }
 
 TEST(Places, AreThoseOfLatticesAndOfListedParticlesInOrder) {
-  const LatticePlaces small = {2, 1.0, 0.5, {10.0, 0.0, 0.0}}, large = {3, 2.0, 2.0, {0.0, 20.0, 0.0}};
+  const LatticePlaces small = {{2, 2, 2}, 1.0, {0.5, 0.5, 0.5}, {10.0, 0.0, 0.0}},
+                      large = {{3, 4, 2}, 2.0, {2.0, 3.0, 1.0}, {0.0, 20.0, 0.0}};
   Places places;
   std::vector<Vec3> expected;
   const auto list = [&](const Vec3& x) {
@@ -54,8 +55,8 @@ TEST(Places, AreThoseOfLatticesAndOfListedParticlesInOrder) {
   list({4.0, 5.0, 6.0});
   list({7.0, 8.0, 9.0});
   append(small);
-  EXPECT_EQ(large[0], (Vec3{-2.0, 18.0, -2.0}));
-  EXPECT_EQ(large[5], (Vec3{-2.0, 20.0, 2.0})) << "k counts fastest";
+  EXPECT_EQ(large[0], (Vec3{-2.0, 17.0, -1.0}));
+  EXPECT_EQ(large[5], (Vec3{-2.0, 21.0, 1.0})) << "k counts fastest";
   ASSERT_EQ(places.size(), expected.size());
   EXPECT_EQ(places.list(0, places.size()), expected);
   EXPECT_EQ(std::vector<Vec3>(places.begin(), places.end()), expected);

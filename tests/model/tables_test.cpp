@@ -180,14 +180,15 @@ TEST(Bodies, HaveSurfacesOfTheirOwnParticlesAndClassesOfTheirOwnSprings) {
       EXPECT_EQ(body.first_class, next_class) << row.list.key;
       next_particle += body.particle_count;
       next_class += body.class_count;
-      EXPECT_EQ(body.surface.empty(), body.style == SurfaceStyle::cords) << row.list.key;
-      for (const Patch& patch : body.surface) {
-        const std::uint32_t last =
-            patch.first + (patch.count[0] - 1) * patch.stride[0] + (patch.count[1] - 1) * patch.stride[1];
-        EXPECT_GE(patch.first, body.first_particle) << row.list.key;
-        EXPECT_LT(last, next_particle) << row.list.key;
-        EXPECT_GE(std::min(patch.count[0], patch.count[1]), 2u) << row.list.key;
+      const QuadMesh surface = surface_of(body);
+      EXPECT_EQ(surface.quads.empty(), body.style == SurfaceStyle::cords) << row.list.key;
+      for (const Quad& quad : surface.quads) {
+        EXPECT_GE(std::ranges::min(quad), body.first_particle) << row.list.key;
+        EXPECT_LT(std::ranges::max(quad), next_particle) << row.list.key;
       }
+      std::size_t in_groups = 0;
+      for (const NormalGroup& group : surface.groups) in_groups += group.quads;
+      EXPECT_EQ(in_groups, surface.quads.size()) << row.list.key;
       for (const Rod& rod : body.rods) EXPECT_GT(length(rod.to - rod.from), rod.radius) << row.list.key;
     }
     EXPECT_EQ(next_particle, model->particle_count()) << row.list.key;

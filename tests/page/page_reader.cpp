@@ -107,6 +107,11 @@ ReadPage read_page(const std::string& html) {
   std::vector<std::array<Places, 3>> runs;
   for (const auto& run : page.facts["runs"]) {
     for (int i = 0; i < 3; ++i) numbers.next(run["listed"]);
+    for (const auto& body : run["bodies"]) {
+      std::size_t quads = 0;
+      for (const auto& group : body["groups"]) quads += group.get<std::size_t>();
+      for (int corner = 0; corner < 4; ++corner) numbers.next(quads);
+    }
     for (const auto& terrain : run["terrain"]) {
       if (!terrain.contains("surface")) continue;
       const auto& surface = terrain["surface"];

@@ -1,6 +1,7 @@
 #include "support/covering.h"
 
 #include <numeric>
+#include <utility>
 
 namespace aspic::test {
 namespace {
@@ -42,11 +43,13 @@ std::vector<CoveringRow> all_rows(std::span<const std::size_t> sizes,
 }
 
 std::vector<CoveringRow> cover_pairs(std::span<const std::size_t> sizes,
-                                     const std::function<bool(const CoveringRow&)>& allowed) {
+                                     const std::function<bool(const CoveringRow&)>& allowed,
+                                     std::vector<CoveringRow> first) {
   const std::vector<CoveringRow> candidates = all_rows(sizes, allowed);
   PairMarks missing(sizes);
   for (const CoveringRow& row : candidates) missing.for_each(row, [](char& mark) { mark = 1; });
-  std::vector<CoveringRow> chosen;
+  std::vector<CoveringRow> chosen = std::move(first);
+  for (const CoveringRow& row : chosen) missing.for_each(row, [](char& mark) { mark = 0; });
   for (;;) {
     const CoveringRow* best = nullptr;
     int most = 0;

@@ -13,9 +13,11 @@ namespace aspic::test {
 using CoveringRow = std::vector<std::size_t>;
 
 /// Rows in which every pair of values occurs that occurs in any row allowed. `sizes`: values of each factor,
-/// each ≥ 1. Chosen greedily in a fixed order: the same rows everywhere.
+/// each ≥ 1. Chosen greedily in a fixed order: the same rows everywhere, after those of `first`, which may be
+/// of fewer values.
 std::vector<CoveringRow> cover_pairs(std::span<const std::size_t> sizes,
-                                     const std::function<bool(const CoveringRow&)>& allowed);
+                                     const std::function<bool(const CoveringRow&)>& allowed,
+                                     std::vector<CoveringRow> first = {});
 
 /// Every row of the product that is allowed, the last factor fastest.
 std::vector<CoveringRow> all_rows(std::span<const std::size_t> sizes,

@@ -44,6 +44,15 @@ TEST(Covering, LeavesNoPairOut) {
   }
 }
 
+TEST(Covering, AddsToRowsThatAreThereWhatANewValueNeeds) {
+  const std::array<std::size_t, 4> before = {5, 4, 3, 2}, after = {5, 4, 4, 2};
+  const auto first = cover_pairs(before, everything), rows = cover_pairs(after, everything, first);
+  ASSERT_GT(rows.size(), first.size());
+  EXPECT_LE(rows.size(), first.size() + 6u) << "each of five values meets the new one";
+  EXPECT_TRUE(std::equal(first.begin(), first.end(), rows.begin()));
+  EXPECT_EQ(pairs_of(rows), pairs_of(cover_pairs(after, everything)));
+}
+
 // 8 · 6 rows are the least, since that many pairs of the two largest factors meet in a row each.
 TEST(Covering, HasFewRows) {
   const std::array<std::size_t, 5> sizes = {8, 6, 2, 4, 5};

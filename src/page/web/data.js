@@ -86,9 +86,15 @@ class Run {
   }
 
   async readShapes(data) {
-    const { listed, terrain } = this.facts;
+    const { listed, bodies, terrain } = this.facts;
     const a = await data.numbers(listed), reach = await data.numbers(listed);
     this.listed = { a, b: reach.map((r, i) => a[i] + r), classes: await data.numbers(listed) };
+    for (const body of bodies) {
+      const count = body.groups.reduce((sum, quads) => sum + quads, 0), first = await data.numbers(count);
+      body.quads = [first];
+      for (let corner = 1; corner < 4; ++corner)
+        body.quads.push((await data.numbers(count)).map((r, i) => first[i] + r));
+    }
     for (const t of terrain) {
       if (!t.surface) continue;
       t.surface.numbers = await data.numbers(3 * (t.surface.rings + 1) * (t.surface.sectors + 1));

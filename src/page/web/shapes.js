@@ -1,22 +1,32 @@
 // What is drawn, as arrays for the device: skins, springs' ends, terrain, rods.
 
-// The skins of a run by body: each vertex is a particle with its neighbours along the patch, i + 1, i − 1, j + 1, j − 1.
+// The skins of a run by body: each vertex is a particle with its neighbours along the quads of its group of normals: along
+// the side from a quad's corner 0 to 1 the next and the one before, likewise from corner 0 to 3; itself where there is none.
 function skins(facts) {
   const vertices = [], indices = [], parts = [];
   for (const body of facts.bodies) {
     const first = indices.length;
-    for (const [origin, ni, nj, si, sj, clockwise] of body.patches) {
-      const base = vertices.length / 5;
-      const at = (i, j) => origin + clamp(i, 0, ni - 1) * si + clamp(j, 0, nj - 1) * sj;
-      for (let i = 0; i < ni; ++i) {
-        for (let j = 0; j < nj; ++j) {
-          vertices.push(at(i, j));
-          if (clockwise) vertices.push(at(i, j + 1), at(i, j - 1), at(i + 1, j), at(i - 1, j));
-          else vertices.push(at(i + 1, j), at(i - 1, j), at(i, j + 1), at(i, j - 1));
-          if (i + 1 === ni || j + 1 === nj) continue;
-          const a = base + i * nj + j, b = a + nj, c = b + 1, d = a + 1;
-          indices.push(...(clockwise ? [a, d, c, a, c, b] : [a, b, c, a, c, d]));
+    let quad = 0;
+    for (const quads of body.groups) {
+      const known = new Map();
+      const vertex = (particle) => {
+        if (!known.has(particle)) {
+          known.set(particle, vertices.length / 5);
+          vertices.push(particle, particle, particle, particle, particle);
         }
+        return known.get(particle);
+      };
+      for (const end = quad + quads; quad < end; ++quad) {
+        const q = body.quads.map((corner) => corner[quad]), [a, b, c, d] = q.map(vertex);
+        for (const [from, to, p, n] of [[a, b, q[0], q[1]], [d, c, q[3], q[2]]]) {
+          vertices[5 * from + 1] = n;
+          vertices[5 * to + 2] = p;
+        }
+        for (const [from, to, p, n] of [[a, d, q[0], q[3]], [b, c, q[1], q[2]]]) {
+          vertices[5 * from + 3] = n;
+          vertices[5 * to + 4] = p;
+        }
+        indices.push(a, b, c, a, c, d);
       }
     }
     parts.push({ body, first, count: indices.length - first });

@@ -4,9 +4,8 @@ const drawnSprings = 1000000;  // of larger runs those of the skin are drawn
 // Every particle of a run's skins.
 function skinOf(facts) {
   const skin = new Uint8Array(facts.particles);
-  for (const { patches } of facts.bodies)
-    for (const [first, ni, nj, si, sj] of patches)
-      for (let i = 0; i < ni; ++i) for (let j = 0; j < nj; ++j) skin[first + i * si + j * sj] = 1;
+  for (const { quads } of facts.bodies)
+    for (const corner of quads) for (const particle of corner) skin[particle] = 1;
   return skin;
 }
 
@@ -15,15 +14,15 @@ function eachSpring(run, each) {
   const { bodies, directions } = run.facts, { a, b, classes } = run.listed;
   for (let s = 0; s < a.length; ++s) each(a[s], b[s], classes[s]);
   for (const body of bodies) {
-    const n = body.edge;
-    const ups = directions.filter(([di, dj, dk]) => (di * n + dj) * n + dk > 0);
-    for (let i = 0; i < n; ++i)
-      for (let j = 0; j < n; ++j)
-        for (let k = 0; k < n; ++k)
+    if (!body.lattice) continue;
+    const [ni, nj, nk] = body.lattice, ups = directions.slice(directions.length / 2);
+    for (let i = 0; i < ni; ++i)
+      for (let j = 0; j < nj; ++j)
+        for (let k = 0; k < nk; ++k)
           for (const [di, dj, dk, own] of ups) {
             const x = i + di, y = j + dj, z = k + dk;
-            if (x >= n || y < 0 || y >= n || z < 0 || z >= n) continue;
-            each(body.first + (i * n + j) * n + k, body.first + (x * n + y) * n + z, body.firstClass + own);
+            if (x >= ni || y < 0 || y >= nj || z < 0 || z >= nk) continue;
+            each(body.first + (i * nj + j) * nk + k, body.first + (x * nj + y) * nk + z, body.firstClass + own);
           }
   }
 }
@@ -33,7 +32,7 @@ class Springs {
     const skin = skinOf(run.facts), { particles, springs, bodies } = run.facts;
     this.run = run;
     this.large = springs > drawnSprings;
-    const solid = bodies.some((body) => body.patches.length > 0);
+    const solid = bodies.some((body) => body.groups.length > 0);
     const a = [], b = [], classes = [], counts = new Uint32Array(particles + 1);
     eachSpring(run, (p, q, own) => {
       if (this.large && !(solid ? skin[p] || skin[q] : true)) return;
