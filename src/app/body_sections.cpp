@@ -128,6 +128,26 @@ void kind_of_springs(Gui& gui, SceneControl& scene, std::size_t cube) {
   });
 }
 
+/// As many particles along every edge, or three numbers of them.
+void kind_of_edges(Gui& gui, SceneControl& scene, std::size_t cube) {
+  static constexpr std::string_view kinds[] = {"cube", "box"};
+  std::size_t kind = scene.scene().model.cubes[cube].particles ? 1 : 0;
+  label_column("Shape");
+  if (!choice(gui, fmt::format("bodies/{}/shape", cube), kinds, kinds, kind,
+              "A cube, with as many particles along every edge; or a box, whose edges differ. Restarts the "
+              "simulation.\n\nScene keys: cube[].particles-per-edge, cube[].particles"))
+    return;
+  scene.change("shape", [&](Scene& s) {
+    CubeSettings& changed = s.model.cubes[cube];
+    if (kind == 1) {
+      changed.particles = changed.lattice();
+    } else {
+      changed.particles_per_edge = std::min(512, std::ranges::max(changed.lattice()));
+      changed.particles.reset();
+    }
+  });
+}
+
 void same_for_all(Gui& gui, SceneControl& scene, std::size_t cube, std::string_view what) {
   const Parameter& first = *find_parameter(fmt::format("cube[].structural.{}", what));
   const std::string label = fmt::format("{} (all)", capitalized(std::string(what))),
@@ -168,6 +188,7 @@ void terrain(Gui& gui, SceneControl& scene, std::size_t index) {
 void placed_cube(Gui& gui, SceneControl& scene, std::size_t cube) {
   const std::string note = memory_note(scene.solver());
   edit(gui, scene, "cube[].particles-per-edge", cube, {{}, note});
+  edit(gui, scene, "cube[].particles", cube, {{}, note});
   edit(gui, scene, "cube[].position", cube, {"Position"});
   edit(gui, scene, "cube[].rotation.axis", cube, {"Rotation axis"});
   edit(gui, scene, "cube[].rotation.angle", cube, {"Rotation angle"});
@@ -178,8 +199,10 @@ void bodies_section(Gui& gui, SceneControl& scene) {
   const std::size_t count = cubes.size(scene.scene().model);
   for (std::size_t i = 0; i < count; ++i) {
     if (body_line(gui, scene, cubes, i)) return;
+    kind_of_edges(gui, scene, i);
     placed_cube(gui, scene, i);
-    edit(gui, scene, "cube[].edge-length", i, {"Edge"});
+    edit(gui, scene, "cube[].edge-length", i,
+         {scene.scene().model.cubes[i].particles ? "Longest edge" : "Edge"});
     edit(gui, scene, "cube[].velocity", i);
     edit(gui, scene, "cube[].particle-mass", i);
     edit(gui, scene, "cube[].pinned", i);

@@ -98,7 +98,7 @@ void sections(Parts parts, std::span<const Heading> headings, std::string_view w
 int longest_edge(const Simulation& s) {
   int particles = 0;
   for (const CubeSettings& cube : s.present().setup().settings.cubes)
-    particles = std::max(particles, cube.particles_per_edge);
+    particles = std::max(particles, std::ranges::max(cube.lattice()));
   return particles;
 }
 

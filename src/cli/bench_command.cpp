@@ -7,6 +7,7 @@
 #include "aspic/scene.h"
 #include "cli/bench.h"
 #include "cli/commands.h"
+#include "model/cube.h"
 
 namespace aspic::cli {
 namespace {
@@ -52,7 +53,7 @@ class Case {
     ASPIC_TRY(built.simulation.timestep, chosen_timestep(options_, built));
     settings.simulation = simulation_ = built.simulation;
     const SharedModel model = shared(std::move(built));
-    const int size = settings.cubes.empty() ? 0 : settings.cubes.front().particles_per_edge;
+    const int size = settings.cubes.empty() ? 0 : std::ranges::max(settings.cubes.front().lattice());
     const Integrator integrator = settings.simulation.integrator;
     std::uint64_t most_steps = aspic::most_steps;
     std::optional<PeerLattice> lattice;
@@ -154,7 +155,10 @@ Status measure_all(const BenchOptions& options, const Scene& loaded, const Inter
     // Through the parser, so that a size out of range or past the memory is refused as in a file.
     std::vector<std::string> overrides;
     for (std::size_t c = 0; size > 0 && c < loaded.model.cubes.size(); ++c) {
-      overrides.push_back(fmt::format("cube[{}].particles-per-edge={}", c, size));
+      const CubeSettings& cube = loaded.model.cubes[c];
+      overrides.push_back(cube.particles ? fmt::format("cube[{}].particles=[{}]", c,
+                                                       fmt::join(with_longest_edge(cube, size), ","))
+                                         : fmt::format("cube[{}].particles-per-edge={}", c, size));
     }
     ASPIC_TRY(auto scene, with_overrides(loaded, overrides));
     for (const Integrator integrator : integrators) {

@@ -279,7 +279,9 @@ Result<PeerLattice> peer_lattice(const ModelSettings& settings, const Model& mod
     return refuse("it must start at rest, upright, above the origin");
   if (std::ranges::any_of(model.inverse_mass, [](double w) { return w == 0.0; }))
     return refuse("no particle may be pinned");
-  if (cube.particles_per_edge < 3) return refuse("it must have 3 particles per edge or more");
+  if (std::ranges::min(cube.lattice()) != std::ranges::max(cube.lattice()))
+    return refuse("its edges must have the same number of particles");
+  if (cube.lattice()[0] < 3) return refuse("it must have 3 particles per edge or more");
   // Distances change by at most as much as a particle moves.
   double room = 100.0;
   for (const Terrain& terrain : model.terrain) {

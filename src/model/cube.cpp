@@ -120,6 +120,7 @@ Status add_cube(Model& model, const CubeSettings& cube) {
 BodyRow cube_row() {
   constexpr auto counts = [](const CubeSettings& cube) { return box_counts(cube.lattice()); };
   BodyRow row = body_row<&ModelSettings::cubes, counts, add_cube>("cube", "particles-per-edge", &cube_pins);
+  row.size_keys.emplace_back("particles");
   return row;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "model/cube.h"
 #include "model/springs.h"
 #include "report/study.h"
 
@@ -79,7 +80,8 @@ Result<Section> backends_section(const Study& study) {
   std::vector<std::string> missing;
   for (const int size : sizes) {
     Scene scene = study.scene;
-    for (CubeSettings& cube : scene.model.cubes) cube.particles_per_edge = size;
+    for (CubeSettings& cube : scene.model.cubes)
+      if (size > 0) resize(cube, size);
     // Below the stable step of every method and size: the figures are of work, not of motion.
     ASPIC_TRY(auto model, build_model(scene.model));
     model.simulation.timestep = std::min(model.simulation.timestep,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/stability.h"
+#include "model/cube.h"
 #include "report/study.h"
 #include "verify/studies.h"
 
@@ -98,7 +99,7 @@ struct Smooth {
 };
 Result<Smooth> smooth_body(const Study& study) {
   Scene scene = study.scene;
-  for (CubeSettings& cube : scene.model.cubes) cube.particles_per_edge = std::min(cube.particles_per_edge, 5);
+  for (CubeSettings& cube : scene.model.cubes) resize(cube, std::min(std::ranges::max(cube.lattice()), 5));
   Smooth smooth;
   ASPIC_TRY(auto built, build_model(scene.model));
   smooth.model = alone_in_space(std::move(built));

@@ -18,6 +18,7 @@
 #include "io/child_process.h"
 #include "io/console.h"
 #include "io/machine.h"
+#include "model/cube.h"
 #include "scene/diagnostics.h"
 
 namespace aspic::report {
@@ -113,8 +114,9 @@ constexpr int most_per_edge = 12;
 bool coarsen(Scene& scene) {
   bool coarser = false;
   for (CubeSettings& cube : scene.model.cubes) {
-    coarser = coarser || cube.particles_per_edge > most_per_edge;
-    cube.particles_per_edge = std::min(cube.particles_per_edge, most_per_edge);
+    const int longest = std::ranges::max(cube.lattice());
+    coarser = coarser || longest > most_per_edge;
+    resize(cube, std::min(longest, most_per_edge));
   }
   return coarser;
 }

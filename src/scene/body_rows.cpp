@@ -31,13 +31,30 @@ Parameter pins(std::string_view body, Parameter p) {
       fixed(row(list "[].velocity", "m/s", within(divergence_speed), FIELD(model.body.velocity),      \
                 "Initial velocity of the particles that are not pinned."))
 
+/// Particles along the edges of a cube: one number, or three, of which the one that is set last counts.
+Rows particle_rows() {
+  Parameter edges =
+      fixed(row("cube[].particles-per-edge", "", {2, 512}, FIELD(model.cubes[i].particles_per_edge),
+                "Particles n along each edge, n³ in all."));
+  edges.write = [](const Parameter& p, Scene& scene, std::size_t i, const Value& value) {
+    from_value(p, scene.model.cubes[i].particles_per_edge, value);
+    scene.model.cubes[i].particles.reset();
+  };
+  Parameter box =
+      fixed(absent("a cube", row("cube[].particles", "", {2, 4096}, FIELD(model.cubes[i].particles),
+                                 "Particles along the edges of a box, at most 512³ in all; neighbours "
+                                 "are equally far apart in all directions.")));
+  edges.belonging = Belonging::equal_edges;
+  box.belonging = Belonging::box;
+  return {edges, box};
+}
+
 Rows cube_rows() {
 #define MATERIAL(field) FIELD_IN(model.cubes[i].material, field)
   return joined(
-      {{fixed(row("cube[].particles-per-edge", "", {2, 512}, FIELD(model.cubes[i].particles_per_edge),
-                  "Particles n along each edge, n³ in all.")),
-        fixed(row("cube[].edge-length", "m", positive_length, FIELD(model.cubes[i].edge_length),
-                  "Edge of the undeformed cube.")),
+      {particle_rows(),
+       {fixed(row("cube[].edge-length", "m", positive_length, FIELD(model.cubes[i].edge_length),
+                  "Edge of the undeformed cube; of a box its longest edge.")),
         START("cube", cubes[i], "Centre of the cube at the start.",
               "Rotation axis through the centre; its length does not matter.")},
        of(Belonging::explicit_springs,
@@ -48,7 +65,7 @@ Rows cube_rows() {
            SPRINGS("cube", "bending", cubes[i].bending, "between particles two steps apart along an axis")}),
        of(Belonging::material,
           {row("cube[].material.density", "kg/m³", positive_mass, MATERIAL(density),
-               "Density ρ, from which m = ρ·edge³/n³."),
+               "Density ρ, from which m = ρ·edge³/n³, or ρ·volume over the particles of a box."),
            row("cube[].material.youngs-modulus", "Pa", {0.0, stiffest, true}, MATERIAL(youngs_modulus),
                "Young's modulus E along an axis, from which k = E·s/7.3125 at spacing s."),
            row("cube[].material.damping-ratio", "", {0.0, 1e6}, MATERIAL(damping_ratio),

@@ -374,7 +374,11 @@ void apply_from(const Origin& origin, std::span<const std::string> arguments, Re
         {fmt::format("{} {}", origin.option, argument), argument, diagnostics::Source::argument});
     Argument(origin, argument, source, reader).apply();
   }
-  for (std::size_t c = 0; c < cubes.size(); ++c) resolve_material(reader, c, had_material[c]);
+  for (std::size_t c = 0; c < cubes.size(); ++c) {
+    resolve_material(reader, c, had_material[c]);
+    reader.prefer_argument(path_text("cube[].particles", c), path_text("cube[].particles-per-edge", c));
+    reader.prefer_argument(path_text("cube[].particles-per-edge", c), path_text("cube[].particles", c));
+  }
   for (std::size_t t = 0; t < reader.scene().model.terrain.size(); ++t) resolve_shape(reader, t);
 }
 

@@ -26,6 +26,10 @@ template <class T>
 std::optional<Value> to_value(const Parameter&, const std::optional<T>& field) {
   return field ? std::optional<Value>(*field) : std::nullopt;
 }
+template <class T, std::size_t N>
+std::optional<Value> to_value(const Parameter&, const std::optional<std::array<T, N>>& field) {
+  return field ? std::optional<Value>(std::vector<T>(field->begin(), field->end())) : std::nullopt;
+}
 /// The members of a set of words, in the order in which its row names them.
 inline std::array<bool DrawSettings::*, 5> members_of(const DrawSettings&) {
   return {&DrawSettings::solid, &DrawSettings::particles, &DrawSettings::structural, &DrawSettings::shear,
@@ -75,6 +79,10 @@ void from_value(const Parameter& p, T& field, const Value& value) {
 template <class T, std::size_t N>
 void from_value(const Parameter&, std::array<T, N>& field, const Value& value) {
   std::ranges::copy(std::get<std::vector<T>>(value), field.begin());
+}
+template <class T, std::size_t N>
+void from_value(const Parameter& p, std::optional<std::array<T, N>>& field, const Value& value) {
+  from_value(p, field.emplace(), value);
 }
 
 /// Value and name of a table's row; a row may be the enumerator alone.

@@ -147,6 +147,10 @@ bool applies(const Parameter& parameter, const Scene& scene, std::size_t index) 
       return !scene.model.cubes[index].material.has_value();
     case Belonging::material:
       return scene.model.cubes[index].material.has_value();
+    case Belonging::equal_edges:
+      return !scene.model.cubes[index].particles.has_value();
+    case Belonging::box:
+      return scene.model.cubes[index].particles.has_value();
   }
   return false;
 }

@@ -47,8 +47,8 @@ struct Range {
 
 /// When a key has a meaning. Geometry belongs to the shapes that have the key (terrain_shapes), the keys of a
 /// motion to terrain that has one; keys of explicit springs and of a material exclude each other by what the
-/// cube is made of.
-enum class Belonging { always, geometry, motion, explicit_springs, material };
+/// cube is made of, and those of equal edges and of a box by how many particles are along its edges.
+enum class Belonging { always, geometry, motion, explicit_springs, material, equal_edges, box };
 
 /// One key.
 struct Parameter {

@@ -203,6 +203,11 @@ void Reader::read_parameter(const Parameter& p, const toml::node& node, std::siz
   const Converted result = converted(p, node);
   if (const auto* wrong = std::get_if<WrongType>(&result)) {
     written.problem = {position_of(wrong->culprit->source(), written.value.source), wrong->message};
+    // One number for three, or three for one.
+    if (p.belonging == Belonging::box && node.is_integer())
+      written.problem->message += "; did you mean 'particles-per-edge'?";
+    if (p.belonging == Belonging::equal_edges && node.is_array())
+      written.problem->message += "; did you mean 'particles'?";
   } else {
     const Value& value = std::get<Value>(result);
     // Pinned particles are checked with the size of their body.
@@ -224,6 +229,12 @@ void Reader::enter(std::string_view path, std::size_t index, const Position& at)
 
 void Reader::forget(const std::string& path) {
   for (const std::string& gone : written_in(path)) written_.erase(gone);
+}
+
+void Reader::prefer_argument(const std::string& path, const std::string& other) {
+  const auto chosen = written_.find(path), old = written_.find(other);
+  if (chosen == written_.end() || old == written_.end()) return;
+  if (chosen->second.key.source > 0 && old->second.key.source == 0) forget(other);
 }
 
 std::vector<std::string> Reader::written_in(const std::string& path) const {
@@ -283,6 +294,13 @@ std::vector<Problem> Reader::problems(std::optional<std::uint64_t> memory_bytes)
         {{}, fmt::format("'schema' is missing; start the file with the line schema = {}", scene_schema)});
   }
   for (std::size_t c = 0; c < scene_.model.cubes.size(); ++c) {
+    const auto edges = written_.find(path_text("cube[].particles-per-edge", c));
+    const auto box = written_.find(path_text("cube[].particles", c));
+    if (edges != written_.end() && box != written_.end())
+      problems.push_back(
+          {std::max(edges->second.key, box->second.key),
+           "a cube has either 'particles-per-edge' or, as a box, 'particles', not both; leave out "
+           "one of them"});
     const auto material = written_.find(path_text("cube[].material", c));
     if (material == written_.end()) continue;
     const std::vector<std::string> others = explicit_keys(c);

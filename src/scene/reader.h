@@ -49,6 +49,10 @@ class Reader {
   /// Forgets a path and everything below it: the values that are there now were not written.
   void forget(const std::string& path);
 
+  /// Of two keys that exclude each other, forgets that at `other` where the text wrote it and an argument
+  /// `path`.
+  void prefer_argument(const std::string& path, const std::string& other);
+
   /// Keys of a cube that were written although a material would decide them.
   std::vector<std::string> explicit_keys(std::size_t cube) const;
 

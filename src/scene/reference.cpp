@@ -44,6 +44,10 @@ std::string condition(const Parameter& p) {
       return " Not together with `material`.";
     case Belonging::material:
       return " Instead of `particle-mass`, `structural`, `shear` and `bending`.";
+    case Belonging::equal_edges:
+      return " Not together with `particles`.";
+    case Belonging::box:
+      return " Instead of `particles-per-edge`.";
   }
   return "";
 }

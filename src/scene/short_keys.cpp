@@ -42,7 +42,8 @@ std::vector<ShortKeyTarget> everywhere(const Scene& scene, std::string_view scen
   if (!scene_key.empty()) targets.push_back({std::string(scene_key)});
   if (list_key.empty()) return targets;
   const Parameter& p = *find_parameter(list_key);
-  for (std::size_t i = 0; i < index_count(p, scene); ++i) targets.push_back({path_text(p.path, i)});
+  for (std::size_t i = 0; i < index_count(p, scene); ++i)
+    if (applies(p, scene, i)) targets.push_back({path_text(p.path, i)});
   return targets;
 }
 
@@ -56,7 +57,7 @@ constexpr ShortKey table[] = {
      [](const Scene& s) { return proportional(s, ".stiffness"); }},
     {"c", "damping c", "N·s/m", "damping of all springs, likewise",
      [](const Scene& s) { return proportional(s, ".damping"); }},
-    {"n", "particles per edge n", "", "particles-per-edge of all cubes",
+    {"n", "particles per edge n", "", "particles-per-edge of all cubes, not of boxes",
      [](const Scene& s) { return everywhere(s, "", "cube[].particles-per-edge"); }},
     {"e", "restitution e", "", "contact.restitution, and that of every terrain",
      [](const Scene& s) { return everywhere(s, "contact.restitution", "terrain[].restitution"); }},

@@ -110,14 +110,17 @@ TEST(ParticleForceTest, PartsByHand) {
 }
 
 TEST(SpringFinderTest, AreAllThatEndAtAParticle) {
-  const Model model = test::build(cube_and_net());
-  const SpringFinder incident(model);
-  std::vector<std::vector<Spring>> expected(model.particle_count());
-  for (const Spring& s : springs_of(model)) {
-    expected[s.a].push_back(s);
-    expected[s.b].push_back(s);
+  ModelSettings with_box = cube_and_net();
+  with_box.cubes[0].particles = {3, 2, 5};
+  for (const Model& model : {test::build(cube_and_net()), test::build(with_box)}) {
+    const SpringFinder incident(model);
+    std::vector<std::vector<Spring>> expected(model.particle_count());
+    for (const Spring& s : springs_of(model)) {
+      expected[s.a].push_back(s);
+      expected[s.b].push_back(s);
+    }
+    for (std::uint32_t i = 0; i < model.particle_count(); ++i) EXPECT_EQ(incident.of(model, i), expected[i]);
   }
-  for (std::uint32_t i = 0; i < model.particle_count(); ++i) EXPECT_EQ(incident.of(model, i), expected[i]);
   const Model loose = test::particles({{0, 0, 0}}, {{0, 0, 0}});
   EXPECT_TRUE(SpringFinder(loose).of(loose, 0).empty());
 }

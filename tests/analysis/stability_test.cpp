@@ -12,6 +12,7 @@
 #include "analysis/spectrum.h"
 #include "model/springs.h"
 #include "support/integrator_names.h"
+#include "support/lattice_bodies.h"
 
 namespace aspic {
 namespace {
@@ -113,6 +114,19 @@ TEST(Stability, QuickEffortAgreesWithThoroughOnTheDefaultCube) {
 
 // What is certain from the infinite lattice must be stable by the cube's own spectrum, and the other way
 // round but for the lattice's small surplus (17.633 against 16.850 at n = 10).
+TEST(Stability, InfiniteLatticeClearsStableStepsOfBoxesAndOfBodiesWithEmptyCells) {
+  ModelSettings settings = test::cube_on_plane(2);
+  settings.cubes[0].particles = {9, 2, 4};
+  for (const Model& model :
+       {test::build(settings), test::with_cells(settings, test::lattice_of("xxx,x.x,xxx;xxx,...,x.."))}) {
+    for (const Integrator integrator : explicit_integrators) {
+      const double limit = *stability_limit(model, integrator).step;
+      EXPECT_TRUE(certainly_stable(model, integrator, 0.5 * limit)) << name_of(integrator);
+      EXPECT_FALSE(certainly_stable(model, integrator, 1.0001 * limit)) << name_of(integrator);
+    }
+  }
+}
+
 TEST(Stability, InfiniteLatticeClearsOnlyStableSteps) {
   for (const double damping : {60.0, 5.0, 0.5}) {
     CubeSettings cube = cube_settings(10);

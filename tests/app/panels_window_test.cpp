@@ -412,6 +412,28 @@ TEST_F(Panels, TerrainsAndCubesComeAndGo) {
   EXPECT_EQ(settings().cubes[0].position.x, second) << "the other one stays";
 }
 
+TEST_F(Panels, ShapeMakesABoxOfACubeAndACubeOfABox) {
+  open("cube-plane", {"cube[0].particles-per-edge=3"}, "reference", only("Bodies"));
+  const auto choose = [&](const std::string& shape) {
+    click("bodies/0/shape");
+    click("bodies/0/shape/" + shape);
+    frames(2);
+  };
+  EXPECT_FALSE(has("cube[0].particles"));
+  choose("box");
+  EXPECT_EQ(settings().cubes[0].particles, (std::array{3, 3, 3}));
+  EXPECT_TRUE(has("cube[0].particles"));
+  EXPECT_FALSE(has("cube[0].particles-per-edge"));
+  set("cube[].particles", std::vector<int>{3, 5, 2});
+  EXPECT_EQ(simulation().model().particle_count(), 30u);
+  click("cube/add");
+  EXPECT_EQ(settings().cubes[1].lattice(), (std::array{3, 5, 2})) << "a copy is a box as well";
+  choose("cube");
+  EXPECT_EQ(settings().cubes[0].lattice(), (std::array{5, 5, 5}));
+  EXPECT_TRUE(has("cube[0].particles-per-edge"));
+  EXPECT_EQ(simulation().model().particle_count(), 125u + 30u);
+}
+
 TEST_F(Panels, EveryKindOfBodyIsAddedAndRemoved) {
   open("cube-plane", {"cube[0].particles-per-edge=3"}, "reference", only("Bodies"));
   for (const BodyRow& row : body_rows().subspan(1)) {

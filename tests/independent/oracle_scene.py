@@ -24,7 +24,7 @@ TERRAIN = {
     "bowl": {"centre": [2.0, 7.0, 1.0], "radius": 7.0},
 }
 CUBE = {
-    "particles-per-edge": 10, "edge-length": 4.0, "position": [0.0, 9.0, 0.0],
+    "particles-per-edge": 10, "particles": None, "edge-length": 4.0, "position": [0.0, 9.0, 0.0],
     "rotation": {"axis": [1.0, 0.0, 1.0], "angle": 0.0}, "velocity": [0.0, 0.0, 0.0], "pinned": [],
 }
 CUBE_BY_SPRING = {"particle-mass": 1.0, "structural": SPRING, "shear": SPRING, "bending": SPRING}
@@ -96,22 +96,23 @@ def spring_offsets():
 
 def pinned_mask(names, n, grid, readings, where):
     """Particles named by faces, by corners such as "top-left-front", or by local index."""
-    mask = np.zeros(n**3, dtype=bool)
+    count = len(grid)
+    mask = np.zeros(count, dtype=bool)
     for name in names:
         if isinstance(name, int):
-            if not 0 <= name < n**3:
-                raise SceneError(f"{where}.pinned names particle {name}; the indices are 0 to {n**3 - 1}.")
+            if not 0 <= name < count:
+                raise SceneError(f"{where}.pinned names particle {name}; the indices are 0 to {count - 1}.")
             mask[name] = True
             continue
         parts = name.split("-")
         axes = {FACES[part][0] for part in parts if part in FACES}
         if len(parts) not in (1, 3) or len(axes) != len(parts):
             raise SceneError(f"{where}.pinned names '{name}', which is neither a face nor a corner.")
-        chosen = np.ones(n**3, dtype=bool)
+        chosen = np.ones(count, dtype=bool)
         for axis, far in (FACES[part] for part in parts):
             if axis == 2 and readings.front == "-z":
                 far = not far
-            chosen &= grid[:, axis] == (n - 1 if far else 0)
+            chosen &= grid[:, axis] == (n[axis] - 1 if far else 0)
         mask |= chosen
     return mask
 
@@ -130,24 +131,26 @@ def build_cube(table, readings, where):
     """Returns m, free, x, v per particle and a, b, r, k, c per spring, with local indices."""
     by = CUBE_BY_MATERIAL if "material" in table else CUBE_BY_SPRING
     cube = filled(table, CUBE | by, where)
-    n, edge = cube["particles-per-edge"], float(cube["edge-length"])
-    if n < 2:
-        raise SceneError(f"{where}.particles-per-edge is {n}; at least 2 are needed.")
-    s = edge / (n - 1)
+    if "particles" in table and "particles-per-edge" in table:
+        raise SceneError(f"{where} has both particles and particles-per-edge.")
+    n = np.array(cube["particles"] or [cube["particles-per-edge"]] * 3)  # along x, y, z
+    if n.min() < 2:
+        raise SceneError(f"{where} has {n.tolist()} particles along its edges; at least 2 are needed.")
+    s = float(cube["edge-length"]) / (n.max() - 1)
     if "material" in cube:
         material = cube["material"]
-        mass = material["density"] * edge**3 / n**3
+        mass = material["density"] * np.prod(s * (n - 1)) / np.prod(n)
         k = material["youngs-modulus"] * s / YOUNGS_MODULUS_PER_STIFFNESS
         c = 2 * material["damping-ratio"] * np.sqrt(k * mass / 2)
         cube |= {kind: {"stiffness": k, "damping": c} for kind in spring_offsets()}
     else:
         mass = float(cube["particle-mass"])
 
-    grid = np.array(list(itertools.product(range(n), repeat=3)))  # row i*n*n + j*n + k holds (i, j, k)
+    grid = np.array(list(itertools.product(*map(range, n))))  # row (i*n1 + j)*n2 + k holds (i, j, k)
     matrix = rotation_matrix(cube["rotation"]["axis"], cube["rotation"]["angle"], f"{where}.rotation.axis")
     x = np.array(cube["position"], dtype=float) + (s * (grid - (n - 1) / 2)) @ matrix.T
     pinned = pinned_mask(cube["pinned"], n, grid, readings, where)
-    v = np.tile(np.array(cube["velocity"], dtype=float), (n**3, 1))
+    v = np.tile(np.array(cube["velocity"], dtype=float), (len(grid), 1))
     if readings.pinned_velocity == "zero":
         v[pinned] = 0.0
 
@@ -156,7 +159,7 @@ def build_cube(table, readings, where):
         for offset in offsets:
             other = grid + offset
             a = np.flatnonzero(np.all((other >= 0) & (other < n), axis=1))
-            b = other[a] @ [n * n, n, 1]
+            b = other[a] @ [n[1] * n[2], n[2], 1]
             constants = s * np.linalg.norm(offset), cube[kind]["stiffness"], cube[kind]["damping"]
             springs.append([a, b, *(np.full(len(a), value, dtype=float) for value in constants)])
-    return (np.full(n**3, mass), ~pinned, x, v), [np.concatenate(column) for column in zip(*springs)]
+    return (np.full(len(grid), mass), ~pinned, x, v), [np.concatenate(column) for column in zip(*springs)]

@@ -40,6 +40,11 @@ SCENES = {
     "light ground": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 2.1, 0.0]", "terrain[0].mass": 10.0}, "", 1),
     "pinned corner": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 1.8, 0.0]",
                                                "cube[0].pinned": '["top-left-front"]'}, "", 1),
+    # Boxes: of springs, pinned by a face of unequal sides, and of a material.
+    "box": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 1.6, 0.0]", "cube[0].particles": "[4, 3, 6]",
+                                     "cube[0].pinned": '["right-top-front", 5]'}, "", 1),
+    "box of a material": ("cube-plane", FALLING | {"cube[0].position": "[0.0, 1.5, 0.0]", "cube[0].particles": "[5, 2, 3]",
+                                                   "cube[0].material": "{}"}, "", 1),
     # Two planes: what the first leaves is what the second acts on, in the forces and at the step's end.
     "groove": ("cube-plane", FALLING | {"cube[0].position": "[0.2, 2.2, 0.0]", "terrain[0].normal": "[1.0, 1.0, 0.0]"},
                SECOND_PLANE.format(normal="[-1.0, 1.2, 0.0]", mass=50.0), 1),
@@ -77,8 +82,9 @@ def compare(aspic, name, model, integrator, case):
     steps = case["steps"] * longer
     settings = placed | {
         "simulation.integrator": integrator, "simulation.timestep": case["timestep"], "contact.model": model,
-        "cube[0].particles-per-edge": case["edge"],
     }
+    if "cube[0].particles" not in placed:
+        settings["cube[0].particles-per-edge"] = case["edge"]
     if integrator == "implicit-euler":
         settings["simulation.implicit.tolerance"] = 1e-12
     words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]

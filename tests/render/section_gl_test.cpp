@@ -74,6 +74,22 @@ TEST_F(Cut, SectionIsAsLargeAsTheBodyIsThere) {
   }
 }
 
+TEST_F(Cut, SectionOfABoxIsAsLargeAsTheBoxIsThere) {
+  ModelSettings settings = test::cube_on_plane(2, 0.0);
+  settings.cubes[0].particles = {9, 5, 17};  // 2 m, 1 m and 4 m
+  settings.terrain.clear();
+  const Model model = test::build(settings);
+  const State state = initial_state(model, Precision::single);
+  for (const double offset : {-1.3, 0.0, 0.7}) {
+    const PictureOptions options = from_front(offset);
+    const double scale = test::pixels_per_metre(camera_of(options), 16.0 - offset);
+    const double width_seen = 2.0 * scale, height_seen = 1.0 * scale;
+    EXPECT_NEAR(lit_pixels(draw(model, state, options, width, height)), width_seen * height_seen,
+                0.5 * 2.0 * (width_seen + height_seen))
+        << offset;
+  }
+}
+
 TEST_F(Cut, SectionHasTheLegendsColours) {
   const Model model = lonely_cube(5);
   State state = initial_state(model, Precision::single);

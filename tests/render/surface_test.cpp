@@ -8,6 +8,7 @@
 
 #include "render/software_rasteriser.h"
 #include "render/terrain_mesh.h"
+#include "support/lattice_bodies.h"
 #include "support/model_building.h"
 
 namespace aspic {
@@ -90,6 +91,34 @@ TEST(Surface, ACoarseSkinIsClosedAndKeepsTheCorners) {
     EXPECT_EQ(edges.count({edge.second, edge.first}), 1u) << "an edge borders on nothing";
   }
   EXPECT_NEAR(volume, 64.0, 1e-9);
+}
+
+TEST(Surface, SkinsOfBoxesAndOfBodiesWithEmptyCellsAreClosed) {
+  ModelSettings box = test::cube_on_plane(2);
+  box.cubes[0].particles = {41, 6, 11};  // 4 m, 0.5 m and 1 m
+  ModelSettings ring = test::cube_on_plane(2);
+  ring.cubes[0].edge_length = 3.0;
+  const std::pair<Model, double> bodies[] = {
+      {test::build(box), 2.0}, {test::with_cells(ring, test::lattice_of("x,x,x;x,.,x;x,x,x")), 8.0}};
+  for (const auto& [model, expected] : bodies) {
+    const Surface surface = make_surface(model);
+    for (const Surface::Part& part : {surface.parts[0], surface.coarse_parts[0]}) {
+      std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+      double volume = 0.0;
+      for (std::uint32_t t = part.first_index; t < part.first_index + part.index_count; t += 3) {
+        const std::uint32_t* const corner = &surface.indices[t];
+        for (std::size_t i = 0; i < 3; ++i) ++edges[{corner[i], corner[(i + 1) % 3]}];
+        const auto& x = model.initial_position;
+        volume += dot(x[corner[0]], cross(x[corner[1]], x[corner[2]])) / 6.0;
+      }
+      for (const auto& [edge, times] : edges) EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
+      EXPECT_NEAR(volume, expected, 1e-9);
+    }
+  }
+  const Surface surface = make_surface(bodies[0].first);
+  const auto along = [](std::uint32_t quads) { return std::min(quads, software::coarse_quads); };
+  EXPECT_EQ(surface.coarse_parts[0].index_count,
+            6 * 2 * (along(40) * along(5) + along(5) * along(10) + along(10) * along(40)));
 }
 
 TEST(Surface, ASmallBodyHasOneSkin) {

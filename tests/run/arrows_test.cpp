@@ -64,6 +64,15 @@ TEST(Arrows, OfLargeCubesAreThinnedEvenly) {
   EXPECT_EQ(count(arrows_of(model, state, {.contacts = true}), ArrowKind::normal), 100u);
 }
 
+TEST(Arrows, OfBoxesAreThinnedAlikeInAllDirections) {
+  ModelSettings settings = test::cube_on_plane(2, 1.0);
+  settings.cubes[0].particles = {30, 4, 7};
+  const Model model = test::build(settings);
+  // Every third particle along each edge.
+  const ArrowSet net = arrows_of(model, initial_state(model, Precision::single), {.net = true});
+  EXPECT_EQ(net.arrows.size(), 10u * 2u * 3u);
+}
+
 // Newton's second law: what rests has no net force, and no arrow of it.
 TEST(Arrows, OfTheNetForceOfABodyAtRestAreNone) {
   for (const Integrator method :

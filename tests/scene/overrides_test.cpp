@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "aspic/scene.h"
 #include "base/printable.h"
 #include "model/bodies.h"
 #include "scene/reader.h"
@@ -69,6 +72,7 @@ TEST(Set, ReachesEveryKeyAndNoOther) {
       arguments.push_back(fmt::format("terrain[0].shape={}", test::shape_with(p)));
     if (p.belonging == Belonging::material) arguments.emplace_back("cube[0].material={}");
     if (p.belonging == Belonging::motion) arguments.emplace_back("terrain[0].motion={}");
+    if (p.belonging == Belonging::box) arguments.emplace_back("cube[0].particles=[2, 2, 2]");
     const Scene before = test::parsed(text, arguments);
     arguments.push_back(argument_for(p));
     const Scene after = test::parsed(text, arguments);
@@ -130,6 +134,29 @@ TEST(Set, MergesTables) {
   EXPECT_EQ(s.model.cubes[0].shear.stiffness, 1000.0);
   EXPECT_EQ(s.model.cubes[0].shear.damping, 5.0);
   EXPECT_EQ(s.model.cubes[0].position, (Vec3{1.0, 2.0, 3.0}));
+}
+
+TEST(Set, BoxTakesThePlaceOfTheFilesCubeAndTheOtherWayRound) {
+  const std::string cube = "schema = 1\n[[cube]]\nparticles-per-edge = 5\n",
+                    a_box = "schema = 1\n[[cube]]\nparticles = [5, 6, 7]\n";
+  for (const std::string& text : {base, cube, a_box})
+    EXPECT_EQ(test::parsed(text, {"cube[0].particles=[8,4,3]"}).model.cubes[0].lattice(),
+              (std::array{8, 4, 3}));
+  const Scene again = test::parsed(a_box, {"cube[0].particles-per-edge=6"});
+  EXPECT_FALSE(again.model.cubes[0].particles);
+  EXPECT_EQ(again.model.cubes[0].lattice(), (std::array{6, 6, 6}));
+  EXPECT_THAT(to_toml(again), HasSubstr("\nparticles-per-edge = 6\n"));
+  const std::string shown = to_toml(test::parsed(a_box));
+  EXPECT_THAT(shown, HasSubstr("\nparticles = [5, 6, 7]\n"));
+  EXPECT_THAT(shown, testing::Not(HasSubstr("per-edge")));
+  EXPECT_THAT(to_toml(test::parsed(cube)), testing::Not(HasSubstr("particles = ")));
+  // In a scene that was never text, the last one counts.
+  EXPECT_EQ(with_overrides(test::parsed(cube), std::vector<std::string>{"cube[0].particles=[2,3,4]"})
+                ->model.cubes[0]
+                .lattice(),
+            (std::array{2, 3, 4}));
+  EXPECT_THAT(test::rejection(cube, {"cube[0].particles=[2,3,4]", "cube[0].particles-per-edge=3"}),
+              HasSubstr("a cube has either 'particles-per-edge' or, as a box, 'particles'"));
 }
 
 TEST(Set, MaterialTakesThePlaceOfTheFilesSprings) {
@@ -198,7 +225,11 @@ TEST(Set, PointsAtWhatIsWrongInAnArgument) {
       {"simulation.gravity=-9.8", 20,
        "must be three numbers [x, y, z], each -10000 … 10000 m/s², not a number"},
       {"cube.0.shear.stiffness=10", 1, "did you mean 'cube[0].shear.stiffness'?"},
-      {"cube[0].particles=20", 9, "did you mean 'particles-per-edge'?"},
+      {"cube[0].particles=20", 19, "did you mean 'particles-per-edge'?"},
+      {"cube[0].particles-per-edge=[8,4,4]", 28, "did you mean 'particles'?"},
+      {"cube[0].particles=[8,4]", 19, "'cube.particles' must be three whole numbers [along x, y, z]"},
+      {"cube[0].particles=[8,1,4]", 22, "'cube.particles' is out of range: 1; allowed: "},
+      {"cube[0].particles=[4096,4096,64]", 19, "1073741824 particles; allowed: 134217728"},
       {"simulation.integrator=rk4", 23, "did you mean 'runge-kutta-4'?"},
       {"simulation.integrator=verlet", 23, "did you mean 'velocity-verlet'?"},
       {"k=500", 1, "such as 'cube[0].structural.stiffness'"},

@@ -151,8 +151,12 @@ std::vector<Wrong> out_of_range(const Parameter& p) {
                 p.words[0].size() + p.words[1].size() + 9}};
       break;
     case ParameterType::counts:
-      wrong = {{"[1, 2, 2]", 1}, {"[2, 513, 2]", 4}, {"[2, 2, -9223372036854775808]", 7}};
-      if (p.components == 2) wrong = {{"[1, 2]", 1}, {"[2, 513]", 4}, {"[2, -9223372036854775808]", 4}};
+      wrong = {{"[1, 2, 2]", 1},
+               {fmt::format("[2, {}, 2]", p.range.max + 1), 4},
+               {"[2, 2, -9223372036854775808]", 7}};
+      if (p.components == 2)
+        wrong = {
+            {"[1, 2]", 1}, {fmt::format("[2, {}]", p.range.max + 1), 4}, {"[2, -9223372036854775808]", 4}};
       break;
     case ParameterType::pinned:
       wrong = {{"[\"no-such-word\"]", 1}, {"[3, \"top-top-top\"]", 4}, {"[\"top\", -1]", 8}, {"[1000]", 1},
