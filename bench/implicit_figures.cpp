@@ -21,7 +21,7 @@ constexpr double timestep = 1.0 / 60;
 
 template <class T>
 T taken(Result<T> result) {
-  if (!result.ok()) throw std::runtime_error(result.error().message);
+  if (!result.ok()) throw std::runtime_error(result.error().message());
   return std::move(*result);
 }
 

@@ -25,12 +25,12 @@ using namespace aspic;
 template <class T>
 T checked(Result<T> made) {
   if (made) return std::move(*made);
-  fmt::print(stderr, "{}\n", made.error().message);
+  fmt::print(stderr, "{}\n", made.error().message());
   std::exit(1);
 }
 void check(const Status& done) {
   if (done) return;
-  fmt::print(stderr, "{}\n", done.error().message);
+  fmt::print(stderr, "{}\n", done.error().message());
   std::exit(1);
 }
 

@@ -20,7 +20,7 @@ using namespace aspic;
 template <class T>
 T checked(Result<T> made) {
   if (made) return std::move(*made);
-  fmt::print(stderr, "{}\n", made.error().message);
+  fmt::print(stderr, "{}\n", made.error().message());
   std::exit(1);
 }
 

@@ -70,13 +70,13 @@ struct Case {
 /// Runs a scene in real time for so long, in its own window, as aspic-view would.
 Figures measure(const Case& c, double seconds) {
   auto window = app::Window::create(1280, 720, "Aspic figures");
-  if (!window) fail(window.error().message);
+  if (!window) fail(window.error().message());
   app::AppOptions options;
   options.scene = c.scene;
   options.overrides = c.overrides;
   options.backend = find_backend(c.backend);
   auto app = app::App::create((*window)->context(), options, 1.0, (*window)->services());
-  if (!app) fail(app.error().message);
+  if (!app) fail(app.error().message());
   (*window)->set_receiver(app->get());
   Simulation& simulation = (*app)->simulation;
   simulation.pacer().set_pace(Pace::real_time);
@@ -119,7 +119,7 @@ Figures measure(const Case& c, double seconds) {
                               "slider");
     }
     if (const Status drawn = (*app)->frame((*window)->size(), std::min(dt, 0.25)); !drawn)
-      fail(drawn.error().message);
+      fail(drawn.error().message());
     (*window)->show_picture();
     if (simulation.divergence()) fail("diverged");
   }
@@ -162,12 +162,12 @@ Figures median_of(const Case& c, double seconds, int repeats) {
 /// not answer meanwhile.
 void rest(const std::string& scene) {
   auto window = app::Window::create(1600, 1000, "Aspic figures");
-  if (!window) fail(window.error().message);
+  if (!window) fail(window.error().message());
   app::AppOptions options;
   options.scene = scene;
   options.backend = find_backend("cpu");
   auto app = app::App::create((*window)->context(), options, 1.0, (*window)->services());
-  if (!app) fail(app.error().message);
+  if (!app) fail(app.error().message());
   (*window)->set_receiver(app->get());
   (*app)->simulation.set_running(true);
   const auto start = Clock::now();
@@ -181,7 +181,7 @@ void rest(const std::string& scene) {
     if (seconds_between(start, now) > 1.0) (*app)->simulation.set_running(false);
     if ((*app)->picture.at_rest) longest = std::max(longest, dt);
     if (const Status drawn = (*app)->frame((*window)->size(), std::min(dt, 0.25)); !drawn)
-      fail(drawn.error().message);
+      fail(drawn.error().message());
     (*window)->show_picture();
   }
   fmt::print(

@@ -8,7 +8,7 @@
 namespace {
 
 int fail(const aspic::Error& error) {
-  std::fprintf(stderr, "%s\n", error.message.c_str());
+  std::fprintf(stderr, "%s\n", error.message().c_str());
   return static_cast<int>(error.code);
 }
 

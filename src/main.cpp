@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
   return aspic::run_program([&] {
     const aspic::Status done = run(argc, argv);
     if (done) return 0;
-    if (done.error().code != aspic::closed_pipe) aspic::print_message(done.error().message);
+    if (done.error().code != aspic::closed_pipe)
+      aspic::print_message(worded(done.error(), aspic::FrontEnd::command_line));
     return static_cast<int>(done.error().code);
   });
 }

@@ -2,9 +2,10 @@
 // All of libaspic: scenes, models and their solvers, measures, files. Link aspic::aspic. No window and no
 // command line is part of it. Fallible calls return a Result. Free functions may be called on any thread, and
 // on several at once as long as none changes what another uses; classes say which threads theirs come from.
+// Structs without such words are plain values: one thread changes them, or several read.
 
 #include "aspic/analysis.h"    // measure(), compare_states(), stability_limit()
-#include "aspic/error.h"       // Result, Status, Error
+#include "aspic/error.h"       // Result, Status, Error, worded()
 #include "aspic/files.h"       // write_state(), read_checkpoint(), write_checkpoint()
 #include "aspic/inputs.h"      // Inputs: pulls, pins, channels; InputLog
 #include "aspic/model.h"       // make_model(), initial_state(), masses, springs, surfaces

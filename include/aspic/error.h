@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "aspic/export.h"
 
@@ -12,7 +13,7 @@ namespace aspic {
 /// Why a call failed. The values are the program's exit codes (docs: README, "Exit codes").
 enum class ErrorCode {
   check_failed = 1,    ///< a comparison or verification failed
-  usage = 2,           ///< the command line is wrong
+  usage = 2,           ///< an argument is wrong
   scene_rejected = 3,  ///< the scene is wrong, too large, or asks for what is not built yet
   no_device = 4,       ///< no usable GL device
   diverged = 5,        ///< the simulation left the range of sane numbers
@@ -20,11 +21,41 @@ enum class ErrorCode {
   interrupted = 130    ///< Ctrl-C
 };
 
-/// An error: its code, and one or more complete sentences that say where, what and how to fix it.
-struct Error {
-  ErrorCode code;       ///< also fit for a program to end with
-  std::string message;  ///< UTF-8, of one or more lines
+/// What helps against an error, as far as callers differ in how they do it. worded() has the words.
+enum class RemedyKind {
+  words,           ///< `values[0]` is an imperative clause for everybody: "make the scene smaller"
+  use_backend,     ///< compute on the backend `values[0]`, a word of parse_backend()
+  draw_nothing,    ///< compute on the backend `values[0]` without pictures, which need a device
+  overwrite,       ///< allow that what is there already is replaced
+  lower_fps,       ///< at most `values[0]` pictures per second
+  raise_speed,     ///< at least `values[0]` simulated seconds per second shown
+  shorten,         ///< simulate less time
+  picture_size,    ///< pictures of `values[0]` × `values[1]` pixels
+  write_pictures,  ///< numbered pictures in place of a film
+  resume,          ///< continue the run of the checkpoint `values[0]`, a path
+  give_checkpoint  ///< name a file that is a checkpoint
 };
+
+/// One thing that helps.
+struct Remedy {
+  RemedyKind kind = RemedyKind::words;   ///< what to do
+  std::vector<std::string> values = {};  ///< as the kind says
+  friend bool operator==(const Remedy&, const Remedy&) = default;
+};
+
+/// An error. A plain value.
+struct Error {
+  ErrorCode code;                     ///< also fit for a program to end with
+  std::string what;                   ///< what is wrong, and where: UTF-8, of one or more lines
+  std::vector<Remedy> remedies = {};  ///< any one helps; the best one first; none where `what` says it all
+  ASPIC_API std::string message() const;  ///< both, as worded() for programs in C++
+};
+
+/// Who reads an error: each names a remedy as it is done there.
+enum class FrontEnd { library, command_line, window, python };
+
+/// What is wrong, then the remedies in a sentence. Those that the reader has no way to are left out.
+ASPIC_API std::string worded(const Error& error, FrontEnd front_end);
 
 /// Ends the program with a sentence: a Result was asked for what it does not hold.
 [[noreturn]] ASPIC_API void end_at_wrong_access(const Error* error) noexcept;

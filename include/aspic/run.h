@@ -47,11 +47,11 @@ struct BackendChoice {
 /// allowed.
 ASPIC_API Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& asked = {});
 
-/// Every word of --backend: "auto, gpu, reference".
+/// Every word of parse_backend(): "auto, gpu, reference".
 ASPIC_API std::string backend_words();
 
 /// A solver with what a report says of it. The solver holds what it needs, so that all of this may be moved,
-/// assigned and destroyed in any order.
+/// assigned and destroyed in any order, on the threads that the solver allows.
 struct Backend {
   const BackendRow* row = nullptr;  ///< of the table
   std::unique_ptr<Solver> solver;   ///< at the state it was last load()ed; never null after make_backend()
@@ -85,7 +85,7 @@ struct PictureOutput {
   double speed = 1.0;         ///< simulated seconds per second shown, > 0
   PictureSize size;           ///< of films and pictures
   bool text = true;           ///< parameters and time are written on them
-  /// A program that draws when it is started so, as aspic --draw-pictures does, and its words: to draw on
+  /// A program that draws when it is started so, as `aspic` does for itself, and its words: to draw on
   /// software rasterisers with all processors; empty: this one draws alone.
   std::vector<std::string> drawer = {};
 

@@ -149,35 +149,38 @@ struct Scene {
 /// Version of the scene file format that this program reads and writes.
 inline constexpr int scene_schema = 1;
 
-/// What a scene has to fit into.
-struct LoadLimits {
-  std::optional<std::uint64_t> memory_bytes;  ///< absent: what the system says is available now
+/// How scenes are read.
+struct LoadOptions {
+  /// Memory that the scene has to fit into; absent: what the system says is available now.
+  std::optional<std::uint64_t> memory_bytes = {};
+  /// What messages put before a KEY=VALUE argument: the option that it was given by; empty: nothing.
+  std::string origin = {};
 };
 
-/// Reads a scene from TOML text. Messages name `file_name`. `overrides` are KEY=VALUE arguments of
-/// --set, later ones winning; a key is a path of the parameter table with indices
+/// Reads a scene from TOML text. Messages name `file_name`. `overrides` are KEY=VALUE arguments, later ones
+/// winning; a key is a path of the parameter table with indices
 /// (`cube[0].shear.stiffness`), a value is a TOML value or a bare word. Error (scene_rejected): the first
 /// TOML syntax error alone, or every semantic error at once, sorted by line and separated by blank lines.
-/// Each names file, line and column (or the --set argument) and shows the line with a caret.
+/// Each names file, line and column (or the argument) and shows the line with a caret.
 ASPIC_API Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
                                     std::span<const std::string> overrides = {},
-                                    const LoadLimits& limits = {});
+                                    const LoadOptions& options = {});
 
-/// A scene with KEY=VALUE arguments of --set applied to it, and checked. Errors: as parse_scene; a complaint
+/// A scene with KEY=VALUE arguments applied to it, and checked. Errors: as parse_scene; a complaint
 /// that is not about an argument names the key instead of a line.
 ASPIC_API Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides,
-                                       const LoadLimits& limits = {});
+                                       const LoadOptions& options = {});
 
-/// The same for arguments of --view: keys of the table `view`, without its name.
+/// The same for keys of the table `view`, without its name: `colour=strain`.
 ASPIC_API Result<Scene> with_view(Scene scene, std::span<const std::string> arguments,
-                                  const LoadLimits& limits = {});
+                                  const LoadOptions& options = {});
 
 /// Reads a built-in scene by name, or else a file (write `./cube-plane` for a file with a built-in's name).
 /// Errors: as parse_scene; io for a path that cannot be read; scene_rejected for a name nobody knows, with
 /// the list of names and the nearest one, and for a file that is no text, a checkpoint for one.
 ASPIC_API Result<Scene> load_scene(const std::string& file_or_builtin,
                                    std::span<const std::string> overrides = {},
-                                   const LoadLimits& limits = {});
+                                   const LoadOptions& options = {});
 
 /// A scene that is part of the program.
 struct BuiltinScene {

@@ -1,6 +1,6 @@
 #pragma once
 // What a scene says about physics: plain data, SI units. Legal ranges and one-sentence meanings are in the
-// parameter table (scene/parameter_table.cpp), which feeds the parser, --set, `scene show` and the
+// parameter table (scene/parameter_table.cpp), which feeds the parser, overrides, `scene show` and the
 // documentation.
 #include <array>
 #include <cstdint>

@@ -97,7 +97,7 @@ Status App::release_context(const Error& why) {
   comparison_view.detach();
   ASPIC_CHECK(simulation.rebuild().leave_context(why));
   // What the solver said when it noticed first says more.
-  if (!messages.notice() || !messages.notice()->is_error) messages.error(why.message);
+  if (!messages.notice() || !messages.notice()->is_error) messages.error(why);
   pointer.forget();
   picture.detach();
   gui_.reset();

@@ -48,7 +48,7 @@ void ComparisonView::set(std::size_t i, const Difference& difference) {
   Difference& own = differences[i - 1];
   if (own == difference) return;
   if (const auto run = varied(scene_.scene(), asked_, std::span(&difference, 1)); !run)
-    return messages_.error(run.error().message);
+    return messages_.error(run.error());
   own = difference;
   messages_.dismiss_error();
   scene_.set_differences(std::move(differences), "comparison with " + words_of(difference));
@@ -65,7 +65,7 @@ void ComparisonView::leave() {
 }
 
 /// As if it had not been asked for.
-void ComparisonView::refuse(const Difference& difference, const std::string& why) {
+void ComparisonView::refuse(const Difference& difference, const Error& why) {
   messages_.error(why);
   std::vector<Difference> rest = scene_.editor().differences();
   std::erase(rest, difference);
@@ -99,7 +99,7 @@ void ComparisonView::match_editor() {
       // Without a picture there is no run.
       pictures_.clear();
       comparison_.end();
-      return refuse(wanted[i - 1], made.error().message);
+      return refuse(wanted[i - 1], made.error());
     }
   }
   pictures_ = std::move(next);
@@ -137,7 +137,7 @@ void ComparisonView::remove_ghost() {
 
 bool ComparisonView::go_to(double time) {
   const auto gone = comparison_.clock().go_to(time);
-  if (!gone) messages_.error(gone.error().message);
+  if (!gone) messages_.error(gone.error());
   if (gone && !*gone) return false;
   scene_.follow_history();
   return true;
@@ -151,7 +151,7 @@ std::string ComparisonView::name(std::size_t i) const {
 }
 
 void ComparisonView::update() {
-  for (const std::string& message : comparison_.take_messages()) messages_.error(message);
+  for (const Error& message : comparison_.take_messages()) messages_.error(message);
   if (std::exchange(shown_number_, comparison_.shown_number()) == comparison_.shown_number()) return;
   for (std::size_t i = 0; i < comparison_.count(); ++i) picture(i).keep(comparison_.run(i).snapshot());
   if (ghost_) ghost_->keep(comparison_.ghost()->simulation().snapshot());

@@ -85,7 +85,7 @@ class ComparisonView {
     const Simulation* run = nullptr;
     std::unique_ptr<ScenePicture> picture;
   };
-  void refuse(const Difference& difference, const std::string& why);
+  void refuse(const Difference& difference, const Error& why);
   Result<Pictured> pictured(std::size_t i);
   void draw_ghost_label(const Gui& gui) const;
 

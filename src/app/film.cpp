@@ -15,7 +15,7 @@ namespace {
 
 std::string result_text(Recording& film) {
   const FilmOptions& options = film.options();
-  if (const Status result = film.result(); !result) return result.error().message;
+  if (const Status result = film.result(); !result) return worded(result.error(), FrontEnd::window);
   return fmt::format("{} holds {} pictures, {:.2f} s at {:g} per second.", options.path, film.pictures(),
                      film.seconds(), options.fps);
 }
@@ -53,11 +53,11 @@ void Film::start() {
                     options.path));
   }
   auto sink = open_film(format, options.path, options.size, options.fps, Overwrite::refuse);
-  if (!sink) return messages_.error(sink.error().message);
+  if (!sink) return messages_.error(sink.error());
   std::vector<std::unique_ptr<FrameSink>> sinks;
   sinks.push_back(std::move(*sink));
   auto started = Recording::start(picture_.context(), std::move(sinks), std::move(options));
-  if (!started) return messages_.error(started.error().message);
+  if (!started) return messages_.error(started.error());
   recording_ = std::move(*started);
   pace_.emplace(recording_->options().fps);
   scene_ = editor_.source();
@@ -82,7 +82,8 @@ void Film::start_page() {
   if (find_film_format(named.extension().string())) named.replace_extension();
   auto page = FilmPage::start(named.string() + ".html", comparison_view_, recording_->options().fps,
                               simulation_.pacer().speed());
-  if (!page) return messages_.error(page.error().message + " The film goes on without a page.");
+  if (!page)
+    return messages_.error(worded(page.error(), FrontEnd::window) + " The film goes on without a page.");
   page_.emplace(std::move(*page));
 }
 

@@ -38,7 +38,7 @@ Result<FilmPage> FilmPage::start(const std::string& path, ComparisonView& view, 
 }
 
 void FilmPage::fail(const Error& error) {
-  said_ = error.message;
+  said_ = worded(error, FrontEnd::window);
   failed_ = true;
 }
 

@@ -187,7 +187,7 @@ Result<KeptState> load_kept_state(const std::string& path) {
   return fail(ErrorCode::io,
               "{} cannot be used ({}), so the window opens with its defaults. "
               "The file is rewritten when the window closes.",
-              there, state.error().message);
+              there, state.error().what);
 }
 
 Status save_kept_state(const KeptState& state, const std::string& path) {

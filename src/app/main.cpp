@@ -18,7 +18,7 @@ namespace {
 
 /// An error that comes before there is a window to show it in, or ends the window.
 int fail(const Error& error) {
-  print_message(error.message);
+  print_message(worded(error, FrontEnd::command_line));
   return static_cast<int>(error.code);
 }
 
@@ -38,7 +38,7 @@ int show(const ViewOptions& view) {
   if (const auto editor = SceneEditor::open(view.scene, view.overrides); !editor) return fail(editor.error());
   const std::string kept_path = kept_state_path();
   const auto kept = load_kept_state(kept_path);
-  if (!kept) print_message(kept.error().message);
+  if (!kept) print_message(worded(kept.error(), FrontEnd::command_line));
   AppOptions options = options_from(view);
   if (kept) options.kept = *kept;
   if (const LayoutRow* const row = find_layout(view.layout)) options.kept.layout.choose(*row);
@@ -88,7 +88,8 @@ int show(const ViewOptions& view) {
     const std::array<int, 4> stood = (*window)->place();
     left.window = WindowPlace{stood[2], stood[3], std::array<int, 2>{stood[0], stood[1]}};
     // What cannot be kept is no reason to fail: nothing of the user's is lost.
-    if (const Status saved = save_kept_state(left, kept_path); !saved) print_message(saved.error().message);
+    if (const Status saved = save_kept_state(left, kept_path); !saved)
+      print_message(worded(saved.error(), FrontEnd::command_line));
   }
   if (error) return fail(*error);
   return interrupted ? static_cast<int>(ErrorCode::interrupted) : 0;

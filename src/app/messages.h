@@ -36,12 +36,14 @@ class Messages {
   void error(const std::string& text, Until until = Until::dismissed) {
     notice_ = Notice{printable(text), true, until};
   }
+  void error(const Error& why) { error(worded(why, FrontEnd::window)); }
   /// What was asked for cannot be done, and nothing has changed.
+  void refuse(const Error& why) { refuse(worded(why, FrontEnd::window)); }
   void refuse(const std::string& text) { notice_ = Notice{printable(text), true, Until::time, 8.0}; }
   /// Shows the error of a status or result, if it has one; true without.
   template <class Outcome>
   bool check(const Outcome& status) {
-    if (!status) error(status.error().message);
+    if (!status) error(status.error());
     return status.ok();
   }
   void dismiss() { notice_.reset(); }

@@ -72,7 +72,7 @@ bool number_field(const char* label, const std::string& shown, double& value, co
   // A number that nobody touched keeps the digits that its text has no room for.
   if (done.text == done.before) return false;
   const auto entered = evaluate(done.text);
-  typing_error = entered ? check(*entered) : entered.error().message;
+  typing_error = entered ? check(*entered) : entered.error().what;
   if (typing_error) return false;
   value = *entered;
   return true;

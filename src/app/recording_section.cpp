@@ -123,7 +123,7 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
                                : write_state(format, paths[i], overwrite, comparison.scene(i), run, state);
     if (!written) {
       // Those before it are there.
-      lines.insert(lines.begin(), written.error().message);
+      lines.insert(lines.begin(), worded(written.error(), FrontEnd::window));
       return messages.error(fmt::format("{}", fmt::join(lines, "\n")));
     }
     lines.push_back(format.over_time
@@ -137,13 +137,13 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
 void save_inputs(const std::string& path, Overwrite overwrite, Simulation& simulation, Messages& messages) {
   if (!messages.check(simulation.settle())) return;
   const auto inputs = recorded_inputs(simulation.playback().history(), simulation.playback().here());
-  if (!inputs) return messages.refuse(inputs.error().message);
+  if (!inputs) return messages.refuse(inputs.error());
   const auto write = [&]() -> Status {
     ASPIC_TRY(auto file, AtomicFile::create(path, overwrite));
     ASPIC_CHECK(file.write(to_toml(*inputs, simulation.model().simulation.timestep)));
     return file.commit();
   };
-  if (const Status written = write(); !written) return messages.error(written.error().message);
+  if (const Status written = write(); !written) return messages.error(written.error());
   messages.info(fmt::format("{} holds the inputs up to step {}: aspic run --replay repeats them.", path,
                             simulation.step()));
 }

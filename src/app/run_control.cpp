@@ -42,7 +42,7 @@ void RunControl::switch_backend() {
   if (first)
     messages_.info(now);
   else
-    messages_.error(changed ? fmt::format("{} {}", first.error().message, now) : first.error().message);
+    messages_.error(changed ? fail(first.error(), "{} {}", first.error().what, now) : first.error());
 }
 
 void RunControl::set_shadow(const BackendRow* backend) {

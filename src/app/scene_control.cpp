@@ -59,7 +59,7 @@ void SceneControl::reload() {
 /// here.
 void SceneControl::reread_file() {
   const auto loaded = editor_.other(editor_.source());
-  if (!loaded) return messages_.error(loaded.error().message);
+  if (!loaded) return messages_.error(loaded.error());
   const Effect effect = effect_between(editor_.scene(), loaded->scene());
   if (!messages_.check(simulation_.rebuild().change(loaded->scene(), effect != Effect::restart))) return;
   const CameraSettings camera = editor_.scene().view.camera;
@@ -136,7 +136,7 @@ void SceneControl::change(const std::string& name, const std::function<void(Scen
 }
 
 void SceneControl::take_effect(Result<Effect> effect) {
-  if (!effect) return messages_.error(effect.error().message);
+  if (!effect) return messages_.error(effect.error());
   unchanged_for_ = 0.0;
   if (*effect >= Effect::constants) pending_ = std::max(pending_, *effect);
   const CameraSettings& camera = editor_.scene().view.camera;
@@ -149,7 +149,7 @@ void SceneControl::follow_history() {
   if (effect_between(editor_.scene(), scene) < Effect::constants) return;
   pending_ = Effect::none;
   if (const auto applied = editor_.apply(std::move(scene), "going back in time", ""); !applied)
-    messages_.error(applied.error().message);
+    messages_.error(applied.error());
 }
 
 void SceneControl::update(double dt) {

@@ -6,6 +6,7 @@
 
 #include "aspic/scene.h"
 #include "base/memory.h"
+#include "command_line/arguments.h"
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
 #include "model/bodies.h"
@@ -40,7 +41,7 @@ Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std
   SceneEditor editor;
   if (source.ends_with(".aspic")) {
     ASPIC_TRY(auto checkpoint, read_checkpoint(source));
-    ASPIC_TRY(editor.scene_, parse_scene(checkpoint.scene, source, overrides));
+    ASPIC_TRY(editor.scene_, parse_scene(checkpoint.scene, source, overrides, by_set));
     ASPIC_CHECK(check_against_scene(checkpoint, editor.scene_.model, source));
     if (!checkpoint.inputs.empty()) {
       ASPIC_TRY(const Model model, build_model(editor.scene_.model));
@@ -49,7 +50,7 @@ Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std
     }
     editor.origin_->state = std::move(checkpoint.state);
   } else {
-    ASPIC_TRY(editor.scene_, load_scene(source, overrides));
+    ASPIC_TRY(editor.scene_, load_scene(source, overrides, by_set));
   }
   editor.origin_->source = source;
   editor.origin_->overrides = std::move(overrides);

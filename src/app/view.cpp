@@ -109,7 +109,7 @@ void paste_camera(View& view, const Scene& scene, const WindowServices& services
   if (pasted)
     view.camera.jump_to(pasted->view.camera);
   else
-    messages.refuse(pasted.error().message);
+    messages.refuse(pasted.error());
 }
 
 }  // namespace aspic::app

@@ -77,7 +77,7 @@ Result<std::unique_ptr<Window>> Window::create(int width, int height, const std:
   auto context = gl::Context::adopt_current(
       glfwGetProcAddress, {[window = w->window_] { return glfwGetCurrentContext() == window; },
                            [window = w->window_] { glfwMakeContextCurrent(window); }});
-  if (!context) return fail(context.error().code, "{} {}", context.error().message, instead);
+  if (!context) return fail(context.error(), "{} {}", context.error().what, instead);
   w->context_ = std::move(*context);
   w->connect();
   return w;

@@ -2,7 +2,9 @@
 // What makes an Error, and passes one on.
 #include <fmt/core.h>
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "aspic/error.h"
 
@@ -12,6 +14,28 @@ namespace aspic {
 template <class... T>
 Error fail(ErrorCode code, fmt::format_string<T...> message, T&&... arguments) {
   return {code, fmt::format(message, std::forward<T>(arguments)...)};
+}
+
+/// An error that another one led to: its code and remedies, in another sentence.
+template <class... T>
+Error fail(const Error& cause, fmt::format_string<T...> message, T&&... arguments) {
+  return {cause.code, fmt::format(message, std::forward<T>(arguments)...), cause.remedies};
+}
+
+/// The error with remedies before those that it has:
+/// `return advised(fail(…), {advice("make the scene smaller"), use_backend("cpu")});`.
+inline Error advised(Error error, std::vector<Remedy> remedies) {
+  error.remedies.insert(error.remedies.begin(), remedies.begin(), remedies.end());
+  return error;
+}
+
+/// A remedy that everybody words alike: an imperative clause, without a capital and a full stop.
+inline Remedy advice(std::string clause) {
+  return {RemedyKind::words, {std::move(clause)}};
+}
+
+inline Remedy use_backend(std::string name) {
+  return {RemedyKind::use_backend, {std::move(name)}};
 }
 
 }  // namespace aspic

@@ -85,7 +85,7 @@ class Case {
       if (made) {
         contestants_.push_back(std::move(*made));
       } else {
-        print_warning(fmt::format("skipped {}: {}", peer.name, made.error().message));
+        print_warning(fmt::format("skipped {}: {}", peer.name, worded(made.error(), FrontEnd::command_line)));
       }
     }
     for (const auto& contestant : contestants_) ASPIC_CHECK(set_steps(*contestant, most_steps));
@@ -177,7 +177,7 @@ Status measure_all(const BenchOptions& options, const Scene& loaded, const Inter
 
 Status execute(const BenchOptions& options) {
   const InterruptGuard interrupt;
-  ASPIC_TRY(const auto loaded, load_scene(options.scene, options.overrides));
+  ASPIC_TRY(const auto loaded, load_scene(options.scene, options.overrides, by_set));
   if (options.pictures) return execute_pictures(options, loaded, interrupt);
   BenchReport report = {loaded.name, options.repeats, options.warm_up, false, {}};
   const Status measured = measure_all(options, loaded, interrupt, report);

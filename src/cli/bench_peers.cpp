@@ -56,7 +56,7 @@ class Peer {
     add("--threads", std::max(1u, std::thread::hardware_concurrency()));
     auto child = ChildProcess::start(words, ChildProcess::Output::answers);
     if (!child) {
-      return fail(ErrorCode::io, "{} scripts/peers.sh installs what peers need.", child.error().message);
+      return fail(ErrorCode::io, "{} scripts/peers.sh installs what peers need.", child.error().what);
     }
     Peer peer(std::move(*child));
     ASPIC_TRY(const Json line, peer.line());

@@ -103,7 +103,7 @@ Status print_result(const CompareOptions& options, const Scene& scene, const std
 
 Status execute(const CompareOptions& options) {
   const InterruptGuard interrupt;
-  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
+  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides, by_set));
   ASPIC_TRY(const auto steps, steps_of(options.length, scene.model.simulation));
   ASPIC_TRY(auto built, build_model(scene.model));
   const SharedModel model = shared(std::move(built));

@@ -67,8 +67,8 @@ Result<RunFiles> open_files(const RunOptions& options, const Scene& scene, const
 
 Result<HeadlessVariants> make_variants(const RunOptions& options, const std::vector<Difference>& differences,
                                        Overwrite overwrite) {
-  ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides));
-  ASPIC_TRY(scene, with_view(std::move(scene), options.view));
+  ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides, by_set));
+  ASPIC_TRY(scene, with_view(std::move(scene), options.view, by_view));
   ASPIC_TRY(const auto steps, steps_of(options.length, scene.model.simulation));
   ASPIC_TRY(auto runs, variants_of(scene, options.backend, differences));
   HeadlessVariants variants;
@@ -102,8 +102,8 @@ Result<std::shared_ptr<gl::Context>> shared_context(const RunOptions& options,
   auto context = gl::Context::create_headless();
   if (context) return context;
   if (!needed) return std::shared_ptr<gl::Context>();
-  return Error{context.error().code,
-               "pictures and the gpu backend need an OpenGL device. " + context.error().message};
+  return fail(context.error(), "pictures and the gpu backend need an OpenGL device. {}",
+              context.error().what);
 }
 
 Status prepare(HeadlessVariants& variants, const std::vector<Difference>& differences, gl::Context* context,
@@ -270,8 +270,9 @@ Status execute_comparison(const RunOptions& options) {
   ASPIC_CHECK(refuse_what_needs_one_run(options));
   std::vector<Difference> differences;
   for (const std::string& text : options.differences) {
-    ASPIC_TRY(auto difference, parse_difference(text));
-    differences.push_back(std::move(difference));
+    auto difference = parse_difference(text);
+    if (!difference) return fail(difference.error(), "--beside: {}", difference.error().what);
+    differences.push_back(std::move(*difference));
   }
   const Overwrite overwrite = options.force ? Overwrite::allow : Overwrite::refuse;
   std::shared_ptr<gl::Context> context;  // outlives the recorder

@@ -23,15 +23,17 @@ void BatchSize::took(std::uint64_t steps, double seconds) {
 
 void Losses::tell(const std::vector<Error>& failures) {
   for (; told_ < failures.size(); ++told_)
-    print_warning(failures[told_].message + " The run continues with its other files.");
+    print_warning(worded(failures[told_], FrontEnd::command_line) +
+                  " The run continues with its other files.");
 }
 
 Status lost_error(const std::vector<Error>& failures, bool others) {
   if (failures.empty()) return {};
-  Error error = failures.front();
-  for (std::size_t i = 1; i < failures.size(); ++i) error.message += "\n" + failures[i].message;
-  if (others) error.message += " All other files of the run were completed.";
-  return error;
+  std::string text;
+  for (const Error& failure : failures)
+    text += (text.empty() ? "" : "\n") + worded(failure, FrontEnd::command_line);
+  if (others) text += " All other files of the run were completed.";
+  return Error{failures.front().code, text};
 }
 
 // A State takes as much memory as all of a solver's: one is held where it is looked at, and none while

@@ -39,9 +39,10 @@ Json json_of(const gl::DeviceInfo& info) {
 /// What the canary kernel finds out about the device's arithmetic, and what is done about it.
 std::vector<std::string> arithmetic_sentences(gl::Context& context) {
   const auto directory = shader_directory();
-  if (!directory) return {directory.error().message};
+  if (!directory) return {worded(directory.error(), FrontEnd::command_line)};
   const auto arithmetic = gl::choose_arithmetic(context, gl::ShaderLibrary(*directory));
-  if (!arithmetic) return {"The arithmetic could not be measured: " + arithmetic.error().message};
+  if (!arithmetic)
+    return {"The arithmetic could not be measured: " + worded(arithmetic.error(), FrontEnd::command_line)};
   return arithmetic->sentences();
 }
 
@@ -64,7 +65,7 @@ Status execute(const InfoOptions& options) {
     if (made) {
       context = std::move(*made);
     } else {
-      no_context = made.error().message;
+      no_context = worded(made.error(), FrontEnd::command_line);
     }
   }
   const std::vector<std::string> arithmetic =

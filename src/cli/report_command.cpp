@@ -11,7 +11,7 @@ namespace aspic::cli {
 Status execute(const ReportOptions& options) {
   const InterruptGuard interrupt;
   report::ReportPlan plan;
-  ASPIC_TRY(plan.scene, load_scene(options.scene, options.overrides));
+  ASPIC_TRY(plan.scene, load_scene(options.scene, options.overrides, by_set));
   plan.scene_words = shell_word(options.scene);
   for (const std::string& assignment : options.overrides)
     plan.scene_words += fmt::format(" --set {}", shell_word(assignment));

@@ -56,22 +56,22 @@ bool asks_for_checkpoint(const RunOptions& options) {
 Result<Start> load_start(const RunOptions& options) {
   Start start;
   if (options.resume_file.empty()) {
-    ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides));
+    ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides, by_set));
     if (asks_for_checkpoint(options)) start.scene_toml = to_toml(scene);
     // A view changes no checkpoint: it is no part of the run.
-    ASPIC_TRY(start.scene, with_view(std::move(scene), options.view));
+    ASPIC_TRY(start.scene, with_view(std::move(scene), options.view, by_view));
     return start;
   }
   ASPIC_TRY(auto checkpoint, read_checkpoint(options.resume_file));
   auto scene = parse_scene(checkpoint.scene, options.resume_file);
   if (!scene) {
-    return fail(scene.error().code,
+    return fail(scene.error(),
                 "the scene inside the checkpoint, written by aspic {}, is not accepted by aspic {}:\n{}",
-                checkpoint.program_version, ASPIC_VERSION, scene.error().message);
+                checkpoint.program_version, ASPIC_VERSION, scene.error().what);
   }
   ASPIC_CHECK(check_against_scene(checkpoint, scene->model, options.resume_file));
   if (!options.scene.empty()) {
-    ASPIC_TRY(const auto given, load_scene(options.scene, options.overrides));
+    ASPIC_TRY(const auto given, load_scene(options.scene, options.overrides, by_set));
     const std::string text = to_toml(given);
     if (text != checkpoint.scene) {
       return fail(ErrorCode::scene_rejected,
@@ -84,7 +84,7 @@ Result<Start> load_start(const RunOptions& options) {
     return fail(ErrorCode::usage, "{} was written in {} precision: resume it without --precision.",
                 options.resume_file, name_of(checkpoint.state.precision));
   }
-  ASPIC_TRY(start.scene, with_view(std::move(*scene), options.view));
+  ASPIC_TRY(start.scene, with_view(std::move(*scene), options.view, by_view));
   start.scene_toml = std::move(checkpoint.scene);
   start.inputs_toml = std::move(checkpoint.inputs);
   start.state = std::move(checkpoint.state);
@@ -216,7 +216,8 @@ Status execute(const RunOptions& options) {
   const Status summary =
       print_summary(options, {start.scene, model, backend, outcome, inputs}, written, recorder.get());
   if (recorder) print_frame_times(recorder->times(), recorder->device());
-  if (!lost.empty() && outcome.divergence) print_message(divergence_error(model, outcome, interrupt).message);
+  if (!lost.empty() && outcome.divergence)
+    print_message(worded(divergence_error(model, outcome, interrupt), FrontEnd::command_line));
   ASPIC_CHECK(lost_error(lost, !written.empty()));
   if (!summary) return summary;
   if (outcome.divergence) return divergence_error(model, outcome, interrupt);

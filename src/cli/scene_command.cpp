@@ -37,7 +37,7 @@ Status execute(const SceneListOptions& options) {
 }
 
 Status execute(const SceneShowOptions& options) {
-  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
+  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides, by_set));
   return print_data(to_toml(scene));
 }
 
@@ -50,7 +50,7 @@ Status execute(const SceneImportOptions& options) {
 
 Status execute(const SceneCheckOptions& options) {
   const InterruptGuard interrupt;
-  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides));
+  ASPIC_TRY(const auto scene, load_scene(options.scene, options.overrides, by_set));
   ASPIC_TRY(const auto model, build_model(scene.model));
   const ModelCounts counts = count(model);
   const Integrator own = model.simulation.integrator;

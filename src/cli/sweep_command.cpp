@@ -11,7 +11,7 @@
 namespace aspic::cli {
 
 Status execute(const SweepOptions& options) {
-  ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides));
+  ASPIC_TRY(auto scene, load_scene(options.scene, options.overrides, by_set));
   ASPIC_TRY(auto grid, report::make_grid(std::move(scene), options.backend, options.length, options.vary));
   if (options.worker) return report::serve_sweep(std::move(grid));
 

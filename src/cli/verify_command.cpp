@@ -94,7 +94,8 @@ Status execute(const VerifyOptions& options) {
       context = std::move(*made);
       device = context->info().renderer;
     } else {
-      print_warning("no usable GL device; checks that need one are not run. " + made.error().message);
+      print_warning("no usable GL device; checks that need one are not run. " +
+                    worded(made.error(), FrontEnd::command_line));
     }
   } else {
     device = "none needed";

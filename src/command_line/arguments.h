@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "aspic/scene.h"
 #include "aspic/state.h"
 #include "base/result.h"
 #include "run/backends.h"
@@ -14,6 +15,9 @@
 #include "run/run_length.h"
 
 namespace aspic {
+
+/// How scenes are read with the arguments of an option.
+inline const LoadOptions by_set = {.origin = "--set"}, by_view = {.origin = "--view"};
 
 struct RunOptions {
   std::string scene;  ///< empty: that of the checkpoint

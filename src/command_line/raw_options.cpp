@@ -71,7 +71,9 @@ Status finish_pictures(PictureOutput& pictures, const RawOptions& raw) {
     return usage("--fps must be more than 0 and at most 1000, not {}.", *pictures.fps);
   if (!positive(pictures.speed))
     return usage("--speed must be a finite number above 0, not {}.", pictures.speed);
-  if (!pictures.page.empty()) ASPIC_CHECK(page::check_page_name(pictures.page));
+  if (!pictures.page.empty())
+    if (const Status named = page::check_page_name(pictures.page); !named)
+      return fail(named.error(), "--page: {}", named.error().what);
   if (pictures.video.empty()) return {};
   ASPIC_TRY(const auto format, video_format_of(pictures.video));
   return check_film(*format, pictures.size, frames_per_second(pictures));
@@ -153,7 +155,9 @@ Result<Command> finish_run(RunOptions run, const RawOptions& raw) {
     return usage("{0} is for --{1} FILE: add it, or leave {0} out.",
                  raw.gave(interval) ? interval : "--every", output.option);
   }
-  ASPIC_CHECK(check_endings(run.outputs));
+  for (const StateOutput& output : run.outputs)
+    if (const Status named = check_endings({output}); !named)
+      return fail(named.error(), "--{}: {}", output.option, named.error().what);
   if (run.scene.empty() && run.resume_file.empty()) {
     return usage("aspic run needs a SCENE: a file, or a built-in name from aspic scene list.");
   }

@@ -37,6 +37,11 @@ bool has_extension(std::string_view name) {
   return false;
 }
 
+std::vector<Remedy> room_on_device() {
+  return {advice("make the scene smaller"), advice("close other programs that use the device"),
+          use_backend("cpu")};
+}
+
 }  // namespace
 
 Context::Context() : programs_(std::make_unique<ProgramCache>(*this)) {}
@@ -49,11 +54,12 @@ Result<std::shared_ptr<Context>> Context::adopt_current(Loader loader, WindowCon
         "No OpenGL context is current on this thread, so there is none to use. Make the window's context "
         "current first."};
   if (version < GLAD_MAKE_VERSION(4, 3))
-    return fail(ErrorCode::no_device,
-                "The window's context is OpenGL {}.{} ({}), but 4.3 core is needed for compute shaders. "
-                "Install a newer driver, or use --backend reference.",
-                GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version),
-                reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    return advised(
+        fail(ErrorCode::no_device,
+             "The window's context is OpenGL {}.{} ({}), but 4.3 core is needed for compute shaders.",
+             GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version),
+             reinterpret_cast<const char*>(glGetString(GL_RENDERER))),
+        {advice("install a newer driver"), {RemedyKind::draw_nothing, {"cpu"}}});
   std::shared_ptr<Context> context(new Context);
   context->window_ = std::move(window);
   context->thread_ = std::this_thread::get_id();
@@ -137,11 +143,10 @@ std::optional<std::uint64_t> Context::free_memory() {
 Status Context::check_memory(std::uint64_t bytes) {
   const auto free = free_memory();
   if (!free || bytes <= *free) return {};
-  return fail(ErrorCode::scene_rejected,
-              "the scene needs {} ({} bytes) of memory on {}, and {} ({} bytes) are free; make it smaller, "
-              "close other "
-              "programs that use the device, or use --backend cpu",
-              human_bytes(bytes), bytes, info_.renderer, human_bytes(*free), *free);
+  return advised(fail(ErrorCode::scene_rejected,
+                      "the scene needs {} ({} bytes) of memory on {}, and {} ({} bytes) are free.",
+                      human_bytes(bytes), bytes, info_.renderer, human_bytes(*free), *free),
+                 room_on_device());
 }
 
 void Context::forget_errors() {
@@ -161,15 +166,12 @@ Error Context::elsewhere_error() const {
 
 Error Context::lost_error() const {
   if (silent_)
-    return fail(
-        ErrorCode::no_device,
-        "The device {} has not answered for {} s. Resume from the last checkpoint on another device, or "
-        "choose --backend cpu.",
-        info_.renderer, longest_wait);
-  return fail(ErrorCode::no_device,
-              "The device {} was reset or lost, with everything it held. Resume from the last "
-              "checkpoint, or choose --backend reference.",
-              info_.renderer);
+    return advised(
+        fail(ErrorCode::no_device, "The device {} has not answered for {} s.", info_.renderer, longest_wait),
+        {advice("resume from the last checkpoint on another device"), use_backend("cpu")});
+  return advised(
+      fail(ErrorCode::no_device, "The device {} was reset or lost, with everything it held.", info_.renderer),
+      {advice("resume from the last checkpoint"), use_backend("cpu")});
 }
 
 Status Context::check(ErrorCode memory_code) {
@@ -177,11 +179,11 @@ Status Context::check(ErrorCode memory_code) {
   ASPIC_CHECK(here.status());
   if (lost()) return lost_error();
   if (!ran_out_of_memory()) return {};
-  return Error{memory_code,
-               fmt::format("The device {} ran out of memory during the computation, with {} ({} "
-                           "bytes) held in buffers. Make the scene smaller, close other programs "
-                           "that use the device, or choose --backend reference.",
-                           info_.renderer, human_bytes(bytes_held_), bytes_held_)};
+  return advised(
+      fail(memory_code,
+           "The device {} ran out of memory during the computation, with {} ({} bytes) held in buffers.",
+           info_.renderer, human_bytes(bytes_held_), bytes_held_),
+      room_on_device());
 }
 
 void Context::inject_fault(Fault fault, std::uint64_t after) {

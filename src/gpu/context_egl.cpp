@@ -277,7 +277,8 @@ Result<std::shared_ptr<Context>> Context::create_on(const EglCandidate& candidat
 
 Result<std::shared_ptr<Context>> Context::create_headless(const ContextOptions& options) {
   if (const std::string missing = missing_resource(); !missing.empty()) {
-    return Error{ErrorCode::no_device, missing + ". Raise it, or use --backend reference without pictures."};
+    return advised({ErrorCode::no_device, missing + "."},
+                   {advice("raise it"), {RemedyKind::draw_nothing, {"cpu"}}});
   }
   if (const auto& loaded = load_egl(); !loaded) return loaded.error();
   ASPIC_TRY(const Choice choice, choose(options));
@@ -288,13 +289,14 @@ Result<std::shared_ptr<Context>> Context::create_headless(const ContextOptions& 
     auto context = create_on(candidate, options);
     if (context) return context;
     if (before.context) put_back(before);
-    tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, context.error().message);
+    tried += fmt::format("{}{} {}", tried.empty() ? "" : "; ", candidate.name, context.error().what);
   }
-  return fail(ErrorCode::no_device,
-              "No usable OpenGL 4.3 core device was found without a display. Tried: {}. Install the "
-              "graphics card's OpenGL driver with its EGL part, or Mesa's software rasteriser "
-              "(apt install libegl1 libegl-mesa0 libgl1-mesa-dri), or use --backend reference.",
-              tried.empty() ? "nothing, EGL offers no platform" : tried);
+  return advised(
+      fail(ErrorCode::no_device, "No usable OpenGL 4.3 core device was found without a display. Tried: {}.",
+           tried.empty() ? "nothing, EGL offers no platform" : tried),
+      {advice("install the graphics card's OpenGL driver with its EGL part"),
+       advice("install Mesa's software rasteriser (apt install libegl1 libegl-mesa0 libgl1-mesa-dri)"),
+       {RemedyKind::draw_nothing, {"cpu"}}});
 }
 
 /// Of an adopted context; an owned one has no surfaces.

@@ -8,10 +8,10 @@ namespace {
 constexpr const char* file = "libEGL.so.1";
 
 Error missing(const char* reason) {
-  return fail(ErrorCode::no_device,
-              "OpenGL needs EGL, which cannot be loaded ({}). Install it with a driver (apt install libegl1 "
-              "libegl-mesa0 libgl1-mesa-dri), or use --backend cpu without pictures.",
-              reason ? reason : file);
+  return advised(
+      fail(ErrorCode::no_device, "OpenGL needs EGL, which cannot be loaded ({}).", reason ? reason : file),
+      {advice("install it with a driver (apt install libegl1 libegl-mesa0 libgl1-mesa-dri)"),
+       {RemedyKind::draw_nothing, {"cpu"}}});
 }
 
 Result<Egl> load() {

@@ -15,10 +15,10 @@ inline constexpr std::uint32_t max_rounds = 20000;
 /// The error (no_device) for `kernel`, which would loop more often over `rounds`, as in "the springs of one
 /// particle".
 inline Error loop_error(std::string_view kernel, std::string_view rounds) {
-  return fail(ErrorCode::no_device,
-              "The kernel {} would loop over {} more often than every device guarantees. Make "
-              "the scene smaller, or use --backend reference.",
-              kernel, rounds);
+  return advised(
+      fail(ErrorCode::no_device, "The kernel {} would loop over {} more often than every device guarantees.",
+           kernel, rounds),
+      {use_backend("cpu"), advice("make the scene smaller")});
 }
 
 /// loop_error() where `count` is more than max_rounds. For kernels that loop over lists the host has made.

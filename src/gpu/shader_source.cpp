@@ -128,7 +128,7 @@ Status ShaderLibrary::append(Flattening& work, const std::string& path) const {
     return {};
   }
   const Result<std::string> text = read(path);
-  if (!text) return Error{text.error().code, where() + text.error().message};
+  if (!text) return fail(text.error(), "{}{}", where(), text.error().what);
 
   if (work.open.size() == deepest_include) {
     return fail(ErrorCode::io,

@@ -166,13 +166,11 @@ Status BallPasses::grow() {
     items *= 2;
   }
   if (const Status made = allot(list_words, items); !made) {
-    Error error = made.error();
-    error.message = fmt::format(
-        "The balls of the scene touch in more places than the device {} has room for: {} words of lists and "
-        "{} "
-        "blocks of 256 candidates are needed. {} Start fewer balls in one place, or use --backend reference.",
-        context_->info().renderer, list_words, items, error.message);
-    return error;
+    return advised(fail(made.error(),
+                        "The balls of the scene touch in more places than the device {} has room for: {} "
+                        "words of lists and {} blocks of 256 candidates are needed. {}",
+                        context_->info().renderer, list_words, items, made.error().what),
+                   {advice("start fewer balls in one place"), use_backend("cpu")});
   }
   reset_work();
   return {};

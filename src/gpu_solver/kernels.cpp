@@ -96,11 +96,12 @@ std::vector<std::string> titles_of(std::span<const KernelRow> rows) {
 }
 
 Error idle_device(const gl::Context& context, const Model& model, std::uint64_t count) {
-  return fail(
-      ErrorCode::no_device,
-      "{} is no usable device: it does not carry out the kernels of {}, of which {} or more were queued. Use "
-      "another device, or --backend cpu.",
-      context.info().renderer, name_of(model.simulation.integrator), count);
+  return advised(
+      fail(
+          ErrorCode::no_device,
+          "{} is no usable device: it does not carry out the kernels of {}, of which {} or more were queued.",
+          context.info().renderer, name_of(model.simulation.integrator), count),
+      {use_backend("cpu"), advice("use another device")});
 }
 
 Status check_overrun(std::uint32_t overrun) {
@@ -124,11 +125,10 @@ Status check_overrun(std::uint32_t overrun) {
 
 Result<layout::Simulation> simulation_block(const Model& model) {
   if (model.spring_classes.size() > MAX_SPRING_CLASSES || model.terrain.size() > MAX_TERRAINS) {
-    return Error{
-        ErrorCode::scene_rejected,
-        fmt::format("the scene has {} kinds of springs and {} terrains; the gpu backend holds {} and {}: "
-                    "use --backend reference, or fewer bodies and terrains",
-                    model.spring_classes.size(), model.terrain.size(), MAX_SPRING_CLASSES, MAX_TERRAINS)};
+    return advised(fail(ErrorCode::scene_rejected,
+                        "the scene has {} kinds of springs and {} terrains; the gpu backend holds {} and {}.",
+                        model.spring_classes.size(), model.terrain.size(), MAX_SPRING_CLASSES, MAX_TERRAINS),
+                   {use_backend("cpu"), advice("use fewer bodies and terrains")});
   }
   layout::Simulation block{};
   block.gravity = rounded(model.simulation.gravity, fall_speed(model));

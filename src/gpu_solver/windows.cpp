@@ -88,11 +88,12 @@ Result<std::vector<Window>> windows_over(std::uint64_t items, std::uint64_t bloc
       }
     }
     if (!fits(unit, block_bytes, bytes))
-      return fail(ErrorCode::scene_rejected,
-                  "springs join particles so far apart that {} of them need more of the state than the {} "
-                  "bytes of "
-                  "the device's largest storage block: choose another device or --backend cpu",
-                  unit.items.count(), block_bytes);
+      return advised(
+          fail(ErrorCode::scene_rejected,
+               "springs join particles so far apart that {} of them need more of the state than the {} "
+               "bytes of the device's largest storage block.",
+               unit.items.count(), block_bytes),
+          {use_backend("cpu"), advice("choose another device")});
     windows.push_back(unit);
   }
   return windows;

@@ -73,9 +73,8 @@ Result<int> open_directly(const std::string& path, bool pipe) {
 constexpr auto reader_patience = std::chrono::seconds(2);
 
 Error already_exists(const std::string& path) {
-  return fail(ErrorCode::io,
-              "{} already exists and was not changed. Choose another name, or overwrite it with --force.",
-              printable_line(path));
+  return advised(fail(ErrorCode::io, "{} already exists and was not changed.", printable_line(path)),
+                 {advice("choose another name"), {RemedyKind::overwrite}});
 }
 
 }  // namespace

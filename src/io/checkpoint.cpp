@@ -131,7 +131,7 @@ Error error_in(const std::string& name, std::string_view what) {
 Status check_magic(std::string_view bytes, const std::string& name) {
   if (bytes.empty()) return error_in(name, "the file is empty.");
   if (magic.starts_with(bytes.substr(0, magic.size()))) return {};
-  return error_in(name, "this is not a checkpoint of aspic. Give a file that aspic run --checkpoint wrote.");
+  return advised(error_in(name, "this is not a checkpoint of aspic."), {{RemedyKind::give_checkpoint}});
 }
 
 /// Whether the state has the fields of this program, in its order. Error (io).

@@ -68,15 +68,18 @@ Result<const FilmFormat*> video_format_of(const std::string& path) {
 
 Status check_film(const FilmFormat& format, const PictureSize& size, double fps) {
   if (fps > format.most_fps) {
-    return fail(ErrorCode::usage,
-                "{0} shows at most {1} pictures per second, not {2}: use --fps {1} or less.", format.label,
-                format.most_fps, fps);
+    return advised(fail(ErrorCode::usage, "{} shows at most {} pictures per second, not {}.", format.label,
+                        format.most_fps, fps),
+                   {{RemedyKind::lower_fps, {fmt::format("{}", format.most_fps)}}});
   }
   if (!format.even_sides || (size.width % 2 == 0 && size.height % 2 == 0)) return {};
-  return fail(ErrorCode::usage,
-              "a video stores colour for squares of 2 x 2 pixels, so --size {}x{} is not possible: use an "
-              "even width and height, such as {}x{}.",
-              size.width, size.height, size.width + size.width % 2, size.height + size.height % 2);
+  return advised(
+      fail(ErrorCode::usage,
+           "a video stores colour for squares of 2 x 2 pixels, so that its width and height are even, not "
+           "{}x{}.",
+           size.width, size.height),
+      {{RemedyKind::picture_size,
+        {fmt::format("{}", size.width + size.width % 2), fmt::format("{}", size.height + size.height % 2)}}});
 }
 
 Result<std::unique_ptr<FrameSink>> open_film(const FilmFormat& format, const std::string& path,

@@ -81,10 +81,9 @@ Result<std::unique_ptr<FrameSink>> open_frame_directory(const std::string& direc
   if (::access(directory.c_str(), W_OK | X_OK) != 0) return file_error("write into", directory, errno);
   ASPIC_TRY(const auto frames, frames_in(directory));
   if (!frames.empty() && overwrite == Overwrite::refuse)
-    return fail(ErrorCode::io,
-                "{} already contains pictures ({} and others) and was not changed. Choose another directory, "
-                "or replace them with --force.",
-                directory, std::min_element(frames.begin(), frames.end())->filename().string());
+    return advised(fail(ErrorCode::io, "{} already contains pictures ({} and others) and was not changed.",
+                        directory, std::min_element(frames.begin(), frames.end())->filename().string()),
+                   {advice("choose another directory"), {RemedyKind::overwrite}});
   return std::unique_ptr<FrameSink>(std::make_unique<FrameDirectory>(directory, format, size, frames));
 }
 

@@ -50,7 +50,7 @@ void on_fatal_signal(int number) {
   write_plainly({digits.data() + (number < 10 ? 1 : 0), number < 10 ? 1u : 2u});
   write_plainly(
       ", in a driver or in aspic itself; its temporary files were removed. If little memory or stack is left "
-      "(ulimit -v, ulimit -s), allow more; if a graphics driver is at fault, --backend reference needs "
+      "(ulimit -v, ulimit -s), allow more; if a graphics driver is at fault, the backend cpu needs "
       "none.\n");
   ::signal(number, SIG_DFL);
   ::raise(number);

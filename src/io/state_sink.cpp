@@ -41,10 +41,10 @@ Status refuse_later_files(const std::string& pattern, std::uint64_t step) {
     std::uint64_t found = 0;
     const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), found);
     if (error != std::errc() || rest != digits.data() + digits.size() || found < step) continue;
-    return fail(ErrorCode::io,
-                "{} already exists, and the run may come to that step. It was not changed. Choose another "
-                "name, or overwrite such files with --force.",
-                printable_line((directory / name).string()));
+    return advised(
+        fail(ErrorCode::io, "{} already exists, and the run may come to that step. It was not changed.",
+             printable_line((directory / name).string())),
+        {advice("choose another name"), {RemedyKind::overwrite}});
   }
   return {};
 }
@@ -203,7 +203,7 @@ std::string state_help(std::string_view option) {
 Status check_state_name(std::string_view option, const std::string& path) {
   if (path == "-")
     return fail(ErrorCode::usage,
-                "--{} - would be a file of the name -: write /dev/stdout for standard output.", option);
+                "a {} named - would be a file of that name: write /dev/stdout for standard output.", option);
   const std::string ending = ending_of(path);
   if (ending.empty() || is_device_or_pipe(path)) return {};
   std::vector<std::string_view> endings;
@@ -212,7 +212,7 @@ Status check_state_name(std::string_view option, const std::string& path) {
     if (format.ending == ending) return {};
     endings.push_back(format.ending);
   }
-  return fail(ErrorCode::usage, "--{} {}: the name must end in {}, which chooses its format.", option,
+  return fail(ErrorCode::usage, "the {}'s name {} must end in {}, which chooses its format.", option,
               printable_line(path), fmt::join(endings, " or "));
 }
 

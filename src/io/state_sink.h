@@ -42,7 +42,7 @@ class StateSink {
 
 /// A format of states.
 struct StateFormat {
-  std::string_view option;          ///< the kind of output: "state" is the option --state
+  std::string_view option;          ///< the kind of output: "state", also its option's name
   std::string_view ending;          ///< ".csv": of several formats of a kind, the file's name says which
   std::string_view label;           ///< for people: "CSV"
   std::string_view summary;         ///< what the option does, the same for all formats of a kind

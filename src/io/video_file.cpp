@@ -32,7 +32,7 @@ std::string failure_text(const ChildProcess& ffmpeg, const ChildProcess::End& en
 /// What is wrong with a video, as far as its beginning and ffprobe tell: a sentence, or nothing.
 std::string fault_of(const std::string& file, const FilmFormat& format) {
   const auto start = read_regular_file(file, format.mark_at + format.mark.size());
-  if (!start) return start.error().message + " ";
+  if (!start) return start.error().what + " ";
   if (start->size == 0) return "ffmpeg reported success, but wrote an empty file. ";
   if (start->content.size() < format.mark_at || start->content.substr(format.mark_at) != format.mark)
     return fmt::format("ffmpeg reported success, but what it wrote is no {} file. ", format.label);
@@ -69,20 +69,20 @@ class VideoFile : public FrameSink {
  private:
   /// Leaves nothing.
   void give_up(const std::string& why) {
-    reason_ = fmt::format(
-        "the video {} could not be made: {}Check the disk and that ffmpeg has the encoder (the Debian "
-        "package "
-        "ffmpeg has it), or write numbered pictures instead (--frames).",
-        path_, why);
+    reason_ =
+        advised(fail(ErrorCode::io, "the video {} could not be made: {}", path_, why),
+                {advice("check the disk and that ffmpeg has the encoder (the Debian package ffmpeg has it)"),
+                 {RemedyKind::write_pictures}});
     ffmpeg_.reset();
     file_.reset();  // removes the temporary file
   }
-  Status state() const { return ffmpeg_ ? Status() : Status(Error{ErrorCode::io, reason_}); }
+  Status state() const { return ffmpeg_ ? Status() : Status(reason_); }
 
   std::optional<AtomicFile> file_;
   std::optional<ChildProcess> ffmpeg_;
   const FilmFormat& format_;
-  std::string path_, reason_;
+  std::string path_;
+  Error reason_ = {ErrorCode::io, ""};  // why there is no ffmpeg_
 };
 
 }  // namespace
@@ -106,10 +106,10 @@ Result<std::unique_ptr<FrameSink>> open_video(const std::string& path, const Fil
   words.push_back("file:" + file.temporary_path());
   auto ffmpeg = ChildProcess::start(words);
   if (!ffmpeg)
-    return fail(ErrorCode::io,
-                "the video {} cannot be made: {} Videos need the program ffmpeg on PATH: install it with apt "
-                "install ffmpeg, or write numbered pictures instead (--frames).",
-                path, ffmpeg.error().message);
+    return advised(
+        fail(ffmpeg.error(), "the video {} cannot be made: {} Videos need the program ffmpeg on PATH.", path,
+             ffmpeg.error().what),
+        {advice("install it with apt install ffmpeg"), {RemedyKind::write_pictures}});
   return std::unique_ptr<FrameSink>(std::make_unique<VideoFile>(std::move(file), std::move(*ffmpeg), format));
 }
 

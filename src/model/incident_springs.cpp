@@ -12,10 +12,11 @@ namespace {
 Status check_words(const Model& model) {
   const std::uint64_t limit = (std::uint64_t{1} << (32 - class_bits(model))) - 1;
   if (model.particle_count() <= limit) return {};
-  return fail(ErrorCode::scene_rejected,
-              "{} particles with {} kinds of springs are more than one 32-bit word a spring can name "
-              "({} particles at most): use fewer particles-per-edge or --backend reference",
-              model.particle_count(), model.spring_classes.size(), limit);
+  return advised(fail(ErrorCode::scene_rejected,
+                      "{} particles with {} kinds of springs are more than one 32-bit word a spring can name "
+                      "({} particles at most).",
+                      model.particle_count(), model.spring_classes.size(), limit),
+                 {use_backend("cpu"), advice("use fewer particles-per-edge")});
 }
 
 /// Adds to the counts of the particles of a lattice whose cells are all full, of which `degree` is the
@@ -81,10 +82,10 @@ std::vector<std::uint64_t> slice_starts(const Model& model, IncidentWords words)
 
 Status check_count(const Model& model, std::uint64_t words) {
   if (words <= 0xffffffffu) return {};
-  return fail(ErrorCode::scene_rejected,
-              "{} springs have more ends than a list with 32-bit indices can name: use fewer "
-              "particles-per-edge or --backend cpu",
-              spring_count(model));
+  return advised(
+      fail(ErrorCode::scene_rejected, "{} springs have more ends than a list with 32-bit indices can name.",
+           spring_count(model)),
+      {use_backend("cpu"), advice("use fewer particles-per-edge")});
 }
 
 }  // namespace

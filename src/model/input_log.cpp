@@ -86,8 +86,7 @@ std::uint64_t InputLog::bytes() const {
 Status check_log(const Model& model, const InputLog& log, Precision precision) {
   for (const InputLog::Entry& entry : log.entries()) {
     const auto taken = rounded_inputs(model, entry.inputs, precision);
-    if (!taken)
-      return fail(taken.error().code, "inputs from step {} on: {}.", entry.step, taken.error().message);
+    if (!taken) return fail(taken.error(), "inputs from step {} on: {}.", entry.step, taken.error().what);
   }
   return {};
 }

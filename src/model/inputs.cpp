@@ -59,7 +59,7 @@ Result<Inputs> rounded_inputs(const Model& model, const Inputs& inputs, Precisio
   Inputs taken = inputs;
   for (std::size_t n = 0; n < taken.pulls.size(); ++n) {
     auto pull = rounded_pull(model, taken.pulls[n], precision);
-    if (!pull) return fail(pull.error().code, "pulls[{}]: {}", n, pull.error().message);
+    if (!pull) return fail(pull.error(), "pulls[{}]: {}", n, pull.error().what);
     taken.pulls[n] = *pull;
   }
   ASPIC_CHECK(check_pins(model, taken));

@@ -59,7 +59,7 @@ Result<Model> build_model(const ModelSettings& settings) {
   for (const BodyRow& body : body_rows()) {
     for (std::size_t i = 0; i < body.list.size(settings); ++i) {
       if (const Status added = body.add(model, settings, i); !added)
-        return fail(added.error().code, "{}[{}].{}", body.list.key, i, added.error().message);
+        return fail(added.error(), "{}[{}].{}", body.list.key, i, added.error().what);
     }
   }
   return model;

@@ -38,21 +38,25 @@ Status check_page(std::uint64_t pictures, std::uint64_t positions_each, double f
   const double share = static_cast<double>(most_positions) / static_cast<double>(positions_each) /
                        static_cast<double>(pictures);
   const double fitting = fps * share >= 1.0 ? std::floor(fps * share) : rounded(0.9 * fps * share);
-  return fail(ErrorCode::usage,
-              "a page of {} pictures of {} particles and balls would hold {:.0f} million positions, of which "
-              "a browser holds {}: use --fps {:g} or less, a shorter --duration, or fewer particles.",
-              pictures, positions_each,
-              static_cast<double>(pictures) * static_cast<double>(positions_each) * 1e-6,
-              fmt::format("{} million", most_positions / 1000000), fitting);
+  return advised(
+      fail(ErrorCode::usage,
+           "a page of {} pictures of {} particles and balls would hold {:.0f} million positions, of which "
+           "a browser holds {} million.",
+           pictures, positions_each,
+           static_cast<double>(pictures) * static_cast<double>(positions_each) * 1e-6,
+           most_positions / 1000000),
+      {{RemedyKind::lower_fps, {fmt::format("{:g}", fitting)}},
+       {RemedyKind::shorten},
+       advice("use fewer particles")});
 }
 
 Status check_page_name(const std::string& path) {
   if (path == "-")
     return fail(ErrorCode::usage,
-                "--page - would be a file of the name -: write /dev/stdout for standard output.");
+                "a page named - would be a file of that name: write /dev/stdout for standard output.");
   const std::string ending = ending_of(path);
   if (ending.empty() || ending == ".html" || ending == ".htm" || is_device_or_pipe(path)) return {};
-  return fail(ErrorCode::usage, "--page {}: the name must end in .html, which browsers open.",
+  return fail(ErrorCode::usage, "the page's name {} must end in .html, which browsers open.",
               printable_line(path));
 }
 

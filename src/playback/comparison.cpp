@@ -27,7 +27,7 @@ std::optional<Comparison::Refusal> Comparison::set(gl::Context& context,
       if (known[k]->difference() == differences[i] && std::ranges::find(from, k) == from.end()) from[i] = k;
     if (from[i] < known.size()) continue;
     auto made = VariantRun::create(context, scene_, runs_.leader, asked_, differences[i]);
-    if (!made) return Refusal{differences[i], made.error().message};
+    if (!made) return Refusal{differences[i], made.error()};
     next[i] = std::move(*made);
     any_new = true;
   }
@@ -36,7 +36,7 @@ std::optional<Comparison::Refusal> Comparison::set(gl::Context& context,
   known = std::move(next);
   runs_changed();
   if (!any_new) return std::nullopt;
-  if (const Status begun = runs_.leader.rebuild().reset(); !begun) messages_.push_back(begun.error().message);
+  if (const Status begun = runs_.leader.rebuild().reset(); !begun) messages_.push_back(begun.error());
   return std::nullopt;
 }
 
@@ -149,7 +149,7 @@ void Comparison::show() {
   Status read;
   for (std::size_t i = 0; read && i < count(); ++i) read = run(i).refresh_snapshot();
   if (read && ghost_) read = ghost_->simulation().refresh_snapshot();
-  if (!read) return messages_.push_back(read.error().message);
+  if (!read) return messages_.push_back(read.error());
   shown = std::move(now);
   ghost_shown_ = of_ghost;
   ++shown_number_;

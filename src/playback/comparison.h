@@ -39,7 +39,7 @@ class Comparison {
   /// A difference that cannot be had.
   struct Refusal {
     Difference difference;
-    std::string why;  ///< a sentence
+    Error why;
   };
   /// Has these differences instead. New runs are made in `context`, which must outlive them; they begin at
   /// the start, and so all do. Where one is refused all stays as it was.
@@ -75,8 +75,8 @@ class Comparison {
   std::optional<Divergence> shown_divergence(std::size_t i) const {
     return i < runs_.shown.size() ? runs_.shown[i].divergence : std::nullopt;
   }
-  /// What happened unasked since the last call, in sentences.
-  std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
+  /// What happened unasked since the last call.
+  std::vector<Error> take_messages() { return std::exchange(messages_, {}); }
 
  private:
   Status recall(double time, double dt, double budget);
@@ -91,7 +91,7 @@ class Comparison {
   std::unique_ptr<GhostRun> ghost_;
   std::uint64_t ghost_shown_ = 0;  // picture number of the ghost that is shown
   std::uint64_t shown_number_ = 0;
-  std::vector<std::string> messages_;
+  std::vector<Error> messages_;
 };
 
 }  // namespace aspic

@@ -117,9 +117,9 @@ Result<Engines> EngineFactory::make_like(const Engines& like, const Setup& setup
     ASPIC_TRY(auto shadow, make(model, *like.shadow().row, like.gpu()));
     return Engines(model, std::move(*leader), std::move(shadow));
   }
-  std::optional<std::string> departure;
+  std::optional<Error> departure;
   if (!leader && Engines::in_context(like.leader())) {
-    departure = fmt::format("{} The reference takes over.", leader.error().message);
+    departure = {leader.error().code, fmt::format("{} The reference takes over.", leader.error().what)};
     leader = make(model, reference_backend(), nullptr);
   }
   if (!leader) return leader.error();

@@ -50,7 +50,7 @@ class Engines {
       : model_(std::move(model)), leader_(std::move(leader)), shadow_(std::move(shadow)) {}
 
   /// In what these engines are not like those they replace, in a sentence; nothing: in nothing.
-  std::optional<std::string> departure;
+  std::optional<Error> departure;
 
   const Model& model() const { return *model_; }
   const SharedModel& shared_model() const { return model_; }

@@ -61,9 +61,9 @@ class Present {
   void set_step(std::uint64_t step) { step_ = step; }
   void set_divergence(const std::optional<Divergence>& divergence) { divergence_ = divergence; }
   void begin_run() { ++run_number_; }
-  /// For take_message(): what happened unasked, in sentences.
-  void tell(std::string message) { message_ = std::move(message); }
-  std::optional<std::string> take_message() { return std::exchange(message_, std::nullopt); }
+  /// For take_message(): what happened unasked.
+  void tell(Error message) { message_ = std::move(message); }
+  std::optional<Error> take_message() { return std::exchange(message_, std::nullopt); }
 
  private:
   Setup setup_;
@@ -72,7 +72,7 @@ class Present {
   std::chrono::steady_clock::time_point snapshot_time_ = {};
   std::uint64_t step_ = 0, model_number_ = 0, run_number_ = 0, picture_number_ = 0;
   std::optional<Divergence> divergence_;
-  std::optional<std::string> message_;
+  std::optional<Error> message_;
 };
 
 }  // namespace aspic

@@ -49,7 +49,7 @@ class Simulation {
   /// Reads the state back; of a backend outside the context the newest that is finished.
   Status refresh_snapshot() { return stepper_.refresh_snapshot(); }
   /// What happened unasked since the last call, in a sentence: a backend failed and the reference continues.
-  std::optional<std::string> take_message() { return present_.take_message(); }
+  std::optional<Error> take_message() { return present_.take_message(); }
 
   // ---- motion ----
   void set_running(bool running) { stepper_.set_running(running); }

@@ -285,7 +285,7 @@ Status Stepper::fall_back(const Error& error) {
   timeline_.stop();
   const State copy = present_.snapshot();
   if (!Engines::in_context(engines.leader())) {
-    present_.tell(fmt::format("{} Shadow mode has ended.", error.message));
+    present_.tell({error.code, fmt::format("{} Shadow mode has ended.", error.what)});
     return load(copy);  // the leader may be steps ahead of what was taken from it
   }
   ASPIC_TRY(auto engine, factory_.make(engines.shared_model(), reference_backend(), nullptr));
@@ -294,10 +294,13 @@ Status Stepper::fall_back(const Error& error) {
   History& history = timeline_.history();
   const std::uint64_t stretch = timeline_.here().stretch;
   if (copy.step >= history.stretch(stretch).first && copy.step < step) history.truncate({stretch, copy.step});
-  present_.tell(fmt::format(
-      "{} The reference continues from the last copy, {:.2f} s old (t = {:.6g} s; {} steps are repeated).",
-      error.message, present_.snapshot_age(),
-      static_cast<double>(copy.step) * present_.model().simulation.timestep, lost));
+  // Its remedy is this one.
+  present_.tell(
+      {error.code,
+       fmt::format("{} The reference continues from the last copy, {:.2f} s old (t = {:.6g} s; {} steps are "
+                   "repeated).",
+                   error.what, present_.snapshot_age(),
+                   static_cast<double>(copy.step) * present_.model().simulation.timestep, lost)});
   return load(copy);
 }
 

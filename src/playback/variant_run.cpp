@@ -69,7 +69,7 @@ Status VariantRun::adopt_setup(const Simulation& leader) {
   base.model = leader.present().setup().settings;
   auto run = varied(base, asked_, std::span(&difference_, 1));
   if (!run) {
-    message_ = run.error().message;
+    message_ = run.error();
     return {};
   }
   const Effect effect = effect_between(scene_, run->scene);

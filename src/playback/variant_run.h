@@ -42,7 +42,7 @@ class VariantRun {
     return simulation_->model().particle_count() == leader.model().particle_count();
   }
   /// Why it does not do what its leader does, once.
-  std::optional<std::string> take_message() { return std::exchange(message_, std::nullopt); }
+  std::optional<Error> take_message() { return std::exchange(message_, std::nullopt); }
 
  private:
   VariantRun(const Difference& difference, const BackendChoice& asked)
@@ -64,7 +64,7 @@ class VariantRun {
   bool adopted_ = true;  // the leader's setup of adopted_model_
   ViewSettings leader_view_;
   std::uint64_t leader_run_ = 0, adopted_model_ = 0;
-  std::optional<std::string> message_;
+  std::optional<Error> message_;
 };
 
 }  // namespace aspic

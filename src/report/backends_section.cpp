@@ -95,7 +95,8 @@ Result<Section> backends_section(const Study& study) {
       const auto speed = measured(shared_model, row, study.thorough ? 1.0 : 0.25, study);
       if (!speed && speed.error().code == ErrorCode::interrupted) return speed.error();
       if (!speed) {
-        const std::string why = fmt::format("`{}`: {}", row.name, speed.error().message);
+        const std::string why =
+            fmt::format("`{}`: {}", row.name, worded(speed.error(), FrontEnd::command_line));
         if (std::ranges::find(missing, why) == missing.end()) missing.push_back(why);
         continue;
       }

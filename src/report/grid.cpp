@@ -158,8 +158,8 @@ Result<Grid> make_grid(Scene scene, const BackendChoice& backend, const RunLengt
       if (!first) first = run.error();
     }
     if (first) {
-      return fail(first->code, "--vary {}: none of the values makes a run; the first ends with\n{}", axis.key,
-                  first->message);
+      return fail(*first, "--vary {}: none of the values makes a run; the first ends with\n{}", axis.key,
+                  first->what);
     }
   }
   return grid;

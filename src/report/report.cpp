@@ -202,7 +202,7 @@ Result<ReportSummary> write_report(ReportPlan plan, const InterruptGuard& interr
   if (studio) {
     study.studio = std::move(*studio);
   } else {
-    study.no_studio = studio.error().message;
+    study.no_studio = worded(studio.error(), FrontEnd::command_line);
   }
   ASPIC_TRY(const auto page, make_page(plan, study, rows));
 

@@ -18,7 +18,8 @@ TrialResult trial_error(const Error& error) {
   const bool refused = error.code == ErrorCode::usage || error.code == ErrorCode::scene_rejected;
   TrialResult result;
   result.outcome = refused ? Outcome::rejected : Outcome::failed;
-  result.reason = error.message.substr(0, error.message.find('\n'));
+  const std::string text = worded(error, FrontEnd::command_line);
+  result.reason = text.substr(0, text.find('\n'));
   return result;
 }
 

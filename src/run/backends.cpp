@@ -51,14 +51,14 @@ bool has_software_device() {
 
 Suitability gpu_suitability(const gl::Context* window) {
   constexpr const char* software =
-      "OpenGL is a software rasteriser here, which is used only with --backend gpu";
+      "OpenGL is a software rasteriser here, which is used only where the backend gpu is named";
   Suitability result;
   if (window == nullptr) {
     gl::ContextOptions options;
     options.device = gl::DeviceChoice::hardware;
     auto made = gl::Context::create_headless(options);
     if (!made && has_software_device()) return {false, software, "", nullptr};
-    if (!made) return {false, "no OpenGL 4.3 device was found", made.error().message, nullptr};
+    if (!made) return {false, "no OpenGL 4.3 device was found", made.error().what, nullptr};
     result.context = std::move(*made);
     window = result.context.get();
   }
@@ -335,8 +335,11 @@ Result<BackendChoice> parse_backend(std::string_view text, const BackendChoice& 
 Status check_choice(const BackendChoice& choice) {
   if (choice.row) {
     if (const Ability* const lacks = lacking(*choice.row, choice)) {
-      return fail(ErrorCode::usage, "the {} does not {} {}; use --backend {}.", choice.row->name, lacks->verb,
-                  lacks->object, fmt::join(names_where(lacks->had), " or "));
+      Error error =
+          fail(ErrorCode::usage, "the {} does not {} {}.", choice.row->name, lacks->verb, lacks->object);
+      for (const std::string_view name : names_where(lacks->had))
+        error.remedies.push_back(use_backend(std::string(name)));
+      return error;
     }
   } else if (names_where([&](const BackendRow& row) { return !lacking(row, choice); }).empty()) {
     std::vector<std::string> wishes;
@@ -349,10 +352,10 @@ Status check_choice(const BackendChoice& choice) {
     return !lacking(row, choice) && has_path(row, choice.force_path);
   };
   if (choice.row ? possible(*choice.row) : std::ranges::any_of(table, possible)) return {};
-  const std::string with_path = fmt::format(
-      "{}", fmt::join(names_where([](const BackendRow& row) { return !row.force_paths().empty(); }), " or "));
-  return fail(ErrorCode::usage, "a force path belongs to the {0} backend; omit it or use --backend {0}.",
-              with_path);
+  const std::string with_path(
+      names_where([](const BackendRow& row) { return !row.force_paths().empty(); }).front());
+  return advised(fail(ErrorCode::usage, "a force path belongs to the {} backend.", with_path),
+                 {advice("omit it"), use_backend(with_path)});
 }
 
 Result<Backend> make_backend(const BackendChoice& choice, SharedModel model, const SolverHost& host) {
@@ -362,9 +365,9 @@ Result<Backend> make_backend(const BackendChoice& choice, SharedModel model, con
   const BackendRow& row = choice.row ? *choice.row : *automatic.row;
   if (choice.force_path != ForcePath::automatic && !has_path(row, choice.force_path)) {
     const auto names = names_where([&](const BackendRow& r) { return has_path(r, choice.force_path); });
-    return fail(ErrorCode::no_device,
-                "the force path {0} needs the {1} backend, but {2}. Use --backend {1} to accept any device.",
-                name_of(choice.force_path), names.front(), automatic.reason);
+    return advised(fail(ErrorCode::no_device, "the force path {} needs the {} backend, but {}.",
+                        name_of(choice.force_path), names.front(), automatic.reason),
+                   {use_backend(std::string(names.front()))});
   }
   SolverHost place = host;
   if (automatic.context) place.context = automatic.context.get();

@@ -15,10 +15,11 @@ namespace aspic {
 Result<Difference> parse_difference(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-    return fail(ErrorCode::usage,
-                "--beside {}: a difference is KEY=VALUE, such as integrator=implicit-euler, h=0.002, k=500, "
-                "backend=reference or any key of --set.",
-                printable_line(text));
+    return fail(
+        ErrorCode::usage,
+        "\"{}\" is no difference: it is KEY=VALUE, such as integrator=implicit-euler, h=0.002, k=500, "
+        "backend=reference or any key of the scene.",
+        printable_line(text));
   return Difference{text.substr(0, equals), text.substr(equals + 1)};
 }
 
@@ -26,14 +27,14 @@ Result<std::vector<Variant>> variants_of(const Scene& scene, const BackendChoice
                                          const std::vector<Difference>& differences) {
   if (differences.size() >= most_compared)
     return fail(ErrorCode::usage,
-                "--beside is given {} times; at most {} runs are compared with the scene's own.",
+                "{} differences are given; at most {} runs are compared with the scene's own.",
                 differences.size(), most_compared - 1);
   std::vector<Variant> runs = {{scene, backend}};
   for (const Difference& difference : differences) {
     auto run = varied(scene, backend, std::span(&difference, 1));
     if (!run) {
-      return fail(run.error().code, "the variant {}={} cannot be run:\n{}", printable_line(difference.key),
-                  printable_line(difference.value), run.error().message);
+      return fail(run.error(), "the variant {}={} cannot be run:\n{}", printable_line(difference.key),
+                  printable_line(difference.value), run.error().what);
     }
     runs.push_back(std::move(*run));
   }

@@ -110,7 +110,7 @@ std::unique_ptr<Drawers> Drawers::start(const DrawingWork& work, const std::stri
   for (unsigned i = 0; i < count; ++i) {
     auto drawer = start_one(work, message, d->layout_);
     if (!drawer) {
-      print_warning(fmt::format("{} of {} processes draw pictures: {}", i, count, drawer.error().message));
+      print_warning(fmt::format("{} of {} processes draw pictures: {}", i, count, drawer.error().what));
       break;
     }
     d->drawers_.push_back(std::move(*drawer));

@@ -26,12 +26,14 @@ Status check_pictures(const PictureOutput& output, double timestep, std::uint64_
                       std::uint64_t last_step) {
   if (!output.any() && output.page.empty()) return {};
   const double fps = frames_per_second(output);
-  if (FrameSchedule(timestep, first_step, last_step, fps, output.speed).count() <= most_pictures) return {};
-  return fail(
-      ErrorCode::usage,
-      "--speed {} and --fps {} make more than {} pictures of this run: choose a larger speed or fewer "
-      "pictures per second.",
-      output.speed, fps, most_pictures);
+  const std::uint64_t count = FrameSchedule(timestep, first_step, last_step, fps, output.speed).count();
+  if (count <= most_pictures) return {};
+  const double excess = 1.01 * static_cast<double>(count) / static_cast<double>(most_pictures);
+  return advised(
+      fail(ErrorCode::usage, "speed {} and {} pictures per second make more than {} pictures of this run.",
+           output.speed, fps, most_pictures),
+      {{RemedyKind::raise_speed, {fmt::format("{:.3g}", output.speed * excess)}},
+       {RemedyKind::lower_fps, {fmt::format("{:.3g}", fps / excess)}}});
 }
 
 struct Recorder::Parts {
@@ -83,8 +85,8 @@ Result<std::unique_ptr<Recorder>> Recorder::create(const PictureOutput& output, 
   if (!there) {
     auto context = gl::Context::create_headless();
     if (!context)
-      return Error{context.error().code,
-                   "pictures need an OpenGL device; a software one is enough. " + context.error().message};
+      return fail(context.error(), "pictures need an OpenGL device; a software one is enough. {}",
+                  context.error().what);
     parts->own_context = std::move(*context);
     there = parts->own_context.get();
   }

@@ -13,7 +13,7 @@ namespace aspic::diagnostics {
 
 /// Where something was written.
 struct Position {
-  std::uint32_t source = 0;  ///< 0: the file; i > 0: the i-th --set argument
+  std::uint32_t source = 0;  ///< 0: the file; i > 0: the i-th argument
   std::uint32_t line = 1;    ///< from 1
   std::uint32_t column = 1;  ///< from 1, in characters
   // clang-tidy 14 takes the 0 that a rewritten < compares with for a pointer.
@@ -29,7 +29,7 @@ struct Problem {
 
 /// A text that problems point into.
 struct Source {
-  std::string label;  ///< the file's name; for an argument the complete `--set KEY=VALUE`
+  std::string label;  ///< the file's name; for an argument `KEY=VALUE` after its origin
   std::string text;
   enum Kind { file, argument, none } kind = file;  ///< none: a scene that was not read from text
 };

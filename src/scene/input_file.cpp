@@ -168,7 +168,7 @@ void InputReader::add_named(const toml::node& node, const std::string& name,
       if (row.pins && name.starts_with(body + ".")) {
         const PinnedSettings wanted = {{name.substr(body.size() + 1)}, {}};
         const auto found = pinned_particles(*row.pins, wanted, row.lattice(run_.settings, i));
-        if (!found) return fail(node.source(), fmt::format("{}: {}", body, found.error().message));
+        if (!found) return fail(node.source(), fmt::format("{}: {}", body, found.error().what));
         for (std::size_t local = 0; local < found->size(); ++local)
           if ((*found)[local]) particles.push_back(static_cast<std::uint32_t>(first + local));
         return;
@@ -241,9 +241,9 @@ void InputReader::read_entry(const toml::table& table, InputLog& log) {
   if (problems_.size() > before || !step) return;
   if (const auto taken = rounded_inputs(run_.model, inputs, Precision::double_); !taken) {
     const auto key = std::ranges::find_if(
-        keys, [&](std::string_view word) { return taken.error().message.starts_with(word); });
+        keys, [&](std::string_view word) { return taken.error().what.starts_with(word); });
     const bool written = key != std::end(keys) && table.contains(*key);
-    return fail(written ? table.get(*key)->source() : table.source(), taken.error().message);
+    return fail(written ? table.get(*key)->source() : table.source(), taken.error().what);
   }
   log.set(static_cast<std::uint64_t>(*step), std::move(inputs));
 }

@@ -28,10 +28,10 @@ std::string known_scenes(std::string_view name) {
 }
 
 Result<Scene> with_arguments(reader::Reader reader, std::vector<diagnostics::Source> sources,
-                             std::span<const std::string> overrides, const LoadLimits& limits,
+                             std::span<const std::string> overrides, const LoadOptions& options,
                              decltype(overrides::apply) apply = overrides::apply) {
-  apply(overrides, reader, sources);
-  auto problems = reader.problems(limits.memory_bytes ? limits.memory_bytes : available_memory());
+  apply({overrides, options.origin}, reader, sources);
+  auto problems = reader.problems(options.memory_bytes ? options.memory_bytes : available_memory());
   if (!problems.empty()) return diagnostics::rejection(sources, std::move(problems));
   return std::move(reader.scene());
 }
@@ -48,7 +48,7 @@ std::string_view first_comment(std::string_view text) {
 }  // namespace
 
 Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
-                          std::span<const std::string> overrides, const LoadLimits& limits) {
+                          std::span<const std::string> overrides, const LoadOptions& options) {
   const auto parsed = document::parse(text, 0);
   std::vector<diagnostics::Source> sources = {{file_name, std::string(text)}};
   if (const auto* problem = std::get_if<diagnostics::Problem>(&parsed))
@@ -57,25 +57,26 @@ Result<Scene> parse_scene(std::string_view text, const std::string& file_name,
   reader.read_table(std::get<toml::table>(parsed), "", 0, 0);
   if (!reader.written().contains("name"))
     reader.scene().name = std::filesystem::path(file_name).stem().string();
-  return with_arguments(std::move(reader), std::move(sources), overrides, limits);
+  return with_arguments(std::move(reader), std::move(sources), overrides, options);
 }
 
-Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides, const LoadLimits& limits) {
+Result<Scene> with_overrides(Scene scene, std::span<const std::string> overrides,
+                             const LoadOptions& options) {
   std::vector<diagnostics::Source> sources = {{scene.name, "", diagnostics::Source::none}};
-  return with_arguments({std::move(scene), false}, std::move(sources), overrides, limits);
+  return with_arguments({std::move(scene), false}, std::move(sources), overrides, options);
 }
 
-Result<Scene> with_view(Scene scene, std::span<const std::string> arguments, const LoadLimits& limits) {
+Result<Scene> with_view(Scene scene, std::span<const std::string> arguments, const LoadOptions& options) {
   if (arguments.empty()) return scene;
   std::vector<diagnostics::Source> sources = {{scene.name, "", diagnostics::Source::none}};
-  return with_arguments({std::move(scene), false}, std::move(sources), arguments, limits,
+  return with_arguments({std::move(scene), false}, std::move(sources), arguments, options,
                         overrides::apply_view);
 }
 
 Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std::string> overrides,
-                         const LoadLimits& limits) {
+                         const LoadOptions& options) {
   if (const auto text = builtin_scene_text(file_or_builtin)) {
-    return parse_scene(*text, file_or_builtin + ".toml", overrides, limits);
+    return parse_scene(*text, file_or_builtin + ".toml", overrides, options);
   }
   std::error_code error;
   if (!std::filesystem::exists(file_or_builtin, error)) {
@@ -89,12 +90,12 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
   }
   const auto start = read_regular_file(file_or_builtin, checkpoint_mark.size());
   if (start && start->content == checkpoint_mark) {
-    return fail(ErrorCode::scene_rejected,
-                "{0}: this is a checkpoint, not a scene; aspic run --resume {0} continues its run.",
-                printable_line(file_or_builtin));
+    const std::string name = printable_line(file_or_builtin);
+    return advised(fail(ErrorCode::scene_rejected, "{}: this is a checkpoint, not a scene.", name),
+                   {{RemedyKind::resume, {name}}});
   }
   ASPIC_TRY(auto text, read_file(file_or_builtin));
-  return parse_scene(text, file_or_builtin, overrides, limits);
+  return parse_scene(text, file_or_builtin, overrides, options);
 }
 
 std::vector<BuiltinScene> list_builtin_scenes() {

@@ -98,27 +98,25 @@ std::string advice_on(std::string_view value, std::string_view unit) {
                       : fmt::format("write the number alone, in {}", unit);
 }
 
-/// Where arguments come from.
-struct Origin {
-  std::string_view option;  ///< "--set"
-  std::string_view table;   ///< that the keys are in; empty: the scene itself
+/// What arguments are about.
+struct Keys {
+  std::string_view table;  ///< that the keys are in; empty: the scene itself
   std::string_view example;
 };
-constexpr Origin set = {"--set", "", "simulation.timestep=0.002"}, view = {"--view", "view", "colour=strain"};
+constexpr Keys of_scene = {"", "simulation.timestep=0.002"}, of_view = {"view", "colour=strain"};
 
 /// One argument on its way into the scene.
 class Argument {
  public:
-  Argument(const Origin& origin, const std::string& text, std::uint32_t source, Reader& reader)
-      : origin_(origin), text_(text), source_(source), reader_(reader) {}
+  Argument(const Keys& keys, const std::string& text, std::uint32_t source, Reader& reader)
+      : keys_(keys), text_(text), source_(source), reader_(reader) {}
 
   void apply() {
     const std::size_t equals = text_.find('=');
     if (equals == std::string::npos) {
-      return fail(1,
-                  fmt::format("an argument of {} is KEY=VALUE, such as {}", origin_.option, origin_.example));
+      return fail(1, fmt::format("an argument is KEY=VALUE, such as {}", keys_.example));
     }
-    if (!origin_.table.empty()) segments_.push_back({std::string(origin_.table), {}, 1});
+    if (!keys_.table.empty()) segments_.push_back({std::string(keys_.table), {}, 1});
     if (!parse_key(std::string_view(text_).substr(0, equals))) return;
     if (!parse_value(equals)) return;
     read();
@@ -218,7 +216,7 @@ class Argument {
     if (const ShortKey* const row = segments_.size() == 1 ? find_short_key(name) : nullptr) {
       const auto targets = row->targets(reader_.scene());
       return fmt::format(
-          "'{}' is a short name of --beside and aspic sweep --vary; --set takes a key of the scene{}", name,
+          "'{}' is a short name for comparisons and sweeps; here is a key of the scene needed{}", name,
           targets.empty() ? "" : fmt::format(", such as '{}'", targets.front().path));
     }
     // The end of a key alone, `shear.stiffness`.
@@ -286,7 +284,7 @@ class Argument {
     return false;
   }
 
-  const Origin& origin_;
+  const Keys& keys_;
   const std::string& text_;
   std::uint32_t source_;
   Reader& reader_;
@@ -338,7 +336,7 @@ void resolve_material(Reader& reader, std::size_t cube, bool had_material) {
   if (set_material && set_explicit) {
     reader.fail(std::max(*set_material, *set_explicit,
                          [](const Position& a, const Position& b) { return a.source < b.source; }),
-                "a cube has either a material or masses and springs: --set gives both");
+                "a cube has either a material or masses and springs: these arguments give both");
   } else if (set_explicit) {
     reader.fail(*set_explicit,
                 "this cube is made of a material, which decides its masses and springs; set "
@@ -363,16 +361,17 @@ void resolve_shape(Reader& reader, std::size_t terrain) {
   }
 }
 
-void apply_from(const Origin& origin, std::span<const std::string> arguments, Reader& reader,
-                std::vector<diagnostics::Source>& sources) {
+void apply_to(const Keys& keys, const Arguments& arguments, Reader& reader,
+              std::vector<diagnostics::Source>& sources) {
   const auto& cubes = reader.scene().model.cubes;
   std::vector<bool> had_material;
   for (const CubeSettings& cube : cubes) had_material.push_back(cube.material.has_value());
-  for (const std::string& argument : arguments) {
+  for (const std::string& argument : arguments.texts) {
     const auto source = static_cast<std::uint32_t>(sources.size());
-    sources.push_back(
-        {fmt::format("{} {}", origin.option, argument), argument, diagnostics::Source::argument});
-    Argument(origin, argument, source, reader).apply();
+    const std::string& origin = arguments.origin;
+    sources.push_back({origin.empty() ? argument : fmt::format("{} {}", origin, argument), argument,
+                       diagnostics::Source::argument});
+    Argument(keys, argument, source, reader).apply();
   }
   for (std::size_t c = 0; c < cubes.size(); ++c) {
     resolve_material(reader, c, had_material[c]);
@@ -384,14 +383,12 @@ void apply_from(const Origin& origin, std::span<const std::string> arguments, Re
 
 }  // namespace
 
-void apply(std::span<const std::string> arguments, Reader& reader,
-           std::vector<diagnostics::Source>& sources) {
-  apply_from(set, arguments, reader, sources);
+void apply(const Arguments& arguments, Reader& reader, std::vector<diagnostics::Source>& sources) {
+  apply_to(of_scene, arguments, reader, sources);
 }
 
-void apply_view(std::span<const std::string> arguments, Reader& reader,
-                std::vector<diagnostics::Source>& sources) {
-  apply_from(view, arguments, reader, sources);
+void apply_view(const Arguments& arguments, Reader& reader, std::vector<diagnostics::Source>& sources) {
+  apply_to(of_view, arguments, reader, sources);
 }
 
 }  // namespace aspic::overrides

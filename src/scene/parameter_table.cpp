@@ -40,7 +40,7 @@ Rows simulation_rows() {
                             "Time integration method."),
       row("simulation.timestep", "s", {0.0, 1.0, true}, FIELD(model.simulation.timestep), "Time step h."),
       row("simulation.duration", "s", {0.0, longest}, FIELD(model.simulation.duration),
-          "Simulated time of a run when neither --steps nor --duration is given."),
+          "Simulated time of a run that is given neither steps nor a duration."),
       row("simulation.gravity", "m/s²", within(1e4), FIELD(model.simulation.gravity),
           "Gravitational acceleration g."),
       row("simulation.steps-per-frame", "", {1, 100000}, FIELD(model.simulation.steps_per_frame),

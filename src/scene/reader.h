@@ -76,15 +76,20 @@ class Reader {
 
 namespace aspic::overrides {
 
-/// Reads each KEY=VALUE argument of --set into the reader's scene, in order, and adds one source for each.
+/// KEY=VALUE arguments.
+struct Arguments {
+  std::span<const std::string> texts;
+  const std::string& origin;  ///< what messages put before each: the option that it was given by, or nothing
+};
+
+/// Reads each argument into the reader's scene, in order, and adds one source for each.
 ///
 /// A `material` key takes the place of the scene's masses and springs; masses and springs take the place of
 /// the scene's material only if all seven are given. A new terrain shape takes the place of geometry keys it
 /// does not have.
-void apply(std::span<const std::string> arguments, reader::Reader& reader,
-           std::vector<diagnostics::Source>& sources);
-/// The same for arguments of --view.
-void apply_view(std::span<const std::string> arguments, reader::Reader& reader,
+void apply(const Arguments& arguments, reader::Reader& reader, std::vector<diagnostics::Source>& sources);
+/// The same for keys of the table `view`, without its name.
+void apply_view(const Arguments& arguments, reader::Reader& reader,
                 std::vector<diagnostics::Source>& sources);
 
 }  // namespace aspic::overrides

@@ -14,12 +14,12 @@
 namespace aspic {
 namespace {
 
-std::string section_heading(std::string_view section) {
+std::string section_heading(std::string_view section, std::string_view option) {
   if (section.empty()) return "## Top of the file\n\n";
   std::string heading = fmt::format("## `{}`\n\n", diagnostics::table_text(section));
   if (section.ends_with("[]")) {
-    heading +=
-        fmt::format("Repeatable. `--set` counts from 0: `{}[0]`.\n\n", section.substr(0, section.size() - 2));
+    heading += fmt::format("Repeatable. `{}` counts from 0: `{}[0]`.\n\n", option,
+                           section.substr(0, section.size() - 2));
   }
   return heading;
 }
@@ -59,28 +59,29 @@ std::string table_row(const Parameter& p) {
 
 }  // namespace
 
-std::string scene_reference() {
-  std::string page =
+std::string scene_reference(std::string_view option) {
+  std::string page = fmt::format(
       "# Scene file reference\n\n"
       "A scene is one TOML file. This page is generated from the program's parameter table: every key, what "
       "it means,\n"
       "what is allowed and the default. Units are SI. Every key can be set on the command "
       "line as well,\n"
-      "by its path: `--set simulation.timestep=0.002`, `--set cube[0].shear.stiffness=10`, `--set "
+      "by its path: `{0} simulation.timestep=0.002`, `{0} cube[0].shear.stiffness=10`, `{0} "
       "contact.model=course`,\n"
-      "`--set 'cube[0].pinned=[\"top\", 3]'`. A value is written as in the file; a single word needs no "
+      "`{0} 'cube[0].pinned=[\"top\", 3]'`. A value is written as in the file; a single word needs no "
       "quotation marks.\n"
       "A key marked *live* may change while a simulation runs; changing any other restarts it.\n\n"
       "A part that is not in the file is not in the scene: without `[[cube]]` there is no cube. Inner tables "
       "may be written\n"
-      "inline, `shear = { stiffness = 2000.0, damping = 60.0 }`, or as separate tables.\n\n";
+      "inline, `shear = {{ stiffness = 2000.0, damping = 60.0 }}`, or as separate tables.\n\n",
+      option);
   std::string_view section = "-";
   for (const Parameter& p : parameters()) {
     if (p.section() != section) {
       section = p.section();
       if (!page.ends_with("\n\n")) page += '\n';
-      page +=
-          section_heading(section) + "| key | meaning | allowed | default | live |\n|---|---|---|---|---|\n";
+      page += section_heading(section, option) +
+              "| key | meaning | allowed | default | live |\n|---|---|---|---|---|\n";
     }
     page += table_row(p);
   }

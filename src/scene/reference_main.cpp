@@ -5,7 +5,7 @@
 #include "scene/reference.h"
 
 int main() {
-  const std::string page = aspic::scene_reference();
+  const std::string page = aspic::scene_reference("--set");
   const bool written =
       std::fwrite(page.data(), 1, page.size(), stdout) == page.size() && std::fflush(stdout) == 0;
   return written ? 0 : 6;

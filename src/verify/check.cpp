@@ -90,7 +90,7 @@ Row evaluate(const Check& check, const Subject& subject) {
   const auto started = std::chrono::steady_clock::now();
   const auto finding = check.run(subject);
   row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  row.measured = finding ? finding->measured : finding.error().message;
+  row.measured = finding ? finding->measured : worded(finding.error(), FrontEnd::command_line);
   if (finding && finding->passed) row.verdict = Verdict::passed;
   return row;
 }

@@ -30,7 +30,7 @@ TEST_P(Probe, FindsTheLimitOfTheory) {
   ASSERT_TRUE(limit.step && limit.exact);
   const auto found =
       measured_limit(model, probe_start(model), reference, *limit.step / 8, *limit.step * 8, 0.01, 480);
-  ASSERT_TRUE(found.ok()) << found.error().message;
+  ASSERT_TRUE(found.ok()) << found.error().message();
   EXPECT_NEAR(*found / *limit.step, 1.0, 0.02);
 }
 

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 TEST(Arithmetic, NumbersAndTheirCombinations) {
   const auto value = [](const char* text) {
     const auto result = evaluate(text);
-    EXPECT_TRUE(result.ok()) << text << ": " << (result.ok() ? "" : result.error().message);
+    EXPECT_TRUE(result.ok()) << text << ": " << (result.ok() ? "" : result.error().message());
     return result.ok() ? *result : -12345.0;
   };
   EXPECT_EQ(value("9.8"), 9.8);
@@ -41,9 +41,9 @@ TEST(Arithmetic, ErrorsSayWhatAndWhere) {
     const auto result = evaluate(text);
     ASSERT_FALSE(result.ok()) << text;
     EXPECT_EQ(result.error().code, ErrorCode::usage);
-    EXPECT_THAT(result.error().message, HasSubstr(what)) << text;
-    EXPECT_TRUE(result.error().message.ends_with(fmt::format("\n{}\n{:>{}}", text, "^", column + 1)))
-        << result.error().message;
+    EXPECT_THAT(result.error().message(), HasSubstr(what)) << text;
+    EXPECT_TRUE(result.error().message().ends_with(fmt::format("\n{}\n{:>{}}", text, "^", column + 1)))
+        << result.error().message();
   };
   wrong("", "number is missing", 0);
   wrong("2*", "number is missing", 2);
@@ -57,8 +57,8 @@ TEST(Arithmetic, ErrorsSayWhatAndWhere) {
   wrong("1/ 0", "divides by 0", 3);
   wrong("1e999", "too large", 0);
   wrong("1e300*1e300", "finite", 0);
-  EXPECT_THAT(evaluate(std::string(200, '(')).error().message, HasSubstr("too many"));
-  EXPECT_THAT(evaluate(std::string(200, '-') + "1").error().message, HasSubstr("too many"));
+  EXPECT_THAT(evaluate(std::string(200, '(')).error().message(), HasSubstr("too many"));
+  EXPECT_THAT(evaluate(std::string(200, '-') + "1").error().message(), HasSubstr("too many"));
   EXPECT_TRUE(evaluate(std::string(90, '(') + "1" + std::string(90, ')')).ok());
 }
 

@@ -90,7 +90,7 @@ class Events : public Stage {
   }
   void keep(const app::KeptState& kept) {
     const Status saved = app::save_kept_state(kept, app::kept_state_path());
-    ASSERT_TRUE(saved.ok()) << saved.error().message;
+    ASSERT_TRUE(saved.ok()) << saved.error().message();
   }
   /// Starts aspic-view on cube-plane and waits for its window, which gets the keyboard.
   void start(std::vector<std::string> words = {}) {
@@ -359,7 +359,7 @@ TEST_F(Events, SizeAndLayoutAreKeptAndABrokenFileIsToldOfOnce) {
   EXPECT_NE(first, std::string::npos) << said;
   EXPECT_EQ(said.find("window.json", first + 1), std::string::npos) << said;
   const auto left = app::load_kept_state(app::kept_state_path());
-  ASSERT_TRUE(left.ok()) << left.error().message;
+  ASSERT_TRUE(left.ok()) << left.error().message();
   EXPECT_FALSE(left->layout.panels);
   start();
   catch_up();

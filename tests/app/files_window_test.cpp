@@ -120,7 +120,7 @@ TEST_F(Files, SavedSceneHoldsChangesAndCamera) {
   drag(GLFW_MOUSE_BUTTON_LEFT, middle_x(), middle_y(), 90, -30);
   app().scene.save_as("saved.toml");
   const auto saved = load_scene((directory() / "saved.toml").string());
-  ASSERT_TRUE(saved.ok()) << saved.error().message;
+  ASSERT_TRUE(saved.ok()) << saved.error().message();
   EXPECT_EQ(saved->model.cubes[0].shear.stiffness, 1234.5);
   EXPECT_EQ(saved->view.camera, app().view.camera.goal());
   app().scene.save_as("saved.toml");

@@ -81,7 +81,7 @@ class Film : public Stage {
   }
   std::string file(const std::string& name) {
     const auto content = read_file((directory() / name).string());
-    EXPECT_TRUE(content.ok()) << content.error().message;
+    EXPECT_TRUE(content.ok()) << content.error().message();
     return content.ok() ? *content : "";
   }
   /// Films with a page of the film's states next to it.

@@ -38,13 +38,13 @@ class Gallery : public Stage {
         << app().messages.notice()->text;
     const Image picture = image();
     const auto file = encode_jpeg({picture.width, picture.height}, picture.rgb);
-    ASSERT_TRUE(file.ok()) << file.error().message;
+    ASSERT_TRUE(file.ok()) << file.error().message();
     EXPECT_GT(file->size(), 60000u);
     const char* const wanted = std::getenv("ASPIC_WINDOW_PICTURES");
     const std::filesystem::path path =
         (wanted ? std::filesystem::path(wanted) : directory()) / (name + ".jpg");
     auto out = AtomicFile::create(path.string(), Overwrite::allow);
-    ASSERT_TRUE(out.ok()) << out.error().message;
+    ASSERT_TRUE(out.ok()) << out.error().message();
     ASSERT_TRUE(out->write(*file).ok());
     ASSERT_TRUE(out->commit().ok());
   }

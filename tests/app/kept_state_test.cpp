@@ -36,10 +36,10 @@ KeptState unusual() {
 
 TEST(KeptState, ComesBackAsItWasWritten) {
   const auto read = read_kept_state(to_text(unusual()));
-  ASSERT_TRUE(read.ok()) << read.error().message;
+  ASSERT_TRUE(read.ok()) << read.error().message();
   EXPECT_EQ(*read, unusual());
   const auto first = read_kept_state(to_text(KeptState()));
-  ASSERT_TRUE(first.ok()) << first.error().message;
+  ASSERT_TRUE(first.ok()) << first.error().message();
   EXPECT_EQ(*first, KeptState());
 }
 
@@ -49,7 +49,7 @@ std::string with(const std::string& member) {
 
 TEST(KeptState, WhatIsNotSaidIsAsAtTheFirstTime) {
   const auto read = read_kept_state(with(R"("layout": {"text_size": 2}, "film": {"format": "gif"})"));
-  ASSERT_TRUE(read.ok()) << read.error().message;
+  ASSERT_TRUE(read.ok()) << read.error().message();
   KeptState expected;
   expected.layout.text_size = 2.0;
   expected.film_format = find_film_format("gif");
@@ -87,7 +87,7 @@ TEST(KeptState, WhatTheWindowWouldNotWriteIsNamed) {
   for (const auto& [text, word] : cases) {
     const auto read = read_kept_state(text);
     ASSERT_FALSE(read.ok()) << text;
-    EXPECT_THAT(read.error().message, testing::HasSubstr(word)) << text;
+    EXPECT_THAT(read.error().message(), testing::HasSubstr(word)) << text;
   }
 }
 
@@ -133,7 +133,7 @@ TEST_F(KeptFile, IsMissingAtFirstThenWrittenAndRead) {
   EXPECT_EQ(*read, KeptState());
   ASSERT_TRUE(save_kept_state(unusual(), path).ok());
   read = load_kept_state(path);
-  ASSERT_TRUE(read.ok()) << read.error().message;
+  ASSERT_TRUE(read.ok()) << read.error().message();
   EXPECT_EQ(*read, unusual());
   ASSERT_TRUE(save_kept_state(KeptState(), path).ok()) << "written over";
   EXPECT_EQ(*load_kept_state(path), KeptState());
@@ -145,7 +145,7 @@ TEST_F(KeptFile, ABrokenOneIsToldOfByName) {
   std::ofstream(path) << "\x7f\x45LF is no layout";
   const auto read = load_kept_state(path);
   ASSERT_FALSE(read.ok());
-  EXPECT_THAT(read.error().message, testing::HasSubstr(path));
+  EXPECT_THAT(read.error().message(), testing::HasSubstr(path));
   EXPECT_TRUE(save_kept_state(unusual(), path).ok());
   EXPECT_TRUE(load_kept_state(path).ok());
   EXPECT_TRUE(save_kept_state(unusual(), "").ok()) << "nowhere to keep it is no error";
@@ -158,7 +158,7 @@ TEST_F(KeptFile, TheFormerVersionIsToldOfByNameAndReplaced) {
   std::ofstream(former) << "version = 1\n";
   const auto read = load_kept_state(path);
   ASSERT_FALSE(read.ok());
-  EXPECT_THAT(read.error().message, testing::HasSubstr(former.string()));
+  EXPECT_THAT(read.error().message(), testing::HasSubstr(former.string()));
   ASSERT_TRUE(save_kept_state(unusual(), path).ok());
   EXPECT_FALSE(std::filesystem::exists(former));
   EXPECT_EQ(*load_kept_state(path), unusual());

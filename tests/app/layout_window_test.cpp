@@ -123,7 +123,7 @@ TEST_F(Layout, PanelsAndCameraComeBackAsTheyWereLeft) {
   close();
 
   const auto read = app::read_kept_state(app::to_text(kept));
-  ASSERT_TRUE(read.ok()) << read.error().message;
+  ASSERT_TRUE(read.ok()) << read.error().message();
   open("cube-sphere", {}, "", *read);
   EXPECT_EQ(app().view.camera.shown(), sphere) << "to the bit";
   EXPECT_NEAR(app().view.box.left, left, 1e-9);
@@ -196,7 +196,7 @@ TEST_F(Layout, ComesBackAsItWasLeftHoweverItIsChosen) {
   frames(1);
   EXPECT_TRUE(has("contact.model"));
   const auto read = app::read_kept_state(app::to_text(app().kept_state()));
-  ASSERT_TRUE(read.ok()) << read.error().message;
+  ASSERT_TRUE(read.ok()) << read.error().message();
   EXPECT_EQ(read->layout, app().layout);
   bring_into_sight("layout/name");
   click("layout/name");

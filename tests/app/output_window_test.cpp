@@ -43,7 +43,7 @@ TEST_P(OutputOn, AStateReadsBackToItsHash) {
   save("state.csv");
   EXPECT_FALSE(app().messages.notice()->is_error) << app().messages.notice()->text;
   const auto state = test::read_state_csv(path("aspic-cube-plane-0001.csv"), Precision::single);
-  ASSERT_TRUE(state.ok()) << state.error().message;
+  ASSERT_TRUE(state.ok()) << state.error().message();
   EXPECT_EQ(state_hash_text(*state), state_hash_text(simulation().snapshot()));
   EXPECT_EQ(state_hash_text(*state), reference_hash(app().scene.editor().scene(), simulation().step()));
 }
@@ -52,10 +52,10 @@ TEST_P(OutputOn, ACheckpointGoesOnAsTheWindowDoes) {
   open_falling(GetParam());
   save("checkpoint.aspic");
   const auto checkpoint = read_checkpoint(path("aspic-cube-plane-0001.aspic"));
-  ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message;
+  ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message();
   EXPECT_EQ(checkpoint->state.step, simulation().step());
   const auto scene = parse_scene(checkpoint->scene, "checkpoint");
-  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  ASSERT_TRUE(scene.ok()) << scene.error().message();
   const auto model = build_model(scene->model);
   ASSERT_TRUE(model.ok());
   const auto solver = make_reference_solver(*model, Precision::single);
@@ -93,7 +93,7 @@ TEST_P(OutputOn, InputsRepeatTheRun) {
   const Scene& scene = app().scene.editor().scene();
   const SharedModel model = shared(std::move(build_model(scene.model)).value());
   const auto log = read_inputs(path("aspic-cube-plane-0001-inputs.toml"), {scene.model, *model});
-  ASSERT_TRUE(log.ok()) << log.error().message;
+  ASSERT_TRUE(log.ok()) << log.error().message();
   EXPECT_EQ(log->entries().size(), 4u);
   const auto solver = std::move(make_reference_solver(model, Precision::single)).value();
   ASSERT_FALSE((*advance(*solver, *log, 0, end)).has_value());
@@ -101,9 +101,9 @@ TEST_P(OutputOn, InputsRepeatTheRun) {
 
   // The checkpoint has the inputs up to its step, and the pull and the pin go on.
   const auto checkpoint = read_checkpoint(path("aspic-cube-plane-0001.aspic"));
-  ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message;
+  ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message();
   const auto kept = parse_inputs(checkpoint->inputs, "checkpoint", {scene.model, *model});
-  ASSERT_TRUE(kept.ok()) << kept.error().message;
+  ASSERT_TRUE(kept.ok()) << kept.error().message();
   InputLog so_far = *log;
   so_far.forget_from(between);
   EXPECT_EQ(*kept, so_far);
@@ -145,7 +145,7 @@ TEST_F(Output, ASeriesHasARowForEachPointOfThePlot) {
   open_falling("reference");
   save("series.csv");
   const auto text = read_file(path("aspic-cube-plane-0001.csv"));
-  ASSERT_TRUE(text.ok()) << text.error().message;
+  ASSERT_TRUE(text.ok()) << text.error().message();
   EXPECT_THAT(*text, testing::StartsWith(std::string(series_csv_header) + "\n0,0,"));
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(*text, '\n')),
             simulation().samples().energies().size() + 1);

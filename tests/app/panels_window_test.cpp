@@ -488,7 +488,7 @@ TEST_F(Panels, NewBodiesStandBesideOthersAndAboveTheGroundAndAreSaved) {
   const std::string path = (directory() / "bodies.toml").string();
   app().scene.save_as(path);
   const auto saved = load_scene(path);
-  ASSERT_TRUE(saved.ok()) << saved.error().message;
+  ASSERT_TRUE(saved.ok()) << saved.error().message();
   EXPECT_EQ(effect_between(*saved, app().scene.scene()), Effect::none);
   for (int i = 0; i < 10; ++i) press(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   EXPECT_EQ(settings().cubes.size(), 1u);

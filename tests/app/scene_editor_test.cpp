@@ -94,7 +94,7 @@ TEST(SceneEditor, EditsGoThroughNoText) {
   ASSERT_NE(by_text->name, named.name);  // text cannot hold it, and is written with an escape instead
   ASSERT_TRUE(editor.apply(named, "name", "").ok());
   const auto effect = editor.set(key("simulation.timestep"), 0, Value(0.002), "");
-  ASSERT_TRUE(effect.ok()) << effect.error().message;
+  ASSERT_TRUE(effect.ok()) << effect.error().message();
   EXPECT_EQ(*effect, Effect::constants);
   EXPECT_EQ(editor.scene().name, named.name);
 }
@@ -116,7 +116,7 @@ TEST(SceneEditor, RefusesInASentencePerComplaint) {
   wrong.model.cubes[0].pinned.indices = {1000};
   const auto refused = editor.apply(wrong, "wrong", "");
   ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().message,
+  EXPECT_EQ(refused.error().message(),
             "'cube.edge-length' is out of range: -1; allowed: a number > 0 and ≤ 1e6 m\n"
             "'cube.pinned' index 1000 is not in the cube; allowed: 0 … 999");
 }

@@ -27,7 +27,7 @@ void Stage::SetUp() {
   std::filesystem::current_path(directory());
   const auto [width, height] = window_size();
   auto window = app::Window::create(width, height, "test");
-  ASSERT_TRUE(window.ok()) << window.error().message;
+  ASSERT_TRUE(window.ok()) << window.error().message();
   window_ = std::move(*window);
   window_->context().set_message_sink([this](const gl::DebugMessage& message) {
     if (message.severe) severe_.push_back(message.text);
@@ -70,7 +70,7 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
                                 .full_quality = full_quality(),
                                 .watcher = &log_},
                                1.0, services);
-  ASSERT_TRUE(made.ok()) << made.error().message;
+  ASSERT_TRUE(made.ok()) << made.error().message();
   app_ = std::move(*made);
   window_->set_receiver(app_.get());
   frames(2);
@@ -78,7 +78,7 @@ void Stage::open(const std::string& scene, std::vector<std::string> overrides, s
 
 void Stage::frame(double apart) {
   const Status drawn = app_->frame(window_->size(), apart);
-  ASSERT_TRUE(drawn.ok()) << drawn.error().message;
+  ASSERT_TRUE(drawn.ok()) << drawn.error().message();
   window_->show_picture();
 }
 
@@ -95,7 +95,7 @@ void Stage::lose_device(std::uint64_t chance) {
     if (drawn) continue;
     ASSERT_TRUE(context().lost());
     auto other = app::replace_window(*app_, std::move(window_), drawn.error());
-    ASSERT_TRUE(other.ok()) << other.error().message;
+    ASSERT_TRUE(other.ok()) << other.error().message();
     window_ = std::move(*other);
     return;
   }

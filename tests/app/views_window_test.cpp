@@ -50,7 +50,7 @@ class Views : public Stage, public ::testing::WithParamInterface<View> {
   Image drawn() {
     if (!renderer_) {
       auto made = Renderer::create(context());
-      EXPECT_TRUE(made.ok()) << made.error().message;
+      EXPECT_TRUE(made.ok()) << made.error().message();
       renderer_ = std::move(*made);
       EXPECT_TRUE(renderer_->set_model(simulation().model()).ok());
     }

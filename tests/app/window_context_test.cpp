@@ -12,7 +12,7 @@ namespace {
 
 TEST(WindowContext, TellsWhenTheDeviceIsLost) {
   const auto window = Window::create(320, 200, "aspic");
-  ASSERT_TRUE(window.ok()) << window.error().message;
+  ASSERT_TRUE(window.ok()) << window.error().message();
   gl::Context& context = (*window)->context();
   // Not every driver knows how; there is a window all the same. Mesa's software GLX does not, its EGL does.
   EXPECT_EQ(context.info().robust,
@@ -21,7 +21,7 @@ TEST(WindowContext, TellsWhenTheDeviceIsLost) {
   EXPECT_FALSE(context.lost());
   const Model model = test::build(test::cube_on_plane(3));
   auto solver = make_gpu_solver(context, model);
-  ASSERT_TRUE(solver.ok()) << solver.error().message;
+  ASSERT_TRUE(solver.ok()) << solver.error().message();
   ASSERT_TRUE((*solver)->advance(3).ok());
   context.inject_fault(gl::Fault::lost_context);
   EXPECT_EQ((*solver)->advance(3).error().code, ErrorCode::no_device);

@@ -36,7 +36,7 @@ class LostDeviceGl : public aspic::testing::GlTest, public ::testing::WithParamI
   void SetUp() override {
     GlTest::SetUp();
     auto made = gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
-    ASSERT_TRUE(made.ok()) << made.error().message;
+    ASSERT_TRUE(made.ok()) << made.error().message();
     device_ = std::move(*made);
     ModelSettings settings = test::cube_on_plane(3, 1.9);
     settings.simulation.integrator = GetParam().integrator;
@@ -59,7 +59,7 @@ class LostDeviceGl : public aspic::testing::GlTest, public ::testing::WithParamI
 
   static void expect_loss(const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::no_device);
-    EXPECT_THAT(error.message, HasSubstr("was reset or lost"));
+    EXPECT_THAT(error.message(), HasSubstr("was reset or lost"));
   }
 
   std::shared_ptr<gl::Context> device_;
@@ -68,7 +68,7 @@ class LostDeviceGl : public aspic::testing::GlTest, public ::testing::WithParamI
 
 TEST_P(LostDeviceGl, EndsEveryRunWithASentenceWhicheverPassItStrikes) {
   auto made = make();
-  ASSERT_TRUE(made.ok()) << made.error().message;
+  ASSERT_TRUE(made.ok()) << made.error().message();
   GpuSolver& solver = **made;
   const std::uint64_t before = device_->dispatches();
   ASSERT_TRUE(solver.advance(steps).ok());
@@ -105,7 +105,7 @@ TEST_P(LostDeviceGl, EndsEveryRunWithASentenceWhicheverPassItStrikes) {
 // Between steps too: what was read before the loss stays good, and no later step is told.
 TEST_P(LostDeviceGl, EndsARunThatLooksAfterEachStep) {
   auto made = make();
-  ASSERT_TRUE(made.ok()) << made.error().message;
+  ASSERT_TRUE(made.ok()) << made.error().message();
   GpuSolver& solver = **made;
   const std::uint64_t before = device_->dispatches();
   std::vector<State> wanted;

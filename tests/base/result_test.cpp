@@ -14,7 +14,7 @@ TEST(Result, HoldsValueOrError) {
   const Result<int> none = Error{ErrorCode::io, "no such file"};
   ASSERT_FALSE(none.ok());
   EXPECT_EQ(none.error().code, ErrorCode::io);
-  EXPECT_EQ(none.error().message, "no such file");
+  EXPECT_EQ(none.error().message(), "no such file");
 }
 
 TEST(Result, MovesItsValueOut) {
@@ -59,7 +59,7 @@ Status check_quarter(int number) {
 
 TEST(Try, HandsOnTheValueOrTheError) {
   EXPECT_EQ(*quarter(12), 3);
-  EXPECT_EQ(quarter(6).error().message, "odd");
+  EXPECT_EQ(quarter(6).error().message(), "odd");
   EXPECT_TRUE(check_quarter(8).ok());
   EXPECT_TRUE(check_quarter(101).ok());
   EXPECT_EQ(check_quarter(0).error().code, ErrorCode::io);

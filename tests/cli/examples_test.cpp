@@ -167,7 +167,7 @@ void expect_parsed(const Example& example) {
   std::vector<const char*> argv;
   for (const std::string& word : words) argv.push_back(word.c_str());
   const auto parsed = parse_arguments(static_cast<int>(argv.size()), argv.data());
-  EXPECT_TRUE(parsed.ok()) << example.where << ": " << example.command << "\n" << parsed.error().message;
+  EXPECT_TRUE(parsed.ok()) << example.where << ": " << example.command << "\n" << parsed.error().message();
 }
 
 /// The value of an option divided, at least `least`; nothing where it is not given.

@@ -32,7 +32,7 @@ TEST(Files, StateReadsBackToTheHashOfTheSummary) {
         {"--steps", "1500", "--precision", std::string(name_of(precision)), "--state", dir.file("s.csv")}));
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto state = test::read_state_csv(dir.file("s.csv"), precision);
-    ASSERT_TRUE(state.ok()) << state.error().message;
+    ASSERT_TRUE(state.ok()) << state.error().message();
     EXPECT_EQ(state_hash_text(*state), json_member(run.out, "state_hash"));
     EXPECT_EQ(dir.entries(), 1u);
   }
@@ -193,10 +193,10 @@ TEST(Files, InterruptClosesThemWhole) {
     EXPECT_EQ(json_member(finished.out, "interrupted"), "true");
     EXPECT_EQ(run.dir.entries(), 3u);
     const auto state = test::read_state_csv(run.dir.file("s.csv"), Precision::single);
-    ASSERT_TRUE(state.ok()) << state.error().message;
+    ASSERT_TRUE(state.ok()) << state.error().message();
     EXPECT_EQ(state_hash_text(*state), json_member(finished.out, "state_hash"));
     const auto checkpoint = read_checkpoint(run.dir.file("c"));
-    ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message;
+    ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message();
     EXPECT_EQ(std::to_string(checkpoint->state.step), json_member(finished.out, "steps"));
     const std::string series = run.dir.read("e.csv");
     EXPECT_EQ(series.back(), '\n');

@@ -86,7 +86,7 @@ TEST(Run, DivergenceEndsAtTheLastGoodStateAndSaysWhy) {
   ASSERT_TRUE(test::is_json(run.out)) << run.out;
   EXPECT_THAT(json_member(run.out, "finite"), testing::AnyOf("true", "false"));
   const auto state = test::read_state_csv(dir.file("s.csv"), Precision::single);
-  ASSERT_TRUE(state.ok()) << state.error().message;
+  ASSERT_TRUE(state.ok()) << state.error().message();
   EXPECT_EQ(state_hash_text(*state), json_member(run.out, "state_hash"));
   EXPECT_THAT(dir.read("e.csv"), testing::Not(testing::AnyOf(HasSubstr("nan"), HasSubstr("inf"))));
   // The state is that of the last good step: a run that stops there ends with the same bits and no error.

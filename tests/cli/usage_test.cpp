@@ -152,13 +152,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "belongs to the gpu"},
         Failure{{"run", "cube-plane", "--backend", "reference", "--arithmetic", "fast"},
                 2,
-                "the reference does not compute in fast arithmetic; use --backend gpu or cpu."},
+                "does not compute in fast arithmetic. Use --backend gpu, or use --backend cpu."},
         Failure{{"run", "cube-plane", "--arithmetic", "quick"}, 2, "allowed: exact, fast"},
         Failure{
             {"run", "cube-plane", "--arithmetic", "fast", "--precision", "double"}, 2, "no backend supports"},
         Failure{{"run", "cube-plane", "--backend", "reference", "--threads", "2"},
                 2,
-                "the reference does not take a number of threads; use --backend cpu."},
+                "the reference does not take a number of threads. Use --backend cpu."},
         Failure{{"run", "cube-plane", "--threads", "0"}, 2, "from 1 to 1024"},
         Failure{{"run", "cube-plane", "--threads", "1025"}, 2, "--threads"},
         Failure{{"view", "--backend", "reference", "--arithmetic", "fast"}, 2, "the reference does not"},
@@ -168,15 +168,17 @@ INSTANTIATE_TEST_SUITE_P(
                 "the reference does not"},
         Failure{{"compare", "cube-plane", "--backends", "cpu,reference:fast"}, 2, "the reference does not"},
         // Names that say no format of the option, or nothing.
-        Failure{
-            {"run", "cube-plane", "--state", "x.txt"}, 2, "--state x.txt: the name must end in .csv or .vtp"},
+        Failure{{"run", "cube-plane", "--state", "x.txt"},
+                2,
+                "--state: the state's name x.txt must end in .csv or .vtp"},
         Failure{{"run", "cube-plane", "--state", "y.vtk"}, 2, "must end in .csv or .vtp"},
         Failure{{"run", "cube-plane", "--state", "-"}, 2, "/dev/stdout"},
         Failure{{"run", "cube-plane", "--checkpoint", "c.csv"}, 2, "must end in .aspic"},
         Failure{{"run", "cube-plane", "--series", "e.vtp"}, 2, "must end in .csv"},
         Failure{
             {"run", "cube-plane", "--beside", "h=0.002", "--state", "x.txt"}, 2, "must end in .csv or .vtp"},
-        Failure{{"run", "cube-plane", "--page", "x.mp4"}, 2, "--page x.mp4: the name must end in .html"},
+        Failure{
+            {"run", "cube-plane", "--page", "x.mp4"}, 2, "--page: the page's name x.mp4 must end in .html"},
         Failure{{"run", "cube-plane", "--page", "-"}, 2, "/dev/stdout"},
         Failure{{"run", "cube-plane", "--beside", "h=0.002", "--page", "x.csv"}, 2, "must end in .html"},
         Failure{{"run", "cube-plane", "--state", ""}, 2, "--state: the name is empty"},
@@ -200,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
         // A backend's options after its name.
         Failure{{"run", "cube-plane", "--backend", "gpu:gahter"}, 2, "unknown backend option"},
         Failure{{"run", "cube-plane", "--backend", "cpu:gather"}, 2, "belongs to the gpu"},
-        Failure{{"run", "cube-plane", "--backend", "cpu:double"}, 2, "use --backend reference"},
+        Failure{{"run", "cube-plane", "--backend", "cpu:double"}, 2, "Use --backend reference"},
         Failure{{"compare", "cube-plane", "--backends", "gpu,cpu,reference"},
                 2,
                 "--backends names two backends, such as gpu,reference, not 3 (gpu,cpu,reference)"},

@@ -41,7 +41,7 @@ TEST(Workers, AreAsManyAsTheEnvironmentSays) {
     const auto threads = available_threads();
     ASSERT_FALSE(threads.ok()) << word;
     EXPECT_EQ(threads.error().code, ErrorCode::usage);
-    EXPECT_NE(threads.error().message.find("a whole number from 1 to 1024"), std::string::npos);
+    EXPECT_NE(threads.error().message().find("a whole number from 1 to 1024"), std::string::npos);
   }
   unsetenv("ASPIC_THREADS");
   EXPECT_GE(*available_threads(), 1u);

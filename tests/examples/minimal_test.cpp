@@ -18,9 +18,9 @@ std::string word_after(const std::string& text, const std::string& label) {
 
 TEST(Minimal, EndsWithTheStateOfTheCommand) {
   const auto example = output_of(ASPIC_MINIMAL, {"cube-bowl", "300"}, {});
-  ASSERT_TRUE(example.ok()) << example.error().message;
+  ASSERT_TRUE(example.ok()) << example.error().message();
   const auto command = output_of(ASPIC_PROGRAM, {"run", "cube-bowl", "--steps", "300"}, {});
-  ASSERT_TRUE(command.ok()) << command.error().message;
+  ASSERT_TRUE(command.ok()) << command.error().message();
   EXPECT_THAT(*example, testing::StartsWith("step 300 on "));
   EXPECT_EQ(word_after(*example, "state hash").size(), 16u);
   EXPECT_EQ(word_after(*example, "state hash"), word_after(*command, "state hash"));
@@ -30,7 +30,7 @@ TEST(Minimal, EndsWithTheStateOfTheCommand) {
 TEST(Minimal, SaysWhatIsWrong) {
   const auto example = output_of(ASPIC_MINIMAL, {"no-such-scene"}, {});
   ASSERT_FALSE(example.ok());
-  EXPECT_EQ(example.error().message, "the child process ended with exit code 3");
+  EXPECT_EQ(example.error().message(), "the child process ended with exit code 3");
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ void run(std::string_view text) {
   if (!read) return require_message(read.error(), {ErrorCode::scene_rejected});
   require(check_log(run.model, *read, Precision::double_).ok(), "an accepted log is one for its model");
   const auto again = parse_inputs(to_toml(*read, run.settings.simulation.timestep), "written.toml", run);
-  require(again.ok(), again.ok() ? "" : "a log that was written is accepted: " + again.error().message);
+  require(again.ok(), again.ok() ? "" : "a log that was written is accepted: " + again.error().message());
   require(*again == *read && again->hash() == read->hash(), "a log that was written reads back as the same");
 }
 

@@ -29,10 +29,10 @@ void require(bool kept, std::string_view promise) {
 void require_message(const Error& error, std::initializer_list<ErrorCode> codes) {
   require(std::ranges::find(codes, error.code) != codes.end(),
           fmt::format("exit code {} is not among those promised: {}", static_cast<int>(error.code),
-                      error.message));
-  require(!error.message.empty(), "an error has a message");
+                      error.message()));
+  require(!error.message().empty(), "an error has a message");
   // A message is a few lines, however large the input was.
-  require(error.message.size() < (1u << 20), "a message is shorter than 1 MiB");
+  require(error.message().size() < (1u << 20), "a message is shorter than 1 MiB");
 }
 
 std::vector<std::string> scene_words() {

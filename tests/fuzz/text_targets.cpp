@@ -19,9 +19,9 @@ void run_configuration(std::string_view text) {
   const auto imported = import_configuration(text, "Configuration.txt");
   if (!imported) return require_message(imported.error(), {ErrorCode::scene_rejected});
   // Nothing is built here, so that memory is no matter.
-  const LoadLimits roomy = {.memory_bytes = std::uint64_t{1} << 60};
+  const LoadOptions roomy = {.memory_bytes = std::uint64_t{1} << 60};
   const auto scene = parse_scene(imported_toml(*imported, "Configuration.txt"), "imported.toml", {}, roomy);
-  require(scene.ok(), scene.ok() ? "" : "an imported scene is accepted: " + scene.error().message);
+  require(scene.ok(), scene.ok() ? "" : "an imported scene is accepted: " + scene.error().message());
 }
 
 std::vector<std::string> configuration_seeds() {
@@ -87,7 +87,7 @@ void run_kept_state(std::string_view text) {
   const auto state = app::read_kept_state(std::string(text));
   if (!state) return require_message(state.error(), {ErrorCode::io});
   const auto again = app::read_kept_state(app::to_text(*state));
-  require(again.ok(), again.ok() ? "" : "what the window keeps is accepted: " + again.error().message);
+  require(again.ok(), again.ok() ? "" : "what the window keeps is accepted: " + again.error().message());
   require(*again == *state, "what the window keeps reads back as the same");
 }
 

@@ -18,7 +18,7 @@ TEST_F(BufferGl, GivesBackWhatItWasGiven) {
   std::vector<std::uint32_t> numbers(100);
   std::iota(numbers.begin(), numbers.end(), 7u);
   auto buffer = Buffer::of(context(), "numbers", numbers);
-  ASSERT_TRUE(buffer.ok()) << buffer.error().message;
+  ASSERT_TRUE(buffer.ok()) << buffer.error().message();
   EXPECT_EQ(buffer->bytes(), 400u);
   EXPECT_EQ(buffer->download_items<std::uint32_t>(100), numbers);
   const std::uint32_t pair[] = {1, 2};
@@ -38,16 +38,16 @@ TEST_F(BufferGl, RefusesWhatExceedsTheBlockSize) {
   const auto refused = Buffer::create(context(), "spring list", limit + 1);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
-  EXPECT_THAT(refused.error().message, HasSubstr("\"spring list\""));
-  EXPECT_THAT(refused.error().message, HasSubstr(std::to_string(limit + 1)));
-  EXPECT_THAT(refused.error().message, HasSubstr(std::to_string(limit)));
-  EXPECT_THAT(refused.error().message, HasSubstr("Make the scene smaller"));
+  EXPECT_THAT(refused.error().message(), HasSubstr("\"spring list\""));
+  EXPECT_THAT(refused.error().message(), HasSubstr(std::to_string(limit + 1)));
+  EXPECT_THAT(refused.error().message(), HasSubstr(std::to_string(limit)));
+  EXPECT_THAT(refused.error().message(), HasSubstr("Make the scene smaller"));
   const auto absurd = Buffer::create(context(), "absurd", ~0ull);
   EXPECT_FALSE(absurd.ok());
   const auto uniform = Buffer::create(context(), "classes", context().info().limits.uniform_block_bytes + 1,
                                       BufferKind::uniform);
   ASSERT_FALSE(uniform.ok());
-  EXPECT_THAT(uniform.error().message, HasSubstr("uniform buffer"));
+  EXPECT_THAT(uniform.error().message(), HasSubstr("uniform buffer"));
   EXPECT_EQ(context().bytes_held(), held);
   EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
 }
@@ -64,7 +64,7 @@ TEST_F(BufferGl, SaysWhenASoftwareDeviceHasNoMemoryLeft) {
   ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
-  EXPECT_THAT(refused.error().message, HasSubstr("has no memory for the storage buffer \"too much\""));
+  EXPECT_THAT(refused.error().message(), HasSubstr("has no memory for the storage buffer \"too much\""));
   EXPECT_EQ(context().bytes_held(), held);
   EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
   // The debug context heard of it too.

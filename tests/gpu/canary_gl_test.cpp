@@ -16,12 +16,12 @@ class CanaryGl : public testing::GlTest {
   /// The canary on a device with these faults.
   ArithmeticReport measure(std::vector<Define> faults) {
     auto report = measure_arithmetic(context(), ShaderLibrary(ASPIC_TEST_SHADERS), faults);
-    EXPECT_TRUE(report.ok()) << report.error().message;
+    EXPECT_TRUE(report.ok()) << report.error().message();
     return report ? *report : ArithmeticReport{};
   }
   Arithmetic choose(std::vector<Define> faults) {
     auto choice = choose_arithmetic(context(), ShaderLibrary(ASPIC_TEST_SHADERS), faults);
-    EXPECT_TRUE(choice.ok()) << choice.error().message;
+    EXPECT_TRUE(choice.ok()) << choice.error().message();
     return choice ? *choice : Arithmetic{};
   }
   static bool defines(const Arithmetic& a, const char* name) {
@@ -43,7 +43,7 @@ TEST(CanaryOperands, AreManyFiniteAndTheSameEachTime) {
 
 TEST_F(CanaryGl, FindsTheSoftwareDeviceExact) {
   auto choice = choose_arithmetic(context(), ShaderLibrary());
-  ASSERT_TRUE(choice.ok()) << choice.error().message;
+  ASSERT_TRUE(choice.ok()) << choice.error().message();
   EXPECT_TRUE(choice->exact());
   EXPECT_TRUE(choice->device.denormals_kept());
   EXPECT_TRUE(choice->defines.empty());
@@ -123,7 +123,7 @@ TEST_F(CanaryGl, CorrectedFormsKeepTheMeaningOfSpecialValues) {
       {"ASPIC_CORRECT_DIV", "1"}, {"ASPIC_CORRECT_SQRT", "1"}, {"FAULT_DIV", "1"}, {"FAULT_SQRT", "1"}};
   const auto program =
       Program::compute(context(), ShaderLibrary(ASPIC_TEST_SHADERS), "exact_pairs.comp", defines);
-  ASSERT_TRUE(program.ok()) << program.error().message;
+  ASSERT_TRUE(program.ok()) << program.error().message();
   const auto input = Buffer::of(context(), "pairs", pairs);
   const auto output = Buffer::create(context(), "results", std::uint64_t{8} * count);
   ASSERT_TRUE(input.ok() && output.ok());

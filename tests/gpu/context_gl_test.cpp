@@ -89,7 +89,7 @@ TEST_F(ContextGl, ASoftwareRasteriserIsNotAskedForMemoryOfItsOwn) {
 TEST_F(ContextGl, OffersTheSoftwareDeviceByChoiceAndByVariable) {
   const DeviceVariable variable("software");
   const auto made = Context::create_headless({.debug = false, .device = DeviceChoice::automatic});
-  ASSERT_TRUE(made.ok()) << made.error().message;
+  ASSERT_TRUE(made.ok()) << made.error().message();
   EXPECT_TRUE((*made)->info().is_software);
   EXPECT_FALSE((*made)->info().debug);
 }
@@ -101,8 +101,8 @@ TEST_F(ContextGl, GivesHardwareOrSaysWhatWasTried) {
     EXPECT_FALSE((*made)->info().is_software);
   } else {
     EXPECT_EQ(made.error().code, ErrorCode::no_device);
-    EXPECT_THAT(made.error().message, HasSubstr("Tried: "));
-    EXPECT_THAT(made.error().message, HasSubstr("Install"));
+    EXPECT_THAT(made.error().message(), HasSubstr("Tried: "));
+    EXPECT_THAT(made.error().message(), HasSubstr("Install"));
   }
 }
 
@@ -114,7 +114,7 @@ TEST_F(ContextGl, ListsDevicesThatAnIndexChooses) {
     if (!devices[i].software) continue;
     const DeviceVariable variable(std::to_string(i).c_str());
     const auto made = Context::create_headless({});
-    ASSERT_TRUE(made.ok()) << made.error().message;
+    ASSERT_TRUE(made.ok()) << made.error().message();
     EXPECT_EQ((*made)->info().platform, "EGL device " + std::to_string(i));
   }
 }
@@ -125,13 +125,13 @@ TEST_F(ContextGl, RefusesADeviceThatIsNotThere) {
     const auto beyond = Context::create_headless({});
     ASSERT_FALSE(beyond.ok());
     EXPECT_EQ(beyond.error().code, ErrorCode::no_device);
-    EXPECT_THAT(beyond.error().message, HasSubstr("9999"));
+    EXPECT_THAT(beyond.error().message(), HasSubstr("9999"));
   }
   const DeviceVariable variable("toaster");
   const auto unknown = Context::create_headless({});
   ASSERT_FALSE(unknown.ok());
-  EXPECT_THAT(unknown.error().message, HasSubstr("\"toaster\""));
-  EXPECT_THAT(unknown.error().message, HasSubstr("surfaceless"));
+  EXPECT_THAT(unknown.error().message(), HasSubstr("\"toaster\""));
+  EXPECT_THAT(unknown.error().message(), HasSubstr("surfaceless"));
 }
 
 TEST_F(ContextGl, TwoContextsLiveSideBySide) {
@@ -140,7 +140,7 @@ TEST_F(ContextGl, TwoContextsLiveSideBySide) {
   buffer->clear();
   {
     const auto second = Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
-    ASSERT_TRUE(second.ok()) << second.error().message;
+    ASSERT_TRUE(second.ok()) << second.error().message();
     EXPECT_EQ((*second)->bytes_held(), 0u);
   }
   ASSERT_TRUE(context().make_current().ok());
@@ -149,10 +149,10 @@ TEST_F(ContextGl, TwoContextsLiveSideBySide) {
 
 TEST_F(ContextGl, AdoptsTheCurrentContext) {
   auto owner = Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
-  ASSERT_TRUE(owner.ok()) << owner.error().message;
+  ASSERT_TRUE(owner.ok()) << owner.error().message();
   {
     auto adopted = Context::adopt_current(eglGetProcAddress);
-    ASSERT_TRUE(adopted.ok()) << adopted.error().message;
+    ASSERT_TRUE(adopted.ok()) << adopted.error().message();
     EXPECT_EQ((*adopted)->info().renderer, (*owner)->info().renderer);
     EXPECT_EQ((*adopted)->info().platform, "window");
     EXPECT_TRUE((*adopted)->info().debug);

@@ -17,7 +17,7 @@ class FaultGl : public testing::GlTest {
   void SetUp() override {
     GlTest::SetUp();
     auto made = Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
-    ASSERT_TRUE(made.ok()) << made.error().message;
+    ASSERT_TRUE(made.ok()) << made.error().message();
     own_ = std::move(*made);
   }
   void TearDown() override {
@@ -33,7 +33,7 @@ TEST_F(FaultGl, RobustContextsComeFromEglWhereTheyAreAskedFor) {
   EXPECT_FALSE(own_->lost());
   const auto plain =
       Context::create_headless({.debug = false, .robust = false, .device = aspic::testing::test_device()});
-  ASSERT_TRUE(plain.ok()) << plain.error().message;
+  ASSERT_TRUE(plain.ok()) << plain.error().message();
   EXPECT_FALSE((*plain)->info().robust);
   EXPECT_FALSE((*plain)->lost());
   // An injected loss needs no help from the driver.
@@ -49,15 +49,15 @@ TEST_F(FaultGl, ALossIsFoundAtThePollAndStays) {
   EXPECT_TRUE(own_->lost());
   const Error error = own_->lost_error();
   EXPECT_EQ(error.code, ErrorCode::no_device);
-  EXPECT_THAT(error.message, HasSubstr(own_->info().renderer));
-  EXPECT_THAT(error.message, HasSubstr("lost"));
+  EXPECT_THAT(error.message(), HasSubstr(own_->info().renderer));
+  EXPECT_THAT(error.message(), HasSubstr("lost"));
   // The other context never noticed.
   EXPECT_FALSE(context().lost());
 }
 
 TEST_F(FaultGl, AnAdoptedContextIsToldToo) {
   auto adopted = Context::adopt_current(eglGetProcAddress);
-  ASSERT_TRUE(adopted.ok()) << adopted.error().message;
+  ASSERT_TRUE(adopted.ok()) << adopted.error().message();
   EXPECT_TRUE((*adopted)->info().robust);
   (*adopted)->inject_fault(Fault::lost_context);
   EXPECT_TRUE((*adopted)->lost());
@@ -71,9 +71,9 @@ TEST_F(FaultGl, AFailedAllocationIsRefusedWithFiguresOnce) {
   const auto refused = Buffer::create(*own_, "spring list", 123456);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
-  EXPECT_THAT(refused.error().message, HasSubstr("has no memory for the storage buffer \"spring list\""));
-  EXPECT_THAT(refused.error().message, HasSubstr("123456 bytes"));
-  EXPECT_THAT(refused.error().message, HasSubstr("4 KiB held already"));
+  EXPECT_THAT(refused.error().message(), HasSubstr("has no memory for the storage buffer \"spring list\""));
+  EXPECT_THAT(refused.error().message(), HasSubstr("123456 bytes"));
+  EXPECT_THAT(refused.error().message(), HasSubstr("4 KiB held already"));
   EXPECT_EQ(own_->bytes_held(), 4096u);
   EXPECT_TRUE(Buffer::create(*own_, "spring list", 123456).ok());
   EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
@@ -82,7 +82,7 @@ TEST_F(FaultGl, AFailedAllocationIsRefusedWithFiguresOnce) {
   const auto image = Texture::create(*own_, "picture", {.width = 64, .height = 32});
   ASSERT_FALSE(image.ok());
   EXPECT_EQ(image.error().code, ErrorCode::scene_rejected);
-  EXPECT_THAT(image.error().message, HasSubstr("64 x 32"));
+  EXPECT_THAT(image.error().message(), HasSubstr("64 x 32"));
   EXPECT_TRUE(Texture::create(*own_, "picture", {.width = 64, .height = 32}).ok());
 }
 

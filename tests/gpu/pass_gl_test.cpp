@@ -13,12 +13,12 @@ class PassGl : public testing::GlTest {
 
   Program compile(const char* path, std::vector<Define> defines = {}) {
     auto made = Program::compute(context(), library_, path, defines);
-    EXPECT_TRUE(made.ok()) << made.error().message;
+    EXPECT_TRUE(made.ok()) << made.error().message();
     return made ? std::move(made).value() : Program();
   }
   Buffer buffer(std::uint64_t bytes) {
     auto made = Buffer::create(context(), "test", bytes);
-    EXPECT_TRUE(made.ok()) << made.error().message;
+    EXPECT_TRUE(made.ok()) << made.error().message();
     return made ? std::move(made).value() : Buffer();
   }
 };

@@ -14,7 +14,7 @@ class PassProfilerGl : public testing::GlTest {
   void SetUp() override {
     GlTest::SetUp();
     auto program = Program::compute(context(), ShaderLibrary(ASPIC_TEST_SHADERS), "count.comp");
-    ASSERT_TRUE(program.ok()) << program.error().message;
+    ASSERT_TRUE(program.ok()) << program.error().message();
     program_ = std::move(*program);
     auto visits = Buffer::create(context(), "visits", std::uint64_t{4} * most);
     ASSERT_TRUE(visits.ok());

@@ -24,11 +24,11 @@ TEST_F(ProgramGl, RefusesNineStorageBlocksAndTakesEight) {
   const auto nine = compile("nine_blocks.comp");
   ASSERT_FALSE(nine.ok());
   EXPECT_EQ(nine.error().code, ErrorCode::no_device);
-  EXPECT_THAT(nine.error().message, HasSubstr("nine_blocks.comp"));
-  EXPECT_THAT(nine.error().message, HasSubstr("9 storage blocks"));
-  EXPECT_THAT(nine.error().message, HasSubstr("Block8"));
+  EXPECT_THAT(nine.error().message(), HasSubstr("nine_blocks.comp"));
+  EXPECT_THAT(nine.error().message(), HasSubstr("9 storage blocks"));
+  EXPECT_THAT(nine.error().message(), HasSubstr("Block8"));
   const auto eight = compile("nine_blocks.comp", {{"EIGHT", "1"}});
-  ASSERT_TRUE(eight.ok()) << eight.error().message;
+  ASSERT_TRUE(eight.ok()) << eight.error().message();
   EXPECT_EQ(Reflection(*eight).storage_block_count(), 8);
 }
 
@@ -36,9 +36,9 @@ TEST_F(ProgramGl, CompileErrorsNameOurFileAndLine) {
   const auto broken = compile("broken/kernel.comp");
   ASSERT_FALSE(broken.ok());
   EXPECT_EQ(broken.error().code, ErrorCode::no_device);
-  EXPECT_THAT(broken.error().message, HasSubstr("broken/kernel.comp"));
-  EXPECT_THAT(broken.error().message, HasSubstr("\nbroken/part.glsl:3: error"));
-  EXPECT_THAT(broken.error().message, HasSubstr("precise float x = misspelt;"));
+  EXPECT_THAT(broken.error().message(), HasSubstr("broken/kernel.comp"));
+  EXPECT_THAT(broken.error().message(), HasSubstr("\nbroken/part.glsl:3: error"));
+  EXPECT_THAT(broken.error().message(), HasSubstr("precise float x = misspelt;"));
   // A debug context hears of the compile error as a message of high severity.
   EXPECT_GE(forgive_errors(), 1);
 }
@@ -51,7 +51,7 @@ TEST_F(ProgramGl, MissingFileIsAnInputError) {
 
 TEST_F(ProgramGl, TellsItsLayout) {
   const auto program = compile("layout.comp", {{"ASPIC_GROUP_SIZE", "32"}});
-  ASSERT_TRUE(program.ok()) << program.error().message;
+  ASSERT_TRUE(program.ok()) << program.error().message();
   EXPECT_EQ(program->group_size(), (std::array<std::uint32_t, 3>{32, 1, 1}));
   EXPECT_EQ(Reflection(*program).storage_block_binding("Items"), 3);
   EXPECT_EQ(Reflection(*program).uniform_block_binding("Classes"), 5);
@@ -75,7 +75,7 @@ TEST_F(ProgramGl, TellsItsLayout) {
 
 TEST_F(ProgramGl, SetsUniformsOfEachKind) {
   auto made = compile("layout.comp");
-  ASSERT_TRUE(made.ok()) << made.error().message;
+  ASSERT_TRUE(made.ok()) << made.error().message();
   const Program program = std::move(made).value();
   auto items = Buffer::create(context(), "items", 32 + 2 * 32);
   const float factors[] = {0, 0, 0, 0, 1, 0, 0, 0, 7, 0, 0, 0, 3, 0, 0, 0};
@@ -111,7 +111,7 @@ TEST_F(ProgramCacheGl, GivesTheSameProgramForTheSameSource) {
   const ShaderLibrary library(ASPIC_TEST_SHADERS);
   const std::vector<Define> small = {{"ASPIC_GROUP_SIZE", "32"}}, large = {{"ASPIC_GROUP_SIZE", "64"}};
   const auto first = cache.compute(library, "count.comp", small);
-  ASSERT_TRUE(first.ok()) << first.error().message;
+  ASSERT_TRUE(first.ok()) << first.error().message();
   EXPECT_EQ(*cache.compute(library, "count.comp", small), *first);
   EXPECT_EQ(*cache.compute(ShaderLibrary(ASPIC_TEST_SHADERS), "count.comp", small), *first);
   const auto other = cache.compute(library, "count.comp", large);
@@ -133,10 +133,10 @@ TEST_F(ProgramCacheGl, AnEditedFileIsCompiledAnewAndTheOldTextForgotten) {
   ProgramCache cache(context());
   const ShaderLibrary library(directory.path());
   const auto first = cache.compute(library, "kernel.comp");
-  ASSERT_TRUE(first.ok()) << first.error().message;
+  ASSERT_TRUE(first.ok()) << first.error().message();
   directory.write("part.glsl", "const float gravity = 9.8;\n");
   const auto second = cache.compute(library, "kernel.comp");
-  ASSERT_TRUE(second.ok()) << second.error().message;
+  ASSERT_TRUE(second.ok()) << second.error().message();
   EXPECT_NE(*second, *first);
   EXPECT_EQ(cache.size(), 1u);
 
@@ -153,7 +153,7 @@ TEST_F(ProgramCacheGl, ErrorsAreThoseOfTheProgram) {
   ProgramCache cache(context());
   const ShaderLibrary library(ASPIC_TEST_SHADERS);
   EXPECT_EQ(cache.compute(library, "no/such.comp").error().code, ErrorCode::io);
-  EXPECT_THAT(cache.compute(library, "nine_blocks.comp").error().message, HasSubstr("9 storage blocks"));
+  EXPECT_THAT(cache.compute(library, "nine_blocks.comp").error().message(), HasSubstr("9 storage blocks"));
   EXPECT_EQ(cache.size(), 0u);
 }
 

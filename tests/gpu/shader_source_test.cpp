@@ -24,7 +24,7 @@ const ShaderLibrary& test_library() {
 
 FlatShader flatten(const char* path, std::vector<Define> defines = {}) {
   auto flat = test_library().flatten(path, defines);
-  EXPECT_TRUE(flat.ok()) << flat.error().message;
+  EXPECT_TRUE(flat.ok()) << flat.error().message();
   return flat ? std::move(flat).value() : FlatShader();
 }
 
@@ -33,7 +33,7 @@ std::string error_of(const char* path) {
   EXPECT_FALSE(flat.ok());
   if (flat.ok()) return {};
   EXPECT_EQ(flat.error().code, ErrorCode::io);
-  return flat.error().message;
+  return flat.error().message();
 }
 
 TEST(EmbeddedShaders, AreTheFilesByteForByte) {
@@ -147,11 +147,11 @@ TEST(ShaderLibrary, RefusesWhatIsNoShaderFile) {
   std::filesystem::create_directories(dir.file("compute/gather.comp"));
   const auto directory = library.flatten("compute/gather.comp");
   ASSERT_FALSE(directory.ok());
-  EXPECT_THAT(directory.error().message, HasSubstr("Is a directory"));
+  EXPECT_THAT(directory.error().message(), HasSubstr("Is a directory"));
   std::filesystem::create_symlink("/dev/zero", dir.file("compute/endless.comp"));
   EXPECT_FALSE(library.flatten("compute/endless.comp").ok());
   std::ofstream(dir.file("compute/large.comp")) << std::string((4 << 20) + 1, '\n');
-  EXPECT_THAT(library.flatten("compute/large.comp").error().message, HasSubstr("4 MiB"));
+  EXPECT_THAT(library.flatten("compute/large.comp").error().message(), HasSubstr("4 MiB"));
 }
 
 TEST(ShaderLibrary, IncludesAreNestedToADepth) {
@@ -163,8 +163,8 @@ TEST(ShaderLibrary, IncludesAreNestedToADepth) {
   const ShaderLibrary library{dir.file("")};
   const auto deep = library.flatten("0");
   ASSERT_FALSE(deep.ok());
-  EXPECT_THAT(deep.error().message, HasSubstr("nested more than 32 deep"));
-  EXPECT_LT(deep.error().message.size(), 300u);
+  EXPECT_THAT(deep.error().message(), HasSubstr("nested more than 32 deep"));
+  EXPECT_LT(deep.error().message().size(), 300u);
   EXPECT_TRUE(library.flatten(std::to_string(files - 32)).ok());
 }
 

@@ -17,7 +17,7 @@ class BallsOnTheDevice : public aspic::testing::GlTest {
     options.ball_search = search;
     options.force_path = path;
     auto solver = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(solver.ok()) << (solver.ok() ? "" : solver.error().message);
+    EXPECT_TRUE(solver.ok()) << (solver.ok() ? "" : solver.error().message());
     return std::move(solver).value();
   }
 

@@ -57,7 +57,7 @@ class ConstantsOnTheDevice : public aspic::testing::GlTest {
     options.force_path = path;
     options.lattice_run = run;
     auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << made.error().message;
+    EXPECT_TRUE(made.ok()) << made.error().message();
     (*made)->set_late(true);
     return std::move(made).value();
   }
@@ -154,7 +154,7 @@ TEST_F(ConstantsOnTheDevice, AnotherTopologyIsRefused) {
       const Status taken = solver->set_constants(shared(test::build(other)));
       ASSERT_FALSE(taken.ok()) << what;
       EXPECT_EQ(taken.error().code, ErrorCode::usage);
-      EXPECT_NE(taken.error().message.find(what), std::string::npos) << taken.error().message;
+      EXPECT_NE(taken.error().message().find(what), std::string::npos) << taken.error().message();
     }
     Model fewer = *model;
     fewer.listed_springs.pop_back();

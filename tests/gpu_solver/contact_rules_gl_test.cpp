@@ -13,7 +13,7 @@ class ContactRules : public aspic::testing::GlTest {
  protected:
   std::unique_ptr<Solver> solver(const Model& model) {
     auto made = make_gpu_solver(context(), model, {});
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
     return std::move(made).value();
   }
 };

@@ -17,7 +17,7 @@ class Crowds : public aspic::testing::GlTest {
  protected:
   static std::unique_ptr<GpuSolver> solver_for(const Model& model, const GpuOptions& options = {}) {
     auto solver = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(solver.ok()) << (solver.ok() ? "" : solver.error().message);
+    EXPECT_TRUE(solver.ok()) << (solver.ok() ? "" : solver.error().message());
     return std::move(solver).value();
   }
 
@@ -27,7 +27,7 @@ class Crowds : public aspic::testing::GlTest {
     for (int step = 1; step <= steps; ++step) {
       ASSERT_FALSE((*reference->advance(1)).has_value());
       const auto divergence = solver->advance(1);
-      ASSERT_TRUE(divergence.ok()) << divergence.error().message;
+      ASSERT_TRUE(divergence.ok()) << divergence.error().message();
       ASSERT_FALSE(divergence->has_value());
       ASSERT_EQ(*solver->state(), *reference->state())
           << "step " << step << ", " << model.ball_count() << " balls, " << model.particle_count()
@@ -152,7 +152,7 @@ TEST_F(Crowds, FindRoomInMidRun) {
     auto solver = solver_for(model);
     EXPECT_EQ(solver->bytes(), gpu_bytes(model, ForcePath::gather));
     const auto divergence = solver->advance(110);
-    ASSERT_TRUE(divergence.ok()) << divergence.error().message;
+    ASSERT_TRUE(divergence.ok()) << divergence.error().message();
     ASSERT_FALSE(divergence->has_value());
     EXPECT_EQ(*solver->state(), *reference->state());
     EXPECT_GT(solver->bytes(), gpu_bytes(model, ForcePath::gather));
@@ -170,7 +170,7 @@ TEST_F(Crowds, DivergenceInAStepWithoutRoom) {
     model.simulation.integrator = integrator;
     auto solver = solver_for(model);
     const auto divergence = solver->advance(3);
-    ASSERT_TRUE(divergence.ok()) << divergence.error().message;
+    ASSERT_TRUE(divergence.ok()) << divergence.error().message();
     ASSERT_TRUE(divergence->has_value());
     EXPECT_EQ((*divergence)->step, 1u);
     EXPECT_EQ(body_text(**divergence), "particle 700");

@@ -57,7 +57,7 @@ class EqualBits : public aspic::testing::GlTest {
         // The form for hardware takes its turn with the one for software.
         options.lattice_run = group_size != group_sizes.begin()[0] ? 1 : 0;
         auto solver = make_gpu_solver(context(), model, options);
-        ASSERT_TRUE(solver.ok()) << solver.error().message;
+        ASSERT_TRUE(solver.ok()) << solver.error().message();
         ASSERT_FALSE((*(*solver)->advance(steps)).has_value());
         const State state = *(*solver)->state();
         EXPECT_EQ(state_hash_text(state), state_hash_text(expected))
@@ -79,7 +79,7 @@ TEST_F(EqualBits, CoveringSet) {
     options.lattice_run = row.lattice_run;
     const Model model = test::model_of(row);
     auto solver = make_gpu_solver(context(), model, options);
-    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    ASSERT_TRUE(solver.ok()) << solver.error().message();
     const test::GoldenRun run = test::golden_run(row);
     ASSERT_TRUE((*solver)->advance(run.steps).ok());
     test::expect_golden(run, *(*solver)->state());
@@ -96,7 +96,7 @@ TEST_F(EqualBits, BuiltInScenes) {
     const test::GoldenRun run = test::golden_run(std::string(scene.name), contact, method);
     const Model model = run.model();
     auto solver = make_gpu_solver(context(), model);
-    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    ASSERT_TRUE(solver.ok()) << solver.error().message();
     ASSERT_TRUE((*solver)->advance(run.steps).ok());
     test::expect_golden(run, *(*solver)->state());
   }
@@ -279,7 +279,7 @@ void expect_equal_bits_in_windows(gl::Context& context, const Windowed& windowed
       if (run == 1 && (path != ForcePath::lattice || solved)) continue;
       options.lattice_run = run;
       auto solver = make_gpu_solver(context, model, options);
-      ASSERT_TRUE(solver.ok()) << solver.error().message;
+      ASSERT_TRUE(solver.ok()) << solver.error().message();
       EXPECT_EQ((*solver)->bytes(), gpu_bytes(model, path, small ? block : UINT64_MAX));
       const std::uint64_t before = context.dispatches();
       ASSERT_FALSE((*(*solver)->advance(1)).has_value());
@@ -322,7 +322,7 @@ TEST_F(EqualBits, SpringsAcrossMoreThanABlockAreRefused) {
   const auto refused = make_gpu_solver(context(), model, options);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
-  EXPECT_NE(refused.error().message.find("springs join particles so far apart"), std::string::npos);
+  EXPECT_NE(refused.error().message().find("springs join particles so far apart"), std::string::npos);
 }
 
 /// Implicit Euler with 60 steps a second; what contact does to it shows after a few.

@@ -75,8 +75,8 @@ TEST_F(FaultySolverGl, ALostDeviceEndsEveryCallWithASentence) {
     const auto advanced = solver->advance(5);
     ASSERT_FALSE(advanced.ok());
     EXPECT_EQ(advanced.error().code, ErrorCode::no_device);
-    EXPECT_THAT(advanced.error().message, HasSubstr("was reset or lost"));
-    EXPECT_THAT(advanced.error().message, HasSubstr(device.info().renderer));
+    EXPECT_THAT(advanced.error().message(), HasSubstr("was reset or lost"));
+    EXPECT_THAT(advanced.error().message(), HasSubstr(device.info().renderer));
     EXPECT_EQ(solver->advance(1).error().code, ErrorCode::no_device);
     EXPECT_EQ(solver->state().error().code, ErrorCode::no_device);
     EXPECT_EQ(solver->load(last).error().code, ErrorCode::no_device);
@@ -119,9 +119,9 @@ TEST_F(FaultySolverGl, RunningOutOfMemoryRefusesTheSceneAndLeaksNothing) {
       const auto made = make(device, model, c);
       if (made.ok()) break;
       EXPECT_EQ(made.error().code, ErrorCode::scene_rejected) << chance;
-      EXPECT_THAT(made.error().message, HasSubstr("memory"));
-      EXPECT_THAT(made.error().message, HasSubstr("held"));
-      EXPECT_THAT(made.error().message, HasSubstr("bytes"));
+      EXPECT_THAT(made.error().message(), HasSubstr("memory"));
+      EXPECT_THAT(made.error().message(), HasSubstr("held"));
+      EXPECT_THAT(made.error().message(), HasSubstr("bytes"));
       EXPECT_EQ(device.bytes_held(), 0u) << chance;
       EXPECT_EQ(live_buffers(), buffers) << chance;
     }
@@ -147,11 +147,11 @@ TEST_F(FaultySolverGl, ADeviceThatDoesNothingEndsTheRun) {
     GpuOptions options;
     options.shader_directory = shaders.path();
     auto solver = make_gpu_solver(context(), model, options);
-    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    ASSERT_TRUE(solver.ok()) << solver.error().message();
     const auto done = (*solver)->advance(50);
     ASSERT_FALSE(done.ok()) << kernel;
     EXPECT_EQ(done.error().code, ErrorCode::no_device) << kernel;
-    EXPECT_THAT(done.error().message, HasSubstr("does not carry out")) << kernel;
+    EXPECT_THAT(done.error().message(), HasSubstr("does not carry out")) << kernel;
   }
 }
 
@@ -176,12 +176,12 @@ TEST_F(FaultySolverGl, ADeviceThatDropsExplicitPassesEndsTheRun) {
     options.shader_directory = shaders.path();
     options.force_path = path;
     auto solver = make_gpu_solver(context(), model, options);
-    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    ASSERT_TRUE(solver.ok()) << solver.error().message();
     for (const std::uint64_t steps : {1u, 50u}) {
       const auto done = (*solver)->advance(steps);
       ASSERT_FALSE(done.ok()) << kernel;
       EXPECT_EQ(done.error().code, ErrorCode::no_device) << kernel;
-      EXPECT_THAT(done.error().message, HasSubstr("no usable device")) << kernel;
+      EXPECT_THAT(done.error().message(), HasSubstr("no usable device")) << kernel;
     }
   }
 }
@@ -206,11 +206,11 @@ TEST_F(FaultySolverGl, ADeviceThatDropsAPartOfAPassEndsTheRun) {
     options.shader_directory = shaders.path();
     options.force_path = ForcePath::gather;
     auto solver = make_gpu_solver(context(), model, options);
-    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    ASSERT_TRUE(solver.ok()) << solver.error().message();
     const auto done = (*solver)->advance(20);
     ASSERT_FALSE(done.ok()) << kernel;
     EXPECT_EQ(done.error().code, ErrorCode::no_device) << kernel;
-    EXPECT_THAT(done.error().message, HasSubstr("no usable device")) << kernel;
+    EXPECT_THAT(done.error().message(), HasSubstr("no usable device")) << kernel;
   }
 }
 
@@ -224,7 +224,7 @@ TEST_F(FaultySolverGl, RunningOutOfMemoryAtWorkIsNoticed) {
     const auto advanced = solver->advance(2);
     ASSERT_FALSE(advanced.ok());
     EXPECT_EQ(advanced.error().code, ErrorCode::no_device);
-    EXPECT_THAT(advanced.error().message, HasSubstr("ran out of memory"));
+    EXPECT_THAT(advanced.error().message(), HasSubstr("ran out of memory"));
     device.inject_fault(Fault::out_of_memory);
     EXPECT_EQ(solver->state().error().code, ErrorCode::no_device);
     // The memory is there again: so is the solver, from a state that is known to be good.

@@ -16,7 +16,7 @@ class InputsOnTheDevice : public aspic::testing::GlTest {
  protected:
   static State run(Solver& solver, const InputLog& log, std::uint64_t steps) {
     const auto divergence = advance(solver, log, 0, steps);
-    EXPECT_TRUE(divergence.ok()) << divergence.error().message;
+    EXPECT_TRUE(divergence.ok()) << divergence.error().message();
     if (divergence.ok()) {
       EXPECT_FALSE(divergence->has_value());
     }
@@ -40,7 +40,7 @@ TEST_F(InputsOnTheDevice, EveryBackendHasTheReferencesBits) {
     options.force_path = row.path;
     options.lattice_run = row.lattice_run;
     auto gpu = make_gpu_solver(context(), model, options);
-    ASSERT_TRUE(gpu.ok()) << gpu.error().message;
+    ASSERT_TRUE(gpu.ok()) << gpu.error().message();
     (*gpu)->set_late(each % 2 == 0);
     EXPECT_EQ(run(**gpu, log, 5 * each), expected);
   }

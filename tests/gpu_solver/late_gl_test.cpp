@@ -23,7 +23,7 @@ class LateGl : public aspic::testing::GlTest {
   }
   static std::unique_ptr<GpuSolver> solver_for(const Model& model) {
     auto made = make_gpu_solver(context(), model, {});
-    EXPECT_TRUE(made.ok()) << made.error().message;
+    EXPECT_TRUE(made.ok()) << made.error().message();
     return std::move(*made);
   }
   /// A cube that diverges after some steps.
@@ -184,7 +184,7 @@ TEST_F(LateGl, ADeviceThatStopsAnsweringEndsTheRun) {
     const auto advanced = solver->advance(3);
     ASSERT_FALSE(advanced.ok());
     EXPECT_EQ(advanced.error().code, ErrorCode::no_device);
-    EXPECT_THAT(advanced.error().message, HasSubstr("has not answered for"));
+    EXPECT_THAT(advanced.error().message(), HasSubstr("has not answered for"));
     EXPECT_FALSE(solver->state().ok());
     EXPECT_TRUE(context().lost());
     context().take_back_faults();

@@ -17,7 +17,7 @@ class Layout : public aspic::testing::GlTest {
  protected:
   static gl::Program program(const char* path) {
     auto made = gl::Program::compute(context(), gl::ShaderLibrary(), path);
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
     return std::move(made).value();
   }
   static int bytes(std::size_t count) { return static_cast<int>(count); }
@@ -114,7 +114,7 @@ TEST_F(Layout, LatticesMatchTheDriver) {
     const bool render = std::string_view(path).starts_with("render");
     const auto p = gl::Program::compute(context(), gl::ShaderLibrary(), path,
                                         render ? std::span<const gl::Define>{} : std::span(defines));
-    ASSERT_TRUE(p.ok()) << p.error().message;
+    ASSERT_TRUE(p.ok()) << p.error().message();
     EXPECT_EQ(Reflection(*p).uniform_block_binding("Lattices"), BINDING_LATTICES) << path;
     EXPECT_EQ(Reflection(*p).uniform_block_data_size("Lattices"), bytes(sizeof(layout::Lattices))) << path;
     EXPECT_EQ(Reflection(*p).uniform_offset("lattice_count"), 0) << path;

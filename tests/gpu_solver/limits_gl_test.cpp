@@ -40,8 +40,8 @@ TEST_F(LimitsGl, GroupsThatTheDeviceDoesNotTakeAreRefused) {
     const auto refused = make_gpu_solver(context(), model, options);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().code, ErrorCode::no_device);
-    EXPECT_THAT(refused.error().message, HasSubstr("work groups of 1 to"));
-    EXPECT_THAT(refused.error().message, HasSubstr(std::to_string(size)));
+    EXPECT_THAT(refused.error().message(), HasSubstr("work groups of 1 to"));
+    EXPECT_THAT(refused.error().message(), HasSubstr(std::to_string(size)));
   }
   GpuOptions options;
   options.group_size = most;
@@ -57,12 +57,12 @@ TEST_F(LimitsGl, ASceneThatNeedsMoreThanIsFreeIsRefusedBeforeAnythingIsAllocated
   const auto refused = make_gpu_solver(context(), model, {});
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::scene_rejected);
-  EXPECT_THAT(refused.error().message, HasSubstr(std::to_string(needed) + " bytes"));
-  EXPECT_THAT(refused.error().message, HasSubstr("are free"));
+  EXPECT_THAT(refused.error().message(), HasSubstr(std::to_string(needed) + " bytes"));
+  EXPECT_THAT(refused.error().message(), HasSubstr("are free"));
   EXPECT_EQ(context().bytes_held(), held);
   context().assume_free_memory(needed);
   const auto first = make_gpu_solver(context(), model, {});
-  ASSERT_TRUE(first.ok()) << first.error().message;
+  ASSERT_TRUE(first.ok()) << first.error().message();
   // A solver that shares the springs of another needs no memory for them.
   GpuOptions sharing;
   sharing.share_springs_of = first->get();
@@ -141,7 +141,7 @@ TEST_F(LimitsGl, ManyParticlesTakeTwoDimensionsOfGroups) {
     GpuOptions options;
     options.force_path = path;
     auto made = make_gpu_solver(context(), model, options);
-    ASSERT_TRUE(made.ok()) << made.error().message;
+    ASSERT_TRUE(made.ok()) << made.error().message();
     ASSERT_FALSE((*(*made)->advance(2)).has_value());
     EXPECT_TRUE(*(*made)->state() == *reference->state()) << name_of(path);
   }

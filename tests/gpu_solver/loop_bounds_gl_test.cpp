@@ -62,11 +62,11 @@ class LoopBounds : public aspic::testing::GlTest {
     options.force_path = path;
     options.shader_directory = directory.path();
     auto solver = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(solver.ok()) << (solver.ok() ? "" : solver.error().message);
+    EXPECT_TRUE(solver.ok()) << (solver.ok() ? "" : solver.error().message());
     const auto ran = (*solver)->advance(1);
     if (ran.ok()) return {};
     EXPECT_EQ(ran.error().code, ErrorCode::no_device);
-    return ran.error().message;
+    return ran.error().message();
   }
 
   static std::string named(const std::string& kernel) { return "The kernel " + kernel + " would loop"; }
@@ -99,7 +99,7 @@ void main() {
 }
 )";
   const auto program = gl::Program::compute(context(), gl::ShaderLibrary(directory.path()), "rounds.comp");
-  ASSERT_TRUE(program.ok()) << program.error().message;
+  ASSERT_TRUE(program.ok()) << program.error().message();
   auto counts = std::move(gl::Buffer::create(context(), "counts", std::uint64_t{4} * 67)).value();
   const auto count = [&](std::uint32_t rounds) {
     counts.clear();
@@ -154,14 +154,14 @@ TEST_F(LoopBounds, OfSpringsAtOneParticle) {
       auto solver = std::move(make_gpu_solver(context(), model, options)).value();
       ASSERT_FALSE((*reference->advance(3)).has_value());
       const auto divergence = solver->advance(3);
-      ASSERT_TRUE(divergence.ok()) << divergence.error().message;
+      ASSERT_TRUE(divergence.ok()) << divergence.error().message();
       EXPECT_EQ(*solver->state(), *reference->state());
 
       model = hub(gl::max_rounds + 1);
       model.simulation.integrator = integrator;
       auto refused = std::move(make_gpu_solver(context(), model, options)).value()->advance(1);
       ASSERT_FALSE(refused.ok());
-      EXPECT_THAT(refused.error().message, HasSubstr("the springs of one particle"));
+      EXPECT_THAT(refused.error().message(), HasSubstr("the springs of one particle"));
     }
   }
 }
@@ -212,14 +212,14 @@ TEST_F(LoopBounds, OfPictures) {
   EXPECT_TRUE(gl::check_loop("k", "n", gl::max_rounds).ok());
   const Status over = gl::check_loop("normals", "the faces at one particle", gl::max_rounds + 1);
   ASSERT_FALSE(over.ok());
-  EXPECT_THAT(over.error().message, HasSubstr("The kernel normals would loop over the faces"));
+  EXPECT_THAT(over.error().message(), HasSubstr("The kernel normals would loop over the faces"));
   for (const std::uint32_t springs : {gl::max_rounds, gl::max_rounds + 1}) {
     const Model model = hub(springs);
     auto buffers = ModelBuffers::create(context(), model);
-    ASSERT_TRUE(buffers.ok()) << buffers.error().message;
+    ASSERT_TRUE(buffers.ok()) << buffers.error().message();
     const Status ready = buffers->prepare_incident(context(), model, {});
     EXPECT_EQ(ready.ok(), springs == gl::max_rounds);
-    EXPECT_THAT(ready.ok() ? named("quantity") : ready.error().message, HasSubstr(named("quantity")));
+    EXPECT_THAT(ready.ok() ? named("quantity") : ready.error().message(), HasSubstr(named("quantity")));
   }
 }
 
@@ -251,7 +251,7 @@ TEST_F(LoopBounds, OfTheBoxOfAllParticles) {
   found.fill({glm::uvec4(0xffffffffu), glm::uvec4(0u)});
   const auto bounds = std::move(gl::Buffer::of(context(), "bounds", found)).value();
   const auto programs = RenderPrograms::create(context(), gl::ShaderLibrary());
-  ASSERT_TRUE(programs.ok()) << programs.error().message;
+  ASSERT_TRUE(programs.ok()) << programs.error().message();
   ASSERT_EQ(programs->bounds.group_size()[0], group);
   gl::Pass(programs->bounds,
            {{BINDING_PARTICLES, &state},
@@ -291,7 +291,7 @@ TEST_F(LoopBounds, OfTheForceThatIsDrawn) {
   auto buffers = std::move(ModelBuffers::create(context(), model)).value();
   ASSERT_TRUE(buffers.prepare_incident(context(), model, shown).ok());
   const auto programs = RenderPrograms::create(context(), gl::ShaderLibrary());
-  ASSERT_TRUE(programs.ok()) << programs.error().message;
+  ASSERT_TRUE(programs.ok()) << programs.error().message();
   const gl::Buffer frame = frame_of(context(), model.particle_count(), COLOUR_FORCE);
   frame.bind(gl::BufferKind::uniform, BINDING_FRAME);
   buffers.compute_quantity(*programs, shown);

@@ -17,7 +17,7 @@ class MovingTerrain : public aspic::testing::GlTest {
     GpuOptions options;
     options.force_path = path;
     auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
     return std::move(made).value();
   }
   static State reference_after(const Model& model, std::uint64_t steps) {

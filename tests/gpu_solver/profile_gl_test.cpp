@@ -24,7 +24,7 @@ class PassTimes : public aspic::testing::GlTest {
     options.force_path = path;
     options.ball_search = search;
     auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
     return std::move(made).value();
   }
 

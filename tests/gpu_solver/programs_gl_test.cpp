@@ -81,10 +81,10 @@ TEST_F(Programs, HaveTheReferencesBits) {
     const Model model = test::build(variant.settings);
     const std::uint64_t before = context().programs().compiled();
     auto solver = make_gpu_solver(context(), model, variant.options);
-    ASSERT_TRUE(solver.ok()) << solver.error().message;
+    ASSERT_TRUE(solver.ok()) << solver.error().message();
     if (context().programs().compiled() == before) continue;
     const auto divergence = (*solver)->advance(variant.steps());
-    ASSERT_TRUE(divergence.ok()) << divergence.error().message;
+    ASSERT_TRUE(divergence.ok()) << divergence.error().message();
     ASSERT_FALSE(divergence->has_value());
     const test::GoldenRun run = test::golden_run(variant);
     const State state = *(*solver)->state();
@@ -122,7 +122,7 @@ TEST_F(Programs, ShowEachKernelThatDoesNothing) {
       options.shader_directory = directory.path();
       const Model model = test::build(variant.settings);
       auto solver = make_gpu_solver(context(), model, options);
-      ASSERT_TRUE(solver.ok()) << solver.error().message;
+      ASSERT_TRUE(solver.ok()) << solver.error().message();
       if (idle_kernels == before) continue;
       ++variants;
       const auto divergence = (*solver)->advance(variant.steps());

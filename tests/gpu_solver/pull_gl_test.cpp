@@ -24,7 +24,7 @@ class PullOnTheDevice : public aspic::testing::GlTest {
     GpuOptions options;
     options.force_path = path;
     auto made = make_gpu_solver(context(), model, options);
-    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message);
+    EXPECT_TRUE(made.ok()) << (made.ok() ? "" : made.error().message());
     return std::move(made).value();
   }
 

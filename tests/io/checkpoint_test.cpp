@@ -36,7 +36,7 @@ TEST_P(CheckpointOf, ReadsBackWhole) {
   auto file = AtomicFile::create(dir.file("c"), Overwrite::refuse);
   ASSERT_TRUE(file.ok() && write_checkpoint(*file, checkpoint).ok() && file->commit().ok());
   const auto back = read_checkpoint(dir.file("c"));
-  ASSERT_TRUE(back.ok()) << back.error().message;
+  ASSERT_TRUE(back.ok()) << back.error().message();
   EXPECT_EQ(back->program_version, checkpoint.program_version);
   EXPECT_EQ(back->scene, checkpoint.scene);
   EXPECT_EQ(back->inputs, checkpoint.inputs);
@@ -77,7 +77,7 @@ TEST_P(CheckpointOf, TheVersionBeforeIsRead) {
   const std::string bytes = of_version_2(checkpoint);
   std::ofstream(dir.file("old"), std::ios::binary) << bytes;
   const auto back = read_checkpoint(dir.file("old"));
-  ASSERT_TRUE(back.ok()) << back.error().message;
+  ASSERT_TRUE(back.ok()) << back.error().message();
   EXPECT_EQ(back->scene, checkpoint.scene);
   EXPECT_EQ(back->inputs, "");
   EXPECT_EQ(back->state, checkpoint.state);
@@ -98,16 +98,16 @@ TEST_P(CheckpointOf, EveryFlippedBitIsRefused) {
 INSTANTIATE_TEST_SUITE_P(Precisions, CheckpointOf, testing::Values(Precision::single, Precision::double_));
 
 TEST(Checkpoint, SaysWhatIsWrong) {
-  EXPECT_THAT(decode_checkpoint("", "c").error().message, HasSubstr("empty"));
-  EXPECT_THAT(decode_checkpoint("schema = 1\n", "c").error().message, HasSubstr("not a checkpoint"));
+  EXPECT_THAT(decode_checkpoint("", "c").error().message(), HasSubstr("empty"));
+  EXPECT_THAT(decode_checkpoint("schema = 1\n", "c").error().message(), HasSubstr("not a checkpoint"));
   std::string bytes = encode_checkpoint(example(Precision::single));
-  EXPECT_THAT(decode_checkpoint(bytes.substr(0, bytes.size() / 2), "c").error().message,
+  EXPECT_THAT(decode_checkpoint(bytes.substr(0, bytes.size() / 2), "c").error().message(),
               HasSubstr("cut short"));
   bytes[10] = 4;  // the format version follows the ten bytes of the mark
   const auto newer = decode_checkpoint(bytes, "c");
   ASSERT_FALSE(newer.ok());
-  EXPECT_THAT(newer.error().message, HasSubstr("format version 4"));
-  EXPECT_THAT(newer.error().message, HasSubstr("newer aspic"));
+  EXPECT_THAT(newer.error().message(), HasSubstr("format version 4"));
+  EXPECT_THAT(newer.error().message(), HasSubstr("newer aspic"));
   EXPECT_FALSE(read_checkpoint("/nonexistent/c").ok());
 }
 
@@ -125,7 +125,7 @@ TEST(Checkpoint, NotANumberIsNeverWritten) {
 TEST(Checkpoint, NumbersOutOfTheirBoundsAreDamage) {
   const auto refused = [](const Checkpoint& checkpoint) {
     const auto back = decode_checkpoint(encode_checkpoint(checkpoint), "c");
-    return !back.ok() && back.error().message.find("damaged") != std::string::npos;
+    return !back.ok() && back.error().message().find("damaged") != std::string::npos;
   };
   Checkpoint checkpoint = example(Precision::single);
   EXPECT_FALSE(refused(checkpoint));
@@ -162,14 +162,14 @@ TEST(Checkpoint, BelongsToItsScene) {
   settings.balls.resize(balls);
   EXPECT_TRUE(check_against_scene(checkpoint, settings, "c").ok());
   settings.balls.resize(balls + 1);
-  EXPECT_THAT(check_against_scene(checkpoint, settings, "c").error().message,
+  EXPECT_THAT(check_against_scene(checkpoint, settings, "c").error().message(),
               HasSubstr("balls, but the scene"));
   settings.balls.resize(balls);
   settings.cubes[0].particles_per_edge = 400;
-  EXPECT_THAT(check_against_scene(checkpoint, settings, "c").error().message, HasSubstr("64000000"));
+  EXPECT_THAT(check_against_scene(checkpoint, settings, "c").error().message(), HasSubstr("64000000"));
   settings.cubes[0].particles_per_edge = 3;
   settings.simulation.timestep = std::nextafter(0.002, 1.0);
-  EXPECT_THAT(check_against_scene(checkpoint, settings, "c").error().message, HasSubstr("time step"));
+  EXPECT_THAT(check_against_scene(checkpoint, settings, "c").error().message(), HasSubstr("time step"));
 }
 
 TEST(Checkpoint, FilesOfTheWrongSizeAreNotRead) {
@@ -186,7 +186,7 @@ TEST(Checkpoint, FilesOfTheWrongSizeAreNotRead) {
     std::filesystem::resize_file(dir.file("c"), size);
     const auto read = read_checkpoint(dir.file("c"));
     ASSERT_FALSE(read.ok()) << size;
-    EXPECT_THAT(read.error().message, HasSubstr("damaged or cut short")) << size;
+    EXPECT_THAT(read.error().message(), HasSubstr("damaged or cut short")) << size;
   }
 }
 
@@ -198,9 +198,9 @@ TEST(Checkpoint, OnlyRegularFilesAreRead) {
     const auto read = read_checkpoint(path);
     ASSERT_FALSE(read.ok());
     EXPECT_EQ(read.error().code, ErrorCode::io);
-    EXPECT_THAT(read.error().message, testing::AllOf(HasSubstr(path), HasSubstr("device or a pipe")));
+    EXPECT_THAT(read.error().message(), testing::AllOf(HasSubstr(path), HasSubstr("device or a pipe")));
   }
-  EXPECT_THAT(read_checkpoint("/").error().message, HasSubstr("directory"));
+  EXPECT_THAT(read_checkpoint("/").error().message(), HasSubstr("directory"));
 }
 
 }  // namespace

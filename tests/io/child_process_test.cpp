@@ -16,7 +16,7 @@ std::span<const std::byte> bytes(const std::string& text) {
 
 TEST(ChildProcess, FeedsAndKeepsTheLastLines) {
   auto child = ChildProcess::start({"sh", "-c", "cat >&2; exit 3"});
-  ASSERT_TRUE(child.ok()) << child.error().message;
+  ASSERT_TRUE(child.ok()) << child.error().message();
   EXPECT_TRUE(child->write(bytes("one\ntwo\nthree\n")));
   EXPECT_EQ(child->finish().exit_code, 3);
   EXPECT_EQ(child->last_lines(2), "two\nthree\n");
@@ -26,7 +26,7 @@ TEST(ChildProcess, FeedsAndKeepsTheLastLines) {
 TEST(ChildProcess, AnswersLineByLine) {
   auto child = ChildProcess::start({"sh", "-c", "echo ready; read word; echo \"$word\"; printf 'no end'"},
                                    ChildProcess::Output::answers);
-  ASSERT_TRUE(child.ok()) << child.error().message;
+  ASSERT_TRUE(child.ok()) << child.error().message();
   EXPECT_EQ(child->line(), "ready");
   ASSERT_TRUE(child->write(bytes("hello\n")));
   EXPECT_EQ(child->line(), "hello");
@@ -119,7 +119,7 @@ TEST(ChildProcess, AllEndWhereTheProcessIsAboutTo) {
 TEST(ChildProcess, MissingProgramIsAnError) {
   const auto child = ChildProcess::start({"no-such-program-anywhere"});
   ASSERT_FALSE(child.ok());
-  EXPECT_THAT(child.error().message, testing::HasSubstr("no-such-program-anywhere cannot be started"));
+  EXPECT_THAT(child.error().message(), testing::HasSubstr("no-such-program-anywhere cannot be started"));
 }
 
 }  // namespace

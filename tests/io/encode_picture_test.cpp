@@ -59,7 +59,7 @@ std::vector<std::byte> slopes() {
 TEST(EncodePicture, PngHoldsEveryByte) {
   for (const auto& pixels : {noise(3), slopes(), std::vector<std::byte>(3 * 67 * 41, std::byte{255})}) {
     const auto file = encode_png(encoded_size, pixels);
-    ASSERT_TRUE(file.ok()) << file.error().message;
+    ASSERT_TRUE(file.ok()) << file.error().message();
     const Read back = read(*file, 3);
     EXPECT_EQ(back.size, encoded_size);
     EXPECT_EQ(back.channels, 3);
@@ -70,7 +70,7 @@ TEST(EncodePicture, PngHoldsEveryByte) {
 TEST(EncodePicture, ClearPngHoldsEveryByte) {
   const auto pixels = noise(4);
   const auto file = encode_clear_png(encoded_size, pixels);
-  ASSERT_TRUE(file.ok()) << file.error().message;
+  ASSERT_TRUE(file.ok()) << file.error().message();
   const Read back = read(*file, 4);
   EXPECT_EQ(back.size, encoded_size);
   EXPECT_EQ(back.channels, 4);
@@ -82,7 +82,7 @@ TEST(EncodePicture, ClearPngHoldsEveryByte) {
 TEST(EncodePicture, JpegIsNear) {
   const auto pixels = slopes();
   const auto file = encode_jpeg(encoded_size, pixels);
-  ASSERT_TRUE(file.ok()) << file.error().message;
+  ASSERT_TRUE(file.ok()) << file.error().message();
   const Read back = read(*file, 3);
   EXPECT_EQ(back.size, encoded_size);
   EXPECT_EQ(back.channels, 3);
@@ -96,7 +96,7 @@ TEST(EncodePicture, JpegIsNear) {
 // Drawn pictures are mostly smooth: what no row of a slope needs is not in the file.
 TEST(EncodePicture, PngOfASlopeIsSmall) {
   const auto file = encode_png(encoded_size, slopes());
-  ASSERT_TRUE(file.ok()) << file.error().message;
+  ASSERT_TRUE(file.ok()) << file.error().message();
   EXPECT_LT(file->size(), slopes().size() / 4);
 }
 

@@ -27,7 +27,7 @@ std::array<int, 2> png_size(const std::string& file) {
 TEST(FrameDirectory, NumbersItsPictures) {
   const test::TemporaryDirectory dir;
   auto sink = open_frame_directory(dir.file("out"), *find_film_format("png"), size, Overwrite::refuse);
-  ASSERT_TRUE(sink.ok()) << sink.error().message;
+  ASSERT_TRUE(sink.ok()) << sink.error().message();
   ASSERT_TRUE((*sink)->write(grey(10)).ok());
   ASSERT_TRUE((*sink)->write(grey(20)).ok());
   ASSERT_TRUE((*sink)->finish().ok());
@@ -49,8 +49,8 @@ TEST(FrameDirectory, RefusesPicturesOfAnEarlierRun) {
   const auto refused =
       open_frame_directory(dir.path().string(), *find_film_format("png"), size, Overwrite::refuse);
   ASSERT_FALSE(refused.ok());
-  EXPECT_THAT(refused.error().message, HasSubstr("frame-000007.jpg"));
-  EXPECT_THAT(refused.error().message, HasSubstr("--force"));
+  EXPECT_THAT(refused.error().message(), HasSubstr("frame-000007.jpg"));
+  EXPECT_THAT(refused.error().message(), HasSubstr("or pass Overwrite::allow."));
   EXPECT_EQ(dir.read("frame-000007.jpg"), "old");
 
   dir.write("frame-000000.png", "old");
@@ -73,7 +73,7 @@ TEST(FrameDirectory, RefusesWhatIsNoDirectory) {
   dir.write("file", "x");
   const auto file = open_frame_directory(dir.file("file"), *find_film_format("png"), size, Overwrite::allow);
   ASSERT_FALSE(file.ok());
-  EXPECT_THAT(file.error().message, HasSubstr("is a file"));
+  EXPECT_THAT(file.error().message(), HasSubstr("is a file"));
   EXPECT_FALSE(
       open_frame_directory(dir.file("no/such"), *find_film_format("png"), size, Overwrite::allow).ok());
 }

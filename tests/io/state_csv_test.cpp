@@ -24,7 +24,7 @@ TEST_P(StateCsv, ReadsBackToTheSameBits) {
   ASSERT_TRUE(write_state_csv(*file, state).ok());
   ASSERT_TRUE(file->commit().ok());
   const auto back = test::read_state_csv(dir.file("s.csv"), GetParam());
-  ASSERT_TRUE(back.ok()) << back.error().message;
+  ASSERT_TRUE(back.ok()) << back.error().message();
   EXPECT_EQ(state_hash(*back), state_hash(state));
 }
 
@@ -54,7 +54,7 @@ TEST(StateCsvFormat, BallsFollowTheParticles) {
   ASSERT_TRUE(other.ok());
   const Status written = write_state_csv(*other, state);
   ASSERT_FALSE(written.ok());
-  EXPECT_THAT(written.error().message, HasSubstr("ball 0"));
+  EXPECT_THAT(written.error().message(), HasSubstr("ball 0"));
 }
 
 TEST(StateCsvFormat, NotANumberIsNeverWritten) {
@@ -68,7 +68,7 @@ TEST(StateCsvFormat, NotANumberIsNeverWritten) {
     const Status written = write_state_csv(*file, state);
     ASSERT_FALSE(written.ok());
     EXPECT_EQ(written.error().code, ErrorCode::diverged);
-    EXPECT_THAT(written.error().message, HasSubstr("particle 1"));
+    EXPECT_THAT(written.error().message(), HasSubstr("particle 1"));
   }
   EXPECT_EQ(dir.entries(), 0u);
 }
@@ -88,7 +88,7 @@ TEST_P(StateCsvErrors, NameTheLine) {
   const auto state = test::parse_state_csv(GetParam().text, "s.csv", Precision::single);
   ASSERT_FALSE(state.ok());
   EXPECT_EQ(state.error().code, ErrorCode::io);
-  EXPECT_THAT(state.error().message, HasSubstr(GetParam().message));
+  EXPECT_THAT(state.error().message(), HasSubstr(GetParam().message));
 }
 
 #define HEADER "kind,index,x,y,z,vx,vy,vz,wx,wy,wz\n"
@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(StateCsvErrors, MissingFileSaysSo) {
   const auto state = test::read_state_csv("/nonexistent/s.csv", Precision::single);
   ASSERT_FALSE(state.ok());
-  EXPECT_THAT(state.error().message, HasSubstr("/nonexistent/s.csv"));
+  EXPECT_THAT(state.error().message(), HasSubstr("/nonexistent/s.csv"));
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ std::string written(const Model& model, const State& state) {
   auto file = AtomicFile::create(dir.file("s.vtp"), Overwrite::refuse);
   EXPECT_TRUE(file.ok());
   const Status status = write_state_vtp(*file, model, state);
-  EXPECT_TRUE(status.ok()) << status.error().message;
+  EXPECT_TRUE(status.ok()) << status.error().message();
   EXPECT_TRUE(file->commit().ok());
   return dir.read("s.vtp");
 }
@@ -195,7 +195,7 @@ TEST(StateVtp, RefusesWhatIsNotFinite) {
   const Status status = write_state_vtp(*file, model, state);
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().code, ErrorCode::diverged);
-  EXPECT_THAT(status.error().message, HasSubstr("ball 1"));
+  EXPECT_THAT(status.error().message(), HasSubstr("ball 1"));
 }
 
 TEST(StateFormats, AreChosenByTheEnding) {
@@ -210,7 +210,7 @@ TEST(StateFormats, AreChosenByTheEnding) {
     const std::string name = fmt::format("a{}", format.ending);
     auto sink =
         format.open(dir.file(name), 0, Overwrite::refuse, {"schema = 1\n", Integrator::explicit_euler});
-    ASSERT_TRUE(sink.ok()) << sink.error().message;
+    ASSERT_TRUE(sink.ok()) << sink.error().message();
     EXPECT_TRUE((*sink)->take({model, state}).ok());
     EXPECT_TRUE((*sink)->finish({model, state}).ok());
     EXPECT_GT(dir.read(name).size(), 100u) << name;

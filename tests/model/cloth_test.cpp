@@ -141,7 +141,7 @@ TEST(Cloth, RefusesPinsThatItDoesNotHave) {
     const auto model = build_model(settings);
     ASSERT_FALSE(model.ok());
     EXPECT_EQ(model.error().code, ErrorCode::scene_rejected);
-    EXPECT_NE(model.error().message.find(message), std::string::npos) << model.error().message;
+    EXPECT_NE(model.error().message().find(message), std::string::npos) << model.error().message();
   }
 }
 

@@ -163,7 +163,7 @@ TEST(CubePinned, RefusesUnknownNamesAndIndices) {
     const auto model = pinned_cube({{name}, {}});
     ASSERT_FALSE(model.ok()) << name;
     EXPECT_EQ(model.error().code, ErrorCode::scene_rejected);
-    EXPECT_NE(model.error().message.find("cube[0].pinned"), std::string::npos);
+    EXPECT_NE(model.error().message().find("cube[0].pinned"), std::string::npos);
   }
   EXPECT_TRUE(pinned_cube({{}, {124}}).ok());
   EXPECT_FALSE(pinned_cube({{}, {125}}).ok());

@@ -28,7 +28,7 @@ std::string refusal(const Inputs& inputs, Precision precision = Precision::singl
   EXPECT_FALSE(taken.ok());
   if (taken.ok()) return "";
   EXPECT_EQ(taken.error().code, ErrorCode::usage);
-  return taken.error().message;
+  return taken.error().message();
 }
 
 TEST(Inputs, AreRoundedAndSorted) {
@@ -38,7 +38,7 @@ TEST(Inputs, AreRoundedAndSorted) {
   inputs.released = {4, 1};
   inputs.channels = {0.1, -0.0};
   const auto single = rounded_inputs(row(), inputs, Precision::single);
-  ASSERT_TRUE(single.ok()) << single.error().message;
+  ASSERT_TRUE(single.ok()) << single.error().message();
   EXPECT_EQ(single->pulls[0], *rounded_pull(row(), inputs.pulls[0], Precision::single));
   EXPECT_EQ(single->pulls[1].anchor.x, double{0.2f});
   EXPECT_EQ(single->pinned, (std::vector<std::uint32_t>{0, 2, 5}));

@@ -27,7 +27,7 @@ ModelSettings settings() {
 
 TEST(ModelFacts, AreThoseOfTheModel) {
   const auto made = make_model(settings());
-  ASSERT_TRUE(made.ok()) << made.error().message;
+  ASSERT_TRUE(made.ok()) << made.error().message();
   const Model& model = **made;
   const auto ranges = particle_ranges(model);
   ASSERT_EQ(ranges.size(), 2u);

@@ -44,7 +44,7 @@ TEST(RoundedPull, RefusesWithFigures) {
     EXPECT_FALSE(taken.ok());
     if (taken.ok()) return std::string();
     EXPECT_EQ(taken.error().code, ErrorCode::usage);
-    return taken.error().message;
+    return taken.error().message();
   };
   EXPECT_NE(refused({2, {0, 0, 0}, 1, 1}).find("2 particles"), std::string::npos);
   EXPECT_NE(refused({1, {0, NAN, 0}, 1, 1}).find("not finite"), std::string::npos);

@@ -132,10 +132,10 @@ TEST(StateView, SizesAreChecked) {
   State state = initial_state(model, Precision::single);
   EXPECT_TRUE(check_sizes(model, view_of(state)).ok());
   EXPECT_TRUE(check_sizes(model, StateView()).ok());
-  EXPECT_THAT(check_sizes(model, ConstStateView(), true).error().message,
+  EXPECT_THAT(check_sizes(model, ConstStateView(), true).error().message(),
               HasSubstr("0 vectors of position, the scene has 8 particles"));
   state.ball_velocity.clear();
-  EXPECT_THAT(check_sizes(model, view_of(state)).error().message,
+  EXPECT_THAT(check_sizes(model, view_of(state)).error().message(),
               HasSubstr("0 vectors of ball_velocity, the scene has 1 balls"));
 }
 

@@ -155,7 +155,7 @@ TEST(Bodies, PredictWhatTheyMake) {
     ModelCounts predicted = row.counts(settings, 0);
     predicted += row.counts(settings, 1);
     const auto model = build_model(settings);
-    ASSERT_TRUE(model.ok()) << model.error().message;
+    ASSERT_TRUE(model.ok()) << model.error().message();
     const ModelCounts made = count(*model);
     EXPECT_GT(made.particles + made.balls, 0u) << row.list.key;
     EXPECT_EQ(predicted.particles, made.particles) << row.list.key;
@@ -173,7 +173,7 @@ TEST(Bodies, HaveSurfacesOfTheirOwnParticlesAndClassesOfTheirOwnSprings) {
     settings.cubes.resize(1);
     row.list.append(settings);
     const auto model = build_model(settings);
-    ASSERT_TRUE(model.ok()) << model.error().message;
+    ASSERT_TRUE(model.ok()) << model.error().message();
     std::uint32_t next_particle = 0, next_class = 0;
     for (const Body& body : model->bodies) {
       EXPECT_EQ(body.first_particle, next_particle) << row.list.key;
@@ -213,7 +213,7 @@ TEST(Bodies, PinTheSidesAndCornersTheyName) {
       PinnedSettings pinned;
       pinned.names = {std::string(side.name)};
       const auto held = pinned_particles(*row.pins, pinned, lattice);
-      ASSERT_TRUE(held.ok()) << held.error().message;
+      ASSERT_TRUE(held.ok()) << held.error().message();
       for (int i = 0; i < lattice[0]; ++i) {
         for (int j = 0; j < lattice[1]; ++j) {
           for (int k = 0; k < lattice[2]; ++k) {
@@ -229,8 +229,8 @@ TEST(Bodies, PinTheSidesAndCornersTheyName) {
     wrong.names = {"middle"};
     const auto refused = pinned_particles(*row.pins, wrong, lattice);
     ASSERT_FALSE(refused.ok());
-    EXPECT_TRUE(refused.error().message.starts_with("pinned: \"middle\" is neither a"))
-        << refused.error().message;
+    EXPECT_TRUE(refused.error().message().starts_with("pinned: \"middle\" is neither a"))
+        << refused.error().message();
   }
 }
 

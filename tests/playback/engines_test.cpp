@@ -55,7 +55,7 @@ TEST(Engines, AJobAndTheContextAdvanceAnyTwoByTheSameSteps) {
     Engines engines = engines_of(*leader, shadow);
     EXPECT_FALSE(engines.only_context());
     auto advanced = engines.advance_outside({0, 7, 1e9}, false);
-    ASSERT_TRUE(advanced.ok()) << advanced.error().message;
+    ASSERT_TRUE(advanced.ok()) << advanced.error().message();
     JobResult& outcome = *advanced;
     ASSERT_TRUE(engines.follow(outcome).ok());
     EXPECT_EQ(outcome.steps, 7u);
@@ -111,7 +111,7 @@ TEST(Engines, CancellingDropsTheStepInProgressOfBoth) {
   engines.set_shadow(std::move(endless));
   const std::string start = hash_after(0);
   const auto outcome = engines.advance_outside({0, 3, 1e9}, cancelled);
-  ASSERT_TRUE(outcome.ok()) << outcome.error().message;
+  ASSERT_TRUE(outcome.ok()) << outcome.error().message();
   EXPECT_EQ(outcome->steps, 0u) << "the leader takes its steps back: the shadow has none";
   EXPECT_EQ(state_hash_text(outcome->leader.state), start);
   EXPECT_EQ(state_hash_text(*engines.leader().solver->state()), start);

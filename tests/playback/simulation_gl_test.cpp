@@ -22,7 +22,7 @@ class InMotion : public aspic::testing::GlTest, public ::testing::WithParamInter
     GlTest::SetUp();
     scene = load_scene("cube-plane", std::vector<std::string>{"cube[0].particles-per-edge=4"}).value();
     auto made = Simulation::create(context(), scene, *find_backend(GetParam()));
-    ASSERT_TRUE(made.ok()) << made.error().message;
+    ASSERT_TRUE(made.ok()) << made.error().message();
     run = std::move(*made);
   }
   void TearDown() override {
@@ -113,7 +113,7 @@ TEST_P(InMotion, ReplaysALogAndRecordsItWithTheHand) {
   ASSERT_TRUE(run->rebuild().toggle_pin(12).ok());
   step_to(pinned_at + 70);
   const auto recorded = recorded_inputs(run->playback().history(), run->playback().here());
-  ASSERT_TRUE(recorded.ok()) << recorded.error().message;
+  ASSERT_TRUE(recorded.ok()) << recorded.error().message();
   EXPECT_EQ(recorded->at(24).pulls.size(), 1u);
   EXPECT_EQ(recorded->at(25).pulls.size(), 2u);
   EXPECT_EQ(recorded->at(25).channels, std::vector<double>{0.5});

@@ -19,7 +19,7 @@ class BackdropGl : public test::Studio {
   void SetUp() override {
     Studio::SetUp();
     auto cold = Renderer::create(context());
-    ASSERT_TRUE(cold.ok()) << cold.error().message;
+    ASSERT_TRUE(cold.ok()) << cold.error().message();
     cold_ = std::move(*cold);
   }
   void TearDown() override {
@@ -37,7 +37,7 @@ class BackdropGl : public test::Studio {
     const auto uploaded = by.upload(state);
     EXPECT_TRUE(uploaded.ok());
     const Status drawn = by.draw(width_, height_, *uploaded, options);
-    EXPECT_TRUE(drawn.ok()) << (drawn.ok() ? "" : drawn.error().message);
+    EXPECT_TRUE(drawn.ok()) << (drawn.ok() ? "" : drawn.error().message());
     return read(by);
   }
 
@@ -80,7 +80,7 @@ class BackdropOfScene : public BackdropGl, public ::testing::WithParamInterface<
 
 TEST_P(BackdropOfScene, ChangesNoByte) {
   const auto scene = load_scene(GetParam(), {});
-  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   show(model);
   PictureOptions options;
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, BackdropOfScene,
 
 TEST_F(BackdropGl, NoChangeIsMissed) {
   const auto scene = load_scene("cube-plane", {});
-  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   show(model);
   PictureOptions options;
@@ -150,7 +150,7 @@ TEST_F(BackdropGl, NoChangeIsMissed) {
 /// may change, and the pictures are those of a renderer that has just drawn another state.
 TEST_F(BackdropGl, StillLightChangesNoByte) {
   const auto scene = load_scene("cube-and-balls", {});
-  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   show(model);
   PictureOptions options;
@@ -196,7 +196,7 @@ TEST_F(BackdropGl, StillLightChangesNoByte) {
 
 TEST_F(BackdropGl, StillLightIsNotDrawnAgain) {
   const auto scene = load_scene("cube-plane", {});
-  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   show(model);
   PictureOptions options;
@@ -217,7 +217,7 @@ TEST_F(BackdropGl, StillLightIsNotDrawnAgain) {
 TEST_F(BackdropGl, AnotherModelHasItsOwn) {
   for (const char* name : {"cube-plane", "cube-tilted-plane", "cube-plane"}) {
     auto scene = load_scene(name, {});
-    ASSERT_TRUE(scene.ok()) << scene.error().message;
+    ASSERT_TRUE(scene.ok()) << scene.error().message();
     const Model model = test::build(scene->model);
     show(model);
     PictureOptions options;
@@ -230,7 +230,7 @@ TEST_F(BackdropGl, AnotherModelHasItsOwn) {
 /// bodies differs from one without.
 TEST_F(BackdropGl, BoxesHoldEverySeenParticle) {
   const auto scene = load_scene("cube-plane", {});
-  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   show(model);
   PictureOptions options;

@@ -172,7 +172,7 @@ TEST_F(Balls, OfTheGpuSolverAreDrawnFromItsOwnBuffer) {
   settings.balls[1].position = {-1.0, 0.5, 0.5};
   const Model model = test::build(settings);
   auto solver = make_gpu_solver(context(), model);
-  ASSERT_TRUE(solver.ok()) << solver.error().message;
+  ASSERT_TRUE(solver.ok()) << solver.error().message();
   // An odd and an even number of steps: the state takes turns between slots.
   for (const std::uint64_t steps : {std::uint64_t{0}, std::uint64_t{101}, std::uint64_t{101}}) {
     ASSERT_TRUE((*solver)->advance(steps).ok());

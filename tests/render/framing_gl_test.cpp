@@ -104,7 +104,7 @@ class Framed : public test::Studio, public ::testing::WithParamInterface<Framing
 TEST_P(Framed, BodiesFillThePictureFromBeginningToEnd) {
   const Framing& framing = GetParam();
   const auto scene = load_scene(framing.scene, framing.overrides);
-  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   auto solver = make_cpu_solver(model);
   ASSERT_TRUE(solver.ok());

@@ -62,7 +62,7 @@ class Glslang : public aspic::testing::GlTest {
     for (const test::KernelVariant& variant : test::kernel_variants()) {
       const Model model = test::build(variant.settings);
       const auto solver = make_gpu_solver(context(), model, variant.options);
-      ASSERT_TRUE(solver.ok()) << solver.error().message;
+      ASSERT_TRUE(solver.ok()) << solver.error().message();
       const std::vector<gl::Define>& defines = variant.options.arithmetic->defines;
       if (!arithmetic.insert(defines.size()).second) continue;
       ASSERT_TRUE(gl::measure_arithmetic(context(), gl::ShaderLibrary{}, defines).ok());
@@ -77,7 +77,7 @@ class Glslang : public aspic::testing::GlTest {
     for (const TerrainShapeRow& shape : terrain_shapes) settings.terrain.emplace_back().shape = shape.value;
     const Model model = test::build(settings);
     auto renderer = Renderer::create(context());
-    ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+    ASSERT_TRUE(renderer.ok()) << renderer.error().message();
     ASSERT_TRUE((*renderer)->set_model(model).ok());
     const auto state = (*renderer)->upload(initial_state(model, Precision::single));
     ASSERT_TRUE(state.ok());

@@ -27,7 +27,7 @@ class Golden : public test::Studio, public ::testing::WithParamInterface<Shot> {
 TEST_P(Golden, Picture) {
   const Shot& shot = GetParam();
   const auto scene = load_scene(shot.scene, shot.overrides);
-  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  ASSERT_TRUE(scene.ok()) << scene.error().message();
   const Model model = test::build(scene->model);
   const State state = shot.step > 0 ? test::after(model, shot.step) : initial_state(model, Precision::single);
   PictureOptions options;

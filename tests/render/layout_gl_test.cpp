@@ -18,7 +18,7 @@ TEST_F(RenderLayout, FrameBlockMatchesTheDriver) {
   const auto program =
       gl::Program::graphics(context(), gl::ShaderLibrary(),
                             {.vertex = "render/terrain.vert", .fragment = "render/terrain.frag"}, plane);
-  ASSERT_TRUE(program.ok()) << program.error().message;
+  ASSERT_TRUE(program.ok()) << program.error().message();
   using render_layout::Frame;
   EXPECT_EQ(Reflection(*program).uniform_block_binding("Frame"), BINDING_FRAME);
   EXPECT_EQ(Reflection(*program).uniform_block_data_size("Frame"), static_cast<int>(sizeof(Frame)));
@@ -40,7 +40,7 @@ TEST_F(RenderLayout, FrameBlockMatchesTheDriver) {
 
 TEST_F(RenderLayout, LightBoxesMatchTheDriver) {
   const auto program = gl::Program::compute(context(), gl::ShaderLibrary(), "render/light_boxes.comp");
-  ASSERT_TRUE(program.ok()) << program.error().message;
+  ASSERT_TRUE(program.ok()) << program.error().message();
   EXPECT_EQ(Reflection(*program).storage_block_binding("LightBoxes"), BINDING_LIGHT_BOXES_OUT);
   EXPECT_EQ(Reflection(*program).buffer_variable_offset("light_boxes[0].depth"),
             static_cast<int>(offsetof(render_layout::LightBox, depth)));
@@ -56,7 +56,7 @@ TEST_F(RenderLayout, GraphicsProgramsReportInFilesAndLines) {
       gl::Program::graphics(context(), gl::ShaderLibrary(),
                             {.vertex = "render/screen.vert", .fragment = "render/sky.frag"}, broken);
   ASSERT_FALSE(program.ok());
-  EXPECT_NE(program.error().message.find("render/"), std::string::npos) << program.error().message;
+  EXPECT_NE(program.error().message().find("render/"), std::string::npos) << program.error().message();
   (void)forgive_errors();
 }
 

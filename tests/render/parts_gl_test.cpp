@@ -26,7 +26,7 @@ class Parts : public test::Studio, public ::testing::WithParamInterface<Sight> {
     Studio::SetUp();
     const Sight& sight = GetParam();
     auto scene = load_scene(sight.scene, sight.overrides);
-    ASSERT_TRUE(scene.ok()) << scene.error().message;
+    ASSERT_TRUE(scene.ok()) << scene.error().message();
     options.view = scene->view;
     model = test::build(scene->model);
     state = test::after(model, sight.step);
@@ -75,7 +75,7 @@ TEST_P(Parts, MakeTheSamePictureWhateverIsDrawnBetweenThem) {
     for (int parts = 1;; ++parts) {
       EXPECT_EQ(read(), before) << "shown until the other is finished";
       const auto finished = renderer().proceed();
-      ASSERT_TRUE(finished.ok()) << finished.error().message;
+      ASSERT_TRUE(finished.ok()) << finished.error().message();
       if (*finished) break;
       ASSERT_LT(parts, 1000);
       ASSERT_TRUE(other.draw(80, 50, *other_state, other_options).ok());

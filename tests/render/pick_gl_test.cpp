@@ -38,7 +38,7 @@ class Pick : public test::Studio {
   std::optional<Picked> at(double x, double y) {
     const auto number = renderer().request_pick({x, y, width, height});
     if (!number) {
-      ADD_FAILURE() << number.error().message;
+      ADD_FAILURE() << number.error().message();
       return std::nullopt;
     }
     glFinish();

@@ -126,7 +126,7 @@ TEST_F(Picture, GpuSolverIsDrawnFromItsOwnBuffer) {
   PictureOptions options;
   const test::Image from_state = draw(model, initial_state(model, Precision::single), options, width, height);
   auto solver = make_gpu_solver(context(), model);
-  ASSERT_TRUE(solver.ok()) << solver.error().message;
+  ASSERT_TRUE(solver.ok()) << solver.error().message();
   ASSERT_TRUE(renderer().draw(width, height, (*solver)->device_state(), options).ok());
   EXPECT_EQ(read(), from_state.rgb);
   ASSERT_TRUE((*solver)->advance(300).ok());
@@ -149,7 +149,7 @@ TEST_F(Picture, QuantitiesOfTheSolversBuffersAreThoseOfItsState) {
       GpuOptions gpu;
       gpu.force_path = path.path;
       auto solver = make_gpu_solver(context(), *model, gpu);
-      ASSERT_TRUE(solver.ok()) << solver.error().message;
+      ASSERT_TRUE(solver.ok()) << solver.error().message();
       ASSERT_TRUE((*solver)->advance(300).ok());
       const auto state = (*solver)->state();
       ASSERT_TRUE(state.ok());
@@ -276,7 +276,7 @@ TEST_F(Picture, TooLargeIsRefusedWithASentence) {
   const auto particles = renderer().upload(initial_state(model, Precision::single));
   const Status drawn = renderer().draw(1 << 20, 16, *particles, {});
   ASSERT_FALSE(drawn.ok());
-  EXPECT_NE(drawn.error().message.find("1048576 x 16"), std::string::npos) << drawn.error().message;
+  EXPECT_NE(drawn.error().message().find("1048576 x 16"), std::string::npos) << drawn.error().message();
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ inline Image draw(gl::Context& context, Renderer& renderer, const State& state, 
   const auto uploaded = renderer.upload(state);
   EXPECT_TRUE(uploaded.ok());
   const Status drawn = renderer.draw(width, height, *uploaded, options);
-  EXPECT_TRUE(drawn.ok()) << (drawn.ok() ? "" : drawn.error().message);
+  EXPECT_TRUE(drawn.ok()) << (drawn.ok() ? "" : drawn.error().message());
   return {width, height, read(context, renderer)};
 }
 

@@ -12,7 +12,7 @@ class Studio : public testing::GlTest {
   void SetUp() override {
     GlTest::SetUp();
     auto renderer = Renderer::create(context());
-    ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+    ASSERT_TRUE(renderer.ok()) << renderer.error().message();
     renderer_ = std::move(*renderer);
   }
   void TearDown() override {

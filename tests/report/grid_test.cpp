@@ -18,7 +18,7 @@ Scene scene(const char* name = "cube-plane") {
 
 std::vector<std::string> values(const std::string& axis) {
   const auto parsed = parse_axis(axis, scene());
-  EXPECT_TRUE(parsed.ok()) << parsed.error().message;
+  EXPECT_TRUE(parsed.ok()) << parsed.error().message();
   return parsed ? parsed->values : std::vector<std::string>{};
 }
 
@@ -42,7 +42,7 @@ TEST(Axis, ListsKeepBracketsQuotesAndColons) {
 
 TEST(Grid, LastAxisVariesFastest) {
   const auto grid = make_grid(scene(), {}, {}, {"h=0.001,0.002", "k=1:3:3"});
-  ASSERT_TRUE(grid.ok()) << grid.error().message;
+  ASSERT_TRUE(grid.ok()) << grid.error().message();
   ASSERT_EQ(grid->size(), 6u);
   EXPECT_THAT(grid->values(0), ElementsAre("0.001", "1"));
   EXPECT_THAT(grid->values(1), ElementsAre("0.001", "2"));
@@ -74,7 +74,7 @@ TEST(Grid, IdentityTellsGridsApart) {
 
 TEST(ShortKeys, KeepRatiosOfStiffness) {
   const auto set = assignments(scene("flag"), "k", "800");  // 400, 150 and 4 N/m
-  ASSERT_TRUE(set.ok()) << set.error().message;
+  ASSERT_TRUE(set.ok()) << set.error().message();
   EXPECT_THAT(*set, ElementsAre("cloth[0].structural.stiffness=800", "cloth[0].shear.stiffness=300",
                                 "cloth[0].bending.stiffness=8"));
   const auto row = find_short_key("k");
@@ -86,7 +86,7 @@ TEST(ShortKeys, AMistypedShortNameIsFoundOut) {
   const auto set = assignments(scene(), "integratr", "heun-3");
   ASSERT_FALSE(set.ok());
   EXPECT_EQ(set.error().code, ErrorCode::usage);
-  EXPECT_EQ(set.error().message, "unknown key 'integratr'; did you mean 'integrator'?");
+  EXPECT_EQ(set.error().message(), "unknown key 'integratr'; did you mean 'integrator'?");
   EXPECT_TRUE(assignments(scene(), "name", "other").ok()) << "a key of the scene itself";
 }
 

@@ -30,7 +30,7 @@ TEST(Study, EndsWithTheErrorOfATask) {
     return {};
   });
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().message, "task 3");
+  EXPECT_EQ(status.error().message(), "task 3");
 }
 
 TEST(Study, StopsWhenToldTo) {

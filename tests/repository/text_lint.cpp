@@ -23,6 +23,10 @@ constexpr std::string_view written[] = {
 /// Data, results of measurements, and the offences planted for this lint.
 constexpr std::string_view left_out[] = {"tests/repository", "bench/results", "tests/data",
                                          "tests/fuzz/regressions"};
+/// Rooms that every program may use.
+constexpr std::string_view library_rooms[] = {
+    "analysis", "base",  "cpu_parallel", "cpu_reference", "device", "gpu", "gpu_solver",
+    "io",       "model", "page",         "playback",      "render", "run", "scene"};
 constexpr std::string_view extensions[] = {"",     ".cpp", ".h",  ".glsl",  ".comp", ".vert", ".frag", ".md",
                                            ".txt", ".sh",  ".py", ".cmake", ".toml", ".json", ".supp"};
 
@@ -59,6 +63,15 @@ std::vector<std::smatch> matches(const std::string& line, const std::regex& patt
   return {std::sregex_iterator(line.begin(), line.end(), pattern), std::sregex_iterator()};
 }
 
+/// Whether a file is code of the library that speaks to all front ends.
+bool speaks_to_all(const fs::path& file) {
+  const std::string extension = file.extension().string(), stem = file.stem().string();
+  if ((extension != ".h" && extension != ".cpp") || file == "src/base/wording.cpp" || stem.ends_with("_main"))
+    return false;
+  auto part = file.begin();
+  return *part == "src" && std::ranges::find(library_rooms, (++part)->string()) != std::end(library_rooms);
+}
+
 /// Looks at one line of one file.
 class Line {
  public:
@@ -93,6 +106,21 @@ class Line {
     const bool code = file_.extension() == ".h" || file_.extension() == ".cpp";
     if (!code || file_ == "src/model/integrator.h" || text_.find("stages") == std::string::npos) return;
     for (const std::smatch& match : matches(text_, question)) add("kind", match.str());
+  }
+
+  void options() {
+    if (text_.find("--") == std::string::npos || !speaks_to_all(file_)) return;
+    bool inside = false;
+    for (std::size_t i = 0; i + 2 < text_.size(); ++i) {
+      if (!inside && text_.compare(i, 2, "//") == 0) return;
+      if (inside && text_[i] == '\\')
+        ++i;
+      else if (text_[i] == '"')
+        inside = !inside;
+      const auto next = static_cast<unsigned char>(text_[i + 2]);
+      if (inside && text_.compare(i, 2, "--") == 0 && (std::isalpha(next) || next == '{'))
+        add("option", text_.substr(i));
+    }
   }
 
   void paths() {
@@ -150,6 +178,7 @@ std::vector<Offence> lint(const fs::path& root, const fs::path& file, std::strin
     looked_at.outside();
     looked_at.pages();
     looked_at.kinds();
+    looked_at.options();
     if (file.extension() != ".md") continue;
     looked_at.paths();
     looked_at.links();

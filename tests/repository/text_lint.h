@@ -11,7 +11,7 @@ namespace aspic::testing {
 /// A line that breaks a rule.
 struct Offence {
   int line;          ///< from 1
-  std::string rule;  ///< `outside`, `path`, `section`, `kind`, `link` or `anchor`
+  std::string rule;  ///< `outside`, `path`, `section`, `kind`, `option`, `link` or `anchor`
   std::string text;  ///< what points nowhere
 };
 
@@ -21,7 +21,9 @@ struct Offence {
 /// section: `docs/PAGE.md, section N` where that page has no heading `## N.`.
 /// kind: what a method is, asked of its stages instead of its row (`stages.empty()` outside of
 /// src/model/integrator.h).
-/// link, anchor: a Markdown link to a file, or to a heading, that does not exist.
+/// option: a string of a library room that names an option of the command line (`--x`), outside of the words
+/// of src/base/wording.cpp and of programs (`*_main.cpp`). link, anchor: a Markdown link to a file, or to a
+/// heading, that does not exist.
 std::vector<Offence> lint(const std::filesystem::path& root, const std::filesystem::path& file,
                           std::string_view text);
 

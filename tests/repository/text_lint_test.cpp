@@ -29,6 +29,10 @@ TEST(TextLint, FindsEveryPlantedOffence) {
               ::testing::ElementsAre("1: path", "2: section"));
   EXPECT_THAT(rules_broken("src/x.cpp", "if (method.stages.empty())\n  solve(row->stages().empty());\n"),
               ::testing::ElementsAre("1: kind", "2: kind"));
+  const std::string options = "fail(\"use --fps\");\n--count;  // \"--fps\"\nadd(\"--{}\", \"a--\", n--);\n";
+  EXPECT_THAT(rules_broken("src/io/x.cpp", options), ::testing::ElementsAre("1: option", "3: option"));
+  for (const char* file : {"src/cli/x.cpp", "src/scene/x_main.cpp", "src/base/wording.cpp", "tests/io/x.cpp"})
+    EXPECT_THAT(rules_broken(file, options), ::testing::IsEmpty()) << file;
   EXPECT_THAT(rules_broken("docs/physics.md",
                            "`src/no/such/file.h` [a](no-such.md)\n[b](physics.md#no-such-heading)\n"),
               ::testing::ElementsAre("1: path", "1: link", "2: anchor"));
@@ -157,7 +161,8 @@ TEST(PublicHeaders, AreFewAndIncludeTheStandardLibraryAndEachOther) {
     names.insert(entry.path().filename().string());
     EXPECT_THAT(not_public(text), ::testing::IsEmpty()) << entry.path();
   }
-  EXPECT_LE(lines, 1500u) << "a user reads them all";
+  // Room for what every front end says of an error, and for the threads of every class.
+  EXPECT_LE(lines, 1600u) << "a user reads them all";
   names.insert("version.h");  // generated
   const std::string all = contents(root / "include/aspic/aspic.h");
   names.erase("aspic.h");

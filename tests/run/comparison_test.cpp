@@ -29,7 +29,7 @@ TEST(Comparison, DifferenceIsKeyAndValue) {
     const auto bad = parse_difference(text);
     ASSERT_FALSE(bad.ok()) << text;
     EXPECT_EQ(bad.error().code, ErrorCode::usage);
-    EXPECT_THAT(bad.error().message, HasSubstr("KEY=VALUE"));
+    EXPECT_THAT(bad.error().message(), HasSubstr("KEY=VALUE"));
   }
 }
 
@@ -37,7 +37,7 @@ TEST(Comparison, EachRunHasItsOwnDifferenceAlone) {
   const Scene scene = small_scene();
   const auto runs =
       variants_of(scene, {}, {{"integrator", "implicit-euler"}, {"h", "0.002"}, {"backend", "cpu"}});
-  ASSERT_TRUE(runs.ok()) << runs.error().message;
+  ASSERT_TRUE(runs.ok()) << runs.error().message();
   ASSERT_EQ(runs->size(), 4u);
   const auto simulation = [&](std::size_t i) { return (*runs)[i].scene.model.simulation; };
   EXPECT_EQ(simulation(0).integrator, scene.model.simulation.integrator);
@@ -54,7 +54,7 @@ TEST(Comparison, WrongDifferencesSayWhichAndWhy) {
   const auto message = [](const std::vector<Difference>& differences) {
     const auto runs = variants_of(small_scene(), {}, differences);
     EXPECT_FALSE(runs.ok());
-    return runs.ok() ? std::string() : runs.error().message;
+    return runs.ok() ? std::string() : runs.error().message();
   };
   EXPECT_THAT(message({{"simulation.integratr", "x"}}),
               testing::AllOf(HasSubstr("the variant simulation.integratr=x"),

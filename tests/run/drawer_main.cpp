@@ -6,6 +6,6 @@
 int main() {
   const aspic::Status served = aspic::serve_pictures();
   if (served) return 0;
-  std::fprintf(stderr, "%s\n", served.error().message.c_str());
+  std::fprintf(stderr, "%s\n", served.error().message().c_str());
   return 6;
 }

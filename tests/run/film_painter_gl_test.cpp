@@ -95,7 +95,7 @@ class FilmPainterTest : public aspic::testing::GlTest {
     sinks.push_back(std::make_unique<MemorySink>(pictures));
     ::testing::internal::CaptureStderr();
     const auto painter = FilmPainter::create(context(), output, runs, 7, std::move(sinks));
-    EXPECT_TRUE(painter.ok()) << painter.error().message;
+    EXPECT_TRUE(painter.ok()) << painter.error().message();
     EXPECT_EQ((*painter)->times().processes, drawer.empty() ? 0 : std::stoul(processes));
     for (int f = 0; f < takes.front().pictures; ++f) {
       std::vector<State> copies;
@@ -116,10 +116,10 @@ class FilmPainterTest : public aspic::testing::GlTest {
       std::vector<PaintedState> states;
       for (const State& copy : copies) states.push_back({&copy, {}});
       const Status added = (*painter)->add(states, std::move(shown), f == 2 ? 2 : 1);
-      EXPECT_TRUE(added.ok()) << added.error().message;
+      EXPECT_TRUE(added.ok()) << added.error().message();
     }
     const Status finished = (*painter)->finish();
-    EXPECT_TRUE(finished.ok()) << finished.error().message;
+    EXPECT_TRUE(finished.ok()) << finished.error().message();
     said = ::testing::internal::GetCapturedStderr();
     return pictures;
   }

@@ -40,7 +40,7 @@ class SeveralGpuSolvers : public aspic::testing::GlTest {
  protected:
   static std::shared_ptr<gl::Context> another_context() {
     auto made = gl::Context::create_headless({.debug = true, .device = aspic::testing::test_device()});
-    EXPECT_TRUE(made.ok()) << made.error().message;
+    EXPECT_TRUE(made.ok()) << made.error().message();
     return std::move(*made);
   }
   /// A solver in `context`, or in one of its own if that is null.
@@ -52,17 +52,17 @@ class SeveralGpuSolvers : public aspic::testing::GlTest {
     SolverHost host;
     host.context = own ? own.get() : context;
     auto made = make_backend(*choice, model, host);
-    EXPECT_TRUE(made.ok()) << variant << ": " << made.error().message;
+    EXPECT_TRUE(made.ok()) << variant << ": " << made.error().message();
     return std::move(*made);
   }
   static std::string hash_of(const Backend& backend) {
     const auto state = backend.solver->state();
-    EXPECT_TRUE(state.ok()) << state.error().message;
+    EXPECT_TRUE(state.ok()) << state.error().message();
     return state.ok() ? state_hash_text(*state) : "";
   }
   static std::string hash_after(const Backend& backend, std::uint64_t count) {
     const auto advanced = backend.solver->advance(count);
-    EXPECT_TRUE(advanced.ok()) << advanced.error().message;
+    EXPECT_TRUE(advanced.ok()) << advanced.error().message();
     return hash_of(backend);
   }
   template <class AnyModel>
@@ -89,7 +89,7 @@ TEST_F(SeveralGpuSolvers, EveryPairOfVariantsHasTheBitsOfEach) {
                       second = make(other, model, shared ? &context() : nullptr);
         const auto compared =
             compare_in_lockstep(*first.solver, *second.solver, steps, [](std::uint64_t) { return true; });
-        ASSERT_TRUE(compared.ok()) << compared.error().message;
+        ASSERT_TRUE(compared.ok()) << compared.error().message();
         EXPECT_EQ(compared->hash[0], alone[one]);
         EXPECT_EQ(compared->hash[1], alone[other]);
         EXPECT_EQ(compared->first_difference.has_value(), alone[one] != alone[other]);
@@ -197,7 +197,7 @@ TEST_F(SeveralGpuSolvers, ACallFromAnotherThreadIsRefusedAndSaysSo) {
   std::vector<std::string> answers;
   std::thread([&] {
     const auto note = [&](const auto& result) {
-      answers.push_back(result.ok() ? "done" : result.error().message);
+      answers.push_back(result.ok() ? "done" : result.error().message());
     };
     note(backend.solver->advance(1));
     note(backend.solver->state());
@@ -246,7 +246,7 @@ TEST_F(SeveralGpuSolvers, ASolverMadeOnAThreadThatEndedIsUsedOnAnother) {
 struct Painter {
   Painter(gl::Context& context, const Model& model) {
     auto made = Renderer::create(context);
-    EXPECT_TRUE(made.ok()) << made.error().message;
+    EXPECT_TRUE(made.ok()) << made.error().message();
     renderer = std::move(*made);
     EXPECT_TRUE(renderer->set_model(model).ok());
     auto pictures = gl::PixelRing::create(context, 64, 48);
@@ -257,7 +257,7 @@ struct Painter {
     const auto there = renderer->upload(state);
     EXPECT_TRUE(there.ok());
     const Status drawn = renderer->draw(64, 48, *there, {});
-    EXPECT_TRUE(drawn.ok()) << (drawn.ok() ? "" : drawn.error().message);
+    EXPECT_TRUE(drawn.ok()) << (drawn.ok() ? "" : drawn.error().message());
     ring->submit(renderer->picture());
     std::vector<std::byte> rgb;
     EXPECT_TRUE(ring->take(rgb).ok());

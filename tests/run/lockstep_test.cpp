@@ -61,7 +61,7 @@ TEST(Lockstep, TwoSolversOfOneStateAreFoundOut) {
     const auto compared = compare_in_lockstep(first, second, 20, always);
     ASSERT_FALSE(compared.ok());
     EXPECT_EQ(compared.error().code, ErrorCode::check_failed);
-    EXPECT_THAT(compared.error().message, HasSubstr("both work on one state"));
+    EXPECT_THAT(compared.error().message(), HasSubstr("both work on one state"));
     EXPECT_FALSE(compare_in_lockstep(first, first, 20, always).ok());
     State other = initial_state(model, Precision::double_);
     Stepper apart(model, other, still);
@@ -76,7 +76,7 @@ TEST(Lockstep, TwoSolversOfTheirOwnAreCompared) {
              second = test::solver_for(model, Precision::single),
              other = test::solver_for(model, Precision::double_);
   const auto same = compare_in_lockstep(*first, *second, 10, always);
-  ASSERT_TRUE(same.ok()) << same.error().message;
+  ASSERT_TRUE(same.ok()) << same.error().message();
   EXPECT_EQ(same->steps, 10u);
   EXPECT_FALSE(same->first_difference);
   EXPECT_EQ(same->hash[0], same->hash[1]);

@@ -125,7 +125,7 @@ class Memory : public testing::Test {
 /// In the air, so that no contact comes and goes.
 ModelSettings scene(const char* name, std::vector<std::string> changes = {}) {
   auto loaded = load_scene(name, std::move(changes));
-  EXPECT_TRUE(loaded.ok()) << loaded.error().message;
+  EXPECT_TRUE(loaded.ok()) << loaded.error().message();
   return std::move(loaded->model);
 }
 

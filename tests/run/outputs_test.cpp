@@ -49,7 +49,7 @@ class Outputs : public testing::Test {
 
 TEST_F(Outputs, EachHasItsOwnInterval) {
   auto files = open({{"state", dir_.file("s.csv"), 10}, {"series", dir_.file("e.csv"), 4}});
-  ASSERT_TRUE(files.ok()) << files.error().message;
+  ASSERT_TRUE(files.ok()) << files.error().message();
   ASSERT_TRUE(run(*files, 22).ok());
   EXPECT_THAT(visited_, testing::ElementsAre(4, 8, 10, 12, 16, 20, 22));
   ASSERT_TRUE(files->finish({model_, state()}).ok());
@@ -66,7 +66,7 @@ TEST_F(Outputs, ACheckpointIsReplacedByTheNext) {
   ASSERT_TRUE(files.ok());
   ASSERT_TRUE(run(*files, 25).ok());
   auto checkpoint = read_checkpoint(dir_.file("c"));
-  ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message;
+  ASSERT_TRUE(checkpoint.ok()) << checkpoint.error().message();
   EXPECT_EQ(checkpoint->state.step, 20u);
   ASSERT_TRUE(files->finish({model_, state()}).ok());
   checkpoint = read_checkpoint(dir_.file("c"));
@@ -93,7 +93,7 @@ TEST_F(Outputs, OneThatFailsOnTheWayCostsNoOther) {
   auto files = open({{"state", dir_.file("far/s.csv"), 10},
                      {"checkpoint", dir_.file("c"), 10},
                      {"series", dir_.file("e.csv"), 10}});
-  ASSERT_TRUE(files.ok()) << files.error().message;
+  ASSERT_TRUE(files.ok()) << files.error().message();
   ASSERT_TRUE(run(*files, 0).ok());
   std::filesystem::remove_all(dir_.file("far"));
   const auto advance_and_take = [&] {
@@ -102,7 +102,7 @@ TEST_F(Outputs, OneThatFailsOnTheWayCostsNoOther) {
   };
   ASSERT_TRUE(advance_and_take().ok());
   ASSERT_EQ(files->failures().size(), 1u);
-  EXPECT_THAT(files->failures()[0].message, testing::HasSubstr("far/s-00000010.csv"));
+  EXPECT_THAT(files->failures()[0].what, testing::HasSubstr("far/s-00000010.csv"));
   EXPECT_TRUE(files->any_left());
   // The disk is back: the next state is written again, and what is lost stays told of.
   std::filesystem::create_directory(dir_.file("far"));
@@ -130,7 +130,7 @@ TEST_F(Outputs, FilesOfLaterStepsAreFoundAtTheStart) {
   };
   const Status refused = first(0, Overwrite::refuse);
   ASSERT_FALSE(refused.ok());
-  EXPECT_THAT(refused.error().message, testing::HasSubstr("s-00000010.csv already exists"));
+  EXPECT_THAT(refused.error().message(), testing::HasSubstr("s-00000010.csv already exists"));
   EXPECT_EQ(dir_.entries(), 1u);
   EXPECT_TRUE(first(20, Overwrite::refuse).ok()) << "a run that is resumed later never comes to that step";
   EXPECT_TRUE(first(0, Overwrite::allow).ok());
@@ -140,7 +140,7 @@ TEST_F(Outputs, OneNameForTwoFilesIsRefused) {
   const auto files = open({{"state", dir_.file("x"), {}}, {"series", dir_.file("x"), {}}});
   ASSERT_FALSE(files.ok());
   EXPECT_EQ(files.error().code, ErrorCode::usage);
-  EXPECT_THAT(files.error().message, testing::HasSubstr("--state and --series"));
+  EXPECT_THAT(files.error().message(), testing::HasSubstr("--state and --series"));
   std::filesystem::create_symlink("x", dir_.file("link"));
   EXPECT_FALSE(open({{"state", dir_.file("x"), {}}, {"series", dir_.file("link"), {}}}).ok());
 }

@@ -28,7 +28,7 @@ class InputFile : public ::testing::Test {
   }
   InputLog accepted(std::string_view text) const {
     const auto log = parse(text);
-    EXPECT_TRUE(log.ok()) << log.error().message;
+    EXPECT_TRUE(log.ok()) << log.error().message();
     return log.ok() ? *log : InputLog();
   }
   std::string refusal(std::string_view text) const {
@@ -36,7 +36,7 @@ class InputFile : public ::testing::Test {
     EXPECT_FALSE(log.ok()) << text;
     if (log.ok()) return "";
     EXPECT_EQ(log.error().code, ErrorCode::scene_rejected);
-    return log.error().message;
+    return log.error().message();
   }
 
   ModelSettings settings_;

@@ -179,8 +179,8 @@ TEST_P(BadFile, IsRefusedWithWhatItExpects) {
   const auto scene = load_scene(path, {}, test::unlimited);
   ASSERT_FALSE(scene.ok());
   EXPECT_EQ(scene.error().code, ErrorCode::scene_rejected);
-  const std::vector<std::string> problems = problems_in(scene.error().message);
-  ASSERT_EQ(problems.size(), expected.size()) << scene.error().message;
+  const std::vector<std::string> problems = problems_in(scene.error().message());
+  ASSERT_EQ(problems.size(), expected.size()) << scene.error().message();
   for (std::size_t i = 0; i < problems.size(); ++i)
     EXPECT_THAT(problems[i], StartsWith(fmt::format("{}:{}", path, expected[i])));
 }
@@ -212,10 +212,10 @@ TEST(Builtin, ScenesLoadAndBuild) {
     names.emplace_back(builtin.name);
     EXPECT_FALSE(builtin.description.empty());
     const auto scene = load_scene(names.back());
-    ASSERT_TRUE(scene.ok()) << scene.error().message;
+    ASSERT_TRUE(scene.ok()) << scene.error().message();
     EXPECT_EQ(scene->name, names.back());
     const auto model = build_model(scene->model);
-    ASSERT_TRUE(model.ok()) << model.error().message;
+    ASSERT_TRUE(model.ok()) << model.error().message();
     const std::pair<std::uint32_t, std::uint32_t> sizes = {model->particle_count(), model->ball_count()};
     EXPECT_EQ(sizes, expected_sizes(names.back())) << names.back();
     // No particle starts in the ground.
@@ -256,8 +256,8 @@ TEST(Load, SuggestsTheNearestBuiltin) {
   const auto scene = load_scene("cube-plnae");
   ASSERT_FALSE(scene.ok());
   EXPECT_EQ(scene.error().code, ErrorCode::scene_rejected);
-  EXPECT_THAT(scene.error().message, HasSubstr("large-cube"));
-  EXPECT_THAT(scene.error().message, HasSubstr("did you mean 'cube-plane'?"));
+  EXPECT_THAT(scene.error().message(), HasSubstr("large-cube"));
+  EXPECT_THAT(scene.error().message(), HasSubstr("did you mean 'cube-plane'?"));
 }
 
 TEST(Load, TellsACheckpointFromAScene) {
@@ -266,18 +266,24 @@ TEST(Load, TellsACheckpointFromAScene) {
   const auto scene = load_scene(dir.file("c.aspic"));
   ASSERT_FALSE(scene.ok());
   EXPECT_EQ(scene.error().code, ErrorCode::scene_rejected);
-  EXPECT_EQ(scene.error().message, dir.file("c.aspic") +
-                                       ": this is a checkpoint, not a scene; aspic run --resume " +
-                                       dir.file("c.aspic") + " continues its run.");
+  const std::string path = dir.file("c.aspic");
+  EXPECT_EQ(scene.error().message(),
+            path + ": this is a checkpoint, not a scene. Read " + path + " with read_checkpoint().");
+  EXPECT_EQ(
+      worded(scene.error(), FrontEnd::command_line),
+      path + ": this is a checkpoint, not a scene. Continue its run by aspic run --resume " + path + ".");
 }
 
-// Of --view, what is wrong is shown as it was typed.
+// What is wrong is shown as it was typed, after the words that its caller has for where it was.
 TEST(Load, NamesTheOptionThatAnArgumentIsOf) {
-  const auto wrong = with_view(Scene{}, std::vector<std::string>{"colour=stress"});
-  ASSERT_FALSE(wrong.ok());
-  EXPECT_THAT(wrong.error().message,
-              HasSubstr("--view colour=stress: 'view.colour' does not know \"stress\""));
-  EXPECT_THAT(wrong.error().message, testing::EndsWith("\n  colour=stress\n         ^"));
+  const std::vector<std::string> arguments = {"colour=stress"};
+  for (const std::string origin : {"", "--view"}) {
+    const auto wrong = with_view(Scene{}, arguments, {.origin = origin});
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_THAT(wrong.error().message(), testing::StartsWith(origin + (origin.empty() ? "" : " ") +
+                                                             "colour=stress: 'view.colour' does not know"));
+    EXPECT_THAT(wrong.error().message(), testing::EndsWith("\n  colour=stress\n         ^"));
+  }
 }
 
 TEST(Load, SaysWhichFileItCannotRead) {
@@ -285,7 +291,7 @@ TEST(Load, SaysWhichFileItCannotRead) {
     const auto scene = load_scene(path);
     ASSERT_FALSE(scene.ok());
     EXPECT_EQ(scene.error().code, ErrorCode::io);
-    EXPECT_THAT(scene.error().message, HasSubstr(path));
+    EXPECT_THAT(scene.error().message(), HasSubstr(path));
   }
 }
 
@@ -294,7 +300,7 @@ TEST(Load, NamesAnUnnamedSceneAfterItsFile) {
   std::ofstream(path) << smallest;
   const auto scene = load_scene(path);
   std::filesystem::remove(path);
-  ASSERT_TRUE(scene.ok()) << scene.error().message;
+  ASSERT_TRUE(scene.ok()) << scene.error().message();
   EXPECT_EQ(scene->name, "aspic-unnamed");
 }
 
@@ -314,7 +320,7 @@ TEST(Parse, RefusesDeepNestingButNotDotsInStringsAndComments) {
         fmt::format("name = '''{0}'' {0}'''''\n", dots),
         fmt::format("name = \"{}\" # {}\n", std::string(100, '['), std::string(100, '{'))}) {
     const auto scene = parse_scene("schema = 1\n" + harmless + "[[cube]]\n", "scene.toml");
-    EXPECT_TRUE(scene.ok()) << harmless << (scene ? "" : scene.error().message);
+    EXPECT_TRUE(scene.ok()) << harmless << (scene ? "" : scene.error().message());
   }
   // What ends a string or a comment for one parser and not for another hides nothing.
   for (const char* begin : {"# \r", "# \v", "name = \"\r", "name = '\f"})

@@ -31,7 +31,7 @@ TEST(NewBody, EveryKindHasAPlaceAboveTheGroundAndAwayFromOthers) {
     const std::size_t before = build_model(scene.model).value().particle_count();
     add_body(scene, row.list);
     const auto model = build_model(scene.model);
-    ASSERT_TRUE(model.ok()) << row.list.key << ": " << model.error().message;
+    ASSERT_TRUE(model.ok()) << row.list.key << ": " << model.error().message();
     const State state = initial_state(*model, Precision::double_);
     const Terrain ground = terrain_at(model->terrain.front(), model->simulation.timestep, 0);
     const auto all = std::span(state.position);

@@ -95,7 +95,7 @@ TEST(Set, RefusesWhatTheFileCouldNotSayEither) {
     if (p.belonging == Belonging::motion) arguments.emplace_back("terrain[0].motion={}");
     arguments.push_back(argument);
     const std::string message = test::rejection(base, arguments);
-    EXPECT_THAT(message, StartsWith(fmt::format("--set {}: ", argument))) << message;
+    EXPECT_THAT(message, StartsWith(fmt::format("{}: ", argument))) << message;
     EXPECT_EQ(test::problems_in(message).size(), 1u) << message;
   }
 }
@@ -250,7 +250,7 @@ TEST(Set, PointsAtWhatIsWrongInAnArgument) {
   for (const Refused& c : cases) {
     const std::string message = test::rejection(base, {c.argument});
     // Line feeds of an argument are shown as escapes.
-    EXPECT_THAT(message, StartsWith(fmt::format("--set {}: ", printable_line(c.argument))));
+    EXPECT_THAT(message, StartsWith(fmt::format("{}: ", printable_line(c.argument))));
     EXPECT_THAT(message, HasSubstr(c.fragment));
     const std::string last = message.substr(message.rfind('\n') + 1);
     EXPECT_EQ(last, fmt::format("{:>{}}", "^", c.column + 2)) << message;
@@ -263,8 +263,8 @@ TEST(Set, ReportsAllArgumentsAfterTheFile) {
   const std::vector<std::string> problems = test::problems_in(message);
   ASSERT_EQ(problems.size(), 3u) << message;
   EXPECT_THAT(problems[0], StartsWith("scene.toml:3:1: "));
-  EXPECT_THAT(problems[1], StartsWith("--set a=1: "));
-  EXPECT_THAT(problems[2], StartsWith("--set simulation.timestep=0: "));
+  EXPECT_THAT(problems[1], StartsWith("a=1: "));
+  EXPECT_THAT(problems[2], StartsWith("simulation.timestep=0: "));
 }
 
 TEST(Set, AppliesToASceneWithoutBodies) {

@@ -17,7 +17,7 @@
 namespace aspic::test {
 
 /// Enough for every legal size, so that ranges alone decide.
-inline constexpr LoadLimits unlimited = {std::uint64_t{1} << 60};
+inline const LoadOptions unlimited = {.memory_bytes = std::uint64_t{1} << 60};
 
 /// The first shape that has a geometry key.
 inline std::string_view shape_with(const Parameter& p) {
@@ -145,7 +145,7 @@ inline void expect_same_scene(const Scene& a, const Scene& b, std::string_view e
 inline Scene parsed(const std::string& text, const std::vector<std::string>& overrides = {}) {
   auto scene = parse_scene(text, "scene.toml", overrides, unlimited);
   if (!scene) {
-    ADD_FAILURE() << scene.error().message << "\n" << text;
+    ADD_FAILURE() << scene.error().message() << "\n" << text;
     return {};
   }
   return *std::move(scene);
@@ -153,14 +153,14 @@ inline Scene parsed(const std::string& text, const std::vector<std::string>& ove
 
 /// The message parse_scene refuses a text with.
 inline std::string rejection(const std::string& text, const std::vector<std::string>& overrides = {},
-                             const LoadLimits& limits = unlimited) {
-  const auto scene = parse_scene(text, "scene.toml", overrides, limits);
+                             const LoadOptions& options = unlimited) {
+  const auto scene = parse_scene(text, "scene.toml", overrides, options);
   if (scene) {
     ADD_FAILURE() << "accepted:\n" << text;
     return "";
   }
   EXPECT_EQ(scene.error().code, ErrorCode::scene_rejected);
-  return scene.error().message;
+  return scene.error().message();
 }
 
 }  // namespace aspic::test

@@ -18,7 +18,7 @@ using testing::Not;
 void expect_round_trip(const Scene& scene) {
   const std::string text = to_toml(scene);
   const auto again = parse_scene(text, "scene.toml", {}, test::unlimited);
-  ASSERT_TRUE(again.ok()) << again.error().message << "\n" << text;
+  ASSERT_TRUE(again.ok()) << again.error().message() << "\n" << text;
   test::expect_same_scene(scene, *again);
   EXPECT_EQ(to_toml(*again), text);
 }
@@ -26,7 +26,7 @@ void expect_round_trip(const Scene& scene) {
 TEST(Write, RoundTripsBuiltins) {
   for (const BuiltinScene& builtin : list_builtin_scenes()) {
     const auto scene = load_scene(std::string(builtin.name));
-    ASSERT_TRUE(scene.ok()) << scene.error().message;
+    ASSERT_TRUE(scene.ok()) << scene.error().message();
     expect_round_trip(*scene);
   }
 }

@@ -47,7 +47,7 @@ gl::DeviceChoice test_device() {
 void GlTest::SetUpTestSuite() {
   if (process_context()) return;
   auto made = gl::Context::create_headless({.debug = true, .device = test_device()});
-  ASSERT_TRUE(made.ok()) << made.error().message;
+  ASSERT_TRUE(made.ok()) << made.error().message();
   // A run that is meant for one driver must not pass on another that EGL took instead.
   if (const char* const renderer = std::getenv("ASPIC_TEST_RENDERER")) {
     ASSERT_THAT((*made)->info().renderer, ::testing::HasSubstr(renderer));
@@ -62,7 +62,7 @@ gl::Context& GlTest::context() {
 void GlTest::SetUp() {
   ASSERT_TRUE(process_context());
   const Status current = context().make_current();
-  ASSERT_TRUE(current.ok()) << current.error().message;
+  ASSERT_TRUE(current.ok()) << current.error().message();
   severe_messages().clear();
   context().set_message_sink([](const gl::DebugMessage& message) {
     if (message.severe) severe_messages().push_back(message.text);

@@ -32,7 +32,7 @@ inline ModelSettings low_cube(int particles_per_edge, Integrator integrator, Con
 
 inline Model build(const ModelSettings& settings) {
   auto model = build_model(settings);
-  EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().message);
+  EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().message());
   return std::move(model).value();
 }
 

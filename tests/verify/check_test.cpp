@@ -55,7 +55,7 @@ TEST(Select, TakesNamesAndGroupsButNoHalfWords) {
   const auto refused = select(checks, unknown, false);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::usage);
-  EXPECT_THAT(refused.error().message, HasSubstr("did you mean 'rest'"));
+  EXPECT_THAT(refused.error().message(), HasSubstr("did you mean 'rest'"));
 }
 
 TEST(Select, NothingQuickAmongTheNamedIsSaid) {

@@ -78,7 +78,7 @@ Finding compared(const Subject& subject, Integrator integrator) {
   const std::vector<GpuOptions> variants(1);
   const Status done = comparison.add(
       *model, [&](Solver& solver) { return run(solver, steps); }, variants);
-  EXPECT_TRUE(done.ok()) << done.error().message;
+  EXPECT_TRUE(done.ok()) << done.error().message();
   return comparison.finding();
 }
 
@@ -92,7 +92,7 @@ TEST_F(FaultyDevice, InexactArithmeticHasABound) {
     const std::vector<gl::Define> faults = {{"FAULT_DIV", std::to_string(quotient)},
                                             {"FAULT_SQRT", std::to_string(root)}};
     const auto report = gl::measure_arithmetic(context(), gl::ShaderLibrary(ASPIC_TEST_SHADERS), faults);
-    ASSERT_TRUE(report.ok()) << report.error().message;
+    ASSERT_TRUE(report.ok()) << report.error().message();
     const gl::Arithmetic inexact = {*report, std::nullopt, {}};
     ASSERT_EQ(inexact.worst_ulps(), static_cast<std::uint32_t>(std::abs(quotient)));
     Subject subject = product(&context(), ASPIC_PROGRAM);

@@ -1,0 +1,106 @@
+// What the remedies of errors are called where they are done. A new remedy is an enumerator and a row.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace aspic {
+namespace {
+
+/// Imperative clauses with {0}, {1} for the values; empty: the reader has no way to it.
+struct RemedyRow {
+  RemedyKind kind;
+  std::string_view library, command_line, window, python;
+};
+
+constexpr RemedyRow rows[] = {
+    {RemedyKind::words, "{0}", "{0}", "{0}", "{0}"},
+    {RemedyKind::use_backend, "use the backend \"{0}\"", "use --backend {0}",
+     "switch to the {0} backend (key G)", "pass backend=\"{0}\""},
+    {RemedyKind::draw_nothing, "use the backend \"{0}\" without pictures",
+     "use --backend {0} without pictures", "", "pass backend=\"{0}\" and draw nothing"},
+    {RemedyKind::overwrite, "pass Overwrite::allow", "overwrite with --force", "", "pass overwrite=True"},
+    {RemedyKind::lower_fps, "set fps to {0} or less", "use --fps {0} or less",
+     "set Pictures to {0} per second or less (Recording)", "pass fps={0} or less"},
+    {RemedyKind::raise_speed, "set speed to {0} or more", "use --speed {0} or more",
+     "set Speed to ×{0} or more (Simulation)", "pass speed={0} or more"},
+    {RemedyKind::shorten, "simulate less time", "choose a shorter --duration", "record less time",
+     "simulate less time"},
+    {RemedyKind::picture_size, "set size to {{{0}, {1}}}", "use --size {0}x{1}", "", "pass size=({0}, {1})"},
+    {RemedyKind::write_pictures, "write numbered pictures instead (PictureOutput::frames)",
+     "write numbered pictures instead (--frames)", "write numbered pictures instead (Format under Recording)",
+     "pass frames=\"DIRECTORY\" instead"},
+    {RemedyKind::resume, "read {0} with read_checkpoint()", "continue its run by aspic run --resume {0}",
+     "give it a name that ends in .aspic", "read {0} with read_checkpoint()"},
+    {RemedyKind::give_checkpoint, "give a file that write_checkpoint() wrote",
+     "give a file that aspic run --checkpoint wrote", "open a file that Save checkpoint… wrote",
+     "give a file that write_checkpoint() wrote"},
+};
+
+constexpr bool in_order() {
+  for (std::size_t i = 0; i < std::size(rows); ++i)
+    if (static_cast<std::size_t>(rows[i].kind) != i) return false;
+  return true;
+}
+static_assert(in_order() && std::size(rows) == std::size_t{1} + std::size_t(RemedyKind::give_checkpoint));
+
+std::string_view form_of(const RemedyRow& row, FrontEnd front_end) {
+  switch (front_end) {
+    case FrontEnd::command_line:
+      return row.command_line;
+    case FrontEnd::window:
+      return row.window;
+    case FrontEnd::python:
+      return row.python;
+    case FrontEnd::library:
+      break;
+  }
+  return row.library;
+}
+
+std::string clause_of(const Remedy& remedy, FrontEnd front_end) {
+  const auto value = [&](std::size_t i) {
+    return i < remedy.values.size() ? std::string_view(remedy.values[i]) : std::string_view();
+  };
+  return fmt::format(fmt::runtime(form_of(rows[static_cast<std::size_t>(remedy.kind)], front_end)), value(0),
+                     value(1));
+}
+
+/// "A.", "A, or b.", "A, b, or c."
+std::string sentence_of(const std::vector<std::string>& clauses) {
+  std::string sentence;
+  for (std::size_t i = 0; i < clauses.size(); ++i) {
+    if (i > 0) sentence += i + 1 == clauses.size() ? ", or " : ", ";
+    sentence += clauses[i];
+  }
+  sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+  return sentence + ".";
+}
+
+}  // namespace
+
+std::string worded(const Error& error, FrontEnd front_end) {
+  std::vector<std::string> clauses;
+  for (const Remedy& remedy : error.remedies) {
+    std::string clause = clause_of(remedy, front_end);
+    // An error that another one led to may repeat what that one says.
+    if (!clause.empty() && std::ranges::find(clauses, clause) == clauses.end())
+      clauses.push_back(std::move(clause));
+  }
+  if (clauses.empty()) return error.what;
+  std::string text = error.what;
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\n')) text.pop_back();
+  const bool shows_text = text.find('\n') != std::string::npos;
+  if (!shows_text && !text.empty() && std::string_view(".!?:").find(text.back()) == std::string_view::npos)
+    text += '.';
+  if (!text.empty()) text += shows_text ? '\n' : ' ';
+  return text + sentence_of(clauses);
+}
+
+std::string Error::message() const {
+  return worded(*this, FrontEnd::library);
+}
+
+}  // namespace aspic
