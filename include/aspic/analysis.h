@@ -87,8 +87,8 @@ enum class StabilityEffort {
   thorough  ///< dense solves of bodies with up to 600 degrees of freedom: for reports
 };
 
-/// Called now and then on the caller's thread while limits are computed, with the share of the work that is done at most; false ends
-/// the work, and what it had not reached is bounded instead.
+/// Called now and then on the caller's thread while limits are computed, with the share of the work that is
+/// done at most; false ends the work, and what it had not reached is bounded instead.
 using StabilityWatch = std::function<bool(double)>;
 
 /// The smallest limit of all bodies. Springs are linearised at rest.

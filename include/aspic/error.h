@@ -33,6 +33,7 @@ enum class RemedyKind {
   picture_size,    ///< pictures of `values[0]` × `values[1]` pixels
   write_pictures,  ///< numbered pictures in place of a film
   resume,          ///< continue the run of the checkpoint `values[0]`, a path
+  replay,          ///< give the inputs of `values[0]`, a path, to a run
   give_checkpoint  ///< name a file that is a checkpoint
 };
 

@@ -65,7 +65,7 @@ std::vector<Command> App::make_commands() {
       {"[", "previous scene", -1, 0, U'[', [this] { scene.open_neighbour(-1); }},
       {"]", "next scene", -1, 0, U']', [this] { scene.open_neighbour(1); }},
       {"Ctrl+L", "reload the scene", GLFW_KEY_L, ctrl, 0, [this] { scene.reload(); }},
-      {"Ctrl+O", "open a scene or checkpoint", GLFW_KEY_O, ctrl, 0, [this] { ask_for_scene(); }},
+      {"Ctrl+O", "open a scene, checkpoint or inputs", GLFW_KEY_O, ctrl, 0, [this] { ask_for_scene(); }},
       {"Ctrl+S", "save the scene", GLFW_KEY_S, ctrl, 0, [this] { ask_where_to_save(); }},
       {"F5", "reload the scene", GLFW_KEY_F5, 0, 0, [this] { scene.reload(); }},
       {"Ctrl+Z", "undo", GLFW_KEY_Z, ctrl, 0, [this] { scene.undo(); }, true},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/inputs.h"
 #include "model/integrator.h"
 
 namespace aspic::app {
@@ -59,7 +60,7 @@ bool Hands::refused() {
 
 void Hands::toggle_pin(std::uint32_t particle) {
   if (refused()) return;
-  const bool pinned = simulation_.model().inverse_mass[particle] == 0.0;
+  const bool pinned = inverse_mass_of(simulation_.model(), simulation_.inputs(), particle) == 0.0;
   if (messages_.check(simulation_.rebuild().toggle_pin(particle)))
     messages_.info(fmt::format("Particle {} is {}.", particle, pinned ? "free" : "pinned"));
 }

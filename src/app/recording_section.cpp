@@ -74,13 +74,14 @@ Status write_series(const std::string& path, Overwrite overwrite, const std::deq
   return series.finish();
 }
 
+/// `replayed`: the log whose inputs the run has in addition to those of hands.
 Status write_state(const StateFormat& format, const std::string& path, Overwrite overwrite, Scene scene,
-                   const Simulation& simulation, const State& state) {
+                   const Simulation& simulation, const State& state, const InputLog& replayed) {
   scene.model = simulation.present().setup().settings;
   RunFacts facts = {to_toml(scene), scene.model.simulation.integrator};
   if (format.holds_scene) {
     ASPIC_TRY(const InputLog inputs,
-              inputs_to_go_on(simulation.playback().history(), simulation.playback().here()));
+              inputs_to_go_on(simulation.playback().history(), simulation.playback().here(), replayed));
     if (!inputs.empty()) facts.inputs_toml = to_toml(inputs, scene.model.simulation.timestep);
   }
   ASPIC_TRY(auto sink, format.open(path, 0, overwrite, facts));
@@ -120,7 +121,8 @@ void save(const StateFormat& format, const std::string& path, Overwrite overwrit
     const State& state = comparison.active() ? comparison_view.picture(i).shown_state() : run.snapshot();
     const Status written = format.over_time
                                ? write_series(paths[i], overwrite, energies)
-                               : write_state(format, paths[i], overwrite, comparison.scene(i), run, state);
+                               : write_state(format, paths[i], overwrite, comparison.scene(i), run, state,
+                                             i == 0 ? simulation.stepper().log() : InputLog());
     if (!written) {
       // Those before it are there.
       lines.insert(lines.begin(), worded(written.error(), FrontEnd::window));
@@ -144,8 +146,9 @@ void save_inputs(const std::string& path, Overwrite overwrite, Simulation& simul
     return file.commit();
   };
   if (const Status written = write(); !written) return messages.error(written.error());
-  messages.info(fmt::format("{} holds the inputs up to step {}: aspic run --replay repeats them.", path,
-                            simulation.step()));
+  messages.info(fmt::format(
+      "{} holds the inputs up to step {}: Open… repeats them here, aspic run --replay without a window.",
+      path, simulation.step()));
 }
 
 }  // namespace
@@ -215,11 +218,10 @@ void state_files(Gui& gui, const std::string& source, Simulation& simulation, Co
     };
     files.ask({"Save", {format.ending}, true, write}, free_state_name(source, format.ending, comparison));
   }
-  if (!button(
-          gui, "save/inputs.toml", "Save inputs… (.toml)",
-          "Writes the pulls and pins of hands since the start, by step: aspic run --replay repeats the run "
-          "with them to the bit, on any backend.",
-          true, -1.0f))
+  if (!button(gui, "save/inputs.toml", "Save inputs… (.toml)",
+              "Writes the pulls and pins of hands since the start, by step. Opened here, they repeat the run "
+              "to the bit, on any backend; aspic run --replay does so without a window.",
+              true, -1.0f))
     return;
   const auto write = [&simulation, &messages](const std::string& path, Overwrite overwrite) {
     save_inputs(path, overwrite, simulation, messages);

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "aspic/model.h"
 #include "aspic/scene.h"
+#include "base/files.h"
 #include "scene/follow.h"
+#include "scene/input_file.h"
 
 namespace aspic::app {
 
@@ -31,6 +34,10 @@ void SceneControl::list_file() {
 }
 
 void SceneControl::open(const std::string& source) {
+  constexpr std::uint64_t largest_log = std::uint64_t{64} << 20;
+  if (!builtin_scene_text(source) && !source.ends_with(".aspic"))
+    if (const auto file = read_regular_file(source, largest_log); file && is_input_log(file->content))
+      return open_inputs(source);
   auto loaded = editor_.other(source);
   if (!messages_.check(loaded) || !messages_.check(simulation_.rebuild().change(loaded->scene(), false)))
     return;
@@ -38,6 +45,25 @@ void SceneControl::open(const std::string& source) {
   editor_.open(std::move(*loaded));
   list_file();
   show_opened(left);
+}
+
+void SceneControl::open_inputs(const std::string& path) {
+  const auto model = make_model(scene().model);
+  if (!messages_.check(model)) return;
+  auto inputs = read_inputs(path, {scene().model, **model});
+  if (!inputs) {
+    const Error& why = inputs.error();
+    return messages_.error(
+        why.code == ErrorCode::scene_rejected
+            ? fail(why, "The inputs of {} are not for the scene {}.\n{}", path, scene().name, why.what)
+            : why);
+  }
+  if (!messages_.check(simulation_.rebuild().reset())) return;
+  const std::uint64_t last = inputs->empty() ? 0 : inputs->entries().back().step;
+  simulation_.stepper().replay(std::move(*inputs));
+  messages_.info(fmt::format("The run repeats the inputs of {}, up to step {}.{}", path, last,
+                             simulation_.running() ? "" : " Space starts it."),
+                 10.0);
 }
 
 void SceneControl::open_neighbour(int offset) {

@@ -27,8 +27,11 @@ class SceneControl {
   const Solver& solver() const { return simulation_.present().solver(); }
 
   /// Opens a file or built-in scene, which undo() takes back; on an error the old one stays and a message
-  /// says why.
+  /// says why. A file of inputs is one for open_inputs().
   void open(const std::string& source);
+  /// The scene starts again, with the inputs of a file at their steps until another scene is opened, or this
+  /// one again. On an error all stays as it was and a message says why.
+  void open_inputs(const std::string& path);
   /// Scene files and checkpoints that were opened or saved, in that order.
   const std::vector<std::string>& files() const { return files_; }
   /// Opens the built-in scene that comes so many places later in the list, which goes round.

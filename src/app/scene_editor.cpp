@@ -45,8 +45,8 @@ Result<SceneEditor> SceneEditor::open(const std::string& source, std::vector<std
     ASPIC_CHECK(check_against_scene(checkpoint, editor.scene_.model, source));
     if (!checkpoint.inputs.empty()) {
       ASPIC_TRY(const Model model, build_model(editor.scene_.model));
-      ASPIC_TRY(const InputLog log, parse_inputs(checkpoint.inputs, source, {editor.scene_.model, model}));
-      editor.origin_->inputs = log.at(checkpoint.state.step);
+      ASPIC_TRY(editor.origin_->inputs,
+                parse_inputs(checkpoint.inputs, source, {editor.scene_.model, model}));
     }
     editor.origin_->state = std::move(checkpoint.state);
   } else {

@@ -29,8 +29,8 @@ class SceneEditor {
   bool is_file() const { return origin_->modified.has_value(); }
   /// What a checkpoint holds besides its scene: where the run continues.
   const std::optional<State>& state() const { return origin_->state; }
-  /// What acts from its next step on.
-  const Inputs& inputs() const { return origin_->inputs; }
+  /// Its run's inputs, of later steps too.
+  const InputLog& inputs() const { return origin_->inputs; }
   /// Since it was opened, saved or read again.
   bool changed() const { return undo_.size() != origin_->saved; }
 
@@ -81,7 +81,7 @@ class SceneEditor {
     std::string source;
     std::vector<std::string> overrides;
     std::optional<State> state;
-    Inputs inputs;
+    InputLog inputs;
     std::optional<std::filesystem::file_time_type> modified;
     std::size_t saved =
         0;  ///< length of undo_ when the scene was the file's; never again: the largest number

@@ -35,8 +35,10 @@ void terrain_button(Gui& gui, SceneControl& scenes, const TerrainShapeRow& row, 
 
 void scene_buttons(Gui& gui, const SceneEditor& editor) {
   const float half = share_of_line(2), third = share_of_line(3);
-  command_button(gui, "scene/open", "Open…", "Opens a scene file, or a checkpoint where the run was then.",
-                 "open a scene or checkpoint", true, third);
+  command_button(gui, "scene/open", "Open…",
+                 "Opens a scene file, a checkpoint where the run was then, or saved inputs, which "
+                 "this scene repeats from its start on.",
+                 "open a scene, checkpoint or inputs", true, third);
   ImGui::SameLine();
   command_button(gui, "scene/save", "Save…", "Writes the scene as it is now, with this camera.",
                  "save the scene", true, third);

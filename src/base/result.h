@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,8 +35,8 @@ inline Remedy advice(std::string clause) {
   return {RemedyKind::words, {std::move(clause)}};
 }
 
-inline Remedy use_backend(std::string name) {
-  return {RemedyKind::use_backend, {std::move(name)}};
+inline Remedy use_backend(std::string_view name) {
+  return {RemedyKind::use_backend, {std::string(name)}};
 }
 
 }  // namespace aspic

@@ -1,6 +1,6 @@
-// What the remedies of errors are called where they are done. A new remedy is an enumerator and a row.
+// What the remedies of errors are called where they are done. A new remedy is an enumerator and a row,
+// without which this does not compile.
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <string_view>
 
@@ -11,40 +11,48 @@ namespace {
 
 /// Imperative clauses with {0}, {1} for the values; empty: the reader has no way to it.
 struct RemedyRow {
-  RemedyKind kind;
   std::string_view library, command_line, window, python;
 };
 
-constexpr RemedyRow rows[] = {
-    {RemedyKind::words, "{0}", "{0}", "{0}", "{0}"},
-    {RemedyKind::use_backend, "use the backend \"{0}\"", "use --backend {0}",
-     "switch to the {0} backend (key G)", "pass backend=\"{0}\""},
-    {RemedyKind::draw_nothing, "use the backend \"{0}\" without pictures",
-     "use --backend {0} without pictures", "", "pass backend=\"{0}\" and draw nothing"},
-    {RemedyKind::overwrite, "pass Overwrite::allow", "overwrite with --force", "", "pass overwrite=True"},
-    {RemedyKind::lower_fps, "set fps to {0} or less", "use --fps {0} or less",
-     "set Pictures to {0} per second or less (Recording)", "pass fps={0} or less"},
-    {RemedyKind::raise_speed, "set speed to {0} or more", "use --speed {0} or more",
-     "set Speed to ×{0} or more (Simulation)", "pass speed={0} or more"},
-    {RemedyKind::shorten, "simulate less time", "choose a shorter --duration", "record less time",
-     "simulate less time"},
-    {RemedyKind::picture_size, "set size to {{{0}, {1}}}", "use --size {0}x{1}", "", "pass size=({0}, {1})"},
-    {RemedyKind::write_pictures, "write numbered pictures instead (PictureOutput::frames)",
-     "write numbered pictures instead (--frames)", "write numbered pictures instead (Format under Recording)",
-     "pass frames=\"DIRECTORY\" instead"},
-    {RemedyKind::resume, "read {0} with read_checkpoint()", "continue its run by aspic run --resume {0}",
-     "give it a name that ends in .aspic", "read {0} with read_checkpoint()"},
-    {RemedyKind::give_checkpoint, "give a file that write_checkpoint() wrote",
-     "give a file that aspic run --checkpoint wrote", "open a file that Save checkpoint… wrote",
-     "give a file that write_checkpoint() wrote"},
-};
-
-constexpr bool in_order() {
-  for (std::size_t i = 0; i < std::size(rows); ++i)
-    if (static_cast<std::size_t>(rows[i].kind) != i) return false;
-  return true;
+constexpr RemedyRow row_of(RemedyKind kind) {
+  switch (kind) {
+    case RemedyKind::words:
+      return {"{0}", "{0}", "{0}", "{0}"};
+    case RemedyKind::use_backend:
+      return {"use the backend \"{0}\"", "use --backend {0}", "switch to the {0} backend (key G)",
+              "pass backend=\"{0}\""};
+    case RemedyKind::draw_nothing:
+      return {"use the backend \"{0}\" without pictures", "use --backend {0} without pictures", "",
+              "pass backend=\"{0}\" and draw nothing"};
+    case RemedyKind::overwrite:
+      return {"pass Overwrite::allow", "overwrite with --force", "", "pass overwrite=True"};
+    case RemedyKind::lower_fps:
+      return {"set fps to {0} or less", "use --fps {0} or less",
+              "set Pictures to {0} per second or less (Recording)", "pass fps={0} or less"};
+    case RemedyKind::raise_speed:
+      return {"set speed to {0} or more", "use --speed {0} or more", "set Speed to ×{0} or more (Simulation)",
+              "pass speed={0} or more"};
+    case RemedyKind::shorten:
+      return {"simulate less time", "choose a shorter --duration", "record less time", "simulate less time"};
+    case RemedyKind::picture_size:
+      return {"set size to {{{0}, {1}}}", "use --size {0}x{1}", "", "pass size=({0}, {1})"};
+    case RemedyKind::write_pictures:
+      return {"write numbered pictures instead (PictureOutput::frames)",
+              "write numbered pictures instead (--frames)",
+              "write numbered pictures instead (Format under Recording)",
+              "pass frames=\"DIRECTORY\" instead"};
+    case RemedyKind::resume:
+      return {"read {0} with read_checkpoint()", "continue its run by aspic run --resume {0}",
+              "give it a name that ends in .aspic", "read {0} with read_checkpoint()"};
+    case RemedyKind::replay:
+      return {"read {0} with read_inputs()", "give them to a scene: aspic run SCENE --replay {0}",
+              "open a scene, then {0}", "read {0} with read_inputs()"};
+    case RemedyKind::give_checkpoint:
+      return {"give a file that write_checkpoint() wrote", "give a file that aspic run --checkpoint wrote",
+              "open a file that Save checkpoint… wrote", "give a file that write_checkpoint() wrote"};
+  }
+  return {};
 }
-static_assert(in_order() && std::size(rows) == std::size_t{1} + std::size_t(RemedyKind::give_checkpoint));
 
 std::string_view form_of(const RemedyRow& row, FrontEnd front_end) {
   switch (front_end) {
@@ -64,8 +72,7 @@ std::string clause_of(const Remedy& remedy, FrontEnd front_end) {
   const auto value = [&](std::size_t i) {
     return i < remedy.values.size() ? std::string_view(remedy.values[i]) : std::string_view();
   };
-  return fmt::format(fmt::runtime(form_of(rows[static_cast<std::size_t>(remedy.kind)], front_end)), value(0),
-                     value(1));
+  return fmt::format(fmt::runtime(form_of(row_of(remedy.kind), front_end)), value(0), value(1));
 }
 
 /// "A.", "A, or b.", "A, b, or c."

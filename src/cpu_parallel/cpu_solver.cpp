@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <new>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "cpu_parallel/contact_pieces.h"
 #include "cpu_parallel/kernels.h"
@@ -97,6 +100,8 @@ class CpuSolver final : public Solver {
   std::uint64_t heap_bytes() const;
   void step();
   void move_balls();
+  template <class Task>
+  void share(const Task& task);
 
   SharedModel model_;
   const bool reports_solves_;
@@ -130,10 +135,35 @@ Strided<T> strided(AnyArray& array, std::size_t count) {
   return {array[0].data(), count, 1, array[1].data() - array[0].data()};
 }
 
+/// Part of vectors; nothing of none.
+template <class AnyVectors>
+AnyVectors part_of(const AnyVectors& vectors, Range range) {
+  return std::visit(
+      [&](auto of) -> AnyVectors {
+        if constexpr (!std::is_same_v<decltype(of), std::monostate>) {
+          of.data += static_cast<std::ptrdiff_t>(range.first) * of.stride;
+          of.count = range.count;
+        }
+        return of;
+      },
+      vectors);
+}
+
+/// Calls task(range) for all particles, on all threads: memory is as fast as several of them together.
+template <class Task>
+void CpuSolver::share(const Task& task) {
+  constexpr std::size_t piece = 16384;
+  const std::size_t count = model_->particle_count();
+  workers_.run((count + piece - 1) / piece, [&](std::size_t n) {
+    task(Range{n * piece, std::min(piece, count - n * piece)});
+  });
+}
+
 Status CpuSolver::take_state(const ConstStateView& view, std::uint64_t step) {
   const std::size_t count = model_->particle_count();
-  copy_vectors(view[0], strided<float>(state_.x, count));
-  copy_vectors(view[1], strided<float>(state_.v, count));
+  const Vectors own[] = {strided<float>(state_.x, count), strided<float>(state_.v, count)};
+  for (std::size_t n = 0; n < std::size(own); ++n)
+    share([&](Range range) { copy_vectors(part_of(view[n], range), part_of(own[n], range)); });
   reference::Field<float>* const balls[] = {&ball_phase_.x, &ball_phase_.v, &ball_phase_.omega};
   static_assert(2 + std::size(balls) == state_fields.size());
   for (std::size_t n = 0; n < std::size(balls); ++n) {
@@ -159,7 +189,22 @@ std::optional<ConstStateView> CpuSolver::view() const {
 
 Result<std::uint64_t> CpuSolver::give_state(const StateView& to) {
   const ConstStateView own = *view();
-  for (std::size_t n = 0; n < own.size(); ++n) copy_vectors(own[n], to[n]);
+  const VectorArray* const arrays[] = {&state_.x, &state_.v};
+  for (std::size_t n = 0; n < own.size(); ++n) {
+    if (n >= std::size(arrays)) {
+      copy_vectors(own[n], to[n]);
+      continue;
+    }
+    const auto* const floats = std::get_if<Strided<float>>(&to[n]);
+    const bool rows = floats && floats->stride == 3 && floats->component == 1;
+    if (std::holds_alternative<std::monostate>(to[n])) continue;
+    share([&](Range range) {
+      if (rows)
+        write_rows(*arrays[n], range, floats->data + 3 * range.first);
+      else
+        copy_vectors(part_of(own[n], range), part_of(to[n], range));
+    });
+  }
   return step_;
 }
 

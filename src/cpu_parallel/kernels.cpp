@@ -157,6 +157,20 @@ bool AllSound(const Particles& particles, Range range, float limit) {
   return true;
 }
 
+void WriteRows(const VectorArray& from, Range range, float* rows) {
+  const float *const x = from[0].data() + range.first, *const y = from[1].data() + range.first,
+                     *const z = from[2].data() + range.first;
+  std::size_t n = 0;
+  for (; n + lanes <= range.count; n += lanes)
+    hn::StoreInterleaved3(hn::LoadU(tag, x + n), hn::LoadU(tag, y + n), hn::LoadU(tag, z + n), tag,
+                          rows + 3 * n);
+  for (; n < range.count; ++n) {
+    rows[3 * n] = x[n];
+    rows[3 * n + 1] = y[n];
+    rows[3 * n + 2] = z[n];
+  }
+}
+
 }  // namespace
 }  // namespace aspic::parallel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -168,6 +182,7 @@ HWY_EXPORT(ListedForces);
 HWY_EXPORT(Move);
 HWY_EXPORT(BoxOf);
 HWY_EXPORT(AllSound);
+HWY_EXPORT(WriteRows);
 
 void listed_forces(const SpringLists& lists, const ForceInput& input, Range range, const Forces& forces) {
   HWY_DYNAMIC_DISPATCH(ListedForces)(lists, input, range, forces);
@@ -180,6 +195,9 @@ Box box_of(const VectorArray& x, Range range) {
 }
 bool all_sound(const Particles& particles, Range range, float limit) {
   return HWY_DYNAMIC_DISPATCH(AllSound)(particles, range, limit);
+}
+void write_rows(const VectorArray& from, Range range, float* rows) {
+  HWY_DYNAMIC_DISPATCH(WriteRows)(from, range, rows);
 }
 Moved::Moved(float limit_of_square) : limit(limit_of_square) {
   for (auto& of : low) std::ranges::fill(of, std::numeric_limits<float>::infinity());

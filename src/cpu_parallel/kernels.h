@@ -72,6 +72,9 @@ inline constexpr auto speed_limit = static_cast<float>(divergence_speed * diverg
 /// Whether all positions are finite and no speed is above the square root of `limit` [m²/s²].
 bool all_sound(const Particles& particles, Range range, float limit);
 
+/// Writes the vectors of a range as rows of three floats.
+void write_rows(const VectorArray& from, Range range, float* rows);
+
 /// Name of the instruction set in use: "AVX3", "AVX2", "SSE4", "SCALAR", …
 std::string_view instruction_set();
 

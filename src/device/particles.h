@@ -14,11 +14,17 @@ layout::vec4 rounded(const Vec3& v, double w);
 layout::SpringClass rounded(const SpringClass& spring);
 
 /// The particles of a state, rounded. The state must have the model's number of particles.
-std::vector<layout::Particle> packed_particles(const Model& model, const State& state);
+std::vector<layout::Particle> packed_particles(const Model& model, const ConstStateView& state);
+inline std::vector<layout::Particle> packed_particles(const Model& model, const State& state) {
+  return packed_particles(model, view_of(state));
+}
 
-/// The balls of a state, rounded: those that wait for their launch have no inverse mass. The state must have
-/// the model's number of balls.
-std::vector<layout::Ball> packed_balls(const Model& model, const State& state);
+/// The balls of a state at a step, rounded: those that wait for their launch have no inverse mass. The state
+/// must have the model's number of balls.
+std::vector<layout::Ball> packed_balls(const Model& model, const ConstStateView& state, std::uint64_t step);
+inline std::vector<layout::Ball> packed_balls(const Model& model, const State& state) {
+  return packed_balls(model, view_of(state), state.step);
+}
 
 /// Writes the fields of particles, or of balls, that the view has places for.
 void unpack(std::span<const layout::Particle> particles, const StateView& view);

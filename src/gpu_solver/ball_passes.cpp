@@ -213,12 +213,12 @@ Status BallPasses::build(gl::Context& context, const Model& model, const KernelO
   return {};
 }
 
-void BallPasses::load(const State& state) {
+void BallPasses::load(const ConstStateView& state, std::uint64_t step) {
   if (!any()) return;
-  const std::vector<layout::Ball> balls = packed_balls(*model_, state);
+  const std::vector<layout::Ball> balls = packed_balls(*model_, state, step);
   balls_.upload_items(balls);
   reset_work();
-  set_base_step(state.step);
+  set_base_step(step);
 }
 
 void BallPasses::set_base_step(std::uint64_t base_step) {

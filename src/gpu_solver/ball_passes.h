@@ -55,7 +55,7 @@ class BallPasses {
   /// Another model, with as many balls and particles; its balls come with load().
   void set_model(const Model& model) { model_ = &model; }
   /// Writes the balls of a state into slot 0; launch steps count from the state's step.
-  void load(const State& state);
+  void load(const ConstStateView& state, std::uint64_t step);
   /// Writes the launch steps again, counted from `base_step`.
   void set_base_step(std::uint64_t base_step);
 

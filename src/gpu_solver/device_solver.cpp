@@ -29,7 +29,8 @@ Status DeviceSolver::build(const GpuOptions& options) {
   ASPIC_CHECK(build_passes(kernels, options));
   bytes_ = context_.bytes_held() - held_before;
   if (springs_.use_count() > 1) bytes_ += springs_->bytes();  // held before, by the solver it shares with
-  ASPIC_CHECK(take(initial_state(*model_, Precision::single)));
+  const State start = initial_state(*model_, Precision::single);
+  take(view_of(start), start.step);
   return context_.check(ErrorCode::scene_rejected);
 }
 
@@ -70,24 +71,23 @@ DeviceState DeviceSolver::device_state() const {
           springs_.get()};
 }
 
-Status DeviceSolver::take(const State& state) {
-  ASPIC_CHECK(check_sizes(*model_, state));
+void DeviceSolver::take(const ConstStateView& state, std::uint64_t step) {
   const std::vector<layout::Particle> particles = packed_particles(*model_, state);
   states_[0].upload_items(particles);
-  balls_.load(state);
+  balls_.load(state, step);
   current_ = 0;
   ball_slot_ = 0;
-  base_step_ = state.step;
+  base_step_ = step;
   poses_.set_base_step(base_step_);
   steps_since_ = 0;
   divergence_.reset();
   held_ = {};
   pins_held_ = false;
   moving_pins_.clear();
+  const auto moves = [](const layout::vec4& v) { return v.x != 0.0f || v.y != 0.0f || v.z != 0.0f; };
   for (std::uint32_t i = 0; i < particles.size(); ++i)
-    if (particles[i].position.w == 0.0f && state.velocity[i] != Vec3{}) moving_pins_.push_back(i);
+    if (particles[i].position.w == 0.0f && moves(particles[i].velocity)) moving_pins_.push_back(i);
   restart();
-  return {};
 }
 
 Result<std::optional<Divergence>> DeviceSolver::advance(std::uint64_t steps) {
@@ -101,12 +101,7 @@ Result<std::optional<Divergence>> DeviceSolver::advance(std::uint64_t steps) {
 Status DeviceSolver::take_state(const ConstStateView& view, std::uint64_t step) {
   const gl::Current here(context_);
   ASPIC_CHECK(here.status());
-  State state;
-  state.step = step;
-  resize(state, model_->particle_count(), model_->ball_count());
-  const StateView own = view_of(state);
-  for (std::size_t n = 0; n < own.size(); ++n) copy_vectors(view[n], own[n]);
-  ASPIC_CHECK(take(state));
+  take(view, step);
   return context_.check();
 }
 
@@ -145,7 +140,7 @@ Status DeviceSolver::take_constants(SharedModel next) {
   simulation_.upload_items(std::span(&block, 1));
   poses_.set_model(*model_);
   balls_.set_model(*model_);
-  if (state) ASPIC_CHECK(take(*state));
+  if (state) take(view_of(std::as_const(*state)), state->step);
   return context_.check();
 }
 

@@ -114,7 +114,7 @@ class DeviceSolver : public GpuSolver {
 
  private:
   Status build_shared(const GpuOptions& options);
-  Status take(const State& state);
+  void take(const ConstStateView& state, std::uint64_t step);
   Status take_state(const ConstStateView& view, std::uint64_t step) final;
   Result<std::uint64_t> give_state(const StateView& view) final;
   Status take_inputs(const Inputs& inputs) final;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "model/counts.h"
+#include "model/inputs.h"
 
 namespace aspic {
 namespace {
@@ -158,22 +159,22 @@ Status Rebuild::reset() {
   }
   forget_run();
   stepper_.set_hand(std::nullopt);  // its particle may be no more
+  stepper_.forget_resumed();
   const State start = initial_state(present_.model(), Precision::single);
   ASPIC_CHECK(begin_stretch(start));
   figures_.remember(start, {present_.engines().measured(start)});
   return {};
 }
 
-Status Rebuild::start_from(const State& state, const Inputs& inputs) {
+Status Rebuild::start_from(const State& state, InputLog inputs) {
   ASPIC_CHECK(playback_.halt(true));
   ASPIC_CHECK(check_sizes(present_.model(), state));
   const Setup& now = present_.setup();
-  Setup setup = {now.settings, {}, {}};
-  for (const std::uint32_t particle : inputs.pinned) setup.pinned[particle] = true;
-  for (const std::uint32_t particle : inputs.released) setup.pinned[particle] = false;
-  if (!now.thrown.empty() || setup.pinned != now.pinned)
+  const Setup setup = {now.settings, {}, {}};
+  if (!now.thrown.empty() || !now.pinned.empty())
     ASPIC_CHECK(stepper_.install(setup, factory_.make_like(present_.engines(), setup)));
   forget_run();
+  stepper_.resume(std::move(inputs));
   ASPIC_CHECK(begin_stretch(grown_state(present_.model(), state)));
   figures_.remember(present_.snapshot(), {present_.engines().measured(present_.snapshot())});
   return {};
@@ -186,7 +187,7 @@ Status Rebuild::toggle_pin(std::uint32_t particle) {
   const Model& model = present_.model();
   if (particle >= model.particle_count()) return {};
   Setup setup = present_.setup();
-  setup.pinned[particle] = model.inverse_mass[particle] != 0.0;
+  setup.pinned[particle] = inverse_mass_of(model, stepper_.inputs(), particle) != 0.0;
   return change_setup(std::move(setup), true);
 }
 

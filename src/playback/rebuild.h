@@ -46,9 +46,9 @@ class Rebuild {
   /// Back to the scene's start, which also forgets a divergence and all that hands did. Paused or running
   /// stays.
   Status reset();
-  /// The run begins with this state of the model, whatever step it is at, and with the pins of these inputs;
-  /// hands let go. After reset() that is the scene's start again.
-  Status start_from(const State& state, const Inputs& inputs = {});
+  /// The run begins with this state of the model, whatever step it is at, and has these inputs until reset(),
+  /// after which it begins at the scene's start again.
+  Status start_from(const State& state, InputLog inputs = {});
 
   // ---- hands: errors as of change() ----
   /// Pins a free particle where it is, or frees a pinned one.

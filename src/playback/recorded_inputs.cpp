@@ -70,13 +70,24 @@ Result<InputLog> recorded_inputs(const History& history, const Moment& until) {
   return log;
 }
 
-Result<InputLog> inputs_to_go_on(const History& history, const Moment& now) {
+Result<InputLog> inputs_to_go_on(const History& history, const Moment& now, const InputLog& later) {
   const Setup& setup = history.stretch(now.stretch).setup;
   if (!setup.thrown.empty()) return fail(ErrorCode::usage, "Balls were thrown.");
-  if (auto all = recorded_inputs(history, now)) return all;
   ASPIC_TRY(const Inputs pins, pins_of(setup));
   InputLog log;
-  log.set(now.step, with_pins(pins, history.inputs_at(now)));
+  if (auto all = recorded_inputs(history, now))
+    log = std::move(*all);
+  else
+    log.set(now.step, with_pins(pins, history.inputs_at(now)));
+  // What begins with this very step is not history yet.
+  const bool begins = now.step == 0 ? !later.at(0).empty() : later.next_change(now.step - 1) == now.step;
+  std::optional<std::uint64_t> step = begins ? std::optional(now.step) : later.next_change(now.step);
+  for (; step; step = later.next_change(*step)) {
+    Inputs inputs = later.at(*step);
+    for (auto* const particles : {&inputs.pinned, &inputs.released})
+      std::erase_if(*particles, [&](std::uint32_t i) { return setup.pinned.contains(i); });
+    log.set(*step, with_pins(pins, std::move(inputs)));
+  }
   return log;
 }
 

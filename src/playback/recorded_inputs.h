@@ -12,7 +12,8 @@ namespace aspic {
 Result<InputLog> recorded_inputs(const History& history, const Moment& until);
 
 /// Those that hold at `now` and from its step on, for a checkpoint there: with the past where a log can hold
-/// it, else alone. Error (usage): balls were thrown.
-Result<InputLog> inputs_to_go_on(const History& history, const Moment& now);
+/// it, else alone, and with what the `later` steps of a log that the run replays have. Error (usage): balls
+/// were thrown.
+Result<InputLog> inputs_to_go_on(const History& history, const Moment& now, const InputLog& later);
 
 }  // namespace aspic

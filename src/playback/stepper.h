@@ -34,9 +34,23 @@ class Stepper {
   /// From the next step on, in addition to the hand's: those of another run that this one follows.
   void set_followed(Inputs inputs) { followed_ = std::move(inputs); }
   /// From the next step on a log's inputs at their steps, in addition to all others; an empty one: none.
-  void replay(InputLog log) { log_ = std::make_shared<const InputLog>(std::move(log)); }
+  void replay(InputLog log) {
+    log_ = std::make_shared<const InputLog>(std::move(log));
+    resumed_ = false;
+  }
+  /// The same with the log of a run that is continued, which a start from the beginning forgets.
+  void resume(InputLog log) {
+    replay(std::move(log));
+    resumed_ = true;
+  }
+  void forget_resumed() {
+    if (resumed_) replay({});
+  }
+  const InputLog& log() const { return *log_; }
   /// What holds in the step that begins here: a log's, those that are followed, the hand's.
-  Inputs inputs() const { return composed(present_.model(), *log_, present_.step(), followed_, hand_); }
+  Inputs inputs() const {
+    return composed(present_.setup(), present_.model(), *log_, present_.step(), followed_, hand_);
+  }
   /// Single steps that were asked for and not done.
   std::uint64_t single_steps() const { return single_steps_; }
   void ask_single_step() { ++single_steps_; }
@@ -68,8 +82,8 @@ class Stepper {
  private:
   Status prepare();
   Status advance_here(std::uint64_t steps, double budget);
-  static Inputs composed(const Model& model, const InputLog& log, std::uint64_t step, Inputs followed,
-                         const std::optional<Pull>& hand);
+  static Inputs composed(const Setup& setup, const Model& model, const InputLog& log, std::uint64_t step,
+                         Inputs followed, const std::optional<Pull>& hand);
   std::uint64_t next_change(std::uint64_t otherwise) const;
   void start_job(std::uint64_t to, double budget, const std::optional<Inputs>& repeated);
   Status take_up(JobResult result);
@@ -87,7 +101,7 @@ class Stepper {
   std::optional<Pull> hand_;
   Inputs followed_;
   std::shared_ptr<const InputLog> log_ = std::make_shared<const InputLog>();  // jobs hold it too
-  bool running_ = false;
+  bool resumed_ = false, running_ = false;
   std::uint64_t single_steps_ = 0;
   std::uint64_t batch_ = 1;     // steps between two looks at the clock, of a backend in the context
   std::uint64_t job_to_ = 0;    // of the newest job

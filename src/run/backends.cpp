@@ -337,8 +337,7 @@ Status check_choice(const BackendChoice& choice) {
     if (const Ability* const lacks = lacking(*choice.row, choice)) {
       Error error =
           fail(ErrorCode::usage, "the {} does not {} {}.", choice.row->name, lacks->verb, lacks->object);
-      for (const std::string_view name : names_where(lacks->had))
-        error.remedies.push_back(use_backend(std::string(name)));
+      for (const std::string_view name : names_where(lacks->had)) error.remedies.push_back(use_backend(name));
       return error;
     }
   } else if (names_where([&](const BackendRow& row) { return !lacking(row, choice); }).empty()) {
@@ -352,8 +351,8 @@ Status check_choice(const BackendChoice& choice) {
     return !lacking(row, choice) && has_path(row, choice.force_path);
   };
   if (choice.row ? possible(*choice.row) : std::ranges::any_of(table, possible)) return {};
-  const std::string with_path(
-      names_where([](const BackendRow& row) { return !row.force_paths().empty(); }).front());
+  const auto with_path =
+      names_where([](const BackendRow& row) { return !row.force_paths().empty(); }).front();
   return advised(fail(ErrorCode::usage, "a force path belongs to the {} backend.", with_path),
                  {advice("omit it"), use_backend(with_path)});
 }
@@ -367,7 +366,7 @@ Result<Backend> make_backend(const BackendChoice& choice, SharedModel model, con
     const auto names = names_where([&](const BackendRow& r) { return has_path(r, choice.force_path); });
     return advised(fail(ErrorCode::no_device, "the force path {} needs the {} backend, but {}.",
                         name_of(choice.force_path), names.front(), automatic.reason),
-                   {use_backend(std::string(names.front()))});
+                   {use_backend(names.front())});
   }
   SolverHost place = host;
   if (automatic.context) place.context = automatic.context.get();

@@ -15,11 +15,10 @@ namespace aspic {
 Result<Difference> parse_difference(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-    return fail(
-        ErrorCode::usage,
-        "\"{}\" is no difference: it is KEY=VALUE, such as integrator=implicit-euler, h=0.002, k=500, "
-        "backend=reference or any key of the scene.",
-        printable_line(text));
+    return fail(ErrorCode::usage,
+                "\"{}\" is not KEY=VALUE, such as integrator=implicit-euler, h=0.002, k=500, "
+                "backend=reference or any key of the scene.",
+                printable_line(text));
   return Difference{text.substr(0, equals), text.substr(equals + 1)};
 }
 

@@ -26,14 +26,15 @@ Status check_pictures(const PictureOutput& output, double timestep, std::uint64_
                       std::uint64_t last_step) {
   if (!output.any() && output.page.empty()) return {};
   const double fps = frames_per_second(output);
-  const std::uint64_t count = FrameSchedule(timestep, first_step, last_step, fps, output.speed).count();
-  if (count <= most_pictures) return {};
-  const double excess = 1.01 * static_cast<double>(count) / static_cast<double>(most_pictures);
+  if (FrameSchedule(timestep, first_step, last_step, fps, output.speed).count() <= most_pictures) return {};
+  // As many pictures as there may be take this many seconds each, and a little for rounding below.
+  const double each =
+      1.01 * static_cast<double>(last_step - first_step) * timestep / static_cast<double>(most_pictures);
   return advised(
       fail(ErrorCode::usage, "speed {} and {} pictures per second make more than {} pictures of this run.",
            output.speed, fps, most_pictures),
-      {{RemedyKind::raise_speed, {fmt::format("{:.3g}", output.speed * excess)}},
-       {RemedyKind::lower_fps, {fmt::format("{:.3g}", fps / excess)}}});
+      {{RemedyKind::raise_speed, {fmt::format("{:.3g}", fps * each)}},
+       {RemedyKind::lower_fps, {fmt::format("{:.3g}", output.speed / each)}}});
 }
 
 struct Recorder::Parts {

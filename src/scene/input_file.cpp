@@ -1,3 +1,5 @@
+#include "scene/input_file.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,6 +27,8 @@ using diagnostics::Position;
 
 /// Reading ends with so many problems: a file that is none at all has one in each line.
 constexpr std::size_t most_problems = 20;
+/// Of the file itself.
+constexpr std::string_view file_keys[] = {"timestep", "inputs"};
 /// Pinned and released particles of all entries together: 64 MiB.
 constexpr std::size_t most_particles = std::size_t{1} << 24;
 /// As far as double precision counts.
@@ -249,8 +253,7 @@ void InputReader::read_entry(const toml::table& table, InputLog& log) {
 }
 
 InputLog InputReader::read(const toml::table& file) {
-  constexpr std::string_view keys[] = {"timestep", "inputs"};
-  check_keys(file, "the file", keys);
+  check_keys(file, "the file", file_keys);
   const auto timestep = number(file, "timestep");
   if (timestep && !(*timestep > 0.0)) fail(file.get("timestep")->source(), "'timestep' must be above 0 [s]");
   InputLog log;
@@ -263,6 +266,14 @@ InputLog InputReader::read(const toml::table& file) {
 }
 
 }  // namespace
+
+bool is_input_log(std::string_view text) {
+  const auto parsed = document::parse(text, 0);
+  const auto* const file = std::get_if<toml::table>(&parsed);
+  return file && !file->empty() && std::ranges::all_of(*file, [](const auto& entry) {
+           return std::ranges::find(file_keys, entry.first.str()) != std::end(file_keys);
+         });
+}
 
 Result<InputLog> parse_inputs(std::string_view text, const std::string& file_name, const LoggedRun& run) {
   const auto parsed = document::parse(text, 0);

@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "scene/diagnostics.h"
 #include "scene/document.h"
+#include "scene/input_file.h"
 #include "scene/reader.h"
 
 namespace aspic {
@@ -95,6 +96,11 @@ Result<Scene> load_scene(const std::string& file_or_builtin, std::span<const std
                    {{RemedyKind::resume, {name}}});
   }
   ASPIC_TRY(auto text, read_file(file_or_builtin));
+  if (is_input_log(text)) {
+    const std::string name = printable_line(file_or_builtin);
+    return advised(fail(ErrorCode::scene_rejected, "{}: these are inputs of a run, not a scene.", name),
+                   {{RemedyKind::replay, {name}}});
+  }
   return parse_scene(text, file_or_builtin, overrides, options);
 }
 

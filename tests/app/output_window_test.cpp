@@ -109,12 +109,42 @@ TEST_P(OutputOn, InputsRepeatTheRun) {
   EXPECT_EQ(*kept, so_far);
   EXPECT_EQ(kept->at(between).pinned, std::vector<std::uint32_t>{5});
   EXPECT_EQ(kept->at(between).pulls.size(), 1u);
-  // Opened in the window, the particle stays pinned and the hand has let go.
+  // Opened in the window, both go on there too.
+  const auto on = std::move(make_reference_solver(model, Precision::single)).value();
+  ASSERT_FALSE((*advance(*on, *kept, 0, between + 8)).has_value());
   app().scene.open("cube-sphere");
   app().scene.open(path("aspic-cube-plane-0001.aspic"));
   EXPECT_EQ(simulation().step(), between);
   steps(8);
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), state_hash_text(*on->state()));
+  // Inputs that are dropped on the scene repeat the run from its start on.
+  app().drop({path("aspic-cube-plane-0001-inputs.toml")});
+  EXPECT_THAT(app().messages.notice()->text, HasSubstr("repeats the inputs of"));
+  EXPECT_FALSE(app().messages.notice()->is_error);
+  EXPECT_EQ(simulation().step(), 0u);
+  steps(static_cast<int>(end));
   EXPECT_EQ(state_hash_text(simulation().snapshot()), hash);
+  press(GLFW_KEY_R);
+  steps(static_cast<int>(end));
+  EXPECT_EQ(state_hash_text(simulation().snapshot()), hash);
+  // The scene alone again.
+  app().scene.open("cube-sphere");
+  EXPECT_TRUE(simulation().stepper().log().empty());
+}
+
+TEST_F(Output, InputsOfAnotherSceneAreRefusedWithAWord) {
+  open_falling("reference");
+  const std::uint64_t step = simulation().step();
+  const std::string other = path("other.toml");
+  std::ofstream(other) << "timestep = 0.001\n[[inputs]]\nstep = 3\npinned = [64]\n";
+  app().drop({other});
+  ASSERT_TRUE(app().messages.notice());
+  EXPECT_TRUE(app().messages.notice()->is_error);
+  EXPECT_THAT(app().messages.notice()->text,
+              testing::AllOf(HasSubstr("are not for the scene"), HasSubstr("other.toml:4:"),
+                             HasSubstr("there is no particle 64")));
+  EXPECT_EQ(simulation().step(), step) << "all stays as it was";
+  EXPECT_TRUE(simulation().stepper().log().empty());
 }
 
 TEST_P(OutputOn, ACheckpointIsOpenedWhereTheRunWas) {

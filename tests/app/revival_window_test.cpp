@@ -110,10 +110,11 @@ TEST_F(Revival, AChangeTheGpuHasNoMemoryForGoesToTheReference) {
   open("cube-plane", {"cube[0].position=[0,1.2,0]"}, "gpu");
   for (int i = 0; i < 5; ++i) type(U'.');
   context().inject_fault(gl::Fault::out_of_memory, 1);  // not at the read-back, but at the first new buffer
-  app().scene.set_value(*find_parameter("simulation.gravity"), 0, Value(Vec3{0.0, -1.0, 0.0}), "");
+  // A constant alone would need none.
+  app().scene.set_value(*find_parameter("contact.model"), 0, Value(std::string("course")), "");
   frames(2);
   EXPECT_EQ(simulation().present().backend().name, "reference");
-  EXPECT_EQ(simulation().model().simulation.gravity, (Vec3{0.0, -1.0, 0.0})) << "the change holds";
+  EXPECT_EQ(simulation().model().contact.model, ContactModel::course) << "the change holds";
   EXPECT_EQ(simulation().step(), 5u);
   EXPECT_THAT(notice(), HasSubstr("The reference takes over"));
 }

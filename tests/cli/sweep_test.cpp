@@ -184,7 +184,7 @@ TEST(Sweep, RejectedValuesAreRowsToo) {
   EXPECT_THAT(done.out, HasSubstr("1 ok, 0 diverged, 1 rejected, 0 failed"));
   const Words rows = test::lines(content(dir.file("s.csv")));
   ASSERT_THAT(rows, SizeIs(3));
-  EXPECT_THAT(rows[1], HasSubstr("0,1,rejected,\"--set cube[0].particles-per-edge=1: "));
+  EXPECT_THAT(rows[1], HasSubstr("0,1,rejected,\"cube[0].particles-per-edge=1: "));
   EXPECT_THAT(rows[2], HasSubstr("1,3,ok,,10,0.01,"));
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "cpu_reference/reference_solver.h"
 #include "support/contact_rules.h"
@@ -15,6 +16,7 @@
 #include "support/integrator_names.h"
 #include "support/lattice_bodies.h"
 #include "support/model_building.h"
+#include "support/random_state.h"
 
 namespace aspic {
 namespace {
@@ -381,6 +383,49 @@ TEST(CpuSolver, TakesOverAStateInMidRun) {
   ASSERT_TRUE(second->advance(200).ok());
   ASSERT_TRUE(complete->advance(323).ok());
   EXPECT_EQ(*second->state(), *complete->state());
+}
+
+/// The particles of a state as numbers of type T, the first of vector i at i·stride, component c at
+/// c·component.
+template <class T>
+void expect_read(Solver& solver, const State& state, std::size_t stride, std::size_t component) {
+  const std::size_t count = state.position.size(), size = (count - 1) * stride + 2 * component + 1;
+  std::vector<T> x(size + 2, T(-1)), v = x;
+  const auto vectors = [&](std::vector<T>& to) {
+    return Strided<T>{to.data() + 1, count, static_cast<std::ptrdiff_t>(stride),
+                      static_cast<std::ptrdiff_t>(component)};
+  };
+  StateView view;
+  view[field_number("position")] = vectors(x);
+  view[field_number("velocity")] = vectors(v);
+  ASSERT_TRUE(solver.read_into(view).ok());
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t at = 1 + i * stride + static_cast<std::size_t>(c) * component;
+      wrong += x[at] != static_cast<T>(state.position[i][c]) || v[at] != static_cast<T>(state.velocity[i][c]);
+    }
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_EQ(x.front(), T(-1)) << "the places around stay as they were";
+  EXPECT_EQ(x.back(), T(-1));
+}
+
+// More particles than one piece of work has, and a number that no register's lanes divide.
+TEST(CpuSolver, AllThreadsReadAndWriteAState) {
+  const Model model = test::build(test::cube_on_plane(27));
+  const std::size_t count = model.particle_count();
+  const State state = test::random_bits_state(count, Precision::single, 3, 0);
+  with_every_instruction_set([&] {
+    for (const unsigned threads : {1u, 3u}) {
+      const auto solver = cpu(model, threads);
+      ASSERT_TRUE(solver->load(state).ok());
+      EXPECT_EQ(*solver->state(), state);
+      expect_read<float>(*solver, state, 3, 1);
+      expect_read<float>(*solver, state, 5, 1);
+      expect_read<float>(*solver, state, 1, count);
+      expect_read<double>(*solver, state, 3, 1);
+    }
+  });
 }
 
 TEST(CpuSolver, FollowsTheRulesThatKeepRoundingFromDecidingAboutContact) {

@@ -12,7 +12,7 @@
 namespace aspic::fuzz {
 namespace {
 
-constexpr LoadOptions small = {.memory_bytes = std::uint64_t{1} << 20};
+const LoadOptions small = {.memory_bytes = std::uint64_t{1} << 20};
 // Places in the header, docs/files.md.
 constexpr std::size_t version_at = 10, hash_at = 34, version_text_at = 42;
 

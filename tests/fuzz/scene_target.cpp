@@ -13,7 +13,7 @@ namespace aspic::fuzz {
 namespace {
 
 /// Models larger than this are refused before they are built, so that an input takes milliseconds.
-constexpr LoadOptions small = {.memory_bytes = std::uint64_t{1} << 20};
+const LoadOptions small = {.memory_bytes = std::uint64_t{1} << 20};
 
 /// An accepted scene is a scene for good: what is written of it reads back as the same, and it makes a model
 /// whose every number is finite.

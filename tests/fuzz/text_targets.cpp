@@ -72,7 +72,7 @@ void run_state_csv(std::string_view text) {
 }
 
 std::vector<std::string> state_csv_seeds() {
-  std::string text = std::string(state_csv_header) + "\n";
+  std::string text = fmt::format("{}\n", state_csv_header);
   for (int i = 0; i < 3; ++i) text += fmt::format("particle,{},0.5,1e-38,-3,1.25,{},0,0,0,0\n", i, i);
   return {text, text + "ball,0,1,2,3,4,5,6,7,8,9\n"};
 }

@@ -128,6 +128,50 @@ TEST_P(InMotion, ReplaysALogAndRecordsItWithTheHand) {
   EXPECT_EQ(hashes[40], replayed(scene, log, 40));
 }
 
+// A run that continues another one's has what its log says of later steps, until it starts again.
+TEST_P(InMotion, AContinuedRunHasItsLogUntilItStartsAgain) {
+  InputLog log;
+  log.set(3, {.pulls = {{5, {1.0, 12.0, 0.0}, 400.0, 2.0}}, .pinned = {0, 3}});
+  log.set(20, {.pulls = {{63, {2.0, 10.0, 0.0}, 400.0, 2.0}}, .pinned = {3}, .released = {}});
+  log.set(30, {});
+  const SharedModel model = make_model(scene.model).value();
+  const auto solver = std::move(make_reference_solver(model, Precision::single)).value();
+  ASSERT_TRUE(advance(*solver, log, 0, 12).ok());
+  ASSERT_TRUE(run->rebuild().start_from(solver->state().value(), log).ok());
+  step_to(40);
+  for (const std::uint64_t step : {13u, 25u, 40u})
+    EXPECT_EQ(hashes[step], replayed(scene, log, step)) << step;
+  // What a checkpoint there would hold leads to the same end.
+  go_to({run->playback().here().stretch, 15});
+  const auto rest = inputs_to_go_on(run->playback().history(), run->playback().here(), run->stepper().log());
+  ASSERT_TRUE(rest.ok());
+  for (const std::uint64_t step : {15u, 19u, 20u, 29u, 30u, 50u})
+    EXPECT_EQ(rest->at(step), log.at(step)) << step;
+  ASSERT_TRUE(run->rebuild().reset().ok());
+  step_to(25);
+  EXPECT_EQ(hashes[25], replayed(scene, {}, 25));
+}
+
+// Hands free what a log has pinned, and pin what it releases.
+TEST_P(InMotion, AHandGoesBeforeALog) {
+  InputLog log;
+  log.set(0, {.pinned = {0, 3}});
+  run->stepper().replay(log);
+  step_to(5);
+  ASSERT_TRUE(run->rebuild().toggle_pin(3).ok());
+  step_to(25);
+  InputLog freed = log;
+  freed.set(5, {.pinned = {0}});
+  EXPECT_EQ(hashes[25], replayed(scene, freed, 25));
+  const auto recorded = recorded_inputs(run->playback().history(), run->playback().here());
+  ASSERT_TRUE(recorded.ok());
+  EXPECT_EQ(*recorded, freed);
+  ASSERT_TRUE(run->rebuild().toggle_pin(3).ok());
+  step_to(40);
+  freed.set(25, {.pinned = {0, 3}});
+  EXPECT_EQ(hashes[40], replayed(scene, freed, 40));
+}
+
 // What no longer fits is left out, and the run goes on.
 TEST_P(InMotion, ALogThatDoesNotFitAChangedSceneStopsNothing) {
   InputLog log;

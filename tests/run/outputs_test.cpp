@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "aspic/scene.h"
 #include "cpu_reference/reference_solver.h"
 #include "io/checkpoint.h"
+#include "run/recorder.h"
 #include "run/run_files.h"
 #include "support/state_csv_reader.h"
 #include "support/temporary_directory.h"
@@ -136,11 +139,30 @@ TEST_F(Outputs, FilesOfLaterStepsAreFoundAtTheStart) {
   EXPECT_TRUE(first(0, Overwrite::allow).ok());
 }
 
+TEST(CheckPictures, RefusesWhatCannotBeCountedAndSaysWhatFits) {
+  PictureOutput output;
+  output.frames = "z";
+  output.fps = 60.0;
+  output.speed = 1e-300;
+  const Status refused = check_pictures(output, 0.001, 100, 5100);
+  ASSERT_FALSE(refused.ok());
+  ASSERT_EQ(refused.error().remedies.size(), 2u);
+  EXPECT_EQ(refused.error().remedies[0].kind, RemedyKind::raise_speed);
+  output.speed = std::stod(refused.error().remedies[0].values[0]);
+  EXPECT_TRUE(check_pictures(output, 0.001, 100, 5100).ok());
+  output.speed /= 2.0;
+  const Status still = check_pictures(output, 0.001, 100, 5100);
+  ASSERT_FALSE(still.ok());
+  EXPECT_EQ(still.error().remedies[1].kind, RemedyKind::lower_fps);
+  output.fps = std::stod(still.error().remedies[1].values[0]);
+  EXPECT_TRUE(check_pictures(output, 0.001, 100, 5100).ok());
+}
+
 TEST_F(Outputs, OneNameForTwoFilesIsRefused) {
   const auto files = open({{"state", dir_.file("x"), {}}, {"series", dir_.file("x"), {}}});
   ASSERT_FALSE(files.ok());
   EXPECT_EQ(files.error().code, ErrorCode::usage);
-  EXPECT_THAT(files.error().message(), testing::HasSubstr("--state and --series"));
+  EXPECT_THAT(files.error().message(), testing::HasSubstr("state and series are both"));
   std::filesystem::create_symlink("x", dir_.file("link"));
   EXPECT_FALSE(open({{"state", dir_.file("x"), {}}, {"series", dir_.file("link"), {}}}).ok());
 }

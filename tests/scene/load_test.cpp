@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "model/counts.h"
 #include "model/model.h"
+#include "scene/input_file.h"
 #include "scene/scene_support.h"
 #include "support/temporary_directory.h"
 
@@ -274,14 +275,29 @@ TEST(Load, TellsACheckpointFromAScene) {
       path + ": this is a checkpoint, not a scene. Continue its run by aspic run --resume " + path + ".");
 }
 
+TEST(Load, TellsInputsFromAScene) {
+  const test::TemporaryDirectory dir;
+  dir.write("hands.toml", "timestep = 0.001\n[[inputs]]\nstep = 3\n");
+  const auto scene = load_scene(dir.file("hands.toml"));
+  ASSERT_FALSE(scene.ok());
+  EXPECT_EQ(worded(scene.error(), FrontEnd::command_line),
+            dir.file("hands.toml") +
+                ": these are inputs of a run, not a scene. Give them to a scene: aspic run "
+                "SCENE --replay " +
+                dir.file("hands.toml") + ".");
+  EXPECT_TRUE(is_input_log("timestep = 1.0  # s\n"));
+  for (const char* text : {"", "schema = 1\n", "schema = 1\n[[inputs]]\n", "inputs = [", "[[cube]]\n"})
+    EXPECT_FALSE(is_input_log(text)) << text;
+}
+
 // What is wrong is shown as it was typed, after the words that its caller has for where it was.
 TEST(Load, NamesTheOptionThatAnArgumentIsOf) {
   const std::vector<std::string> arguments = {"colour=stress"};
   for (const std::string origin : {"", "--view"}) {
     const auto wrong = with_view(Scene{}, arguments, {.origin = origin});
     ASSERT_FALSE(wrong.ok());
-    EXPECT_THAT(wrong.error().message(), testing::StartsWith(origin + (origin.empty() ? "" : " ") +
-                                                             "colour=stress: 'view.colour' does not know"));
+    EXPECT_THAT(wrong.error().message(), HasSubstr("\n\n" + origin + (origin.empty() ? "" : " ") +
+                                                   "colour=stress: 'view.colour' does not know"));
     EXPECT_THAT(wrong.error().message(), testing::EndsWith("\n  colour=stress\n         ^"));
   }
 }
