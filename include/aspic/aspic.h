@@ -5,6 +5,7 @@
 // Structs without such words are plain values: one thread changes them, or several read.
 
 #include "aspic/analysis.h"    // measure(), compare_states(), stability_limit()
+#include "aspic/batch.h"       // Batch: many models stepped together
 #include "aspic/error.h"       // Result, Status, Error, worded()
 #include "aspic/files.h"       // write_state(), read_checkpoint(), write_checkpoint()
 #include "aspic/inputs.h"      // Inputs: pulls, pins, channels; InputLog

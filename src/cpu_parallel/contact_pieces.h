@@ -3,6 +3,7 @@
 // so, and then nothing else is looked at. Near it every particle is treated by the reference's own formulas.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "cpu_parallel/kernels.h"
@@ -33,17 +34,21 @@ inline double sway_of(const Terrain& terrain) {
   return terrain.motion ? terrain.motion->amplitude : 0.0;
 }
 
-/// Whether a point of the box may be nearer than ε to any terrain, wherever a moving one is. Distances in
-/// single precision differ from true ones by a few rounding errors of the coordinates: 1e-5 of them is beyond
-/// all.
+/// How near a terrain at rest a point may be that counts as near it: ε, the way of one that moves, and a
+/// margin. Distances in single precision differ from true ones by a few rounding errors of the coordinates,
+/// here of points within `radius` of `centre`: 1e-5 of them is beyond all.
+inline double nearness(const Model& model, const Terrain& terrain, const Vec3& centre, double radius) {
+  const double sway = sway_of(terrain);
+  return model.contact.epsilon + sway + 1e-5 * (length(centre) + radius + reach_of(terrain) + sway);
+}
+
+/// Whether a point of the box may be nearer than ε to any terrain, wherever a moving one is.
 inline bool near_terrain(const Model& model, const Box& box) {
   const Vec3 min = {box.min[0], box.min[1], box.min[2]}, max = {box.max[0], box.max[1], box.max[2]};
   const Vec3 centre = 0.5 * (min + max), half = 0.5 * (max - min);
   const double radius = length(half);
   return std::ranges::any_of(model.terrain, [&](const Terrain& terrain) {
-    const double sway = sway_of(terrain);
-    const double margin = 1e-5 * (length(centre) + radius + reach_of(terrain) + sway);
-    const double near = model.contact.epsilon + sway + margin;
+    const double near = nearness(model, terrain, centre, radius);
     // All of a terrain with a flat part lies behind it; a box in front, however large, is told by its corner.
     if (const auto flat = terrain_row(terrain.shape).flat) {
       const auto [point, n] = flat(terrain.geometry);
@@ -52,6 +57,21 @@ inline bool near_terrain(const Model& model, const Box& box) {
     }
     return !(signed_distance(terrain, centre) > radius + near);
   });
+}
+
+/// Places x with normal·x > limit are farther than ε from a terrain, wherever a moving one is: for points of
+/// a box that may be near.
+struct FarSide {
+  Vec3 normal;
+  double limit;
+};
+/// Nowhere, unless all of the terrain lies behind a flat part.
+inline FarSide far_side(const Model& model, const Terrain& terrain, const Box& box) {
+  const auto flat = terrain_row(terrain.shape).flat;
+  if (!flat) return {{}, std::numeric_limits<double>::infinity()};
+  const Vec3 min = {box.min[0], box.min[1], box.min[2]}, max = {box.max[0], box.max[1], box.max[2]};
+  const auto [point, n] = flat(terrain.geometry);
+  return {n, dot(point, n) + nearness(model, terrain, 0.5 * (min + max), length(0.5 * (max - min)))};
 }
 
 }  // namespace aspic::parallel

@@ -36,12 +36,12 @@ void fill(FloatArray& to, const Runs<double>& from) {
 
 class CpuSolver final : public Solver {
  public:
-  CpuSolver(SharedModel model, unsigned threads, Arithmetic arithmetic)
+  CpuSolver(SharedModel model, std::shared_ptr<Workers> workers, Arithmetic arithmetic)
       : model_(std::move(model)),
         reports_solves_(row_of(model_->simulation.integrator).traits.reports_solves),
         dynamics_(*model_),
         balls_(*model_),
-        workers_(threads) {
+        workers_(std::move(workers)) {
     std::size_t margin = slice;
     for (const Body& body : model_->bodies) {
       if (body.box()) {
@@ -58,7 +58,7 @@ class CpuSolver final : public Solver {
     inverse_mass_ = FloatArray(count, slice);
     fill(mass_, model_->mass);
     fill(inverse_mass_, model_->inverse_mass);
-    steps_ = make_steps({model_, dynamics_, springs_, mass_, inverse_mass_, margin, arithmetic, workers_});
+    steps_ = make_steps({model_, dynamics_, springs_, mass_, inverse_mass_, margin, arithmetic, *workers_});
     bytes_ = sizeof(*this) + heap_bytes();
     const State start = initial_state(*model_, Precision::single);
     (void)CpuSolver::take_state(view_of(start), start.step);
@@ -66,8 +66,8 @@ class CpuSolver final : public Solver {
 
   std::string_view backend() const override { return "cpu"; }
   std::string description() const override {
-    return fmt::format("cpu, {} thread{}, {}, single precision{}", workers_.threads(),
-                       workers_.threads() == 1 ? "" : "s", instruction_set(),
+    return fmt::format("cpu, {} thread{}, {}, single precision{}", workers_->threads(),
+                       workers_->threads() == 1 ? "" : "s", instruction_set(),
                        steps_->arithmetic() == Arithmetic::fast ? ", fast arithmetic" : "");
   }
   Precision precision() const override { return Precision::single; }
@@ -107,7 +107,7 @@ class CpuSolver final : public Solver {
   const bool reports_solves_;
   reference::Dynamics<float> dynamics_;
   reference::Balls<float> balls_;
-  Workers workers_;
+  std::shared_ptr<Workers> workers_;
   std::vector<Springs> springs_;  // by body
   std::unique_ptr<Steps> steps_;
   SolveStatistics statistics_;
@@ -154,7 +154,7 @@ template <class Task>
 void CpuSolver::share(const Task& task) {
   constexpr std::size_t piece = 16384;
   const std::size_t count = model_->particle_count();
-  workers_.run((count + piece - 1) / piece, [&](std::size_t n) {
+  workers_->run((count + piece - 1) / piece, [&](std::size_t n) {
     task(Range{n * piece, std::min(piece, count - n * piece)});
   });
 }
@@ -301,7 +301,9 @@ Result<std::unique_ptr<Solver>> make_cpu_solver(SharedModel model, const CpuOpti
     const unsigned threads = options.threads > 0
                                  ? options.threads
                                  : static_cast<unsigned>(std::clamp<std::size_t>(worth, 1, available));
-    return std::unique_ptr<Solver>(std::make_unique<parallel::CpuSolver>(model, threads, options.arithmetic));
+    auto workers = options.workers ? options.workers : std::make_shared<parallel::Workers>(threads);
+    return std::unique_ptr<Solver>(
+        std::make_unique<parallel::CpuSolver>(model, std::move(workers), options.arithmetic));
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::scene_rejected,
                 "no memory left for the cpu solver of {} particles: use fewer particles-per-edge",

@@ -9,6 +9,10 @@
 
 namespace aspic {
 
+namespace parallel {
+class Workers;
+}
+
 struct CpuOptions {
   /// Threads, 1 to 1024; 0: as many as there are processors (or ASPIC_THREADS), fewer for scenes too small
   /// for them.
@@ -16,6 +20,8 @@ struct CpuOptions {
   /// Of the springs' forces; the rest, and implicit Euler, is exact. Fast forces are the same for any number
   /// of threads.
   Arithmetic arithmetic = Arithmetic::exact;
+  /// Others' threads; null: the solver starts some.
+  std::shared_ptr<parallel::Workers> workers = nullptr;
 };
 
 /// A parallel solver at the model's initial state, in single precision. Errors: usage where ASPIC_THREADS is

@@ -1,6 +1,8 @@
 #include "cpu_parallel/explicit.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "cpu_parallel/contact_pieces.h"
 
@@ -124,7 +126,7 @@ void ExplicitSteps::run(Task& task, const StageMove& stage) {
     const std::size_t size = lattice->plane_size();
     const std::size_t from = (task.range.first - lattice->first()) / size,
                       to = from + task.range.count / size;
-    Sweep& sweep = sweeps_[Workers::current()];
+    Sweep& sweep = sweeps_[workers_.current()];
     for (std::size_t plane = from; plane < std::min(from + 2, lattice->planes()); ++plane)
       begin_plane(*lattice, input, sweep, plane);
     for (std::size_t below = std::min<std::size_t>(from, 2); below > 0; --below)
@@ -178,13 +180,39 @@ void ExplicitSteps::pull(const StageMove& stage, Range range, const Forces& forc
   }
 }
 
-/// Calls f(part) for the slices of a range with a particle that may be near terrain.
+namespace {
+
+/// Calls f(part) for runs of those particles of a part in the box, of at most `slice`, that are not in front
+/// of every terrain: a cube that lies on the ground has a few in nearly every slice.
+template <class F>
+void for_behind(const Model& model, const VectorArray& x, Range part, const Box& box, const F& f) {
+  std::uint32_t behind = 0;
+  for (const Terrain& terrain : model.terrain) {
+    const FarSide side = far_side(model, terrain, box);
+    for (std::size_t n = 0; n < part.count; ++n) {
+      const std::size_t i = part.first + n;
+      const bool far = dot(side.normal, Vec3{x[0][i], x[1][i], x[2][i]}) > side.limit;
+      behind |= std::uint32_t{!far} << n;
+    }
+  }
+  for (std::size_t n = 0; behind >> n != 0;) {
+    n += static_cast<std::size_t>(std::countr_zero(behind >> n));
+    const auto count = static_cast<std::size_t>(std::countr_one(behind >> n));
+    f(Range{part.first + n, count});
+    n += count;
+  }
+}
+
+}  // namespace
+
+/// Calls f(part) for runs of particles of a range that may be near terrain.
 template <class F>
 void ExplicitSteps::for_near(const VectorArray& x, Range range, const F& f) const {
   for_parts(range, piece_size, [&](Range piece) {
     if (!near_terrain(*model_, box_of(x, piece))) return;
     for_parts(piece, slice, [&](Range part) {
-      if (near_terrain(*model_, box_of(x, part))) f(part);
+      const Box box = box_of(x, part);
+      if (near_terrain(*model_, box)) for_behind(*model_, x, part, box, f);
     });
   });
 }

@@ -15,7 +15,7 @@ namespace {
 /// Looks at a value before a thread goes to sleep over it: a few microseconds, less than waking up takes.
 constexpr int looks = 2000;
 
-thread_local unsigned current_thread = 0;
+thread_local unsigned number_in_pool = 0;
 
 void pause() {
 #if defined(__x86_64__)
@@ -34,8 +34,15 @@ void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
 
 }  // namespace
 
-Workers::Workers(unsigned threads) {
+Workers::Workers(unsigned threads) : threads_(threads) {
   for (unsigned n = 1; n < threads; ++n) others_.emplace_back([this, n] { work(n); });
+}
+
+std::shared_ptr<Workers> Workers::of_helpers(unsigned threads) {
+  std::shared_ptr<Workers> workers(new Workers);
+  workers->threads_ = threads;
+  workers->helped_ = true;
+  return workers;
 }
 
 Workers::~Workers() {
@@ -45,6 +52,7 @@ Workers::~Workers() {
 }
 
 void Workers::run(std::size_t pieces, const std::function<void(std::size_t)>& task) {
+  if (helped_) return run_with_helpers(pieces, task);
   task_ = &task;
   pieces_ = pieces;
   next_.store(0, std::memory_order_relaxed);
@@ -59,8 +67,46 @@ void Workers::run(std::size_t pieces, const std::function<void(std::size_t)>& ta
     wait_while(finished_, n);
 }
 
-unsigned Workers::current() {
-  return current_thread;
+unsigned Workers::current_thread() {
+  return number_in_pool;
+}
+
+void Workers::run_with_helpers(std::size_t pieces, const std::function<void(std::size_t)>& task) {
+  task_ = &task;
+  left_.store(static_cast<std::uint32_t>(pieces), std::memory_order_relaxed);
+  tickets_.store(std::uint64_t{pieces} << 32, std::memory_order_release);
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+  take_tickets();
+  for (std::uint32_t n = left_.load(std::memory_order_acquire); n != 0;
+       n = left_.load(std::memory_order_acquire))
+    wait_while(left_, n);
+}
+
+void Workers::take_tickets() {
+  for (;;) {
+    const std::uint64_t ticket = tickets_.fetch_add(1, std::memory_order_acq_rel);
+    const std::uint64_t n = ticket & 0xffffffff;
+    if (n >= ticket >> 32) return;  // also a ticket of a run that is over: its task is not touched
+    (*task_)(n);
+    left_.fetch_sub(1, std::memory_order_acq_rel);
+    left_.notify_one();
+  }
+}
+
+void Workers::help() {
+  for (;;) {
+    const std::uint32_t round = round_.load(std::memory_order_acquire);
+    if (released_) return;
+    take_tickets();
+    wait_while(round_, round);
+  }
+}
+
+void Workers::release() {
+  released_ = true;
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
 }
 
 void Workers::take_pieces() {
@@ -70,7 +116,7 @@ void Workers::take_pieces() {
 }
 
 void Workers::work(unsigned index) {
-  current_thread = index;
+  number_in_pool = index;
   for (std::uint32_t round = 0;;) {
     wait_while(round_, round);
     ++round;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <numeric>
 
 namespace aspic::parallel {
@@ -29,6 +30,35 @@ TEST(Workers, SeeWhatTheRoundBeforeWrote) {
     workers.run(sums.size(), [&](std::size_t n) { sums[n] = total % 1000003 + n; });
     for (std::size_t n = 0; n < sums.size(); ++n) ASSERT_EQ(sums[n], total % 1000003 + n);
   }
+}
+
+TEST(Workers, ShareThePiecesOfOthersAsTheyComeAndGo) {
+  constexpr std::size_t jobs = 7, rounds = 300;
+  Workers pool(5);
+  std::vector<std::shared_ptr<Workers>> helped;
+  for (std::size_t n = 0; n < jobs; ++n) helped.push_back(Workers::of_helpers(pool.threads()));
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    std::vector<std::vector<int>> done(jobs, std::vector<int>(41, 0));
+    std::vector<std::vector<int>> at_work(jobs, std::vector<int>(pool.threads(), 0));
+    std::atomic<std::size_t> next = 0;
+    for (const auto& each : helped) each->admit();
+    pool.run(pool.threads(), [&](std::size_t) {
+      for (std::size_t n = next++; n < jobs; n = next++) {
+        for (std::size_t round = 0; round < rounds; ++round)
+          helped[n]->run(done[n].size(), [&](std::size_t piece) {
+            ++done[n][piece];
+            ++at_work[n][helped[n]->current()];  // a number is one thread's alone
+          });
+        helped[n]->release();
+      }
+      for (const auto& each : helped) each->help();
+    });
+    for (std::size_t n = 0; n < jobs; ++n) {
+      for (const int count : done[n]) ASSERT_EQ(count, static_cast<int>(rounds));
+      EXPECT_EQ(std::accumulate(at_work[n].begin(), at_work[n].end(), 0), static_cast<int>(rounds * 41));
+    }
+  }
+  helped[0]->help();  // released: at once
 }
 
 TEST(Workers, AreAsManyAsTheEnvironmentSays) {
