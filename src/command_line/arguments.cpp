@@ -260,6 +260,8 @@ CLI::App* add_report(CLI::App& app, ReportOptions& report) {
       ->required();
   add(c, "--only", "NAME", report.only,
       "one section: integrators, parameters, stability, contact or backends; repeatable");
+  add(c, "--outline", "NAME", report.outline,
+      "order of chapters that a course suggests, with gaps for your own words: course (at most 10 pages)");
   c->add_flag("--thorough", report.thorough, "finer maps, longer runs, larger sizes");
   add(c, "--jobs", "N", report.jobs, "threads; default: the processors", few);
   add_overrides(c, report.overrides);

@@ -88,6 +88,7 @@ struct ReportOptions {
   std::vector<std::string> overrides;
   std::string out;                ///< directory
   std::vector<std::string> only;  ///< names of sections; empty: all
+  std::string outline;            ///< of a course; empty: the report's own order
   bool thorough = false;
   bool force = false;
   unsigned jobs = 0;  ///< threads; 0: as many as there are processors

@@ -98,6 +98,7 @@ inline constexpr const char* report_examples = R"(Examples:
   aspic report cube-plane --out report              about a minute on two processors
   aspic report my-scene.toml --out report --thorough
   aspic report cube-plane --only stability --only contact --out part
+  aspic report course-2021-plane --set author=309553010 --outline course --out report
 
 report.html is one file, light or dark as the reader's system is; report.md has its pictures in figures/; report.pdf
 is made where chromium, weasyprint or wkhtmltopdf is installed. The numbers behind each figure are in data/.)";

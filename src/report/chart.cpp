@@ -3,220 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <span>
 #include <string_view>
 
+#include "base/embedded_file.h"
 #include "base/printable.h"
-#include "report/chart_scale.h"
+#include "report/chart_panel.h"
 #include "report/csv.h"
+
+namespace aspic {
+std::span<const EmbeddedFile> report_files();  // cmake/EmbedFiles.cmake
+}
 
 namespace aspic::report {
 
-const char* const chart_styles = R"(
-svg.chart{--s0:#3b1c6e;--s1:#3b528b;--s2:#1f8a83;--s3:#3fa34d;--s4:#b58a00;
---c0:#0072b2;--c1:#d55e00;--c2:#009e73;--c3:#a8458b;--c4:#b07800;--c5:#3a9bd9;--c6:#444;--c7:#8b5a2b;
---ink:#222;--soft:#5b6068;--grid:#e3e5e8;--frame:#9aa0a8;--stable:#bfe0f2;--unstable:#f6c9a8;--hatch:#c66a22;--paper:#fff;
-font:12px system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif;font-variant-numeric:tabular-nums}
-@media screen and (prefers-color-scheme:dark){svg.chart{--s0:#c9a6ff;--s1:#8fb2ff;--s2:#4fd1c5;--s3:#8fe388;--s4:#f7e463;
---c0:#5db7f0;--c1:#ff8c4a;--c2:#3fd0a0;--c3:#ee9fd4;--c4:#f5bd45;--c5:#a5dcff;--c6:#eee;--c7:#cfa77a;
---ink:#e8e8e8;--soft:#a9b0ba;--grid:#30353c;--frame:#6b727c;--stable:#1d4a63;--unstable:#5c3416;--hatch:#d98a4e;--paper:#15181c}}
-svg.chart text{fill:var(--ink)}svg.chart .tick{fill:var(--soft);font-size:11px}svg.chart .title{font-weight:600}
-svg.chart .grid{stroke:var(--grid);stroke-width:1;fill:none}svg.chart .frame{stroke:var(--frame);stroke-width:1;fill:none}
-svg.chart .l{fill:none;stroke-width:1.8;stroke-linejoin:round}svg.chart .m{stroke-width:1.2;stroke:var(--paper)}
-svg.chart .theory{stroke:var(--ink);stroke-dasharray:6 4;stroke-width:1.6;fill:none}svg.chart .tm{fill:var(--ink);stroke:var(--paper)}
-svg.chart .ok{fill:var(--stable)}svg.chart .bad{fill:var(--unstable)}svg.chart .hatch{stroke:var(--hatch);stroke-width:1;opacity:.55}
-svg.chart .cell{stroke:var(--paper);stroke-width:.6}
-)";
-
 namespace {
-
-constexpr double left = 66.0, right = 14.0, top = 26.0, bottom = 46.0;  // around a panel's data [px]
-constexpr double legend_row = 20.0, letter = 6.6;
-
-std::string px(double value) {
-  return fmt::format("{:.6g}", std::round(100.0 * value) / 100.0);
-}
-
-char palette_letter(const Curve& curve) {
-  return curve.palette == Palette::sequence ? 's' : 'c';
-}
-
-std::string colour(const Curve& curve) {
-  const std::size_t count = curve.palette == Palette::sequence ? 5 : 8;
-  return fmt::format("var(--{}{})", palette_letter(curve), curve.index % count);
-}
-
-std::string_view dash(const Curve& curve) {
-  constexpr std::string_view dashes[] = {"", "7 3", "2 3", "9 3 2 3", "12 4", "4 2", "1 2", "8 2 2 2 2 2"};
-  return curve.palette == Palette::category ? dashes[curve.index % 8] : dashes[0];
-}
-
-/// A closed shape around (x, y).
-std::string marker(const Curve& curve, double x, double y) {
-  const auto shape = [&](std::initializer_list<Point> corners) {
-    std::string path;
-    for (const Point& p : corners)
-      path += fmt::format("{}{} {}", path.empty() ? "M" : "L", px(x + p.x), px(y + p.y));
-    return path + "Z";
-  };
-  switch (curve.index % 8) {
-    case 1:
-      return shape({{-3.5, -3.5}, {3.5, -3.5}, {3.5, 3.5}, {-3.5, 3.5}});
-    case 2:
-      return shape({{0, -4.6}, {4.4, 3.4}, {-4.4, 3.4}});
-    case 3:
-      return shape({{0, -4.8}, {4.8, 0}, {0, 4.8}, {-4.8, 0}});
-    case 4:
-      return shape({{0, 4.6}, {4.4, -3.4}, {-4.4, -3.4}});
-    case 5:
-      return shape({{-1.5, -4.5},
-                    {1.5, -4.5},
-                    {1.5, -1.5},
-                    {4.5, -1.5},
-                    {4.5, 1.5},
-                    {1.5, 1.5},
-                    {1.5, 4.5},
-                    {-1.5, 4.5},
-                    {-1.5, 1.5},
-                    {-4.5, 1.5},
-                    {-4.5, -1.5},
-                    {-1.5, -1.5}});
-    case 6:
-      return shape({{-2, -4.5}, {2, -4.5}, {4.5, -2}, {4.5, 2}, {2, 4.5}, {-2, 4.5}, {-4.5, 2}, {-4.5, -2}});
-    case 7:
-      return shape({{-4.6, -2}, {4.6, -2}, {4.6, 2}, {-4.6, 2}});
-    default:
-      return fmt::format("M{0} {1}a3.8 3.8 0 1 0 7.6 0a3.8 3.8 0 1 0 -7.6 0Z", px(x - 3.8), px(y));
-  }
-}
-
-/// Attributes of a curve's line.
-std::string line_style(const Curve& curve) {
-  if (curve.palette == Palette::theory) return "class=\"theory\"";
-  const std::string_view pattern = dash(curve);
-  return fmt::format("class=\"l\" style=\"stroke:{}{}{}\"", colour(curve),
-                     pattern.empty() ? "" : ";stroke-dasharray:", pattern);
-}
-
-std::string marker_style(const Curve& curve) {
-  if (curve.palette == Palette::theory) return "class=\"m tm\"";
-  return fmt::format("class=\"m\" style=\"fill:{}\"", colour(curve));
-}
-
-std::string text(double x, double y, std::string_view words, std::string_view attributes = "") {
-  return fmt::format("<text x=\"{}\" y=\"{}\" {}>{}</text>", px(x), px(y), attributes, xml(words));
-}
-
-/// One panel, its data's upper left corner at the origin.
-class PanelDrawing {
- public:
-  PanelDrawing(const Panel& panel, const Chart& chart, std::string clip)
-      : panel_(panel),
-        width_(chart.panel_width),
-        height_(chart.panel_height),
-        clip_(std::move(clip)),
-        x_(panel.x, numbers(&Point::x)),
-        y_(panel.y, numbers(&Point::y)) {}
-
-  std::string draw() {
-    axes();
-    if (panel_.map) map(*panel_.map);
-    out_ += fmt::format(
-        "<clipPath id=\"{0}\"><rect x=\"-6\" y=\"-6\" width=\"{1}\" height=\"{2}\"/></clipPath><g "
-        "clip-path=\"url(#{0})\">",
-        clip_, px(width_ + 12), px(height_ + 12));
-    for (const Curve& curve : panel_.curves) line(curve);
-    for (const Curve& curve : panel_.curves) markers(curve);
-    return out_ + "</g>";
-  }
-
- private:
-  std::vector<double> numbers(double Point::*coordinate) const {
-    std::vector<double> all;
-    for (const Curve& curve : panel_.curves) {
-      for (const Point& p : curve.points) {
-        if (std::isfinite(p.x) && std::isfinite(p.y)) all.push_back(p.*coordinate);
-      }
-    }
-    if (panel_.map) all = coordinate == &Point::x ? panel_.map->x_edges : panel_.map->y_edges;
-    return all;
-  }
-  double x(double value) const { return width_ * x_.at(value); }
-  double y(double value) const { return height_ * (1.0 - y_.at(value)); }
-
-  void axes() {
-    out_ += text(0, -10, panel_.title, "class=\"title\"");
-    std::string lines;
-    for (const Tick& tick : x_.ticks()) {
-      const double at = x(tick.value);
-      lines += fmt::format("M{0} 0V{1}", px(at), px(height_));
-      if (!tick.label.empty())
-        out_ += text(at, height_ + 16, tick.label, "class=\"tick\" text-anchor=\"middle\"");
-    }
-    for (const Tick& tick : y_.ticks()) {
-      const double at = y(tick.value);
-      lines += fmt::format("M0 {0}H{1}", px(at), px(width_));
-      if (!tick.label.empty()) out_ += text(-7, at + 4, tick.label, "class=\"tick\" text-anchor=\"end\"");
-    }
-    out_ += fmt::format("<path class=\"grid\" d=\"{}\"/><rect class=\"frame\" width=\"{}\" height=\"{}\"/>",
-                        lines, px(width_), px(height_));
-    out_ += text(width_ / 2, height_ + 36, panel_.x.title, "text-anchor=\"middle\"");
-    out_ += fmt::format("<text transform=\"translate(-50 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-                        px(height_ / 2), xml(panel_.y.title));
-  }
-
-  void map(const CellMap& map) {
-    const std::size_t columns = map.x.size();
-    std::string hatch;
-    for (std::size_t i = 0; i < map.stable.size(); ++i) {
-      const std::size_t column = i % columns, row = i / columns;
-      const double x0 = x(map.x_edges[column]), x1 = x(map.x_edges[column + 1]), y0 = y(map.y_edges[row + 1]),
-                   y1 = y(map.y_edges[row]);
-      out_ += fmt::format(
-          "<rect class=\"cell {}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"><title>{}, {}: "
-          "{}</title></rect>",
-          map.stable[i] ? "ok" : "bad", px(x0), px(y0), px(x1 - x0), px(y1 - y0), csv_number(map.x[column]),
-          csv_number(map.y[row]), map.stable[i] ? "stable" : "unstable");
-      if (!map.stable[i])
-        hatch += fmt::format("M{} {}L{} {}", px(x0 + 1), px(y1 - 1), px(x1 - 1), px(y0 + 1));
-    }
-    if (!hatch.empty()) out_ += fmt::format("<path class=\"hatch\" d=\"{}\"/>", hatch);
-  }
-
-  void line(const Curve& curve) {
-    if (!curve.line) return;
-    std::string path;
-    bool gap = true;
-    for (const Point& p : curve.points) {
-      const double at_x = x(p.x), at_y = y(p.y);
-      if (!std::isfinite(at_x) || !std::isfinite(at_y)) {
-        gap = true;
-        continue;
-      }
-      // Far outside, where the clip hides it anyway.
-      path += fmt::format("{}{} {}", gap ? 'M' : 'L', px(std::clamp(at_x, -1e4, 1e4)),
-                          px(std::clamp(at_y, -1e4, 1e4)));
-      gap = false;
-    }
-    if (!path.empty()) out_ += fmt::format("<path {} d=\"{}\"/>", line_style(curve), path);
-  }
-
-  void markers(const Curve& curve) {
-    if (!curve.markers) return;
-    for (const Point& p : curve.points) {
-      const double at_x = x(p.x), at_y = y(p.y);
-      if (!(at_x >= -1 && at_x <= width_ + 1 && at_y >= -1 && at_y <= height_ + 1)) continue;
-      out_ += fmt::format("<path {} d=\"{}\"><title>{}: {}, {}</title></path>", marker_style(curve),
-                          marker(curve, at_x, at_y), xml(curve.name), csv_number(p.x), csv_number(p.y));
-    }
-  }
-
-  const Panel& panel_;
-  double width_, height_;
-  std::string clip_;
-  AxisScale x_, y_;
-  std::string out_;
-};
 
 /// Each name once, in the order of panels.
 std::vector<const Curve*> legend_of(const Chart& chart) {
@@ -231,14 +32,14 @@ std::vector<const Curve*> legend_of(const Chart& chart) {
 }
 
 /// The legend in rows of at most `width`; `height` grows by what it takes.
-std::string draw_legend(const Chart& chart, double width, double& height) {
+std::string draw_legend(const Chart& chart, const Frame& frame, double width, double& height) {
   std::string out;
-  double x = left, y = height + 8;
+  double x = frame.left, y = height + 0.4 * frame.legend_row;
   const auto place = [&](std::string_view name, const auto& sample) {
-    const double needed = 34 + letter * static_cast<double>(character_count(name)) + 18;
-    if (x + needed > width && x > left) {
-      x = left;
-      y += legend_row;
+    const double needed = 52 + frame.letter * static_cast<double>(character_count(name));
+    if (x + needed > width && x > frame.left) {
+      x = frame.left;
+      y += frame.legend_row;
     }
     out += sample(x, y) + text(x + 32, y + 4, name);
     x += needed;
@@ -265,8 +66,22 @@ std::string draw_legend(const Chart& chart, double width, double& height) {
       return sample;
     });
   }
-  height = y + legend_row - 4;
+  height = y + frame.legend_row - 4;
   return out;
+}
+
+/// Whether all panels have one axis.
+bool one_axis(const Chart& chart, ChartAxis Panel::*axis) {
+  return std::ranges::all_of(chart.panels, [&](const Panel& panel) {
+    const ChartAxis &one = chart.panels[0].*axis, &other = panel.*axis;
+    return other.from && other.to && other.title == one.title && other.scale == one.scale &&
+           other.from == one.from && other.to == one.to;
+  });
+}
+
+/// Of a panel's data on paper [px], so that a figure takes less than a third of a page.
+double paper_height(std::size_t columns, std::size_t rows) {
+  return columns == 1 ? 122.0 : rows > 1 ? 70.0 : columns > 2 ? 88.0 : 130.0;
 }
 
 }  // namespace
@@ -294,6 +109,10 @@ std::string xml(std::string_view text) {
   return out;
 }
 
+std::string_view chart_styles() {
+  return find_embedded(report_files(), "chart.css").value();
+}
+
 std::string rounded(double value, int digits) {
   if (value == 0.0) return "0";
   std::string text = fmt::format("{:.{}g}", value, digits);
@@ -305,27 +124,46 @@ std::string rounded(double value, int digits) {
   return text;
 }
 
-std::string svg_of(const Chart& chart, const std::string& id, bool alone) {
+std::string svg_of(const Chart& chart, const std::string& id, Medium medium, double paper_width) {
   const std::size_t columns = std::max<std::size_t>(1, std::min(chart.columns, chart.panels.size()));
   const std::size_t rows = (chart.panels.size() + columns - 1) / columns;
-  const double cell_width = left + chart.panel_width + right, cell_height = top + chart.panel_height + bottom;
-  const double width = static_cast<double>(columns) * cell_width;
-  double height = static_cast<double>(rows) * cell_height;
+  const bool paper = medium == Medium::paper;
+  const Frame& frame = paper ? paper_frame : screen_frame;
+  const bool share_x = paper && rows > 1 && one_axis(chart, &Panel::x),
+             share_y = paper && columns > 1 && one_axis(chart, &Panel::y);
+  const auto inner = static_cast<double>(columns - 1);
+  const double inner_left = share_y ? frame.inner_left : frame.left,
+               inner_bottom = share_x ? frame.inner_bottom : frame.bottom,
+               around = frame.left + frame.right + inner * (inner_left + frame.right);
+  PanelPlace place;
+  place.tooltips = !paper;
+  place.width = paper ? (paper_width - around) / static_cast<double>(columns) : chart.panel_width;
+  place.height = paper ? paper_height(columns, rows) : chart.panel_height;
+  const double width = around + static_cast<double>(columns) * place.width;
+  const std::string kind = paper ? " paper" : medium == Medium::screen ? " screen" : "";
   std::string body;
+  double x = 0.0, y = 0.0;
   for (std::size_t i = 0; i < chart.panels.size(); ++i) {
-    const std::size_t column = i % columns, row = i / columns;
-    const double x = static_cast<double>(column) * cell_width + left,
-                 y = static_cast<double>(row) * cell_height + top;
-    body += fmt::format("<g transform=\"translate({} {})\">{}</g>", px(x), px(y),
-                        PanelDrawing(chart.panels[i], chart, fmt::format("{}-{}", id, i)).draw());
+    const bool first = i % columns == 0, last_row = i / columns + 1 == rows;
+    place.x_labels = !share_x || last_row || i + columns >= chart.panels.size();
+    place.y_labels = !share_y || first;
+    x += first ? frame.left : inner_left;
+    body += fmt::format(
+        "<g transform=\"translate({} {})\">{}</g>", px(x), px(y + frame.top),
+        svg_of(chart.panels[i], frame, place, fmt::format("{}{}-{}", id, paper ? "-paper" : "", i)));
+    x += place.width + frame.right;
+    if (i % columns + 1 < columns && i + 1 < chart.panels.size()) continue;
+    x = 0.0;
+    y += frame.top + place.height + (last_row ? frame.bottom : inner_bottom);
   }
-  if (chart.legend) body += draw_legend(chart, width, height);
+  if (chart.legend) body += draw_legend(chart, frame, width, y);
   return fmt::format(
-      "<svg class=\"chart\" {}viewBox=\"0 0 {} {}\" role=\"img\" style=\"max-width:{}px\">{}{}</svg>",
-      alone ? "xmlns=\"http://www.w3.org/2000/svg\" " : "", px(width), px(height), px(width),
-      alone ? fmt::format("<style>{}</style><rect width=\"100%\" height=\"100%\" fill=\"var(--paper)\"/>",
-                          chart_styles)
-            : "",
+      "<svg class=\"chart{}\" {}viewBox=\"0 0 {} {}\" role=\"img\" style=\"max-width:{}px\">{}{}</svg>", kind,
+      medium == Medium::file ? "xmlns=\"http://www.w3.org/2000/svg\" " : "", px(width), px(y), px(width),
+      medium == Medium::file
+          ? fmt::format("<style>{}</style><rect width=\"100%\" height=\"100%\" fill=\"var(--paper)\"/>",
+                        chart_styles())
+          : "",
       body);
 }
 

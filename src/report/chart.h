@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace aspic::report {
@@ -57,15 +58,22 @@ struct Chart {
   bool legend = true;
 };
 
-/// The chart. `id` begins the ids of its parts and is unique in its page; `alone`: it is a file of its own
-/// and holds its styles.
-std::string svg_of(const Chart& chart, const std::string& id, bool alone);
+/// What a chart is drawn for.
+enum class Medium {
+  screen,  ///< in a page on a screen, as wide as there is room
+  paper,   ///< in a page that is printed: letters of 7 pt and more; without the numbers that a mouse shows
+  file     ///< a file of its own, with its styles
+};
+
+/// The chart. `id` begins the ids of its parts and is unique in its page. `paper_width` is that of the chart
+/// on paper [px, 96 to the inch].
+std::string svg_of(const Chart& chart, const std::string& id, Medium medium, double paper_width = 312.0);
 
 /// Every number that the chart shows: panel, curve, x, y, and what x and y are.
 std::string csv_of(const Chart& chart);
 
 /// The styles of charts, for the page that holds them.
-extern const char* const chart_styles;
+std::string_view chart_styles();
 
 /// Text with &, <, > and " escaped for XML.
 std::string xml(std::string_view text);

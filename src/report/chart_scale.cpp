@@ -55,7 +55,10 @@ void AxisScale::make_linear_ticks(double most) {
   }
   for (double n = std::ceil(from_ / step - 1e-9); n * step <= to_ + 1e-9 * step; n += 1.0) {
     const double value = n * step;
-    ticks_.push_back({value, fmt::format("{:.6g}", n == 0.0 ? 0.0 : value)});
+    // 5·10⁵ rather than 500000: there is room for five digits.
+    ticks_.push_back({value, n == 0.0                     ? "0"
+                             : std::abs(value) >= 99999.5 ? rounded(value, 5)
+                                                          : fmt::format("{:.6g}", value)});
   }
 }
 

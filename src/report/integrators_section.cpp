@@ -238,7 +238,7 @@ Result<Figure> free_energy_figure(const Study& study, const Smooth& smooth) {
   figure.id = "energy-free";
   figure.chart.emplace();
   figure.chart->panels.push_back(
-      {"", {"time [s]"}, {"total energy over that at the start", Scale::linear, 0.0, 2.0}, {}});
+      {"", {"time [s]"}, {"energy, relative to start", Scale::linear, 0.0, 2.0}, {}});
   std::vector<Curve> curves(methods);
   const auto vibrate = [&](std::size_t m) -> Status {
     Model model = with_constants(undamped, 1.0, 1.0, h);

@@ -45,16 +45,20 @@ struct Strip {
 /// A numbered figure. Its id names its files.
 struct Figure {
   std::string id, caption;
-  std::string command;  ///< that measures it again
+  std::string command;  ///< that measures it again; empty: nothing in it is measured,
+                        ///< and its table has no CSV
   std::optional<Chart> chart = {};
   std::optional<Table> table = {};
   std::optional<Strip> strip = {};
+  std::string gap = {};  ///< what the reader is asked to write below it; empty: nothing
 };
 
 struct Section {
   std::string id, title;
   std::vector<std::string> paragraphs;
   std::vector<Figure> figures;
+  std::vector<std::string> gaps = {};  ///< what the reader is asked to write after the figures
+  bool part = false;                   ///< of the section before it
 };
 
 struct Page {
@@ -64,6 +68,7 @@ struct Page {
   /// Machine, driver, version, scene: names and what they are.
   std::vector<std::pair<std::string, std::string>> colophon;
   std::string scene_toml;
+  bool scene_in_file = false;  ///< its text is `data/scene.toml`, not at the page's end
 };
 
 /// The page as one file without any link to another place but its own CSV files.
@@ -72,6 +77,12 @@ std::string html_of(const Page& page);
 std::string markdown_of(const Page& page);
 /// The CSV of a table.
 std::string csv_of(const Table& table);
+
+/// A cell's text: with all its digits, and as shown in a column.
+std::string raw(const Cell& cell);
+std::string shown(const Cell& cell, const Column& column);
+/// The CSV files of a figure, by their paths in the report's directory.
+std::vector<std::string> data_files(const Figure& figure);
 
 /// Every file besides the two pages: path in the report's directory, content.
 std::map<std::string, std::string> files_of(const Page& page);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "analysis/stability.h"
@@ -147,11 +148,12 @@ ViewSettings following_view(const ViewSettings& view, const std::vector<TrialRes
   return framed(view, shown);
 }
 
-Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown& base, const Varied& row) {
+/// The measures and, with a studio, the pictures; nothing where the scene has no such parameter.
+Result<std::vector<Figure>> parameter_figures(const Study& study, const Thrown& base, const Varied& row) {
   const ShortKey& key = *find_short_key(row.key);
   const bool step_varied = key.name == "h";
   const auto present = present_value(study.scene, key);
-  if (!present && key.targets(study.scene).empty()) return std::optional<Figure>();
+  if (!present && key.targets(study.scene).empty()) return std::vector<Figure>();
   ASPIC_TRY(const auto own, build_model(study.scene.model));
   const StabilityLimit limit = stability_limit(own, own.simulation.integrator, StabilityEffort::quick);
   const double stable = limit.step && std::isfinite(*limit.step) ? *limit.step : own.simulation.timestep;
@@ -182,8 +184,13 @@ Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown&
   // The middle value says when there is something to see.
   const std::size_t middle = words.size() / 2;
   ASPIC_CHECK(run(middle, {}));
-  if (const auto& summary = results[middle].summary)
+  const auto& summary = results[middle].summary;
+  const bool lands = summary && summary->squash_time > 0.0;
+  if (lands) {
     times = {summary->squash_time, apex(results[middle]), base.duration};
+  } else if (summary) {
+    times = {base.duration / 3, base.duration * 2 / 3, base.duration};
+  }
   ASPIC_CHECK(study.each(words.size(), [&](std::size_t i) { return run(i, times); }));
 
   Figure figure;
@@ -201,7 +208,7 @@ Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown&
         [](const CourseSample& s) { return s.height; }, Palette::sequence, i));
   }
   chart.panels.push_back(std::move(heights));
-  chart.panels.push_back(measure_panel(key, "Deepest squash", "share of the height", words, results,
+  chart.panels.push_back(measure_panel(key, "Deepest squash", "share of height", words, results,
                                        [](const CourseSummary& s) { return s.squash; }));
   chart.panels.push_back(
       measure_panel(key, "Time to rest", "time [s]", words, results,
@@ -238,18 +245,28 @@ Result<std::optional<Figure>> parameter_figure(const Study& study, const Thrown&
     }
     figure.table->rows.push_back(std::move(cells));
   }
-  if (study.studio) figure.strip = std::move(strip);
   std::string title(key.title);
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-  figure.caption = fmt::format(
-      "{} ({}). {} Where the time to rest has no mark, something still moved after {} s. Pictures follow the "
-      "body sideways.",
-      title, key.meaning, row.says, base.duration);
-  std::string command = fmt::format("aspic sweep {}", study.scene_words);
-  for (const std::string& assignment : fixed) command += fmt::format(" --set {}", shell_word(assignment));
-  figure.command = fmt::format("{} --duration {} --vary {}={} --out {}.csv", command, base.duration, key.name,
+  figure.caption = fmt::format("{} ({}). {}", title, key.meaning, row.says);
+  std::string words_of_scene = study.scene_words;
+  for (const std::string& assignment : fixed)
+    words_of_scene += fmt::format(" --set {}", shell_word(assignment));
+  words_of_scene += fmt::format(" --duration {}", base.duration);
+  figure.command = fmt::format("aspic sweep {} --vary {}={} --out {}.csv", words_of_scene, key.name,
                                fmt::join(words, ","), key.name);
-  return std::optional(std::move(figure));
+  std::vector<Figure> figures = {std::move(figure)};
+  if (!study.studio) return figures;
+  Figure pictures;
+  pictures.id = fmt::format("parameter-{}-pictures", key.name);
+  pictures.strip = std::move(strip);
+  pictures.caption = fmt::format(
+      "{}: the same runs{}. The camera follows the body sideways.", title,
+      lands ? fmt::format(" at the moments of {} = {}: deepest squash, highest point after it, end", key.name,
+                          words[middle])
+            : "");
+  pictures.command = fmt::format("aspic run {} --beside {}=VALUE --frames DIR", words_of_scene, key.name);
+  figures.push_back(std::move(pictures));
+  return figures;
 }
 
 }  // namespace
@@ -259,15 +276,16 @@ Result<Section> parameters_section(const Study& study) {
   Section section{"parameters", "Parameters", {}, {}};
   section.paragraphs = {
       fmt::format("Each figure varies one parameter of {} and leaves the others alone{}. A run takes {} s; "
-                  "all runs of a figure have one time step, which is stable for all of them.",
+                  "all runs of a figure have one time step, which is stable for all of them. Where the time "
+                  "to rest has no mark, something still moved at the end.",
                   study.scene.name,
                   base.assignments.empty()
                       ? ""
                       : fmt::format("; cubes are thrown sideways at {} m/s, so that they slide", sideways),
                   base.duration)};
   for (const Varied& row : varied) {
-    ASPIC_TRY(auto figure, parameter_figure(study, base, row));
-    if (figure) section.figures.push_back(std::move(*figure));
+    ASPIC_TRY(auto figures, parameter_figures(study, base, row));
+    std::ranges::move(figures, std::back_inserter(section.figures));
   }
   return section;
 }

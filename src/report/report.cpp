@@ -2,7 +2,6 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <ctime>
@@ -15,10 +14,11 @@
 #include "base/printable.h"
 #include "cpu_parallel/workers.h"
 #include "io/atomic_file.h"
-#include "io/child_process.h"
 #include "io/console.h"
 #include "io/machine.h"
 #include "model/cube.h"
+#include "report/outline.h"
+#include "report/pdf.h"
 #include "scene/diagnostics.h"
 
 namespace aspic::report {
@@ -31,49 +31,6 @@ constexpr SectionRow section_table[] = {
     {"stability", "Stability map", stability_section},   {"contact", "Contact", contact_section},
     {"backends", "Backends", backends_section},
 };
-
-/// A program that prints a page as PDF, and its words for `html` and `pdf`.
-struct Converter {
-  const char* program;
-  std::vector<std::string> (*words)(const std::string& html, const std::string& pdf);
-};
-std::vector<std::string> chromium_words(const std::string& html, const std::string& pdf) {
-  std::vector<std::string> words = {"--headless", "--disable-gpu", "--no-pdf-header-footer",
-                                    "--print-to-pdf=" + pdf};
-  if (::geteuid() == 0) words.emplace_back("--no-sandbox");  // it refuses to start for root otherwise
-  words.push_back("file://" + html);
-  return words;
-}
-constexpr Converter converters[] = {
-    {"chromium", chromium_words},
-    {"chromium-browser", chromium_words},
-    {"google-chrome", chromium_words},
-    {"weasyprint",
-     [](const std::string& html, const std::string& pdf) {
-       return std::vector<std::string>{html, pdf};
-     }},
-    {"wkhtmltopdf",
-     [](const std::string& html, const std::string& pdf) {
-       return std::vector<std::string>{"--print-media-type", "--enable-local-file-access", html, pdf};
-     }},
-};
-
-/// Empty: the PDF is there; otherwise why it is not.
-std::string print_pdf(const fs::path& directory) {
-  std::error_code failed;
-  const fs::path whole = fs::absolute(directory, failed);
-  const std::string html = (whole / "report.html").string(), pdf = (whole / "report.pdf").string();
-  std::string reason;
-  for (const Converter& converter : converters) {
-    std::vector<std::string> words = {converter.program};
-    for (std::string& word : converter.words(html, pdf)) words.push_back(std::move(word));
-    auto child = ChildProcess::start(words);
-    if (!child) continue;
-    if (child->finish().ok() && fs::exists(pdf, failed)) return "";
-    reason = fmt::format("{} did not make one.", converter.program);
-  }
-  return reason.empty() ? "none of chromium, weasyprint and wkhtmltopdf is installed." : reason;
-}
 
 Status check_directory(const ReportPlan& plan) {
   std::error_code failed;
@@ -121,17 +78,25 @@ bool coarsen(Scene& scene) {
   return coarser;
 }
 
-Result<Page> make_page(const ReportPlan& plan, const Study& study,
-                       const std::vector<const SectionRow*>& rows) {
+Result<Page> make_page(const ReportPlan& plan, const Study& study, const std::vector<const SectionRow*>& rows,
+                       const OutlineRow* outline) {
   Page page;
-  page.title = fmt::format("{}: integrators and parameters", study.scene.name);
+  page.title = outline ? fmt::format("Soft body simulation: {}", study.scene.name)
+                       : fmt::format("{}: integrators and parameters", study.scene.name);
   page.author = printable_line(study.scene.author.value_or(""));
   page.scene_toml = to_toml(study.scene);
-  page.lead = fmt::format(
-      "What the choice of integrator, time step and parameters does to the scene `{}`, measured on this "
-      "machine by aspic {}. Every figure names the command that measures it again and the file with its "
-      "numbers.",
-      study.scene.name, ASPIC_VERSION);
+  page.lead =
+      outline ? fmt::format(
+                    "Measured on this machine by aspic {}. Every figure names the command that measures it "
+                    "again and the file with its numbers.",
+                    ASPIC_VERSION)
+              : fmt::format(
+                    "What the choice of integrator, time step and parameters does to the scene `{}`, "
+                    "measured on this "
+                    "machine by aspic {}. Every figure names the command that measures it again and the file "
+                    "with "
+                    "its numbers.",
+                    study.scene.name, ASPIC_VERSION);
   if (plan.coarser)
     page.lead += fmt::format(
         " Its cubes are studied with {} particles per edge, so that hundreds of runs take a minute; "
@@ -150,6 +115,10 @@ Result<Page> make_page(const ReportPlan& plan, const Study& study,
       lines.update(page.sections.size());
     }
   }
+  if (outline) {
+    page.scene_in_file = true;  // a course counts pages
+    ASPIC_TRY(page.sections, outline->arrange(study, std::move(page.sections)));
+  }
   ASPIC_TRY(const auto model, build_model(study.scene.model));
   ASPIC_TRY(const auto own, study.run(model, study.scene.model.simulation.duration));
   ASPIC_TRY(const unsigned processors, parallel::available_threads());
@@ -162,14 +131,48 @@ Result<Page> make_page(const ReportPlan& plan, const Study& study,
                               : "no OpenGL device"},
       {"version", fmt::format("aspic {}", ASPIC_VERSION)},
       {"date", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now))},
-      {"command",
-       fmt::format("aspic report {}{}{}{} --out DIR", plan.scene_words, plan.thorough ? " --thorough" : "",
-                   plan.only.empty() ? "" : " --only ", fmt::join(plan.only, " --only "))},
-      {"scene", fmt::format("{}, FNV-1a of the text below {}", study.scene.name, hash_of(page.scene_toml))},
+      {"command", fmt::format("aspic report {}{}{}{}{}{} --out DIR", plan.scene_words,
+                              outline ? " --outline " : "", plan.outline, plan.thorough ? " --thorough" : "",
+                              plan.only.empty() ? "" : " --only ", fmt::join(plan.only, " --only "))},
+      {"scene", fmt::format("{}, FNV-1a of {} {}", study.scene.name,
+                            outline ? "data/scene.toml" : "the text below", hash_of(page.scene_toml))},
       {"state hash", fmt::format("{} after {} steps of the scene as it is, the same on every backend",
                                  own.hash, own.steps)},
   };
   return page;
+}
+
+/// Null: the report has its own order.
+Result<const OutlineRow*> chosen_outline(const ReportPlan& plan) {
+  if (plan.outline.empty()) return nullptr;
+  if (!plan.only.empty())
+    return Error{ErrorCode::usage,
+                 "--only names sections of a report without --outline; leave one of them out."};
+  const auto found = std::ranges::find(outlines(), plan.outline, &OutlineRow::name);
+  if (found != outlines().end()) return &*found;
+  std::vector<std::string_view> names;
+  for (const OutlineRow& row : outlines()) names.push_back(row.name);
+  return Error{ErrorCode::usage,
+               fmt::format("--outline does not know \"{}\"; allowed: {}.", printable_line(plan.outline),
+                           diagnostics::list_text(names, false))};
+}
+
+Result<std::vector<const SectionRow*>> chosen_sections(const ReportPlan& plan, const OutlineRow* outline) {
+  std::vector<const SectionRow*> rows;
+  std::vector<std::string_view> names;
+  for (const SectionRow& row : sections()) {
+    names.push_back(row.name);
+    const bool wanted = outline
+                            ? std::ranges::find(outline->sections, row.name) != outline->sections.end()
+                            : plan.only.empty() || std::ranges::find(plan.only, row.name) != plan.only.end();
+    if (wanted) rows.push_back(&row);
+  }
+  for (const std::string& name : plan.only) {
+    if (std::ranges::find(names, name) == names.end())
+      return Error{ErrorCode::usage, fmt::format("--only does not know \"{}\"; allowed: {}.",
+                                                 printable_line(name), diagnostics::list_text(names, false))};
+  }
+  return rows;
 }
 
 }  // namespace
@@ -179,17 +182,8 @@ std::span<const SectionRow> sections() {
 }
 
 Result<ReportSummary> write_report(ReportPlan plan, const InterruptGuard& interrupt) {
-  std::vector<const SectionRow*> rows;
-  for (const SectionRow& row : sections()) {
-    if (plan.only.empty() || std::ranges::find(plan.only, row.name) != plan.only.end()) rows.push_back(&row);
-  }
-  for (const std::string& name : plan.only) {
-    std::vector<std::string_view> names;
-    for (const SectionRow& row : sections()) names.push_back(row.name);
-    if (std::ranges::find(names, name) == names.end())
-      return fail(ErrorCode::usage, "--only does not know \"{}\"; allowed: {}.", printable_line(name),
-                  diagnostics::list_text(names, false));
-  }
+  ASPIC_TRY(const auto* const outline, chosen_outline(plan));
+  ASPIC_TRY(const auto rows, chosen_sections(plan, outline));
   ASPIC_CHECK(check_directory(plan));
   unsigned jobs = plan.jobs;
   if (jobs == 0) {
@@ -204,7 +198,7 @@ Result<ReportSummary> write_report(ReportPlan plan, const InterruptGuard& interr
   } else {
     study.no_studio = worded(studio.error(), FrontEnd::command_line);
   }
-  ASPIC_TRY(const auto page, make_page(plan, study, rows));
+  ASPIC_TRY(const auto page, make_page(plan, study, rows, outline));
 
   ReportSummary summary;
   summary.no_pictures = study.no_studio;
@@ -216,8 +210,13 @@ Result<ReportSummary> write_report(ReportPlan plan, const InterruptGuard& interr
   ASPIC_CHECK(write_file(out / "report.md", markdown_of(page)));
   ASPIC_CHECK(write_file(out / "report.html", html_of(page)));
   summary.files = {(out / "report.html").string(), (out / "report.md").string()};
-  summary.no_pdf = print_pdf(out);
-  if (summary.no_pdf.empty()) summary.files.push_back((out / "report.pdf").string());
+  const std::string pdf = (out / "report.pdf").string();
+  summary.no_pdf = print_pdf((out / "report.html").string(), pdf);
+  if (summary.no_pdf.empty()) {
+    summary.files.push_back(pdf);
+    if (const auto bytes = read_file(pdf, std::uint64_t{1} << 30)) summary.pages = pages_of_pdf(*bytes);
+  }
+  if (outline) summary.most_pages = outline->most_pages;
   return summary;
 }
 

@@ -18,6 +18,11 @@ namespace {
 
 constexpr PictureSize picture_size = {288, 216};
 
+/// What a picture is about: particles, or balls where there are none. Balls roll far away from what they hit.
+const std::vector<Vec3>& shown_places(const State& state) {
+  return state.position.empty() ? state.ball_position : state.position;
+}
+
 }  // namespace
 
 Study::Study(Scene s, std::string words, bool thorough_study, unsigned jobs, std::function<bool()> stop)
@@ -116,10 +121,9 @@ Result<std::vector<std::string>> Study::pictures(const Model& model, std::span<c
 
 Vec3 way_of(const State& state) {
   Vec3 sum;
-  for (const Vec3& x : state.position) sum = sum + x;
-  for (const Vec3& x : state.ball_position) sum = sum + x;
-  const std::size_t count = state.position.size() + state.ball_position.size();
-  if (count > 0) sum = sum / static_cast<double>(count);
+  const std::vector<Vec3>& places = shown_places(state);
+  for (const Vec3& x : places) sum = sum + x;
+  if (!places.empty()) sum = sum / static_cast<double>(places.size());
   return {sum.x, 0.0, sum.z};
 }
 
@@ -133,10 +137,8 @@ ViewSettings framed(ViewSettings view, std::span<const State> states) {
     }
     first = false;
   };
-  for (const State& state : states) {
-    for (const Vec3& x : state.position) take(x);
-    for (const Vec3& x : state.ball_position) take(x);
-  }
+  for (const State& state : states)
+    for (const Vec3& x : shown_places(state)) take(x);
   if (first) return view;
   const double radius = 0.5 * length(high - low) + 0.1;
   const Vec3 direction = view.camera.position - view.camera.target;

@@ -64,10 +64,11 @@ class Study {
   std::function<bool()> stop_;
 };
 
-/// Where the centre of all particles and balls is, without its height [m].
+/// Where the centre of all particles is, or of all balls where there are none, without its height [m].
 Vec3 way_of(const State& state);
 
-/// The scene's view turned to where the states' particles are, and as near as shows them all.
+/// The scene's view turned to where the states' particles are, or their balls where there are none, and as
+/// near as shows them all: balls roll away.
 ViewSettings framed(ViewSettings view, std::span<const State> states);
 
 /// Moments of a landing [s]: contact, deepest squash and after; evenly spaced where nothing lands.

@@ -1,84 +1,31 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stb_image.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
-#include <memory>
 #include <regex>
 #include <set>
 #include <sstream>
 
 #include "cli/process.h"
+#include "cli/report_fixture.h"
 #include "model/integrator.h"
-
-#ifdef ASPIC_CHROMIUM
-#include <stb_image.h>
-#endif
 
 namespace aspic {
 namespace {
 
 using test::aspic;
+using test::content;
+using test::fields;
+using test::Report;
+using test::Row;
 using testing::HasSubstr;
 using testing::Not;
-using Row = std::vector<std::string>;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-/// The fields of a CSV line.
-Row fields(const std::string& line) {
-  Row result(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') quoted = !quoted;
-    if (c == ',' && !quoted) {
-      result.emplace_back();
-    } else if (c != '"') {
-      result.back() += c;
-    }
-  }
-  return result;
-}
-
-/// The report of a small cube, made once.
-class Report : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    directory = std::make_unique<test::TemporaryDirectory>();
-    finished = std::make_unique<test::Finished>(aspic(
-        {"report", "cube-plane", "--set", "cube[0].particles-per-edge=4", "--out", directory->file("r")}));
-  }
-  static void TearDownTestSuite() {
-    directory.reset();
-    finished.reset();
-  }
-  void SetUp() override { ASSERT_EQ(finished->exit_code, 0) << finished->err; }
-
-  static std::string path(const std::string& name) { return directory->file("r/" + name); }
-  static std::string read(const std::string& name) { return content(path(name)); }
-  /// Rows of a CSV without its header.
-  static std::vector<Row> table(const std::string& name) {
-    std::vector<Row> rows;
-    for (const std::string& line : test::lines(read("data/" + name + ".csv"))) rows.push_back(fields(line));
-    if (!rows.empty()) rows.erase(rows.begin());
-    return rows;
-  }
-
-  static std::unique_ptr<test::TemporaryDirectory> directory;
-  static std::unique_ptr<test::Finished> finished;
-};
-std::unique_ptr<test::TemporaryDirectory> Report::directory;
-std::unique_ptr<test::Finished> Report::finished;
 
 TEST_F(Report, HasAllSectionsAndNoLinkElsewhere) {
   const std::string html = read("report.html"), markdown = read("report.md");
@@ -273,7 +220,6 @@ TEST_F(Report, CommandsOfFiguresMakeTheirNumbers) {
   }
 }
 
-#ifdef ASPIC_CHROMIUM
 /// The page's picture in a browser whose user wants it dark or light.
 struct Screenshot {
   int width = 0, height = 0;
@@ -317,7 +263,6 @@ TEST_F(Report, OpensInABrowserInBothThemes) {
     EXPECT_GT(coloured, 5000) << dark;
   }
 }
-#endif
 
 }  // namespace
 }  // namespace aspic

@@ -8,6 +8,7 @@
 
 #include "base/base64.h"
 #include "report/chart_scale.h"
+#include "report/pdf.h"
 
 namespace aspic::report {
 namespace {
@@ -30,6 +31,8 @@ TEST(AxisScale, LinearTicksAreRound) {
   EXPECT_EQ(scale.at(1.0), 0.25);
   const AxisScale small({"", Scale::linear, -0.2, 0.3}, {});
   EXPECT_THAT(labels(small), ElementsAre("-0.2", "-0.1", "0", "0.1", "0.2", "0.3"));
+  EXPECT_THAT(labels(AxisScale({"", Scale::linear, 0.0, 2e5}, {})),
+              ElementsAre("0", "50000", "10⁵", "1.5·10⁵", "2·10⁵"));
 }
 
 TEST(AxisScale, LogTicksAreDecades) {
@@ -63,12 +66,12 @@ TEST(Chart, DrawsWhatItsCsvHolds) {
             "one,<rise & fall>,1,2.5,x [s],y [m]\n"
             "one,<rise & fall>,2,,x [s],y [m]\n"
             "one,<rise & fall>,3,0.1,x [s],y [m]\n");
-  const std::string svg = svg_of(chart(), "c", false);
+  const std::string svg = svg_of(chart(), "c", Medium::screen);
   EXPECT_THAT(svg, HasSubstr("<title>&lt;rise &amp; fall&gt;: 1, 2.5</title>"));
   EXPECT_THAT(svg, HasSubstr("<title>&lt;rise &amp; fall&gt;: 3, 0.1</title>"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(svg, HasSubstr("x [s]"));
-  EXPECT_THAT(svg_of(chart(), "c", true), HasSubstr("xmlns"));
+  EXPECT_THAT(svg_of(chart(), "c", Medium::file), HasSubstr("xmlns"));
 }
 
 TEST(Chart, MapsTellStableFromUnstable) {
@@ -76,7 +79,7 @@ TEST(Chart, MapsTellStableFromUnstable) {
   Panel panel{"map", {"h", Scale::log}, {"k", Scale::log}, {}};
   panel.map = CellMap{{1, 10}, {1}, {0.3, 3, 30}, {0.3, 3}, {true, false}};
   c.panels.push_back(panel);
-  const std::string svg = svg_of(c, "m", false);
+  const std::string svg = svg_of(c, "m", Medium::screen);
   EXPECT_THAT(svg, HasSubstr("<title>1, 1: stable</title>"));
   EXPECT_THAT(svg, HasSubstr("<title>10, 1: unstable</title>"));
   EXPECT_THAT(csv_of(c), HasSubstr("map,unstable,10,1,h,k\n"));
@@ -137,6 +140,70 @@ TEST(Page, NamesItsAuthorBelowTheTitle) {
     page.author = author;
     EXPECT_THAT(markdown_of(page), testing::StartsWith(std::string("# T\n\n") + written + "\n\nLead.\n"));
   }
+}
+
+TEST(Chart, OnPaperHasReadableLettersAndSharedAxes) {
+  Chart c;
+  c.columns = 2;
+  for (const char* const title : {"a", "b", "c", "d"})
+    c.panels.push_back({title, {"h", Scale::linear, 0.0, 1.0}, {"k", Scale::linear, 0.0, 1.0}, {}});
+  const auto count = [](const std::string& text, std::string_view part) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    return n;
+  };
+  const std::string screen = svg_of(c, "c", Medium::screen), paper = svg_of(c, "c", Medium::paper, 680);
+  EXPECT_THAT(paper, HasSubstr("viewBox=\"0 0 680 "));
+  EXPECT_EQ(count(screen, ">h</text>"), 4u);
+  EXPECT_EQ(count(paper, ">h</text>"), 2u) << "below the lower panels";
+  EXPECT_EQ(count(paper, ">k</text>"), 2u) << "left of the left ones";
+  EXPECT_THAT(svg_of(chart(), "c", Medium::paper), Not(HasSubstr("<title>")));
+  // Both are in one page.
+  EXPECT_THAT(screen, HasSubstr("\"c-0\""));
+  EXPECT_THAT(paper, Not(HasSubstr("\"c-0\"")));
+  c.panels[3].x.to = 2.0;
+  EXPECT_EQ(count(svg_of(c, "c", Medium::paper, 680), ">h</text>"), 4u) << "another axis";
+}
+
+TEST(Chart, LabelsDoNotLieOnEachOther) {
+  Chart c;
+  c.columns = 4;
+  c.panels.assign(4, {"p", {"n", Scale::linear, 0.0, 0.0005}, {"y"}, {}});
+  const std::string paper = svg_of(c, "c", Medium::paper, 680);
+  EXPECT_THAT(paper, HasSubstr(">0</text>"));
+  EXPECT_THAT(paper, Not(HasSubstr(">0.0001</text>"))) << "0.0002 would touch it";
+}
+
+TEST(Pdf, CountsPages) {
+  EXPECT_EQ(
+      pages_of_pdf("<</Type /Pages /Count 2>> <</Type /Page>> <</Type/Page/Parent 1 0 R>> <</Type /Font>>"),
+      2u);
+  EXPECT_EQ(pages_of_pdf("<</Type\n/Page\n>>"), 1u);
+  EXPECT_EQ(pages_of_pdf("<</Type /ObjStm>> <</Subtype /Type1>> /Type /Page"), 1u);
+  EXPECT_EQ(pages_of_pdf("%PDF-1.7 <</Type /ObjStm>> /Type"), std::nullopt);
+  EXPECT_EQ(pages_of_pdf(""), std::nullopt);
+}
+
+TEST(Page, MarksGapsForItsReadersWords) {
+  Figure figure;
+  figure.id = "f";
+  figure.table = Table{{{"name"}}, {{"a"}}};
+  figure.gap = "Why?";
+  Page page;
+  page.sections = {{"s", "S", {}, {figure}, {"What next?"}}, {"t", "T", {}, {}, {}, true}};
+  page.scene_toml = "schema = 1\n";
+  page.scene_in_file = true;
+  const std::string html = html_of(page), markdown = markdown_of(page);
+  EXPECT_THAT(html, HasSubstr("<h2>S</h2>"));
+  EXPECT_THAT(html, HasSubstr("<h3>T</h3>"));
+  EXPECT_LT(html.find("Why?"), html.find("What next?"));
+  EXPECT_THAT(html, HasSubstr("contenteditable"));
+  EXPECT_THAT(markdown, HasSubstr("\n> **Your words.** Why?\n"));
+  EXPECT_THAT(markdown, HasSubstr("\n### T\n"));
+  for (const std::string& text : {html, markdown}) EXPECT_THAT(text, Not(HasSubstr("schema = 1")));
+  const auto files = files_of(page);
+  EXPECT_EQ(files.at("data/scene.toml"), "schema = 1\n");
+  EXPECT_EQ(files.size(), 1u) << "a table that nothing measured has no CSV";
 }
 
 TEST(Base64, FillsTheLastGroup) {
