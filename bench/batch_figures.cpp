@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "checked.h"
+
 namespace {
 
 using namespace aspic;
@@ -20,13 +22,6 @@ using namespace aspic;
 constexpr std::size_t instances = 1000;
 /// Of a measurement: in this time nothing meets the ground, or all of it lies there.
 constexpr std::uint64_t steps = 100;
-
-template <class T>
-T checked(Result<T> made) {
-  if (made) return std::move(*made);
-  fmt::print(stderr, "{}\n", made.error().message);
-  std::exit(1);
-}
 
 /// Cubes that differ in place, gravity and stiffness.
 std::vector<SharedModel> models() {

@@ -7,11 +7,11 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <memory>
 
 #include "app/scene_editor.h"
 #include "aspic/scene.h"
+#include "checked.h"
 #include "gpu/context.h"
 #include "playback/simulation.h"
 #include "run/backends.h"
@@ -21,18 +21,6 @@
 namespace {
 
 using namespace aspic;
-
-template <class T>
-T checked(Result<T> made) {
-  if (made) return std::move(*made);
-  fmt::print(stderr, "{}\n", made.error().message());
-  std::exit(1);
-}
-void check(const Status& done) {
-  if (done) return;
-  fmt::print(stderr, "{}\n", done.error().message());
-  std::exit(1);
-}
 
 Scene scene(std::string_view integrator) {
   const std::vector<std::string> large = {"cube[0].particles-per-edge=40",

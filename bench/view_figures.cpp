@@ -2,27 +2,19 @@
 // solver's own memory; and a copy of as many bytes, for comparison.
 //   build/release/bench/view_figures --benchmark_repetitions=11 --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
-#include <fmt/format.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <vector>
 
 #include "aspic/scene.h"
+#include "checked.h"
 #include "cpu_parallel/cpu_solver.h"
 #include "cpu_reference/reference_solver.h"
 
 namespace {
 
 using namespace aspic;
-
-template <class T>
-T checked(Result<T> made) {
-  if (made) return std::move(*made);
-  fmt::print(stderr, "{}\n", made.error().message());
-  std::exit(1);
-}
 
 const SharedModel& model() {
   static const SharedModel made = [] {

@@ -48,7 +48,7 @@ Json shaders() {
   for (const EmbeddedFile& file : page_files())
     if (!file.name.ends_with(".js") && !file.name.ends_with(".css") && !file.name.ends_with(".html"))
       texts[std::string(file.name)] = file.text;
-  for (const std::string_view name : {"daylight.glsl", "landscape.glsl", "encode.glsl"})
+  for (const std::string_view name : {"daylight.glsl", "soft_shadow.glsl", "landscape.glsl", "encode.glsl"})
     texts[std::string(name)] = text_of(embedded_shaders(), fmt::format("render/{}", name));
   return texts;
 }

@@ -158,6 +158,7 @@ Json view_facts(const Scene& scene) {
                 {"orthographic", camera.projection == Projection::orthographic},
                 {"colour", name_of(view.colour)},
                 {"terrain", view.terrain},
+                {"axes", view.axes},
                 {"draw",
                  {{"solid", view.draw.solid},
                   {"particles", view.draw.particles},

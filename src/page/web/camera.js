@@ -22,6 +22,12 @@ class Camera {
     return [Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation), Math.cos(azimuth) * Math.cos(elevation)];
   }
 
+  // The world's axes as they are seen, those that point away first: letter, to the right, down, in lengths of one that lies across.
+  axes() {
+    const back = this.direction(), x = unit(cross([0, 1, 0], back)), y = cross(back, x);
+    return ["x", "y", "z"].map((letter, i) => [letter, x[i], -y[i], back[i]]).sort((a, b) => a[3] - b[3]);
+  }
+
   orbit(right, up) {
     this.azimuth -= right;
     this.elevation = clamp(this.elevation + up, -1.55, 1.55);

@@ -6,7 +6,7 @@ const quantities = {
   strain: ["strain of the springs", " %", 0.01], "signed-strain": ["strain: − shortened, + stretched", " %", 0.01],
   speed: ["speed", " m/s", 1], force: ["force of the springs", " N", 1], energy: ["energy of the springs", " J", 1],
 };
-const colours = ["material", ...Object.keys(quantities)];
+const colours = ["material", ...Object.keys(quantities), "type"];
 
 // Drags of one finger or the mouse orbit, those of two fingers or with Shift or the right button pan, pinches and the wheel zoom.
 function watchPointers(canvas, camera, changed) {
@@ -66,6 +66,7 @@ function keyTable({ player, camera, look, setColour, setLook, press }) {
     ["b", "B", "surfaces on or off", () => setLook("solid", !look.solid)],
     ["k", "K", "springs on or off", () => types.forEach((type, i, all) => setLook(type, !all.slice(0, i).concat(type).some((t) => look[t])))],
     ["p", "P", "particles on or off", () => setLook("particles", !look.particles)],
+    ["x", "X", "axes on or off", () => setLook("axes", !look.axes)],
     ...colours.map((colour, i) => [String(i + 1), String(i + 1), `colours: ${colour.replace("-", " ")}`, () => setColour(colour)]),
     ...($("copy").hidden ? [] : [["c", "C", "copy the command", () => press("copy")]]),
     ["t", "T", "light or dark", () => press("theme")],

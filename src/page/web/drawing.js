@@ -242,7 +242,7 @@ class Painter {
       const cord = type === "structural" && look.solid && !look.structural && facts.bodies.some((body) => body.style === "cords");
       if (!ribbons || !(look[type] || cord)) continue;
       device.use(programs.springs, frame, { radius: springRadius[type] * facts.spacing, fades: cord ? 1 : 0,
-        from_ends: look.colour === "speed" ? 1 : 0, base_colour: cord ? look.tint ?? [0.035, 0.04, 0.055] : view.springColours[type] });
+        from_ends: look.colour === "speed" ? 1 : 0, base_colour: cord && look.colour !== "type" ? look.tint ?? [0.035, 0.04, 0.055] : view.springColours[type] });
       gl.bindVertexArray(ribbons.array.vao);
       const draw = () => gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, ribbons.count);
       if (cord) this.blended(draw);

@@ -1,4 +1,6 @@
 // Light maps: what bodies cover, seen from the sun (0) and from straight above the ground (1), as in our pictures.
+#define LIGHT_SUN 0
+#define LIGHT_SKY 1
 struct Light {
   mat3 turn;   // from the world to the light's view, whose z goes away from it
   vec4 centre; // of the box around all bodies, in that view; w: half its width [m]

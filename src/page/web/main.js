@@ -2,15 +2,17 @@
 const runColours = ["rgb(242 176 92)", "rgb(110 165 240)", "rgb(120 205 140)", "rgb(224 130 200)"];
 const runTints = [[242, 176, 92], [110, 165, 240], [120, 205, 140], [224, 130, 200]].map((rgb) =>
   rgb.map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4)));
+const axisColours = { x: "rgb(231 69 69)", y: "rgb(89 196 80)", z: "rgb(69 129 243)" };
+const parts = ["solid", "particles", "terrain", "axes", ...types];
 
 class Page {
   constructor() {
     this.recording = new Recording();
-    const { facts, runs } = this.recording, { draw, colour, terrain } = facts.view;
+    const { facts, runs } = this.recording, { draw, colour, terrain, axes } = facts.view;
     this.several = runs.length > 1;
     this.player = new Player(this.recording);
     this.camera = new Camera(facts.view);
-    this.look = { ...draw, terrain, colour: colours.includes(colour) ? colour : "material" };
+    this.look = { ...draw, terrain, axes, colour: colours.includes(colour) ? colour : "material" };
     this.plot = new Plot($("plot"), this.recording);
     this.stats = { firstPicture: 0, pictures: 0 };
     this.quality = 1;
@@ -95,7 +97,7 @@ class Page {
       player.time = this.recording.times[Math.min(Number(range.value), this.recording.read - 1)];
     });
     on("colour", "change", (select) => this.setColour(select.value));
-    for (const what of ["solid", "particles", "terrain", ...types]) on(what, "change", (box) => this.setLook(what, box.checked));
+    for (const what of parts) on(what, "change", (box) => this.setLook(what, box.checked));
     on("reset", "click", () => camera.reset());
     on("help", "click", () => ($("keys").open ? $("keys").close() : $("keys").showModal()));
     on("theme", "click", () => {
@@ -140,10 +142,13 @@ class Page {
   showLook() {
     const { look, recording: { runs, facts } } = this;
     $("colour").value = look.colour;
-    for (const what of ["solid", "particles", "terrain", ...types]) $(what).checked = look[what];
+    for (const what of parts) $(what).checked = look[what];
     const ranges = runs.map((run) => run.facts.ranges[look.colour]);
     look.range = ranges[0] ? [Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1]))] : null;
-    $("legend").hidden = !look.range;
+    const named = look.range ? [] : this.namedSprings();
+    $("legend").hidden = !look.range && named.length === 0;
+    $("legend-scale").hidden = !look.range;
+    if (named.length > 0) this.showTypes(named);
     if (!look.range) return;
     const [title, unit, size] = quantities[look.colour], [low, high] = look.range;
     $("legend-title").textContent = title;
@@ -157,6 +162,34 @@ class Page {
     const rgb = bytesOf(signed ? facts.view.signedScale : facts.view.scale), stops = [];
     for (let i = 0; i < 256; i += 15) stops.push(`rgb(${rgb.slice(3 * i, 3 * i + 3).join(" ")})`);
     $("legend-scale").style.background = `linear-gradient(to right, ${stops.join(", ")})`;
+  }
+
+  // Types of springs that are drawn in their own colours.
+  namedSprings() {
+    const { look, recording: { runs } } = this;
+    const cords = look.colour === "type" && look.solid && runs.some((run) => run.facts.bodies.some((body) => body.style === "cords"));
+    return types.filter((type) => look[type] || (cords && type === "structural"));
+  }
+
+  showTypes(named) {
+    $("legend-title").textContent = "springs";
+    $("legend-marks").replaceChildren(...named.map((type) => {
+      const span = document.createElement("span"), sample = document.createElement("i");
+      const rgb = this.recording.facts.view.springColours[type].map((c) => Math.round(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055)));
+      sample.style.setProperty("--of", `rgb(${rgb.join(" ")})`);
+      span.append(sample, type);
+      return span;
+    }));
+  }
+
+  // In a corner of the picture, as in ours.
+  showAxes() {
+    const picture = $("axes-picture");
+    picture.style.display = this.look.axes ? "" : "none";
+    if (!this.look.axes) return;
+    // Numbers and letters of our own alone.
+    picture.innerHTML = `<circle r="3.4"/>${this.camera.axes().map(([letter, right, down]) =>
+      `<line x2="${2.2 * right}" y2="${2.2 * down}" stroke="${axisColours[letter]}"/><text x="${2.8 * right}" y="${2.8 * down}">${letter}</text>`).join("")}`;
   }
 
   changed() {
@@ -177,6 +210,7 @@ class Page {
     } else if (this.quality < 1 && !player.playing) this.quality = 1;
     this.draw();
     this.show();
+    this.showAxes();
     if (player.playing) this.changed();
   }
 
